@@ -1,5 +1,5 @@
-# Finds Zoltan, by itself or as a part of Trilinos (Debian: libtrilinos-zoltan-dev), and defines Zoltan::Zoltan. Its header
-# includes that of MPI, which whoever uses it must find too.
+# Finds Zoltan, by itself or as a part of Trilinos (Debian: libtrilinos-zoltan-dev), and defines Zoltan::Zoltan. Its
+# header includes that of MPI, which the user of the target must find too.
 include(FindPackageHandleStandardArgs)
 find_path(ZOLTAN_INCLUDE_DIR zoltan.h PATH_SUFFIXES trilinos)
 find_library(ZOLTAN_LIBRARY NAMES trilinos_zoltan zoltan)

@@ -1,5 +1,5 @@
-# Installs the library with its headers, a CMake package (find_package(kinesphere)) and a pkg-config
-# file. Both find everything relative to themselves, so the installed tree may be moved.
+# Installs the library with its headers, a CMake package (find_package(kinesphere)) and a pkg-config file. Both find
+# everything relative to themselves, so the installed tree may be moved.
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/kinesphere)
@@ -16,7 +16,7 @@ install(FILES ${PROJECT_BINARY_DIR}/kinesphere-config-version.cmake DESTINATION 
 
 set(pkgconfig_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 file(RELATIVE_PATH prefix_from_pkgconfig /prefix/${pkgconfig_dir} /prefix)
-# Whoever links a static library links what it uses, too.
+# A program that links a static library must link its dependencies, too.
 get_target_property(type kinesphere TYPE)
 if(type STREQUAL "STATIC_LIBRARY")
   set(libraries "-lkinesphere -lhwy ${CMAKE_THREAD_LIBS_INIT}")

@@ -1,5 +1,5 @@
-# find_package(kinesphere) reads this. The library uses Google Highway and threads inside; who links it statically needs
-# them too. The component mpi, in the same way, uses MPI and Zoltan.
+# find_package(kinesphere) reads this file. The library uses Google Highway and threads; a static link needs them too.
+# The component mpi likewise needs MPI and Zoltan.
 include(CMakeFindDependencyMacro)
 include(${CMAKE_CURRENT_LIST_DIR}/kinesphere-targets.cmake)
 get_target_property(kinesphere_type kinesphere::kinesphere TYPE)

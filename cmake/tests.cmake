@@ -1,19 +1,19 @@
-# What all tests have in common: kinesphere_add_tests(), for tests/ and research/.
+# Defines kinesphere_add_tests(), for tests/ and research/.
 find_package(GTest REQUIRED)
 find_package(rapidcheck REQUIRED)
 include(GoogleTest)
 
-# Recordings and reference tables live outside the project; tests that need them skip where there are none.
+# Recordings and reference tables live outside the project; tests that need them are skipped without them.
 set(default_data ${PROJECT_SOURCE_DIR}/../shared/data)
 cmake_path(NORMAL_PATH default_data)
 
-# The headers that most tests include are read once. ccache, if it is used, cannot cache what was compiled so.
+# Headers that most tests include are precompiled. ccache cannot cache such compilations.
 if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES ccache)
   set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
 endif()
 set(headers <gtest/gtest.h> <algorithm> <array> <bit> <cmath> <functional> <limits> <map> <memory> <optional>
             <ranges> <set> <span> <string> <tuple> <utility> <variant> <vector>)
-# Whoever uses them has to be compiled with the same options.
+# Targets that use the precompiled headers must be compiled with their options.
 foreach(library kinesphere_test_headers kinesphere_test_headers_little)
   add_library(${library} OBJECT ${PROJECT_SOURCE_DIR}/tests/support/precompiled.cpp)
   target_link_libraries(${library} PRIVATE GTest::gtest)
@@ -31,14 +31,14 @@ function(kinesphere_add_tests name)
   target_link_libraries(${test} PRIVATE kinesphere_simulation GTest::gtest_main rapidcheck rapidcheck_gtest)
   kinesphere_compile(${test})
   kinesphere_batches_of(${test} 16)
-  # These compute more than they compile.
+  # These tests take longer to run than to compile.
   if(name MATCHES "^(bound|stream)$")
     target_precompile_headers(${test} REUSE_FROM kinesphere_test_headers)
   else()
     kinesphere_optimise_little(${test})
     target_precompile_headers(${test} REUSE_FROM kinesphere_test_headers_little)
   endif()
-  # The seed makes RapidCheck draw the same cases in every run.
+  # With a fixed seed RapidCheck draws equal cases in every run.
   set_target_properties(${test} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
   gtest_discover_tests(
     ${test}

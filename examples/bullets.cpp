@@ -1,6 +1,6 @@
-// A game moves its targets frame by frame and bounces them off walls that only it knows. Bullets of 300 units
-// a second, five a frame, fly by themselves, through a zone that tells of each. One map tells the world who
-// is moved by whom.
+// A game moves its targets frame by frame and bounces them off walls that only the game has. Bullets of 300
+// units a second, five a frame, fly by themselves, through a zone that reports each. A body map assigns each
+// body of the world to its motion.
 #include <kinesphere/kinesphere.hpp>
 
 #include <cmath>

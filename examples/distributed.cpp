@@ -15,7 +15,7 @@ using namespace kinesphere;
 int main(int argc, char** argv) {
   const MpiSession mpi(argc, argv);  // MPI_Init, and MPI_Finalize at the end
 
-  // 8000 bodies on a lattice, of which this process has those from `first` to before `last`.
+  // 8000 bodies on a lattice; this process owns those from `first` to before `last`.
   constexpr std::uint32_t side = 20, all = side * side * side;
   const auto begin_of = [&](int rank) {
     return static_cast<std::uint32_t>(all * std::uint64_t(rank) / mpi.ranks());
@@ -38,20 +38,20 @@ int main(int argc, char** argv) {
     world.add(k, body, k - first).value();
   }
 
-  // The same on all processes, from the event alone.
+  // Equal on all processes, since it depends on the event alone.
   const auto respond = [](const Event& event) {
     const Bounce after = bounce(event, 1.0, 1.0, 1.0);
     if (event.second == no_body) return Response{after.first_velocity, std::nullopt};
     return Response{after.first_velocity, after.second_velocity};
   };
-  // Told of events whose first body is this process's.
+  // Receives the events with a first body of this process.
   const auto sink = [](const OrderedEvent&) {};
   if (const auto done = world.run(2.0, respond, sink); !done) {
     if (mpi.rank() == 0) std::fprintf(stderr, "%s\n", done.error().message.c_str());
     return 1;
   }
 
-  const Counters counters = world.counters();  // of all, so all have to ask
+  const Counters counters = world.counters();  // collective: sums over all processes
   const EventHash hash = world.hash();
   if (mpi.rank() == 0) {
     std::printf("%llu contacts, %llu with walls, hash %016llx\n",

@@ -20,7 +20,7 @@ int main() {
         "blue";
   }
 
-  // Whoever is not named is a bullet and flies straight on, at 900 units a second, from where it was fired.
+  // A body without a name is a bullet and flies straight on, at 900 units a second, from its start.
   struct Shot {
     double time;
     Vec3 from;
@@ -39,7 +39,7 @@ int main() {
   std::map<std::string, int> hits_before, hits_after;
   for (int round = 0; round < 100; ++round) {
     const double now = 0.01 * round;
-    if (round == 50) {  // holds at once, also for bullets in flight
+    if (round == 50) {  // takes effect at once, also for bullets in flight
       for (const auto& [id, side] : name)
         if (side == "red") world.set_filter(id, {.category = red}).value();
     }

@@ -1,5 +1,4 @@
-// Two drones, one circling and one hovering in its way. Nobody tells the world their paths, only what they
-// can do.
+// Two drones, one circling and one hovering in its way. The world gets their limits, but not their paths.
 #include <kinesphere/world.hpp>
 
 #include <cmath>
@@ -16,7 +15,7 @@ int main() {
   const BodyId hovering =
       world.add({.radius = 1, .acceleration_limit = 0.5, .position = {-20, 1.5, 0}}).value();
 
-  // Asked only when it can matter: where are these bodies, and how fast?
+  // Called only when it can matter; gives the true positions and velocities of bodies.
   auto probe = [&](std::span<const BodyId> ids, double t, std::span<State> states) {
     const double c = std::cos(t / 2), s = std::sin(t / 2);
     for (std::size_t k = 0; k < ids.size(); ++k)

@@ -1,6 +1,5 @@
-// A control tower watches 200 drones that report with errors of a metre. It is warned when two may be within
-// 50 m of each other, alarmed at 10 m, and knows for each drone how long no other can come that near,
-// whatever they all do.
+// A control tower watches 200 drones that report with errors of a metre. It gets a warning when two may be
+// within 50 m of each other, an alarm at 10 m, and knows for each drone how long no other can come that near.
 #include <kinesphere/kinesphere.hpp>
 
 #include <algorithm>
@@ -13,7 +12,7 @@ int main() {
   const double warning = 50, alarm = 10, agility = 4, noise = 1;
   const SensorClass airspace = 1;
 
-  // What the tower does not know: where the drones really are, and where they are going to.
+  // Hidden from the tower: the true states of the drones and their destinations.
   std::vector<State> start(200);
   Random random(200);
   for (std::uint32_t k = 0; k < start.size(); ++k) {

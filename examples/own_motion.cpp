@@ -1,6 +1,6 @@
-// A motion of one's own: drones that fly to stations, each to its own. Here are two of it, as two processes
-// would have them, one for each side of x = 0. A drone that crosses is written to bytes by the one, read by
-// the other, and flies on to the last bit as if there were one motion for all.
+// A motion of one's own: drones that fly to stations, each to its own. There are two instances, as in two
+// processes, one for each side of x = 0. A drone that crosses is written to bytes by one, read by the other,
+// and flies on to the last bit as if there were one motion for all.
 #include <kinesphere/kinesphere.hpp>
 
 #include <array>
@@ -38,17 +38,17 @@ class Homing final : public PiecewiseAcceleration {
     auto body = add_body("add_body", drone.last.time, drone.last.state);
     if (!body) return bad("hold no drone: " + body.error().message);
     keep_of(stations_, *body, drone.station);
-    bytes = bytes.subspan(sizeof(words));  // only now: after an error all is as it was
+    bytes = bytes.subspan(sizeof(words));  // last, so that an error leaves everything unchanged
     return body;
   }
 
  private:
-  /// All that is known of one drone and its future depends on.
+  /// The complete state of one drone.
   struct Drone {
     MotionOrigin last;
     Vec3 station;
   };
-  /// Its numbers, which go with the least significant byte first, whatever the machine.
+  /// The state as numbers, written with the least significant byte first on every machine.
   using Words = std::array<std::uint64_t, 10>;
 
   static Error bad(const std::string& why) {
@@ -63,7 +63,7 @@ class Homing final : public PiecewiseAcceleration {
 
 int main() {
   Homing all, west, east;
-  std::vector<MovedBody> drones;  // of those in `all`, by number
+  std::vector<MovedBody> drones;  // the drones in `all`, by number
   for (int k = 0; k < 10; ++k) {
     const State start{{k < 5 ? -50.0 : 50.0, 4.0 * k, 0}, {0, 0, 9}};
     const Vec3 station{30.0 - 8 * k, 0, 5.0 * k};

@@ -1,5 +1,5 @@
-// A pool table. Balls slow down by friction and come to rest; a ball at rest is said to rest and costs
-// nothing: nobody asks about it until something touches it.
+// A pool table. Balls slow down by friction and stop; a stopped ball is put to sleep and costs nothing: it is
+// not probed until something touches it.
 #include <kinesphere/kinesphere.hpp>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 using namespace kinesphere;
 
-constexpr double friction = 0.3;  // how fast a rolling ball slows down
+constexpr double friction = 0.3;  // deceleration of a rolling ball
 
 struct RollingBall {
   double since = 0;
@@ -53,7 +53,7 @@ int main() {
 
   int clicks = 0, cushions = 0;
   for (BodyId stopping{};;) {
-    double until = 1e9;  // when the next ball stops
+    double until = 1e9;  // time at which the next ball stops
     for (const BodyId ball : table.bodies())
       if (!table.body(ball)->sleeping && balls[ball.index].stops() < until)
         until = balls[(stopping = ball).index].stops();
@@ -66,7 +66,7 @@ int main() {
     set_velocity(event->first, event->time, after.first_velocity);
     if (event->second != no_body) set_velocity(event->second, event->time, after.second_velocity);
   }
-  (void)table.advance(table.time(), probe).value();  // the last ball is asked where it lies
+  (void)table.advance(table.time(), probe).value();  // the last ball is probed once more
   const double quiet = table.time(), probes = static_cast<double>(table.counters().probes);
   for (const Event& event : table.events(quiet + 3600, probe)) std::puts(name_of(event.kind).data());
   const double later = static_cast<double>(table.counters().probes) - probes;

@@ -1,5 +1,5 @@
-// A level of a game in small: a plate that is passed from below and stands from above, resting and walking
-// off its edge, a pit that sends back to the start, and a platform that carries.
+// A small game level: a plate that is passed from below and stands from above, resting and walking off its
+// edge, a pit that sends the player back to the start, and a platform that carries.
 #include <kinesphere/body_map.hpp>
 #include <kinesphere/motion/steered_motion.hpp>
 #include <kinesphere/world.hpp>

@@ -1,5 +1,5 @@
-// Fifteen balls lie in a rack. Their brakes could hold them or not, so the world would have to ask where they
-// are, all the time; but they rest, and cost nothing until a ball that is thrown at them wakes them.
+// Fifteen balls lie in a rack. By their limits they could move, so the world would have to probe them all the
+// time; but they sleep, and cost nothing until a thrown ball wakes them.
 #include <kinesphere/response.hpp>
 #include <kinesphere/world.hpp>
 
@@ -38,7 +38,7 @@ int main() {
 
   if (world.advance(1.0, probe).value()) return 1;
   for (const BodyId ball : still) world.sleep(ball).value();
-  // Where each of them rests is asked once more.
+  // The place of each sleeping ball is probed once more.
   if (world.advance(1.0, probe).value()) return 1;
   const auto awake_probes = world.counters().probes;
   if (world.advance(1000.0, probe).value()) return 1;

@@ -1,5 +1,5 @@
-// 2000 balls in a box, which the world runs by itself: whoever answers events with velocities alone needs no
-// loop.
+// 2000 balls in a box, which the world runs by itself: a program that only responds to events with velocities
+// needs no loop.
 #include <kinesphere/kinesphere.hpp>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ int main() {
   }
 
   SingleMotionSource mover(motion);
-  // Of the event alone: the same event gets the same answer, whenever and in whichever thread it is asked.
+  // Depends on the event alone: equal events must get equal responses, at any time and in any thread.
   const auto respond = [&](const Event& event) -> Response {
     const double first = mass[event.first.index];
     if (event.kind == EventKind::wall_begin) return {bounce(event, first, 0.0, 0.9).first_velocity, {}};

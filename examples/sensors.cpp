@@ -1,4 +1,5 @@
-// A light barrier one centimetre thin and ten thousand bullets of 1000 units per second: who sees them pass?
+// A light barrier one centimetre thin and ten thousand bullets of 1000 units per second: how many are
+// detected?
 #include <kinesphere/random.hpp>
 #include <kinesphere/world.hpp>
 
@@ -14,7 +15,7 @@ constexpr double thickness = 0.01;
 constexpr double bullet_radius = 0.005;
 constexpr double seconds = 1.0;
 
-/// How many bullets are in the barrier at one of the steps of a loop that looks `rate` times a second.
+/// Returns how many bullets are in the barrier at one of the steps of a loop with `rate` steps a second.
 int seen_by_steps(const std::vector<State>& bullets, double rate) {
   std::set<std::size_t> seen;
   for (int step = 0; step <= seconds * rate; ++step)
@@ -27,7 +28,7 @@ int seen_by_steps(const std::vector<State>& bullets, double rate) {
 
 int main() {
   World world = World::create({}).value();
-  // A zone: it senses, and nothing bounces off it. It does not move, so nobody has to say where it is.
+  // A zone senses, and nothing bounces off it. It does not move, so it is never probed.
   const Vec3 half{0.5 * thickness, 10, 10};
   const BodyId barrier = world.add_zone(Box{-half, half}).value();
 
@@ -37,7 +38,7 @@ int main() {
   for (int k = 0; k < bullet_count; ++k) {
     const double way = random.uniform(1, 990);
     bullets.push_back({{-way, random.uniform(-9, 9), random.uniform(-9, 9)}, {1000, 0, 0}});
-    // Bullets do not see each other: nobody has bit 2 in its mask.
+    // Bullets do not sense each other: no mask has bit 2.
     definitions.push_back({.radius = bullet_radius,
                            .position = bullets.back().position,
                            .velocity = bullets.back().velocity,

@@ -1,5 +1,5 @@
-// Two aircraft and a drone report when they like, with errors, late, and one of them falls silent. What is
-// certain about their separation, and whose report is needed?
+// Two aircraft and a drone report at irregular times, with errors, late, and one of them stops reporting.
+// What is certain about their separation, and which report is needed?
 #include <kinesphere/kinesphere.hpp>
 
 #include <cstdio>
@@ -40,7 +40,7 @@ int main() {
       name_of(answer.verdict).data(), answer.until, answer.lower, answer.upper, answer.closest_distance,
       answer.closest_time);
 
-  // Reports come in a second late, and 2 is not heard any more.
+  // Reports come in a second late, and 2 does not report any more.
   for (double now = 2.0; now <= 40.0; now += 1.0) {
     tell(now);
     const double stamp = now - 1.0;

@@ -1,6 +1,5 @@
-// Some four hundred drones wander about. Each knows how long it is certain to touch nobody, whatever the
-// others do, and asks the world again only when that time runs out; it turns away from whom it may meet too
-// soon.
+// Some four hundred drones wander about. Each knows how long it is certain to touch no other, and queries the
+// world again only when that time runs out; it turns away from a drone that it may meet too soon.
 #include <kinesphere/motion/steered_motion.hpp>
 #include <kinesphere/random.hpp>
 #include <kinesphere/world.hpp>
@@ -39,7 +38,7 @@ int main() {
     for (const BodyId id : ids) {
       const State self = drones.state(id.index, now);
       ++looks;
-      // On with the crowd: about the middle, not too fast.
+      // Moves with the crowd: about the middle, not too fast.
       Vec3 wish = 0.05 * (middle - self.position) - 0.5 * self.velocity;
       if (certain_until[id.index] < now + reaction) {
         ++questions;

@@ -1,4 +1,4 @@
-// A program that has threads already lends them to the world: its task system behind two functions, here that
+// A program with threads of its own lends them to the world: its task system behind two functions, here that
 // of oneTBB.
 #include <kinesphere/kinesphere.hpp>
 

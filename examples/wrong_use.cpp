@@ -1,5 +1,5 @@
-// Wrong use in 45 ways. Nothing crashes, nothing is silently wrong: each is answered with an error that names
-// the call, the argument and the body.
+// Wrong use in 45 ways. Nothing crashes, nothing is silently wrong: each results in an error that names the
+// call, the argument and the body.
 #include <kinesphere/kinesphere.hpp>
 
 #include <cstdio>

@@ -89,7 +89,7 @@ Proof.
   generalize (radius_of_bound f a x t Df ltac:(lra)) (radius_of_bound h b y t Dh ltac:(lra)). lra.
 Qed.
 
-(* And the bound is what bound_of makes of a report and of the promise. *)
+(* bound_of computes this bound from a report and the promise. *)
 Theorem bound_describes_the_body (r' limit gx gy gz e0' e1' x y z vx vy vz t : floats.double) :
   0 <= B r' -> 0 <= B e0' -> finite (floats.add r' e0') ->
   describes (kernels.bound_of r' limit gx gy gz e0' e1' x y z vx vy vz t)

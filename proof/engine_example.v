@@ -1,5 +1,5 @@
-(* What the machine has been proved to do it can do: in a world of two balls that meet it reports the contact, in time,
-   and obeys all rules. So nothing that is proved about it is so because no world is like that. *)
+(* Example: in a world of two balls that meet, the machine obeys all rules and reports the contact in time. So the
+   theorems do not hold merely because no world satisfies their hypotheses. *)
 From Coq Require Import Reals Lra Lia ZArith Bool Arith.
 From Flocq Require Import Core BinarySingleNaN Operations.
 From Kinesphere Require floats inputs kernels earliest_meeting meeting_facts.
@@ -7,9 +7,9 @@ From Kinesphere Require Import engine_machine.
 Open Scope R_scope.
 Notation B := (B2R (prec := 53) (emax := 1024)).
 
-(* Any world with two bodies, of which a certificate says at the time 0 that they do not meet before u, and another one
-   at u that their contact does not end before v. After the contact has been reported time goes on by a part of a phase,
-   in which the two are an island. *)
+(* Any world with two bodies. A certificate of time 0 says that they do not meet before u, and one of time u that their
+   contact does not end before v. After the contact has been reported, time goes on by a batch of an epoch, in which the
+   two bodies are a cluster. *)
 Section Contact.
 Context {W : World}.
 Variable on : rule -> Prop.
@@ -22,48 +22,48 @@ Hypothesis times : 0 <= u <= stop /\ stop <= v.
 Hypothesis nothing_begins : certifies apart p q 0 (Some u).
 Hypothesis nothing_ends : certifies touching p q u (Some v).
 Hypothesis nothing_new : forall r : relation, only_ends r r.
-Hypothesis nobody_is_fixed : forall a, fixed a = false.
+Hypothesis none_is_static : forall a, static a = false.
 
-Definition no_capsule : capsule := capsule_of p 0 None.
+Definition no_swept_sphere : swept_sphere := swept_sphere_of p 0 None.
 Definition at_rest : state :=
-  mkState _ 0 None (fun _ => mkBody _ false 0 false None no_capsule None) (fun _ _ => apart)
+  mkState _ 0 None (fun _ => mkBody _ false 0 false None no_swept_sphere None) (fun _ _ => apart)
     (fun _ _ => False) (fun _ => False) (fun _ => False) (fun _ _ _ _ => False) (fun _ _ _ => False) (fun _ _ _ _ => False).
 Definition with_body (a : body) (k : engine_machine.bound) (s : state) : state :=
-  set_bodies (put s a (mkBody _ true (S (stamp (bodies s a))) true (Some k) no_capsule None))
-    (set_pairs (book s) (news s) (agenda s) s).
+  set_bodies (put s a (mkBody _ true (S (revision (bodies s a))) true (Some k) no_swept_sphere None))
+    (set_pairs (graph s) (news s) (queue s) s).
 Definition both (x : body) : bool := x <? 2.
 Definition due_at (t : R) (h : entry) : Prop := h = Pair t (0%nat, 1%nat) (1%nat, 1%nat).
-Definition nobody (h : entry) : Prop := False.
-Definition in_the_book (r : relation) (a b : body) : relation := if (a =? 0) && (b =? 1) then r else apart.
+Definition no_entry (h : entry) : Prop := False.
+Definition in_the_graph (r : relation) (a b : body) : relation := if (a =? 0) && (b =? 1) then r else apart.
 Definition the_two (a b : body) : Prop := if (a =? 0) && (b =? 1) then True else False.
 Definition no_news (a b : body) : Prop := False.
 
 Definition two : state :=
   let s := with_body 1%nat q (with_body 0%nat p at_rest) in
-  mkState _ (now s) (phase s) (started s both (fun _ => None)) (book s) (news s) (due_at u)
-    (noted s both (fun _ => None)) (told s) (lived s) (stood s).
+  mkState _ (now s) (epoch s) (started s both (fun _ => None)) (graph s) (news s) (due_at u)
+    (noted s both (fun _ => None)) (delivered s) (lived s) (stood s).
 Definition passed (own : body -> bool) (t : R) (s : state) : state :=
-  mkState _ t (phase s) (bodies s) (book s) (news s) (agenda s) (kicks s) (told s)
-    (fun a w e => lived s a w e \/ (own a = true /\ there (bodies s a) = true /\ now s <= w < t /\ e = stamp (bodies s a)))
-    (fun a b w r => stood s a b w r \/ ((own a = true \/ own b = true) /\ now s <= w < t /\ r = book s a b)).
+  mkState _ t (epoch s) (bodies s) (graph s) (news s) (queue s) (updates s) (delivered s)
+    (fun a w e => lived s a w e \/ (own a = true /\ there (bodies s a) = true /\ now s <= w < t /\ e = revision (bodies s a)))
+    (fun a b w r => stood s a b w r \/ ((own a = true \/ own b = true) /\ now s <= w < t /\ r = graph s a b)).
 Definition gone_on := passed everybody.
-Definition looked_at : state := set_pairs (book two) the_two nobody (gone_on u two).
-Definition reported : state := tell 0%nat 1%nat touching (set_pairs (in_the_book touching) the_two nobody looked_at).
-Definition seen_again : state := set_pairs (in_the_book touching) no_news (due_at u) reported.
-Definition guarded : state := set_pairs (in_the_book touching) no_news (due_at v) seen_again.
-(* The rest is a part of a phase, with one island, which has both. *)
-Definition island (a : body) : option nat := if a <? 2 then Some 0%nat else None.
-Definition run (i : nat) : state := passed (own_of island i) stop (begin_part guarded).
-Definition after_the_contact : state := merged guarded island stop run (due_at v).
+Definition rechecked : state := set_pairs (graph two) the_two no_entry (gone_on u two).
+Definition reported : state := deliver_event 0%nat 1%nat touching (set_pairs (in_the_graph touching) the_two no_entry rechecked).
+Definition seen_again : state := set_pairs (in_the_graph touching) no_news (due_at u) reported.
+Definition guarded : state := set_pairs (in_the_graph touching) no_news (due_at v) seen_again.
+(* The rest is a batch of an epoch, with one cluster of these two bodies. *)
+Definition cluster (a : body) : option nat := if a <? 2 then Some 0%nat else None.
+Definition run (i : nat) : state := passed (own_of cluster i) stop (begin_batch guarded).
+Definition after_the_contact : state := merged guarded cluster stop run (due_at v).
 
 Lemma not_the_two {A} (yes no : A) a b : ~ (a = 0%nat /\ b = 1%nat) -> (if (a =? 0) && (b =? 1) then yes else no) = no.
 Proof. destruct a as [|a], b as [|[|b]]; simpl; tauto. Qed.
-Lemma nobody_is_dirty a : there (bodies two a) = true -> dirty (bodies two a) = false.
+Lemma none_is_dirty a : there (bodies two a) = true -> dirty (bodies two a) = false.
 Proof. unfold two. simpl. destruct a as [|[|a]]; simpl; auto. Qed.
 
 Lemma contact_is_reported : reachable on after_the_contact /\
   (forall t, 0 <= t < stop -> lived after_the_contact 0%nat t 1%nat /\ lived after_the_contact 1%nat t 1%nat) /\
-  told after_the_contact 0%nat 1%nat u touching /\
+  delivered after_the_contact 0%nat 1%nat u touching /\
   (forall t, 0 <= t < u -> stood after_the_contact 0%nat 1%nat t apart) /\
   (forall t, u <= t < stop -> stood after_the_contact 0%nat 1%nat t touching).
 Proof.
@@ -75,9 +75,9 @@ Proof.
   eapply then_one; [eapply then_one; [eapply then_one; [eapply then_one; [eapply then_one; [eapply then_one; [eapply then_one;
     [eapply then_one; [eapply then_one; [apply (at_first on at_rest)|]|]|]|]|]|]|]|]|].
   - unfold empty. simpl. auto.
-  - apply (come on at_rest 0%nat (Some p) no_capsule None (fun _ _ => apart) (fun _ _ => False)); simpl; auto; try (intros ? ? _; reflexivity).
+  - apply (come on at_rest 0%nat (Some p) no_swept_sphere None (fun _ _ => apart) (fun _ _ => False)); simpl; auto; try (intros ? ? _; reflexivity).
     intros k E. injection E as <-. exact p_known.
-  - apply (come on (with_body 0%nat p at_rest) 1%nat (Some q) no_capsule None (fun _ _ => apart) (fun _ _ => False)); simpl; auto; try (intros ? ? _; reflexivity).
+  - apply (come on (with_body 0%nat p at_rest) 1%nat (Some q) no_swept_sphere None (fun _ _ => apart) (fun _ _ => False)); simpl; auto; try (intros ? ? _; reflexivity).
     intros k E. injection E as <-. exact q_known.
   - apply alone. apply (start on everybody (with_body 1%nat q (with_body 0%nat p at_rest)) both (fun _ => None) (due_at u)).
     + intros [|[|x]]; simpl; try discriminate; repeat split; congruence.
@@ -87,32 +87,32 @@ Proof.
     + simpl. intros _ h [].
     + intros x _ _. left. unfold no_later. simpl. destruct x as [|[|x]]; simpl; auto.
   - apply alone. apply (advance on everybody two u); simpl; try tauto; try lra.
-    + intros a _. apply nobody_is_dirty.
+    + intros a _. apply none_is_dirty.
     + intros h _ E _ _. change (due_at u h) in E. unfold due_at in E. subst h. simpl. lra.
-  - apply alone. apply (look on everybody (gone_on u two) 0%nat 1%nat u (fun _ _ => apart) the_two nobody); simpl; auto.
+  - apply alone. apply (recheck on everybody (gone_on u two) 0%nat 1%nat u (fun _ _ => apart) the_two no_entry); simpl; auto.
     + intros x y _. reflexivity.
     + intros x y Ot. apply (not_the_two True False x y Ot).
     + right. exact I.
-  - apply alone. apply (deliver on everybody looked_at 0%nat 1%nat (in_the_book touching)); simpl; auto.
+  - apply alone. apply (deliver on everybody rechecked 0%nat 1%nat (in_the_graph touching)); simpl; auto.
     + exact I.
     + intros x y Ot. apply (not_the_two touching apart x y Ot).
-  - apply alone. apply (look_again on everybody reported 0%nat 1%nat no_news) with (g := due_at u); simpl; auto.
+  - apply alone. apply (recertify on everybody reported 0%nat 1%nat no_news) with (g := due_at u); simpl; auto.
     + intros x y Ot. symmetry. apply (not_the_two True False x y Ot).
     + intros h [].
     + intros _. reflexivity.
-  - apply alone. apply (look on everybody seen_again 0%nat 1%nat u (in_the_book touching) no_news (due_at v)); simpl; auto.
+  - apply alone. apply (recheck on everybody seen_again 0%nat 1%nat u (in_the_graph touching) no_news (due_at v)); simpl; auto.
     + intros x y _. reflexivity.
     + intros x y _. reflexivity.
     + left. exists p, q, (Some v). simpl. repeat split; auto. right. exists v. split; reflexivity.
-  - apply part.
+  - apply batch.
     + split; simpl; try tauto.
-      * split; [intros a; apply nobody_is_dirty|intros; tauto].
-      * intros a F. rewrite nobody_is_fixed in F. discriminate.
+      * split; [intros a; apply none_is_dirty|intros; tauto].
+      * intros a F. rewrite none_is_static in F. discriminate.
       * intros h E _ Lt. change (due_at v h) in E. unfold due_at in E. subst h. simpl in Lt. lra.
-      * intros i. eapply one_more; [apply no_step|]. apply (advance on (own_of island i) (begin_part guarded) stop); simpl; try tauto; try lra.
-        -- intros a _. apply nobody_is_dirty.
+      * intros i. eapply one_more; [apply no_step|]. apply (advance on (own_of cluster i) (begin_batch guarded) stop); simpl; try tauto; try lra.
+        -- intros a _. apply none_is_dirty.
         -- intros h _ E _ _. change (due_at v h) in E. unfold due_at in E. subst h. simpl. lra.
-      * intros i. split; [intros a _; apply nobody_is_dirty|intros; tauto].
+      * intros i. split; [intros a _; apply none_is_dirty|intros; tauto].
     + intros h H _. exact H.
     + intros _ i h H _. exact H.
 Qed.
@@ -179,10 +179,10 @@ Proof.
   unfold describes, earliest_meeting.one_of_two. cbn -[B2R floats.literal]. rewrite Ex, Ev, E0, E1, E8. unfold zero. repeat split; lra.
 Qed.
 
-(* All rules are obeyed, all lemmas hold; at the time 2, when the two touch, and it would be wrong to call them apart,
-   an event has told so, and no more than a quarter before. *)
+(* All rules are obeyed and all lemmas hold. The two balls touch at time 2. An event reports the contact by then, at
+   most a quarter of a unit of time early. *)
 Theorem machine_can_report_a_contact : exists (W : World) (L : Lemmas W) (s : state) (u : R) (touching : relation),
-  reachable (fun _ => True) s /\ 2 - / 4 <= u <= 2 /\ told s 0%nat 1%nat u touching /\
+  reachable (fun _ => True) s /\ 2 - / 4 <= u <= 2 /\ delivered s 0%nat 1%nat u touching /\
   lived s 0%nat 2 1%nat /\ lived s 1%nat 2 1%nat /\ wrong apart (0%nat, 1%nat) (1%nat, 1%nat) 2 /\
   stood s 0%nat 1%nat 2 touching /\ touching <> apart /\ ~ wrong apart (0%nat, 1%nat) (1%nat, 1%nat) 1 /\
   stood s 0%nat 1%nat 1 apart.

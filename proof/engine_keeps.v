@@ -1,10 +1,10 @@
-(* What the engine keeps: at each moment of an island, or of a world in one island, a fact for each pair, and capsules
-   that hold their bodies. Each step leaves it so. *)
+(* Invariant of a cluster, or of a world in one cluster: each pair has a fact, and each swept sphere holds its body.
+   Each step preserves it. *)
 From Coq Require Import Reals Lra Lia Bool Arith.
 From Kinesphere Require Import engine_machine.
 Open Scope R_scope.
 
-(* Whether a body x is the body a that has been changed. *)
+(* Splits on whether body x is the changed body a. *)
 Ltac at_body x a := unfold put in *; destruct (Nat.eqb_spec x a); [subst|]; simpl in *.
 
 Section Keeps.
@@ -13,19 +13,20 @@ Variable on : rule -> Prop.
 Hypothesis obeyed : forall r, on r.
 
 Definition right_at (s : state) (a b : body) (t : R) : Prop :=
-  ~ wrong (book s a b) (motion_of s a) (motion_of s b) t.
+  ~ wrong (graph s a b) (motion_of s a) (motion_of s b) t.
 
-(* The fact about a pair: news of it waits, or it does not change before a window ends, or not before a hot pair. *)
+(* The fact about a pair: an event about it is pending, or it does not change before a window ends, or not before a
+   certificate fails. *)
 Definition fact (s : state) (a b : body) : Prop :=
   news s a b \/
   (forall t, now s <= t -> before t (window (bodies s a)) -> before t (window (bodies s b)) -> right_at s a b t) \/
-  (exists v, agenda s (Pair v (motion_of s a) (motion_of s b)) /\ forall t, now s <= t < v -> right_at s a b t).
+  (exists v, queue s (Pair v (motion_of s a) (motion_of s b)) /\ forall t, now s <= t < v -> right_at s a b t).
 
 Definition some_of (own : body -> bool) (a b : body) : Prop := own a = true \/ own b = true.
 
 Record keeps (own : body -> bool) (s : state) : Prop := {
   bounds_hold : forall a p, known (bodies s a) = Some p -> keeps_to (motion_of s a) p (now s);
-  capsules_are_right : forall a, clean s a -> forall t l,
+  swept_spheres_are_right : forall a, clean s a -> forall t l,
     now s <= t -> before t (window (bodies s a)) -> fills (motion_of s a) t l -> holds (held (bodies s a)) t l;
   windows_will_end : forall a, own a = true -> clean s a -> will_renew s a;
   facts_hold : forall a b, (a < b)%nat -> some_of own a b -> clean s a -> clean s b -> fact s a b;
@@ -49,7 +50,7 @@ Qed.
 Lemma searched_fact s a b :
   (forall a, clean s a -> forall t l,
     now s <= t -> before t (window (bodies s a)) -> fills (motion_of s a) t l -> holds (held (bodies s a)) t l) ->
-  clean s a -> clean s b -> book s a b = apart ->
+  clean s a -> clean s b -> graph s a b = apart ->
   left_out (held (bodies s a)) (held (bodies s b)) (now s) (window (bodies s a)) (window (bodies s b)) ->
   fact s a b.
 Proof.
@@ -60,34 +61,34 @@ Qed.
 
 (* A body that is what it was, but for what is known of it. *)
 Definition alike (x y : Body) : Prop :=
-  there x = there y /\ stamp x = stamp y /\ dirty x = dirty y /\ held x = held y /\ window x = window y.
+  there x = there y /\ revision x = revision y /\ dirty x = dirty y /\ held x = held y /\ window x = window y.
 
 Lemma report_alike s a p x :
-  alike (put s a (mkBody _ (there (bodies s a)) (stamp (bodies s a)) (dirty (bodies s a))
+  alike (put s a (mkBody _ (there (bodies s a)) (revision (bodies s a)) (dirty (bodies s a))
                   (Some p) (held (bodies s a)) (window (bodies s a))) x) (bodies s x).
 Proof. unfold put. destruct (Nat.eqb_spec x a); subst; repeat split. Qed.
 
 Lemma motion_start s set ends g k x :
-  motion_of (mkState _ (now s) (phase s) (started s set ends) (book s) (news s) g k (told s) (lived s) (stood s)) x = motion_of s x.
+  motion_of (mkState _ (now s) (epoch s) (started s set ends) (graph s) (news s) g k (delivered s) (lived s) (stood s)) x = motion_of s x.
 Proof.
   unfold motion_of; simpl. unfold started. destruct (set x); [destruct (known (bodies s x))|]; reflexivity.
 Qed.
 
-(* Whether u comes before the window of a body ends, if time may move on to t. *)
+(* If time may move on to t, each earlier time u lies before the end of the body's window. *)
 Lemma window_lasts own s a t u :
-  keeps own s -> own a = true -> clean s a -> reaches t (phase s) ->
-  (forall h, agenda s h -> valid s h -> concerns own h -> t <= due h) ->
+  keeps own s -> own a = true -> clean s a -> reaches t (epoch s) ->
+  (forall h, queue s h -> valid s h -> concerns own h -> t <= due h) ->
   u < t -> before u (window (bodies s a)).
 Proof.
   intros K O C P D U. destruct (windows_will_end _ _ K a O C) as [N|(v & G & R)].
-  - apply N. destruct (phase s); simpl in *; lra || exact I.
+  - apply N. destruct (epoch s); simpl in *; lra || exact I.
   - assert (t <= v) by (apply (D (Renewal v (motion_of s a)) G); [reflexivity|exact O]).
     destruct (window (bodies s a)); simpl in *; [lra|exact I].
 Qed.
 
 Lemma fact_now own s a b t u :
   keeps own s -> (a < b)%nat -> some_of own a b -> clean s a -> clean s b -> ~ news s a b ->
-  (forall h, agenda s h -> valid s h -> concerns own h -> t <= due h) ->
+  (forall h, queue s h -> valid s h -> concerns own h -> t <= due h) ->
   before u (window (bodies s a)) -> before u (window (bodies s b)) ->
   now s <= u < t -> right_at s a b u.
 Proof.
@@ -142,7 +143,7 @@ Proof.
     { intros x Cx t l Nt. rewrite M. revert Cx Nt. unfold clean. simpl. unfold started.
       destruct (set x) eqn:Sx; [|intros; eapply C; eauto]. destruct (P x Sx) as (_ & _ & Kx).
       destruct (known (bodies s x)) eqn:Q; [|congruence]. simpl. intros _ Nt Be Fi.
-      eapply capsules_hold; eauto. }
+      eapply swept_spheres_hold; eauto. }
     split.
     + exact B'.
     + exact C'.
@@ -201,7 +202,7 @@ Proof.
       exists w. split; [|exact Q]. destruct (G _ H) as [|[V|[_ V]]]; [assumption| |].
       * elim V. split; reflexivity.
       * elim V. split; assumption.
-  - assert (D' : forall h, agenda s h -> valid s h -> concerns own h -> t <= due h).
+  - assert (D' : forall h, queue s h -> valid s h -> concerns own h -> t <= due h).
     { intros h. apply D. destruct h; apply obeyed. }
     assert (Wp' := Wp (obeyed _)).
     assert (K0 := K). destruct K as [B C Wi F P [T1 T2]]. split; simpl.
@@ -228,22 +229,22 @@ Proof.
       * intros x y u r [H|H]; [apply T2 in H|]; lra.
 Qed.
 
-(* Whatever has begun by a time was told by then. *)
+(* Each relation that holds at time t was delivered in an event at t or before, but for ends since. *)
 Definition known_of (s : state) (a b : body) (t : R) (r : relation) : Prop :=
-  exists q, only_ends q r /\ (q = apart \/ exists u, u <= t /\ told s a b u q).
-Definition tells (s : state) : Prop :=
-  (forall a b, known_of s a b (now s) (book s a b)) /\
+  exists q, only_ends q r /\ (q = apart \/ exists u, u <= t /\ delivered s a b u q).
+Definition delivers_begins (s : state) : Prop :=
+  (forall a b, known_of s a b (now s) (graph s a b)) /\
   (forall a b t r, stood s a b t r -> known_of s a b t r).
 
 Lemma known_later s s' a b t t' r r' :
-  known_of s a b t r -> (forall u q, told s a b u q -> told s' a b u q) -> t <= t' -> only_ends r r' ->
+  known_of s a b t r -> (forall u q, delivered s a b u q -> delivered s' a b u q) -> t <= t' -> only_ends r r' ->
   known_of s' a b t' r'.
 Proof.
   intros (q & E & H) Tl N E'. exists q. split; [eapply ends_add_up; eauto|].
   destruct H as [H|(u & U & H)]; [left; exact H|right]. exists u. split; [lra|auto].
 Qed.
 
-Lemma step_tells own s s' : step on own s s' -> tells s -> tells s'.
+Lemma step_delivers_begins own s s' : step on own s s' -> delivers_begins s -> delivers_begins s'.
 Proof.
   assert (E : forall r, only_ends r r) by apply nothing_ends.
   intros St [B S]. destruct St as
@@ -264,8 +265,8 @@ Proof.
     + eapply known_later; [apply B|auto|lra|apply E].
 Qed.
 
-Lemma steps_tell own s s' : steps on own s s' -> tells s -> tells s'.
-Proof. induction 1; intros T; [exact T|]. eapply step_tells; eauto. Qed.
+Lemma steps_deliver_begins own s s' : steps on own s s' -> delivers_begins s -> delivers_begins s'.
+Proof. induction 1; intros T; [exact T|]. eapply step_delivers_begins; eauto. Qed.
 
 Lemma steps_keep own s s' : steps on own s s' -> keeps own s -> keeps own s'.
 Proof. induction 1; intros K; [exact K|]. eapply step_keeps; eauto. Qed.

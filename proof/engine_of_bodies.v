@@ -1,9 +1,8 @@
-(* What the machine takes for granted holds of bodies: balls that keep their promises, between discontinuities; with
-   certificates of contacts from earliest_meeting, and searches with the test of the capsules, both in floating point.
-   And in such a world the machine does report a contact. *)
+(* The hypotheses of the machine hold for balls that keep their promises between discontinuities, with certificates of
+   contacts from earliest_meeting, and searches by the test of swept spheres, both in floating point. *)
 From Coq Require Import Reals Lra Lia ZArith Bool Arith.
 From Flocq Require Import Core BinarySingleNaN.
-From Kinesphere Require floats inputs kernels rounding earliest_meeting meeting_facts capsules left_out.
+From Kinesphere Require floats inputs kernels rounding earliest_meeting meeting_facts swept_spheres left_out.
 From Kinesphere Require Import engine_machine engine_misses_nothing.
 From Kinesphere Require Import geometry_vectors geometry_motion geometry_bounds geometry_certificates geometry_search.
 From Kinesphere Require Import geometry_knowledge contact_of_bodies.
@@ -11,42 +10,43 @@ Open Scope R_scope.
 Notation B := (B2R (prec := 53) (emax := 1024)).
 
 Section Bodies.
-(* Of each body between two of its discontinuities: its promise, and how it truly moves. *)
+(* Each body between two of its discontinuities has a promise and a true motion. *)
 Variable limits : engine_machine.motion -> body.
 Variable moves : engine_machine.motion -> motion.
 Hypothesis no_radius_below_zero : forall x, 0 <= r (limits x).
 Hypothesis no_acceleration_below_zero : forall x, 0 <= A (limits x).
 Hypothesis no_error_below_zero : forall x, 0 <= e1 (limits x).
-(* The room of capsules, and how far is far enough for a contact to end. *)
-Variables room separation : R.
-Hypothesis no_room_below_zero : 0 <= room.
+(* The margin of swept spheres, and the separation distance, at which a contact ends. *)
+Variables margin separation : R.
+Hypothesis no_margin_below_zero : 0 <= margin.
 
 Definition gap_of (x y : engine_machine.motion) (t : R) : R := gap (limits x) (limits y) (moves x) (moves y) t.
 
-(* A ball that goes straight on from a place, at a time, with a velocity; or, for a window without an end, all places. *)
+(* A ball that goes straight on from a place, at a time, with a velocity; or, for a window without an end, all places.
+   *)
 Record ball := { centre : vector; heading : vector; size_of : R; made : R }.
 Definition centre_at (c : ball) (t : R) : vector := (centre c + (t - made c) * heading c)%vector.
 Definition holds_place (c : option ball) (t : R) (l : vector) : Prop :=
   match c with Some c => in_ball l (centre_at c t) (size_of c) | None => True end.
-Definition capsule_for (p : body * report) (now : R) (end_ : until) : option ball :=
+Definition swept_sphere_for (p : body * report) (now : R) (end_ : until) : option ball :=
   match end_ with
   | Some e =>
     let m := Rmax now (at_time (snd p)) in
     let b := moved_on (bound_from (fst p) (snd p)) (m - at_time (snd p)) in
-    Some {| centre := start b; heading := speed b; size_of := capsule_radius b room (e - m); made := m |}
+    Some {| centre := start b; heading := speed b; size_of := swept_sphere_radius b margin (e - m); made := m |}
   | None => None
   end.
 
 (* The test of a search, in single precision, in some frame, with units of its own for times and lengths. *)
 Definition test_leaves_out (c d : ball) (now : R) (u v : until) : Prop :=
-  exists (zero_time time_unit length_unit : R) (other one : inputs.capsule) (from to : floats.single)
-    (p q : capsules.ball_in_motion) (S1 S2 F T : R),
+  exists (zero_time time_unit length_unit : R) (other one : inputs.swept_sphere) (from to : floats.single)
+    (p q : swept_spheres.ball_in_motion) (S1 S2 F T : R),
     0 < length_unit /\
-    (forall t, capsules.distance_between p q ((t - zero_time) / time_unit) * length_unit = norm (centre_at c t - centre_at d t)) /\
-    capsules.reach p * length_unit = size_of c /\ capsules.reach q * length_unit = size_of d /\
+    (forall t, swept_spheres.distance_between p q ((t - zero_time) / time_unit) * length_unit = norm (centre_at c t - centre_at d t)) /\
+    swept_spheres.reach p * length_unit = size_of c /\ swept_spheres.reach q * length_unit = size_of d /\
     (forall t, now <= t -> before t u -> before t v -> F <= (t - zero_time) / time_unit <= T) /\
     left_out.contains other p S1 T /\ left_out.contains one q S2 T /\
-    capsules.stored from F /\ capsules.stored to T /\ B2R from <= B2R to /\ 0 <= F /\ T <= 2 /\
+    swept_spheres.stored from F /\ swept_spheres.stored to T /\ B2R from <= B2R to /\ 0 <= F /\ T <= 2 /\
     kernels.left_out other one from to = true.
 
 (* A certificate that no contact begins, and one that none ends. *)
@@ -65,21 +65,21 @@ Definition no_end (p q : body * report) (now : R) (u : until) : Prop :=
       growth_after a (t - at_time (snd p)) + growth_after b (t - at_time (snd q)) <
       (r (fst p) + e0 (fst p)) + (r (fst q) + e0 (fst q)) + separation.
 
-(* The book says whether two touch. It is wrong if it does not say so of two whose gap is 0 or less, or still does of two
-   that are farther apart than the separation distance. *)
+(* The contact graph says whether two bodies touch. It is wrong if it calls two bodies apart that have a gap of 0 or
+   less, or in contact when their gap exceeds the separation distance. *)
 Instance Bodies : World := {|
   engine_machine.place := vector;
   engine_machine.bound := body * report;
-  capsule := option ball;
+  swept_sphere := option ball;
   relation := bool;
   apart := false;
   only_ends r q := q = true -> r = true;
-  fixed _ := false;
-  fills x t l := in_ball l (place (moves x) t) (r (limits x) + room);
+  static _ := false;
+  fills x t l := in_ball l (place (moves x) t) (r (limits x) + margin);
   wrong r x y t := if r then separation + 2 * e0 (limits x) + 2 * e0 (limits y) < gap_of x y t else gap_of x y t <= 0;
   keeps_to x p s := fst p = limits x /\ at_time (snd p) <= s /\ forall t, keeps_since (limits x) (moves x) (snd p) t;
   holds := holds_place;
-  capsule_of := capsule_for;
+  swept_sphere_of := swept_sphere_for;
   left_out c d now u v := match c, d with Some c, Some d => test_leaves_out c d now u v | _, _ => False end;
   certifies r p q now u := if r then no_end p q now u else no_begin p q now u
 |}.
@@ -102,7 +102,7 @@ Proof.
     split; apply W; assumption.
 Qed.
 
-(* All hypotheses of the machine, at once. *)
+(* All hypotheses of the machine. *)
 Theorem the_lemmas_hold_of_bodies : Lemmas Bodies.
 Proof.
   split.
@@ -118,7 +118,7 @@ Proof.
     { unfold m. generalize (Rmax_l now (at_time q)) (Rmax_r now (at_time q)). intros.
       repeat split; auto. apply Rmax_lub; lra. }
     destruct (K t) as [Kt Tr]. unfold centre_at. simpl. fold m.
-    apply (body_stays_in_its_capsule (limits x) (moves x) (at_time q) t (at_time q) (m - at_time q) (e - m) (t - m) room);
+    apply (body_stays_in_its_swept_sphere (limits x) (moves x) (at_time q) t (at_time q) (m - at_time q) (e - m) (t - m) margin);
       auto; try lra.
     replace (at_time q + (m - at_time q) + (t - m)) with t by ring. exact I.
   - intros [c|] [d|] now u v t l H Ln Lu Lv Hc Hd; try contradiction.

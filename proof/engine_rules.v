@@ -1,23 +1,23 @@
 (* Each rule of the machine is needed: a machine that obeys all others lets time pass a contact. The worlds here have
-   two bodies, whose motions are known exactly, and searches and certificates that are as good as can be. *)
+   two bodies with exactly known motions, and ideal searches and certificates. *)
 From Coq Require Import Reals Lra Lia Bool Arith.
 From Kinesphere Require Import engine_machine.
 Open Scope R_scope.
 
 Section Toy.
-(* When a motion is at the only place that there is; two that are there at the same time touch. *)
+(* The times at which a motion is at the only place; two motions at that place at the same time touch. *)
 Variable is_there : motion -> R -> Prop.
 Definition touch (x y : motion) (t : R) : Prop := is_there x t /\ is_there y t.
 
 Instance Toy : World := {|
-  place := unit; bound := motion; capsule := R -> Prop; relation := bool; apart := false;
+  place := unit; bound := motion; swept_sphere := R -> Prop; relation := bool; apart := false;
   only_ends r q := q = true -> r = true;
-  fixed _ := false;
+  static _ := false;
   fills x t _ := is_there x t;
   wrong r x y t := if r then ~ touch x y t else touch x y t;
   keeps_to x p _ := x = p;
   holds c t _ := c t;
-  capsule_of p _ _ := is_there p;
+  swept_sphere_of p _ _ := is_there p;
   left_out c d now u v := forall t, now <= t -> before t u -> before t v -> ~ (c t /\ d t);
   certifies r p q now u := forall t, now <= t -> before t u -> ~ (if r then ~ touch p q t else touch p q t)
 |}.
@@ -35,13 +35,13 @@ Definition nothing (ph : until) : state :=
     (fun _ _ => False) (fun _ => False) (fun _ => False) (fun _ _ _ _ => False) (fun _ _ _ => False)
     (fun _ _ _ _ => False).
 Definition arrived (a : body) (s : state) : state :=
-  set_bodies (put s a (mkBody _ true (S (stamp (bodies s a))) true (Some (a, S (stamp (bodies s a)))) (fun _ => False) None))
-    (set_pairs (book s) (news s) (agenda s) s).
+  set_bodies (put s a (mkBody _ true (S (revision (bodies s a))) true (Some (a, S (revision (bodies s a)))) (fun _ => False) None))
+    (set_pairs (graph s) (news s) (queue s) s).
 Definition start_of (set : body -> bool) (ends : until) (g : entry -> Prop) (s : state) : state :=
-  mkState _ (now s) (phase s) (started s set (fun _ => ends)) (book s) (news s) g (noted s set (fun _ => ends)) (told s)
+  mkState _ (now s) (epoch s) (started s set (fun _ => ends)) (graph s) (news s) g (noted s set (fun _ => ends)) (delivered s)
     (lived s) (stood s).
 Definition both (x : body) : bool := x <? 2.
-(* Both have arrived and started at time 0. *)
+(* The state after two bodies were added and started at time 0. *)
 Definition two (ph ends : until) (g : entry -> Prop) : state := start_of both ends g (arrived 1%nat (arrived 0%nat (nothing ph))).
 
 Lemma two_reachable (on : rule -> Prop) ph ends g :
@@ -64,40 +64,40 @@ Proof.
   - intros [|[|x]] _ [T _]; try discriminate; left; exact P.
 Qed.
 
-(* Both have been there at a time, apart by the book, and touched. *)
+(* A contact was missed: two bodies touched at a time at which the contact graph called them apart. *)
 Lemma missed s t e h (r : bool) :
   lived s 0%nat t e -> lived s 1%nat t h -> stood s 0%nat 1%nat t r ->
   (if r then ~ touch (0%nat, e) (1%nat, h) t else touch (0%nat, e) (1%nat, h) t) -> ~ nothing_missed s.
 Proof. intros A B C T N. exact (N 0%nat 1%nat t e h r ltac:(lia) A B C T). Qed.
 
-(* Time moves on to t, for all or for some. *)
+(* Time moves on to t, for all bodies or for some. *)
 Definition passes (own : body -> bool) (t : R) (s : state) : state :=
-  mkState _ t (phase s) (bodies s) (book s) (news s) (agenda s) (kicks s) (told s)
+  mkState _ t (epoch s) (bodies s) (graph s) (news s) (queue s) (updates s) (delivered s)
     (fun a u e => lived s a u e \/
-                  (own a = true /\ there (bodies s a) = true /\ now s <= u < t /\ e = stamp (bodies s a)))
-    (fun a b u r => stood s a b u r \/ ((own a = true \/ own b = true) /\ now s <= u < t /\ r = book s a b)).
+                  (own a = true /\ there (bodies s a) = true /\ now s <= u < t /\ e = revision (bodies s a)))
+    (fun a b u r => stood s a b u r \/ ((own a = true \/ own b = true) /\ now s <= u < t /\ r = graph s a b)).
 Definition later := passes everybody.
 
-(* A body gets another velocity, and is dirty if need be. *)
-Definition kick (a : body) (d : bool) (s : state) : state :=
-  set_bodies (put s a (mkBody _ true (S (stamp (bodies s a))) d (Some (a, S (stamp (bodies s a))))
+(* A body gets another velocity, and becomes dirty if d. *)
+Definition velocity_change (a : body) (d : bool) (s : state) : state :=
+  set_bodies (put s a (mkBody _ true (S (revision (bodies s a))) d (Some (a, S (revision (bodies s a))))
                         (held (bodies s a)) (window (bodies s a))))
-    (set_pairs (book s) (news s) (agenda s) s).
-Lemma kicks_are_steps (on : rule -> Prop) own a d s :
-  own a = true -> there (bodies s a) = true -> (on kicked_are_dirty -> d = true) -> step on own s (kick a d s).
+    (set_pairs (graph s) (news s) (queue s) s).
+Lemma changes_are_steps (on : rule -> Prop) own a d s :
+  own a = true -> there (bodies s a) = true -> (on changed_are_dirty -> d = true) -> step on own s (velocity_change a d s).
 Proof.
   intros O T D. apply change; auto; simpl; try (intros ? ? _; reflexivity); try congruence.
 Qed.
 
-(* What is missed if time moves on from a state whose book is wrong at a time before. *)
+(* A contact is missed if time moves on from a state with a contact graph that is wrong about a time before. *)
 Lemma missed_later (on : rule -> Prop) s t u :
   reachable on s -> step on everybody s (later t s) -> there (bodies s 0%nat) = true -> there (bodies s 1%nat) = true ->
-  now s <= u < t -> wrong (book s 0%nat 1%nat) (motion_of s 0%nat) (motion_of s 1%nat) u ->
+  now s <= u < t -> wrong (graph s 0%nat 1%nat) (motion_of s 0%nat) (motion_of s 1%nat) u ->
   exists s', reachable on s' /\ ~ nothing_missed s'.
 Proof.
   intros R St T0 T1 U V. exists (later t s). split.
   - eapply then_one; [exact R|]. apply alone. exact St.
-  - eapply (missed _ u (stamp (bodies s 0%nat)) (stamp (bodies s 1%nat)) (book s 0%nat 1%nat)); simpl.
+  - eapply (missed _ u (revision (bodies s 0%nat)) (revision (bodies s 1%nat)) (graph s 0%nat 1%nat)); simpl.
     + right. unfold everybody. auto.
     + right. unfold everybody. auto.
     + right. unfold everybody. auto.
@@ -110,10 +110,10 @@ Definition but (r : rule) : rule -> Prop := fun q => q <> r.
 Ltac off := match goal with H : but ?r ?r |- _ => exfalso; apply H; reflexivity end.
 Ltac bodies_of x := destruct x as [|[|x]]; simpl in *; try discriminate; try lia.
 
-(* Both are there from time 1 on. *)
+(* The two bodies are present from time 1 on. *)
 Definition from_1 (x : motion) (t : R) : Prop := 1 <= t.
 
-(* Who starts is not searched for: nobody knows that the two will meet. *)
+(* A starting body is not searched for, so the coming contact of the two bodies is unknown. *)
 Example search_is_needed : exists (W : World) (L : Lemmas W) s, reachable (but search_for_who_starts) s /\ ~ nothing_missed s.
 Proof.
   exists (Toy from_1), (Toy_obeys_the_lemmas from_1).
@@ -146,9 +146,9 @@ Proof.
   - unfold touch, from_1. lra.
 Qed.
 
-(* A start, here of nobody, lets the hot pairs of others go. *)
-Example old_hot_pairs_are_needed :
-  exists (W : World) (L : Lemmas W) s, reachable (but hot_pairs_outlive_starts) s /\ ~ nothing_missed s.
+(* A start, here of no body, drops the certificates of other bodies. *)
+Example old_certificates_are_needed :
+  exists (W : World) (L : Lemmas W) s, reachable (but certificates_outlive_starts) s /\ ~ nothing_missed s.
 Proof.
   exists (Toy from_1), (Toy_obeys_the_lemmas from_1).
   apply (missed_later from_1 _ (start_of from_1 (fun _ => false) None (fun _ => False) (two from_1 None None due_at_1)) 2 1);
@@ -163,8 +163,8 @@ Proof.
   - unfold touch, from_1. lra.
 Qed.
 
-(* The first one is nowhere before it is kicked; then it is there from time 1 on. The other one always is. *)
-Definition kicked_to_1 (x : motion) (t : R) : Prop := fst x = 0%nat -> snd x = 2%nat /\ 1 <= t.
+(* The first body is nowhere before its velocity change, then present from time 1 on. The other is always present. *)
+Definition changed_to_1 (x : motion) (t : R) : Prop := fst x = 0%nat -> snd x = 2%nat /\ 1 <= t.
 Lemma two_apart (on : rule -> Prop) is_there ph ends :
   (forall t, ~ touch is_there (0%nat, 1%nat) (1%nat, 1%nat) t) -> no_later ph ends ->
   @reachable (Toy is_there) on (two is_there ph ends (fun _ => False)).
@@ -172,23 +172,23 @@ Proof.
   intros T P. apply two_reachable; [|exact P]. intros _. split; [intros; discriminate|].
   left. split; [reflexivity|]. simpl. intros t _ _ _. apply T.
 Qed.
-Lemma not_before_the_kick t : ~ touch kicked_to_1 (0%nat, 1%nat) (1%nat, 1%nat) t.
+Lemma not_before_the_change t : ~ touch changed_to_1 (0%nat, 1%nat) (1%nat, 1%nat) t.
 Proof. intros [H _]. destruct (H eq_refl). discriminate. Qed.
 
-(* A kicked body is not dirty, so it is not searched for. *)
-Example dirt_is_needed : exists (W : World) (L : Lemmas W) s, reachable (but kicked_are_dirty) s /\ ~ nothing_missed s.
+(* A changed body is not dirty, so it is not searched for. *)
+Example dirty_is_needed : exists (W : World) (L : Lemmas W) s, reachable (but changed_are_dirty) s /\ ~ nothing_missed s.
 Proof.
-  exists (Toy kicked_to_1), (Toy_obeys_the_lemmas kicked_to_1).
-  apply (missed_later kicked_to_1 _ (kick kicked_to_1 0%nat false (two kicked_to_1 None None (fun _ => False))) 2 1);
+  exists (Toy changed_to_1), (Toy_obeys_the_lemmas changed_to_1).
+  apply (missed_later changed_to_1 _ (velocity_change changed_to_1 0%nat false (two changed_to_1 None None (fun _ => False))) 2 1);
     simpl; try reflexivity; try lra.
-  - eapply then_one; [apply (two_apart _ kicked_to_1 None None not_before_the_kick); intros t _; exact I|].
-    apply alone. apply kicks_are_steps; try reflexivity. intros; off.
+  - eapply then_one; [apply (two_apart _ changed_to_1 None None not_before_the_change); intros t _; exact I|].
+    apply alone. apply changes_are_steps; try reflexivity. intros; off.
   - apply advance; simpl; try lra; try tauto.
     intros a _. unfold put. bodies_of a; auto.
-  - unfold touch, kicked_to_1. simpl. repeat split; try lra; discriminate.
+  - unfold touch, changed_to_1. simpl. repeat split; try lra; discriminate.
 Qed.
 
-(* Time moves on past the end of the windows up to which the capsules are apart. *)
+(* Time moves on past the end of the windows up to which the swept spheres are apart. *)
 Example windows_are_needed : exists (W : World) (L : Lemmas W) s, reachable (but windows_are_not_passed) s /\ ~ nothing_missed s.
 Proof.
   exists (Toy from_1), (Toy_obeys_the_lemmas from_1).
@@ -201,7 +201,7 @@ Proof.
   - unfold touch, from_1. lra.
 Qed.
 
-(* A pair that touches at time 0: it is looked at, and the event is delivered. *)
+(* A pair that touches at time 0 is rechecked, and the event is delivered. *)
 Definition due_at_0 (h : entry) : Prop := h = Pair 0 (0%nat, 1%nat) (1%nat, 1%nat).
 Definition they_touch (a b : body) : bool := (a =? 0) && (b =? 1).
 Definition the_pair (a b : body) : Prop := if they_touch a b then True else False.
@@ -211,7 +211,7 @@ Section Touching.
 Variable is_there : motion -> R -> Prop.
 Instance TheToy : World := Toy is_there.
 Definition with_news : state := set_pairs (fun _ _ => false) the_pair (fun _ => False) (two is_there None None due_at_0).
-Definition with_contact : state := tell 0%nat 1%nat true (set_pairs they_touch the_pair (fun _ => False) with_news).
+Definition with_contact : state := deliver_event 0%nat 1%nat true (set_pairs they_touch the_pair (fun _ => False) with_news).
 Lemma contact_reachable (on : rule -> Prop) : reachable on with_contact.
 Proof.
   assert (R : reachable on (two is_there None None due_at_0)).
@@ -220,7 +220,7 @@ Proof.
     - intros t N B. lra.
     - right. exists 0. split; reflexivity. }
   assert (R' : reachable on with_news).
-  { eapply then_one; [exact R|]. apply alone. apply (look on everybody (two is_there None None due_at_0) 0%nat 1%nat 0).
+  { eapply then_one; [exact R|]. apply alone. apply (recheck on everybody (two is_there None None due_at_0) 0%nat 1%nat 0).
     - lia.
     - reflexivity.
     - intros x y _. reflexivity.
@@ -236,15 +236,15 @@ Proof.
 Qed.
 End Touching.
 
-(* The two part at time 1. After the contact has begun nobody looks at them again. *)
+(* The two bodies part at time 1. After the contact has begun the pair is not rechecked. *)
 Definition up_to_1 (x : motion) (t : R) : Prop := t < 1.
-Example second_look_is_needed : exists (W : World) (L : Lemmas W) s, reachable (but news_is_looked_at) s /\ ~ nothing_missed s.
+Example second_recheck_is_needed : exists (W : World) (L : Lemmas W) s, reachable (but news_is_rechecked) s /\ ~ nothing_missed s.
 Proof.
   exists (Toy up_to_1), (Toy_obeys_the_lemmas up_to_1).
   apply (missed_later up_to_1 _ (set_pairs (W := Toy up_to_1) they_touch (fun _ _ => False) (fun _ => False) (with_contact up_to_1)) 2 1);
     simpl; try reflexivity; try lra.
   - eapply then_one; [apply contact_reachable|]. apply alone.
-    apply (look_again _ everybody (with_contact up_to_1) 0%nat 1%nat (fun _ _ => False)).
+    apply (recertify _ everybody (with_contact up_to_1) 0%nat 1%nat (fun _ _ => False)).
     + lia.
     + reflexivity.
     + intros x y Ot. simpl. unfold the_pair. rewrite (not_the_pair x y Ot). reflexivity.
@@ -255,25 +255,26 @@ Proof.
   - unfold touch, up_to_1. lra.
 Qed.
 
-(* The first one is somewhere else after the kick. The two touch by the book, but the pair is left to the search. *)
-Definition gone_by_a_kick (x : motion) (t : R) : Prop := x <> (0%nat, 2%nat).
+(* The first body is elsewhere after its velocity change. The contact graph has a contact of the two, but the pair is
+   left to the search. *)
+Definition gone_by_a_change (x : motion) (t : R) : Prop := x <> (0%nat, 2%nat).
 Definition only_0 (x : body) : bool := x =? 0.
 Example links_are_needed : exists (W : World) (L : Lemmas W) s, reachable (but links_are_not_searched) s /\ ~ nothing_missed s.
 Proof.
-  exists (Toy gone_by_a_kick), (Toy_obeys_the_lemmas gone_by_a_kick).
-  set (s1 := set_pairs (W := Toy gone_by_a_kick) they_touch (fun _ _ => False) due_at_0 (with_contact gone_by_a_kick)).
-  set (s2 := set_pairs (W := Toy gone_by_a_kick) they_touch (fun _ _ => False) (fun _ => False) (kick gone_by_a_kick 0%nat true s1)).
-  apply (missed_later gone_by_a_kick _ (start_of gone_by_a_kick only_0 None (fun _ => False) s2) 1 0);
+  exists (Toy gone_by_a_change), (Toy_obeys_the_lemmas gone_by_a_change).
+  set (s1 := set_pairs (W := Toy gone_by_a_change) they_touch (fun _ _ => False) due_at_0 (with_contact gone_by_a_change)).
+  set (s2 := set_pairs (W := Toy gone_by_a_change) they_touch (fun _ _ => False) (fun _ => False) (velocity_change gone_by_a_change 0%nat true s1)).
+  apply (missed_later gone_by_a_change _ (start_of gone_by_a_change only_0 None (fun _ => False) s2) 1 0);
     simpl; try reflexivity; try lra.
   - eapply then_one; [eapply then_one; [eapply then_one; [eapply then_one; [apply contact_reachable|]|]|]|].
-    + apply alone. apply (look_again _ everybody (with_contact gone_by_a_kick) 0%nat 1%nat (fun _ _ => False)) with (g := due_at_0).
+    + apply alone. apply (recertify _ everybody (with_contact gone_by_a_change) 0%nat 1%nat (fun _ _ => False)) with (g := due_at_0).
       * lia.
       * reflexivity.
       * intros x y Ot. simpl. unfold the_pair. rewrite (not_the_pair x y Ot). reflexivity.
       * simpl. tauto.
       * intros _. reflexivity.
-    + apply alone. apply (kicks_are_steps gone_by_a_kick _ everybody 0%nat true s1); reflexivity.
-    + apply alone. apply (drop _ everybody (kick gone_by_a_kick 0%nat true s1) (fun _ => False)).
+    + apply alone. apply (changes_are_steps gone_by_a_change _ everybody 0%nat true s1); reflexivity.
+    + apply alone. apply (drop _ everybody (velocity_change gone_by_a_change 0%nat true s1) (fun _ => False)).
       intros h H. right; left. rewrite H. intros [E _]. discriminate.
     + apply alone. apply start; simpl.
       * intros x. unfold only_0, put. bodies_of x. intros _. repeat split. discriminate.
@@ -283,35 +284,35 @@ Proof.
       * intros x _ [T _]. left. bodies_of x; intros t _; exact I.
   - apply advance; simpl; try lra; try tauto.
     intros a _. unfold started, put. bodies_of a; auto.
-  - unfold touch, gone_by_a_kick. simpl. intros [H _]. apply H. reflexivity.
+  - unfold touch, gone_by_a_change. simpl. intros [H _]. apply H. reflexivity.
 Qed.
 
-(* SpeculativeRunner. *)
+(* Clusters of a batch. *)
 Section Parts.
 Variable is_there : motion -> R -> Prop.
 Instance PartToy : World := Toy is_there.
 Variable on : rule -> Prop.
 
-(* An island that only lets time pass. *)
-Lemma nobody_acts own t s :
+(* A cluster that only lets time pass. *)
+Lemma none_acts own t s :
   now s <= t -> (forall a, own a = true -> there (bodies s a) = true -> dirty (bodies s a) = false) ->
-  (forall a b, ~ news s a b) -> reaches t (phase s) ->
-  (forall h, agenda s h -> valid s h -> concerns own h -> t <= due h) ->
-  steps on own (begin_part s) (passes is_there own t (begin_part s)).
+  (forall a b, ~ news s a b) -> reaches t (epoch s) ->
+  (forall h, queue s h -> valid s h -> concerns own h -> t <= due h) ->
+  steps on own (begin_batch s) (passes is_there own t (begin_batch s)).
 Proof.
   intros N C Ne P D. eapply one_more; [apply no_step|]. apply advance; simpl; auto.
 Qed.
 
-(* The bodies 0 and 1 in these islands, in worlds of two bodies without a hot pair that is due in the part. *)
-Lemma accepted_part island stop f g ph :
-  (forall a, (1 < a)%nat -> island a = None) -> 0 <= stop -> reaches stop ph ->
-  (forall i, steps on (own_of island i) (begin_part (two is_there ph None (fun _ => False))) (f i)) ->
+(* The bodies 0 and 1 in these clusters, in worlds of two bodies without a certificate that is due in the batch. *)
+Lemma accepted_batch cluster stop f g ph :
+  (forall a, (1 < a)%nat -> cluster a = None) -> 0 <= stop -> reaches stop ph ->
+  (forall i, steps on (own_of cluster i) (begin_batch (two is_there ph None (fun _ => False))) (f i)) ->
   (forall i, now (f i) = stop) ->
-  (forall i a, own_of island i a = true -> there (bodies (f i) a) = true -> dirty (bodies (f i) a) = false) ->
+  (forall i a, own_of cluster i a = true -> there (bodies (f i) a) = true -> dirty (bodies (f i) a) = false) ->
   (forall i a b, ~ news (f i) a b) ->
-  (on kicks_are_compared -> forall i j k l, i <> j -> (kicked k < kicked l)%nat -> kicks (f i) k -> kicks (f j) l ->
+  (on updates_are_compared -> forall i j k l, i <> j -> (updated k < updated l)%nat -> updates (f i) k -> updates (f j) l ->
     stay_apart 0 stop k l (last_of (f i) k /\ last_of (f j) l) g) ->
-  accepted on (two is_there ph None (fun _ => False)) island stop f g.
+  accepted on (two is_there ph None (fun _ => False)) cluster stop f g.
 Proof.
   intros I N P R C S Ne K. split; auto.
   - split; [|simpl; tauto]. intros a. simpl. bodies_of a; auto.
@@ -319,39 +320,39 @@ Proof.
   - intros h [].
 Qed.
 
-(* An island with the first body alone kicks it at once. *)
+(* A cluster of the first body alone gives it another velocity at once. *)
 Definition run_of (a : body) (own : body -> bool) (g : entry -> Prop) (stop : R) (s : state) : state :=
-  passes is_there own stop (start_of is_there (fun x => x =? a) None g (kick is_there a true (begin_part s))).
+  passes is_there own stop (start_of is_there (fun x => x =? a) None g (velocity_change is_there a true (begin_batch s))).
 Lemma run_steps a own g stop s :
   own a = true -> there (bodies s a) = true ->
-  let k := kick is_there a true (begin_part s) in
+  let k := velocity_change is_there a true (begin_batch s) in
   let st := start_of is_there (fun x => x =? a) None g k in
   step on own k st -> step on own st (passes is_there own stop st) ->
-  steps on own (begin_part s) (run_of a own g stop s).
+  steps on own (begin_batch s) (run_of a own g stop s).
 Proof.
   intros O T k st S1 S2. eapply one_more; [eapply one_more; [eapply one_more; [apply no_step|]|exact S1]|exact S2].
-  apply kicks_are_steps; [exact O|exact T|reflexivity].
+  apply changes_are_steps; [exact O|exact T|reflexivity].
 Qed.
 End Parts.
 
 Definition alone_0 (a : body) : option nat := if a =? 0 then Some 0%nat else None.
 Local Notation none_due := (fun _ : entry => False).
 
-(* A kicked body of an island may meet a body of nobody's, which the island does not claim. *)
-Example claims_are_needed : exists (W : World) (L : Lemmas W) s, reachable (but islands_claim) s /\ ~ nothing_missed s.
+(* An updated body of a cluster may meet a body of no cluster, which the cluster does not take in. *)
+Example conflicts_are_needed : exists (W : World) (L : Lemmas W) s, reachable (but conflicts_join) s /\ ~ nothing_missed s.
 Proof.
-  exists (Toy kicked_to_1), (Toy_obeys_the_lemmas kicked_to_1).
-  set (s := two kicked_to_1 None None none_due).
+  exists (Toy changed_to_1), (Toy_obeys_the_lemmas changed_to_1).
+  set (s := two changed_to_1 None None none_due).
   set (f := fun i => match i with
-    | 0%nat => run_of kicked_to_1 0%nat (own_of alone_0 0) none_due 2 s
-    | _ => passes kicked_to_1 (own_of alone_0 i) 2 (begin_part s)
+    | 0%nat => run_of changed_to_1 0%nat (own_of alone_0 0) none_due 2 s
+    | _ => passes changed_to_1 (own_of alone_0 i) 2 (begin_batch s)
     end).
   exists (merged s alone_0 2 f none_due). split.
-  - eapply then_one; [apply (two_apart (but islands_claim) kicked_to_1 None None not_before_the_kick); intros t _; exact I|].
-    apply part.
-    + apply accepted_part; try (simpl; lra); try exact I.
+  - eapply then_one; [apply (two_apart (but conflicts_join) changed_to_1 None None not_before_the_change); intros t _; exact I|].
+    apply batch.
+    + apply accepted_batch; try (simpl; lra); try exact I.
       * intros [|a] H; [lia|reflexivity].
-      * intros [|i]; [|apply nobody_acts; simpl; try lra; try tauto].
+      * intros [|i]; [|apply none_acts; simpl; try lra; try tauto].
         -- apply run_steps; try reflexivity.
            ++ apply start; simpl.
               ** intros x. unfold put. bodies_of x. intros _. repeat split. discriminate.
@@ -368,34 +369,35 @@ Proof.
       * intros _ [|i] [|j] k l D _; simpl; try tauto; congruence.
     + intros h [].
     + intros _ [|i] h [].
-  - apply (missed kicked_to_1 _ 1 2%nat 1%nat false); simpl.
+  - apply (missed changed_to_1 _ 1 2%nat 1%nat false); simpl.
     + right. repeat split; lra.
     + right. repeat split; lra.
     + right. repeat split; lra.
-    + unfold touch, kicked_to_1. simpl. repeat split; try lra; discriminate.
+    + unfold touch, changed_to_1. simpl. repeat split; try lra; discriminate.
 Qed.
 
-(* Both are kicked, in islands of their own: before that neither is there, then both are from time 1 on. *)
-Definition both_kicked (x : motion) (t : R) : Prop := snd x <> 1%nat /\ 1 <= t.
+(* The two bodies change velocity, each in a cluster of its own. Before that they are absent; then they are present from
+   time 1 on. *)
+Definition both_changed (x : motion) (t : R) : Prop := snd x <> 1%nat /\ 1 <= t.
 Definition one_each (a : body) : option nat := match a with 0%nat => Some 0%nat | 1%nat => Some 1%nat | _ => None end.
-Example comparing_kicks_is_needed :
-  exists (W : World) (L : Lemmas W) s, reachable (but kicks_are_compared) s /\ ~ nothing_missed s.
+Example comparing_updates_is_needed :
+  exists (W : World) (L : Lemmas W) s, reachable (but updates_are_compared) s /\ ~ nothing_missed s.
 Proof.
-  exists (Toy both_kicked), (Toy_obeys_the_lemmas both_kicked).
-  set (s := two both_kicked None None none_due).
+  exists (Toy both_changed), (Toy_obeys_the_lemmas both_changed).
+  set (s := two both_changed None None none_due).
   set (f := fun i => match i with
-    | 0%nat => run_of both_kicked 0%nat (own_of one_each 0) none_due 2 s
-    | 1%nat => run_of both_kicked 1%nat (own_of one_each 1) none_due 2 s
-    | _ => passes both_kicked (own_of one_each i) 2 (begin_part s)
+    | 0%nat => run_of both_changed 0%nat (own_of one_each 0) none_due 2 s
+    | 1%nat => run_of both_changed 1%nat (own_of one_each 1) none_due 2 s
+    | _ => passes both_changed (own_of one_each i) 2 (begin_batch s)
     end).
   assert (Run : forall i : nat, (i < 2)%nat ->
-            steps (but kicks_are_compared) (own_of one_each i) (begin_part s) (run_of both_kicked i (own_of one_each i) none_due 2 s)).
+            steps (but updates_are_compared) (own_of one_each i) (begin_batch s) (run_of both_changed i (own_of one_each i) none_due 2 s)).
   { intros i Lt. apply run_steps; [destruct i as [|[|i]]; try lia; reflexivity|destruct i as [|[|i]]; try lia; reflexivity| |].
     - apply start; simpl.
       + intros x E. apply Nat.eqb_eq in E. subst x. unfold put. rewrite Nat.eqb_refl. destruct i as [|[|i]]; try lia;
           repeat split; discriminate.
       + intros _ a b Lt' _ Ca Cb. destruct a as [|a], b as [|[|b]]; try lia.
-        * destruct i as [|[|i]]; try lia; (split; [reflexivity|left; split; [reflexivity|]]); simpl; unfold both_kicked; simpl;
+        * destruct i as [|[|i]]; try lia; (split; [reflexivity|left; split; [reflexivity|]]); simpl; unfold both_changed; simpl;
             intros t _ _ _; tauto.
         * destruct Cb as [Cb _]. destruct i as [|[|i]]; try lia; discriminate.
         * destruct Cb as [Cb _]. destruct i as [|[|i]]; try lia; discriminate.
@@ -405,12 +407,12 @@ Proof.
       intros a _. unfold started, put. destruct i as [|[|i]]; try lia; bodies_of a; auto. }
   exists (merged s one_each 2 f none_due). split.
   - eapply then_one.
-    { apply (two_apart (but kicks_are_compared) both_kicked None None); [|intros t _; exact I].
+    { apply (two_apart (but updates_are_compared) both_changed None None); [|intros t _; exact I].
       intros t [[H _] _]. apply H. reflexivity. }
-    apply part.
-    + apply accepted_part; try (simpl; lra); try exact I.
+    apply batch.
+    + apply accepted_batch; try (simpl; lra); try exact I.
       * intros [|[|a]] H; [lia|lia|reflexivity].
-      * intros [|[|i]]; [apply Run; lia|apply Run; lia|apply nobody_acts; simpl; try lra; try tauto].
+      * intros [|[|i]]; [apply Run; lia|apply Run; lia|apply none_acts; simpl; try lra; try tauto].
         intros a. unfold own_of, one_each. bodies_of a.
       * intros [|[|i]]; reflexivity.
       * intros [|[|i]] a O; simpl; unfold started, put; unfold own_of, one_each in O; bodies_of a; auto.
@@ -418,25 +420,25 @@ Proof.
       * intros; off.
     + intros h [].
     + intros _ [|[|i]] h [].
-  - apply (missed both_kicked _ 1 2%nat 2%nat false); simpl.
+  - apply (missed both_changed _ 1 2%nat 2%nat false); simpl.
     + right. repeat split; lra.
     + right. repeat split; lra.
     + right. repeat split; lra.
-    + unfold touch, both_kicked. simpl. repeat split; try lra; discriminate.
+    + unfold touch, both_changed. simpl. repeat split; try lra; discriminate.
 Qed.
 
-(* A pair is due in the part, but its bodies are in no island. *)
+(* A pair is due in the batch, but its bodies are in no cluster. *)
 Example joining_is_needed : exists (W : World) (L : Lemmas W) s, reachable (but due_pairs_join) s /\ ~ nothing_missed s.
 Proof.
   exists (Toy from_1), (Toy_obeys_the_lemmas from_1).
   set (s := two from_1 None None due_at_1).
-  set (f := fun i : nat => passes from_1 (own_of (fun _ => None) i) 2 (begin_part s)).
+  set (f := fun i : nat => passes from_1 (own_of (fun _ => None) i) 2 (begin_batch s)).
   exists (merged s (fun _ => None) 2 f none_due). split.
-  - eapply then_one; [apply (due_at_1_reachable (but due_pairs_join) None)|]. apply part.
+  - eapply then_one; [apply (due_at_1_reachable (but due_pairs_join) None)|]. apply batch.
     + split; try (simpl; lra); try (intros; reflexivity).
       * split; [|simpl; tauto]. intros a. simpl. bodies_of a; auto.
       * intros h -> _ _ H. off.
-      * intros i. apply nobody_acts; simpl; try lra; try tauto; try (intros; discriminate).
+      * intros i. apply none_acts; simpl; try lra; try tauto; try (intros; discriminate).
         intros h -> _ [H|H]; discriminate.
       * intros i. split; [discriminate|simpl; tauto].
       * intros _ i j k l _ _ [].
@@ -449,24 +451,24 @@ Proof.
     + unfold touch, from_1. lra.
 Qed.
 
-(* An island kicks a body and finds a hot pair, which is forgotten when the part is over. *)
-Definition one_island (a : body) : option nat := if a <? 2 then Some 0%nat else None.
-Definition due_after_the_kick (h : entry) : Prop := h = Pair 1 (0%nat, 2%nat) (1%nat, 1%nat).
-Example agendas_are_needed : exists (W : World) (L : Lemmas W) s, reachable (but both_agendas_are_kept) s /\ ~ nothing_missed s.
+(* A cluster changes the velocity of a body and adds a certificate, which is lost when the batch is over. *)
+Definition one_cluster (a : body) : option nat := if a <? 2 then Some 0%nat else None.
+Definition due_after_the_change (h : entry) : Prop := h = Pair 1 (0%nat, 2%nat) (1%nat, 1%nat).
+Example queues_are_needed : exists (W : World) (L : Lemmas W) s, reachable (but both_queues_are_kept) s /\ ~ nothing_missed s.
 Proof.
-  exists (Toy kicked_to_1), (Toy_obeys_the_lemmas kicked_to_1).
-  set (s := two kicked_to_1 None None none_due).
+  exists (Toy changed_to_1), (Toy_obeys_the_lemmas changed_to_1).
+  set (s := two changed_to_1 None None none_due).
   set (f := fun i => match i with
-    | 0%nat => run_of kicked_to_1 0%nat (own_of one_island 0) due_after_the_kick (1/2) s
-    | _ => passes kicked_to_1 (own_of one_island i) (1/2) (begin_part s)
+    | 0%nat => run_of changed_to_1 0%nat (own_of one_cluster 0) due_after_the_change (1/2) s
+    | _ => passes changed_to_1 (own_of one_cluster i) (1/2) (begin_batch s)
     end).
-  apply (missed_later kicked_to_1 _ (merged s one_island (1/2) f none_due) 2 1); simpl; try reflexivity; try lra.
+  apply (missed_later changed_to_1 _ (merged s one_cluster (1/2) f none_due) 2 1); simpl; try reflexivity; try lra.
   - eapply then_one.
-    { apply (two_apart (but both_agendas_are_kept) kicked_to_1 None None not_before_the_kick); intros t _; exact I. }
-    apply part.
-    + apply accepted_part; try (simpl; lra); try exact I.
+    { apply (two_apart (but both_queues_are_kept) changed_to_1 None None not_before_the_change); intros t _; exact I. }
+    apply batch.
+    + apply accepted_batch; try (simpl; lra); try exact I.
       * intros [|[|a]] H; [lia|lia|reflexivity].
-      * intros [|i]; [|apply nobody_acts; simpl; try lra; try tauto].
+      * intros [|i]; [|apply none_acts; simpl; try lra; try tauto].
         -- apply run_steps; try reflexivity.
            ++ apply start; simpl.
               ** intros x. unfold put. bodies_of x. intros _. repeat split. discriminate.
@@ -480,32 +482,32 @@ Proof.
            ++ apply advance; simpl; try lra; try tauto.
               ** intros a _. unfold started, put. bodies_of a; auto.
               ** intros h _ -> _ _. simpl. lra.
-        -- intros a. unfold own_of, one_island. bodies_of a.
+        -- intros a. unfold own_of, one_cluster. bodies_of a.
       * intros [|i]; reflexivity.
-      * intros [|i] a O; simpl; unfold started, put; unfold own_of, one_island in O; bodies_of a; auto.
+      * intros [|i] a O; simpl; unfold started, put; unfold own_of, one_cluster in O; bodies_of a; auto.
       * intros [|i]; simpl; tauto.
       * intros _ [|i] [|j] k l D _; simpl; try tauto; congruence.
     + intros h [].
     + intros; off.
   - apply advance; simpl; try lra; try tauto.
-    intros a _. unfold one_island, started, put. bodies_of a; auto.
-  - unfold touch, kicked_to_1. simpl. repeat split; try lra; discriminate.
+    intros a _. unfold one_cluster, started, put. bodies_of a; auto.
+  - unfold touch, changed_to_1. simpl. repeat split; try lra; discriminate.
 Qed.
 
-(* Whichever rule is left out: there is a world, in which all lemmas hold, whose engine obeys the others and misses a
-   contact, or the end of one. *)
+(* For each rule there is a world, in which all lemmas hold, with an engine that obeys the other rules and misses a
+   contact or the end of one. *)
 Theorem every_rule_is_needed r : exists (W : World) (L : Lemmas W) s, reachable (but r) s /\ ~ nothing_missed s.
 Proof.
   destruct r.
   - exact search_is_needed.
   - exact links_are_needed.
-  - exact dirt_is_needed.
-  - exact old_hot_pairs_are_needed.
+  - exact dirty_is_needed.
+  - exact old_certificates_are_needed.
   - exact earliest_is_needed.
   - exact windows_are_needed.
-  - exact second_look_is_needed.
-  - exact claims_are_needed.
-  - exact comparing_kicks_is_needed.
+  - exact second_recheck_is_needed.
+  - exact conflicts_are_needed.
+  - exact comparing_updates_is_needed.
   - exact joining_is_needed.
-  - exact agendas_are_needed.
+  - exact queues_are_needed.
 Qed.

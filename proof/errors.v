@@ -1,5 +1,5 @@
-(* What a term of sums and products may be wrong by: so many unit roundoffs of the magnitudes that go into
-   it. Each product adds what it may lose to underflow to these magnitudes. *)
+(* Error bound of a term of sums and products: a number of unit roundoffs of the magnitudes that go into it. Each
+   product adds its possible loss by underflow to these magnitudes. *)
 From Coq Require Import ZArith Reals Lra Lia Bool Psatz.
 From Flocq Require Import Core Relative Plus_error BinarySingleNaN.
 From Kinesphere Require Import floats.

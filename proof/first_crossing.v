@@ -75,7 +75,7 @@ Proof.
   apply rnd_scaled_up. lia.
 Qed.
 
-(* What is said of the answer: it is early, or there certainly is no root. *)
+(* Claim about the answer: it is early, or there is no root. *)
 Definition early (c b a r : double) : Prop :=
   finite c /\ finite b /\ finite a /\ bpow radix2 (-975) < B c /\
   ((r = infinity /\ forall d, 0 <= d -> 0 < quadratic (B c) (B b) (B a) d) \/

@@ -9,8 +9,8 @@ Open Scope R_scope.
 (* The double x is not above the real number e, or says nothing: it is no number, or minus infinity. *)
 Definition lowered (x : double) (e : R) : Prop := x <> infinity /\ (finite x -> B x <= e).
 
-(* The step at d is the root of a quadratic whose coefficients are not above those of Lemma 3, at that instant and for
-   some direction. (That the library's are not is about rounding alone: Lemma 5.) *)
+(* The step at d is the root of a quadratic with coefficients not above those of Lemma 3, at that instant and for some
+   direction. (Lemma 5, about rounding alone, shows it for the coefficients of the library.) *)
 Definition linearised_step (a b : bound) (distance : R) (step : double -> double) : Prop :=
   forall d, finite d -> 0 <= B d -> exists n k l q, norm n <= 1 /\
     lowered k (constant (moved_on a (B d)) (moved_on b (B d)) n distance) /\
@@ -46,8 +46,8 @@ Proof.
   intros S F U. apply advance_by_safe_steps_is_early; [|exact F|exact U]. apply linearised_step_is_safe. exact S.
 Qed.
 
-(* And so are the bodies, as long as they keep their promises (until t1): whatever they do within these, their gap is
-   above the distance until the time that is returned. *)
+(* The gap of the bodies stays above the distance until the returned time, as long as they keep their promises (until
+   t1). *)
 Theorem certified_time_is_before_the_contact (a b : body) (ma mb : motion) (t0 t1 ta tb : R) (pa qa pb qb : vector)
   (distance : R) (step : double -> double) (from until : double) :
   keeps_promise a ma t0 t1 -> keeps_promise b mb t0 t1 -> t0 <= ta <= B from -> t0 <= tb <= B from ->
@@ -92,8 +92,8 @@ Proof.
   - contradiction.
 Qed.
 
-(* A wall: no point p of it has n.p above the offset. If the coefficients are not above those of
-   n.c(d) - rho(d) - offset - distance, the gap of body and wall is above the distance until the time that is returned. *)
+(* A wall: no point p of it has n.p above the offset. If the coefficients are not above those of n.c(d) - rho(d) -
+   offset - distance, the gap of body and wall is above the distance until the time that is returned. *)
 Theorem certified_time_is_before_the_wall (b : body) (m : motion) (t0 t1 t : R) (p q n : vector) (offset distance : R)
   (from until k l s : double) :
   norm n = 1 -> keeps_promise b m t0 t1 -> t0 <= t <= B from -> true_report b m t p q ->

@@ -4,7 +4,7 @@ From Coq Require Import Reals Lra Psatz List.
 From Kinesphere Require Import geometry_vectors geometry_motion.
 Open Scope R_scope.
 
-(* What a body promises: its radius r, its acceleration limit A, its planned acceleration g, and the largest errors
+(* The promise of a body: its radius r, its acceleration limit A, its planned acceleration g, and the largest errors
    e0 and e1 of positions and velocities that it reports. *)
 Record body : Type := Body {
   r : R; A : R; g : vector; e0 : R; e1 : R }.
@@ -103,8 +103,8 @@ Proof.
   unfold rho, bound_of. cbn [size growth_speed growth]. lra.
 Qed.
 
-(* Lemma 1. A body that keeps its promise from t0 to t1, and whose report at the time t is true, lies with all its
-   points inside the sphere of radius rho(s) around c(s), for all s until t1. *)
+(* Lemma 1. If a body keeps its promise from t0 to t1, and its report at the time t is true, all its points lie inside
+   the sphere of radius rho(s) around c(s), for all s until t1. *)
 Theorem body_lies_in_its_bound (b : body) (m : motion) (t0 t1 t : R) (p q : vector) (s : R) (point : vector) :
   keeps_promise b m t0 t1 -> t0 <= t -> 0 <= s -> t + s <= t1 -> true_report b m t p q ->
   in_ball point (place m (t + s)) (r b) -> in_ball point (c (bound_of b p q) s) (rho (bound_of b p q) s).
@@ -147,8 +147,8 @@ Proof.
   revert I G. unfold rho, bound_of. cbn [size growth_speed growth]. rewrite E0, E1. intros. nra.
 Qed.
 
-(* No smaller sphere would do: in each direction n there is a body that keeps its promise, whose report is true, and of
-   which a point lies on the sphere's surface there. *)
+(* No smaller sphere would do: in each direction n some body that keeps its promise, with a true report, has a point on
+   the sphere's surface. *)
 Theorem no_smaller_bound_would_do (b : body) (p q n : vector) (s : R) :
   0 <= r b -> 0 <= A b -> 0 <= e0 b -> 0 <= e1 b -> norm n = 1 -> 0 <= s ->
   exists m point, keeps_promise b m 0 s /\ true_report b m 0 p q /\ in_ball point (place m s) (r b) /\

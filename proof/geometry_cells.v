@@ -1,4 +1,4 @@
-(* The layer's grid: a search looks at the cell of every capsule whose corners meet its own (Lemma 10). *)
+(* The grid of a level: a search reads the cell of every swept sphere with corners that meet its own (Lemma 10). *)
 From Coq Require Import ZArith Reals Lra Lia.
 From Flocq Require Import Core.
 Open Scope R_scope.
@@ -13,7 +13,7 @@ Definition cell_of (x : R) : Z := cut (Zfloor x).
    differ from it by a multiple of count. This is the place of a cell in the grid. *)
 Definition place_in_grid (first0 count cell : Z) : Z := ((cell - first0) mod count)%Z.
 
-(* The places that a search from the cell `first` to the cell `last` looks at. *)
+(* The places that a search from the cell `first` to the cell `last` reads. *)
 Definition looks_at (folded : bool) (first0 count first last place : Z) : Prop :=
   if folded then
     if (last - first + 1 <? count)%Z then
@@ -32,11 +32,11 @@ Proof.
   assert (i <= Zfloor hi)%Z by (apply Zfloor_lub; exact H). lia.
 Qed.
 
-(* Lemma 10, on one axis. A capsule stands in the cell i, seen in the representative from which its overhang is taken: its
-   corners [p1, p2] reach out of it by no more than the reach. The corners of the search are [q1, q2], and with the reach
-   added, counted in edges, they are computed as lo and hi: less, and not less, than they are for the part of the search
-   that counts. If the two have a point in common, the search looks at the place of i. On an axis that is not folded, i
-   is one of the cells that there are. *)
+(* Lemma 10, on one axis. A swept sphere stands in the cell i, in the representative from which its looseness is
+   measured: its corners [p1, p2] reach out of it by no more than the reach. The corners of the search are [q1, q2], and
+   with the reach added, counted in edges, they are computed as lo and hi: less, and not less, than they are for the
+   part of the search that counts. If the two have a point in common, the search reads the place of i. On an axis that
+   is not folded, i is one of the existing cells. *)
 Theorem search_looks_at_the_cell (folded : bool) (first0 count i : Z) (edge reach p1 p2 q1 q2 lo hi point : R) :
   0 < edge -> (0 < count)%Z -> (- most_cells <= i <= most_cells)%Z ->
   (folded = false -> (first0 <= i < first0 + count)%Z) ->

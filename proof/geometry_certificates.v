@@ -12,7 +12,7 @@ Proof. unfold moved_on, c. cbn [start speed plan]. coordinates. apply (f_equal3 
 Lemma rho_moved_on b s d : rho (moved_on b s) d = rho b (s + d).
 Proof. unfold moved_on, rho. cbn [size growth_speed growth]. field. Qed.
 
-(* Of two bounds seen from one instant, the difference C of centres and the sum Rs of radii, the time d after it. *)
+(* The difference C of centres and the sum Rs of radii of two bounds, the time d after one instant. *)
 Definition C (a b : bound) (d : R) : vector := (c a d - c b d)%vector.
 Definition Rs (a b : bound) (d : R) : R := rho a d + rho b d.
 
@@ -108,7 +108,7 @@ Proof.
   rewrite <- dot_minus, norm_symmetric. apply dot_at_most_norm. lra.
 Qed.
 
-(* And no certificate can be better: where it is not above zero, a point of the bound is not beyond the distance. *)
+(* No certificate can be better: where it is not above zero, a point of the bound is not beyond the distance. *)
 Theorem wall_certificate_is_exact (b : bound) (s : R) (n : vector) (offset distance : R) :
   norm n = 1 -> 0 <= rho b s -> dot n (c b s) - rho b s - offset - distance <= 0 ->
   exists point, in_ball point (c b s) (rho b s) /\ dot n point <= offset + distance.
@@ -119,8 +119,9 @@ Proof.
   - rewrite dot_minus, dot_times, <- norm_square, Hn. lra.
 Qed.
 
-(* The end of a contact. S(d) = R(0) + distance - growth(d): while |C(d)| is below it, the gap is below the distance. With
-   errors, positions and radii count as they are reported, r + e0: then the true gap may be larger by 2 e0 of each. *)
+(* The end of a contact. S(d) = R(0) + distance - growth(d): while |C(d)| is below it, the gap is below the distance.
+   With errors, positions and radii count as they are reported, r + e0: then the true gap may be larger by 2 e0 of each.
+   *)
 Definition growth_after (b : bound) (s : R) : R := growth_speed b * s + growth b * (s * s / 2).
 Lemma rho_of b p q s : rho (bound_of b p q) s = r b + e0 b + growth_after (bound_of b p q) s.
 Proof. unfold rho, growth_after, bound_of. cbn [size growth_speed growth]. ring. Qed.

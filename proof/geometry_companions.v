@@ -3,8 +3,8 @@ From Coq Require Import Reals Lra Psatz.
 From Kinesphere Require Import quadratic geometry_vectors geometry_motion geometry_bounds geometry_certificates geometry_shapes.
 Open Scope R_scope.
 
-(* A point q of a shape is the nearest one to a place p if all of the shape lies behind the plane through q that is normal
-   to the way from q to p. *)
+(* A point q of a shape is the nearest one to a place p if all of the shape lies behind the plane through q that is
+   normal to the way from q to p. *)
 Theorem point_is_nearest_if_the_shape_is_behind_its_plane (K : shape) (p q : vector) :
   K q -> (forall k, K k -> dot (p - q) k <= dot (p - q) q) -> distance_from K p (norm (p - q)).
 Proof.
@@ -58,15 +58,15 @@ Proof.
   exists (1 - k), k, 0. unfold k. repeat (split; [lra|]). coordinates. apply (f_equal3 Vector); field.
 Qed.
 
-(* The frame of a triangle: its origin, at one end of the longest side, and the directions along that side and across it.
-   The corners have there the coordinates (0, 0), (length, 0) and (foot, height). How far a place lies beyond each side,
-   up to the positive factor that makes the direction of the side one of length 1: *)
+(* The frame of a triangle: its origin, at one end of the longest side, and the directions along that side and across
+   it. The corners have there the coordinates (0, 0), (length, 0) and (foot, height). How far a place lies beyond each
+   side, up to the positive factor that makes the direction of the side one of length 1: *)
 Definition beyond_first (y : R) : R := - y.
 Definition beyond_second (length foot height x y : R) : R := height * (x - length) - (foot - length) * y.
 Definition beyond_third (foot height x y : R) : R := - height * (x - foot) + foot * (y - height).
 
-(* A place of the plane that lies beyond none of the three sides is in the triangle: so a companion on the face stays in it
-   as long as these three numbers, quadratics in time, are not above zero. *)
+(* A place of the plane that lies beyond none of the three sides is in the triangle: so a companion on the face stays in
+   it as long as these three numbers, quadratics in time, are not above zero. *)
 Theorem place_beyond_no_side_is_in_the_triangle (origin along across : vector) (length foot height x y : R) :
   0 < length -> 0 < height ->
   beyond_first y <= 0 -> beyond_second length foot height x y <= 0 -> beyond_third foot height x y <= 0 ->

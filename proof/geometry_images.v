@@ -1,4 +1,4 @@
-(* Where space repeats: the image in which two bodies can meet (Lemma 6). *)
+(* Periodic space: the image in which two bodies can meet (Lemma 6). *)
 From Coq Require Import ZArith Reals Lra Lia.
 Open Scope R_scope.
 
@@ -7,11 +7,11 @@ Open Scope R_scope.
 Definition named_image (L w : R) : Z :=
   if Rlt_dec (L / 2) w then (-1)%Z else if Rlt_dec w (- (L / 2)) then 1%Z else 0%Z.
 
-(* The middles ma and mb of the two boxes are both in the primary box, and the way between them is found to within L/1024.
-   Each box is narrower, on the axis, than (1/2 - 1/1024) L - h - 4 e for the position error e of its body. If, with k
-   periods added to the second, a point of the first box is within h + 2 ea + 2 eb of one of the second, then k is the
-   image that is named. Of boxes that overlap that is so with the same point in both; and of bodies that touch, or are
-   within a sensor distance, with the points of both boxes that are nearest to the other body. *)
+(* The middles ma and mb of the two boxes are both in the primary box, and the way between them is found to within
+   L/1024. Each box is narrower, on the axis, than (1/2 - 1/1024) L - h - 4 e for the position error e of its body. If,
+   with k periods added to the second, a point of the first box is within h + 2 ea + 2 eb of one of the second, then k
+   is the image that is named. Of boxes that overlap that is so with the same point in both; and of bodies that touch,
+   or are within a sensor distance, with the points of both boxes that are nearest to the other body. *)
 Theorem image_in_which_two_meet_is_named (L lower ma mb found wa wb h ea eb x y : R) (k : Z) :
   lower <= ma < lower + L -> lower <= mb < lower + L -> Rabs (found - (mb - ma)) < L / 1024 ->
   0 <= h -> 0 <= ea -> 0 <= eb ->

@@ -1,4 +1,4 @@
-(* What is known of two bodies: a fact is about how they truly move, so it outlives every report. *)
+(* A fact about two bodies speaks of their true motion, so it outlives every report. *)
 From Coq Require Import Reals Lra List.
 From Kinesphere Require Import geometry_vectors geometry_motion geometry_bounds geometry_certificates geometry_search.
 Open Scope R_scope.
@@ -16,7 +16,7 @@ Definition possible (b : body) (t0 t1 : R) (reports : list report) (m : motion) 
 Definition certain (a b : body) (t0 t1 : R) (of_a of_b : list report) (fact : motion -> motion -> Prop) : Prop :=
   forall ma mb, possible a t0 t1 of_a ma -> possible b t0 t1 of_b mb -> fact ma mb.
 
-(* A fact that is certain stays so, whatever is reported then. *)
+(* A certain fact stays certain, whatever is reported later. *)
 Theorem fact_outlives_every_report (a b : body) (t0 t1 : R) (of_a of_b later_of_a later_of_b : list report)
   (fact : motion -> motion -> Prop) :
   certain a b t0 t1 of_a of_b fact -> certain a b t0 t1 (later_of_a ++ of_a) (later_of_b ++ of_b) fact.
@@ -57,32 +57,32 @@ Proof.
   apply L. lra.
 Qed.
 
-(* A capsule that was made at some time from a report contains the body, with its room, until its window ends, whatever
-   has been or will be reported besides. *)
-Theorem capsule_outlives_every_report (b : body) (t0 t1 made T room : R) (x : report) (reports : list report) (m : motion)
+(* A swept sphere that was made at some time from a report contains the body, with its margin, until its window ends,
+   whatever has been or will be reported besides. *)
+Theorem swept_sphere_outlives_every_report (b : body) (t0 t1 made T margin : R) (x : report) (reports : list report) (m : motion)
   (t : R) (point : vector) :
   0 <= e1 b -> 0 <= A b -> possible b t0 t1 reports m -> In x reports -> at_time x <= made <= t -> t <= made + T ->
   t <= t1 ->
   let then_ := moved_on (bound_from b x) (made - at_time x) in
-  in_ball point (place m t) (r b + room) ->
-  in_ball point (start then_ + (t - made) * speed then_) (capsule_radius then_ room T).
+  in_ball point (place m t) (r b + margin) ->
+  in_ball point (start then_ + (t - made) * speed then_) (swept_sphere_radius then_ margin T).
 Proof.
   intros P1 P2 [K R] Hx Ht HT Ht1 then_ I. destruct (R x Hx) as [H Tr].
-  apply (body_stays_in_its_capsule b m t0 t1 (at_time x) (made - at_time x) T (t - made) room); auto; try lra.
+  apply (body_stays_in_its_swept_sphere b m t0 t1 (at_time x) (made - at_time x) T (t - made) margin); auto; try lra.
   replace (at_time x + (made - at_time x) + (t - made)) with t by ring. exact I.
 Qed.
 
-(* Fact (a). While two capsules do not touch, the gap of the bodies in them is above the sum of their rooms. *)
-Theorem bodies_in_capsules_that_do_not_touch_are_apart (x y cx cy : vector) (rx ry room_x room_y kx ky : R) :
-  norm (x - cx) + rx + room_x <= kx -> norm (y - cy) + ry + room_y <= ky -> kx + ky < norm (cx - cy) ->
-  room_x + room_y < norm (x - y) - rx - ry.
+(* Fact (a). While two swept spheres do not touch, the gap of the bodies in them is above the sum of their margins. *)
+Theorem bodies_in_swept_spheres_that_do_not_touch_are_apart (x y cx cy : vector) (rx ry margin_x margin_y kx ky : R) :
+  norm (x - cx) + rx + margin_x <= kx -> norm (y - cy) + ry + margin_y <= ky -> kx + ky < norm (cx - cy) ->
+  margin_x + margin_y < norm (x - y) - rx - ry.
 Proof.
   intros Hx Hy H. generalize (norm_by_way_of x cx cy) (norm_by_way_of y x cy).
   rewrite (norm_symmetric cx x). lra.
 Qed.
 
-(* A report that keeps the promise never looks like one that breaks it: what `broken_promise` compares with is the most
-   that two true reports, s apart, can differ by. *)
+(* A report that keeps the promise never raises a bound violation: `broken_promise` compares with the most that two true
+   reports, s apart, can differ by. *)
 Theorem true_reports_do_not_contradict (b : body) (m : motion) (t0 t1 t s : R) (p q p' q' : vector) :
   keeps_promise b m t0 t1 -> t0 <= t -> 0 <= s -> t + s <= t1 ->
   true_report b m t p q -> true_report b m (t + s) p' q' ->
@@ -102,8 +102,8 @@ Proof.
     rewrite (norm_symmetric (velocity m t) q). lra.
 Qed.
 
-(* A contact that is reported is real. It is reported where the gap, as the reports tell it, is at most the tolerance: then
-   the true gap is at most the tolerance, and twice the position errors more. *)
+(* A contact that is reported is real. It is reported where the gap, according to the reports, is at most the tolerance:
+   then the true gap is at most the tolerance, and twice the position errors more. *)
 Theorem reported_contact_is_real (a b : body) (ma mb : motion) (t tolerance : R) (pa qa pb qb : vector) :
   true_report a ma t pa qa -> true_report b mb t pb qb ->
   norm (pa - pb) - (r a + e0 a) - (r b + e0 b) <= tolerance ->

@@ -1,9 +1,9 @@
-(* Paths in space, and the mean value inequality: who is never faster than some speed gets no farther. *)
+(* Paths in space, and the mean value inequality: a path never faster than some speed gets no farther. *)
 From Coq Require Import Reals Ranalysis Lra Psatz List.
 From Kinesphere Require Import geometry_vectors.
 Open Scope R_scope.
 
-(* The path x has no jump from the time a to the time b; at these two it is looked at from within. *)
+(* The path x has no jump from the time a to the time b; at these two it is taken from within. *)
 Definition continuous_during (a b : R) (x : R -> vector) : Prop :=
   forall t e, a <= t <= b -> 0 < e ->
   exists d, 0 < d /\ forall s, a <= s <= b -> Rabs (s - t) < d -> norm (x s - x t) < e.
@@ -26,7 +26,7 @@ Proof.
   unfold clamp. repeat destruct Rle_dec; lra.
 Qed.
 
-(* The same for a number instead of a place. *)
+(* The mean value inequality for a number instead of a place. *)
 Definition real_continuous_during (a b : R) (f : R -> R) : Prop :=
   forall t e, a <= t <= b -> 0 < e ->
   exists d, 0 < d /\ forall s, a <= s <= b -> Rabs (s - t) < d -> Rabs (f s - f t) < e.

@@ -1,5 +1,5 @@
-(* Which pairs may be left out: the quick look at two bounds, the capsules of a search (Lemma 8), and the test of two
-   capsules (Lemma 9, over the real numbers). *)
+(* Which pairs may be left out: the quick rejection of two bounds, the swept spheres of a search (Lemma 8), and the test
+   of two swept spheres (Lemma 9, over the real numbers). *)
 From Coq Require Import Reals Lra Psatz List.
 From Kinesphere Require Import quadratic geometry_vectors geometry_motion geometry_bounds geometry_certificates.
 Open Scope R_scope.
@@ -12,7 +12,7 @@ Lemma square_and_cross (X U : vector) (s : R) :
   dot (X + s * U) (X + s * U) * dot U U = dot (cross X U) (cross X U) + (dot X U + s * dot U U) * (dot X U + s * dot U U).
 Proof. generalize (cauchy_schwarz_square X U). rewrite square_on_line. nra. Qed.
 
-(* The three cases of the quick look, with the squares that it compares: X and V the differences of the centres and
+(* The three cases of the quick rejection, with the squares that it compares: X and V the differences of the centres and
    velocities now, and a sphere of radius R around the origin. *)
 Definition straight_line_stays_out (X V : vector) (T R : R) : Prop :=
   R * R < dot X X /\
@@ -32,10 +32,11 @@ Proof.
     apply Rmult_lt_reg_r with (dot V V); lra.
 Qed.
 
-(* The quick look: `stay_apart`, over the real numbers. Radii count as they are at the end, with a distance, and with half
-   of what the difference G of the plans can turn the centres by then. If the straight line then stays out, the two
-   bounds stay farther apart than the distance during all of the time T: a pair that is left alone cannot meet in it. *)
-Theorem quick_look_leaves_out_only_what_cannot_meet (a b : bound) (T distance : R) :
+(* The quick rejection: `stay_apart`, over the real numbers. Radii count as they are at the end, with a distance, and
+   with half of what the difference G of the plans can turn the centres by then. If the straight line then stays out,
+   the two bounds stay farther apart than the distance during all of the time T: a pair that is left alone cannot meet
+   in it. *)
+Theorem quick_rejection_leaves_out_only_what_cannot_meet (a b : bound) (T distance : R) :
   0 <= growth_speed a + growth_speed b -> 0 <= growth a + growth b ->
   straight_line_stays_out (start a - start b) (speed a - speed b) T
     (size a + size b + distance +
@@ -85,8 +86,8 @@ Proof.
   generalize (Rmult_le_pos _ _ (Rle_0_sqr (d - t)) Q). unfold Rsqr. lra.
 Qed.
 
-(* A tangent that falls, taken at any t until d0, meets zero no later than F does first. At the root d0 that F would have
-   were the growth steady, and at the time where the tangent there meets zero: two tangents, two earlier times. *)
+(* A tangent that falls, taken at any t until d0, meets zero no later than F does first. At the root d0 that F would
+   have were the growth steady, and at the time where the tangent there meets zero: two tangents, two earlier times. *)
 Theorem tangent_meets_zero_early (X V : vector) (R0 R1 R2 d0 t : R) :
   0 <= R0 -> 0 <= R1 -> 0 <= R2 -> 0 <= t <= d0 ->
   (R1 + R2 * d0) * (R1 + R2 * d0) + quadratic R0 R1 R2 d0 * R2 <= dot V V ->
@@ -102,18 +103,18 @@ Proof.
   unfold F at 2. lra.
 Qed.
 
-(* Lemma 8. A capsule is a ball that moves straight on from X with V, with the radius
-   R + room + (b + (a + |g|_1) T / 2) T. From now until T later the bound lies in it, and with it the body, with its
-   room. *)
-Definition capsule_radius (b : bound) (room T : R) : R :=
-  size b + room + (growth_speed b + (growth b + norm_one (plan b)) * T / 2) * T.
+(* Lemma 8. A swept sphere is a ball that moves straight on from X with V, with the radius
+   R + margin + (b + (a + |g|_1) T / 2) T. From now until T later the bound lies in it, and with it the body, with its
+   margin. *)
+Definition swept_sphere_radius (b : bound) (margin T : R) : R :=
+  size b + margin + (growth_speed b + (growth b + norm_one (plan b)) * T / 2) * T.
 
-Lemma bound_stays_near_its_capsule (b : bound) (room T d : R) : 0 <= growth_speed b -> 0 <= growth b -> 0 <= d <= T ->
-  norm (c b d - (start b + d * speed b)) + rho b d + room <= capsule_radius b room T.
+Lemma bound_stays_near_its_swept_sphere (b : bound) (margin T d : R) : 0 <= growth_speed b -> 0 <= growth b -> 0 <= d <= T ->
+  norm (c b d - (start b + d * speed b)) + rho b d + margin <= swept_sphere_radius b margin T.
 Proof.
   intros P1 P2 Hd.
   replace (c b d - (start b + d * speed b))%vector with ((d * d / 2) * plan b)%vector by (unfold c; by_coordinates).
-  rewrite norm_times, Rabs_pos_eq by nra. unfold rho, capsule_radius.
+  rewrite norm_times, Rabs_pos_eq by nra. unfold rho, swept_sphere_radius.
   generalize (norm_at_most_norm_one (plan b)) (norm_one_positive (plan b)) (norm_positive (plan b)). intros N1 N2 N3.
   set (K := norm_one (plan b)) in *.
   assert (d * d <= T * T) by nra.
@@ -123,16 +124,16 @@ Proof.
   lra.
 Qed.
 
-Theorem body_stays_in_its_capsule (b : body) (m : motion) (t0 t1 t s T d room : R) (p q point : vector) :
+Theorem body_stays_in_its_swept_sphere (b : body) (m : motion) (t0 t1 t s T d margin : R) (p q point : vector) :
   0 <= e1 b -> 0 <= A b -> keeps_promise b m t0 t1 -> t0 <= t -> 0 <= s -> 0 <= d <= T -> t + s + d <= t1 ->
   true_report b m t p q ->
   let now := moved_on (bound_of b p q) s in
-  in_ball point (place m (t + s + d)) (r b + room) ->
-  in_ball point (start now + d * speed now) (capsule_radius now room T).
+  in_ball point (place m (t + s + d)) (r b + margin) ->
+  in_ball point (start now + d * speed now) (swept_sphere_radius now margin T).
 Proof.
   intros P1 P2 K Ht Hs Hd Ht1 Tr now I. unfold in_ball in *.
   assert (0 <= growth_speed now) as G1 by (unfold now; cbn; nra).
-  generalize (bound_stays_near_its_capsule now room T d G1 P2 Hd).
+  generalize (bound_stays_near_its_swept_sphere now margin T d G1 P2 Hd).
   generalize (centre_is_near b m t0 t1 t p q (s + d) K Ht ltac:(lra) ltac:(lra) Tr).
   replace (t + (s + d)) with (t + s + d) by ring.
   assert (rho now d = rho (bound_of b p q) (s + d)) as -> by (apply rho_moved_on).
@@ -141,8 +142,8 @@ Proof.
     (norm_by_way_of (c now d) (place m (t + s + d)) (start now + d * speed now)). lra.
 Qed.
 
-(* The test of two capsules, over the real numbers. D and U are the differences of centres and velocities, l > 0 is what
-   keeps the division from one by zero. The time that is found is moved into the span. *)
+(* The test of two swept spheres, over the real numbers. D and U are the differences of centres and velocities, l > 0 is
+   what keeps the division from one by zero. The time that is found is moved into the span. *)
 Definition nearest_time (D U : vector) (l from to : R) : R := Rmin (Rmax (- dot D U / (dot U U + l)) from) to.
 
 (* Moving a little too early a time of the line by l costs no more than this. *)
@@ -171,9 +172,9 @@ Proof.
 Qed.
 
 (* Lemma 9, over the real numbers. If the two balls touch at a time of the span, and the span ends at 1 or before, the
-   test does not leave the pair out. In a layer without an end it ends at 2 or before: there it is the room that helps,
-   of which the radii have so much more than what must not be missed that it makes up for one l. *)
-Theorem test_of_capsules_does_not_leave_out_what_touches (X Y U V : vector) (r1 r2 l from to s : R) :
+   test does not leave the pair out. In a window without an end it ends at 2 or before; there the radii have
+   a margin that makes up for one l. *)
+Theorem test_of_swept_spheres_does_not_leave_out_what_touches (X Y U V : vector) (r1 r2 l from to s : R) :
   0 < l -> 0 <= from <= to -> to <= 1 -> from <= s <= to -> norm ((X + s * U) - (Y + s * V)) <= r1 + r2 ->
   let n := nearest_time (X - Y) (U - V) l from to in
   let P := ((X - Y) + n * (U - V))%vector in
@@ -187,9 +188,9 @@ Proof.
   assert (k * k <= (r1 + r2) * (r1 + r2)) by (apply Rmult_le_compat; lra).
   assert (l * (to * to) <= l * 1) by (apply Rmult_le_compat_l; nra). lra.
 Qed.
-Theorem test_in_a_layer_without_an_end (X Y U V : vector) (r1 r2 room l from to s : R) :
-  0 < l -> 0 <= from <= to -> to <= 2 -> from <= s <= to -> 0 <= room -> l <= room * room ->
-  norm ((X + s * U) - (Y + s * V)) + room <= r1 + r2 ->
+Theorem test_in_a_window_without_an_end (X Y U V : vector) (r1 r2 margin l from to s : R) :
+  0 < l -> 0 <= from <= to -> to <= 2 -> from <= s <= to -> 0 <= margin -> l <= margin * margin ->
+  norm ((X + s * U) - (Y + s * V)) + margin <= r1 + r2 ->
   let n := nearest_time (X - Y) (U - V) l from to in
   let P := ((X - Y) + n * (U - V))%vector in
   ~ (r1 + r2) * (r1 + r2) + l < dot P P.
@@ -199,13 +200,13 @@ Proof.
   replace ((X - Y) + s * (U - V))%vector with ((X + s * U) - (Y + s * V))%vector by by_coordinates.
   rewrite <- norm_square. generalize (norm_positive ((X + s * U) - (Y + s * V))). revert H.
   generalize (norm ((X + s * U) - (Y + s * V))). intros k L Q.
-  assert ((k + room) * (k + room) <= (r1 + r2) * (r1 + r2)) by (apply Rmult_le_compat; lra).
-  assert (0 <= k * room) by (apply Rmult_le_pos; lra).
+  assert ((k + margin) * (k + margin) <= (r1 + r2) * (r1 + r2)) by (apply Rmult_le_compat; lra).
+  assert (0 <= k * margin) by (apply Rmult_le_pos; lra).
   assert (l * (to * to) <= l * 4) by (apply Rmult_le_compat_l; nra). lra.
 Qed.
 
-(* The corners of a capsule on an axis: how far it reaches down and up during the span. Where two balls touch at a time of
-   the span, the corners have a point in common, on each axis. *)
+(* The corners of a swept sphere on an axis: how far it reaches down and up during the span. Where two balls touch at a
+   time of the span, the corners have a point in common, on each axis. *)
 Definition lower_corner (x v radius from to : R) : R := Rmin (x + v * from) (x + v * to) - radius.
 Definition upper_corner (x v radius from to : R) : R := Rmax (x + v * from) (x + v * to) + radius.
 
@@ -221,7 +222,7 @@ Proof.
     rewrite Rmin_right, Rmax_left by lra. lra.
 Qed.
 
-Theorem capsules_that_touch_have_a_common_point (X Y U V : vector) (r1 r2 from to s : R) :
+Theorem swept_spheres_that_touch_have_a_common_point (X Y U V : vector) (r1 r2 from to s : R) :
   0 <= r1 -> 0 <= r2 -> from <= s <= to -> norm ((X + s * U) - (Y + s * V)) <= r1 + r2 ->
   exists point, forall axis : vector -> R, axis = x_of \/ axis = y_of \/ axis = z_of ->
     lower_corner (axis X) (axis U) r1 from to <= axis point <= upper_corner (axis X) (axis U) r1 from to /\

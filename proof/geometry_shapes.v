@@ -24,7 +24,7 @@ Proof.
   - apply Rle_trans with (2 := Rmax_l _ _). apply Rmult_le_compat_neg_l; lra.
 Qed.
 
-(* In whatever direction n: the shape lies behind the plane whose offset is its reach. *)
+(* In each direction n the shape lies behind the plane with its support as offset. *)
 Theorem box_lies_behind_its_plane (lower upper n p : vector) : box lower upper p -> dot n p <= reach_of_box lower upper n.
 Proof.
   intros (Hx & Hy & Hz). unfold dot, reach_of_box.
@@ -54,7 +54,8 @@ Proof.
   rewrite (norm_symmetric (c (bound_of b p q) s) (place m (t + s))). lra.
 Qed.
 
-(* From plane to plane: if each certificate holds from where the one before ends, then all is well to where the last ends. *)
+(* From plane to plane: if each certificate holds from where the one before ends, then all is well to where the last
+   ends. *)
 Fixpoint in_turn (apart : R -> Prop) (from : R) (times : list R) : Prop :=
   match times with
   | nil => True
@@ -80,7 +81,8 @@ Proof.
   generalize (norm_by_way_of (c (bound_of b p q) s) (place m (t + s)) k). lra.
 Qed.
 
-(* While the bound of the centre alone, without the radius, is in a box, so is the centre, and the body touches the box. *)
+(* While the bound of the centre alone, without the radius, is in a box, so is the centre, and the body touches the box.
+   *)
 Theorem centre_stays_in_the_box (lower upper : vector) (b : body) (m : motion) (t0 t1 t s : R) (p q : vector) :
   keeps_promise b m t0 t1 -> t0 <= t -> 0 <= s -> t + s <= t1 -> true_report b m t p q ->
   let depth := rho (bound_of b p q) s - r b in

@@ -17,7 +17,7 @@ Proof.
   assert (d * (s + S) <= 2 * way) as L.
   { apply Rle_trans with (2 * way / (s + S) * (s + S)); [|right; field; lra].
     apply Rmult_le_compat_r; [lra|]. apply Hd. }
-  (* Of the two factors of the quadratic way - s d - a d^2 / 2, times 4 way, one is this and the other above zero. *)
+  (* One of the two factors of the quadratic way - s d - a d^2 / 2, times 4 way; the other is above zero. *)
   assert (0 <= (2 * way - s * d - S * d) * (2 * way - s * d + S * d)) as Q.
   { apply Rmult_le_pos; nra. }
   replace ((2 * way - s * d - S * d) * (2 * way - s * d + S * d))
@@ -27,10 +27,10 @@ Proof.
   apply Rnot_lt_le. intros N. assert (4 * way * (way - (s * d + a * (d * d / 2))) < 0) by nra. lra.
 Qed.
 
-(* Two bodies are looked at, at the time t. As reported, their gap is |X| less the radii r + e0, and they approach no
+(* Two bodies are rechecked at the time t. As reported, their gap is |X| less the radii r + e0, and they approach no
    faster than w, the speed that rounding may hide, along the line of their centres. With the sums of their velocity
-   errors and w, and of their largest accelerations, the true gap shrinks below the reported one, until the least step is
-   over, by no more than `way`: an eighth of the contact tolerance. *)
+   errors and w, and of their largest accelerations, the true gap shrinks below the reported one, until the least step
+   is over, by no more than `way`: an eighth of the contact tolerance. *)
 Theorem gap_shrinks_by_no_more_in_the_least_step (a b : body) (ma mb : motion) (t0 t1 t d w way : R)
   (pa qa pb qb : vector) :
   keeps_promise a ma t0 t1 -> keeps_promise b mb t0 t1 -> t0 <= t -> t + d <= t1 ->
@@ -72,8 +72,8 @@ Proof.
 Qed.
 
 (* How far a certificate lies ahead. Of two bounds with a gap beyond the distance let the direction n be that of the way
-   between their centres. If speeds, with the growth of radii, sum up to no more than s, and accelerations to no more than a,
-   the quadratic of Lemma 3 stays above zero for as long as the gap needs to close with these. *)
+   between their centres. If speeds, with the growth of radii, sum up to no more than s, and accelerations to no more
+   than a, the quadratic of Lemma 3 stays above zero for as long as the gap needs to close with these. *)
 Theorem certificate_lies_ahead (x y : bound) (n : vector) (distance s a d : R) :
   norm n = 1 -> (start x - start y)%vector = (norm (start x - start y) * n)%vector ->
   let gap := norm (start x - start y) - size x - size y - distance in

@@ -1,4 +1,4 @@
-(* What the kernels take: the bound of a body (include/kinesphere/bound.hpp) and a capsule in single precision
+(* Inputs of the kernels: the bound of a body (include/kinesphere/bound.hpp) and a swept sphere in single precision
    (src/broadphase/swept_sphere.hpp). *)
 From Flocq Require Import IEEE754.BinarySingleNaN.
 From Kinesphere Require Import floats.
@@ -13,8 +13,11 @@ Record bound := {
   growth_acceleration : double
 }.
 
-Record capsule := {
+Record swept_sphere := {
   centre_x : single; centre_y : single; centre_z : single;
   motion_x : single; motion_y : single; motion_z : single;
   ball : single
 }.
+
+(* The name in kernels.v, which a test writes. *)
+Notation capsule := swept_sphere (only parsing).

@@ -1,12 +1,12 @@
-(* Whom a search leaves out does not touch. *)
+(* Bodies that a search leaves out do not touch. *)
 From Coq Require Import ZArith Reals Lra Lia Bool Psatz.
 From Flocq Require Import Core BinarySingleNaN.
-From Kinesphere Require Import floats inputs kernels errors direction fitting capsules nearest_time.
+From Kinesphere Require Import floats inputs kernels errors direction fitting swept_spheres nearest_time.
 Open Scope R_scope.
 
-Definition contains (c : capsule) (p : ball_in_motion) (S T : R) : Prop := c.(ball) = infinity \/ holds c p S T.
+Definition contains (c : swept_sphere) (p : ball_in_motion) (S T : R) : Prop := c.(ball) = infinity \/ holds c p S T.
 
-(* What underflow may do to a length. *)
+(* Error of a length by underflow. *)
 Definition tiny_length : R := / 1152921504606846976.
 
 (* One component of what goes wrong on the way to a difference of centres. *)
@@ -46,9 +46,9 @@ Proof.
   rewrite <- E, (Rabs_pos_eq (B x + B y)) by lra. intros R. apply Rabs_le_inv in R. rewrite u_value in *. lra.
 Qed.
 
-(* Balls p and q are in their capsules until the end T of the span from F, which is asked about as from and to. If the
-   search leaves the one capsule out, the two do not touch in the span. *)
-Theorem left_out_is_apart (other one : capsule) (from to : single) (p q : ball_in_motion) (S1 S2 F T : R) :
+(* Balls p and q are in their swept spheres until the end T of the span from F, which is asked about as from and to. If
+   the search leaves the one swept sphere out, the two do not touch in the span. *)
+Theorem left_out_is_apart (other one : swept_sphere) (from to : single) (p q : ball_in_motion) (S1 S2 F T : R) :
   contains other p S1 T -> contains one q S2 T ->
   stored from F -> stored to T -> B from <= B to -> 0 <= F -> T <= 2 ->
   left_out other one from to = true ->
@@ -170,7 +170,7 @@ Proof.
   { assert (Rabs s * Rabs s <= (201 / 100) * (201 / 100)) by (apply Rmult_le_compat; auto using Rabs_pos; rewrite u_value, low_value in *; lra).
     rewrite <- Rabs_mult, Rabs_pos_eq in H by (generalize (Rle_0_sqr s); unfold Rsqr; lra). lra. }
   assert (Chosen := chosen_distance _ _ _ _ _ _ HUU (B c) s _ _ Near (Rabs_pos _) Et S5).
-  (* What goes wrong up to there. *)
+  (* The error up to that term. *)
   assert (Way : norm (B (dx other one) + B (ux other one) * s) (B (dy other one) + B (uy other one) * s) (B (dz other one) + B (uz other one) * s)
     <= Reach + 32 / 10 * u * Sum + tiny_length).
   { generalize (component _ _ _ _ _ _ _ _ _ Edx Eux U1 Es Lss PT) (component _ _ _ _ _ _ _ _ _ Edy Euy U2 Es Lss PT)
@@ -258,7 +258,7 @@ Proof.
 Qed.
 End Example.
 
-Theorem somebody_is_left_out : exists (other one : capsule) (p q : ball_in_motion) (S : R),
+Theorem somebody_is_left_out : exists (other one : swept_sphere) (p q : ball_in_motion) (S : R),
   0 < reach p /\ 0 < reach q /\ contains other p S 1 /\ contains one q S 1 /\ V1 p <> V1 q /\
   stored (literal 0 0) 0 /\ stored (literal 1 0) 1 /\ left_out other one (literal 0 0) (literal 1 0) = true.
 Proof.

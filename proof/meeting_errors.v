@@ -1,4 +1,4 @@
-(* What the parts of the step may be wrong by. *)
+(* Error bounds of the parts of the step. *)
 From Coq Require Import ZArith Reals Lra Lia Bool Psatz.
 From Flocq Require Import Core BinarySingleNaN.
 From Kinesphere Require Import floats inputs kernels rounding infinite quadratic first_crossing errors.

@@ -1,4 +1,4 @@
-(* What the sizes of two bounds say about all numbers in them. *)
+(* The sizes of two bounds limit all numbers in them. *)
 From Coq Require Import ZArith Reals Lra Lia Bool Psatz.
 From Flocq Require Import Core BinarySingleNaN.
 From Kinesphere Require Import floats inputs kernels rounding infinite quadratic first_crossing errors.
@@ -6,8 +6,8 @@ From Kinesphere Require Import meeting_parts meeting_errors direction magnitudes
 Open Scope R_scope.
 Local Opaque add sub mul div root neg magnitude widened capped B2R.
 
-(* What is asked of a bound and the time from which on it is looked at: no radius or growth is below zero, and the
-   report is not from the future. What is not a number passes. *)
+(* Precondition of a bound and of the time from which it is used: no radius or growth is below zero, and the report is
+   not from the future. NaNs pass. *)
 Definition sound (a : bound) (from : double) : Prop :=
   less a.(radius) (literal 0 0) = false /\ less a.(growth_speed) (literal 0 0) = false /\
   less a.(growth_acceleration) (literal 0 0) = false /\ less from a.(time) = false.
@@ -113,7 +113,7 @@ Proof.
   split; [exact E7|]. split; [exact E4|]. split; [exact E1|]. split; [exact F7|exact L7].
 Qed.
 
-(* All that the coefficients need to know. *)
+(* All facts that the proof of the coefficients uses. *)
 Record known (L K M N : R) : Prop := {
   known_times : 0 <= S /\ 0 <= T /\ 0 <= D;
   known_s : close s S S 100;

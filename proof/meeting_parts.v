@@ -86,7 +86,7 @@ Proof.
     speed_x speed_y speed_z place_x place_y place_z size_then offset_size velocity_size velocity_size_a
     velocity_size_b acceleration_size elapsed_a elapsed_b place_size speed_size plan_size sum_of_sizes
     growth_speed_then growth_then growth_speed_now growth_now velocity_then centre_then centre_now velocity_now].
-  (* The same text, or reflexivity would compute for hours where it is not. *)
+  (* Compares the text first: reflexivity would compute for hours if the two differ. *)
   match goal with |- ?x = ?y => constr_eq x y end. reflexivity.
 Qed.
 

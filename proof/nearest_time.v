@@ -1,7 +1,7 @@
-(* The time at which two capsules are nearest, as it is computed, and what the test then says. *)
+(* The time at which two swept spheres are nearest, as it is computed, and what the test then says. *)
 From Coq Require Import ZArith Reals Lra Lia Bool Psatz.
 From Flocq Require Import Core BinarySingleNaN.
-From Kinesphere Require Import floats inputs kernels errors direction fitting capsules.
+From Kinesphere Require Import floats inputs kernels errors direction fitting swept_spheres.
 Open Scope R_scope.
 
 Lemma p48 : bpow radix2 (-48) = / 281474976710656. Proof. reflexivity. Qed.

@@ -33,7 +33,7 @@ Proof.
   rewrite E in P. nra.
 Qed.
 
-(* A quadratic whose coefficients are lower is lower. *)
+(* A quadratic with lower coefficients is lower. *)
 Lemma quadratic_le c b a c' b' a' d :
   c <= c' -> b <= b' -> a <= a' -> 0 <= d -> quadratic c b a d <= quadratic c' b' a' d.
 Proof.

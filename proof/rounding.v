@@ -1,4 +1,4 @@
-(* What one operation in double precision may be wrong by. *)
+(* Error bounds of single operations in double precision. *)
 From Coq Require Import ZArith Reals Lra Lia Bool Psatz.
 From Flocq Require Import Core Relative Plus_error BinarySingleNaN.
 From Kinesphere Require Import floats.
@@ -140,7 +140,7 @@ Proof.
   rewrite E. destruct (literal_power 1) as [F V]; [lia|]. split; [exact F|]. rewrite V. reflexivity.
 Qed.
 
-(* The same in the form in which it is mostly used. *)
+(* The error bound in its most used form. *)
 Lemma rnd_upper x : 0 <= x -> rnd64 x <= x * (1 + u) + lost.
 Proof.
   intros H. generalize (rnd_error x). rewrite (Rabs_pos_eq x H). intros E.

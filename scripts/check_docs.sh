@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
-# Fails unless the docs tell the truth: the C++ example of README.md is examples/first_contact.cpp, word for word, and what
-# it says that this example and the main job print is what they print, timings aside; the C++ in the guides (docs/worlds.md,
-# running.md, recipes.md, from-box2d.md, distributed.md) is taken from the examples, and what examples/sensors.cpp prints in docs/worlds.md is what it prints.
-# What docs/guarantee.md says is proved or tested names a theorem or a test that there is, and the tables of proof/README.md
-# have all theorems of proof/.
+# Fails unless the docs are true:
+# - The C++ example of README.md is examples/first_contact.cpp, word for word, and prints the quoted output; so does the
+#   main job, timings aside.
+# - Each line of C++ in the guides (docs/worlds.md, running.md, recipes.md, from-box2d.md, distributed.md) is in an example,
+#   and examples/sensors.cpp prints its output in docs/worlds.md.
+# - Each mark "proved" or "tested" in docs/guarantee.md names an existing theorem or test, and the tables of
+#   proof/README.md have all theorems of proof/.
 # Usage: check_docs.sh <example first_contact> <example sensors> <program kinesphere>
 set -euo pipefail
 

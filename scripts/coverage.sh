@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs the tests and says which lines and branches they reach: a summary here, pages in build/coverage/report.
-# Arguments are passed on to ctest.
+# Runs the tests and measures covered lines and branches: a summary here, pages in build/coverage/report. Arguments are
+# passed on to ctest.
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

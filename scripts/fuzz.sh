@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Sets up what is missing, builds the fuzzers and runs each for this many seconds (default 60) from its corpus in
-# tests/fuzz/corpus. Inputs that reach code which the corpus does not reach are added to it. Fails when a fuzzer finds a
-# failure, and keeps that input in build/fuzz/.
+# Installs missing packages, builds the fuzzers and runs each for this many seconds (default 60) from its corpus in
+# tests/fuzz/corpus. Adds inputs that reach new code to the corpus. Fails if a fuzzer finds a failure, and keeps that input
+# in build/fuzz/.
 # Usage: fuzz.sh [seconds]
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 seconds=${1:-60}
-# The length in bytes of the longest input, by target.
+# Length of the longest input in bytes, by target.
 declare -A longest=([operations]=2404 [snapshot]=1024 [mended]=121 [monitor]=4096 [http]=20000)
 scripts/setup.sh test
 cmake --preset fuzz >/dev/null

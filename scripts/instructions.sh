@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Counts the instructions that small scenes take (simulate() and all it calls, under valgrind) and fails when one takes
-# 3 % more than tests/instructions/counts.txt says, or 3 % less: gains are to be kept, with --update. Counts mean
-# nothing under another compiler, flags, C library or valgrind; then nothing is counted, and the exit code is 77.
+# Counts the instructions of small scenes (simulate() and all its calls, under valgrind). Fails if a count differs from
+# tests/instructions/counts.txt by 3 % or more, in either direction; --update keeps the new counts. Counts are comparable
+# only with equal compiler, flags, C library and valgrind; otherwise nothing is counted, and the exit code is 77.
 # Usage: instructions.sh [--update] [build folder; default: build/ci]
 set -euo pipefail
 
@@ -20,7 +20,7 @@ flags     $(xargs <<<"$(cached CMAKE_CXX_FLAGS) $(cached "CMAKE_CXX_FLAGS_${buil
 library   $(getconf GNU_LIBC_VERSION) on $(uname -m)
 valgrind  $(valgrind --version)"
 
-# The variants of memcpy and the like that every processor has; nothing from the environment; symbols bound at the start.
+# Uses the variants of memcpy and the like for every processor, no environment, and symbols bound at the start.
 count() {
   local profile counted
   profile=$(mktemp)

@@ -26,12 +26,12 @@ if grep -rnE '#include .*\.cpp[">]' include src simulation programs research bro
   exit 1
 fi
 
-# Names that the glossary has replaced. The CHANGELOG may speak of them.
+# Names that the glossary has replaced. The CHANGELOG may use them.
 retired='Islands|KickComparison|LatePairs|PartSize|BodyKick|KeptContacts|Answerer|Agenda|HotPair|Unsettled|FoundPairs|Outlook'
 retired+='|Judgement|Horizons|ContactBook|RecentContacts|WhileTrue|StillDue|WindowLayer|Capsule|CapsuleTable|RoomyBound|Tempo|Pacing'
 retired+='|MovedBound|Encounter|SizeLevels|KnownSpace|Parcel|Outbox|LocalWorld|PhasePart|DanglingLinks|PairShare|ReportNeed'
 retired+='|OpenRecord|FixedDefinition|add_fixed|tell_violations|refilter|set_timing|FramesDefinition|SteeredDefinition'
-# A plain search, as git refuses to search a clone that belongs to another user, which would pass for finding nothing.
+# A plain search: in a clone of another user git refuses to search, which would pass for success.
 if grep -rnwE "$retired" . --include='*.'{cpp,hpp,md,v,py,ts} --exclude=CHANGELOG.md \
   --exclude-dir={.git,build,node_modules,_skbuild}; then
   echo "lint: these names are retired: docs/glossary.md has those to use" >&2
@@ -40,7 +40,8 @@ fi
 
 if [[ $part == text ]]; then exit; fi
 
-# Nothing is built: a folder of its own, as clang cannot read headers that g++ has precompiled. A batch includes sources.
+# Nothing is built: a folder of its own, since clang cannot read headers that g++ has precompiled. A batch includes
+# sources.
 mkdir -p "$build"
 mpi=OFF
 if command -v mpicxx >/dev/null && find /usr/include /usr/local/include -name zoltan.h 2>/dev/null | grep -q .; then mpi=ON; fi
@@ -51,13 +52,13 @@ for batch in target file; do
     -DKINESPHERE_BUILD_MPI=$mpi >"$build/lint.log" 2>&1 ||
     { cat "$build/lint.log"; exit 1; }
 done
-# What clang-tidy finds and nothing else; all that it says if it fails in another way.
+# Prints the findings of clang-tidy and nothing else; on any other failure its whole output.
 tidy() {
   local said
   said=$(clang-tidy -quiet "$@" 2>&1) || { grep -A 8 -E '(error|warning): ' <<<"$said" || echo "$said"; return 1; }
 }
 export -f tidy
-# Each line of this file is a call of clang-tidy. They are done side by side, those that take longest first.
+# Each line of this file is a call of clang-tidy. They run in parallel, the longest first.
 calls=$build/calls
 check() { printf '%q ' tidy "$@" >>"$calls" && echo >>"$calls"; }
 : >"$calls"
@@ -66,14 +67,14 @@ research_paths="^$PWD/($build/target/)?research/"
 of_part() { if [[ $part == research ]]; then grep -E "$research_paths"; else grep -vE "$research_paths"; fi; }
 mapfile -t sources < <(sed -n 's/^ *"file": "\(.*\)".*/\1/p' "$build/target/compile_commands.json" | of_part)
 for source in "${sources[@]}"; do check -p "$build/target" $batches "$source"; done
-# The check that does not look into what a batch includes, nor into classes and functions.
+# The check that skips included batches, classes and functions.
 using() { grep -rlE '^using [^=]*::[^=]*;' "$@" --include='*.cpp' || true; }
 unused=-checks=-*,misc-unused-using-decls
 if [[ $part == research ]]; then folders=(research); else folders=(src simulation programs examples); fi
 for source in $(using "${folders[@]}"); do check -p "$build/file" "$unused" "$source"; done
 
 check_examples() {
-  # All at once, each in a namespace of its own, as most of the time goes into their headers.
+  # Checks all examples at once, each in a namespace of its own, since their headers take most of the time.
   local examples
   mapfile -t examples < <(find examples -maxdepth 1 -name '*.cpp' | sort)
   {
@@ -85,7 +86,7 @@ check_examples() {
   check $batches "$build/examples.cpp" -- -std=c++20 -Iinclude -I"$build/target/include"
 }
 
-# The face for JavaScript, as emscripten's compiler reads it.
+# Checks the JavaScript interface with emscripten's headers.
 check_browser() {
   local sysroot=/usr/share/emscripten/cache/sysroot
   if [[ ! -d $sysroot ]]; then echo "lint: without emscripten, so clang-tidy leaves out browser/module" && return; fi

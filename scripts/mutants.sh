@@ -18,11 +18,11 @@ cmake -S "$copy" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLA
 
 apply() { (cd "$copy" && GIT_CEILING_DIRECTORIES=$PWD/.. git apply "$@"); }
 caught_by() { sed -n 's/^Caught by: //p' "$1"; }
-# Three processes run what is distributed, also as root and on fewer cores.
+# Distributed tests run in three processes, also as root and on fewer cores.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 \
   OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_btl_vader_single_copy_mechanism=none \
   HWLOC_COMPONENTS=-gl
-# A hang counts as noticed.
+# A hang counts as caught.
 run_test() {
   local command=("$build/tests/$1")
   if [[ $1 == test_distributed ]]; then command=(mpirun -n 3 "$build/tests/distributed/$1"); fi
@@ -33,7 +33,7 @@ targets=$(for mutant in "${mutants[@]}"; do caught_by "$mutant" | cut -d' ' -f1;
 # shellcheck disable=SC2086
 cmake --build "$build" --target $targets >"$build/build.log" 2>&1 || { cat "$build/build.log"; exit 1; }
 
-# Each of these tests once.
+# Runs each of these tests once.
 while read -r executable filter; do
   run_test "$executable" "$filter" </dev/null >"$build/test.log" 2>&1 ||
     { tail -n 20 "$build/test.log"; echo "mutants: $executable $filter fails without a mutant already" >&2; exit 1; }

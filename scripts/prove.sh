@@ -9,10 +9,10 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 if [[ ${1:-} != --installed ]]; then scripts/setup.sh prove; fi
 
-# Classical logic, functional extensionality, and what Coq's real numbers are made of.
+# The allowed axioms: classical logic, functional extensionality, and the definition of Coq's real numbers.
 allowed='Classical_Prop.classic|FunctionalExtensionality.functional_extensionality_dep|ClassicalDedekindReals.sig_(not|forall)_dec'
 
-# In this folder: all that is in proof/, but perhaps with other kernels.
+# Checks the proofs in the present folder, which may have other kernels.
 prove() {
   local files theorems
   if grep -nE '\b(Admitted|admit|Axiom|Parameter|Conjecture|Abort)\b' ./*.v; then
@@ -24,7 +24,7 @@ prove() {
   theorems=$(sed -nE 's/^Theorem ([a-z_0-9]+).*/\1/p' ./*.v)
   {
     for file in "${files[@]}"; do echo "From Kinesphere Require $(basename "$file" .v)."; done
-    # In one term: what theorems share is looked through only once.
+    # All theorems in one term, so that their common dependencies are traversed once.
     echo "Definition theorems := (tt"
     for theorem in $theorems; do
       file=$(grep -lE "^Theorem $theorem\b" ./*.v)
@@ -59,13 +59,13 @@ for mutant in proof/mutants/*.patch; do
   (cd "$copy" && GIT_CEILING_DIRECTORIES=$PWD/.. git apply "$OLDPWD/$mutant")
   g++ -std=c++20 -I"$copy/tests" -I"$copy/src" -I"$copy/include" -DKINESPHERE_KERNEL_TERMS="\"$copy/proof/kernels.v\"" \
     "$copy/tests/proof/kernel_terms_test.cpp" -lgtest_main -lgtest -o "$copy/build/terms"
-  # The tie: what is computed is not what has been proved.
+  # The tie: the computed term must differ from the proved one.
   if "$copy/build/terms" >/dev/null 2>&1; then
     echo "SURVIVES  $(basename "$mutant")  (the terms are the same)"
     survivors=$((survivors + 1))
     continue
   fi
-  # The proof: nor can it be.
+  # The proof: it must fail for the computed term.
   KINESPHERE_WRITE_KERNELS=1 "$copy/build/terms" --gtest_filter=KernelTerms.AreThoseThatHaveBeenProved >/dev/null 2>&1
   if (cd "$copy/proof" && prove >../build/proof.log 2>&1); then
     echo "SURVIVES  $(basename "$mutant")  (everything can still be proved)"

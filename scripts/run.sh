@@ -4,7 +4,7 @@
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-# Standard output belongs to the program.
+# Only the program may write to standard output.
 scripts/setup.sh run >&2
 cmake --preset release >&2
 cmake --build --preset release >&2

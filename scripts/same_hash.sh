@@ -1,11 +1,10 @@
 #!/usr/bin/env bash
-# Runs one scene with the library built by both compilers, at several optimisation levels and with sanitizers,
-# and fails unless all of them, and the build of tests/same_hash/scene_hash.cpp given, find the same events bit for bit,
-# and go through a recording of that build without diverging. The same again for a user of each of them who compiles its
-# headers in ways that change rounding, without inlining, so that copies of inline functions are left for the linker to
-# choose from.
+# Runs one scene with the library built by both compilers, at several optimisation levels and with sanitizers. Fails unless
+# all of them, and the given build of tests/same_hash/scene_hash.cpp, have equal events bit for bit, and replay a recording
+# of that build without a divergence. Repeats this for a user of each build who compiles the headers in ways that change
+# rounding, without inlining, so that the linker chooses among copies of inline functions.
 # Usage: same_hash.sh [<the executable scene_hash> [<name of a build>]]
-#   Without an executable that of the preset ci is built. With a name only that build is made, on one core.
+#   Without an executable, builds the one of the preset ci. With a name, makes that build only, on one core.
 set -euo pipefail
 
 if [[ $# -gt 0 ]]; then scene_hash=$(realpath "$1"); fi
@@ -16,8 +15,8 @@ if [[ $# == 0 ]]; then
   scene_hash=$PWD/build/ci/tests/scene_hash
 fi
 
-# Name, compiler and flags of each build; the one given is one more. Both compilers with all that this processor has
-# (-march=native brings in fused multiply-add and wider vectors), once as a shared library; and one without optimisation,
+# Name, compiler and flags of each build, besides the given one: both compilers with all features of this processor
+# (-march=native enables fused multiply-add and wider vectors), once as a shared library; and one without optimisation,
 # with sanitizers.
 configurations=(
   "clang-O0-sanitized clang++ -O0 -fsanitize=address,undefined -fno-sanitize-recover=all"
@@ -44,7 +43,7 @@ for configuration in "${configurations[@]}"; do
   read -r name compiler flags <<<"$configuration"
   build=build/hash/$name
   mkdir -p "$build"
-  # All public headers, so that all of their inline functions are there.
+  # All public headers, for all of their inline functions.
   (cd include && find kinesphere -name '*.hpp' | sort | sed 's/.*/#include <&>/') >"$build/every_header.cpp"
   shared=OFF
   if [[ $name == *shared ]]; then shared=ON; fi
@@ -57,7 +56,7 @@ for configuration in "${configurations[@]}"; do
   fi
   hash=$("$build/tests/scene_hash")
   replayed=$("$build/tests/scene_hash" replay "$recording" || true)
-  # g++ can be told to emit every inline function, used or not.
+  # g++ has an option to emit every inline function, used or not.
   keep=()
   if [[ $compiler == g++ ]]; then keep=(-fkeep-inline-functions); fi
   library=("$build"/src/libkinesphere.*)

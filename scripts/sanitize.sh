@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the engine's tests with a sanitizer and runs them but for the longest: ten minutes of processor
-# time with the build. All tests: KINESPHERE_PRESET=tsan scripts/test.sh. Further arguments are passed on to ctest.
+# Builds the engine's tests with a sanitizer and runs all but the longest: ten minutes of processor time with the build.
+# For all tests: KINESPHERE_PRESET=tsan scripts/test.sh. Further arguments are passed on to ctest.
 # Usage: sanitize.sh asan | tsan [arguments of ctest]
 set -euo pipefail
 
@@ -9,7 +9,8 @@ preset=${1:-}
 if [[ $preset != asan && $preset != tsan ]]; then echo "sanitize: usage: sanitize.sh asan | tsan [arguments of ctest]" >&2 && exit 2; fi
 shift
 rooms=(archive contact engine input motion parallel space stream broadphase world)
-# What repeats itself over many streams, scenes, bodies or bytes. Of streams, the corpus and some crowds are left.
+# Tests that repeat themselves over many streams, scenes, bodies or bytes. Of streams, the corpus and some crowds
+# remain.
 longest='RandomStreams|RandomCrowds.*/[013]|LargeRound|PlainGap|Answers.AreNeverLater|Queries.AgreeWith|InAThousandScenes|BadSnapshot|FailedAdvance|TenThousandBullets'
 
 scripts/setup.sh test

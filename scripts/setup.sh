@@ -6,7 +6,7 @@ set -euo pipefail
 packages=(g++ cmake ninja-build libhwy-dev libcli11-dev libfmt-dev nlohmann-json3-dev libsimdjson-dev zlib1g-dev libgeographiclib-dev libnats-dev)
 mpi=(libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev)
 browser=(emscripten nodejs)
-# That of Node.js itself brings npm along.
+# Node.js's own package brings npm.
 if ! command -v npm >/dev/null; then browser+=(npm); fi
 python=(python3-dev python3-pip python3-venv python3-setuptools python3-wheel python3-skbuild pybind11-dev python3-numpy)
 python_testing=(python3-pytest python3-pandas python3-matplotlib python3-scipy mypy black)
@@ -32,7 +32,7 @@ fi
 installed=$(dpkg-query -W -f='${db:Status-Status} ${binary:Package}\n' | sed -n 's/^installed \([^:]*\).*/\1/p')
 missing=$(comm -23 <(printf '%s\n' "${packages[@]}" | sort) <(sort -u <<<"$installed"))
 if [[ -z $missing ]]; then exit 0; fi
-# A list of words from here on.
+# From here on a list of words.
 read -r -d '' -a missing <<<"$missing" || true
 
 become_root=()

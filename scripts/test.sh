@@ -9,5 +9,5 @@ preset=${KINESPHERE_PRESET:-ci}
 scripts/setup.sh test
 cmake --preset "$preset"
 cmake --build --preset "$preset"
-# One more than there are processors, as some tests wait most of the time.
+# One more than there are processors, since some tests mostly wait.
 exec ctest --preset "$preset" --parallel $(($(nproc) + 1)) "$@"

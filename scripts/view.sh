@@ -5,13 +5,13 @@ set -euo pipefail
 
 called_from=$PWD
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-# Standard output belongs to the program.
+# Only the program may write to standard output.
 scripts/setup.sh browser >&2
 cmake --preset release >&2
 cmake --build --preset release >&2
 cmake --preset browser >&2
 cmake --build --preset browser >&2
 program=$PWD/build/release/programs/kinesphere
-# Arguments may be files beside the caller.
+# Arguments may be files in the caller's folder.
 cd "$called_from"
 exec "$program" view "$@"

@@ -1,4 +1,4 @@
-// Worlds that go on, and what they ask meanwhile: for the states of bodies, and for answers to events.
+// Advancing a world, and its callbacks: states of bodies, and responses to events.
 #include <limits>
 #include <optional>
 
@@ -10,7 +10,7 @@
 namespace kinesphere::browser {
 namespace {
 
-// Both say whether the function of JavaScript's returned, and did not throw.
+// These return true if the JavaScript function returned, and false if it threw.
 KINESPHERE_IMPORT(probe)
 bool javascript_probe(std::size_t count, const double* ids, double time, double* states);
 KINESPHERE_IMPORT(respond)
@@ -18,8 +18,8 @@ bool javascript_respond(const double* event, double* velocities);
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// Asks the function that the package has been handed. One that throws leaves NaN, which the world refuses;
-/// the package throws again what it threw.
+/// Calls the package's probe function. If it throws, NaNs remain, which the world refuses; the package
+/// rethrows the exception.
 void ask_javascript(std::span<const BodyId> ids, double time, std::span<State> states) {
   std::vector<double> numbers;
   for (const BodyId id : ids) numbers.push_back(number_of(id));
@@ -28,9 +28,9 @@ void ask_javascript(std::span<const BodyId> ids, double time, std::span<State> s
   for (std::size_t k = 0; k < ids.size(); ++k) states[k] = state_at(answers.data() + 6 * k);
 }
 
-/// Bodies of a motion whose number there is the index of their id. A body whose state the motion does not
-/// have gets NaN, which the world refuses; so does an answer to an event where bodies cannot be changed.
-/// refused() is the motion's own reason then.
+/// The bodies of a motion, numbered by the index of their ids. A body without a state in the motion gets NaN,
+/// which the world refuses, as it does a response if bodies cannot be changed. refused() is then the motion's
+/// own error.
 class MotionByIndex final : public MotionSource {
  public:
   explicit MotionByIndex(Motion& motion) : motion_(motion) {}
@@ -50,7 +50,7 @@ class MotionByIndex final : public MotionSource {
     (void)motion_.set_origin(body.index, departure);
   }
 
-  /// What may be done to the motion of what is to be done.
+  /// Returns the response, or NaNs for a motion that cannot be changed.
   Response possible(const Response& answer) {
     if ((!answer.first_velocity && !answer.second_velocity) || can_be_changed(motion_)) return answer;
     refused_ = {ErrorCode::unsupported, "respond", no_body,
@@ -73,14 +73,14 @@ std::optional<Vec3> velocity_at(const double* numbers) {
 Response ask_javascript(const Event& event) {
   double numbers[event_numbers];
   put(event, numbers);
-  // Of each of the two a velocity, and whether there is one.
+  // A velocity for each of the two bodies, and whether there is one.
   double velocities[8] = {};
-  // One that throws leaves NaN too.
+  // A function that throws leaves NaN, too.
   if (!javascript_respond(numbers, velocities)) return {Vec3{nan, nan, nan}, std::nullopt};
   return {velocity_at(velocities), velocity_at(velocities + 4)};
 }
 
-/// With a mass by index; what the motion does not move stands still, such as fixed shapes.
+/// Masses are by index; a body that the motion does not move, such as a static shape, stands still.
 Response bounce_off(const Event& event, const Motion& motion, std::span<const double> masses,
                     double restitution, double resting_speed) {
   const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
@@ -94,7 +94,7 @@ Response bounce_off(const Event& event, const Motion& motion, std::span<const do
   const double second = is_pair ? mass(event.second) : first;
   const Bounce after = resting_speed > 0.0 ? settle(event, first, second, restitution, resting_speed)
                                            : bounce(event, first, second, restitution);
-  // Who cannot move keeps still.
+  // A body that cannot move stays at rest.
   const auto unless_fixed = [](double mass_of_it, const Vec3& velocity) {
     return mass_of_it < std::numeric_limits<double>::infinity() ? std::optional(velocity) : std::nullopt;
   };
@@ -104,7 +104,8 @@ Response bounce_off(const Event& event, const Motion& motion, std::span<const do
 
 }  // namespace
 
-/// 0: nothing until then; 1: an event in answer(); -1: an error. Without a motion JavaScript is asked.
+/// Returns 0 if there is no event until then; 1 if it is in answer(); -1 for an error. Without a motion the
+/// JavaScript probe is called.
 KINESPHERE_EXPORT(world_advance) int world_advance(World* world, double until, MotionHandle* handle) {
   if (handle == nullptr)
     return answer_event(world->advance(until, static_cast<Probe::Function>(ask_javascript)));
@@ -116,14 +117,14 @@ KINESPHERE_EXPORT(world_advance) int world_advance(World* world, double until, M
   return -1;
 }
 
-/// What bodies do at events in world_run().
+/// Responses to events in world_run().
 enum class Responding : int { nothing, bounces, asks_javascript, as_in_scene };
 
-/// All events are in answer() afterwards, also where there is an error.
+/// All events are in answer() afterwards, also after an error.
 KINESPHERE_EXPORT(world_run)
 bool world_run(World* world, double until, MotionHandle* handle, Responding responding, const double* masses,
                std::size_t mass_count, double restitution, double resting_speed, const Scene* scene) {
-  // Functions of JavaScript's may ask for other answers meanwhile.
+  // JavaScript functions may use answer() meanwhile.
   std::vector<double> told;
   MotionByIndex mover(*handle->motion);
   const auto answered = [&](const Event& event) -> Response {
@@ -150,7 +151,8 @@ bool world_run(World* world, double until, MotionHandle* handle, Responding resp
   return is_good(done);
 }
 
-/// The velocities of two bodies of these masses after a contact; with a resting speed > 0 as settle() has it.
+/// Returns the velocities of two bodies of these masses after a contact; with a resting speed > 0 those of
+/// settle().
 KINESPHERE_EXPORT(event_bounce)
 void event_bounce(const double* event, double first_mass, double second_mass, double restitution,
                   double resting_speed, double* velocities) {

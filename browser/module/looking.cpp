@@ -1,11 +1,11 @@
-// What can be read of a world, and asked of it: bodies, counters, certificates, answers and queries.
+// Reading a world: bodies, counters, certificates, answers and queries.
 #include "exchange.hpp"
 
 namespace kinesphere::browser {
 
 KINESPHERE_EXPORT(world_bodies) void world_bodies(const World* world) { answer_ids(world->bodies()); }
 
-/// Of each body; WorldView.bodyViews() in package/src/world.ts reads them.
+/// Numbers for each body; WorldView.bodyViews() in package/src/world.ts reads them.
 constexpr std::size_t view_numbers = 28;
 KINESPHERE_EXPORT(world_views) bool world_views(const World* world, std::size_t count, const double* bodies) {
   auto& numbers = answer();
@@ -52,7 +52,7 @@ KINESPHERE_EXPORT(world_counters) void world_counters(const World* world) {
     numbers.push_back(static_cast<double>(count));
 }
 
-/// Triples of two ids and a time; and boxes (6) with how many bodies they hold.
+/// Answers triples of two ids and a time; and boxes (6 numbers) with their number of bodies.
 KINESPHERE_EXPORT(world_certificates) void world_certificates(const World* world) {
   answer().clear();
   for (const Certificate& certificate : world->certificates())
@@ -66,7 +66,7 @@ KINESPHERE_EXPORT(world_cells) void world_cells(const World* world) {
                                      cell.box.upper.y, cell.box.upper.z, static_cast<double>(cell.bodies)});
 }
 
-/// Answers: time, partner, wall, touching or within.
+/// Answers time, partner, wall, touching or within.
 KINESPHERE_EXPORT(world_safe_until) bool world_safe_until(const World* world) {
   const auto safe = world->safe_until();
   if (safe) answer().assign({safe->time, no_id, 0.0, safe->touching ? 1.0 : 0.0});
@@ -96,7 +96,7 @@ bool world_earliest_approach(const World* world, double body, double distance) {
 
 namespace {
 
-/// Fours of an id, 1 for certainly, and two limits.
+/// Answers an id, 1 if certain, and two limits for each.
 template <class Results>
 bool answer_all(const Results& results) {
   if (!is_good(results)) return false;
@@ -129,7 +129,7 @@ bool world_overlapping(const World* world, const double* centre, double radius) 
   return true;
 }
 
-/// Empty where nothing is wrong.
+/// Answers an empty text if there is no defect.
 KINESPHERE_EXPORT(world_audit) void world_audit(const World* world) {
   answer_bytes().clear();
   const auto finding = world->audit();

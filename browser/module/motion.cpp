@@ -15,7 +15,7 @@
 namespace kinesphere::browser {
 namespace {
 
-/// Six numbers for each.
+/// Reads six numbers for each state.
 std::vector<State> states_at(const double* numbers, std::size_t count) {
   std::vector<State> states;
   states.reserve(count);
@@ -42,7 +42,7 @@ bool knows(const MotionHandle& handle, double body) {
   return has(*handle.motion, body) || fail(unknown_body());
 }
 
-/// The motion itself where it is of that kind; otherwise none, and an error that says what it cannot do.
+/// Returns the motion if it is of that kind; else null, and stores an error that names the missing ability.
 template <class Kind>
 Kind* as(const MotionHandle& handle, const char* refusal) {
   auto* const motion = dynamic_cast<Kind*>(handle.motion.get());
@@ -55,7 +55,7 @@ struct Span {
   double end;
 };
 
-/// The times at which the motion has states of the body.
+/// Returns the times at which the motion has states of the body.
 Span known_span(const Motion& motion, std::uint32_t body) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   if (!can_be_changed(motion)) return {-infinity, infinity};
@@ -119,7 +119,7 @@ MotionHandle* motion_frames(std::size_t count, const double* states, const doubl
   return handle_of(FrameMotion::create(std::move(definition)));
 }
 
-/// Four numbers for each sample: its time and position. `lengths` says how many samples each track has.
+/// Four numbers for each sample: time and position. `lengths` has the number of samples of each track.
 KINESPHERE_EXPORT(motion_tracks)
 MotionHandle* motion_tracks(std::size_t count, const double* lengths, const double* samples) {
   std::vector<Track> tracks(count);
@@ -141,8 +141,8 @@ KINESPHERE_EXPORT(motion_contains) bool motion_contains(const MotionHandle* hand
   return handle->motion->contains(body);
 }
 
-/// Of bodies 0, 1, ... where `bodies` is null. A body that is not there gets NaN. Times at which the motion
-/// has no state are answered as the nearest at which it has.
+/// States of the named bodies, or of bodies 0, 1, ... if `bodies` is null. An absent body gets NaN. At a time
+/// without a state the nearest one is used.
 KINESPHERE_EXPORT(motion_states)
 void motion_states(const MotionHandle* handle, double time, std::size_t count, const double* bodies,
                    double* states) {
@@ -158,7 +158,7 @@ void motion_states(const MotionHandle* handle, double time, std::size_t count, c
   }
 }
 
-/// Radius aside: limit, plan (3), position error, velocity error, state (6).
+/// The numbers of a definition except the radius: limit, plan (3), position error, velocity error, state (6).
 KINESPHERE_EXPORT(motion_definition)
 bool motion_definition(const MotionHandle* handle, double body, double time, double* numbers) {
   if (!knows(*handle, body)) return false;
@@ -220,8 +220,8 @@ bool frames_push(MotionHandle* handle, std::size_t count, const double* position
   return is_good(frames->push(next));
 }
 
-/// The times of the last frame but one and of the last, then three numbers for each body: where it is at the
-/// last.
+/// Answers the times of the last frame but one and of the last, then three numbers for each body: its
+/// position at the last.
 KINESPHERE_EXPORT(frames_latest) bool frames_latest(const MotionHandle* handle) {
   const auto* const frames = as<const FrameMotion>(*handle, "latest: this motion has no frames");
   if (frames == nullptr) return false;
@@ -231,7 +231,7 @@ KINESPHERE_EXPORT(frames_latest) bool frames_latest(const MotionHandle* handle) 
   return true;
 }
 
-/// Six numbers for each: body, excess, acceleration, velocity.
+/// Answers six numbers for each: body, excess, acceleration, velocity.
 KINESPHERE_EXPORT(frames_violations) bool frames_violations(const MotionHandle* handle) {
   const auto* const frames = as<const FrameMotion>(*handle, "violations: this motion has no frames");
   if (frames == nullptr) return false;
@@ -244,7 +244,7 @@ KINESPHERE_EXPORT(frames_violations) bool frames_violations(const MotionHandle* 
   return true;
 }
 
-/// The times of the first and the last sample.
+/// Answers the times of the first and the last sample.
 KINESPHERE_EXPORT(tracks_span) bool tracks_span(const MotionHandle* handle, double body) {
   const auto* const tracks = as<const RecordedTracks>(*handle, "span: this motion has no tracks");
   if (tracks == nullptr || !knows(*handle, body)) return false;

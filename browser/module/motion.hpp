@@ -1,4 +1,4 @@
-// A motion in the hands of JavaScript.
+// A motion as JavaScript has it.
 #pragma once
 
 #include <memory>
@@ -8,16 +8,16 @@
 
 namespace kinesphere::browser {
 
-/// What a Motion of the package is.
+/// The object behind a Motion of the package.
 struct MotionHandle {
   std::unique_ptr<Motion> motion;
 };
 
-/// Why the motion has no state of the body at that time; nothing if it has one. Motion::state() would end the
-/// module instead, in which nothing can be caught.
+/// Returns why the motion has no state of the body at that time; nothing if it has one. Motion::state() would
+/// end the module instead, which cannot catch exceptions.
 std::optional<Error> why_unknown(const Motion& motion, double body, double time);
 
-/// Whether its bodies take other velocities; those of recorded tracks do not.
+/// Returns true if its bodies accept other velocities; recorded tracks do not.
 bool can_be_changed(const Motion& motion);
 
 }  // namespace kinesphere::browser

@@ -25,7 +25,7 @@ KINESPHERE_EXPORT(replay_step) std::size_t replay_step(const Replay* replay) { r
 KINESPHERE_EXPORT(replay_step_count) std::size_t replay_step_count(const Replay* replay) {
   return replay->step_count();
 }
-/// For reading, as long as the replay is there and stands where it does.
+/// Read-only; valid while the replay exists and is not advanced.
 KINESPHERE_EXPORT(replay_world) const World* replay_world(const Replay* replay) { return &replay->world(); }
 
 }  // namespace kinesphere::browser

@@ -13,7 +13,7 @@ KINESPHERE_EXPORT(scene_name) const char* scene_name(std::size_t place) {
   return built_in_scenes()[place].name.c_str();
 }
 
-/// Settings in the order of `sceneSettings` in package/src/scene.ts; NaN for what the scene has by itself.
+/// `settings` are in the order of `sceneSettings` in package/src/scene.ts; NaN keeps the scene's own value.
 KINESPHERE_EXPORT(scene_create) Scene* scene_create(std::size_t place, const double* settings) {
   SceneParameters parameters = built_in_scenes()[place];
   const auto set = [&](std::size_t k, auto& parameter) {

@@ -1,4 +1,4 @@
-// Worlds: what they are like, the bodies in them, snapshots.
+// Worlds: definitions, bodies, snapshots.
 #include <cstdlib>
 
 #include "exchange.hpp"
@@ -71,7 +71,7 @@ KINESPHERE_EXPORT(world_save) bool world_save(const World* world) {
 KINESPHERE_EXPORT(world_definition) const WorldDefinition* world_definition(const World* world) {
   return &world->definition();
 }
-/// As definition_at() reads it.
+/// Writes the numbers that definition_at() reads.
 KINESPHERE_EXPORT(definition_numbers) void definition_numbers(const WorldDefinition* written) {
   const WorldDefinition& definition = *written;
   auto& numbers = answer();

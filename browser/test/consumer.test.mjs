@@ -1,4 +1,4 @@
-// The package as `npm pack` packs it, installed into an empty folder without network.
+// The package in the form of `npm pack`, installed into an empty folder without a network.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { writeFileSync } from "node:fs";

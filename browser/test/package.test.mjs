@@ -1,4 +1,4 @@
-// The package as a stranger would use it, wrongly too.
+// The package in use, including wrong use.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
@@ -21,7 +21,7 @@ test("load() may be awaited twice, and knows its version", async () => {
 
 const box = { lower: [0, 0, 0], upper: [100, 100, 100] };
 
-/** Two that meet head on after (distance - 2) / 2. */
+/** Two bodies that meet head on after (distance - 2) / 2. */
 function pair(distance = 10) {
   const motion = new Ballistic({ positions: [20, 50, 50, 20 + distance, 50, 50], velocities: [1, 0, 0, -1, 0, 0] });
   const world = new World({ box });
@@ -29,7 +29,7 @@ function pair(distance = 10) {
   return { world, motion, first, second };
 }
 
-/** The error of `action` names these. */
+/** Expects that `action` throws an error with these fields. */
 function refuses(action, code, argument, body = null) {
   assert.throws(action, (error) => {
     assert.ok(error instanceof KinesphereError, `${error}`);
@@ -280,7 +280,7 @@ test("a game hands over its frames, and answers contacts between them", () => {
   }
   assert.ok(contacts >= 2 && positions[5] - positions[2] > 2 - 1e-5);
   assert.equal(world.counters.events.bound_violation, 0);
-  // A jump of the game's own making is reported, and a copy knows it too.
+  // A jump by the game itself is reported, also by a copy.
   positions[0] += 5;
   frames.push(positions);
   for (const one of [frames, frames.clone()]) {

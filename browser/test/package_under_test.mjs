@@ -1,4 +1,4 @@
-// The package as it was built, and the native program beside it.
+// The built package, and the native program.
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -14,12 +14,12 @@ function required(name) {
 export const packageFolder = required("KINESPHERE_PACKAGE");
 export const kinesphere = await import(pathToFileURL(join(packageFolder, "dist/index.js")).href);
 
-/** What the native program prints. */
+/** Returns the output of the native program. */
 export function program(...options) {
   return execFileSync(required("KINESPHERE_PROGRAM"), options, { encoding: "utf8" }).trim();
 }
 
-/** Calls `action` with a new folder, which goes with it. */
+/** Calls `action` with a new folder, and removes it afterwards. */
 export function inFolder(action) {
   const folder = mkdtempSync(join(tmpdir(), "kinesphere-"));
   try {

@@ -17,7 +17,7 @@ function run(scene, respond = scene) {
   const motion = scene.motion();
   world.addMotion(motion, scene.radii);
   const hash = new EventHash();
-  // In parts, which make no difference.
+  // In parts, which must make no difference.
   for (let part = 1; part <= 7; ++part) hash.add(world.run((scene.endTime * part) / 7, { motion, respond }));
   return { world, hash: hash.value };
 }
@@ -55,7 +55,7 @@ test("what JavaScript answers is what the module would have answered", () => {
   };
   const asked = run(scene, bounce).world.counters;
   const inside = run(scene, { masses }).world.counters;
-  // Rounded otherwise, so it soon goes another way; what happens is much the same.
+  // Rounded differently, so the run diverges soon; its statistics are similar.
   assert.ok(Math.abs(asked.events.contact_begin / inside.events.contact_begin - 1) < 0.1);
   assert.equal(run(scene, { masses }).hash, run(scene).hash);
 });

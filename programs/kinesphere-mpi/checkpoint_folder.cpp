@@ -33,7 +33,7 @@ constexpr std::array contact_outputs{"none", "one file", "file per rank"};
   throw ProgramError(fmt::format("{}: cannot {}: {}", path, what, std::strerror(error)));
 }
 
-/// A file or folder that is open for as long as this lives.
+/// Keeps a file or folder open for its lifetime.
 class Descriptor {
  public:
   Descriptor(const std::string& path, int flags) : path_(path), number_(::open(path.c_str(), flags, 0666)) {
@@ -69,7 +69,7 @@ void write_to_disk(const std::string& path, const char* bytes, std::size_t size)
   file.sync();
 }
 
-/// What has been created, renamed or deleted in it stays so.
+/// Flushes created, renamed and deleted entries of a folder to the disk.
 void sync_folder(const std::string& path) { Descriptor(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC).sync(); }
 
 std::string checksum_line(const std::string& text) {
@@ -166,7 +166,7 @@ void CheckpointFolder::write(const Part& part, const RunState& state) {
   try {
     write_unfinished(unfinished, part, state);
   } catch (const SharedError&) {
-    // On a full disk it would be in the way of what else is to be written.
+    // On a full disk the incomplete checkpoint would block other output.
     std::error_code ignored;
     if (ranks_.is_first()) fs::remove_all(unfinished, ignored);
     throw;

@@ -1,4 +1,4 @@
-// The events of a distributed world in files: one for all ranks, or one for each.
+// Writes the events of a distributed world to one file for all ranks, or one for each.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ namespace kinesphere::program {
 
 enum class ContactOutput {
   none,
-  one_file,       ///< in the order in which one World tells the events
-  file_per_rank,  ///< <path>.<rank>, each with the events whose first body was that rank's
+  one_file,       ///< in the order of the events of one World
+  file_per_rank,  ///< <path>.<rank>, each with the events with a first body of that rank
 };
 
 struct ContactOptions {
@@ -24,32 +24,33 @@ struct ContactOptions {
   ContactOutput output = ContactOutput::none;
 };
 
-/// Errors of collective functions are SharedErrors with exit code 1: a file that cannot be written. What a
-/// write meets is told by sync() and commit().
+/// Collective functions throw SharedErrors with exit code 1 for a file that cannot be written. Errors of
+/// writes appear in sync() and commit().
 class ContactFiles {
  public:
-  /// How long each file is: one for one_file, one for each rank for file_per_rank.
+  /// Length of each file: one for one_file, one for each rank for file_per_rank.
   using Lengths = std::vector<std::uint64_t>;
 
-  /// Collective. `is_resumable`: see OutputPlace. `kept`: what an earlier run has written, by any number of
-  /// ranks; empty for none.
+  /// Collective. `is_resumable`: see OutputPlace. `kept`: bytes that an earlier run has written, with any
+  /// number of ranks; empty if there is none.
   ContactFiles(const Ranks& ranks, const ContactOptions& options, bool is_resumable, const Lengths& kept);
 
-  /// Not collective: an event of this rank.
+  /// Adds an event of this rank. Not collective.
   void note(const OrderedEvent& event);
-  /// Collective. Writes the events that have been noted, after all that was written before.
+  /// Collective. Appends the noted events to the file.
   void write_noted();
-  /// Collective. Whether, and how many at most on one rank, noted events wait for write_noted().
+  /// Collective. Returns true if noted events wait for write_noted(), and the largest number of them on a
+  /// rank.
   bool waits() const { return output_ == ContactOutput::one_file; }
   std::uint64_t most_waiting() const { return ranks_.largest(noted_.size()); }
 
-  /// Collective. All that was noted is written, and on the disk.
+  /// Collective. Writes all noted events, and flushes them to the disk.
   Lengths sync();
-  /// Collective. The files appear under their names.
+  /// Collective. Gives the files their final names.
   void commit();
 
  private:
-  /// A rank that goes on after more ranks than there are now has several.
+  /// A rank has several files if it continues a run of more ranks.
   struct File {
     std::size_t place;  ///< in Lengths
     std::unique_ptr<ContactLog> log;
@@ -57,8 +58,8 @@ class ContactFiles {
 
   const Ranks& ranks_;
   ContactOutput output_;
-  std::size_t file_count_ = 0;  ///< of all ranks
-  std::vector<File> files_;     ///< of this rank, which writes to the first
+  std::size_t file_count_ = 0;  ///< files of all ranks
+  std::vector<File> files_;     ///< files of this rank, which writes to the first
   std::vector<OrderedEvent> noted_;
 };
 

@@ -1,4 +1,4 @@
-// `kinesphere-mpi run`: simulates a scene in a world that is spread over all ranks.
+// `kinesphere-mpi run`: simulates a scene in a world that is distributed over all ranks.
 #include "distributed_run.hpp"
 
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ void check_options(const DistributedRunOptions& options) {
     throw ProgramError("--resume: expected only with --checkpoint");
 }
 
-/// What a World can do and a distributed one cannot.
+/// Throws for features of World that a distributed world lacks.
 void check_features(const Scene& scene) {
   for (const SceneBody& body : scene.bodies) {
     if (body.appears > scene.world.start_time || body.vanishes <= scene.end_time)
@@ -79,7 +79,7 @@ std::string summary_of(const SceneParameters& parameters, const Scene& scene, co
   return fmt::format("{}\n{}", summary.text(), rank_table(use));
 }
 
-/// What is needed before ranks wait for each other.
+/// Everything prepared before ranks wait for each other.
 struct Preparation {
   SceneSource source;
   Scene scene;
@@ -110,7 +110,7 @@ void simulate(const Ranks& ranks, const DistributedRunOptions& options, const Pr
   simulation.run();
   const std::vector<RankUse> use = ranks.gather(simulation.use());
   const SimulationTotals totals = simulation.totals();
-  // What a full disk does to a file must not take the summary with it.
+  // A full disk must not suppress the summary.
   std::optional<SharedError> failure;
   try {
     simulation.commit();
@@ -129,7 +129,7 @@ void simulate(const Ranks& ranks, const DistributedRunOptions& options, const Pr
   if (failure) throw SharedError(*failure);
 }
 
-/// Other ranks may wait for this one, so they all end here.
+/// Other ranks may be waiting for this one, so this ends all of them.
 [[noreturn]] void end_all(const MpiSession& session, const char* message) {
   fmt::print(stderr, "kinesphere-mpi: rank {}: {}\n", session.rank(), message);
   std::fflush(stderr);

@@ -1,4 +1,4 @@
-// `kinesphere-mpi run`: simulates a scene in a world that is spread over all ranks.
+// `kinesphere-mpi run`: simulates a scene in a world that is distributed over all ranks.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -24,8 +24,8 @@ struct DistributedRunOptions {
 
 /// `options` must live until the command line has been parsed.
 CLI::App* add_distributed_run_command(CLI::App& program, DistributedRunOptions& options);
-/// Collective. Throws SharedError. What goes wrong on one rank alone while others may wait for it ends the
-/// program there and then, on all ranks.
+/// Collective. Throws SharedError. An error of one rank, for which others may be waiting, ends the program on
+/// all ranks at once.
 void distributed_run(const MpiSession& session, const DistributedRunOptions& options);
 
 }  // namespace kinesphere::program

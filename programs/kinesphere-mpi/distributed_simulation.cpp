@@ -1,4 +1,4 @@
-// Running a scene in a distributed world, with its events in files and with checkpoints.
+// Runs a scene in a distributed world, with events in files and with checkpoints.
 #include "distributed_simulation.hpp"
 
 #include <fmt/format.h>
@@ -21,12 +21,12 @@
 namespace kinesphere::program {
 namespace {
 
-/// Slices of time are as long as brings about as many events on a rank, and no longer than twice the one
-/// before: so events take no more memory than some times these.
+/// Events of a rank for which the length of a time slice is chosen; a slice is at most twice as long as the
+/// one before. It limits the memory of events to a few times this number.
 constexpr std::uint64_t events_of_a_slice = 1 << 16;
 constexpr double slices_at_first = 1000.0;
 
-/// Of two scene texts, the first lines that are not the same.
+/// Returns the first different lines of two scene texts.
 std::pair<std::string, std::string> first_difference(const std::string& a, const std::string& b) {
   std::istringstream lines_of_a(a);
   std::istringstream lines_of_b(b);
@@ -59,8 +59,8 @@ void DistributedSimulation::start() {
   if (!resumed) create();
 }
 
-/// Slabs across the axis along which bodies lie farthest apart, with as many bodies for each rank: most of
-/// them stay where they are dealt.
+/// Deals bodies in slabs across the axis of their largest extent, equally many for each rank, so that few of
+/// them have to migrate.
 std::vector<std::uint32_t> DistributedSimulation::bodies_of_others() const {
   const auto position = [this](std::uint32_t body) {
     return scene_.motion->state(body, scene_.world.start_time).position;
@@ -102,7 +102,7 @@ void DistributedSimulation::create() {
   });
 }
 
-/// Nothing where there is nothing to go on from.
+/// Returns nothing if there is no checkpoint.
 std::optional<RunState> DistributedSimulation::resume() {
   const std::vector<std::uint64_t> numbers = checkpoints_->latest();
   if (!options_.resume && !numbers.empty())
@@ -132,7 +132,7 @@ std::optional<RunState> DistributedSimulation::resume() {
                     1);
 }
 
-/// False for a checkpoint that is refused.
+/// Returns false for a checkpoint that cannot be restored.
 bool DistributedSimulation::restore(std::uint64_t number, RunState& state) {
   const auto refuse = [&](const std::string& why) {
     tell_first(fmt::format("{} is refused: {}", checkpoints_->path(number), why));
@@ -195,7 +195,7 @@ void DistributedSimulation::run() {
   real_time_ = std::chrono::steady_clock::now() - started_;
 }
 
-/// The next multiple of the interval, counted from the start.
+/// Returns the next multiple of the interval, counted from the start.
 double DistributedSimulation::next_checkpoint() const {
   if (!checkpoints_) return std::numeric_limits<double>::infinity();
   const double start = scene_.world.start_time;

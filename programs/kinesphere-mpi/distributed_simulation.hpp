@@ -1,4 +1,4 @@
-// Running a scene in a distributed world, with its events in files and with checkpoints.
+// Runs a scene in a distributed world, with events in files and with checkpoints.
 #pragma once
 
 #include <chrono>
@@ -25,7 +25,7 @@ struct DistributedSimulationOptions {
   bool resume = false;
 };
 
-/// Of all ranks.
+/// Totals over all ranks.
 struct SimulationTotals {
   Counters counters{};
   EventHash hash{};
@@ -34,22 +34,22 @@ struct SimulationTotals {
   double real_seconds = 0.0;
 };
 
-/// All functions but use() are collective, and are called in this order. They throw SharedError; every other
-/// exception is this rank's alone.
+/// All functions but use() are collective, and must be called in this order. They throw SharedError on all
+/// ranks; any other exception is one rank's alone.
 class DistributedSimulation {
  public:
-  /// Throws nothing but std::bad_alloc. `workers` may be null.
+  /// Throws only std::bad_alloc. `workers` may be null.
   DistributedSimulation(const Ranks& ranks, const Scene& scene, DistributedSimulationOptions options,
                         Workers* workers);
 
   /// Makes the world, or restores it, and opens files.
   void start();
-  /// To the end of the scene.
+  /// Runs to the end of the scene.
   void run();
-  /// Of this rank.
+  /// Returns the cost on this rank.
   RankUse use() const;
   SimulationTotals totals() const;
-  /// The files of events appear.
+  /// Gives the files of events their final names.
   void commit() { contacts_->commit(); }
 
  private:

@@ -18,7 +18,7 @@
 namespace kinesphere::program {
 namespace {
 
-/// On the first rank, for all.
+/// Prints the message on the first rank only.
 int complain(const MpiSession& session, std::string message, int exit_code) {
   std::replace(message.begin(), message.end(), '\n', ' ');
   if (session.rank() == 0) fmt::print(stderr, "kinesphere-mpi: {}\n", message);

@@ -20,7 +20,7 @@ class IncomingEvents {
  public:
   explicit IncomingEvents(int from) : from_(from) { receive(); }
 
-  /// Nothing where there are no more.
+  /// Returns null after the last event.
   const OrderedEvent* next() const { return at_ < block_.size() ? &block_[at_] : nullptr; }
   void advance() {
     if (++at_ == events_of_a_block) receive();
@@ -52,7 +52,7 @@ void send_to_first(std::span<const OrderedEvent> events) {
   }
 }
 
-/// What `action` has thrown, as text.
+/// Returns the message of an exception that `action` throws.
 std::optional<std::string> problem_of(const std::function<void()>& action) {
   try {
     action();
@@ -118,7 +118,7 @@ void Ranks::merge(std::span<const OrderedEvent> own, const std::function<void(co
   std::vector<IncomingEvents> incoming;
   incoming.reserve(static_cast<std::size_t>(count_));
   for (int from = 1; from < count_; ++from) incoming.emplace_back(from);
-  // A heap, with the next event of all at the front.
+  // A heap with the earliest event at the front.
   using Source = std::pair<const OrderedEvent*, IncomingEvents*>;
   const auto later = [](const Source& a, const Source& b) { return *b.first < *a.first; };
   std::vector<Source> sources;

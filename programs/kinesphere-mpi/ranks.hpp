@@ -1,4 +1,4 @@
-// What the processes of the program tell each other besides what their world does.
+// Communication between the processes of the program, besides that of their world.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +16,8 @@
 
 namespace kinesphere::program {
 
-/// All ranks of MPI_COMM_WORLD. MPI is initialised for as long as this is used. Functions marked as
-/// collective have to be called on all ranks in the same order.
+/// All ranks of MPI_COMM_WORLD. Precondition: MPI is initialised while this object is used. Collective
+/// functions must be called on all ranks in the same order.
 class Ranks {
  public:
   Ranks();
@@ -26,18 +26,18 @@ class Ranks {
   int count() const { return count_; }
   bool is_first() const { return rank_ == 0; }
 
-  /// Collective. Calls `action`. Where it has thrown on some ranks, SharedError is thrown on all, with the
-  /// message of the least of these.
+  /// Collective. Calls `action`. If it throws on some ranks, throws SharedError on all, with the message of
+  /// the lowest of these ranks.
   void together(int exit_code, const std::function<void()>& action) const;
-  /// Collective. The same where the first rank alone has something to do.
+  /// Collective. Calls `action` on the first rank alone, with the errors of together().
   void on_first(int exit_code, const std::function<void()>& action) const;
-  /// Collective. In the place of each number, the sum of those of all ranks.
+  /// Collective. Replaces each number by its sum over all ranks.
   void sum(std::span<std::uint64_t> numbers) const;
-  /// Collective.
+  /// Collective. Returns the largest number of all ranks.
   std::uint64_t largest(std::uint64_t number) const;
-  /// Collective. The text of the first rank.
+  /// Collective. Returns the text of the first rank.
   std::string from_first(const std::string& text) const;
-  /// Collective. What each rank has, by rank.
+  /// Collective. Returns the values of all ranks, by rank.
   template <class T>
   std::vector<T> gather(const T& value) const {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -45,8 +45,8 @@ class Ranks {
     gather_bytes(&value, all.data(), sizeof(T));
     return all;
   }
-  /// Collective. The events of all ranks, each with its own in order, go to `take` on the first rank, in
-  /// order. The first rank keeps no more than a few thousand of each other rank at a time.
+  /// Collective. Passes the events of all ranks, merged in order, to `take` on the first rank. Precondition:
+  /// `own` is in order. The first rank holds no more than a few thousand events of each other rank at a time.
   void merge(std::span<const OrderedEvent> own, const std::function<void(const Event&)>& take) const;
 
  private:
@@ -56,7 +56,7 @@ class Ranks {
   int count_ = 1;
 };
 
-/// The value of a collective call of the library: its errors are the same on all ranks.
+/// Returns the value of a collective library call; its errors are equal on all ranks.
 template <class T>
 T require_shared(Result<T> result, int exit_code) {
   if (!result) throw SharedError(result.error().message, exit_code);

@@ -14,7 +14,7 @@ std::string vector_text(const Vec3& vector) {
 }  // namespace
 
 std::string scene_text(const SceneParameters& parameters) {
-  // Names every field: one that is forgotten does not compile.
+  // Names every field, so that a forgotten one does not compile.
   const auto& [name, motion, bodies, radius_min, radius_max, speed_min, speed_max, limit_min, limit_max,
                gravity, box, packing, walls, periodic, redraw_interval, response, restitution, resting_speed,
                contact_tolerance, zeno_interval, seconds, seed] = parameters;

@@ -1,4 +1,4 @@
-// All parameters of a scene that decide what happens in it, as text: a line for each.
+// The parameters of a scene that influence its course, as text: a line for each.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace kinesphere::program {
 
-/// Two scenes with the same text go the same way for as long as both last: `seconds` is left out.
+/// Scenes with equal texts have equal events while both last: `seconds` is left out.
 std::string scene_text(const SceneParameters& parameters);
 
 }  // namespace kinesphere::program

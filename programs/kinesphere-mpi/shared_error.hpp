@@ -1,4 +1,4 @@
-// What ends the program on all ranks.
+// An error that ends the program on all ranks.
 #pragma once
 
 #include <stdexcept>
@@ -7,7 +7,7 @@
 namespace kinesphere::program {
 
 /// Ends the program with this exit code. It is thrown on all ranks at the same point, with the same message
-/// of one line, so that the first rank prints it for all. Every other exception is one rank's own.
+/// of one line, which the first rank prints. Any other exception is one rank's alone.
 class SharedError : public std::runtime_error {
  public:
   SharedError(const std::string& message, int exit_code)

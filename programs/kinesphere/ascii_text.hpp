@@ -6,13 +6,13 @@
 
 namespace kinesphere::program {
 
-/// What stands around fields of a line.
+/// Characters to trim around the fields of a line.
 inline constexpr std::string_view blanks = " \t\r";
 
-/// Returns the small letter of a capital A to Z, and all else as it is.
+/// Returns the lower-case letter of A to Z, and any other character unchanged.
 constexpr char lower_case(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-/// True if the names are the same but for capital and small letters.
+/// Returns true if the names are equal, ignoring the case of A to Z.
 constexpr bool same_name(std::string_view a, std::string_view b) {
   return std::ranges::equal(a, b, {}, lower_case, lower_case);
 }

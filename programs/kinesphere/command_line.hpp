@@ -1,4 +1,5 @@
-// What all programs do around their commands: parse, print help, turn errors into one line and an exit code.
+// The frame of all programs: parses the command line, prints help, turns errors into one line and an exit
+// code.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -6,9 +7,9 @@
 
 namespace kinesphere::program {
 
-/// The body of main(): parses the command line, then calls `run_command`, which runs the command that `app`
-/// has parsed and returns its exit code. Returns the exit code: exit_wrong_input, with a message on standard
-/// error, for a ProgramError, for a command line that cannot be parsed and for exhausted memory.
+/// Parses the command line, then calls `run_command`, which must run the command that `app` has parsed and
+/// return its exit code. To be used as the body of main(). Returns the exit code; exit_wrong_input, with a
+/// message on standard error, for a ProgramError, an invalid command line, or exhausted memory.
 int run_program(CLI::App& app, const std::function<int()>& run_command, int argc, char** argv);
 
 }  // namespace kinesphere::program

@@ -1,4 +1,4 @@
-// Every event of a run, one row each.
+// Writes every event of a run to a table, one row each.
 #include "contact_log.hpp"
 
 #include <utility>

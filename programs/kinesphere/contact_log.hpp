@@ -1,4 +1,4 @@
-// Every event of a run, one row each.
+// Writes every event of a run to a table, one row each.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace kinesphere::program {
 
-/// Columns: time, kind, first, second (empty when there is none), wall (likewise), gap, approach_speed,
-/// point_x/y/z, normal_x/y/z, repeated, position_excess, velocity_excess. See Event for their meaning.
+/// Columns: time, kind, first, second (empty if there is none), wall (likewise), gap, approach_speed,
+/// point_x/y/z, normal_x/y/z, repeated, position_excess, velocity_excess. Event documents their meaning.
 class ContactLog {
  public:
   explicit ContactLog(const std::string& path);

@@ -9,8 +9,8 @@
 
 namespace kinesphere::program {
 
-/// Each frame: the number of bodies; a line with Lattice and Origin (when the scene has a box), Properties
-/// and Time; then for each body that is there: species, number, position, velocity, radius, and the radius of
+/// Each frame has the number of bodies, a line with Lattice and Origin (if the scene has a box), Properties
+/// and Time, and then for each present body: species, number, position, velocity, radius, and the radius of
 /// its time-varying bound.
 class FramesXyz {
  public:

@@ -33,7 +33,7 @@ std::string read_input(const std::string& path) {
   if (std::filesystem::is_directory(path, ignored)) fail(path, "expected a file, but it is a folder");
   if (path == "-" && standard_input_is_closed()) fail("standard input", "it is closed");
   errno = 0;
-  // zlib hands a file through unchanged when it is not gzipped.
+  // zlib passes an uncompressed file through unchanged.
   const std::unique_ptr<std::remove_pointer_t<gzFile>, Close> file(
       path == "-" ? gzdopen(dup(STDIN_FILENO), "rb") : gzopen(path.c_str(), "rb"));
   if (!file) fail(path, std::strerror(errno != 0 ? errno : ENOMEM));

@@ -5,8 +5,8 @@
 
 namespace kinesphere::program {
 
-/// "-" is standard input. Throws ProgramError naming the file when it cannot be read, is a folder, or is a
-/// damaged gzip file.
+/// Returns the text of a file; "-" is standard input. Throws ProgramError naming the file if it cannot be
+/// read, is a folder, or is a damaged gzip file.
 std::string read_input(const std::string& path);
 
 }  // namespace kinesphere::program

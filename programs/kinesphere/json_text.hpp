@@ -5,7 +5,7 @@
 
 namespace kinesphere::program {
 
-/// In quotes. What is no UTF-8 becomes the replacement character U+FFFD.
+/// Returns the text as a quoted JSON string. Invalid UTF-8 becomes the replacement character U+FFFD.
 std::string json_text(const std::string& text);
 
 }  // namespace kinesphere::program

@@ -1,4 +1,4 @@
-// The detector that a command runs. `kinesphere` always takes the world; research/bench compares others.
+// The detector that a command runs: always the world in `kinesphere`; research/bench compares others.
 #pragma once
 
 #include <string>

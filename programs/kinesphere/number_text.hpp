@@ -6,7 +6,7 @@
 
 namespace kinesphere::program {
 
-/// The number that `text` is, all of it, when it is one and finite.
+/// Returns the finite number that the whole `text` spells; nothing if it is not one.
 std::optional<double> parse_number(std::string_view text);
 
 }  // namespace kinesphere::program

@@ -31,7 +31,7 @@ OutputFile::OutputFile(OutputPlace place)
   if (fs::exists(status) && !fs::is_regular_file(status)) {
     throw ProgramError(fmt::format("{}: cannot write: expected a regular file", path_));
   }
-  // A link stays a link: what it points to is replaced.
+  // The target of a link is replaced, not the link.
   const fs::path target =
       fs::is_symlink(fs::symlink_status(path_, ignored)) ? fs::canonical(path_, ignored) : fs::path(path_);
   if (!target.empty()) path_ = target.string();

@@ -15,16 +15,15 @@ namespace kinesphere::program {
 
 struct OutputPlace {
   std::string path;
-  /// Whether a later run of the program may go on with the file: then it is written to `<path>.unfinished`,
-  /// which stays where there is no commit and no signal removes. An earlier run has written as many bytes of
-  /// it, which are kept; what follows them is cut off. Where that run has committed, its file is taken.
+  /// If set, a later run may continue the file: it is written to `<path>.unfinished`, which stays without a
+  /// commit and which no signal removes. The value is the number of bytes that an earlier run has written;
+  /// these are kept and later bytes cut off. If that run has committed, its file is continued.
   std::optional<std::uint64_t> resumed_at{};
 };
 
-/// Writes beside the final name (in the same folder, so that a rename is enough) and takes the final name
-/// in commit(). Without a commit nothing is left behind and an older file of that name stays as it was.
-/// Nor is anything left behind by a signal that stops the program. Functions throw ProgramError naming the
-/// file and the system's reason.
+/// Writes next to the final name (in the same folder, so that a rename suffices) and takes the final name in
+/// commit(). Without a commit, or after a signal that stops the program, nothing is left behind and an older
+/// file of that name stays unchanged. Functions throw ProgramError naming the file and the system's reason.
 class OutputFile {
  public:
   explicit OutputFile(std::string path) : OutputFile(OutputPlace{std::move(path)}) {}
@@ -33,16 +32,16 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
   ~OutputFile();
 
-  /// Throws nothing: a long run should not be lost with its file. When the disk is full this and all that
-  /// follows is dropped, and commit() says so.
+  /// Throws nothing, so that a long run is not lost with its file. After a failed write, such as on a full
+  /// disk, all further output is dropped and commit() throws.
   void write(std::string_view text);
-  /// Returns when all that has been written is on the disk: how many bytes.
+  /// Flushes all written bytes to the disk. Returns their number.
   std::uint64_t sync();
-  /// Ends the writing.
+  /// Completes the file and gives it its final name.
   void commit();
 
   const std::string& path() const { return path_; }
-  /// In bytes, with what an earlier run has written.
+  /// Bytes, including those that an earlier run has written.
   std::uint64_t length() const { return length_; }
 
  private:

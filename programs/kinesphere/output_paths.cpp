@@ -10,7 +10,7 @@
 namespace kinesphere::program {
 namespace {
 
-/// Also by another way through the folders, a link, or another name of the file.
+/// Returns true if two paths lead to one file, also through other folders or a link.
 bool same_file(const std::string& a, const std::string& b) {
   namespace fs = std::filesystem;
   if (a == b) return true;

@@ -1,4 +1,4 @@
-// Where results are to go, looked at before hours of work are put into them.
+// Checks the paths of results before hours of work are spent on them.
 #pragma once
 
 #include <span>
@@ -12,9 +12,8 @@ struct OutputPath {
   std::string path;         ///< empty when the option was not given
 };
 
-/// Throws ProgramError naming the option when one of the outputs is the same file as an input or as another
-/// output, whatever it is called there. (Opening an OutputFile, which is to follow at once, finds out whether
-/// it can be written.)
+/// Throws ProgramError naming the option if an output is the same file as an input or another output, under
+/// any name. Does not check that an output can be written; open the OutputFile at once to find out.
 void check_outputs(std::span<const OutputPath> outputs, std::span<const std::string> inputs);
 
 }  // namespace kinesphere::program

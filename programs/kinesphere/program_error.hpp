@@ -1,4 +1,4 @@
-// What stops the program: something that the person at the terminal can put right.
+// Errors that the user can correct; they stop the program.
 #pragma once
 
 #include <stdexcept>
@@ -14,13 +14,13 @@ enum ExitCode : int {
   exit_wrong_input = 2,
 };
 
-/// Its message is one line: where, what was expected and what came. Leads to exit_wrong_input.
+/// The message is one line: where, what was expected and what was found. The exit code is exit_wrong_input.
 class ProgramError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// The value of a library call, or its error as a ProgramError.
+/// Returns the value of a library call, or throws its error as a ProgramError.
 template <class T>
 T require(Result<T> result) {
   if (!result) throw ProgramError(result.error().message);

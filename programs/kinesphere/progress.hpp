@@ -6,8 +6,8 @@
 
 namespace kinesphere::program {
 
-/// Rewrites one line of stderr at most ten times a second and wipes it when it goes; silent when stderr is
-/// no terminal.
+/// Rewrites one line of stderr at most ten times a second and wipes it at destruction; does nothing if stderr
+/// is no terminal.
 class Progress {
  public:
   Progress(double begin, double end);
@@ -28,7 +28,8 @@ class Progress {
   Clock::time_point next_;
 };
 
-/// The line itself: done, elapsed and total in seconds of simulated time, `spent` in seconds of real time.
+/// Returns the text of the bar. `elapsed` and `total` are seconds of simulated time, `spent` is seconds of
+/// real time.
 std::string progress_line(double elapsed, double total, double spent);
 
 }  // namespace kinesphere::program

@@ -1,4 +1,4 @@
-// `kinesphere replay`: repeats a recording, and says whether it went the same way.
+// `kinesphere replay`: repeats a recording, and reports whether all results are equal.
 #include "replay.hpp"
 
 #include <fmt/format.h>

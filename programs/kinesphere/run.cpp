@@ -1,4 +1,4 @@
-// `kinesphere run`: simulates a scene and says what happened and what it cost.
+// `kinesphere run`: simulates a scene and prints its events and cost.
 #include "run.hpp"
 
 #include <fmt/format.h>
@@ -28,7 +28,7 @@ double frame_interval_of(const RunOptions& options, const Scene& scene) {
   throw ProgramError(fmt::format("--frame-interval: expected a finite number > 0, but got {}", interval));
 }
 
-/// What hangs on a simulation while it runs: files, the bar, the audit.
+/// Files, progress bar and audit of a running simulation.
 struct Attachments {
   std::unique_ptr<ContactLog> contacts;
   std::unique_ptr<FramesXyz> frames;
@@ -82,7 +82,7 @@ SimulationObserver observer_of(const RunOptions& options, const Scene& scene, At
   return observer;
 }
 
-/// Why the world had something to do.
+/// Adds the reasons for which the world was active.
 void add_steps(Summary& summary, const Counters& counters) {
   if (counters.starts == 0) return;
   const auto row = [&](const char* kind, std::uint64_t count) {
@@ -97,7 +97,7 @@ void add_steps(Summary& summary, const Counters& counters) {
   row("  wall checks", counters.wall_checks);
 }
 
-/// What came to pass in the detectors of the papers.
+/// Adds the event counts of the detectors from papers.
 void add_paper_events(Summary& summary, const DetectorCounters& counters) {
   const std::uint64_t crossings = counters.entering + counters.leaving;
   const std::uint64_t events = crossings + counters.resetting + counters.colliding;
@@ -197,7 +197,7 @@ int run(const RunOptions& options, const NamedDetector& detector) {
   const std::chrono::duration<double> real_time = std::chrono::steady_clock::now() - started;
 
   attached.progress.reset();
-  // What a full disk does to a file must not take the summary with it.
+  // A full disk must not suppress the summary.
   std::optional<ProgramError> failure;
   const auto commit = [&failure](auto& file) {
     try {

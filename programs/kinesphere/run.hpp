@@ -1,4 +1,4 @@
-// `kinesphere run`: simulates a scene and says what happened and what it cost.
+// `kinesphere run`: simulates a scene and prints its events and cost.
 #pragma once
 
 #include <CLI/App.hpp>

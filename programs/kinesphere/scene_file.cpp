@@ -31,7 +31,7 @@ std::size_t index_in(const Names& names, std::string_view text, std::string_view
       fmt::format("{}: expected one of {}, but got '{}'", where, fmt::join(names, ", "), text));
 }
 
-/// One field of a scene file, with its place for messages.
+/// One field of a scene file, with its line for messages.
 struct Field {
   std::string where;
   const Json& value;
@@ -110,10 +110,10 @@ constexpr FieldKind field_kinds[] = {
                 const Field& f) { p.seed = f.whole_number(std::numeric_limits<std::uint64_t>::max()); }},
 };
 
-/// Of brackets: more than any field of a scene needs.
+/// Nested brackets; more than any field of a scene needs.
 constexpr int deepest_nesting = 16;
 
-/// Reads characters for the JSON parser, which tells nobody where a value stands, and counts lines.
+/// Passes characters to the JSON parser, which does not report where a value stands, and counts lines.
 struct CountingIterator {
   using iterator_category = std::input_iterator_tag;
   using value_type = char;
@@ -137,7 +137,7 @@ struct CountingIterator {
   friend bool operator==(const CountingIterator& a, const CountingIterator& b) { return a.at == b.at; }
 };
 
-/// The parser's own words, without its error number and its count of columns.
+/// Returns the parser's message without its error number and column count.
 std::string reason_of(const Json::exception& error) {
   std::string reason = error.what();
   for (std::string_view end_of_prefix : {"] ", "column "}) {
@@ -152,7 +152,7 @@ Json parse_json(std::string_view text, SceneSource& source) {
   int line = 1;
   int field_line = 1;
   const auto note_field = [&](int depth, Json::parse_event_t event, Json& parsed) {
-    // Whoever walks through values within values, as their destructor does, does so by recursion.
+    // Walking through nested values, also in their destructor, is recursive.
     if (depth > deepest_nesting)
       throw ProgramError(fmt::format("{}:{}: expected at most {} brackets within each other", source.file,
                                      line, deepest_nesting));
@@ -223,7 +223,7 @@ Scene make_scene(const SceneSource& source) {
   Result<Scene> scene = kinesphere::make_scene(source.parameters);
   if (scene) return std::move(scene).value();
   const Error& error = scene.error();
-  // radius_min and radius_max both stand in the field "radius", and so on.
+  // radius_min and radius_max are both given by the field "radius"; other pairs likewise.
   for (const auto& [name, line] : source.lines) {
     if (error.argument.starts_with(name)) {
       throw ProgramError(fmt::format("{}:{}: {}", source.file, line, error.message));

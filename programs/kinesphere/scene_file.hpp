@@ -22,22 +22,23 @@ namespace kinesphere::program {
 struct SceneSource {
   SceneParameters parameters;
   std::string file;                               ///< empty for a built-in scene
-  std::map<std::string, int, std::less<>> lines;  ///< of the fields that the file sets
+  std::map<std::string, int, std::less<>> lines;  ///< line of each field that the file sets
 };
 
-/// `file` is used in messages only. Throws ProgramError naming file, line and expectation when the text is
-/// not JSON, or has a field twice, an unknown field or one of the wrong type.
+/// Parses the text of a scene. `file` appears in messages only. Throws ProgramError naming file, line and
+/// expectation if the text is not JSON, or has a duplicate field, an unknown field or a field of the wrong
+/// type.
 SceneSource parse_scene(std::string_view text, const std::string& file);
 
-/// A built-in scene, or else the scene in the file of that name. Throws ProgramError.
+/// Returns the built-in scene of that name, or else the scene in that file. Throws ProgramError.
 SceneSource find_scene(const std::string& name_or_file);
 
-/// make_scene(), with errors that name the file and the line of the field where the value comes from there.
+/// Calls make_scene(); errors name the file and the line of the field that has the wrong value.
 Scene make_scene(const SceneSource& source);
 
 std::string_view name_of(SceneParameters::MotionKind motion);
 std::string_view name_of(SceneResponse response);
-/// Errors name `where`, the expected names and `text`.
+/// Returns the motion of that name. Throws ProgramError naming `where`, the valid names and `text`.
 SceneParameters::MotionKind motion_named(std::string_view text, std::string_view where);
 SceneResponse response_named(std::string_view text, std::string_view where);
 

@@ -1,4 +1,4 @@
-// The options with which a scene is chosen and changed on the command line.
+// The options that choose and change a scene on the command line.
 #include "scene_options.hpp"
 
 #include <limits>
@@ -13,7 +13,7 @@ namespace {
 using Range = std::pair<double, double>;
 constexpr const char* scene_group = "Scene";
 
-/// Declares an option whose value `set` puts into the parameters instead of the scene's `field`.
+/// Declares an option; `set` puts its value into the parameters, in place of the scene's `field`.
 template <class Value, class Set>
 CLI::Option* add_change(CLI::App& command, SceneOptions& options, const std::string& flag,
                         const std::string& field, const std::string& description, Set set) {

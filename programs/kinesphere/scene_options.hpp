@@ -1,4 +1,4 @@
-// The options with which a scene is chosen and changed on the command line.
+// The options that choose and change a scene on the command line.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -12,16 +12,16 @@ namespace kinesphere::program {
 
 struct SceneOptions {
   std::string scene;
-  /// What the options given change, in their order.
+  /// Changes by the given options, in their order on the command line.
   std::vector<std::function<void(SceneSource&)>> changes;
 
-  /// The chosen scene with its changes. Throws ProgramError.
+  /// Returns the chosen scene with its changes. Throws ProgramError.
   SceneSource source() const;
 };
 
 /// `options` must live until the command line has been parsed.
 void add_scene_options(CLI::App& command, SceneOptions& options);
-/// --response and --restitution, for commands that may let bodies react.
+/// Adds --response and --restitution, for commands in which bodies may react.
 void add_response_options(CLI::App& command, SceneOptions& options);
 
 }  // namespace kinesphere::program

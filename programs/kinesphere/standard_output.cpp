@@ -9,10 +9,10 @@
 namespace kinesphere::program {
 namespace {
 
-/// Why the first message that was lost could not be written; 0 if none was.
+/// errno of the first message that could not be written; 0 if there was none.
 int message_error = 0;
 
-/// What the call that failed left in errno; EIO where it left nothing.
+/// Returns errno of the failed call, or EIO if it is 0.
 int last_error() { return errno != 0 ? errno : EIO; }
 
 [[noreturn]] void fail(const char* stream, int error) {

@@ -1,5 +1,4 @@
-// Standard output and messages on standard error, with every write checked: a full disk must not pass for
-// success.
+// Checked writes to standard output and standard error: a full disk must not pass for success.
 #pragma once
 
 #include <fmt/format.h>
@@ -9,10 +8,9 @@
 
 namespace kinesphere::program {
 
-/// Throws ProgramError naming the system's reason. What is buffered is checked by finish_output() alone.
+/// Throws ProgramError naming the system's reason. Errors of buffered text appear in finish_output() alone.
 void write_output(std::string_view text);
-/// Everything so far has been written; otherwise throws ProgramError. To be called before success is
-/// reported.
+/// Flushes standard output. Throws ProgramError if any write failed. To be called before success is reported.
 void finish_output();
 
 template <class... Values>
@@ -20,8 +18,8 @@ void print(fmt::format_string<Values...> format, Values&&... values) {
   write_output(fmt::format(format, std::forward<Values>(values)...));
 }
 
-/// Writes a message to standard error. A failure ends nothing by itself, since a watch that runs for weeks is
-/// worth more than its warnings; check_messages() tells of it.
+/// Writes a message to standard error. A failure is not thrown, since it must not end a watch that runs for
+/// weeks; check_messages() reports it.
 void write_message(std::string_view text);
 /// Throws ProgramError naming the system's reason if a message could not be written. To be called before
 /// success is reported.

@@ -14,10 +14,10 @@ namespace {
 
 bool input_is_closed = false;
 
-/// True if `descriptor` was closed. Needs that no lower one is.
+/// Returns true if `descriptor` was closed. Precondition: no lower descriptor is closed.
 bool reserve(int descriptor, int access) {
   if (::fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) return false;
-  // open() returns the lowest descriptor that is free.
+  // open() returns the lowest free descriptor.
   if (::open("/dev/null", access) != descriptor)
     throw ProgramError(fmt::format("/dev/null: cannot open: {}", std::strerror(errno)));
   return true;
@@ -26,7 +26,7 @@ bool reserve(int descriptor, int access) {
 }  // namespace
 
 void reserve_standard_streams() {
-  // Each but standard error is opened for the opposite of its use, which therefore fails.
+  // Input and output are opened for the opposite of their use, so that use fails.
   input_is_closed = reserve(STDIN_FILENO, O_WRONLY);
   reserve(STDOUT_FILENO, O_RDONLY);
   reserve(STDERR_FILENO, O_WRONLY);

@@ -13,9 +13,10 @@ namespace kinesphere::program {
 class Summary {
  public:
   void row(std::string label, std::string value, std::string note = "");
-  /// An empty line.
+  /// Adds an empty line.
   void space() { rows_.emplace_back(); }
-  /// Labels on the left; plain counts and values right-aligned in one column when a note follows them.
+  /// Returns the rows: labels on the left; counts and values right-aligned in one column if a note follows
+  /// them.
   std::string text() const;
 
  private:
@@ -25,24 +26,24 @@ class Summary {
   std::vector<Row> rows_;
 };
 
-/// 1234567 -> "1,234,567".
+/// Returns 1234567 as "1,234,567".
 std::string grouped(std::uint64_t count);
-/// "12.3 %"; "-" when there is nothing to take a part of.
+/// Returns "12.3 %"; "-" if `whole` is 0.
 std::string percent(double part, double whole);
-/// Four significant digits; large ones whole, with thousands separators; "-" for what is no finite number,
-/// such as a rate over no time at all.
+/// Returns four significant digits; large numbers as integers, with thousands separators; "-" for a number
+/// that is not finite, such as a rate over no time.
 std::string number(double value);
 
-/// What the scene is: name, motion, bodies, seed, response.
+/// Adds the scene: name, motion, bodies, seed, response.
 void add_scene(Summary& summary, const SceneParameters& parameters);
-/// Which rows a summary has even where there was nothing to count.
+/// Rows that a summary has even with a count of 0.
 struct EventRows {
-  bool ends = false;        ///< of contacts
-  bool zeno_guard = false;  ///< how often it acted
+  bool ends = false;        ///< row for ends of contacts
+  bool zeno_guard = false;  ///< row for the number of its actions
 };
-/// Contacts, walls and what went wrong.
+/// Adds contacts, walls and errors.
 void add_events(Summary& summary, const SimulationResult& result, const EventRows& rows);
-/// Real time spent, per simulated second too, and the real-time factor: simulated over real time.
+/// Adds real time, in all and for each simulated second, and the real-time factor: simulated over real time.
 void add_speed(Summary& summary, double simulated_seconds, double real_seconds);
 
 }  // namespace kinesphere::program

@@ -25,7 +25,8 @@ std::string quoted_for_csv(const std::string& text) {
   return quoted + '"';
 }
 
-/// `empty` is how a format spells a value that is not there (JSON has no NaN or infinity either).
+/// Returns the cell as text. `empty` is the format's spelling of a missing value, and of NaN and infinity in
+/// JSON.
 std::string text_of(const Cell& cell, std::string_view empty, std::string (*quoted)(const std::string&)) {
   if (const auto* number = std::get_if<double>(&cell)) {
     return std::isfinite(*number) ? fmt::format("{}", *number) : std::string(empty);

@@ -11,7 +11,7 @@
 
 namespace kinesphere::program {
 
-/// A decimal number with just these digits.
+/// A decimal number that is written with exactly these digits.
 struct DecimalText {
   std::string digits;
 };
@@ -21,20 +21,20 @@ using Cell = std::variant<std::monostate, double, std::uint64_t, bool, std::stri
 
 enum class TableFormat { csv, json_lines };
 
-/// Throws ProgramError when the name ends in neither .csv nor .jsonl.
+/// Throws ProgramError if the name ends in neither .csv nor .jsonl.
 TableFormat table_format_of(const std::string& path);
 
-/// Numbers are written with as few digits as bring back the same bits. Throws ProgramError as OutputFile
-/// does, and as table_format_of().
+/// Writes rows. Numbers have the fewest digits that read back as the same double. Throws ProgramError like
+/// OutputFile and table_format_of().
 class TableFile {
  public:
   TableFile(const std::string& path, std::vector<std::string> columns);
-  /// For names with other endings, and for tables that an earlier run has begun.
+  /// For names with other endings, and for tables that an earlier run began.
   TableFile(TableFormat format, OutputPlace place, std::vector<std::string> columns);
 
-  /// One cell for each column.
+  /// Writes a row. Precondition: one cell for each column.
   void write(std::span<const Cell> cells);
-  /// As OutputFile::sync().
+  /// Calls OutputFile::sync().
   std::uint64_t sync() { return file_.sync(); }
   void commit() { file_.commit(); }
 

@@ -1,4 +1,4 @@
-// `kinesphere tracks`: who came close to whom in a recording of real motion.
+// `kinesphere tracks`: finds close approaches in a recording of real motion.
 #include "tracks.hpp"
 
 #include <fmt/format.h>
@@ -68,7 +68,7 @@ std::string closest_approaches(const std::vector<Approach>& approaches, const Re
   return text;
 }
 
-/// A progress bar over the span of the scene for what is done in parts.
+/// Returns a callback that shows a progress bar over the span of the scene.
 ComparisonProgress shown(const TracksOptions& options, const Scene& scene) {
   const auto progress = std::make_shared<Progress>(scene.world.start_time, scene.end_time);
   if (options.quiet || !progress->visible()) return {};
@@ -76,7 +76,7 @@ ComparisonProgress shown(const TracksOptions& options, const Scene& scene) {
   return [=, start = scene.world.start_time](double part) { progress->show(start + part * span); };
 }
 
-/// All that is written besides the summary. Files are opened before the work begins.
+/// All output besides the summary. The constructor opens the files, before the work begins.
 class TracksFiles {
  public:
   explicit TracksFiles(const TracksOptions& options) {
@@ -189,7 +189,7 @@ int tracks(const TracksOptions& options) {
     print("{}", summary.text());
     if (!approaches.empty()) print("{}", closest_approaches(approaches, recording));
   }
-  // Last: what a full disk does to a file must not take the summary with it.
+  // The commit comes last: a full disk must not suppress the summary.
   files.commit();
   return exit_code;
 }

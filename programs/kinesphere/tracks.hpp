@@ -1,4 +1,4 @@
-// `kinesphere tracks`: who came close to whom in a recording of real motion.
+// `kinesphere tracks`: finds close approaches in a recording of real motion.
 #pragma once
 
 #include <CLI/App.hpp>

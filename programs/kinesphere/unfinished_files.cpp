@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::array stopping{SIGHUP, SIGINT, SIGQUIT, SIGPIPE, SIGTERM, SIGXCPU, SIGXFSZ};
 
-/// The list is changed only while those signals wait.
+/// Changed only while the stop signals are blocked.
 UnfinishedFile* first = nullptr;
 
 sigset_t stopping_signals() {
@@ -20,7 +20,7 @@ sigset_t stopping_signals() {
   return signals;
 }
 
-/// Makes those signals wait.
+/// Blocks the stop signals until destruction.
 class SignalsWait {
  public:
   SignalsWait() {
@@ -37,10 +37,10 @@ class SignalsWait {
 
 }  // namespace
 
-/// Calls nothing but what a handler may call.
+/// Calls only async-signal-safe functions.
 void remove_unfinished_files(int signal) {
   for (const UnfinishedFile* file = first; file != nullptr; file = file->next_) ::unlink(file->path_);
-  // The handler is gone by now (SA_RESETHAND): this stops the program once the handler returns.
+  // The handler is reset (SA_RESETHAND): this stops the program once the handler returns.
   ::raise(signal);
 }
 

@@ -1,14 +1,13 @@
-// Files that must not stay behind when the program is stopped by a signal.
+// Removes files when a signal stops the program.
 #pragma once
 
 namespace kinesphere::program {
 
-/// While one of these lives, the signals that people and systems stop programs with (SIGHUP, SIGINT, SIGQUIT,
-/// SIGPIPE, SIGTERM and those of exceeded limits) remove the file before they stop the program as they would
-/// have; signals that are ignored stay ignored.
+/// While an object lives, the signals that stop programs (SIGHUP, SIGINT, SIGQUIT, SIGPIPE, SIGTERM and those
+/// of exceeded limits) remove the file before they stop the program; ignored signals stay ignored.
 class UnfinishedFile {
  public:
-  /// `path` must stay as it is while this object lives.
+  /// `path` must not change while this object lives.
   explicit UnfinishedFile(const char* path);
   UnfinishedFile(const UnfinishedFile&) = delete;
   UnfinishedFile& operator=(const UnfinishedFile&) = delete;

@@ -6,9 +6,9 @@
 
 namespace kinesphere::program {
 
-/// A finite decimal number.
+/// Accepts a finite decimal number.
 CLI::Validator finite_number();
-/// Digits only, from `least` to `largest`; the parser by itself would take -1 for 2^64 - 1 and 010 for 8.
+/// Accepts digits only, from `least` to `largest`; the parser by itself takes -1 for 2^64 - 1 and 010 for 8.
 CLI::Validator whole_number(std::uint64_t largest, std::uint64_t least = 0);
 
 }  // namespace kinesphere::program

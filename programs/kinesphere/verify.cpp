@@ -1,4 +1,4 @@
-// `kinesphere verify`: a detector and the oracle on the same scene, every begin and end compared.
+// `kinesphere verify`: runs a detector and the oracle on one scene and compares every begin and end.
 #include "verify.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// `kinesphere verify`: a detector and the oracle on the same scene, every begin and end compared.
+// `kinesphere verify`: runs a detector and the oracle on one scene and compares every begin and end.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -19,7 +19,7 @@ CLI::App* add_verify_command(CLI::App& program, VerifyOptions& options);
 /// Returns the exit code. Throws ProgramError.
 int verify(const VerifyOptions& options, const NamedDetector& detector = {});
 
-/// What the comparison found, with the first difference if there is one.
+/// Adds the result of the comparison, with the first difference if there is one.
 void add_comparison(Summary& summary, const ContactComparison& comparison);
 
 }  // namespace kinesphere::program

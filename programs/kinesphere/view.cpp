@@ -1,5 +1,4 @@
-// `kinesphere view`: serves the files of the viewer, and what it is to show, on this machine alone, and opens
-// them in a browser.
+// `kinesphere view`: serves the viewer and the files to show, for this machine alone, and opens a browser.
 #include "view.hpp"
 
 #include <fmt/format.h>
@@ -78,14 +77,14 @@ int view(const ViewOptions& options) {
   if (!server.serve_folder("/", folder))
     throw ProgramError(fmt::format("--folder: {} cannot be read", folder));
   serve(server, opened);
-  // No thread takes these but this one, which waits for them.
+  // Blocked in all threads; this one waits for these signals.
   sigset_t stops;
   sigemptyset(&stops);
   sigaddset(&stops, SIGINT);
   sigaddset(&stops, SIGTERM);
   pthread_sigmask(SIG_BLOCK, &stops, nullptr);
   server.start(options.port);
-  // The page asks for files only where its address says that there are any: another server has none.
+  // The page requests files only if its address says so, since other servers have none.
   const std::string address = server.address() + (options.files.empty() ? "" : "#opened");
   print("{}\n", address);
   finish_output();

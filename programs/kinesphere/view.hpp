@@ -1,4 +1,4 @@
-// `kinesphere view`: shows the viewer in a browser, and in it the files that were given.
+// `kinesphere view`: shows the viewer in a browser, with the given files.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -11,7 +11,7 @@ namespace kinesphere::program {
 
 struct ViewOptions {
   std::vector<std::string> files;  ///< a recording of a world, or tables of positions; may be empty
-  TrackOptions reading;            ///< of tables
+  TrackOptions reading;            ///< options for tables
   std::string reading_option;      ///< the name of one of those that was given; empty: there was none
   std::string folder;              ///< empty: where the viewer has been built or installed
   int port = 0;                    ///< 0: any that is free

@@ -1,4 +1,4 @@
-// `kinesphere watch`: what is certain about the separation of tracks that a stream reports.
+// `kinesphere watch`: reports certain facts about the separation of tracks in a stream.
 #include "watch.hpp"
 
 #include <fmt/format.h>
@@ -184,7 +184,7 @@ int watch(const WatchOptions& options) {
   try {
     watch.run();
   } catch (const ProgramError&) {
-    // What a wrong option stops at the first report has no summary.
+    // An error that stops the watch at its first report leaves no summary.
     if (watch.watcher().monitor_counters().reports > 0 || watch.watcher().counts().malformed > 0) conclude();
     throw;
   }

@@ -1,4 +1,4 @@
-// `kinesphere watch`: what is certain about the separation of tracks that a stream reports.
+// `kinesphere watch`: reports certain facts about the separation of tracks in a stream.
 #pragma once
 
 #include <CLI/App.hpp>

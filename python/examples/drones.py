@@ -18,7 +18,7 @@ import matplotlib.pyplot as plt
 rng = np.random.default_rng(4)
 count, limit, flight = 60, 4.0, 120.0
 centres, sizes = rng.uniform(0, 400, (count, 3)), rng.uniform(5, 40, (count, 3))
-# Each swings around its centre, as fast as the limit of its acceleration lets it.
+# Each swings around its centre, as fast as its acceleration limit allows.
 rates = np.sqrt(limit / np.linalg.norm(sizes, axis=1))[:, None]
 phases = rng.uniform(0, 2 * np.pi, (count, 3))
 

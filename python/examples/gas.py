@@ -20,7 +20,7 @@ for packing in packings:
     world.add_motion(motion, scene.radii)
     world.run(1.0, motion, scene)  # until the start is forgotten
     events = world.run(scene.end_time, motion, scene)
-    # The velocity that each contact gives the first, along the vector between the two centres.
+    # The velocity that each contact gives the first body, along the vector between the two centres.
     first, second, masses = events["first"], events["second"], scene.masses
     kick = 2 * masses[second] / (masses[first] + masses[second]) * events["approach_speed"]
     distance = np.linalg.norm(events["second_position"] - events["first_position"], axis=1)

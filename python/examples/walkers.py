@@ -19,7 +19,7 @@ distance = 0.4
 frame, walker, x, y = np.loadtxt(sys.argv[1])[:, [0, 1, 2, 4]].T
 found = ks.tracks(frame / 25, x, y, None, walker.astype(int), distance)
 
-# The same question, as it is asked frame by frame.
+# The equivalent check, frame by frame.
 seen = set()
 for now in np.unique(frame):
     who, here = walker[frame == now], np.stack([x[frame == now], y[frame == now]], axis=1)

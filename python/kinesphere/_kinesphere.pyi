@@ -1,4 +1,5 @@
-# The module in C++ (python/module). What each call does is in its docstring: help(kinesphere.World.run).
+# The C++ module (python/module). The docstring of each call documents it:
+# help(kinesphere.World.run).
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any, Literal, Optional, Self, SupportsIndex, TypedDict, Union, overload
 import numpy as np
@@ -12,7 +13,7 @@ Doubles = npt.NDArray[np.float64]
 Ids = npt.NDArray[np.int64]
 Table = npt.NDArray[np.void]
 Bytes = Union[bytes, bytearray, memoryview]
-# Numbers in any shape that NumPy makes an array of.
+# Numbers in any form that NumPy converts to an array.
 Array = npt.ArrayLike
 # One id, or several.
 Bodies = Union[SupportsIndex, Sequence[SupportsIndex], npt.NDArray[np.integer[Any]]]
@@ -446,7 +447,7 @@ class World:
     @staticmethod
     def restore(snapshot: Bytes, pair_filter: Optional[Callable[[BodyId, BodyId], bool]] = None) -> World: ...
 
-    # Bodies that come, change and go.
+    # Adding, changing and removing bodies.
     def add(
         self,
         positions: Array,
@@ -512,7 +513,7 @@ class World:
     def set_sensor_class(self, bodies: Bodies, sensor_class: int) -> None: ...
     def set_user_data(self, bodies: Bodies, data: Array) -> None: ...
 
-    # Going on.
+    # Advancing.
     def advance(self, until: float, probe: Probe) -> Optional[Event]: ...
     def events(self, until: float, probe: Probe) -> EventIterator: ...
     def run(
@@ -560,7 +561,7 @@ class World:
         probe: Optional[Probe] = None,
     ) -> Table: ...
 
-    # Seeing inside, and recordings.
+    # Inspection, and recordings.
     def bodies(self) -> Ids: ...
     def body(self, body: SupportsIndex) -> BodyView: ...
     def bounds(self, bodies: Optional[Bodies] = None) -> tuple[Doubles, Doubles]: ...

@@ -13,9 +13,9 @@ from .errors import InvalidValue
 if TYPE_CHECKING:
     import pandas as pd
 
-# As `kinesphere tracks`: of the median time between the samples of an id.
+# Factor on the median time between the samples of an id, as in `kinesphere tracks`.
 _gap_factor = 2.5
-# Coordinates reach to 2**41 tolerances; half of that is left to curves that swing out.
+# Coordinates reach to 2**41 tolerances; half of that is reserved for curves that swing out.
 _tolerances_in_extent = 2.0**40
 
 
@@ -73,7 +73,7 @@ def tracks(
     """Finds every time that two bodies of a recording were closer to each other than `distance` (length).
 
     t, x, y, z: shape (n,), a sample in each row, in any order; z is None for motion in a plane. id: shape
-    (n,), whole numbers or texts, says whose sample it is. Times and coordinates may be large (Unix times,
+    (n,), whole numbers or texts, identifies the body of each sample. Times and coordinates may be large (Unix times,
     UTM): they are calculated from origins near them.
 
     interpolate: between two samples a body goes along a natural cubic spline, or straight on ("linear").

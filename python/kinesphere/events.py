@@ -16,10 +16,10 @@ if TYPE_CHECKING:
 
 
 class Events(Sequence[Event]):
-    """Events in the order in which they were told: a table, of which Event has the columns.
+    """Events in order of delivery: a table with the columns of Event.
 
-    array is a structured array of shape (n,) whose type is event_dtype: vectors have shape (3,); kind, wall
-    and senses are numbers of EventKind, Wall and Senses; second is no_body where there is none.
+    array is a structured array of shape (n,) and type event_dtype: vectors have shape (3,); kind, wall
+    and senses are numbers of EventKind, Wall and Senses; second is no_body if there is none.
 
     Events of one kind: events.of_kind(EventKind.contact_begin); a column: events["time"], shape (n,), or
     (n, 3) for vectors; one Event: events[0]; some Events: events[events["gap"] < 0], events[:10].

@@ -12,7 +12,7 @@ class _Named(IntEnum):
 
 
 class EventKind(_Named):
-    """In the order in which events of one instant are told."""
+    """Kinds of events, in the order in which events of one instant are delivered."""
 
     bound_violation = 0
     """A probe answered with a state that contradicts the body's own promise."""

@@ -1,4 +1,4 @@
-// Certificates as answers, and queries: calls of a world.
+// Certificates as answers, and queries.
 #include <optional>
 #include <string>
 
@@ -11,7 +11,7 @@
 namespace kinesphere::python {
 namespace {
 
-/// Asks with a probe where there is one (None: from what is known already).
+/// Queries with a probe, or with None from existing reports alone.
 template <class Question>
 auto asked(WorldHandle& handle, const char* call, const py::object& probe, const Question& question) {
   const auto turn = handle.take(call);
@@ -74,7 +74,7 @@ DistanceLimits distance_limits(WorldHandle& handle, const py::object& first, con
   });
 }
 
-// Rows of what queries find.
+// Rows of the results of queries.
 
 struct FoundRecord {
   std::int64_t body;

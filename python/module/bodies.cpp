@@ -1,4 +1,4 @@
-// Bodies that come, change and go: calls of a world.
+// Adding, changing and removing bodies.
 #include <limits>
 #include <string>
 
@@ -27,7 +27,7 @@ SensorClass sensor_class_of(std::uint64_t given, const Argument& argument) {
   return static_cast<SensorClass>(given);
 }
 
-/// "add: body 3: ..." becomes the number in the arrays that came.
+/// Errors such as "add: body 3: ..." name the number in the given arrays.
 std::vector<BodyDefinition> definitions_of(
     WorldHandle& handle, const py::object& positions, const py::object& velocities, const py::object& radii,
     const py::object& acceleration_limits, const py::object& planned_accelerations,
@@ -82,7 +82,7 @@ std::vector<BodyDefinition> definitions_of(
   return bodies;
 }
 
-/// One vector, which stands for a single body.
+/// Returns true for one vector, which stands for a single body.
 bool is_vector(const py::object& given) {
   const Numbers numbers(given, {"add", "positions"});
   return numbers.dimensions() == 1 && numbers.length(0) > 0;
@@ -115,7 +115,7 @@ py::object add_bodies(WorldHandle& handle, const py::object& positions, const py
   return array_of(ids);
 }
 
-/// All bodies of a motion, in a world in which their ids will be their numbers.
+/// Adds all bodies of a motion; their ids must equal their numbers.
 py::object add_motion(WorldHandle& handle, MotionHandle& moved, const py::object& radii) {
   const auto turn = handle.take("add_motion");
   const auto turn_of_motion = moved.in_use.take_alone("add_motion", "motion");
@@ -194,7 +194,7 @@ void remove(WorldHandle& handle, const py::object& bodies) {
   end_call(handle);
 }
 
-/// A change of one body, or of many, one after the other.
+/// Changes one body, or many in order.
 template <class Change>
 void change_each(WorldHandle& handle, const py::object& bodies, const char* call, const Change& change) {
   const auto turn = handle.take(call);
@@ -203,7 +203,7 @@ void change_each(WorldHandle& handle, const py::object& bodies, const char* call
   end_call(handle);
 }
 
-/// A call that changes bodies, each in the same way.
+/// Binds a call that changes bodies, each in the same way.
 template <class Change>
 auto changing(const char* call, Change change) {
   return [call, change](WorldHandle& handle, const py::object& bodies) {
@@ -211,7 +211,7 @@ auto changing(const char* call, Change change) {
   };
 }
 
-/// Vectors for bodies: one for one id, one in a row for an array of ids.
+/// Returns vectors for bodies: one vector for one id, one in a row for an array of ids.
 std::vector<Vec3> vectors_for(WorldHandle& handle, const py::object& bodies, const py::object& vectors,
                               const Argument& argument) {
   const Ids named = ids_of(bodies, {argument.call, "bodies"});
@@ -225,7 +225,7 @@ void set_velocity(WorldHandle& handle, const py::object& bodies, const py::objec
               [&](BodyId body, std::size_t k) { return handle.world.set_velocity(body, each[k]); });
 }
 
-/// The states of teleport() and enable().
+/// Reads the states of teleport() and enable().
 template <class Change>
 void put(WorldHandle& handle, const py::object& bodies, const py::object& positions,
          const py::object& velocities, const char* call, const Change& change) {

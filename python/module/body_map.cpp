@@ -1,4 +1,4 @@
-// Worlds whose bodies are moved by one motion or several.
+// Worlds with bodies that one motion moves, or several.
 #include <algorithm>
 
 #include "errors.hpp"
@@ -64,7 +64,7 @@ py::object add_all_moved(BodyMapHandle& map, WorldHandle& world, const py::objec
   return array_of(ids);
 }
 
-/// A change of a body in its motion and in the world.
+/// Changes a body in its motion and in the world.
 template <class Change>
 void change(BodyMapHandle& map, WorldHandle& world, const char* call, const Change& made) {
   const auto turn = map.in_use.take_alone(call, map_name);

@@ -13,10 +13,11 @@ namespace kinesphere::python {
 
 namespace py = pybind11;
 
-/// From now on BadResult, which Result::value() throws, comes out as an exception of kinesphere.errors.
+/// Registers exceptions: BadResult, which Result::value() throws, becomes an exception of
+/// kinesphere.errors.
 void bind_errors(py::module_& module);
 
-/// Of this package alone: the library has no word for it.
+/// Throws an error that exists in this package alone.
 [[noreturn]] void throw_state_error(std::string_view code, std::string_view argument,
                                     const std::string& message);
 

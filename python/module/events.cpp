@@ -66,7 +66,7 @@ EventRecord record_at(const std::byte* bytes) {
   return record;
 }
 
-/// Of an array of rows whose bytes lie one after the other.
+/// Precondition: an array of rows with contiguous bytes.
 std::vector<EventRecord> records_of(const py::object& given, std::string_view call) {
   const std::vector<std::byte> bytes = bytes_from(given, {call, "events"});
   std::vector<EventRecord> records;
@@ -75,7 +75,7 @@ std::vector<EventRecord> records_of(const py::object& given, std::string_view ca
   return records;
 }
 
-/// A member of one of the package's enumerations.
+/// Returns a member of one of the package's enumerations.
 py::object member(const char* enumeration, int number) {
   return package_attribute("kinesphere.kinds", enumeration)(number);
 }

@@ -13,7 +13,7 @@ namespace kinesphere::python {
 
 namespace py = pybind11;
 
-/// A row: kinesphere.event_dtype.
+/// A row of kinesphere.event_dtype.
 struct EventRecord {
   double time;
   std::int64_t first;
@@ -37,7 +37,7 @@ struct EventRecord {
 };
 EventRecord record_of(const Event& event);
 
-/// A kinesphere.Events.
+/// Returns a kinesphere.Events.
 py::object table_of(std::span<const EventRecord> records);
 
 void bind_events(py::module_& module);

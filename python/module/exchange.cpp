@@ -12,7 +12,7 @@ constexpr bool is_little = std::endian::native == std::endian::little;
 
 std::string text_of(py::handle object) { return py::str(object).cast<std::string>(); }
 
-/// An array of real numbers (kinds "fiu") or whole numbers ("iu").
+/// Returns an array of real numbers (kinds "fiu") or whole numbers ("iu").
 py::object as_array(py::handle given, const Argument& argument, std::string_view kinds, const char* wanted) {
   const auto fail = [&](const std::string& found) {
     throw py::type_error(std::string(argument.call) + ": " + std::string(argument.name) + " must be " +
@@ -22,7 +22,7 @@ py::object as_array(py::handle given, const Argument& argument, std::string_view
   try {
     array = numpy("asarray")(given);
   } catch (const py::error_already_set& error) {
-    // NumPy's words on rows of different lengths and the like.
+    // NumPy's exceptions for rows of different lengths and the like.
     if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) throw;
     fail("NumPy says: " + text_of(error.value()));
   }
@@ -40,7 +40,7 @@ std::string shape_of(const Py_buffer& buffer) {
   return text + (buffer.ndim == 1 ? ",)" : ")");
 }
 
-/// The letter of a format of one native number, else 0.
+/// Returns the letter of a format of one native number, else 0.
 char letter_of(const Py_buffer& buffer) {
   const char* format = buffer.format != nullptr ? buffer.format : "B";
   if (*format == '@' || *format == '=' || *format == (is_little ? '<' : '>')) ++format;
@@ -49,7 +49,7 @@ char letter_of(const Py_buffer& buffer) {
 
 std::string columns(bool plane) { return plane ? "(n, 3) or (n, 2)" : "(n, 3)"; }
 
-/// Shape (count, 3), or in the plane (count, 2); an array of nothing has no bodies.
+/// Returns the rows of shape (count, 3) or, in the plane, (count, 2); an empty array has no bodies.
 std::size_t rows_of(const Numbers& numbers, const Argument& argument, bool plane,
                     std::optional<std::size_t> count) {
   const bool is_table =
@@ -67,17 +67,17 @@ Vec3 row_of(const Numbers& numbers, std::size_t row) {
   return {numbers.at(row, 0), numbers.at(row, 1), numbers.length(1) == 3 ? numbers.at(row, 2) : 0.0};
 }
 
-/// numpy.dtype() of that name, made once.
+/// Returns numpy.dtype() of that name, made once.
 template <int Which>
 const py::object& type_named(const char* name) {
-  // For ever: there is no interpreter any more when statics are destroyed.
+  // Never destroyed: statics outlive the interpreter.
   static const auto* const type = new py::object(numpy("dtype")(name));
   return *type;
 }
 const py::object& double_type() { return type_named<0>("f8"); }
 const py::object& whole_type() { return type_named<1>("i8"); }
 
-/// numpy.ndarray(shape, dtype, buffer).
+/// Returns numpy.ndarray(shape, dtype, buffer).
 py::object made_array(PyObject* shape, const py::object& dtype, PyObject* memory) {
   static PyObject* const array_class = numpy("ndarray").release().ptr();
   PyObject* const arguments[] = {shape, dtype.ptr(), memory};
@@ -99,7 +99,7 @@ std::uint64_t whole_number(py::handle given, const Argument& argument) {
   refuse(argument, "must be a whole number from 0 to 2^64 - 1", "is " + text_of(index));
 }
 
-/// Whole numbers of an array of one dimension.
+/// Returns the whole numbers of an array of one dimension.
 std::vector<std::uint64_t> whole_numbers(py::handle given, const Argument& argument) {
   const py::object array = as_array(given, argument, "iu", "whole numbers");
   const py::object wide =
@@ -129,7 +129,7 @@ void refuse(const Argument& argument, std::string_view expectation, const std::s
 Numbers::Numbers(py::handle given, const Argument& argument) {
   if (take(given)) return;
   const py::object array = as_array(given, argument, "fiu", "real numbers");
-  // float64 in the order of bytes of this machine always is a buffer that can be read.
+  // float64 in this machine's byte order is always a readable buffer.
   if (!take(numpy("asarray")(array, double_type()))) throw py::error_already_set();
 }
 
@@ -165,7 +165,7 @@ double Numbers::at_offset(std::ptrdiff_t offset) const {
 }
 
 Vec3 vector_of(py::handle given, const Argument& argument, bool plane) {
-  // The usual tuples, without a way through NumPy.
+  // Usual tuples are read without NumPy.
   if (PyTuple_CheckExact(given.ptr()) && PyTuple_GET_SIZE(given.ptr()) == 3) {
     double numbers[3];
     bool are_floats = true;
@@ -325,7 +325,7 @@ BodyId id_of(py::handle given, const Argument& argument) {
   }
   int overflow = 0;
   const long long number = PyLong_AsLongLongAndOverflow(index.ptr(), &overflow);
-  // No world ever gave out a number that is negative or needs more than 64 bits.
+  // Ids are neither negative nor longer than 64 bits.
   if (overflow == 0 && number >= 0) body = BodyId::unpack(static_cast<std::uint64_t>(number));
   static const py::handle id_class = package_attribute("kinesphere.ids", "BodyId").release();
   if (py::isinstance(given, id_class)) body.world = given.attr("world").cast<std::uint32_t>();
@@ -337,7 +337,7 @@ Ids ids_of(py::handle given, const Argument& argument) {
   if (PyIndex_Check(given.ptr()) != 0 && PyObject_HasAttrString(given.ptr(), "__len__") == 0)
     return {{id_of(given, argument)}, true};
   Ids result;
-  // A list of ids says of which world each is; NumPy forgets it.
+  // The ids in a list know their world; NumPy drops that.
   if (PyList_Check(given.ptr()) != 0 || PyTuple_Check(given.ptr()) != 0) {
     for (const py::handle item : py::reinterpret_borrow<py::sequence>(given))
       result.ids.push_back(id_of(item, argument));

@@ -1,4 +1,4 @@
-// A world that goes on: event by event, or by itself.
+// Advances a world event by event, or by itself.
 #include <optional>
 #include <string>
 
@@ -12,7 +12,7 @@
 namespace kinesphere::python {
 namespace {
 
-/// One advance(): an Event, or nothing. To be called under the GIL.
+/// Calls advance() once; returns its Event, or nothing. Precondition: the GIL is held.
 std::optional<Event> advanced(WorldHandle& handle, double until, Asked& asked) {
   const auto turn = handle.take("advance");
   return without_gil(handle, [&] { return handle.world.advance(until, asked.probe()); }).value();
@@ -24,14 +24,14 @@ py::object advance(WorldHandle& handle, double until, const py::object& probe) {
   return event ? py::cast(*event) : py::none();
 }
 
-/// The events of a world up to a time, while a loop goes through them.
+/// Iterates over the events of a world up to a time.
 class EventIterator {
  public:
   EventIterator(std::shared_ptr<WorldHandle> handle, double until, py::object probe)
       : handle_(std::move(handle)), until_(until), probe_(std::move(probe)) {}
 
   Event next() {
-    // Between two events the motion is the caller's to change.
+    // Between two events the caller may change the motion.
     Asked asked(probe_, "events", handle_->is_plane());
     const std::optional<Event> event = advanced(*handle_, until_, asked);
     if (!event) throw py::stop_iteration();
@@ -44,7 +44,7 @@ class EventIterator {
   py::object probe_;
 };
 
-/// What answers the events of a run.
+/// Responds to the events of a run.
 class Responding {
  public:
   Responding(const py::object& given, const WorldHandle& handle, Interruptions& interruptions)
@@ -91,7 +91,7 @@ class Responding {
   const Scene* scene_ = nullptr;
 };
 
-/// Threads: a number, or Workers that are there already.
+/// Threads: a number, or an existing Workers object.
 class Threads {
  public:
   explicit Threads(const py::object& given) {

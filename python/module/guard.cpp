@@ -27,7 +27,7 @@ InUse::Turn InUse::take_alone(std::string_view call, std::string_view what) {
 }
 
 void Interruptions::look() {
-  // The clock takes longer than most states.
+  // Reading the clock takes longer than most states.
   constexpr int calls_between_looks = 64;
   if (std::this_thread::get_id() != thread_) return;
   if (!has_raised_) {

@@ -1,4 +1,4 @@
-// What keeps Python's threads, signals and the engine apart.
+// Protects the engine against Python's threads and signals.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -14,11 +14,11 @@ namespace kinesphere::python {
 
 namespace py = pybind11;
 
-/// Who uses an object now. All of it is read and written by those who hold the GIL, which the engine does not
-/// while it works: so another thread may come to an object in use, and is refused.
+/// Records which thread uses an object. Precondition: all members require the GIL, which the engine
+/// does not hold while it works; so another thread may reach an object in use, and gets an error.
 class InUse {
  public:
-  /// For as long as it lives the object is used by this thread.
+  /// Marks the object as used by this thread until destruction.
   class Turn {
    public:
     explicit Turn(InUse& use) : use_(&use) { ++use_->depth_; }
@@ -32,10 +32,10 @@ class InUse {
     InUse* use_;
   };
 
-  /// For an object that may be used again inside its own callbacks, which know by themselves what is allowed
-  /// there. Throws kinesphere.StateError (code "in_use") in another thread.
+  /// For an object that its own callbacks may use again; the callbacks know what is allowed. Throws
+  /// kinesphere.StateError (code "in_use") in another thread.
   [[nodiscard]] Turn take(std::string_view call, std::string_view what);
-  /// For an object that nobody else may look at meanwhile.
+  /// For an object that no other call may use meanwhile.
   [[nodiscard]] Turn take_alone(std::string_view call, std::string_view what);
 
  private:
@@ -43,16 +43,17 @@ class InUse {
   std::thread::id owner_;
 };
 
-/// What the callbacks of one call of a world raise, Ctrl-C among it. With several threads the engine repeats
-/// what has failed, to come to the first failure by itself: so what has been raised once is raised again,
-/// until the call ends.
+/// Exceptions of the callbacks of one call of a world, including Ctrl-C. With several threads the
+/// engine repeats failed work, to find the first failure: so an exception is raised again until the
+/// call ends.
 class Interruptions {
  public:
-  /// Lets Ctrl-C through while the engine works without the GIL, which this does not need: looks for signals
-  /// at most 20 times a second, in the thread that made it. Throws what the handler of a signal has raised.
+  /// Lets Ctrl-C through while the engine works without the GIL: checks for signals at most 20
+  /// times a second, in the thread that made this object. Throws what a signal handler has raised.
+  /// Needs no GIL.
   void look();
 
-  /// Calls a function of Python's under the GIL.
+  /// Calls a Python function under the GIL.
   template <class Function>
   auto call(const Function& function) {
     const py::gil_scoped_acquire gil;

@@ -1,4 +1,4 @@
-// Seeing inside a world, and its recordings: calls of a world.
+// Inspection of a world, and its recordings.
 #include <memory>
 #include <string>
 
@@ -11,7 +11,7 @@
 namespace kinesphere::python {
 namespace {
 
-/// The bodies that were named, or all of them.
+/// Returns the named bodies, or all of them.
 std::vector<BodyId> named_or_all(const WorldHandle& handle, const py::object& bodies, std::string_view call) {
   return bodies.is_none() ? handle.world.bodies() : ids_of(bodies, {call, "bodies"}).ids;
 }
@@ -67,7 +67,7 @@ py::list cells(WorldHandle& handle) {
   return list;
 }
 
-/// None, or where and what.
+/// Returns None, or the place and the defect.
 py::object audit(WorldHandle& handle) {
   const auto turn = handle.take("audit");
   const auto finding = without_gil(handle, [&] { return handle.world.audit(); });
@@ -140,7 +140,7 @@ void bind_views(py::module_& module) {
           py::arg("kind"), "Events of an EventKind that have been told.");
 }
 
-/// A replay of which the world is read through WorldView.
+/// A replay; WorldView reads its world.
 struct ReplayHandle {
   std::shared_ptr<FilterTrouble> trouble;
   Replay replay;
@@ -159,7 +159,7 @@ py::object advance_replay(ReplayHandle& handle) {
   return event ? py::cast(*event) : py::none();
 }
 
-/// Everything in a recording, without repeating it.
+/// Reads everything in a recording, without repeating it.
 py::tuple read_all(const py::object& recording) {
   const RecordedRun run = read_recording(bytes_from(recording, {"read_recording", "recording"})).value();
   std::vector<EventRecord> events;

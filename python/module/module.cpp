@@ -1,4 +1,4 @@
-// The module kinesphere._kinesphere: the library as the package in Python sees it.
+// The module kinesphere._kinesphere: the library as the Python package sees it.
 #include <pybind11/pybind11.h>
 
 #include <string>
@@ -30,7 +30,7 @@ PYBIND11_MODULE(_kinesphere, module) {
   bind_replay(module);
   bind_scenes(module);
   bind_tracks(module);
-  // What users see is the package.
+  // Users see the names of the package.
   for (const auto& [name, member] : py::reinterpret_borrow<py::dict>(module.attr("__dict__")))
     if (py::isinstance<py::type>(member)) py::setattr(member, "__module__", py::str("kinesphere"));
 }

@@ -17,7 +17,7 @@
 namespace kinesphere::python {
 namespace {
 
-/// Motions are of any dimension: what comes with two columns lies in the plane z = 0.
+/// Motions have no dimension: arrays with two columns lie in the plane z = 0.
 constexpr bool any_dimension = true;
 
 template <class Definition>
@@ -31,12 +31,12 @@ Definition with_limits(std::string_view call, const py::object& positions, const
 }
 
 std::uint32_t number_in_motion(long long number) {
-  // What no motion has a body of stays so.
+  // An id without a body in the motion stays so.
   const bool is_number = number >= 0 && number < std::numeric_limits<std::uint32_t>::max();
   return is_number ? static_cast<std::uint32_t>(number) : std::numeric_limits<std::uint32_t>::max();
 }
 
-/// The numbers that were named, or those of all bodies that are there.
+/// Returns the named numbers, or those of all present bodies.
 std::vector<std::uint32_t> numbers_of(const Motion& motion, const py::object& named, std::string_view call) {
   std::vector<std::uint32_t> numbers;
   if (!named.is_none()) {
@@ -57,7 +57,7 @@ py::tuple states_at(MotionHandle& handle, const py::object& named, double time, 
   return arrays_of(states);
 }
 
-/// What World.add() takes.
+/// Returns the arguments of World.add().
 py::dict definitions_at(MotionHandle& handle, double time, const py::object& named) {
   const auto turn = handle.in_use.take_alone("definitions", "motion");
   const std::vector<std::uint32_t> numbers = numbers_of(*handle.motion, named, "definitions");
@@ -172,7 +172,7 @@ The arguments of World.add(): world.add(**motion.definitions(0.0), radii=0.5).)"
           py::arg("bytes"), "Adds the body that write_body() wrote, and returns its number here.");
 }
 
-/// A kind of motion with what is the same in all of them.
+/// Binds the common calls of a kind of motion.
 template <class Kind>
 py::class_<HandleOf<Kind>, MotionHandle, std::shared_ptr<HandleOf<Kind>>> bind_kind(
     py::module_& module, const char* name, const char* documentation) {
@@ -404,7 +404,7 @@ acceleration limit that would have allowed it, and velocity.)");
   bind_add_with_limit(frames);
 }
 
-/// If it is one of these kinds.
+/// Tries each of these kinds.
 template <class Kind, class... Others>
 py::object object_of_kind(std::unique_ptr<Motion> motion) {
   if (dynamic_cast<Kind*>(motion.get()) != nullptr)

@@ -1,4 +1,4 @@
-// Ready-made motions: nothing of Python is called for their states.
+// Ready-made motions: their states need no call of Python.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -15,14 +15,14 @@ namespace kinesphere::python {
 
 namespace py = pybind11;
 
-/// A motion as Python has it. It stands still in memory, as movers and maps refer to it.
+/// A motion as Python has it. Its address is fixed, since sources and maps refer to it.
 struct MotionHandle {
   explicit MotionHandle(std::unique_ptr<Motion> held) : motion(std::move(held)) {}
   std::unique_ptr<Motion> motion;
   InUse in_use{};
 };
 
-/// The class of each kind of motion is one of these, so that functions of the kind find it.
+/// Each kind of motion is bound as a class derived from this, so that its functions find the type.
 template <class Kind>
 struct HandleOf : MotionHandle {
   explicit HandleOf(Result<Kind> created) : HandleOf(std::make_unique<Kind>(std::move(created).value())) {}
@@ -30,14 +30,14 @@ struct HandleOf : MotionHandle {
   Kind& get() const { return static_cast<Kind&>(*motion); }
 };
 
-/// A map with the motions that it knows bodies of, which live as long as it does.
+/// A map with its motions, which live as long as it does.
 struct BodyMapHandle {
   BodyMap map{};
   std::vector<py::object> motions{};
   InUse in_use{};
 };
 
-/// Of the class that this kind of motion has in Python.
+/// Returns an object of the Python class of this kind of motion.
 py::object object_of(std::unique_ptr<Motion> motion);
 
 void bind_motions(py::module_& module);

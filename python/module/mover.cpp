@@ -12,10 +12,10 @@
 namespace kinesphere::python {
 namespace {
 
-/// Nobody has said where this body set out.
+/// The origin of a body that has none yet.
 constexpr MotionOrigin unknown_departure{.time = std::numeric_limits<double>::quiet_NaN()};
 
-/// Worlds of two dimensions and of three alike may have these bodies.
+/// Worlds of two dimensions and of three may have these bodies.
 constexpr bool plane_or_space = true;
 
 std::shared_ptr<MoverHandle> create_mover(const py::object& function, const py::object& positions,

@@ -1,4 +1,4 @@
-// Bodies that are moved by a function of Python's and may be given velocities by a run.
+// Bodies that a Python function moves, and that a run may give velocities.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -14,7 +14,7 @@ namespace kinesphere::python {
 
 namespace py = pybind11;
 
-/// Says where bodies are from where they set out last, which is kept here, by the index of their ids.
+/// Gives the states of bodies from their last origins, which are kept here by index of their ids.
 struct MoverHandle {
   py::object function;
   std::vector<MotionOrigin> departures;
@@ -24,11 +24,11 @@ struct MoverHandle {
   const MotionOrigin& origin(BodyId body) const;
 };
 
-/// Asks the function: under the GIL.
+/// Calls the function. Precondition: the GIL is held.
 void ask(const MoverHandle& handle, std::span<const BodyId> ids, double time, std::span<State> states,
          std::string_view call, bool plane);
 
-/// Within one call of a world.
+/// The motion source of one call of a world.
 class FunctionMover final : public MotionSource {
  public:
   FunctionMover(MoverHandle& handle, Interruptions& interruptions, std::string call, bool plane)

@@ -9,7 +9,7 @@
 namespace kinesphere::python {
 namespace {
 
-/// A mover through which Ctrl-C comes.
+/// A motion source that lets Ctrl-C through.
 template <class Moving>
 class Interruptible final : public MotionSource {
  public:

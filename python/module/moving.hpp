@@ -1,4 +1,4 @@
-// Who moves the bodies and who answers events: what Python hands to calls of a world.
+// Motion sources and responses that Python passes to calls of a world.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -19,17 +19,18 @@ namespace kinesphere::python {
 
 namespace py = pybind11;
 
-/// What is asked where bodies are: a ready-made motion, a map, or a function of Python's. It must be made and
-/// destroyed under the GIL and is asked without it. Ready-made ones are in use as long as it lives.
+/// The source of states: a ready-made motion, a map, or a Python function. Must be made and
+/// destroyed under the GIL, and is called without it. Marks ready-made ones as in use until
+/// destruction.
 class Asked {
  public:
-  /// Throws BadResult with null_probe for None, TypeError for what cannot be called.
+  /// Throws BadResult with null_probe for None, TypeError for an object that cannot be called.
   Asked(const py::object& given, std::string_view call, bool plane);
 
   Probe probe();
-  /// Nothing for a function of Python's.
+  /// Null for a Python function.
   MotionSource* mover() { return mover_.get(); }
-  /// For the other callbacks of the same call.
+  /// For the other callbacks of this call.
   Interruptions& interruptions() { return interruptions_; }
 
  private:
@@ -46,11 +47,11 @@ class Asked {
   Interruptions interruptions_;
 };
 
-/// A ready-made response: bodies bounce.
+/// The ready-made response: bodies bounce.
 class Bouncing {
  public:
   Bouncing(const py::object& masses, double restitution, double resting_speed);
-  /// is_fixed: whether a body is a fixed one, whose mass counts as infinite.
+  /// `is_fixed`: returns whether a body is static; its mass counts as infinite.
   template <class IsFixed>
   Response answer(const Event& event, const IsFixed& is_fixed) const;
 
@@ -79,7 +80,8 @@ Response Bouncing::answer(const Event& event, const IsFixed& is_fixed) const {
   return answer;
 }
 
-/// What a function of Python's returned for an event: None, or a velocity or None for each of the two.
+/// Converts the result of a Python function for an event: None, or a velocity or None for each of
+/// the two bodies.
 Response answer_of(const py::object& returned, bool plane);
 
 void bind_moving(py::module_& module);

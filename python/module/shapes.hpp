@@ -1,4 +1,4 @@
-// Boxes and the other shapes of what never moves.
+// Boxes and the other shapes of static bodies.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -8,7 +8,7 @@
 
 namespace kinesphere::python {
 
-/// A kinesphere.Box, or a pair of its corners. None is no box.
+/// Reads a kinesphere.Box, or a pair of its corners; nothing for None.
 std::optional<Box> box_of(const py::object& given, const Argument& argument);
 Shape shape_of(const py::object& given, const Argument& argument);
 py::object object_of(const Shape& shape);

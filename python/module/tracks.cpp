@@ -53,7 +53,7 @@ std::vector<Track> tracks_of(const std::vector<double>& times, const std::vector
   return tracks;
 }
 
-/// The approaches, and how many states were asked for.
+/// Returns the approaches, and the number of probes.
 py::tuple approaches(const py::object& times, const py::object& positions, const py::object& starts,
                      double distance, double tolerance, bool straight, bool plane) {
   const char* const call = "tracks";

@@ -10,7 +10,7 @@
 namespace kinesphere::python {
 namespace {
 
-/// True for all axes, or some of the letters "xyz".
+/// Reads True for all axes, or some of the letters "xyz".
 Axes axes_of(const py::object& given) {
   const Argument argument{"World", "periodic"};
   if (py::isinstance<py::bool_>(given)) {
@@ -48,7 +48,7 @@ std::shared_ptr<WorldHandle> create_world(const py::object& box, const py::objec
   definition.contact_tolerance = contact_tolerance;
   if (!separation_distance.is_none()) {
     definition.separation_distance = separation_distance.cast<double>();
-    // In the library NaN says that there is none.
+    // NaN stands for the default in the library.
     if (std::isnan(definition.separation_distance))
       refuse({"World", "separation_distance"}, "must be a number", "is nan", ErrorCode::not_finite);
   }
@@ -106,7 +106,7 @@ py::dict arguments_of(const WorldDefinition& definition) {
 
 PairFilter pair_filter_of(const py::object& function, const std::shared_ptr<FilterTrouble>& trouble) {
   if (function.is_none()) return {};
-  // Copies of a world share it, and the last of them may go without the GIL.
+  // Copies of a world share it, and the last of them may be destroyed without the GIL.
   const std::shared_ptr<py::object> shared(new py::object(py::reinterpret_borrow<py::object>(function)),
                                            [](py::object* held) {
                                              const py::gil_scoped_acquire gil;

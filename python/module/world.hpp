@@ -18,8 +18,8 @@ namespace kinesphere::python {
 
 namespace py = pybind11;
 
-/// What a function of Python's raised as the pair filter, which must not throw: kept until the call that
-/// asked it is over.
+/// The exception of a Python pair filter, which must not throw into the engine: kept until the end
+/// of the call.
 struct FilterTrouble {
   std::exception_ptr thrown;
 };
@@ -29,24 +29,24 @@ struct WorldHandle {
 
   World world;
   InUse in_use{};
-  /// Fixed bodies that have been added, also those that were removed since.
+  /// All static bodies ever added, including removed ones.
   std::unordered_set<std::uint64_t> fixed{};
-  /// Events that a run has told before it was interrupted.
+  /// Events that an interrupted run has delivered.
   std::vector<EventRecord> told{};
-  /// There is a pair filter as long as this is.
+  /// Set while there is a pair filter.
   std::shared_ptr<FilterTrouble> filter_trouble{};
 
   bool is_plane() const { return world.definition().dimensions == 2; }
   InUse::Turn take(std::string_view call) { return in_use.take(call, "world"); }
 };
 
-/// The end of a call that may have asked the pair filter: raises what that raised.
+/// Ends a call that may have used the pair filter: raises the filter's exception.
 inline void end_call(WorldHandle& handle) {
   if (!handle.filter_trouble || !handle.filter_trouble->thrown) return;
   std::rethrow_exception(std::exchange(handle.filter_trouble->thrown, nullptr));
 }
 
-/// Calls `work`, which may ask whoever it likes, without the GIL.
+/// Calls `work` without the GIL; its callbacks acquire the GIL.
 template <class Work>
 auto without_gil(WorldHandle& handle, const Work& work) {
   auto result = [&] {
@@ -57,7 +57,7 @@ auto without_gil(WorldHandle& handle, const Work& work) {
   return result;
 }
 
-/// A call that only reads the world: `read` is handed that.
+/// A call that only reads the world, which is passed to `read`.
 template <class Read>
 auto reading(const char* call, Read read) {
   return [call, read](WorldHandle& handle) {
@@ -68,12 +68,12 @@ auto reading(const char* call, Read read) {
 
 using WorldClass = py::class_<WorldHandle, std::shared_ptr<WorldHandle>>;
 
-/// What World is made from, and by which it tells what it was made from.
+/// Returns the arguments of World() for this definition.
 py::dict arguments_of(const WorldDefinition& definition);
-/// A World.restore() of these bytes.
+/// Restores a world from these bytes.
 std::shared_ptr<WorldHandle> restored(const py::object& snapshot, const py::object& pair_filter);
 
-// By subject: each adds calls to the class.
+// Each function binds the calls of one subject.
 void bind_bodies(WorldClass& world);
 void bind_going_on(py::module_& module, WorldClass& world);
 void bind_answers(py::module_& module, WorldClass& world);
@@ -84,7 +84,7 @@ void bind_replay(py::module_& module);
 void bind_scenes(py::module_& module);
 void bind_tracks(py::module_& module);
 
-/// Of Python's that says which pairs may touch; empty for None.
+/// Returns a filter that calls a Python function; empty for None.
 PairFilter pair_filter_of(const py::object& function, const std::shared_ptr<FilterTrouble>& trouble);
 
 }  // namespace kinesphere::python

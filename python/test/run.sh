@@ -10,28 +10,28 @@ python=${PYTHON:-/usr/bin/python3}
 source=$(realpath "$(dirname "${BASH_SOURCE[0]}")/..")
 work=$build/python
 log=$work/log
-# ccache, if it is used, knows the folder in which things are compiled; pip's own are different each time.
+# ccache depends on the folder of a compilation; pip's own folders change each time.
 rm -rf "$work/unpacked" "$work/wheel" "$work/venv" && mkdir -p "$work/wheel" "$work/pictures"
 quietly() { "$@" >"$log" 2>&1 || { cat "$log"; exit 1; }; }
 
-# The source distribution has all that the package is built from.
+# The source distribution has everything that the package is built from.
 quietly env -C "$source" "$python" setup.py -q egg_info --egg-base "$work" sdist --dist-dir "$work"
 mkdir "$work/unpacked" && tar -xf "$work"/kinesphere-*.tar.gz -C "$work/unpacked" --strip-components=1
-# Of the library the objects of the build are taken.
+# Uses the objects of the library in the build.
 export SKBUILD_CONFIGURE_OPTIONS="-DKINESPHERE_BUILD=$build"
 quietly "$python" -m pip --isolated wheel --no-build-isolation --no-index --no-deps --wheel-dir "$work/wheel" "$work/unpacked"
 
-# Clean but for what Debian's Python brings: NumPy and what the tests take.
+# Clean except for the packages of Debian's Python: NumPy and the tools of the tests.
 "$python" -m venv --system-site-packages --without-pip "$work/venv"
 clean=$work/venv/bin/python
 quietly "$clean" -m pip --isolated install --no-index --no-warn-script-location "$work"/wheel/kinesphere-*.whl
 
 cd "$work"
-# mypy needs most of the time that it takes alone.
+# mypy runs alone, since it needs most of the time.
 "$python" -m mypy --config-file "$source/mypy.ini" --cache-dir "$work/mypy" --python-executable "$clean" \
   "$source/kinesphere" "$source/test" "$source/examples" >"$work/mypy.log" 2>&1 &
 mypy=$!
-# The first block of Python in a page: the README of the project shows the same.
+# Prints the first block of Python in a page: the README of the project shows it too.
 python_of() { awk '/^```python/ {on = 1; next} on && /^```/ {exit} on' "$1"; }
 python_of "$source/README.md" >"$work/ten_lines.py"
 diff "$work/ten_lines.py" <(python_of "$source/../README.md")
@@ -39,7 +39,7 @@ diff "$work/ten_lines.py" <(python_of "$source/../README.md")
 export KINESPHERE_PROGRAM=$build/programs/kinesphere
 "$clean" -B -m pytest -q -p no:cacheprovider "$source/test"
 
-# The same build with another NumPy, where there is one.
+# Tests the build with another NumPy, if there is one.
 if [[ -n ${KINESPHERE_NUMPY2:-} ]]; then
   PYTHONPATH=$KINESPHERE_NUMPY2 "$clean" -c 'import numpy; assert numpy.__version__.startswith("2."), numpy.__version__'
   PYTHONPATH=$KINESPHERE_NUMPY2 "$clean" -B -m pytest -q -p no:cacheprovider "$source/test"

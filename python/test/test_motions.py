@@ -179,7 +179,7 @@ def test_a_mover_of_numpy_is_answered_as_a_motion_is(threads: int) -> None:
     probed = copy.copy(mover)
     assert hash_of(world.run(2.0, mover, scene, threads=threads)) == expected
     assert np.array_equal(mover(np.arange(200), 2.0)[0], motion.states(2.0)[0])
-    # As the probe of a loop that tells it of changes.
+    # Compares with a loop that passes its changes to the motion.
     world = ks.World(**scene.definition)
     world.add(**start, radii=scene.radii)
     hash = ks.EventHash()

@@ -190,7 +190,7 @@ def test_what_nobody_holds_any_more_lives_as_long_as_it_is_needed() -> None:
     del loop
     gc.collect()
     assert gone() is None
-    # A probe that drops everything while it is asked.
+    # A probe that drops all references while it runs.
     world, motion = pair()
     holder = [world]
 

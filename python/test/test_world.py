@@ -32,7 +32,7 @@ def test_a_probe_of_numpy_tells_the_same() -> None:
     other, _ = pair()
     assert hash_of(other.run(10.0, probe)) == expected
     assert other.counters.probes == sum(len(ids) for ids in asked)
-    # Those of earlier calls are still what they were.
+    # Arrays of earlier calls are unchanged.
     assert all(set(ids.tolist()) <= {0, 1} for ids in asked)
 
 

@@ -46,7 +46,7 @@ class Things:
         return self.motion(ids, t)
 
 
-# The call, the code of the error, and the argument and the body that it names.
+# The call, the code of the error, and the named argument and body.
 Way = tuple[Callable[[Things], Any], str, str, Optional[str]]
 ways: list[Way] = [
     (lambda o: o.w.remove(77), "unknown_body", "body", "77"),
@@ -130,7 +130,7 @@ def test_a_wrong_way_is_named(number: int) -> None:
     if body not in (None, "any"):
         assert str(error.body) == body
     assert body is None or error.body is not None
-    # It has changed nothing, and the world goes on.
+    # The wrong calls have changed nothing, and the world goes on.
     assert len(things.w) == 3 and things.w.audit() is None
     things.w.remove(things.post)
     things.w.run(things.w.time + 5.0, things.motion)

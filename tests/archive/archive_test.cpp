@@ -1,4 +1,4 @@
-// Values come back as they went, the bytes are the same on every machine, and bad bytes only fail.
+// Values survive a round trip, the bytes are equal on every machine, and bad bytes fail without harm.
 #include "archive/archive.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The checksum is XXH64: published values, and damage that sums over whole words do not show.
+// The checksum is XXH64: published values, and damage that sums over whole words do not detect.
 #include "archive/checksum.hpp"
 
 #include <gtest/gtest.h>

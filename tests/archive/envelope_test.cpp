@@ -1,4 +1,4 @@
-// Envelopes: what was sealed is opened, anything else is refused and says why.
+// Envelopes: a sealed one opens, any other is refused with a reason.
 #include "archive/envelope.hpp"
 
 #include <gtest/gtest.h>

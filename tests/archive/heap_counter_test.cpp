@@ -1,4 +1,4 @@
-// Memory behind values: what vectors and sets have asked of the allocator, however deep.
+// Memory behind values: allocations of vectors and sets, at any depth.
 #include "archive/heap_counter.hpp"
 #include "archive/fields.hpp"
 

@@ -1,5 +1,5 @@
-// What the bounds are for: bodies that do whatever their promises allow stay inside their bounds and boxes,
-// and meet or part no earlier than certified.
+// The purpose of bounds: bodies with any motion within their limits stay inside their bounds and boxes, and
+// meet or separate no earlier than certified.
 #include <gtest/gtest.h>
 
 #include "support/bound_checks.hpp"
@@ -18,7 +18,7 @@ exact::Wide squared_distance(const WideVector& a, const WideVector& b) {
   return sum;
 }
 
-/// A body as it really is, moved in quadruple precision.
+/// A body with its true motion, in quadruple precision.
 struct TrueBody {
   BodyDefinition promise;
   Bound bound;
@@ -33,7 +33,7 @@ struct TrueBody {
     }
   }
 
-  /// `direction` is at most of length 1; rounding takes away less than the factor does.
+  /// Precondition: `direction` has a length of at most 1; the factor exceeds the loss by rounding.
   void deviate(const Vec3& direction) {
     acceleration = promise.planned_acceleration + direction * (promise.acceleration_limit * (1.0 - 0x1p-40));
   }
@@ -44,7 +44,7 @@ struct TrueBody {
   }
 };
 
-/// A body whose report is as wrong as its errors allow.
+/// Returns a body with the largest report errors that its limits allow.
 TrueBody draw_body(Random& random, bool exact_reports) {
   const double error = exact_reports ? 0.0 : 1.0 - 0x1p-40;
   TrueBody body;
@@ -67,7 +67,7 @@ TrueBody draw_body(Random& random, bool exact_reports) {
   return body;
 }
 
-/// How a body deviates from its plan during the next piece, seen from it towards the other one.
+/// The deviation of a body from its plan during the next piece, relative to the direction to the other one.
 struct Habit {
   const char* name;
   Vec3 (*direction)(Random&, const Vec3& towards);
@@ -186,7 +186,7 @@ TEST_P(Promise, keeps_pairs_together_before_their_earliest_separation) {
 INSTANTIATE_TEST_SUITE_P(Habits, Promise, testing::ValuesIn(habits),
                          [](const auto& habit) { return std::string(habit.param.name); });
 
-/// The certificate could not be later: bodies that attack each other on a line meet just then.
+/// The certificate is tight: bodies that attack each other on a line meet at its time.
 TEST(PromiseOnALine, is_used_up_by_the_worst_behaviour) {
   for (std::uint64_t k = 0; k < 2000; ++k) {
     Random random = Random::at(seed, k, 3);

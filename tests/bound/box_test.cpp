@@ -19,7 +19,8 @@ std::ostream& operator<<(std::ostream& out, const BoxCase& c) {
              << "\nfrom " << c.from << ", horizon " << c.horizon << std::defaultfloat;
 }
 
-/// A box with room for some of the time; now and then just what swept_box says for a part of it.
+/// Returns a box that contains the bound for a part of the time; now and then the result of swept_box for a
+/// part of it.
 BoxCase draw(const Family& family, Random& random) {
   const PairCase pair = family.draw(random);
   BoxCase c{pair.a, {}, pair.from, pair.horizon};

@@ -1,4 +1,4 @@
-// RapidCheck looks for bounds that break a certificate, and shrinks what it finds.
+// RapidCheck searches for bounds that break a certificate, and shrinks them.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>

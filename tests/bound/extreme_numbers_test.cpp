@@ -1,5 +1,4 @@
-// Numbers that are not numbers, overflow or underflow: the certificates answer `from`, or are at least not
-// late.
+// NaNs, infinities, overflow and underflow: the certificates return `from`, or are at least not late.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -13,7 +12,7 @@ namespace {
 constexpr std::uint64_t seed = 754;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// Every certificate of one case, by name: what the library says and what is true.
+/// Every certificate of one case, by name: the library's value and the true one.
 struct Certificate {
   const char* name;
   std::function<double(const PairCase&)> answer;
@@ -39,7 +38,7 @@ const std::vector<Certificate> certificates{
      [](const PairCase& c) { return exact::earliest_exit(c.a, box, c.from, c.horizon); }},
 };
 
-/// Pointers to all numbers of a bound. They end with those that may not be negative.
+/// Returns pointers to all numbers of a bound, the ones that may not be negative last.
 std::vector<double*> numbers_of(Bound& bound) {
   std::vector<double*> numbers{&bound.time};
   for (Vec3* vector : {&bound.position, &bound.velocity, &bound.planned_acceleration})
@@ -49,7 +48,7 @@ std::vector<double*> numbers_of(Bound& bound) {
 }
 constexpr std::size_t signed_numbers = 10;
 
-/// A case in which the certificate is a finite time after `from`.
+/// Returns a case in which the certificate is a finite time after `from`.
 PairCase ordinary_case(const Certificate& certificate) {
   PairCase c{.a = {.time = 0.5,
                    .velocity = {1, 0.5, 0.5},
@@ -140,7 +139,7 @@ TEST(ExtremeNumbers, overflow_on_the_way_makes_nothing_late) {
 }
 
 TEST(ExtremeNumbers, squares_that_underflow_make_nothing_late) {
-  // Points at distances whose squares have few bits, with bounds that grow almost as fast as they part.
+  // Points at distances with squares of few bits, and bounds that grow almost as fast as they separate.
   for (std::uint64_t k = 0; k < 6000; ++k) {
     Random random = Random::at(seed, k, 2);
     const Vec3 direction = random.unit_vector();
@@ -159,15 +158,15 @@ TEST(ExtremeNumbers, squares_that_underflow_make_nothing_late) {
 }
 
 TEST(ExtremeNumbers, gaps_of_a_few_least_numbers_make_nothing_late) {
-  // All lengths are zero but the distance, three times the least number there is, and the growth of both
-  // bounds until `from`, each 1.49 times that number and rounded down to once.
+  // All lengths are zero but the distance, three times the smallest double, and the growth of both bounds
+  // until `from`, each 1.49 times the smallest double and rounded down to it.
   Bound bound;
   bound.growth_speed = 0x1p-480;
   const double from = 0x1.7dp-594;
   EXPECT_LE(earliest_meeting(bound, bound, from, 1.0, -3 * 0x1p-1074), 1.5 * 0x1p-594);
 }
 
-/// A power of two that is in range, out of range or no number at all.
+/// Returns a power of two that is in range or out of range, or a NaN.
 double any_scale(Random& random, int least, int most) {
   const int count = most - least + 1;
   return std::ldexp(1.0, least + static_cast<int>(random.bits() % static_cast<std::uint64_t>(count)));
@@ -180,8 +179,8 @@ bool is_finite(PairCase& c) {
   return finite;
 }
 
-/// Lengths, times, or single kinds of numbers as small and as large as doubles are, and the others with them
-/// or not. All are finite, as the exact twin needs them.
+/// Returns a case with lengths, times, or single kinds of numbers as small and as large as doubles are, alone
+/// or together. All are finite, as the exact twin needs them.
 PairCase of_any_size(Random& random) {
   PairCase c = families::everyday(random);
   const double length = any_scale(random, -1060, 600);
@@ -256,7 +255,7 @@ TEST(ExtremeNumbers, gaps_that_overflow_are_not_known) {
   const GapLimits gap = gap_limits({.position = {-1e155, 0, 0}, .radius = 1}, far, 0.0);
   EXPECT_EQ(gap.lower, -infinity);
   EXPECT_EQ(gap.upper, infinity);
-  // Two that overlap, by a radius whose square overflows.
+  // Two overlapping bounds, one with a radius that overflows when squared.
   const Bound huge{.position = {1e160, 0, 0}, .radius = 2e160};
   EXPECT_EQ(earliest_meeting({}, huge, 3.0, 4.0), 3.0);
 }

@@ -20,7 +20,7 @@ std::ostream& operator<<(std::ostream& out, const WallCase& c) {
              << std::defaultfloat;
 }
 
-/// A plane that is about as far from the bound as the bound is large, or as it moves; on the `inside` or not.
+/// Returns a plane about as far from the bound as the bound is large, or as it moves; on the `inside` or not.
 WallCase draw(const Family& family, Random& random, bool inside) {
   const PairCase pair = family.draw(random);
   WallCase c{pair.a, {}, pair.from, pair.horizon, pair.distance};
@@ -31,7 +31,7 @@ WallCase draw(const Family& family, Random& random, bool inside) {
   }
   const bool alongside = chance(random, 0.2) && norm(c.bound.velocity) > 0.0;
   if (alongside) {
-    // What is left of the velocity across the plane is mere rounding.
+    // The rest of the velocity across the plane is rounding error.
     c.bound.planned_acceleration = {};
     const Vec3 along = c.bound.velocity / norm(c.bound.velocity);
     const Vec3 across = c.wall.normal - along * dot(along, c.wall.normal);

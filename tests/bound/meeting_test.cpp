@@ -16,9 +16,8 @@ exact::Wide truth(const PairCase& c, exact::Wide extra = 0) {
   return exact::earliest_meeting(c.a, c.b, c.from, c.horizon, c.distance, extra);
 }
 
-/// As if the distance were wrong by what rounding may do to it or, since at a nearly double root a sequence
-/// of tangents only halves its way to go in each round, by a small part of the gap and of the way since
-/// `from`.
+/// Allows the rounding error of the distance or, since a sequence of tangents only halves the rest of its way
+/// in each round at a nearly double root, a small part of the gap and of the way since `from`.
 testing::AssertionResult tight(const PairCase& c, const Tightness& allowed) {
   const double got = certificate(c);
   const double end = std::min(got, c.horizon);

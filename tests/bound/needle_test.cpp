@@ -1,5 +1,5 @@
-// Triangles as thin as a world allows, against quadruple precision: distances are known to within the
-// rounding of lengths, and certificates are of use wherever the distance says so.
+// Triangles as thin as a world allows, against quadruple precision: distances are exact to the rounding of
+// lengths, and certificates are useful wherever the distance is.
 #include <gtest/gtest.h>
 
 #include "number/infinity.hpp"
@@ -14,14 +14,14 @@ using exact::Wide;
 constexpr std::uint64_t seed = 1402;
 constexpr int cases = 20000;
 constexpr double tolerance = 1e-6;
-/// Of coordinates, in a world with this tolerance.
+/// The largest coordinate in a world with this tolerance.
 constexpr double limit = 0x1p41 * tolerance;
 
 double size_of(const Triangle& t, const Vec3& place) {
   return norm_one(t.a) + norm_one(t.b) + norm_one(t.c) + norm_one(place);
 }
 
-/// At a distance between a billionth and a thousand from a point of the needle.
+/// Returns a place at a distance between a billionth and a thousand from a point of the needle.
 Vec3 place_near(const Needle& needle, Random& random) {
   return needle.point(random) + random.unit_vector() * std::pow(10.0, random.uniform(-9.0, 3.0));
 }
@@ -42,7 +42,7 @@ TEST(Needle, NearestPointIsAsExactAsLengthsAre) {
   }
 }
 
-/// No corner lies before the plane through the nearest point, and the plane is as far away as the point.
+/// No corner lies in front of the plane through the nearest point, and the plane is as far away as the point.
 TEST(Needle, LiesBehindThePlaneOfItsNearestPoint) {
   for (std::uint64_t k = 0; k < cases; ++k) {
     Random random = Random::at(seed, k, 1);
@@ -73,7 +73,7 @@ TEST(Needle, GapLimitsEncloseTheTruthClosely) {
   }
 }
 
-/// Of a body at a gap from the tolerance to a thousand of them.
+/// A body at a gap of one to a thousand tolerances.
 struct Flight {
   Needle needle;
   Bound bound;
@@ -107,7 +107,7 @@ TEST(Needle, MeetingIsNeverLateAndSpansMostOfTheGap) {
   }
 }
 
-/// Within four tolerances nobody leaves five before the way between takes.
+/// A body within four tolerances does not leave five before the way between takes.
 TEST(Needle, SeparationIsNeverLateAndSpansMostOfTheTolerance) {
   int useful = 0;
   for (std::uint64_t k = 0; k < cases; ++k) {

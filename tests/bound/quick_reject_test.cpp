@@ -1,4 +1,4 @@
-// The inner loop's two questions about a pair of bounds, against the slow twin of earliest_meeting.
+// The two tests of the inner loop for a pair of bounds, against the slow twin of earliest_meeting.
 #include "bound/quick_reject.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using exact::Wide;
 
 constexpr std::uint64_t seed = 2111;
 
-/// Here `distance` is the room, which is not negative: radii are less instead.
+/// Returns the case with `distance` as the margin, which is not negative; the radii are reduced instead.
 PairCase with_room(PairCase c, Random&) {
   if (c.distance < 0.0) {
     c.a.radius = std::max(0.0, c.a.radius + c.b.radius + c.distance);
@@ -28,17 +28,17 @@ PairCase with_room(PairCase c, Random&) {
 
 QuickReject encounter_of(const PairCase& c) { return {BoundAt(c.a, c.from), BoundAt(c.b, c.from)}; }
 
-/// What encounter.hpp grants to rounding.
+/// The rounding error that quick_reject.hpp allows.
 double rounding_error(const PairCase& c, double end) {
   return 0x1p-49 * (std::max(length_scale(c.a, end), length_scale(c.b, end)) + c.distance);
 }
 
-/// The first time when the bounds are within the room and `extra`.
+/// Returns the first time at which the bounds are within the margin and `extra`.
 Wide truth(const PairCase& c, Wide extra) {
   return exact::earliest_meeting(c.a, c.b, c.from, c.horizon, c.distance, extra);
 }
 
-/// |X| less the radii and the room, at `from`.
+/// Returns |X| less the radii and the margin, at `from`.
 Wide gap_now(const PairCase& c) {
   const exact::Course a(c.a, c.from), b(c.b, c.from);
   return exact::sqrt(exact::squared_distance(a, b).at(0)) - a.growth.at(0) - b.growth.at(0) -
@@ -63,7 +63,7 @@ PairCase at_rest(Random& random) {
   return random_pair(random, {.speed = 0.0, .plan = 0.0, .growth_speed = 0.0, .growth_acceleration = 0.0});
 }
 
-/// Misses or meets by a billionth of the distance of the centres.
+/// Returns a case that misses or meets by a billionth of the distance of the centres.
 PairCase grazing_by_a_billionth(Random& random) {
   PairCase c = families::grazing(random);
   const double part = random.uniform(-1e-9, 1e-9);
@@ -88,7 +88,7 @@ TEST_P(Encounters, that_stay_apart_do_not_meet) {
   });
 }
 
-/// Both go straight on, as large as they are in the end, and larger by half of what they turn by.
+/// Returns two bounds on straight lines, with their final radii, enlarged by half of their turns.
 PairCase straightened(const PairCase& c) {
   const BoundAt a(c.a, c.from), b(c.b, c.from);
   const double duration = c.horizon - c.from;
@@ -123,8 +123,8 @@ TEST_P(Encounters, are_never_later_than_the_truth) {
   });
 }
 
-/// As if the room were wrong by what rounding may do to it or by a part of the gap and of the way; where
-/// bounds turn or grow the search stops when it gets on slowly.
+/// Allows the rounding error of the margin, or a part of the gap and of the way; for turning or growing
+/// bounds the search stops when it becomes slow.
 TEST_P(Encounters, are_hardly_early) {
   if (std::string(GetParam().name).starts_with("grazing"))
     GTEST_SKIP() << "what rounding does to a length takes a long time there";
@@ -168,7 +168,7 @@ TEST_P(Encounters, are_near_where_the_gap_is_within_the_room) {
   });
 }
 
-/// How far the bound, moved on, reaches from the centre of one that moves straight on.
+/// Returns the reach of the moved bound from the centre of one that moves straight on.
 Wide reach(const BoundAt& moved, const Bound& bound, double from, Wide d) {
   const exact::Course course(bound, from);
   Wide squares = 0;
@@ -196,7 +196,7 @@ TEST_P(Encounters, have_bounds_that_stay_within_the_radius_of_a_straight_one) {
 
 INSTANTIATE_TEST_SUITE_P(Families, Encounters, testing::ValuesIn(families_here()), family_name);
 
-/// Ballistic ones that hit each other squarely.
+/// Ballistic bounds with central impacts.
 TEST(QuickReject, of_ballistic_bounds_is_exact) {
   for (std::uint64_t k = 0; k < cases_per_family; ++k) {
     Random random = Random::at(seed, k, 7);

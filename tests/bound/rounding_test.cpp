@@ -69,7 +69,7 @@ TEST(FirstCrossing, is_not_late_at_double_roots) {
 }
 
 TEST(FirstCrossing, is_not_late_where_the_root_underflows) {
-  // The root is 2730 2/3 of the least number there is, which would be rounded up, and its margin to zero.
+  // The root is 2730 2/3 of the smallest double, which would be rounded up, and its margin to zero.
   EXPECT_EQ(rounding::first_crossing(0x1p-1061, -3.0, 0.0), 0.0);
   for (std::uint64_t k = 0; k < 200000; ++k) {
     Random random = Random::at(seed, k, 4);

@@ -28,7 +28,7 @@ testing::AssertionResult tight(const PairCase& c) {
   const Tightness allowed;
   const double got = certificate(c);
   const double scale = length_scale(c, std::min(got, c.horizon));
-  // Squares are compared, so that an error counts for more where the distance is less than the lengths in it.
+  // Squares are compared, so an error has more weight if the distance is less than the lengths in it.
   const double slack = c.a.radius + c.b.radius + c.distance;
   const double extra = allowed.length * scale * std::max(1.0, scale / std::abs(slack));
   return hardly_early(got, truth(c, -extra), c.from, c.horizon, allowed.part);

@@ -1,4 +1,4 @@
-// Certificates of a bound and a shape at rest against dense samples in quadruple precision.
+// Certificates of a bound and a static shape against dense samples in quadruple precision.
 #include <gtest/gtest.h>
 
 #include "support/bound_checks.hpp"
@@ -31,7 +31,7 @@ std::ostream& operator<<(std::ostream& out, const ShapeCase<Solid>& c) {
              << ", horizon " << c.horizon << ", distance " << c.distance << std::defaultfloat;
 }
 
-/// Some of them flat, some of them thin.
+/// Returns a solid that may be flat or thin.
 Box random_solid(Random& random, const Vec3& place, double size, Box*) {
   Box box{place, place};
   for (int axis = 0; axis < 3; ++axis) {
@@ -43,7 +43,7 @@ Box random_solid(Random& random, const Vec3& place, double size, Box*) {
 }
 
 Triangle random_solid(Random& random, const Vec3& place, double size, Triangle*) {
-  // Where it vanishes beside its place, a larger one is drawn.
+  // If rounding beside its place makes it vanish, a larger one is drawn.
   for (;; size *= 2.0) {
     const double thin = chance(random, 0.2) ? log_uniform(random, -16, -1) : 1.0;
     const Vec3 direction = random.unit_vector();
@@ -72,7 +72,7 @@ ShapeCase<Solid> draw(const Family& family, Random& random) {
   const double away = chance(random, 0.5) ? c.bound.radius : way * random.uniform();
   const Vec3 side = random.unit_vector();
   c.solid = random_solid(random, then + side * away, size, static_cast<Solid*>(nullptr));
-  // Squares of lengths must not overflow or vanish.
+  // Squares of lengths must neither overflow nor vanish.
   const double scale = length_scale(c.bound, c.horizon) + norm_one(then) + size + std::abs(c.distance);
   if (!(scale < 1e60) || size < 1e-60 || !(c.horizon < 1e60)) return draw<Solid>(family, random);
   return c;
@@ -84,7 +84,8 @@ double scale_of(const ShapeCase<Solid>& c, double t, const Solid& solid) {
   return length_scale(c.bound, t) + norm_one(box.lower) + norm_one(box.upper) + std::abs(c.distance);
 }
 
-/// Times from `from` to the certificate, or to the horizon where it is infinite; many of them near the end.
+/// Calls `check` at times from `from` to the certificate, or to the horizon if it is infinite; many of them
+/// near the end.
 template <class Check>
 void sample(double from, double horizon, double certificate, Check check) {
   const Wide end = certificate == infinity ? Wide(horizon) : Wide(certificate);
@@ -103,10 +104,10 @@ void expect_meetings_never_late(const Family& family) {
     const double got = earliest_meeting(c.bound, c.solid, c.from, c.horizon, c.distance);
     ASSERT_TRUE(got == infinity || (got >= c.from && got <= c.horizon)) << "case " << k << "\n" << c;
     if (got == c.from) {
-      if (c.horizon - c.from < 0x1p-30 * std::abs(c.from)) continue;  // the clock is too coarse to tell
+      if (c.horizon - c.from < 0x1p-30 * std::abs(c.from)) continue;  // the clock is too coarse
       const double scale = scale_of(c, c.from, c.solid);
       const Wide gap = exact::shape_gaps(c.bound, c.solid, c.from).lower;
-      // Where the step is too short for the clock the answer is `from`, too.
+      // If the step is too short for the clock, the answer is `from`, too.
       const double still = 0x1p-20 * (c.horizon - c.from);
       const Wide soon = exact::shape_gaps(c.bound, c.solid, Wide(c.from) + still).lower;
       ASSERT_LE(static_cast<double>(exact::min(gap, soon) - c.distance),
@@ -129,7 +130,7 @@ void expect_separations_never_late(const Family& family) {
   for (std::uint64_t k = 0; k < cases_per_family; ++k) {
     Random random = Random::at(seed, k, 1);
     auto c = draw<Solid>(family, random);
-    // Where it is now is within the distance.
+    // The present gap is within the distance.
     const Wide now = exact::shape_gaps(c.bound, c.solid, c.from).upper;
     c.distance = static_cast<double>(now) + c.bound.radius_at(c.horizon) * log_uniform(random, -20, 2);
     const double got = earliest_separation(c.bound, c.solid, c.from, c.horizon, c.distance);
@@ -181,7 +182,7 @@ const Box unit_box{{-1, -1, -1}, {1, 1, 1}};
 const Triangle flat{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
 constexpr double tiny = 1e-9;
 
-/// Of ballistic bodies the times are known.
+/// The times of ballistic bodies are known.
 TEST(ShapeMeeting, OfFallingBalls) {
   const Vec3 down{0, 0, -10};
   const Bound over_face{.position = {1, 1, 6}, .planned_acceleration = down, .radius = 1};
@@ -204,7 +205,7 @@ TEST(ShapeMeeting, OfFallingBalls) {
 TEST(ShapeMeeting, OfACentreInsideABox) {
   const Bound inside{.position = {0.25, 0, 0}, .radius = 0.5};
   EXPECT_EQ(earliest_meeting(inside, unit_box, 2, 5), 2.0);
-  // The gap is -0.75 - 0.5 and falls to -1.5 where the centre is in the middle.
+  // The gap is -0.75 - 0.5 and falls to -1.5, reached with the centre in the middle.
   const Bound deeper{.position = {0.25, 0, 0}, .velocity = {-1, 0, 0}, .radius = 0.5};
   EXPECT_NEAR(earliest_meeting(deeper, unit_box, 0, 5, -1.35), 0.1, tiny);
 }
@@ -216,7 +217,7 @@ TEST(ShapeMeeting, IsNeverForDepthsThatATriangleDoesNotHave) {
 }
 
 TEST(ShapeSeparation, OfRollingAndRisingBalls) {
-  // Up from a face while going along it: nothing but the way up counts.
+  // Up from a face while moving along it: only the way up counts.
   const Bound rising{.position = {1, 1, 1}, .velocity = {0.5, 0.5, 0.1}, .radius = 1};
   EXPECT_NEAR(earliest_separation(rising, flat, 0, 10, 0.05), 0.5, tiny);
   EXPECT_NEAR(earliest_separation({.position = {0.2, 0.2, 2}, .velocity = {0.5, 0.5, 0.1}, .radius = 1},

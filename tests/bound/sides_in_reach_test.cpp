@@ -25,13 +25,14 @@ std::ostream& operator<<(std::ostream& out, const BoxCase& c) {
              << c.from << ", horizon " << c.horizon << ", room " << c.room << std::defaultfloat;
 }
 
-/// What encounter.hpp grants to rounding.
+/// The rounding error that quick_reject.hpp allows.
 double rounding_error(const BoxCase& c) {
   return 0x1p-49 *
          (length_scale(c.bound, c.horizon) + norm_one(c.box.lower) + norm_one(c.box.upper) + c.room);
 }
 
-/// Contains the bound as it counts here: as large as it is in the end, and larger by half of what it turns.
+/// Returns a box that contains the bound as the test takes it: with its final radius, enlarged by half of its
+/// turn.
 Box straightened_box(const Bound& bound, double from, double horizon) {
   const BoundAt moved(bound, from);
   const double duration = horizon - from;
@@ -40,8 +41,8 @@ Box straightened_box(const Bound& bound, double from, double horizon) {
   return swept_box(straight, from, horizon);
 }
 
-/// The sides are about where the bound comes, or counts as coming, and the room beyond: from far outside to
-/// just there or just not.
+/// Returns a case with sides about as far as the bound and its margin reach: from far outside to just reached
+/// or just not.
 BoxCase in_a_box(const PairCase& pair, Random& random) {
   BoxCase c{pair.a, swept_box(pair.a, pair.from, pair.horizon), pair.from, pair.horizon, 0.0};
   if (chance(random, 0.7)) c.box = straightened_box(pair.a, pair.from, pair.horizon);

@@ -1,4 +1,4 @@
-// Certificates, gaps and boxes of shapes that are none, and of numbers that are none: nothing is certified.
+// Certificates, gaps and boxes of invalid shapes and NaNs: nothing is certified.
 #include <gtest/gtest.h>
 
 #include <limits>

@@ -1,5 +1,5 @@
-// Whoever may meet before a window ends is found: bodies of all sizes and speeds that enter, leave and start
-// anew, in all kinds of space, against a plain look at all pairs.
+// Bodies that may meet before a window ends are found: bodies of all sizes and speeds that enter, leave and
+// start again, in all kinds of space, compared with a plain check of all pairs.
 #include "broadphase/broad_phase.hpp"
 
 #include <gtest/gtest.h>
@@ -23,8 +23,8 @@ namespace {
 
 constexpr std::uint64_t seed = 4501;
 
-/// Sizes and speeds as powers of two of `unit`, a length, and of that in a unit of time. The room around the
-/// smallest is more than the roundings of its place.
+/// Sizes and speeds as powers of two of `unit`, a length, and of that in a unit of time. The margin around
+/// the smallest exceeds the rounding of its place.
 struct Kind {
   const char* name;
   int dimensions = 3;
@@ -58,7 +58,7 @@ const std::vector<Kind> kinds{
     {.name = "standing", .standing = 1.0},
 };
 
-/// Half the edge of the box in which bodies are, in units.
+/// Half the edge of the box that contains the bodies, in units.
 constexpr double half_edge = 8.0;
 
 Space space_of(const Kind& kind) {
@@ -164,10 +164,10 @@ class Playground {
     return bound.velocity == Vec3{} && bound.growth_speed + bound.growth_acceleration == 0.0;
   }
 
-  /// The body goes on as before, perhaps with a new report, or is somewhere else.
+  /// The body goes on as before, possibly with a new report, or is elsewhere.
   void report(std::uint32_t number) {
     Bound& bound = bounds_[number];
-    // What has grown for too long is so large that nobody asks for it.
+    // A bound that has grown for long is too large for a search.
     const bool old = now_ - bound.time > 1.0;
     if (!old && chance(random_, 0.3)) return;
     if (chance(random_, 0.4)) {
@@ -186,7 +186,7 @@ class Playground {
     return 2.0 * (moved.radius_after(duration) + room) +
            std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) * duration;
   }
-  /// As in the engine: where space repeats, no body's capsule is as wide as half a period.
+  /// Like the engine: in periodic space no swept sphere is as wide as half a period.
   Window window_to_start(std::uint32_t number) const {
     if (stands(bounds_[number])) return Window::endless();
     const double speed = norm(bounds_[number].velocity_at(now_)) + bounds_[number].growth_speed;
@@ -221,8 +221,7 @@ class Playground {
     registered_[number] = false;
   }
 
-  /// Whether two kind_.bodies, with the room around them, truly come together while both are in their
-  /// windows.
+  /// Returns true if the two bodies, with their margins, truly come together within their windows.
   bool meet(std::uint32_t a, std::uint32_t b) {
     const double until = std::min(windows_.end_of(a), windows_.end_of(b));
     Extended least = infinity;
@@ -260,7 +259,7 @@ class Playground {
     windows_.end_windows(now_, all);
     for (std::uint32_t number = 0; number < kind_.bodies; ++number)
       ASSERT_EQ(windows_.contains(number), registered_[number] && !expected.contains(number));
-    // Some join them.
+    // Some bodies join them.
     for (std::uint32_t number = 0; number < kind_.bodies; ++number)
       if (!registered_[number] && !stands(bounds_[number]) && chance(random_, all ? 0.8 : 0.1))
         round.push_back(number);
@@ -287,7 +286,7 @@ class Playground {
     ASSERT_EQ(windows_.started(), started.size());
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> pairs;
     const auto bound_of = [this](std::uint32_t body) { return roomy(body); };
-    // In two parts, as two threads do.
+    // In two parts, as with two threads.
     const std::size_t part = started.size() / 3;
     for (const auto& [from, to] : {std::pair(std::size_t{0}, part), std::pair(part, started.size())}) {
       for (const auto& [number, other] : search_.near_started(windows_, from, to, now_, bound_of)) {
@@ -343,7 +342,7 @@ class Playground {
       }
     }
   }
-  /// In any image.
+  /// Returns true if the body reaches the box, in any image.
   bool reaches(std::uint32_t number, const Box& box) const {
     const TrueBall ball = true_ball(bounds_[number], now_);
     Extended square = 0;
@@ -360,12 +359,12 @@ class Playground {
     return std::sqrt(square) <= ball.radius;
   }
 
-  /// What went to bytes and back does the same from there on.
+  /// Replaces the broad phase by one read back from its bytes, which must behave equally from there on.
   void read_back() {
     ByteWriter writer;
     writer(windows_);
     BroadPhase back(space_);
-    back.enter(3, roomy(3), now_, Window::endless());  // what was there before is forgotten
+    back.enter(3, roomy(3), now_, Window::endless());  // the earlier content is dropped
     ByteReader reader(writer.bytes());
     reader(back);
     ASSERT_FALSE(reader.failed());
@@ -419,7 +418,7 @@ TEST_P(WindowsOf, OverlookNobody) {
 std::string kind_name(const testing::TestParamInfo<Kind>& info) { return info.param.name; }
 INSTANTIATE_TEST_SUITE_P(Windows, WindowsOf, testing::ValuesIn(kinds), kind_name);
 
-/// One that is already in the windows that would suit others makes theirs shorter; where there are no shorter
+/// A body that is already in windows suitable for others makes their windows shorter; if there are no shorter
 /// ones, there is none.
 TEST(BroadPhase, AreFreeWhereNobodyIs) {
   const double now = 3.0;
@@ -472,7 +471,7 @@ TEST(BroadPhase, SearchesLookAtFewOfMany) {
   }
 }
 
-/// Bodies that start together and some of which are kicked, each several times, before they start again.
+/// Bodies that start together; some of them change velocity, several times each, before they start again.
 class KickedBodies {
  public:
   static constexpr std::uint32_t count = 600;
@@ -481,7 +480,7 @@ class KickedBodies {
     double time;
     Bound bound;
   };
-  /// Whom each of those that start finds.
+  /// The bodies that each starting body finds.
   using Found = std::map<std::uint32_t, std::set<std::uint32_t>>;
 
   KickedBodies() {
@@ -505,7 +504,7 @@ class KickedBodies {
                    window(update.number, update.time));
   }
   void tidy() { windows_.tidy(); }
-  /// Whom a body finds that is kicked.
+  /// Returns the bodies that a body finds after a velocity change.
   std::set<std::uint32_t> near(std::uint32_t number, double time) {
     const auto found = search_.near(windows_, number, roomy(number, time), time, windows_.end_of(number));
     return {found.begin(), found.end()};
@@ -553,7 +552,7 @@ TEST(BroadPhase, StartAlikeInWhateverOrderBodiesWereKicked) {
   for (int window = 1; window <= 16; ++window) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", window " << window);
     const double begin = 0.125 * (window - 1), end = 0.125 * window;
-    // Each body's kicks are in the order of their times; bodies are kicked in any.
+    // The updates of each body are in order of time; the bodies are in any order.
     std::vector<std::vector<KickedBodies::Kick>> updates;
     const std::size_t kicked = window % 3 == 0 ? 300 : 30;
     for (std::uint32_t number = 0; number < KickedBodies::count; ++number) {

@@ -1,4 +1,5 @@
-// The agenda gives pairs in the order of a sorted list, whatever is added and becomes void on the way.
+// The queue returns certificates in the order of a sorted list, for all additions, and when some become stale
+// on the way.
 #include "broadphase/certificate_queue.hpp"
 
 #include <gtest/gtest.h>
@@ -20,13 +21,13 @@ constexpr std::uint32_t bodies = 40;
 auto key(const PairCertificate& pair) {
   return std::tie(pair.failure_time, pair.first, pair.second, pair.first_revision, pair.second_revision);
 }
-/// By their times, then their numbers.
+/// Orders by time, then by number.
 bool comes_before(const PairCertificate& a, const PairCertificate& b) {
   return std::tie(a.failure_time, a.first, a.second) < std::tie(b.failure_time, b.first, b.second);
 }
 bool same(const PairCertificate& a, const PairCertificate& b) { return key(a) == key(b); }
 
-/// Times from `now` on.
+/// Distribution of times after `now`.
 struct Times {
   const char* name;
   double (*draw)(Random&, double now);
@@ -52,7 +53,8 @@ const std::vector<Times> all_times{
     {"sooner_than_the_slice", [](Random& random, double now) { return now - random.uniform(); }},
 };
 
-/// The agenda, and the same pairs in a plain list. A pair is void once one of its bodies has a new stamp.
+/// The queue, and a plain list with equal content. A certificate is stale once one of its bodies has a new
+/// revision.
 class Mirrored {
  public:
   CertificateQueue agenda;
@@ -84,7 +86,7 @@ class Mirrored {
   void open() {
     agenda.open([this](const PairCertificate& pair) { return is_void(pair); });
   }
-  /// Takes the first pair that is not void from both; whether it is the same, or there is none in both.
+  /// Takes the first certificate that is not stale from both; returns whether they are equal.
   testing::AssertionResult same_next() {
     for (;;) {
       open();
@@ -108,7 +110,7 @@ class Mirrored {
     now_ = first.failure_time;
     return testing::AssertionSuccess();
   }
-  /// All that are not void are there, and none that was never added.
+  /// Expects that all current certificates are present, and no other.
   testing::AssertionResult same_pairs() const {
     std::vector<PairCertificate> there;
     std::size_t count = 0;
@@ -183,7 +185,7 @@ TEST_P(QueueOrder, IsThatOfASortedList) {
 std::string times_name(const testing::TestParamInfo<Times>& info) { return info.param.name; }
 INSTANTIATE_TEST_SUITE_P(CertificateQueue, QueueOrder, testing::ValuesIn(all_times), times_name);
 
-/// As a snapshot has it.
+/// Returns the certificates as a snapshot has them.
 std::vector<PairCertificate> pairs_that_hold(const Mirrored& mirrored) {
   std::vector<PairCertificate> pairs;
   mirrored.agenda.for_each([&](const PairCertificate& pair) {
@@ -213,7 +215,7 @@ TEST(CertificateQueue, GoesOnAsBeforeFromThePairsThatHold) {
   }
 }
 
-/// So that pairs which become void before they are due cost no sorting.
+/// Certificates that become stale before they are due cost no sorting.
 TEST(CertificateQueue, ForgetsVoidPairsOfASliceWhenItBegins) {
   Random random(seed);
   CertificateQueue queue;

@@ -1,5 +1,5 @@
-// A grid: each capsule has a cell, and a search that has a point in common with it looks at that cell,
-// however cells are folded.
+// A grid: each swept sphere has a cell, and a search with a point in common reads that cell, however cells
+// are folded.
 #include "broadphase/grid.hpp"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ SweptSphereSpread spread_of(const std::vector<FloatAabb>& all) {
   return error;
 }
 
-/// In a box of this half edge, so many of them each with an edge of 1, without rounding.
+/// Returns boxes with an edge of 1 in a box of this half edge, without rounding.
 std::vector<FloatAabb> crowd(Random& random, std::size_t count, double half_edge) {
   std::vector<FloatAabb> all;
   const auto coordinate = [&] {
@@ -50,7 +50,7 @@ bool meet(const FloatAabb& a, const FloatAabb& b) {
 }
 
 TEST(Grid, SearchesLookAtTheCellsOfAllThatTheyMeet) {
-  // Cells for each; so far apart that cells are folded; one so far away that all axes are.
+  // Cells for each; so far apart that cells are folded; one so far away that all axes are folded.
   for (const auto& [half_edge, outlier] :
        {std::pair(4.0, 0.0f), std::pair(200.0, 0.0f), std::pair(4.0, 0x1p40f)}) {
     Random random(seed);
@@ -91,7 +91,7 @@ TEST(Grid, SearchesLookAtTheCellsOfAllThatTheyMeet) {
       }
     }
     EXPECT_TRUE(met > 100 || half_edge > 100.0);
-    // One that reaches everywhere has all cells read.
+    // A box that reaches everywhere reads all cells.
     EXPECT_EQ(cells_read == 100 * grid.cells(), outlier > 0.0f);
   }
 }

@@ -1,5 +1,5 @@
-// Sizes by levels: a level is about a factor of 8, few bodies share the layer of larger ones, and what layers
-// have turned out to need is remembered.
+// Size classes: a class is about a factor of 8, few bodies share the grid level of larger ones, and measured
+// margins are remembered.
 #include "broadphase/size_classes.hpp"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ TEST(SizeClasses, AreThoseOfTheCapsuleForTheWholeWindow) {
 TEST(SizeClasses, OfFewAreMergedIntoLargerOnesFromTheNextStartOn) {
   for (const bool flat : {false, true}) {
     SizeClasses levels;
-    // In a volume in which a search of level 0 finds few of level -2 and many of level -1.
+    // A volume in which a search of class 0 finds few of class -2 and many of class -1.
     const double searched = flat ? 100.0 : 1000.0;
     levels.merge({{-2, 10}, {-1, 1000}, {0, 10}, {3, 5}}, 10.0 * searched, flat);
     EXPECT_EQ(levels.size_class_to_start(-2), -2) << "not yet";

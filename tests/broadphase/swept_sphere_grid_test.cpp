@@ -1,5 +1,5 @@
-// A layer finds all capsules that touch one, wherever they are and whatever was added, replaced and removed
-// since it was sorted; and none but those that the plain search finds among all.
+// A grid level finds all swept spheres that touch one, wherever they are, after any additions, replacements
+// and removals since it was sorted; and none that the plain search among all does not find.
 #include "broadphase/swept_sphere_grid.hpp"
 
 #include <gtest/gtest.h>
@@ -120,7 +120,7 @@ const std::vector<Crowd> crowds{
      }},
 };
 
-/// A layer, and the bodies in it in a plain map by their numbers.
+/// A grid level, and its bodies in a plain map by their numbers.
 class Mirrored {
  public:
   explicit Mirrored(const SweptSphereFrame& frame) : layer(frame) {}
@@ -187,8 +187,8 @@ class Mirrored {
     return testing::AssertionSuccess();
   }
 
-  /// All that touch the bound from now on until `until` are found, each once, and none that the plain search
-  /// among all does not find.
+  /// Expects that all that touch the bound from now until `until` are found, each once, and none that the
+  /// plain search among all does not find.
   testing::AssertionResult same_found(Bound bound, double until) {
     bound.position += layer.frame().base;
     bound.time = now;
@@ -208,7 +208,7 @@ class Mirrored {
     return testing::AssertionSuccess();
   }
 
-  /// Of a sorted layer: going through all places finds each pair once.
+  /// Expects that a pass through all slots of a sorted level finds each pair once.
   testing::AssertionResult same_pairs() {
     std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
     searches_.clear();
@@ -272,7 +272,7 @@ class Mirrored {
     float widest = 2.0f * sphere.radius;
     for (const float speed : sphere.velocity)
       widest = std::max(widest, 2.0f * sphere.radius + std::abs(speed) * (1.0f - layer.frame().time(now)));
-    // A float tells both sides of a small one far from the base to about 2^-6 of its width.
+    // A float represents the two sides of a small one far from the base to about 2^-6 of its width.
     return widest <= layer.widest() * 1.05f;
   }
   std::set<std::uint32_t> plain_search(const SweptSphereQuery& query) const {
@@ -365,7 +365,7 @@ TEST_P(GridSearch, FindsEachPairOnce) {
     ASSERT_TRUE(mirrored.same_places());
     ASSERT_TRUE(mirrored.same_pairs());
     ASSERT_TRUE(mirrored.same_cells());
-    // Another crowd in the same layer, whose cells have got a size.
+    // Another crowd in the grid level after its cells have got a size.
     mirrored.remove(mirrored.any(random));
     mirrored.add(crowds.front().draw(random));
     mirrored.sort();
@@ -383,7 +383,7 @@ TEST_P(GridSearch, GoesOnAsBeforeAfterItWasBytes) {
   }
   Mirrored back = mirrored;
   back.layer = {};
-  back.layer.add(7, {}, 0.0f);  // what was there before is forgotten
+  back.layer.add(7, {}, 0.0f);  // the earlier content is dropped
   ASSERT_TRUE(read_back(mirrored.layer, back.layer));
   for (const int more : {0, 100, 200}) {
     Random same_random = random;

@@ -1,5 +1,5 @@
-// The kernel finds what its plain twin finds, to the bit, with the vectors of every width that this machine
-// has; and that is all capsules that touch, and none that are clearly apart.
+// The kernel finds what its plain twin finds, to the bit, with vectors of every width that this machine has:
+// all swept spheres that touch, and none that are clearly apart.
 #include "broadphase/swept_sphere_search.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ constexpr std::uint64_t seed = 4101;
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
-/// Seven columns that begin anywhere in memory. What is read behind the last place is near everything.
+/// Seven columns that begin anywhere in memory. Values behind the last slot are near everything.
 class Table {
  public:
   explicit Table(std::size_t places, std::size_t misalignment = 0)
@@ -47,7 +47,7 @@ class Table {
   std::array<std::vector<float>, 7> columns_;
 };
 
-/// Where a number of a capsule comes from.
+/// Draws a number of a swept sphere.
 using Numbers = float (*)(Random&);
 
 float everyday(Random& random) { return static_cast<float>(random.uniform(-4.0, 4.0)); }
@@ -64,7 +64,7 @@ float special(Random& random) {
   return values[random.bits() % values.size()];
 }
 float rarely_special(Random& random) { return random.bits() % 16 == 0 ? special(random) : everyday(random); }
-/// Near the numbers whose squares, or the squares of whose squares, overflow or underflow.
+/// Returns a number near those that overflow or underflow when squared once or twice.
 float on_the_edge(Random& random) {
   constexpr std::array exponents{-75, -63, -50, -37, -25, 31, 42, 62, 64};
   const float sign = random.bits() % 2 == 0 ? 1.0f : -1.0f;
@@ -84,7 +84,7 @@ SweptSphere draw(Random& random, Numbers numbers) {
   return sphere;
 }
 
-/// The first query is that of all runs, unless they say otherwise.
+/// The first query is that of all runs by default.
 struct Question {
   Table table{0};
   std::vector<SlotRange> runs;
@@ -123,7 +123,7 @@ std::size_t places_in(const std::vector<SlotRange>& runs) {
   return all;
 }
 
-/// The words that a search writes.
+/// Returns the words that a search writes.
 std::vector<std::uint64_t> words(decltype(near_swept_spheres)& search, const Question& question) {
   std::size_t count = 0;
   for (const SlotRange& run : question.runs) count += words_for(run);
@@ -135,7 +135,7 @@ std::vector<std::uint64_t> words(decltype(near_swept_spheres)& search, const Que
   all.pop_back();
   return all;
 }
-/// The places that a search finds.
+/// Returns the slots that a search finds.
 std::vector<std::uint32_t> near(const Question& question) {
   std::vector<std::uint32_t> places;
   for_each_near(question.runs, words(near_swept_spheres, question).data(),
@@ -143,7 +143,7 @@ std::vector<std::uint32_t> near(const Question& question) {
   return places;
 }
 
-/// Highway picks its vectors anew, from these alone, until the end.
+/// Restricts Highway to these vectors until destruction.
 class OnlyTarget {
  public:
   explicit OnlyTarget(std::int64_t target) { hwy::SetSupportedTargetsForTest(target); }
@@ -179,7 +179,7 @@ TEST(SweptSphereSearch, EveryLengthOfARunIsReadToItsEndAndNoFurther) {
     const OnlyTarget only(target);
     for (std::uint32_t length = 0; length <= 200; ++length) {
       for (const std::uint32_t begin : {0u, 1u, 7u, 16u}) {
-        // All are near, those outside of the run too.
+        // All swept spheres are near, also those outside of the run.
         Question question{.table = Table(begin + length)};
         for (std::size_t place = 0; place < begin; ++place) question.table.set(place, {});
         for (std::uint32_t place = begin; place < begin + length; ++place) question.table.set(place, {});
@@ -194,7 +194,7 @@ TEST(SweptSphereSearch, EveryLengthOfARunIsReadToItsEndAndNoFurther) {
   }
 }
 
-/// In a crowd of which some touch: `spread` of the positions, `fastest` speed.
+/// Compares with the truth in a crowd in which some touch: `spread` of the positions, `fastest` speed.
 void expect_truth(std::uint64_t stream, double error, double fastest, double radius) {
   constexpr std::size_t places = 100;
   std::size_t touching = 0, apart = 0;
@@ -252,7 +252,7 @@ TEST(SweptSphereSearch, FindsAllThatTouchAndNoneThatAreClearlyApart) {
   expect_truth(7, 1e9, 1e9, 1e8);
 }
 
-/// Also where the frame of the table is one for slow bodies, and its window far longer than the query's.
+/// Includes a table with a frame for slow bodies, and a window far longer than the query's.
 TEST(SweptSphereSearch, FindsThoseThatAFastOneMeets) {
   for (int power = 0; power <= 200; ++power) {
     const double speed = std::ldexp(1.0, power);

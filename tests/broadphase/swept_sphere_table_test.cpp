@@ -1,4 +1,4 @@
-// A table of capsules: each has a place until the table is filled anew; bodies that go leave holes.
+// A table of swept spheres: each has a slot until the table is filled anew; removed ones leave free slots.
 #include "broadphase/swept_sphere_table.hpp"
 
 #include <gtest/gtest.h>

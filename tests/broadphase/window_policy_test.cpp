@@ -1,5 +1,4 @@
-// Windows get shorter where searches cost most, and longer where starts do; and stay possible whatever the
-// numbers.
+// Windows get shorter if searches cost most, and longer if starts do; and stay possible for all numbers.
 #include "broadphase/window_policy.hpp"
 
 #include <gtest/gtest.h>
@@ -17,14 +16,14 @@ namespace kinesphere::window_policy_test {
 namespace {
 
 constexpr std::uint64_t seed = 4301;
-/// Near pairs.
+/// Number of near pairs.
 constexpr std::uint64_t none = 0;
 constexpr std::uint64_t countless_pairs = 1'000'000'000;
 constexpr RenewalCounts countless{.bodies = 100, .near = 1'000'000'000};
 constexpr SpeedBound everyday{1.0, 0.0};
-/// Of everyday bodies in windows of length 1.
+/// Width of typical bodies in windows of length 1.
 constexpr double usual_width = 0.1;
-/// Bodies, so that a search never looks at all of them.
+/// Enough bodies that a search never examines all of them.
 constexpr std::size_t many = 1'000'000'000'000;
 
 double length_of(int rung) { return std::ldexp(1.0, rung); }
@@ -52,7 +51,7 @@ WindowPolicy::Sample round_of(const WindowPolicy& window_policy, bool most,
   return round;
 }
 
-/// They start at `now`, and those that start when their windows end know what it has cost.
+/// Starts bodies at `now`, with the cost of the ended windows.
 void start_main(WindowPolicy& window_policy, double& now, const Round& round) {
   window_policy.start_main(now, {});
   window_policy.finish_start(round_of(window_policy, true, round.paces, round.width), round.near, many);
@@ -60,7 +59,7 @@ void start_main(WindowPolicy& window_policy, double& now, const Round& round) {
   window_policy.start_main(now, round.kicks);
 }
 
-/// Bodies start while most do not.
+/// Starts a minority of the bodies.
 void start_between(WindowPolicy& window_policy, const std::vector<SpeedBound>& paces, std::uint64_t near,
                    std::uint64_t among = many) {
   window_policy.finish_start(round_of(window_policy, false, paces, usual_width), near, among);
@@ -127,7 +126,7 @@ TEST(WindowPolicy, ShorterWhereSearchesCostMost) {
   }
 }
 
-/// No search looks at more bodies than there are: where there are few, windows may be long.
+/// A search examines at most all bodies: with few of them, windows may be long.
 TEST(WindowPolicy, SearchesAmongFewCostLittle) {
   for (const std::size_t all : {std::size_t{10}, many}) {
     WindowPolicy window_policy = chosen();
@@ -139,9 +138,9 @@ TEST(WindowPolicy, SearchesAmongFewCostLittle) {
   }
 }
 
-/// What kicks cost in the time of a window counts, not what they cost until the next start.
+/// Counts the cost of velocity changes during the length of a window, not until the next start.
 TEST(WindowPolicy, CostsOfKicksAreOfAMainWindow) {
-  // In 64 windows they would make windows shorter if they were of one.
+  // In 64 windows the updates would shorten windows if they were of one.
   const RenewalCounts updates{.bodies = 1, .near = 64 * 4};
   for (const double windows : {1.0, 64.0}) {
     WindowPolicy window_policy = chosen();
@@ -171,7 +170,7 @@ TEST(WindowPolicy, PairsOfKicksCostAsThoseOfStarts) {
   }
 }
 
-/// Where ways make most of the capsules, these grow with the cube of the length of windows, or its square.
+/// If ways make most of the swept spheres, these grow with the cube of the length of windows, or its square.
 TEST(WindowPolicy, InAPlaneWindowsAreLonger) {
   std::array<int, 2> rungs{};
   for (const int dimensions : {2, 3}) {
@@ -202,7 +201,7 @@ TEST(WindowPolicy, StaysWhereNothingIsMuchCheaper) {
   double now = 0.0;
   for (int round = 0; round < 100; ++round) {
     const int before = main_tier(window_policy);
-    // As in a crowd: what searches find grows with the volume of the capsules.
+    // The number of found bodies grows with the volume of the swept spheres, like in a crowd.
     const double larger = 0.5 + window_policy.typical_way();
     const auto near = static_cast<std::uint64_t>(20 * larger * larger * larger);
     start_main(window_policy, now,
@@ -222,7 +221,7 @@ TEST(WindowPolicy, WithoutStartsNothingIsKnown) {
   EXPECT_EQ(main_tier(window_policy), before);
 }
 
-/// Nor without time that has passed: what kicks cost is a rate.
+/// Without elapsed time the cost of velocity changes, a rate, is unknown.
 TEST(WindowPolicy, AtOneInstantNothingIsKnown) {
   WindowPolicy window_policy = chosen();
   const int before = main_tier(window_policy);
@@ -245,7 +244,7 @@ TEST(WindowPolicy, DoesNotGrowForFewThatAreSlow) {
   EXPECT_LE(main_tier(window_policy), before);
 }
 
-/// The typical way is that of the body that an eighth of all others exceed, about, however slow the rest.
+/// The typical way is that of the body that about an eighth of all bodies exceed, however slow the rest.
 TEST(WindowPolicy, FewAreFasterThanTypical) {
   Random random(seed + 4);
   for (int k = 0; k < 300; ++k) {
@@ -254,7 +253,7 @@ TEST(WindowPolicy, FewAreFasterThanTypical) {
     std::vector<SpeedBound> paces;
     for (std::uint64_t left = 1 + random.bits() % 200; left > 0; --left)
       paces.push_back({log_uniform(random, -30, 15), 0.0});
-    // With such a cost windows stay as they are.
+    // With such a cost windows keep their length.
     start_main(window_policy, now, {.paces = paces, .width = 1e9});
     std::size_t faster = 0;
     std::size_t as_fast = 0;
@@ -268,7 +267,7 @@ TEST(WindowPolicy, FewAreFasterThanTypical) {
   }
 }
 
-/// What is slow shares the windows of what is fast, and does not keep them short.
+/// Slow bodies share the windows of fast ones, and do not keep them short.
 TEST(WindowPolicy, GrowsBackBesideSlowBodies) {
   struct Case {
     std::size_t fast;
@@ -291,7 +290,7 @@ TEST(WindowPolicy, GrowsBackBesideSlowBodies) {
   }
 }
 
-/// Also if it is only found out later who is fast: all stood still before.
+/// Speeds may become known later: all bodies stood still before.
 TEST(WindowPolicy, FollowsBodiesThatBecomeFaster) {
   WindowPolicy window_policy = chosen();
   double now = 0.0;
@@ -304,8 +303,8 @@ TEST(WindowPolicy, FollowsBodiesThatBecomeFaster) {
   EXPECT_EQ(window_policy.rung_for(everyday), main_tier(window_policy));
 }
 
-/// Where no main window holds most bodies, they do not start together, and the tempo learns from those that
-/// start between.
+/// If no main window holds most bodies, they do not start together, and the policy learns from the starts in
+/// between.
 TEST(WindowPolicy, GrowsWhereMostAreInLongerWindows) {
   WindowPolicy window_policy = chosen();
   const int before = main_tier(window_policy);
@@ -323,7 +322,7 @@ TEST(WindowPolicy, GrowsWhereMostAreInLongerWindows) {
   EXPECT_TRUE(window_policy.is_valid());
 }
 
-/// A main window may be far shorter than times can be told apart: then all are in longer ones.
+/// A main window may be far shorter than the resolution of times: then all bodies are in longer ones.
 TEST(WindowPolicy, GrowsWhereWindowsAreLongerThanItSays) {
   WindowPolicy window_policy = chosen(1.0, {1e60, 0.0});
   const int shortest = -40;
@@ -353,14 +352,14 @@ TEST(WindowPolicy, FastBodiesGoFarWhereNothingIsInTheirWay) {
   EXPECT_EQ(rungs[4], main - WindowPolicy::powers_between_rungs) << "shorter than the main one nevertheless";
   EXPECT_EQ(main_tier(window_policy), main);
   EXPECT_EQ(window_policy.typical_way(), 1.0);
-  // Those that are faster go no farther than has been tried.
+  // Faster bodies go no farther than has been tried.
   const SpeedBound faster{8e7, 0.0};
   const double way = faster.way(length_of(window_policy.rung_for(faster)));
   EXPECT_LE(way, std::ldexp(4.0, 5 * WindowPolicy::powers_between_rungs));
   EXPECT_GT(way, std::ldexp(4.0, 4 * WindowPolicy::powers_between_rungs));
 }
 
-/// Where others come, the fast pass by too many of them.
+/// Among many bodies, fast ones pass too many.
 TEST(WindowPolicy, FastBodiesHaveShorterWindowsAmongMany) {
   const SpeedBound fast{1e5, 0.0};
   for (const int dimensions : {2, 3}) {
@@ -378,7 +377,7 @@ TEST(WindowPolicy, FastBodiesHaveShorterWindowsAmongMany) {
   }
 }
 
-/// The windows of fast bodies differ by large factors: they do not go to and fro between two of them.
+/// The windows of fast bodies differ by large factors: bodies do not alternate between two of them.
 TEST(WindowPolicy, FastBodiesFindTheirWindows) {
   const SpeedBound fast{1e5, 0.0};
   for (const int dimensions : {2, 3}) {
@@ -410,13 +409,13 @@ TEST(WindowPolicy, NobodyGoesMuchFartherThanTheLongestWay) {
   }
 }
 
-/// Every number zero, tiny, everyday, huge or infinite.
+/// Every number is zero, tiny, typical, huge or infinite.
 TEST(WindowPolicy, StaysPossibleWhateverTheNumbers) {
   constexpr std::array values{0.0, 5e-324, 1e-300, 1e-100, 1e-9, 1.0, 1e9, 1e100, 1e300, infinity};
   Random random(seed + 2);
   const auto value = [&] { return values[random.bits() % values.size()]; };
   const auto positive = [&] { return std::clamp(value(), 1e-300, 1e300); };
-  // As the limits of a world's tolerance let it be.
+  // Range: that of the limits of a world's tolerance.
   const auto longest_way = [&] { return std::clamp(value(), 1e-60, 1e300); };
   const auto count = [&] {
     constexpr std::array<std::uint64_t, 4> counts{0, 1, 1000, std::uint64_t{1} << 62};
@@ -451,7 +450,7 @@ TEST(WindowPolicy, StaysPossibleWhateverTheNumbers) {
   }
 }
 
-/// Of spheres that stand still, each in the middle of what its search goes through.
+/// Spheres that stand still, each in the middle of the space that its search reads.
 TEST(WindowPolicy, WiderCapsulesCostAsTheirVolume) {
   for (const int dimensions : {2, 3}) {
     WindowPolicy window_policy = chosen(1.0, everyday, dimensions);
@@ -467,7 +466,7 @@ TEST(WindowPolicy, WiderCapsulesCostAsTheirVolume) {
   }
 }
 
-/// Whoever adds up what, and in which order.
+/// The sum does not depend on the order of additions.
 TEST(WindowPolicy, RoundsHaveOneSum) {
   Random random(seed + 5);
   for (int k = 0; k < 300; ++k) {

@@ -1,4 +1,4 @@
-// Windows of one length begin and end at its multiples; there are shorter ones for those who find the others
+// Windows of one length begin and end at its multiples; shorter ones exist for bodies that find the others
 // taken.
 #include "broadphase/window.hpp"
 
@@ -33,7 +33,7 @@ TEST(Window, OfOneLengthBeginsAndEndsAtItsMultiples) {
     ASSERT_EQ(window.begin(), window.end - length);
     ASSERT_LE(window.begin(), now);
     ASSERT_EQ(window.end / length, std::floor(window.end / length));
-    // Where it ends all shorter ones end.
+    // Its end is also the end of all shorter windows.
     const Window shorter = Window::at(now, rung - 3);
     ASSERT_LE(shorter.end, window.end);
     ASSERT_EQ(Window::at(now, Window::shortest).rung, Window::at(now, -310).rung);

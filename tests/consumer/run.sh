@@ -1,10 +1,9 @@
 #!/usr/bin/env bash
-# Installs a build of the library into a temporary folder, moves it, and builds the project beside this
-# script against it: through find_package, and through pkg-config. Whatever flags its user compiles with, none is
-# forced upon it and the library's results are the same as those of this build. What is installed of headers is those of
-# include/ and the version. Without options the library alone would be built, with nothing but a compiler and Google Highway.
-# Where the component mpi was built, the project in mpi/ is built against it and run as one rank; where it was not, whoever
-# asks for it is told so, and its headers are not installed.
+# Installs a build of the library into a temporary folder, moves it, and builds the project next to this script against it:
+# through find_package, and through pkg-config. For all compiler flags of the user, the library adds none, and its results
+# equal those of this build. Only the headers of include/ and the version are installed. Without options the library alone
+# is built, with nothing but a compiler and Google Highway. If the component mpi was built, the project in mpi/ is built
+# against it and run as one rank; otherwise find_package reports that it is missing, and its headers are not installed.
 # Usage: run.sh <build folder> <library folder under the prefix> <compiler> <compiler flags> <executable scene_hash>
 #   <1 with the component mpi, 0 without>
 set -euo pipefail
@@ -49,7 +48,7 @@ configure_mpi() {
 if [[ $mpi == 1 ]]; then
   configure_mpi || { cat "$work/configure.log"; exit 1; }
   cmake --build "$work/mpi"
-  # As tests/CMakeLists.txt has it: no search for X displays, which takes long where localhost does not resolve.
+  # Without hwloc's search for X displays (see tests/CMakeLists.txt), which takes long if localhost does not resolve.
   HWLOC_COMPONENTS=-gl "$work/mpi/mpi_consumer"
 elif configure_mpi; then
   echo "consumer: the component mpi was found, but not built" >&2
@@ -67,7 +66,7 @@ if pkg-config --cflags kinesphere | tr ' ' '\n' | grep -v -e '^-I' -e '^$'; then
   echo "consumer: compiler flags are forced upon users of pkg-config" >&2
   exit 1
 fi
-# Flags are lists of words.
+# Splits the flags into words.
 read -r -a flags <<<"$flags"
 "$compiler" -std=c++20 "${flags[@]}" "$source/main.cpp" "${link[@]}" -o "$work/consumer"
 "$work/consumer"

@@ -1,4 +1,4 @@
-// What is kept of a body's contacts puts them back as they were; fixed bodies learn later what has changed.
+// A checkpoint restores a body's contacts; static bodies are updated later.
 #include "contact/contact_checkpoint.hpp"
 
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 namespace kinesphere::contact_checkpoint_test {
 namespace {
 
-/// Body 3 is fixed.
+/// Body 3 is static.
 class ContactCheckpointTest : public ::testing::Test {
  protected:
   ContactCheckpointTest() {

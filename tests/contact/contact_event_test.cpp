@@ -1,4 +1,4 @@
-// What a contact event says.
+// The content of a contact event.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,4 +1,4 @@
-// The contact book: delivery in order, what a kick in between changes, who touches whom.
+// The contact graph: delivery in order, the effect of a velocity change in between, and partners.
 #include "contact/pending_events.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Looks at a pair with fresh reports.
+// Rechecks of a pair with fresh reports.
 #include "contact/contact_predictor.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double tolerance = 1e-3;
 
-/// Two balls that come together at this speed.
+/// Two balls that approach each other at this speed.
 struct Pair {
   WorldDefinition world;
   Bound first, second;
@@ -35,10 +35,10 @@ struct Pair {
   }
 };
 
-/// However near to the tolerance it is, and however little of that its coordinates can tell.
+/// The distance is guarded however near to the tolerance it is, down to the resolution of coordinates.
 TEST(ContactPredictor, GuardsTheDistanceOfAPairOutsideTheTolerance) {
   for (const double x : {0.0, 0x1p27, 0x1p34}) {
-    // Steps of the coordinates.
+    // Resolution of the coordinates.
     const double step = x > 0.0 ? x * 0x1p-52 : 0x1p-52;
     for (const double steps : {1.0, 2.0, 5.0, 100.0}) {
       const Pair pair(tolerance + steps * step, 2.0, x);

@@ -1,4 +1,4 @@
-// When a contact begins, ends, and may be looked at again.
+// When a contact begins, ends, and may be rechecked.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -47,7 +47,7 @@ TEST(ContactRule, AnApproachThatRoundingMayHaveMadeIsNoneUnlessItIsDeep) {
   EXPECT_EQ(rule.decide(false, -0.87 * eps, 1e-15, 2e-15), Change::none);
   EXPECT_EQ(rule.decide(false, -0.88 * eps, 1e-15, 2e-15), Change::begin);
   EXPECT_EQ(rule.decide(false, -0.88 * eps, 0.0, 2e-15), Change::none);
-  // Whoever reports each begin and end does so whatever the speed is.
+  // In the mode that reports each begin and end, the speed does not matter.
   const ContactRule both(WorldDefinition{.contact_tolerance = eps});
   EXPECT_EQ(both.decide(false, 0.0, 1e-15, 2e-15), Change::begin);
   EXPECT_EQ(both.decide(true, 0.0, 1e-15, 2e-15), Change::none);
@@ -86,7 +86,7 @@ TEST(ContactRule, LeastStepShrinksTheGapByAnEighthOfTheTolerance) {
 TEST(ContactRule, HopWithinTheToleranceIsARepeatedContact) {
   const ContactRule rule(WorldDefinition{.contact_tolerance = eps, .zeno_interval = 1e-7});
   const double acceleration = 10.0;
-  // From the tolerance to the guarded gap and back, whatever the bounce gives back.
+  // From the tolerance to the guarded gap and back, for all restitutions.
   const double fall = eps - rule.guarded_gap(eps);
   EXPECT_GT(rule.zeno_interval(acceleration), 2.0 * std::sqrt(2.0 * fall / acceleration));
   EXPECT_LT(rule.zeno_interval(acceleration), 1e-2);

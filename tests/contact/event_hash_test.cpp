@@ -1,4 +1,4 @@
-// The hash of events: the same for the same events in any order, another one for any bit that differs.
+// The hash of events: equal for equal events in any order, different for any different bit.
 #include "kinesphere/event_hash.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ std::uint64_t hash_of(const std::vector<Event>& events) {
 
 const Event contact{.kind = EventKind::contact_begin, .time = 1.5, .first = {3, 0}, .second = {7, 2}};
 
-/// `contact` and others that differ from it in one thing each.
+/// Returns `contact` and events that differ from it in one field each.
 std::vector<Event> variants() {
   std::vector<Event> events(8, contact);
   events[1].time = 1.5 + 0x1p-52;
@@ -67,7 +67,7 @@ TEST(EventHash, OfPartsAddUp) {
   EXPECT_NE(whole.value(), parts[0].value());
 }
 
-/// Hashes are compared across machines and versions. This one was computed apart from the library.
+/// Hashes are compared across machines and versions. This one was computed without the library.
 TEST(EventHash, IsTheSameEverywhere) {
   EXPECT_EQ(hash_of({}), 0u);
   EXPECT_EQ(hash_of(variants()), 0x22fbd9b593c0e96fu);

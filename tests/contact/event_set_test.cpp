@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t seed = 411;
 
-/// One of few, told apart from its equals by its gap.
+/// Returns one of few events; only the gap distinguishes equal ones.
 Event draw(Random& random, std::uint64_t bodies) {
   const auto first = static_cast<std::uint32_t>(random.bits() % bodies);
   const auto kind = random.bits() % 2 == 0 ? EventKind::contact_begin : EventKind::contact_end;
@@ -69,7 +69,7 @@ TEST(EventSet, asks_all_or_none) {
   EXPECT_TRUE(!events.all_of(begins) && events.none_of(begins));
 }
 
-/// Bytes of a set with these parts, read back.
+/// Reads a set with these parts back from bytes; returns true if it is accepted.
 bool is_valid(const std::optional<Event>& first, const std::set<Event, DeliveredBefore>& others) {
   ByteWriter writer;
   writer(first, others);

@@ -62,7 +62,7 @@ TEST(OverlapRecords, OfADamagedSnapshotAreSortedAllTheSame) {
   EXPECT_TRUE(std::isnan(list.back().distance));
 }
 
-/// Two sensors with some distances in common, of which any may have been crossed.
+/// Two sensors with some distances in common, any of which may have been crossed.
 TEST(SensorTable, NextInwardIsTheLargestThatIsNotCrossed) {
   Random random(seed + 1);
   int ended = 0;

@@ -16,7 +16,7 @@ using Numbers = std::vector<std::uint32_t>;
 
 Numbers content(const PartnerList& list) { return {list.all().begin(), list.all().end()}; }
 
-/// Side by side with a plain list.
+/// A partner list and a plain list with equal content.
 struct Mirrored {
   PartnerList list;
   Numbers plain;

@@ -75,7 +75,7 @@ TEST(Bounce, OfTheLeastApproachIsFinite) {
   Event event = contact_event(EventKind::contact_begin, 0.0, {{0, 0}, 1, {{}, {0, 0, 0}}},
                               {{1, 0}, 1, {{2, 0, 0}, {}}});
   event.approach_speed = 5e-324;
-  event.repeated = true;  // otherwise nothing is gained
+  event.repeated = true;  // otherwise no speed is gained
   const Bounce after = settle(event, 1.0, 1.0, 0.5, 0.1);
   EXPECT_NEAR(after.second_velocity.x - after.first_velocity.x, 0.1, 1e-12);
 }
@@ -126,8 +126,8 @@ TEST(Settle, LosesEnergyUntilTheRestingSpeed) {
   }
 }
 
-/// Who falls from the outer edge of the tolerance to half of it inside arrives with this speed, and a hop
-/// that begins with it ends within the Zeno interval.
+/// A body that falls from the outer edge of the tolerance to half of it inside arrives with this speed, and a
+/// hop that begins with it ends within the Zeno interval.
 TEST(Settle, LeastRestingSpeedFitsTheTolerance) {
   for (const double tolerance : {1e-6, 1e-3}) {
     const double speed = least_resting_speed(tolerance, 9.81);

@@ -1,4 +1,4 @@
-// Which bodies a rank knows, by name and by number, and what becomes of links to those that it does not know.
+// The bodies that a rank knows, by name and by number, and links to bodies that it does not know.
 #include "distributed/body_directory.hpp"
 
 #include <gtest/gtest.h>
@@ -48,7 +48,7 @@ TEST(BodyDirectory, TakesEachHolderOnce) {
   EXPECT_EQ(directory[0].holders, (std::vector<int>{4, 1}));
 }
 
-/// A number that is given back goes to another body, which has nothing of the one before.
+/// A freed number goes to another body, without state of the one before.
 TEST(BodyDirectory, ForgetsWhatItRemoves) {
   BodyDirectory directory(here);
   directory.add(5, 0, here);

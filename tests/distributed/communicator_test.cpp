@@ -1,4 +1,4 @@
-// What is sent arrives, whole and at the right rank; and how much that was.
+// Messages arrive, complete and at the right rank, and are counted.
 #include "distributed/communicator.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using Bytes = Communicator::Bytes;
 
 std::size_t index(int rank) { return static_cast<std::size_t>(rank); }
 
-/// The same on all ranks.
+/// Returns bytes that are equal on all ranks.
 Bytes random_bytes(std::uint64_t seed, int from, int to, std::size_t size) {
   Random random = Random::at(seed, index(from), index(to));
   Bytes bytes(size);
@@ -25,7 +25,7 @@ Bytes random_bytes(std::uint64_t seed, int from, int to, std::size_t size) {
   return bytes;
 }
 
-/// From one rank to another in a round: half of them are empty.
+/// Returns the message from one rank to another in a round; half of the messages are empty.
 Bytes message(std::uint64_t round, int from, int to) {
   Random random = Random::at(round + 1000, index(from), index(to));
   return random_bytes(round, from, to, random.bits() % 2 == 0 ? 0 : random.bits() % 3000);

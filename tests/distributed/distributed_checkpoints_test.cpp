@@ -1,4 +1,4 @@
-// A distributed world that is saved goes on as if nothing had been, on any number of ranks.
+// A saved distributed world continues without a difference, on any number of ranks.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -25,14 +25,14 @@ Scene scene_of(const std::string& name, std::uint32_t bodies) {
   return make_scene(parameters).value();
 }
 
-/// A motion of the scene without bodies.
+/// Returns a motion of the scene without bodies.
 std::unique_ptr<Motion> empty_motion(const Scene& scene) {
   std::unique_ptr<Motion> motion = scene.motion->clone();
   for (std::uint32_t k = 0; k < scene.bodies.size(); ++k) motion->remove(k).value();
   return motion;
 }
 
-/// Runs to a time, and what each rank has saved there; all of it, on all ranks.
+/// Runs to a time; returns the parts that all ranks save there, on all ranks.
 std::vector<Part> parts_at(const Setting& setting, double time, std::vector<OrderedEvent>& told) {
   const std::unique_ptr<Motion> motion = setting.scene.motion->clone();
   DistributedWorld world = spread(setting, *motion);
@@ -42,7 +42,7 @@ std::vector<Part> parts_at(const Setting& setting, double time, std::vector<Orde
   return communicator.gather(world.save().value());
 }
 
-/// Those of the parts that this rank hands in.
+/// Returns the parts that this rank restores.
 std::vector<Part> share_of(const std::vector<Part>& parts, int shift) {
   Communicator communicator;
   std::vector<Part> mine;
@@ -65,7 +65,7 @@ TEST(DistributedCheckpoints, GoOnAsIfNothingHadBeen) {
       auto world = DistributedWorld::restore(share_of(parts, trial), *motion);
       ASSERT_TRUE(world) << world.error().message;
       EXPECT_EQ(world->time(), time);
-      // Other ranks have other bodies now: only what all have told can be compared.
+      // Ranks have other bodies now: only the merged events can be compared.
       const RunOutcome rest = finish(setting, *world);
       std::vector<Event> events = merged(told);
       events.insert(events.end(), rest.events.begin(), rest.events.end());
@@ -74,13 +74,13 @@ TEST(DistributedCheckpoints, GoOnAsIfNothingHadBeen) {
   }
 }
 
-/// What one rank has saved, many go on with; and the other way round.
+/// A checkpoint of one rank is restored by many, and the other way round.
 TEST(DistributedCheckpoints, MayBeOfAnotherNumberOfRanks) {
   const Setting setting{.scene = scene_of("paper1", 250)};
   const RunOutcome one = alone(setting);
   std::vector<OrderedEvent> told;
   std::vector<Part> parts = parts_at(setting, 0.5, told);
-  // As if one rank had all.
+  // One rank holds all bodies.
   const std::unique_ptr<Motion> motion = empty_motion(setting.scene);
   auto world = DistributedWorld::restore(share_of(parts, 0), *motion);
   ASSERT_TRUE(world) << world.error().message;
@@ -119,7 +119,7 @@ TEST(DistributedCheckpoints, AreRefusedUnlessTheyAreWhole) {
   const bool first = communicator.rank() == 0;
   refused({}, "restore: parts must be all of one world");
   std::vector<Part> mine = share_of(parts, 0);
-  // Of rank 0 alone.
+  // Damages the part of rank 0 alone.
   if (first) mine[0].resize(mine[0].size() / 2);
   refused(mine, "rank 0: restore: parts must be whole");
   mine = share_of(parts, 0);

@@ -1,4 +1,4 @@
-// What goes wrong on one rank ends the run on all of them, with one message that names rank and body.
+// A failure on one rank ends the run on all of them, with one message that names rank and body.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ Scene scene() {
   return make_scene(parameters).value();
 }
 
-/// The error is the same everywhere.
+/// Expects that the error is equal on all ranks.
 void expect_everywhere(const Result<void>& result, ErrorCode code, const std::string& part) {
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().code, code);
@@ -87,7 +87,7 @@ class Failing final : public Motion {
 
   bool fails = false;
   bool throws = false;
-  /// A call that fails after so many that do not.
+  /// A call that fails after a number of successful ones.
   struct Calls {
     int left = std::numeric_limits<int>::max();
     bool throws = false;
@@ -113,7 +113,7 @@ TEST(DistributedFailures, OfAProbeEndAllRanks) {
     const Setting setting{.scene = scene()};
     Failing motion(setting.scene.motion->clone());
     DistributedWorld world = spread(setting, motion);
-    // The last rank's alone.
+    // Only the last rank's motion fails.
     if (world.rank() == world.ranks() - 1) (throws ? motion.throws : motion.fails) = true;
     const auto done = world.run(setting.scene.end_time, [](const OrderedEvent&) {});
     const std::string rank = "rank " + std::to_string(world.ranks() - 1) + ": ";
@@ -126,7 +126,7 @@ TEST(DistributedFailures, OfAProbeEndAllRanks) {
   }
 }
 
-/// In a dense gas bodies go from rank to rank when windows start, while islands run, and when a part is over.
+/// In a dense gas bodies change ranks when windows start, while clusters run, and at the end of a batch.
 TEST(DistributedFailures, OfBodiesThatCannotMoveEndAllRanks) {
   SceneParameters parameters;
   for (const SceneParameters& built_in : built_in_scenes())
@@ -135,7 +135,7 @@ TEST(DistributedFailures, OfBodiesThatCannotMoveEndAllRanks) {
   parameters.seconds = 0.5;
   parameters.packing = 0.45;
   const Setting setting{.scene = make_scene(parameters).value(), .sensors = true};
-  // Of one rank nobody goes anywhere.
+  // With one rank no body migrates.
   if (Communicator().ranks() == 1) return;
   for (const bool throws : {false, true}) {
     for (int good_ones = 0; good_ones < 300; good_ones += 7) {

@@ -1,5 +1,5 @@
-// A distributed world tells what one world tells: each event to the last bit, in the same order, with the
-// same number of reports, for whatever number of ranks runs this.
+// A distributed world has the events of one world: each to the last bit, in order, with an equal number of
+// reports, for any number of ranks.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ SceneParameters parameters_of(const std::string& name, std::uint32_t bodies, dou
   for (const SceneParameters& built_in : built_in_scenes())
     if (built_in.name == name) parameters = built_in;
   if (parameters.packing <= 0.0) {
-    // As dense as it is with as many bodies as it has.
+    // Keeps the density of the original scene.
     const double factor = std::cbrt(static_cast<double>(bodies) / parameters.bodies);
     parameters.box.upper = parameters.box.lower + factor * (parameters.box.upper - parameters.box.lower);
   }
@@ -55,7 +55,7 @@ TEST(DistributedWorld, TellsOfAGasInASpaceThatRepeats) {
   expect_the_same_as_alone({.scene = scene_of(parameters)}, 100);
 }
 
-/// SpeculativeRunner are large, and their bodies come to ranks while these are at work.
+/// Clusters are large, and their bodies come to ranks while these execute.
 TEST(DistributedWorld, TellsOfADenseGasWithSensors) {
   SceneParameters parameters = parameters_of("gas", 220, 0.5);
   parameters.packing = 0.45;
@@ -67,7 +67,7 @@ TEST(DistributedWorld, TellsOfSensorsAndErrors) {
       {.scene = scene_of(parameters_of("paper1", 300, 1.5)), .sensors = true, .position_error = 1e-3}, 500);
 }
 
-/// Far apart in a layer of air, each with a sensor, and nobody answers.
+/// Far apart in a layer of air, each with a sensor, without responses.
 TEST(DistributedWorld, TellsOfDrones) {
   SceneParameters parameters;
   parameters.bodies = 500;
@@ -113,7 +113,7 @@ TEST(DistributedWorld, MayStopOnTheWay) {
   expect_the_same_as_alone({.scene = scene_of(parameters_of("paper1", 300, 1.0)), .slices = 13}, 100);
 }
 
-/// Worlds of no more bodies than settle one by one: some ranks have none.
+/// Worlds of no more bodies than are recertified one by one: some ranks have none.
 TEST(DistributedWorld, TakesFewBodies) {
   for (const std::uint32_t bodies : {1u, 2u, 3u, 8u, 9u, 12u}) {
     SceneParameters parameters = parameters_of("paper1", bodies, 6.0);
@@ -122,14 +122,14 @@ TEST(DistributedWorld, TakesFewBodies) {
   }
 }
 
-/// Bodies on a lattice, all of which meet at the same times: the order in which pairs are looked at counts.
+/// Bodies on a lattice that all meet at equal times: the order of rechecks matters.
 TEST(DistributedWorld, TellsOfManyThingsAtOneInstant) {
   for (const bool flies_apart : {false, true}) {
     constexpr int side = 6;
     std::vector<State> states;
     Scene scene;
     scene.world.box = Box{{0, 0, 0}, {3.0 * side, 3.0 * side, 3.0 * side}};
-    // Numbers that do not follow space.
+    // Numbers unrelated to places.
     for (int k = 0; k < side * side * side; ++k) {
       const int place = 125 * k % (side * side * side);
       const int x = place % side, y = place / side % side, z = place / side / side;
@@ -145,8 +145,8 @@ TEST(DistributedWorld, TellsOfManyThingsAtOneInstant) {
   }
 }
 
-/// Bodies at rest on a lattice are due at the same time, and none of them moves as the others do: who is
-/// asked, and so what is due next, depends on which pair is looked at first.
+/// Bodies at rest on a lattice have certificates of equal times and different motions: the order of rechecks
+/// decides which body is probed, and so what is due next.
 TEST(DistributedWorld, TellsOfManyPairsThatAreDueAtOneInstant) {
   constexpr int side = 6;
   RandomForcesDefinition forces{.interval = 0.25, .seed = 7};
@@ -165,7 +165,7 @@ TEST(DistributedWorld, TellsOfManyPairsThatAreDueAtOneInstant) {
   expect_the_same_as_alone({.scene = std::move(scene)}, 200);
 }
 
-/// Rows that a body hits at one end: islands span all ranks.
+/// A body hits one end of each row: clusters span all ranks.
 TEST(DistributedWorld, TellsOfChainsThroughAllOfSpace) {
   std::vector<State> states;
   Scene scene;
@@ -230,12 +230,12 @@ TEST(DistributedWorld, CanBeGivenMoreBodiesLater) {
   EXPECT_EQ(distributed.counters().probes, world.counters().probes);
 }
 
-/// In scenes in which nobody reacts, the truth is known.
+/// In scenes without responses the truth is known.
 TEST(DistributedWorldDifferential, AgreesWithTheOracle) {
   int scenes = 0;
   for (int index = 0; index < static_cast<int>(scene_tests::Family::count); ++index) {
     const scene_tests::Family family{index};
-    // Their bodies come and go.
+    // Bodies of this family are added and removed.
     if (family == scene_tests::Family::tracks) continue;
     for (std::uint64_t seed = 0; seed < 6; ++seed) {
       SCOPED_TRACE(std::string(scene_tests::name_of(family)) + " " + std::to_string(seed));

@@ -20,7 +20,7 @@ TEST(ErrorConsensus, TellsTheFirstErrorOfAll) {
   ErrorConsensus agreement(communicator);
   const int last = communicator.ranks() - 1;
   EXPECT_TRUE(agreement.first_error({}));
-  // All but the first have one, or the only one.
+  // All ranks but the first have an error, or only the last one.
   const bool fails = communicator.rank() > 0 || last == 0;
   const auto agreed =
       agreement.first_error(fails ? Result<void>(error_of(communicator.rank())) : Result<void>());
@@ -72,7 +72,7 @@ TEST(UniqueNames, AreComparedOnAllRanks) {
   for (std::uint32_t k = 0; k < 20; ++k) names.add(100 * rank + k);
   EXPECT_TRUE(check());
   EXPECT_TRUE(check()) << "nothing is compared twice";
-  // The last rank adds two that the first has added.
+  // The last rank adds two names that the first has added.
   if (rank == ranks - 1) {
     names.add(13);
     names.add(11);

@@ -1,4 +1,4 @@
-// Which boxes a rank knows, and to which ranks a box has to be told; where space repeats, in any image.
+// The boxes that a rank knows, and the ranks to which a box must be sent; in periodic space in any image.
 #include "distributed/halo_region.hpp"
 
 #include <gtest/gtest.h>

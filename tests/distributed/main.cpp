@@ -1,6 +1,5 @@
-// Runs the tests on all ranks. Rank 0 prints as usual, the others print what fails. The run fails if a test
-// has failed on any rank. A rank that cannot go on with a test stops all ranks, as the others would wait for
-// it.
+// Runs the tests on all ranks. Rank 0 prints as usual, the others print failures. The run fails if a test has
+// failed on any rank. A rank that cannot continue a test stops all ranks, since the others would wait for it.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -44,7 +43,7 @@ int run_tests(const MpiSession& session) {
   listeners.Append(&failures);
   const bool failed = RUN_ALL_TESTS() != 0;
   listeners.Release(&failures);
-  // A filter that finds none is a mistake.
+  // A filter that matches no test is a mistake.
   const bool none = testing::UnitTest::GetInstance()->test_to_run_count() == 0;
   return communicator.sum(std::uint64_t{failed || none}) > 0 ? 1 : 0;
 }

@@ -1,4 +1,4 @@
-// Bodies go from one rank to another with their motion, contacts and hot pairs.
+// Bodies migrate from one rank to another with their motion, contacts and certificates.
 #include "distributed/migration.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace kinesphere::migration_test {
 namespace {
 
-/// What one rank has, without the others.
+/// The state of one rank, without the others.
 struct Rank {
   explicit Rank(int rank) : local({}, rank), transit(motion, local) {}
 
@@ -32,7 +32,7 @@ struct Rank {
                                       true);
   }
   void install(std::vector<BodyMessage> messages) { beginning = transit.install(messages, nullptr).value(); }
-  /// Names of those that it touches and that are known here.
+  /// Returns the names of the touching bodies that are known here.
   std::vector<std::uint32_t> partners_of(std::uint32_t name) const {
     std::vector<std::uint32_t> names;
     for (const std::uint32_t number : local.state.contacts.partners_of(*local.directory.find(name)))
@@ -107,7 +107,7 @@ TEST(Migration, RenewedCopyKeepsHotPairsUnlessTheyAreVoid) {
   const PairCertificate pair = other.local.main.certifier().certificate(1.5, *other.local.directory.find(70),
                                                                         *other.local.directory.find(60));
   BodyMessage renewed = one.transit.pack(a);
-  renewed.body.revision = 30;  // stamps are a rank's own
+  renewed.body.revision = 30;  // revisions are a rank's own
   other.install({renewed});
   EXPECT_FALSE(other.local.main.certifier().is_stale(pair));
   renewed.is_void = true;
@@ -115,7 +115,8 @@ TEST(Migration, RenewedCopyKeepsHotPairsUnlessTheyAreVoid) {
   EXPECT_TRUE(other.local.main.certifier().is_stale(pair));
 }
 
-/// As a checkpoint is read: the third body comes later, from another rank, and needs to hear of the pair.
+/// The third body comes later, from another rank, which needs the certificate: the order of a read
+/// checkpoint.
 TEST(Migration, KeepsLoosePairs) {
   Rank one(0);
   Rank other(1);

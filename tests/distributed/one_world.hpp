@@ -1,4 +1,4 @@
-// A scene in one world and in a distributed one: both have to tell the same.
+// Runs a scene in one world and in a distributed one; the results must be equal.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,12 +21,12 @@
 namespace kinesphere {
 
 struct RunOutcome {
-  std::vector<Event> events;  ///< of all ranks, in order
+  std::vector<Event> events;  ///< events of all ranks, in order
   Counters counters{};
   std::uint64_t hash = 0;
 };
 
-/// Which rank brings a body.
+/// Returns the rank that adds a body.
 using Bringer = std::function<int(std::uint32_t body, std::uint32_t bodies, int ranks)>;
 inline int in_turn(std::uint32_t body, std::uint32_t, int ranks) {
   return static_cast<int>(body % static_cast<std::uint32_t>(ranks));
@@ -38,11 +38,11 @@ struct Setting {
   bool sensors = false;
   std::vector<double> distances{0.4, 1.1};
   double position_error = 0.0;
-  /// The bodies promise so much less than they do.
+  /// Factor by which the bodies' limits are too small.
   double broken = 1.0;
   int threads = 1;
   Bringer bringer = in_turn;
-  /// The run is made of so many.
+  /// Number of advances of the run.
   int slices = 1;
 
   BodyDefinition body(std::uint32_t number) const {
@@ -90,7 +90,7 @@ inline RunOutcome alone(const Setting& setting) {
   return outcome;
 }
 
-/// The world of this rank, with the bodies that it brings; all others are removed from the motion.
+/// Returns the world of this rank, with the bodies that it adds; removes all others from the motion.
 inline DistributedWorld spread(const Setting& setting, Motion& motion) {
   DistributedWorld world = DistributedWorld::create(setting.scene.world, motion).value();
   if (setting.sensors) world.set_sensor(1, setting.sensor()).value();
@@ -102,7 +102,7 @@ inline DistributedWorld spread(const Setting& setting, Motion& motion) {
   return world;
 }
 
-/// Those of all ranks, in the order of one world.
+/// Returns the events of all ranks, in the order of one world.
 inline std::vector<Event> merged(const std::vector<OrderedEvent>& here) {
   ByteWriter writer;
   for (const OrderedEvent& event : here) writer(event.event, event.round);
@@ -121,7 +121,7 @@ inline std::vector<Event> merged(const std::vector<OrderedEvent>& here) {
   return events;
 }
 
-/// Goes on to the end of the scene; with the events that `told` has already.
+/// Runs to the end of the scene; the result begins with the events in `told`.
 inline RunOutcome finish(const Setting& setting, DistributedWorld& world,
                          std::vector<OrderedEvent> told = {}) {
   Workers workers = Workers::create(setting.threads).value();
@@ -152,7 +152,7 @@ inline RunOutcome spread_out(const Setting& setting) {
   return finish(setting, world);
 }
 
-/// All that can be seen of an event, to the last bit.
+/// Returns all fields of the events, to the last bit.
 inline std::vector<std::byte> bytes_of(const std::vector<Event>& events) {
   ByteWriter writer;
   for (const Event& event : events) writer(event);

@@ -1,4 +1,4 @@
-// Regions tile space, whatever the points are, and cost about the same where they can.
+// Regions tile space for all sets of points, and cost about the same where possible.
 #include "distributed/partition.hpp"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ struct Cloud {
 
 using MakePoint = std::function<Vec3(Random&)>;
 
-/// This rank's part of `count` points.
+/// Returns this rank's part of `count` points.
 Cloud cloud_of(const Communicator& communicator, std::uint64_t count, const MakePoint& make_point) {
   const auto ranks = static_cast<std::uint64_t>(communicator.ranks());
   Cloud cloud;
@@ -48,7 +48,7 @@ Vec3 in_cube(Random& random) {
   return {x, y, random.uniform()};
 }
 
-/// All coordinates at which regions begin or end, and those just before and after.
+/// Returns all coordinates at which regions begin or end, and the ones just before and after.
 std::vector<double> coordinates_at_cuts(const Partition& partition, int axis) {
   std::vector<double> coordinates{0.0};
   for (int rank = 0; rank < partition.ranks(); ++rank) {
@@ -63,7 +63,7 @@ std::vector<double> coordinates_at_cuts(const Partition& partition, int axis) {
   return coordinates;
 }
 
-/// Draws points at random, points of a cloud, and points where regions end.
+/// Draws points at random, points of a cloud, and points at the ends of regions.
 class Draw {
  public:
   Draw(const Partition& partition, const Cloud& cloud) : cloud_(cloud) {
@@ -92,7 +92,7 @@ bool contains(const Box& region, const Vec3& point) {
   return true;
 }
 
-/// The owner of a point is the only rank whose region has it.
+/// Expects that the owner of a point is the only rank with it in its region.
 void expect_one_owner(const Partition& partition, const Vec3& point) {
   const int owner = partition.owner_of(point);
   for (int rank = 0; rank < partition.ranks(); ++rank)
@@ -100,7 +100,7 @@ void expect_one_owner(const Partition& partition, const Vec3& point) {
         << rank << ": " << point.x << " " << point.y << " " << point.z;
 }
 
-/// Tries `count` points.
+/// Checks `count` points.
 void expect_tiling(const Partition& partition, const Cloud& cloud, std::uint64_t count) {
   const Draw draw(partition, cloud);
   for (std::uint64_t k = 0; k < count; ++k) {
@@ -110,7 +110,7 @@ void expect_tiling(const Partition& partition, const Cloud& cloud, std::uint64_t
   }
 }
 
-/// What the points of all ranks cost in this rank's region.
+/// Returns the cost of the points of all ranks in this rank's region.
 double own_cost(Communicator& communicator, const Partition& partition, const Cloud& cloud) {
   std::vector<double> costs(static_cast<std::size_t>(partition.ranks()));
   for (std::size_t k = 0; k < cloud.positions.size(); ++k)
@@ -125,7 +125,7 @@ void expect_the_same_everywhere(Communicator& communicator, const Partition& par
   for (const auto& bytes : communicator.gather(writer.bytes())) EXPECT_EQ(bytes, writer.bytes());
 }
 
-/// Chooses a partition and checks all that does not depend on the points. Returns its imbalance.
+/// Chooses a partition and makes all checks that do not depend on the points. Returns its imbalance.
 double check(const Cloud& cloud, std::uint64_t tries = 5'000) {
   Communicator communicator;
   const Partition partition = Partition::choose(communicator, cloud.positions, cloud.costs);
@@ -187,7 +187,7 @@ TEST(Partition, OfPointsThatCostNothing) {
   Cloud cloud = cloud_of(communicator, 5'000, in_cube);
   std::fill(cloud.costs.begin(), cloud.costs.end(), 0.0);
   EXPECT_EQ(check(cloud), 1.0);
-  // A tenth of them costs everything.
+  // A tenth of the points has all the cost.
   for (std::size_t k = 0; k < cloud.costs.size(); k += 10) cloud.costs[k] = 1.0;
   EXPECT_LT(check(cloud), 1.1);
 }
@@ -253,7 +253,7 @@ TEST(Partition, OfALattice) {
         for (int z = 0; z < side; ++z)
           if (number++ % ranks == communicator.rank()) cloud.add({double(x), double(y), double(z)});
     const double imbalance = check(cloud);
-    // Layers are not parted, so half of one may be on the wrong side of each cut.
+    // Layers are not divided, so half of one may be on the wrong side of each cut.
     if (side == 20) {
       EXPECT_LT(imbalance, 1.2);
     }
@@ -278,7 +278,7 @@ TEST(Partition, OfHugeAndTinyCoordinates) {
 
 TEST(Partition, OfClustersOfCoincidingPoints) {
   const Communicator communicator;
-  // Many places on a line, at which the middle of the points is on one side or the other.
+  // Many places on a line, with the middle of the points on one side or the other.
   for (int places = 10; places < 50; ++places) {
     const auto make_point = [places](Random& random) {
       return Vec3{0, 0, std::floor(random.uniform() * places)};

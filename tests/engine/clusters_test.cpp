@@ -1,4 +1,4 @@
-// Groups have the bodies and the pairs that a plain list of sets has, however they are joined.
+// Clusters have the bodies and the certificates of a plain list of sets, in whatever order they are joined.
 #include "engine/clusters.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ std::uint32_t draw(Random& random, std::uint32_t below) {
   return static_cast<std::uint32_t>(random.uniform() * below);
 }
 
-/// Sets of bodies, each with the pairs that are due in it, by the time of each.
+/// Sets of bodies, each with its due certificates in order of time.
 class PlainGroups {
  public:
   void add(const PairCertificate& pair) {
@@ -117,7 +117,7 @@ TEST(Clusters, AreThoseOfAPlainListOfSets) {
                           ? groups.root_of(draw(random, static_cast<std::uint32_t>(groups.size())))
                           : groups.add();
       if (ours.members.size() == 0) {
-        // Of a group that has just been made.
+        // The cluster has just been made.
         if (theirs == nullptr) groups.add_member(ours, number);
         plain.join({number});
       } else {

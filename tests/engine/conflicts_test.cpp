@@ -1,4 +1,4 @@
-// Kicked bodies that may meet are found, whoever else is kicked, by however many threads.
+// Updated bodies that may meet are found, whatever other updates there are, with any number of threads.
 #include "engine/conflicts.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ constexpr std::uint64_t seed = 4912;
 constexpr double begin = 1.0;
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
-/// By pair: until when the two do not meet, and whether the earlier kick was void.
+/// By pair: the time until which the two do not meet, and whether the earlier update was stale.
 using Meetings = std::map<Pair, std::pair<double, bool>>;
 
 Meetings by_pair(const std::vector<Conflict>& meetings) {
@@ -28,7 +28,7 @@ Meetings by_pair(const std::vector<Conflict>& meetings) {
   return all;
 }
 
-/// Bodies that are kicked at some time in a box, a few of them twice, with others of their group.
+/// Bodies that change velocity at some time in a box, a few of them twice, with others of their cluster.
 struct Kicked {
   explicit Kicked(Random& random) : tables(WorldDefinition{.start_time = begin}) {
     const auto bodies = 1 + static_cast<std::uint32_t>(random.uniform() * 700.0);
@@ -61,7 +61,7 @@ struct Kicked {
   std::vector<ClusterUpdate> kicks;
 };
 
-/// Before this time their bounds touch somewhere.
+/// True if the bounds touch somewhere before this time.
 bool may_meet_before(double last, const SweptSphereUpdate& a, const SweptSphereUpdate& b) {
   const double from = std::max(a.time, b.time);
   const double end = std::min({a.window.end, b.window.end, last});
@@ -117,7 +117,8 @@ TEST(Conflicts, AreThoseOfEachPairAlone) {
           kicked.all[a], kicked.all[b],
           [](const SweptSphereUpdate& one, const SweptSphereUpdate& other) { return one.time < other.time; });
       ASSERT_EQ(is_void, earlier.first_change.invalidated < later.time);
-      // It cannot be known if the earlier one was reported in between, and is not needed if that was kicked.
+      // The time is unknown if the earlier body was reported in between, and not needed if that body was
+      // updated again.
       ASSERT_EQ(until == Conflict::unknown, earlier.first_change.changed < later.time && !is_void);
       (is_void ? void_ones : until == Conflict::unknown ? unknown : known) += 1;
     }

@@ -1,4 +1,4 @@
-// What an island notes about its bodies for others.
+// The record that a cluster keeps about its bodies for other clusters.
 #include "engine/speculation_log.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ TEST(SpeculationLog, TellsReportsAndRenewalsFromKicks) {
 
   log.note_change(0, 1.5);
   EXPECT_EQ(at_first.changed, 1.5);
-  // The window of the body ends; what is known of it stays.
+  // The window of the body ends; its bound stays.
   log.add({.number = 0, .revision = 5, .time = 2.0});
   EXPECT_EQ(at_first.changed, 1.5);
   EXPECT_EQ(at_first.invalidated, infinity);
@@ -47,7 +47,7 @@ TEST(SpeculationLog, SeesBodiesOfOtherIslandsAsThePartBegan) {
   log.begin(batch, 0);
   EXPECT_EQ(log.checkpoint_of(0), nullptr);
   EXPECT_EQ(log.checkpoint_of(1), &batch.checkpoints[1]);
-  // Nobody changes these.
+  // These bodies are not changed.
   EXPECT_EQ(log.checkpoint_of(2), nullptr);
   EXPECT_EQ(log.checkpoint_of(3), nullptr);
 }

@@ -1,4 +1,4 @@
-// Names of bodies: how they compare, print, hash and pack.
+// Names of bodies: comparison, printing, hashing and packing.
 #include "kinesphere/body_id.hpp"
 
 #include <gtest/gtest.h>

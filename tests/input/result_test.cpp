@@ -1,4 +1,4 @@
-// Results: a value, or an error that asking for the value throws.
+// Results: a value, or an error that value() throws.
 #include "kinesphere/result.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// What is called certain is so: tolerances of stretched separations, reports from after now, and answers
-// after reports that say less than what was certified before.
+// Certain verdicts are true: tolerances of stretched separations, reports from the future, and answers after
+// reports that imply less than earlier certificates.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,8 +31,8 @@ TEST(MonitorCertainty, WithinATallEllipsoidIsNoFartherOutsideThanTheTolerance) {
   EXPECT_EQ(verdict_at(tall, 0.5, {0, 0, 1000.1}), Verdict::apart);
 }
 
-/// How far a point is outside of an ellipsoid around the origin, no more than this: to the nearest of many
-/// points of its surface.
+/// Returns a lower limit of the distance of a point from an ellipsoid around the origin: to the nearest of
+/// many points of its surface.
 double outside(double horizontal, double vertical, double flat, double upright) {
   double least = INFINITY;
   for (int k = 0; k <= 20'000; ++k) {
@@ -56,7 +56,7 @@ TEST(MonitorCertainty, WithinAnyEllipsoidIsNoFartherOutsideThanTheTolerance) {
     if (verdict_at(Separation::ellipsoid(horizontal, vertical), tolerance, {flat, 0, upright}, error) !=
         Verdict::within)
       continue;
-    // The farthest of the places where it may be.
+    // The farthest possible place of the track.
     for (double turn = 0.0; turn < 6.3; turn += 0.05) {
       const double x = std::abs(flat + error * std::cos(turn)),
                    z = std::abs(upright + error * std::sin(turn));
@@ -118,7 +118,8 @@ TEST(MonitorCertainty, AnswersKeepWhatWasCertifiedBefore) {
   monitor.report(1, {.timestamp = 0.5}).value();
   monitor.report(2, {.timestamp = 0.5, .state = {{30, 0, 0}, {}}}).value();
   EXPECT_TRUE(monitor.advance(1.0).value() == std::nullopt);
-  // By itself this report, which soon will say more than the first one, leaves open what was called apart.
+  // By itself this report, which soon implies more than the first one, leaves a pair open that was certified
+  // apart.
   TrackReport rough{.timestamp = 1.0, .position_error = 15.0};
   rough.plan = TrackReport::Plan{.acceleration = {}, .acceleration_limit = 0.0};
   monitor.report(1, rough).value();

@@ -1,5 +1,4 @@
-// The clock of a monitor: where it starts, and that it gets anywhere in few steps, whatever the unit of time
-// is.
+// The clock of a monitor: its start, and progress in few steps for any unit of time.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +30,7 @@ std::size_t events_until(Monitor& monitor, double time) {
 TEST(MonitorClock, StartsAtTheFirstReport) {
   Monitor monitor = Monitor::create(definition()).value();
   EXPECT_EQ(monitor.time(), 0.0);
-  // Taking events that there are not starts no clock.
+  // Polling without events does not start the clock.
   EXPECT_EQ(events_until(monitor, monitor.time()), 0u);
   EXPECT_EQ(Monitor::restore(monitor.save())->time(), 0.0);
   monitor.report(7, at(1.7e9, {0, 0, 100}, {20, 0, 0})).value();
@@ -60,7 +59,7 @@ TEST(MonitorClock, IsNotSetByAReportThatIsRefused) {
   EXPECT_EQ(monitor.time(), 4.0);
 }
 
-/// From `start` on two tracks that pass each other are reported three times, a step between.
+/// From `start` on two passing tracks are reported three times, `step` apart.
 void expect_few_steps(MonitorDefinition definition, double start, double first, double step) {
   definition.start_time = start;
   Monitor monitor = Monitor::create(definition).value();
@@ -76,7 +75,7 @@ void expect_few_steps(MonitorDefinition definition, double start, double first, 
 }
 
 TEST(MonitorClock, GetsAnywhereInFewSteps) {
-  // Unix seconds, milliseconds, microseconds and nanoseconds; from zero and from then on.
+  // Unix seconds, milliseconds, microseconds and nanoseconds; from zero and from the present.
   for (const double now : {1.7e9, 1.7e12, 1.7e15, 1.7e18})
     for (const double start : {0.0, now})
       for (const double step : {1.0, 1000.0, 1e6}) expect_few_steps(definition(), start, now, step);
@@ -96,7 +95,7 @@ TEST(MonitorClock, GetsAnywhereInFewStepsWithWindowsAndResolutionsOfAllSizes) {
 }
 
 TEST(MonitorClock, MissesNothingInAGap) {
-  // Towards each other with 1 each from 20,000 apart, without accelerations, and nothing more is heard.
+  // Two tracks approach at speed 1 each from 20,000 apart, without accelerations and further reports.
   MonitorDefinition exact = definition();
   exact.classes[0].acceleration_limit = 0.0;
   Monitor monitor = Monitor::create(exact).value();

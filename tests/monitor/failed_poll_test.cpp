@@ -1,4 +1,4 @@
-// A poll that fails while windows start: what comes next finds the monitor as if nothing had been asked.
+// A poll that fails at a window start leaves the monitor as if it had not been called.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -10,7 +10,7 @@
 namespace kinesphere::failed_poll_test {
 namespace {
 
-/// At time 1 windows end. Track 1 is asked for, as its plan ends in the next window.
+/// At time 1 windows end. Track 1 is requested, since its plan ends in the next window.
 Monitor watching() {
   Monitor monitor = Monitor::create({.start_time = 0.0,
                                      .classes = {{.acceleration_limit = 1.0, .largest_speed = 100.0}},
@@ -23,8 +23,8 @@ Monitor watching() {
   return monitor;
 }
 
-/// A track that is added then is registered in the window that begins, while all others wait for it: their
-/// start took its layer away, and it was never found again.
+/// A track that is added then is registered in the window that begins, while all others wait for it.
+/// Regression: their start took its grid level away, and it was never found again.
 void expect_to_see_who_comes_then(Monitor monitor) {
   ASSERT_EQ(monitor.time(), 1.0);
   monitor.report(3, {.timestamp = 1.0, .state = {{50, 0, 0}, {-20, 0, 0}}}).value();

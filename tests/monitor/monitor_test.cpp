@@ -1,4 +1,4 @@
-// What a monitor says and does, case by case.
+// Answers and events of a monitor, case by case.
 #include "kinesphere/monitor/monitor.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// One class with this limit, one separation of 10.
+/// Returns a definition with one class of this limit, and one separation of 10.
 MonitorDefinition definition(double acceleration_limit = 2.0) {
   return {.classes = {{.acceleration_limit = acceleration_limit}},
           .separations = {{0, 0, {Separation::sphere(10.0)}}}};
@@ -27,7 +27,7 @@ TrackReport at(double stamp, const Vec3& position, const Vec3& velocity = {}) {
   return {.timestamp = stamp, .state = {position, velocity}};
 }
 
-/// The message names what is wrong.
+/// Expects an error with a message that names the cause.
 template <class T>
 void expect_refused(const Result<T>& result, ErrorCode code, const std::string& culprit) {
   ASSERT_FALSE(result) << culprit;
@@ -46,7 +46,7 @@ TEST(Monitor, TellsWhenTwoMayMeetAndWhenTheyCertainlyHave) {
   monitor.report(1, at(0.0, {0, 0, 0})).value();
   monitor.report(2, at(0.0, {30, 0, 0}, {-5, 0, 0})).value();
   const auto events = all(monitor.events(20.0));
-  // Nothing is uncertain but the tolerance, so there is hardly a time in which nothing is certain.
+  // Only the tolerance is uncertain, so there is hardly a time without a certain verdict.
   ASSERT_GE(events.size(), 2u);
   EXPECT_NEAR(events.front().time, 4.0, 2e-3);
   EXPECT_EQ(events.front().verdict, Verdict::within);
@@ -62,7 +62,7 @@ TEST(Monitor, LosesCertaintyAsTimePassesWithoutReports) {
   Monitor monitor = made(definition(2.0));
   monitor.report(1, at(0.0, {0, 0, 0})).value();
   monitor.report(2, at(0.0, {26, 0, 0})).value();
-  // Both may have come 1/2 2 t^2 nearer: 26 - 2 t^2 = 10.
+  // Each track may have come 1/2 2 t^2 nearer: 26 - 2 t^2 = 10.
   const auto events = all(monitor.events(20.0));
   ASSERT_EQ(events.size(), 1u);
   EXPECT_NEAR(events[0].time, std::sqrt(8.0), 2e-3);
@@ -77,7 +77,7 @@ TEST(Monitor, LosesCertaintyAsTimePassesWithoutReports) {
   EXPECT_NEAR(answer.closest_distance, 26.0, 1e-9);
   EXPECT_EQ(answer.likely_time, infinity);
 
-  // A report of each settles it.
+  // A report of each decides it.
   monitor.report(1, at(20.0, {0, 0, 0})).value();
   EXPECT_TRUE(all(monitor.events(20.0)).empty());
   monitor.report(2, at(20.0, {26, 0, 0})).value();
@@ -124,7 +124,7 @@ TEST(Monitor, CountsTheErrorsOfEachReportByItself) {
   events = all(monitor.events(0.5));
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].verdict, Verdict::apart);
-  // One that is less exact does not spoil what is known.
+  // A less exact report does not spoil earlier certainty.
   rough.timestamp = 0.75;
   monitor.report(1, rough).value();
   EXPECT_TRUE(all(monitor.events(2.0)).empty());
@@ -135,8 +135,8 @@ TEST(Monitor, AReportEndsNoCertainty) {
   monitor.report(1, at(0.0, {0, 0, 0})).value();
   monitor.report(2, at(0.0, {5, 0, 0})).value();
   all(monitor.events(1.4));
-  // Within until 5 + 2 1/2 2 t^2 = 10. By itself this report, which will soon say more than the first one,
-  // would leave it open.
+  // Within until 5 + 2 1/2 2 t^2 = 10. By itself this report, which soon implies more than the first one,
+  // would leave the pair open.
   TrackReport rough = at(1.4, {0, 0, 0});
   rough.position_error = 5.0;
   rough.plan = TrackReport::Plan{.acceleration = {}, .acceleration_limit = 0.0};
@@ -148,7 +148,7 @@ TEST(Monitor, AReportEndsNoCertainty) {
 }
 
 TEST(Monitor, TakesReportsFromThePastInAnyOrder) {
-  // Without acceleration the older report says as much as the newer one, and is more exact.
+  // Without acceleration the older report implies as much as the newer one, and is more exact.
   Monitor monitor = made(definition(0.0));
   TrackReport rough = at(3.0, {3, 0, 0}, {1, 0, 0});
   rough.position_error = 4.0;
@@ -174,7 +174,7 @@ TEST(Monitor, TakesReportsFromTheFutureForWhatTheySayOfThePresent) {
   Monitor monitor = made(from_zero);
   monitor.report(1, at(3.0, {0, 0, 0})).value();
   monitor.report(2, at(3.0, {40, 0, 0})).value();
-  // At time 0 each may be 9 away from where it will be at 3.
+  // At time 0 each may be 9 away from its place at time 3.
   EXPECT_NEAR(monitor.track(1)->places[0].radius.total(), 9.0, 1e-6);
   const PairAnswer answer = monitor.answer(1, 2).value();
   EXPECT_EQ(answer.verdict, Verdict::apart);
@@ -196,7 +196,7 @@ TEST(Monitor, BelievesBothOfTwoReportsThatContradictEachOther) {
   EXPECT_NEAR(events[1].position_excess, 994.0, 1e-6);
   EXPECT_EQ(monitor.track(1)->places.size(), 2u);
 
-  // It was an outlier.
+  // The report was an outlier.
   monitor.report(1, at(2.0, {0, 0, 0})).value();
   events = all(monitor.events(2.0));
   ASSERT_EQ(events.size(), 2u);
@@ -204,7 +204,7 @@ TEST(Monitor, BelievesBothOfTwoReportsThatContradictEachOther) {
   EXPECT_EQ(events[1].kind, MonitorEventKind::resolved);
   EXPECT_EQ(monitor.track(1)->places.size(), 1u);
 
-  // Or it was right.
+  // The report was right.
   monitor.report(1, at(3.0, {995, 0, 0})).value();
   all(monitor.events(3.0));
   monitor.report(1, at(3.5, {995, 0, 0})).value();
@@ -270,7 +270,7 @@ TEST(Monitor, UsesTheLargestSpeedWhereThereIsNoVelocity) {
 }
 
 TEST(Monitor, TheLargestSpeedCountsAfterSpeedingUp) {
-  // Towards each other with an acceleration of 10 to a speed of 5: a way of 1/2 10 0.5^2 and 5 for each
+  // Two tracks approach with an acceleration of 10 to a speed of 5: a way of 1/2 10 0.5^2 and 5 for each
   // second after the first half.
   Monitor monitor = made({.classes = {{.acceleration_limit = 10.0, .largest_speed = 5.0}},
                           .separations = {{0, 0, {Separation::sphere(10.0)}}}});
@@ -291,7 +291,7 @@ TEST(Monitor, APlanHoldsUntilItEnds) {
   auto events = all(monitor.events(3.9));
   EXPECT_TRUE(events.empty());
   EXPECT_EQ(monitor.answer(1, 2)->until, 4.0);
-  // Then the class's limit counts, from the end of the plan on: 60 - 2 1/2 10 5 = 10.
+  // From the end of the plan on the class's limit counts: 60 - 2 1/2 10 5 = 10.
   EXPECT_TRUE(all(monitor.events(4.1)).empty());
   events = all(monitor.events(7.0));
   ASSERT_EQ(events.size(), 1u);
@@ -314,7 +314,7 @@ TEST(Monitor, ACylinderHasTwoLimits) {
   monitor.report(1, at(0.0, {0, 0, 0})).value();
   monitor.report(2, at(0.0, {30, 0, 10}, {-5, 0, -1})).value();
   const auto events = all(monitor.events(20.0));
-  // In the plane within from 4 to 8, upright from 8 to 12: never both for more than a moment.
+  // Horizontally within from 4 to 8, vertically from 8 to 12: never within for more than a moment.
   for (const MonitorEvent& event : events) EXPECT_NEAR(event.time, 8.0, 3e-3);
   monitor.remove(2).value();
   monitor.report(2, at(20.0, {30, 0, 10}, {-5, 0, -1.25})).value();
@@ -372,7 +372,7 @@ TEST(Monitor, WithoutAnAnswerAPairTurnsUndecided) {
   const auto events = all(monitor.events(10.0, poll));
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].verdict, Verdict::undecided);
-  // Both when it happened, at 2.8, and again as each window starts.
+  // Requested when it happened, at 2.8, and again at each window start, for both tracks.
   EXPECT_EQ(asked, 2 + 8);
 }
 
@@ -418,7 +418,7 @@ TEST(Monitor, NamesTheTracksOfACrowd) {
   const auto report = [&](TrackId id, double x) {
     monitor.report(id, {.timestamp = 0.0, .state = {{x, 0, 0}, {}}, .position_error = 1.0}).value();
   };
-  // Five at one spot make ten pairs, and two elsewhere one.
+  // Five tracks at one spot make ten pairs, and two elsewhere one.
   for (TrackId id = 1; id <= 5; ++id) report(id, 0.1 * static_cast<double>(id));
   report(8, 1000.0);
   report(9, 1001.0);

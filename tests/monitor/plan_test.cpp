@@ -1,4 +1,4 @@
-// A plan takes the place of its class's promise about accelerations, whatever was certain before it came in.
+// A plan replaces the acceleration limit of its class, whatever was certain before it came.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Two tracks of a class that promises an acceleration of at most 1, and a separation of 5.
+/// Two tracks of a class with an acceleration limit of 1, and a separation of 5.
 Monitor made() {
   return Monitor::create(
              {.classes = {{.acceleration_limit = 1.0}}, .separations = {{0, 0, {Separation::sphere(5.0)}}}})
@@ -28,7 +28,7 @@ TrackReport falls(double stamp, double height, double speed = 0.0, double until 
   return report;
 }
 
-/// Goes on in small steps to the time: what stands then has to contain the height above track 2.
+/// Goes on in small steps to the time; at each the monitor's limits must contain the height above track 2.
 template <class Height>
 void go_to(Monitor& monitor, double until, Height height) {
   for (double time = monitor.time(); time <= until; time += 0.01) {
@@ -72,14 +72,14 @@ TEST(MonitorPlan, StaysInForceWhenAReportWithoutOneComes) {
   monitor.report(1, at(1.0, 95.0, -10.0)).value();
   EXPECT_EQ(monitor.counters().contradictions, 0u);
   go_to(monitor, 4.4, [](double t) { return 100.0 - 5.0 * t * t; });
-  // One that is late, from before the plan ended and after.
+  // A late report, from before the plan ended and after.
   monitor.report(1, at(0.7, 100.0 - 5.0 * 0.49, -7.0)).value();
   EXPECT_EQ(monitor.counters().contradictions, 0u);
   go_to(monitor, 4.6, [](double t) { return 100.0 - 5.0 * t * t; });
 }
 
 TEST(MonitorPlan, GivesWayToItsClassWhenItEnds) {
-  // Falls for two seconds, and goes straight on.
+  // Falls for two seconds, then goes straight on.
   const auto height = [](double t) { return t < 2.0 ? 100.0 - 5.0 * t * t : 80.0 - 20.0 * (t - 2.0); };
   Monitor monitor = made();
   monitor.report(1, falls(0.0, 100.0, 0.0, 2.0)).value();
@@ -92,7 +92,7 @@ TEST(MonitorPlan, GivesWayToItsClassWhenItEnds) {
 }
 
 TEST(MonitorPlan, BeginsInTheFuture) {
-  // The report is ahead of the clock: the class's promise counts until its stamp.
+  // The report is ahead of the clock: the class's limit counts until its timestamp.
   const auto height = [](double t) { return t < 1.0 ? 100.0 : 100.0 - 5.0 * (t - 1.0) * (t - 1.0); };
   Monitor monitor = made();
   monitor.report(2, at(0.0, 0.0)).value();
@@ -101,7 +101,7 @@ TEST(MonitorPlan, BeginsInTheFuture) {
 }
 
 TEST(MonitorPlan, CountsFromAStampThatMayBeWrong) {
-  // The track falls from 0.3 on, as its report says of a time that may be 0.3 off.
+  // The track falls from 0.3 on, as its report says of a time with an error of up to 0.3.
   for (const double off : {-0.3, 0.0, 0.3}) {
     const auto height = [off](double t) { return t < off ? 100.0 : 100.0 - 5.0 * (t - off) * (t - off); };
     Monitor monitor = made();

@@ -1,5 +1,5 @@
-// Random tracks with random, late and noisy reports: no answer called certain is wrong at any time, and none
-// is left open that the latest reports decide.
+// Random tracks with random, late and noisy reports: no certain answer is ever wrong, and none is left open
+// that the latest reports decide.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ struct Sky {
   double limit = 2.0;
   double error = 0.3;
   double velocity_error = 0.2;
-  double interval = 1.0;  ///< of reports, about
+  double interval = 1.0;  ///< mean time between reports
   double delay = 0.5;     ///< at most
   double window = 1.0;
   std::vector<Separation> levels{Separation::sphere(8.0), Separation::sphere(3.0)};
@@ -57,7 +57,7 @@ class RandomSky : public testing::TestWithParam<Sky> {
         .value();
   }
 
-  /// The flat part of a state.
+  /// Returns the horizontal part of a state.
   static State seen(const Sky& sky, State state) {
     if (sky.dimensions == 2) state.position.z = state.velocity.z = 0.0;
     return state;
@@ -111,7 +111,7 @@ TEST_P(RandomSky, IsNeverWrongWhereItIsCertain) {
     std::map<std::tuple<TrackId, TrackId, std::uint32_t>, Verdict> verdicts;
     std::map<TrackId, TrackReport> latest;
     int undecided_needlessly = 0;
-    // What answers promised of the truth, whatever the monitor says later.
+    // Limits of the truth from earlier answers, which stay valid whatever the monitor answers later.
     struct Promise {
       Verdict verdict;
       double until;
@@ -165,7 +165,7 @@ TEST_P(RandomSky, IsNeverWrongWhereItIsCertain) {
                   << id << " and " << other << " at " << time << ", " << norm(way) << " apart";
             }
             if (separation == Separation::sphere(separation.horizontal) && verdict == Verdict::undecided) {
-              // Speeds are below 40, so that nothing is decided for less than the resolution.
+              // Speeds are below 40, so that no verdict lasts less than the resolution.
               if (between - doubt > separation.horizontal + 0.2 ||
                   between + doubt < separation.horizontal - 0.2)
                 ++undecided_needlessly;

@@ -1,4 +1,4 @@
-// Monitors that divide the pairs among themselves tell together what one tells.
+// Monitors that divide the pairs among themselves report together what one reports.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ MonitorDefinition definition(Shard share) {
           .shard = share};
 }
 
-/// The events of a share after the same reports: late ones, wrong ones, tracks that leave.
+/// Returns the events of a share for equal reports: late ones, wrong ones, dropped tracks.
 std::vector<MonitorEvent> watch(Shard share) {
   Monitor monitor = Monitor::create(definition(share)).value();
   Random random(11);
@@ -28,7 +28,7 @@ std::vector<MonitorEvent> watch(Shard share) {
   for (int k = 0; k < 3000; ++k) {
     const double time = 0.01 * k;
     for (const MonitorEvent& event : monitor.events(time))
-      // All monitors tell what concerns one track.
+      // All monitors report events of single tracks.
       if (share.contains(event.first)) events.push_back(event);
     const auto id = static_cast<TrackId>(random.uniform(0.0, 80.0));
     if (k % 97 == 0) {

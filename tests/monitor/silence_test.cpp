@@ -1,4 +1,4 @@
-// Tracks that fall silent and are heard again, over and over.
+// Tracks that become stale and resume, repeatedly.
 #include <gtest/gtest.h>
 
 #include "kinesphere/monitor/monitor.hpp"

@@ -1,4 +1,4 @@
-// A monitor that is restored goes on as the one that was saved, and nothing else can be restored.
+// A restored monitor continues like the saved one, and nothing else can be restored.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t tracks = 60;
 
-/// Drives a monitor through a stretch of time: the same reports for the same seed and stretch.
+/// Drives a monitor through a span of time: equal reports for equal seed and span.
 std::vector<MonitorEvent> drive(Monitor& monitor, int stretch) {
   Random random = Random::at(7, static_cast<std::uint64_t>(stretch), 0);
   std::vector<MonitorEvent> events;
@@ -30,7 +30,7 @@ std::vector<MonitorEvent> drive(Monitor& monitor, int stretch) {
     TrackReport report{
         .timestamp = time - random.uniform(0.0, 0.5), .position_error = 0.5, .velocity_error = 0.5};
     const double angle = 0.3 * report.timestamp + static_cast<double>(id);
-    // On a circle each; now and then somewhere else.
+    // Each on a circle; now and then elsewhere.
     report.state = {{30 * std::cos(angle), 30 * std::sin(angle), 0.5 * static_cast<double>(id % 7)},
                     {-9 * std::sin(angle), 9 * std::cos(angle), 0}};
     if (k % 50 == 49) report.state.position.x += 200;
@@ -67,8 +67,8 @@ TEST(MonitorSnapshot, GoesOnAsTheOneThatWasSaved) {
   EXPECT_GT(monitor.counters().contradictions, 10u);
 }
 
-/// A dense sky of which little is known: pairs that turn apart and undecided again within a window, and
-/// tracks that may be at one of several places.
+/// A dense sky with little information: pairs that turn apart and undecided again within a window, and tracks
+/// with several hypotheses.
 std::vector<MonitorEvent> watch_dense_sky(std::uint64_t seed, bool is_restored_often) {
   Monitor monitor = Monitor::create({.classes = {{.acceleration_limit = 6.0, .largest_speed = 400.0}},
                                      .separations = {{0, 0, {Separation::sphere(500.0)}}},
@@ -121,7 +121,7 @@ TEST(MonitorSnapshot, RefusesDamage) {
   for (std::size_t size = 0; size < snapshot.size(); size += 97)
     EXPECT_EQ(Monitor::restore(std::span(snapshot).first(size)).error().code, ErrorCode::bad_snapshot);
   Random random(3);
-  // Damage that the checksum is made to agree with never does worse than another monitor.
+  // Damage with a corrected checksum results in a refusal or in another valid monitor.
   int refused = 0;
   for (int k = 0; k < 3000; ++k) {
     std::vector<std::byte> damaged = snapshot;
@@ -151,7 +151,7 @@ void put(Bytes& bytes, std::size_t at, const T& value) {
   std::memcpy(bytes.data() + at, &value, sizeof value);
 }
 
-/// Where these values stand one behind the other.
+/// Returns the place at which these values stand one behind the other.
 template <class... Values>
 std::vector<std::size_t> places_of(const Bytes& bytes, const Values&... values) {
   Bytes sought((sizeof values + ...));
@@ -172,8 +172,8 @@ bool is_refused(const Bytes& damaged) {
   return !restored;
 }
 
-/// Two hypotheses with one slot had one capsule: when windows started, the place of the other stayed empty,
-/// and a capsule without a bound was looked up.
+/// Regression: two hypotheses of one slot had one swept sphere; when windows started, the slot of the other
+/// stayed empty, and a swept sphere without a bound was looked up.
 TEST(MonitorSnapshot, RefusesTwoHypothesesOfOneSlot) {
   constexpr double stamp = 0.15625;
   Monitor monitor = made();
@@ -194,24 +194,24 @@ TEST(MonitorSnapshot, RefusesWindowsThatEndApart) {
                                      .separations = {{0, 0, {Separation::sphere(2.0)}}}})
                         .value();
   monitor.report(1, {.timestamp = 5.0}).value();
-  // In a layer of larger capsules.
+  // In a grid level of larger swept spheres.
   monitor.report(2, {.timestamp = 5.0, .state = {{900, 0, 0}, {}}, .position_error = 300.0}).value();
   const Bytes snapshot = monitor.save();
   const auto places = places_of(snapshot, end);
-  // The monitor's, two tracks', two layers', and that of the window which ends next.
+  // Ends of the monitor, two tracks, two grid levels, and the window that ends next.
   ASSERT_EQ(places.size(), 6u);
   for (const double other : {5.0 + 0x1p-50, 7.0, 0x1p300, infinity})
     for (unsigned some = 1; some < 1u << places.size(); ++some) {
       Bytes damaged = snapshot;
       for (std::size_t k = 0; k < places.size(); ++k)
         if ((some & 1u << k) != 0) put(damaged, places[k], other);
-      // That the next window ends sooner is possible: it was that of one who has left.
+      // The next window may end sooner: it may be that of a dropped track.
       const bool is_sooner = some == 1u << 5 && other < end;
       EXPECT_NE(is_refused(damaged), is_sooner) << other << ", " << some;
     }
 }
 
-/// What a number without a track held was taken over by the next track of that number.
+/// Regression: the state of a number without a track was taken over by the next track of that number.
 TEST(MonitorSnapshot, RefusesWhatIsLeftOfATrack) {
   constexpr TrackId id = 0x1122334455667788;
   constexpr std::size_t size_of_none = 46;
@@ -232,7 +232,7 @@ TEST(MonitorSnapshot, RefusesWhatIsLeftOfATrack) {
   }
 }
 
-/// Lengths overflowed where a plan ended, or the largest speed was reached, after all times that there are.
+/// Regression: lengths overflowed if a plan ended, or the largest speed was reached, after the largest time.
 TEST(MonitorSnapshot, IsNotRefusedWhenAPlanOutlivesAllTimes) {
   Monitor monitor = made();
   TrackReport report{.timestamp = 0.0, .plan = TrackReport::Plan{{0, 0, 1}, 0.1, 1e200}};

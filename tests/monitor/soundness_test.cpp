@@ -1,5 +1,4 @@
-// What TrackEstimate::is_valid() refuses of what was read: each of these would abort, or be believed, later
-// on.
+// Data that TrackEstimate::is_valid() refuses: each would later abort, or be believed.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -90,7 +89,7 @@ TEST(Soundness, WhatCannotBeLearnedIsNot) {
   }
 }
 
-/// Whatever is reported within limits is sound, whenever a plan or an acceleration begins or ends.
+/// Every report within limits is valid, whenever a plan or an acceleration begins or ends.
 TEST(Soundness, NothingThatIsReportedOverflows) {
   constexpr double most = 1e100;
   for (const double limit : {0.0, 1e-300, 1e-200, 1.0, most})

@@ -1,4 +1,4 @@
-// Bodies that move from one motion to another as bytes.
+// Bodies that migrate from one motion to another as bytes.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -34,7 +34,7 @@ using Bytes = std::vector<std::byte>;
 
 constexpr std::uint32_t bodies = 6;
 
-/// Two motions of the same definition: one with bodies, one without.
+/// Two motions of equal definitions: one with bodies, one without.
 struct Pair {
   std::unique_ptr<Motion> here;
   std::unique_ptr<Motion> there;
@@ -107,7 +107,7 @@ Pair recorded_tracks(Random& random) {
     double time = random.uniform(-5, 5);
     for (std::uint64_t k = random.bits() % 19; k < 20; ++k) {
       track.push_back({time, 50 * random.point_in_ball()});
-      // Pieces of splines whose steps have very unlike durations meet less exactly than create() wants it.
+      // Pieces of splines with very different durations meet less exactly than create() requires.
       time += std::pow(10.0, random.uniform(-7.0, 7.0));
     }
   }
@@ -128,7 +128,7 @@ Pair frames(Random& random) {
   return pair_of<FrameMotion>(std::move(definition));
 }
 
-/// Bit for bit: 0 and -0 differ.
+/// Compares bit for bit: 0 and -0 differ.
 template <class T>
 bool same_bits(const T& a, const T& b) {
   static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(double) == 0);
@@ -148,7 +148,7 @@ Bytes bytes_of(const Motion& motion, std::uint32_t body) {
   return bytes;
 }
 
-/// All that a motion has, but its definition.
+/// Returns the state of a motion, except its definition.
 std::vector<std::optional<Bytes>> content(const Motion& motion) {
   std::vector<std::optional<Bytes>> result(motion.size());
   for (std::uint32_t body = 0; body < motion.size(); ++body)
@@ -156,21 +156,21 @@ std::vector<std::optional<Bytes>> content(const Motion& motion) {
   return result;
 }
 
-/// Reads one body and nothing else.
+/// Reads one body; expects that no bytes are left.
 std::uint32_t read(Motion& motion, std::span<const std::byte> bytes) {
   const std::uint32_t body = motion.read_body(bytes).value();
   RC_ASSERT(bytes.empty());
   return body;
 }
 
-/// The times that may be asked for, and at which it may be changed.
+/// Returns the times at which the body may be queried, and at which it may be changed.
 std::pair<double, double> known_times(const Motion& motion, std::uint32_t body, bool changeable) {
   const double begin = changeable ? motion.origin(body).time : -10.0;
   const auto* const frames = dynamic_cast<const FrameMotion*>(&motion);
   return {begin, frames != nullptr ? frames->latest_time() : begin + 25.0};
 }
 
-/// A body in one motion is the same as a body in another, in all that can be asked.
+/// Expects that a body in one motion equals a body in another, in all queries.
 void require_same(const Motion& motion, std::uint32_t body, const Motion& other, std::uint32_t number,
                   bool changeable, Random& random) {
   RC_ASSERT(bytes_of(motion, body) == bytes_of(other, number));
@@ -187,14 +187,14 @@ void require_same(const Motion& motion, std::uint32_t body, const Motion& other,
   }
 }
 
-/// A body, in the motion where it began and in the one where it was read.
+/// A body in its first motion and in the motion that has read it.
 struct Traveller {
   std::uint32_t here;
   std::uint32_t there;
 };
 
-/// The next frame in both motions, for those that have frames: everybody goes somewhere, and travellers to
-/// the same place in both.
+/// Pushes the next frame in both motions, if they have frames: every body moves, and travellers to one place
+/// in both.
 void next_frame(const Pair& motions, std::span<const Traveller> travellers, Random& random) {
   auto* const here = dynamic_cast<FrameMotion*>(motions.here.get());
   auto* const there = dynamic_cast<FrameMotion*>(motions.there.get());
@@ -206,7 +206,7 @@ void next_frame(const Pair& motions, std::span<const Traveller> travellers, Rand
   there->push(positions_there).value();
 }
 
-/// A change of a body that all motions like this one take.
+/// Returns a change of a body that all motions of this kind accept.
 std::function<void(Motion&, std::uint32_t)> random_change(const Motion& motion, std::uint32_t body,
                                                           Random& random) {
   const auto [begin, end] = known_times(motion, body, true);
@@ -245,7 +245,7 @@ struct Maker {
 
 class BodyBytes : public testing::TestWithParam<Maker> {
  protected:
-  /// A pair with some history: bodies have been changed, and the second motion has bodies and gaps.
+  /// Returns a pair with some history: bodies have been changed, and the second motion has bodies and gaps.
   Pair used_pair(Random& random) const {
     Pair motions = GetParam().make(random);
     for (int k = 0; k < 4; ++k) {
@@ -277,7 +277,7 @@ TEST_P(BodyBytes, GoOnElsewhereAsTheyWould) {
     Random random(seed);
     const Pair motions = used_pair(random);
 
-    // Half of the bodies, one after the other behind what is in the bytes already.
+    // Half of the bodies, appended to the bytes one after the other.
     std::vector<Traveller> travellers;
     const Bytes before{std::byte{7}, std::byte{9}};
     Bytes bytes = before;
@@ -292,7 +292,7 @@ TEST_P(BodyBytes, GoOnElsewhereAsTheyWould) {
     RC_ASSERT(rest.size() == 5u);
     for (const Traveller& traveller : travellers) require_same_here_and_there(motions, traveller, random);
 
-    // The same changes there as here.
+    // Equal changes in both motions.
     for (int k = 0; k < 5; ++k) {
       next_frame(motions, travellers, random);
       for (const Traveller& traveller : travellers) {
@@ -305,7 +305,7 @@ TEST_P(BodyBytes, GoOnElsewhereAsTheyWould) {
       }
     }
 
-    // They leave, and the others do not notice.
+    // The travellers leave, and the others are unaffected.
     const auto all = motions.here->clone();
     for (const Traveller& traveller : travellers) {
       motions.here->remove(traveller.here).value();
@@ -318,7 +318,7 @@ TEST_P(BodyBytes, GoOnElsewhereAsTheyWould) {
       if (body % 2 != 0) require_same(*all, body, *motions.here, body, GetParam().changeable, random);
     }
 
-    // And come back, to other numbers.
+    // The travellers return, with other numbers.
     for (const Traveller& traveller : travellers) {
       const std::uint32_t back = read(*motions.here, bytes_of(*motions.there, traveller.there));
       motions.there->remove(traveller.there).value();
@@ -361,7 +361,7 @@ TEST_P(BodyBytes, AreRefusedOrMakeSenseWhenDamaged) {
       Bytes damaged = whole;
       const std::size_t number = 4 + k / 8 * 8;
       if (random.bits() % 2 == 0 && number + 8 <= whole.size()) {
-        // NaN, which single bytes seldom make.
+        // NaN, which single changed bytes seldom make.
         std::fill_n(damaged.begin() + static_cast<std::ptrdiff_t>(number), 8, std::byte{0xff});
       } else {
         damaged[k] ^= static_cast<std::byte>(1 + random.bits() % 255);
@@ -410,7 +410,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Maker{"RecordedTracks", recorded_tracks, false}, Maker{"Frames", frames, true}),
     [](const auto& test) { return test.param.name; });
 
-/// The bytes of a number, the least significant one first, whatever the machine.
+/// Appends the bytes of a number, the least significant one first, on every machine.
 void append(Bytes& bytes, std::uint64_t word, int size) {
   for (int k = 0; k < size; ++k) bytes.push_back(static_cast<std::byte>(word >> 8 * k));
 }
@@ -470,7 +470,8 @@ TEST(WrittenBodies, OfAFrameAreReadInThatFrame) {
             "is 0");
 }
 
-/// Forces go by the name under which a body began, wherever it is: also where another one has its number.
+/// The forces depend on the name under which a body began, wherever it is: also if another body has its
+/// number.
 TEST(WrittenBodies, KeepTheNameOfTheirForces) {
   Random random(1);
   const Pair motions = random_forces(random);

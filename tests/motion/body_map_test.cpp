@@ -1,4 +1,4 @@
-// Worlds whose bodies belong to several motions.
+// Worlds with bodies of several motions.
 #include "kinesphere/body_map.hpp"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ TEST(BodyMap, FollowsBulletsThatComeAndGo) {
   World world = World::create({.contact_tolerance = 1e-3}).value();
   BodyMap map;
   const auto ids = map.add_all(world, targets).value();
-  // A body that no motion moves any more: indices and numbers part ways.
+  // A body that no motion moves any more: from here on indices and numbers differ.
   map.remove(world, ids[0]).value();
   EXPECT_FALSE(targets.contains(0));
   int hits = 0;

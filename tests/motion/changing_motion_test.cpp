@@ -1,4 +1,4 @@
-// Bodies that come and go while a motion runs.
+// Bodies that are added and removed while a motion runs.
 #include <gtest/gtest.h>
 
 #include <cmath>

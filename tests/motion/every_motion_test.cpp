@@ -96,7 +96,7 @@ struct Maker {
   std::string name;
   std::unique_ptr<Motion> (*make)(Random&);
   bool can_be_kicked;
-  double begin;  ///< of the times that may be asked for
+  double begin;  ///< begin of the known times
 };
 
 class EveryMotion : public testing::TestWithParam<Maker> {
@@ -200,7 +200,7 @@ TEST_P(EveryMotion, ProbeReadsTheStates) {
   });
 }
 
-/// The error with which a call that has no Result refuses.
+/// Returns the error with which a call that has no Result fails.
 template <class Call>
 std::optional<Error> refusal(const Call& call) {
   try {
@@ -249,7 +249,7 @@ TEST_P(EveryMotion, RefusesTimesThatAreNone) {
   });
 }
 
-/// A body that a world has added to bodies of its own, such as a bullet.
+/// A body that a world has added itself, such as a bullet.
 TEST_P(EveryMotion, ProbeRefusesABodyOfTheWorldThatIsNoneOfItsOwn) {
   for_motions([&](Motion& motion, Random&) {
     World world = World::create({.contact_tolerance = 1e-3, .start_time = begin_}).value();
@@ -263,7 +263,7 @@ TEST_P(EveryMotion, ProbeRefusesABodyOfTheWorldThatIsNoneOfItsOwn) {
     const BodyId bullet = world.add({.radius = 0.1, .acceleration_limit = 5, .velocity = {0, 50, 0}}).value();
     const auto error = refusal([&] {
       while (world.advance(begin_ + 1.0, motion.probe()).value()) continue;
-      // It may not have been asked for yet, as nobody was near it.
+      // The bullet may not have been probed yet, without another body near it.
       (void)world.distance_limits(bullet, first, begin_ + 2.0, motion.probe());
     });
     ASSERT_TRUE(error);
@@ -354,8 +354,8 @@ TEST_P(EveryMotion, MoverRefusesBodiesOfTheWorldThatAreNoneOfItsOwn) {
   });
 }
 
-/// Each thread has bodies of its own, and may ask about, turn and take them back. What this shows is shown by
-/// the thread sanitizer; and the answers are those of one thread.
+/// Each thread has bodies of its own, and may query, change and restore them. The thread sanitizer checks it;
+/// the answers must equal those of one thread.
 TEST_P(EveryMotion, ServesThreadsWithDifferentBodies) {
   for_motions([&](Motion& motion, Random&) {
     const auto visit = [&](Motion& visited, std::uint32_t body, std::vector<State>& states) {

@@ -1,4 +1,4 @@
-// The frames of a game loop: interpolation, and the promise across many frames.
+// The frames of a game loop: interpolation, and the limits across many frames.
 #include "kinesphere/motion/frame_motion.hpp"
 
 #include <gtest/gtest.h>
@@ -102,7 +102,7 @@ TEST(Frames, RefuseQuestionsThatTheyCannotAnswer) {
   EXPECT_THROW((void)frames.trajectory(0, 1.75, 1.5), BadResult);
 }
 
-/// A body that the world knows and the frames do not: a bullet.
+/// A body that the world has and the frames do not: a bullet.
 TEST(Frames, ProbeTellsOfABodyThatTheyDoNotHave) {
   FrameMotion frames =
       FrameMotion::create({.start = {{0, 0, 0}, {3, 0, 0}}, .acceleration_limits = {1, 1}}).value();
@@ -142,17 +142,17 @@ TEST(Frames, TrajectoryAndClone) {
   EXPECT_EQ(clone->state(0, now), before);
 }
 
-/// What a game computes for one body, frame by frame.
+/// The positions that a game computes for one body, frame by frame.
 using Game = std::vector<Vec3>;
 
-/// A body whose true motion has bounded acceleration, looked at once a frame.
+/// Returns a body with a true motion of bounded acceleration, sampled once a frame.
 Game sampled(const Motion& motion, double interval, int frames) {
   Game game;
   for (int k = 0; k < frames; ++k) game.push_back(motion.state(0, k * interval).position);
   return game;
 }
 
-/// x += dt v; v += dt a, with accelerations of the full length that all point the same way at first: the
+/// Integrates x += dt v; v += dt a, with accelerations of full length, at first all in one direction: the
 /// worst case.
 Game stepped(Random& random, double limit, double interval, int frames) {
   Game game{{}};
@@ -165,8 +165,8 @@ Game stepped(Random& random, double limit, double interval, int frames) {
   return game;
 }
 
-/// Pushes the whole game and compares states at random times with the promise at earlier random times.
-/// Returns the largest part of the promise that was used up.
+/// Pushes the whole game and compares states at random times with the limits at earlier random times. Returns
+/// the largest used part of the limits.
 double expect_promise_across_frames(const Game& game, double limit, double interval, double position_error,
                                     Random& random) {
   FrameMotion frames = FrameMotion::create({.start = {game[0]},
@@ -219,7 +219,7 @@ TEST(Frames, KeepTheirPromiseAcrossFrames) {
         expect_promise_across_frames(stepped(random, limit, interval, 60), limit, interval, 0.0, random);
     largest_part = std::max(largest_part, part);
   }
-  EXPECT_GT(largest_part, 0.9);  // the promise is tight: the worst case comes near it
+  EXPECT_GT(largest_part, 0.9);  // the limits are tight: the worst case comes near them
 }
 
 TEST(Frames, KeepTheirPromiseWithSinglePrecision) {
@@ -256,7 +256,7 @@ TEST(Frames, NameWhatIsWrongAndStayAsTheyWere) {
             "start");
 }
 
-/// A game that kicks within its frames, and goes on from where and how fast the kick has left the body.
+/// A game that changes velocities within its frames, and continues from the resulting position and velocity.
 TEST(Frames, KeepTheirPromiseAfterKicks) {
   constexpr double limit = 3.0, interval = 0.1;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {

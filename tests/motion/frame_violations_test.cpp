@@ -1,4 +1,4 @@
-// Games that break the promise of their frames: who did it, when, and what it takes to lose nothing by it.
+// Games that violate the limits of their frames: which body, when, and how to lose no contact.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ class BouncingGame {
     }
   }
 
-  /// Returns who turned at a wall by more than its limit makes up for in two frames.
+  /// Returns the bodies that turned at a wall by more than their limits allow for in two frames.
   std::set<std::uint32_t> step() {
     std::set<std::uint32_t> turned;
     for (std::uint32_t k = 0; k < balls; ++k) {
@@ -72,7 +72,7 @@ TEST(FrameViolations, NameEveryTurnAndNothingElse) {
     FrameMotion frames = frames_of(game);
     std::vector<Vec3> before = game.position, last = game.position;
     for (std::uint32_t k = 0; k < game.balls; ++k) before[k] -= game.velocity[k] * game.dt;
-    std::set<std::uint32_t> waiting;  // turned in the last frame, and not named in it
+    std::set<std::uint32_t> waiting;  // turned in the last frame, and not reported in it
     for (int frame = 1; frame <= 300; ++frame) {
       const std::set<std::uint32_t> turned = game.step();
       turns += turned.size();
@@ -139,7 +139,7 @@ TEST(FrameViolations, AreNoRoundingOfTheGame) {
   }
 }
 
-/// When two balls that move in straight lines during a frame come into contact in it, and how deep they get.
+/// When two balls that move in straight lines during a frame come into contact in it, and their depth.
 struct Approach {
   double begin;
   double deepest;
@@ -159,11 +159,11 @@ using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
 struct Outcome {
   std::uint64_t approaches = 0;
-  std::uint64_t lost = 0;      ///< of them: the world did not tell that they began when they did
+  std::uint64_t lost = 0;      ///< contacts without a begin event at their time
   std::uint64_t breaches = 0;  ///< bound_violation events
 };
 
-/// The game is watched by a world; an independent look at its straight lines says what should be told.
+/// A world watches the game; an independent computation on its straight lines gives the expected reports.
 Outcome watch(std::uint64_t seed, bool tell) {
   constexpr double tolerance = 1e-4, deep_enough = 0.01;
   BouncingGame game(seed);
@@ -202,7 +202,7 @@ Outcome watch(std::uint64_t seed, bool tell) {
           touching.erase(known);
           if (touch.deepest < deep_enough) continue;
           ++outcome.approaches;
-          // Told at a gap of at most the tolerance, never after the contact.
+          // Reported at a gap of at most the tolerance, never after the contact.
           const std::vector<double>& begins = told[{a, b}];
           const bool in_time = std::any_of(begins.begin(), begins.end(), [&](double time) {
             return time <= touch.begin + 1e-9 && time > touch.begin - 0.1;

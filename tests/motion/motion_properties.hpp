@@ -1,4 +1,4 @@
-// What must hold for every motion, in functions that report through GoogleTest.
+// Properties of every motion, checked by functions that report through GoogleTest.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -25,7 +25,8 @@ inline std::uint32_t random_body(Random& random, const Motion& motion) {
   return static_cast<std::uint32_t>(random.bits() % motion.size());
 }
 
-/// trajectory() has no holes, covers [begin, end], and gives the states of state(), to the last bit.
+/// Expects that trajectory() has no holes, covers [begin, end], and gives the states of state(), to the last
+/// bit.
 inline void expect_trajectory_gives_states(const Motion& motion, std::uint32_t body, double begin, double end,
                                            Random& random) {
   const Trajectory trajectory = motion.trajectory(body, begin, end);
@@ -39,13 +40,13 @@ inline void expect_trajectory_gives_states(const Motion& motion, std::uint32_t b
       EXPECT_EQ(segment.state_at(segment.begin), motion.state(body, segment.begin));
     }
     const double t = random.uniform(std::max(begin, segment.begin), segment.end);
-    if (t == segment.end) continue;  // the next segment's, should there be one
+    if (t == segment.end) continue;  // belongs to the next segment, if there is one
     EXPECT_EQ(segment.state_at(t), motion.state(body, t)) << "body " << body << " at " << t;
   }
 }
 
-/// Nothing that the body does in [begin, end] goes beyond its promise: neither where it is after any time,
-/// nor how fast, nor the acceleration of any of its segments.
+/// Expects that the body keeps its limits in [begin, end]: in its place after any time, in its speed, and in
+/// the acceleration of each segment.
 inline void expect_promise_kept(const Motion& motion, std::uint32_t body, double begin, double end,
                                 Random& random) {
   const double t0 = random.uniform(begin, end);
@@ -69,7 +70,7 @@ inline void expect_promise_kept(const Motion& motion, std::uint32_t body, double
   }
 }
 
-/// The same questions in any order have the same answers.
+/// Expects equal answers to equal queries in any order.
 inline void expect_order_does_not_matter(const Motion& motion, double begin, double end, Random& random) {
   struct Question {
     std::uint32_t body;

@@ -1,4 +1,4 @@
-// Ready-made trajectories: their ends, their limit, and what is not smooth enough.
+// Ready-made trajectories: their ends, their limits, and insufficient smoothness.
 #include "kinesphere/motion/piecewise_motion.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace kinesphere::piecewise_motion_test {
 namespace {
 
-/// Up and back from time 1 to 5: x = 6 at time 3.
+/// Returns a way up and back from time 1 to 5: x = 6 at time 3.
 Trajectory there_and_back() {
   return {{1.0, 3.0, {0, 0, 0}, {6, 0, 0}, {-3, 0, 0}, {0, 0, 0}},
           {3.0, 5.0, {6, 0, 0}, {0, 0, 0}, {-3, 0, 0}, {0, 0, 0}}};

@@ -1,5 +1,4 @@
-// What is special about random forces: when they change, how large they are, that they are the same
-// everywhere.
+// Properties of random forces: the times of their changes, their size, and equality on all machines.
 #include "kinesphere/motion/random_forces.hpp"
 
 #include <gtest/gtest.h>
@@ -79,7 +78,7 @@ TEST(RandomForces, WorkAtNegativeTimesAndFarFromZero) {
   }
 }
 
-// Each boundary k * interval is rounded; whatever the interval, each belongs to exactly one piece.
+// Each boundary kinterval is rounded; whatever the interval, each boundary belongs to exactly one piece.
 TEST(RandomForces, NoIntervalIsSkippedOrRepeatedByRounding) {
   for (const double interval : {0.1, 0.3, 1.0 / 3.0, 1.0 / 60.0, 0.7, 0x1.fffffffffffffp-4}) {
     auto definition = two_bodies();
@@ -132,7 +131,7 @@ TEST(RandomForces, NameWhatIsWrong) {
     EXPECT_EQ(RandomForces::create(definition).error().argument, "interval");
   }
 
-  // Of several things that are wrong, the first is named.
+  // If several arguments are wrong, the error names the first.
   definition.interval = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(RandomForces::create(definition).error().code, ErrorCode::not_finite);
 }

@@ -19,7 +19,7 @@ Track random_track(Random& random, std::size_t samples) {
   double time = random.uniform(-100, 100);
   for (std::size_t k = 0; k < samples; ++k) {
     track.push_back({time, 100 * random.point_in_ball()});
-    // Gaps from a millisecond to many seconds, as recordings have them.
+    // Gaps from a millisecond to many seconds, as in recordings.
     time += random.uniform() < 0.3 ? random.uniform(0.001, 0.01) : random.uniform(0.1, 30);
   }
   return track;

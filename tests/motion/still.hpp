@@ -1,4 +1,4 @@
-// A motion that has what every motion must have, and no more.
+// A motion with the required functions and no others.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace kinesphere {
 
-/// One body, which rests at the origin.
+/// One body, at rest at the origin.
 class Still final : public Motion {
  public:
   std::size_t size() const override { return 1; }

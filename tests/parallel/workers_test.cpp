@@ -1,4 +1,4 @@
-// Workers: each item is worked on once, whoever does it, and whatever goes wrong.
+// Workers: each item is processed once, by any thread, and despite any failure.
 #include "kinesphere/workers.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@
 namespace kinesphere::workers_test {
 namespace {
 
-/// A task system that does each task when it is waited for, in ranges and threads as it likes.
+/// A task system that runs each task when it is waited for, in ranges and threads of its choice.
 struct LateTasks {
   struct Taken {
     TaskSystem::Task task;

@@ -1,4 +1,4 @@
-// The contact log, and the rows of CSV and JSON lines that it is made of.
+// The contact log, and its rows of CSV and JSON lines.
 #include "contact_log.hpp"
 
 #include <cstdlib>

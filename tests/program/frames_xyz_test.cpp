@@ -9,7 +9,7 @@ namespace {
 
 using FramesXyzTest = FolderTest;
 
-/// Knows nothing but bounds.
+/// A detector with bounds and nothing else.
 class StillDetector : public Detector {
  public:
   std::string_view name() const override { return "still"; }
@@ -22,7 +22,7 @@ class StillDetector : public Detector {
   Result<Bound> bound(std::uint32_t body) const override { return Bound{.radius = 10.0 + body}; }
 };
 
-/// Body 0 is there during [0, 4], body 1 during [0, 2] only.
+/// Body 0 is present during [0, 4], body 1 during [0, 2] only.
 Scene two_bodies() {
   Scene scene;
   scene.bodies = {{.radius = 0.5}, {.radius = 1.5, .vanishes = 2}};

@@ -1,4 +1,4 @@
-// Output files: all or nothing.
+// Output files appear complete or not at all.
 #include "output_file.hpp"
 
 #include <sys/resource.h>
@@ -59,7 +59,7 @@ TEST_F(OutputFileTest, IsGoneOnWithByALaterRun) {
   }
   EXPECT_EQ(names(), Names{"log.csv"});
   EXPECT_EQ(read_text(path("log.csv")), "kept and more");
-  // One that was complete already.
+  // The file was complete already.
   OutputFile file(OutputPlace{path("log.csv"), 8});
   EXPECT_EQ(names(), Names{"log.csv.unfinished"});
   file.commit();
@@ -92,7 +92,7 @@ TEST_F(OutputFileTest, NamesAFolderThatDoesNotExist) {
   EXPECT_EQ(error_of([&] { OutputFile file(name); }), name + ": cannot write: No such file or directory");
 }
 
-/// As if the disk were full after so many bytes.
+/// Acts like a disk that is full after a number of bytes.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

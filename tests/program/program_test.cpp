@@ -1,4 +1,4 @@
-// The program as a person meets it: exit codes, one clear line for what is wrong, files that are whole.
+// The program in use: exit codes, one clear line for each error, complete files.
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -26,7 +26,7 @@ std::vector<std::vector<std::string>> rows_of(const std::string& csv) {
   return rows;
 }
 
-/// How many lines of `text` begin with `start`.
+/// Returns the number of lines of `text` that begin with `start`.
 std::size_t lines_with(const std::string& text, std::string_view start) {
   std::size_t count = 0;
   std::istringstream stream(text);
@@ -89,7 +89,7 @@ TEST_F(ProgramTest, RefusesWrongScenes) {
   expect_wrong_input("run " + wrong, {"wrong.json:3:", "radius"});
   const ProgramRun overridden = run("run " + wrong + " --radius 1 2 --bodies 3 --quiet");
   EXPECT_EQ(overridden.exit_code, 0) << overridden.err;
-  // What an option says is not the file's fault.
+  // A wrong option is not an error of the file.
   const ProgramRun by_option = run("run " + wrong + " --radius -3 2");
   EXPECT_EQ(by_option.err.find("wrong.json"), std::string::npos) << by_option.err;
 }
@@ -185,8 +185,8 @@ TEST_F(ProgramTest, VerifiesAScene) {
   EXPECT_NE(result.out.find("detector and oracle agree"), std::string::npos);
 }
 
-/// Two that meet head-on at 2 units/s: closer than 2 from time 4 to time 6. A third that starts close to the
-/// first and stays behind.
+/// Two bodies that meet head-on at 2 units/s: closer than 2 from time 4 to time 6. A third starts close to
+/// the first and stays behind.
 constexpr std::string_view meeting =
     "id,time,x,y\n"
     "ann,0,0,0\nann,5,5,0\nann,10,10,0\n"
@@ -298,7 +298,7 @@ TEST_F(ProgramTest, DrawsApproaches) {
     EXPECT_NE(svg.find(text), std::string::npos) << text;
   EXPECT_EQ(svg.find("nan"), std::string::npos);
   EXPECT_EQ(svg.find("inf"), std::string::npos);
-  // Nobody near, and nobody who moves.
+  // No track is near another, and none moves.
   const std::string still = write("u.csv", "id,time,x,y\na,0,1,1\na,1,1,1\n");
   ASSERT_EQ(run("tracks " + still + " --distance 2 --quiet --plot " + path("b.svg")).exit_code, 0);
   EXPECT_NE(read_text(path("b.svg")).find("No approaches."), std::string::npos);

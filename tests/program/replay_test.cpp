@@ -1,4 +1,4 @@
-// `run --record` and `replay`: the same hash, files that are whole, and one clear line for what is wrong.
+// `run --record` and `replay`: equal hashes, complete files, and one clear line for each error.
 #include "support.hpp"
 
 namespace kinesphere::program::replay_test {

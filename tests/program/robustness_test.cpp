@@ -1,4 +1,4 @@
-// What must not take the work of hours with it: full disks, signals, and files given the wrong way round.
+// Failures that must not destroy the work of hours: full disks, signals, and swapped files.
 #include <fcntl.h>
 #include <signal.h>
 #include <unistd.h>
@@ -31,7 +31,7 @@ TEST_F(ProgramTest, RefusesScenesOfBracketsWithinBrackets) {
   EXPECT_EQ(run("run " + write("named.json", box)).exit_code, 0) << "these are text";
 }
 
-/// /dev/full takes no byte, as a full disk does.
+/// /dev/full acts like a full disk.
 TEST_F(ProgramTest, NoticesThatStandardOutputCannotBeWritten) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
   const std::string scene = write("s.json", small_scene);
@@ -135,7 +135,7 @@ TEST_F(ProgramTest, NeverWritesTwoOutputsIntoOneFile) {
   EXPECT_EQ(names(), (Names{"folder", "s.json"}));
 }
 
-/// The input would take long: what is wrong with the outputs is told before it is looked at.
+/// Reading the input would take long: errors of the outputs are reported before.
 TEST_F(ProgramTest, LooksAtItsOutputsBeforeItBegins) {
   const std::string scene = "run " + write("s.json", small_scene) + " --seconds 1e9 ";
   const std::string tracks = "tracks " + write("t.csv", "no table") + " --distance 1 ";
@@ -150,7 +150,7 @@ TEST_F(ProgramTest, LooksAtItsOutputsBeforeItBegins) {
 
 TEST_F(ProgramTest, GivesItsSummaryEvenIfAFileCouldNotBeWritten) {
   const std::string scene = write("s.json", small_scene);
-  // A limit on the size of files stands in for a full disk; the pipe is none.
+  // A limit on the size of files acts as a full disk; it does not apply to the pipe.
   const std::string limit = "trap '' XFSZ; ulimit -f 8; ";
   const std::string shell = "(" + limit + "'" KINESPHERE_PROGRAM "' run " + scene + " --frames " +
                             path("f.xyz") + " 2>'" + path("err") + "'; echo exit $?) | cat >'" + path("out") +

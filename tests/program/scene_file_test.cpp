@@ -1,4 +1,4 @@
-// Scene files: every field, and every way to get one wrong.
+// Scene files: every field, and every kind of error.
 #include "scene_file.hpp"
 
 #include "support.hpp"

@@ -1,4 +1,4 @@
-// Standard streams that the caller has closed, or that take nothing.
+// Standard streams that the caller has closed, or that accept nothing.
 #include "support.hpp"
 
 namespace kinesphere::program::standard_streams_test {
@@ -7,7 +7,7 @@ namespace {
 const std::string promises = " --separation sphere:1 --acceleration 1 --position-error 1 --velocity-error 1";
 
 TEST_F(ProgramTest, SaysThatStandardInputIsClosed) {
-  // Without a file to read each would read whatever was opened first.
+  // Without a file to read, each command would read whatever was opened first.
   const std::string scene = write("s.json", R"({"bodies": 3, "seconds": 1})");
   for (const std::string& command :
        {std::string("watch -") + promises, "watch" + promises, std::string("tracks - --distance 1"),
@@ -25,7 +25,7 @@ TEST_F(ProgramTest, SaysThatStandardOutputIsClosed) {
   const ProgramRun result = run_shell("'" KINESPHERE_PROGRAM "' run " + scene + " >&-");
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_EQ(result.err, "kinesphere: standard output: cannot write: Bad file descriptor\n");
-  // A file that is written must not become standard output.
+  // An output file must not become standard output.
   const std::string log = path("log.csv");
   run_shell("'" KINESPHERE_PROGRAM "' run " + scene + " --contacts '" + log + "' >&- <&-");
   EXPECT_EQ(read_text(log).find("bodies "), std::string::npos);
@@ -44,7 +44,7 @@ TEST_F(ProgramTest, GoesOnWithoutStandardError) {
       run_shell("'" KINESPHERE_PROGRAM "' watch " + stream + promises + " --quiet 2>/dev/full").exit_code, 0);
 }
 
-/// Every option that names a file to write.
+/// Covers every option that names an output file.
 TEST_F(ProgramTest, NoticesThatAFileCannotBeWritten) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
   const std::string scene = write("s.json", R"({"bodies": 40, "radius": [1, 5], "seconds": 1})");

@@ -1,4 +1,4 @@
-// How figures are written for a person.
+// Figures in summaries.
 #include "summary.hpp"
 
 #include <gtest/gtest.h>

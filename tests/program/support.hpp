@@ -1,5 +1,4 @@
-// What the tests of the program share: folders that vanish, errors that must be one line, runs of the real
-// program.
+// Support for tests of the program: temporary folders, errors of one line, runs of the real program.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -24,7 +23,7 @@ inline std::string read_text(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Each test gets a folder of its own, which goes with it.
+/// Gives each test a folder of its own, and removes it afterwards.
 class FolderTest : public ::testing::Test {
  protected:
   FolderTest() {
@@ -51,7 +50,7 @@ class FolderTest : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-/// The message of the ProgramError that `action` must throw; it must be one line.
+/// Returns the message of the ProgramError that `action` must throw; expects one line.
 template <class Action>
 std::string error_of(Action action) {
   try {
@@ -70,10 +69,10 @@ struct ProgramRun {
   std::string out, err;
 };
 
-/// Tests that run the program as a person would.
+/// Tests that run the program as a user would.
 class ProgramTest : public FolderTest {
  protected:
-  /// `before` is shell text that goes before the program.
+  /// `before` is shell text that precedes the program.
   ProgramRun run(const std::string& arguments, const std::string& before = "") const {
     return run_shell(before + "'" + KINESPHERE_PROGRAM + "' " + arguments);
   }
@@ -86,7 +85,8 @@ class ProgramTest : public FolderTest {
     std::filesystem::remove(path("err"));
     return result;
   }
-  /// Exit code 2, nothing on stdout, one line on stderr that has all of `parts`. `before` as for run().
+  /// Expects exit code 2, nothing on stdout, and one line on stderr that has all of `parts`. `before` as for
+  /// run().
   void expect_wrong_input(const std::string& arguments, std::initializer_list<std::string_view> parts,
                           const std::string& before = "") const {
     SCOPED_TRACE(arguments);
@@ -100,7 +100,7 @@ class ProgramTest : public FolderTest {
   }
 };
 
-/// A file of the recordings that are kept outside the project; empty when it is not there.
+/// Returns the path of a recording outside the project; empty if it does not exist.
 inline std::string recording(const std::string& name) {
   const char* folder = std::getenv("KINESPHERE_DATA");
   const auto path = std::filesystem::path(folder != nullptr ? folder : KINESPHERE_DEFAULT_DATA) / name;

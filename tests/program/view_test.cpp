@@ -1,4 +1,4 @@
-// `kinesphere view`: what it serves, to whom, and how it stops.
+// `kinesphere view`: the served content, access to it, and its end.
 #include <csignal>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -17,26 +17,26 @@ namespace {
 
 class View : public ProgramTest {
  protected:
-  /// A folder with a page.
+  /// Makes a folder with a page.
   std::string viewer() const {
     std::filesystem::create_directory(path("viewer"));
     write("viewer/index.html", "<p>the page</p>");
     return path("viewer");
   }
-  /// Of a world of 20 bodies. `name` is that of the file.
+  /// Makes a recording of a world of 20 bodies in a file of this name.
   std::string world_recording(const std::string& name) const {
     const std::string scene = write("scene.json", R"({
       "bodies": 20, "radius": [1, 5], "box": [[0, 0, 0], [60, 60, 60]], "seconds": 1, "response": "bounce" })");
     EXPECT_EQ(run("run " + scene + " --quiet --record '" + path(name) + "'").exit_code, 0);
     return path(name);
   }
-  /// The program must not serve these, but end as expect_wrong_input says.
+  /// Expects that the program serves nothing, and ends as in expect_wrong_input().
   void expect_refused(const std::string& arguments, std::initializer_list<std::string_view> parts) const {
     expect_wrong_input("view --no-browser --folder '" + viewer() + "' " + arguments, parts, "timeout 10 ");
   }
 };
 
-/// Two who walk side by side.
+/// Two people who walk side by side.
 constexpr std::string_view walk = "id,t,x,y\nann,0,0,0\nann,1,0.5,0\nbob,0,0.1,3\nbob,1,0.7,3\n";
 
 TEST_F(View, NeedsAPage) {
@@ -94,7 +94,7 @@ TEST_F(View, SaysHowItIsBuilt) {
 
 #ifdef KINESPHERE_WITH_HTTPLIB
 
-/// A program that serves a folder until this goes.
+/// A program that serves a folder until destruction.
 class Served {
  public:
   /// `arguments` are shell text.
@@ -113,7 +113,7 @@ class Served {
     if (pipe_ != nullptr) stop();
   }
 
-  /// As it is printed.
+  /// The printed address.
   const std::string& address() const { return address_; }
   int port() const { return std::stoi(address_.substr(address_.rfind(':') + 1)); }
   httplib::Client client() const { return httplib::Client("127.0.0.1", port()); }
@@ -127,7 +127,7 @@ class Served {
     const auto answer = client().Get(address, headers);
     return answer ? answer->status : 0;
   }
-  /// The exit code.
+  /// Stops the program; returns the exit code.
   int stop() {
     kill(process_, SIGTERM);
     const int status = pclose(pipe_);
@@ -174,7 +174,7 @@ TEST_F(View, ServesTheFilesOfItsFolderAlone) {
   EXPECT_EQ(served.stop(), 0);
 }
 
-/// Ranges that go beyond a file or a table bring nothing else.
+/// Ranges beyond a file or a table return the whole content.
 TEST_F(View, ServesWholeContentsWhateverRangeIsAskedFor) {
   const Served served(viewer(), write("walk.csv", walk));
   for (const char* const address : {"/", "/opened/tracks.json", "/opened/files.json"}) {
@@ -248,7 +248,7 @@ TEST_F(View, ReadsStandardInputAndWarnsOfWhatIsLeftOut) {
             "kinesphere: warning: 1 of 5 rows (20 %) have no time or no position\n");
 }
 
-/// Longer than the pieces in which it is handed over; to compress it would take as long as to read it.
+/// The table is longer than the pieces in which it is sent; compression would take as long as reading.
 TEST_F(View, HandsOverLongTablesAsTheyAre) {
   std::string text = "id,t,x,y\n";
   for (int k = 0; k < 60'000; ++k) text += "ann," + std::to_string(k) + ",0.12345678901234568,0\n";

@@ -1,4 +1,4 @@
-// Runs that are stopped and gone on with write and print what one run does.
+// Runs that are stopped and continued write and print what one run does.
 #include "kinesphere/random.hpp"
 #include "support.hpp"
 
@@ -33,7 +33,7 @@ TEST_F(MpiProgramCheckpoints, GoOnWithOtherRanksAndForLonger) {
   const Expected one = expected(scene_ + " --seconds 1.5");
   EXPECT_EQ(run_mpi(3, arguments("0.6")).exit_code, 0);
   EXPECT_EQ(checkpoints(), (Names{"2", "3"}));
-  // As a run that was stopped before its end leaves it.
+  // The state that a stopped run leaves.
   std::filesystem::rename(path("all.csv"), path("all.csv.unfinished"));
   write("all.csv.unfinished", read_text(path("all.csv.unfinished")) + "and more");
   const ProgramRun second = run_mpi(2, arguments("1.5", "--resume"));
@@ -42,7 +42,7 @@ TEST_F(MpiProgramCheckpoints, GoOnWithOtherRanksAndForLonger) {
   EXPECT_TRUE(read_text(path("all.csv")) == one.contacts);
   EXPECT_EQ(names(), (Names{"all.csv", "checkpoints"}));
   EXPECT_EQ(checkpoints(), (Names{"6", "7"}));
-  // There is nothing left to do, and nothing changes.
+  // Nothing is left to do, and nothing changes.
   EXPECT_EQ(run_mpi(1, arguments("1.5", "--resume")).out, one.hash);
   EXPECT_TRUE(read_text(path("all.csv")) == one.contacts);
   EXPECT_EQ(checkpoints(), (Names{"6", "7"}));
@@ -65,12 +65,12 @@ TEST_F(MpiProgramCheckpoints, FallBackFromADamagedOne) {
   }
 }
 
-/// Killed ten times, on one rank or another, and gone on with on other numbers of ranks.
+/// Killed ten times, on one rank or another, and continued on other numbers of ranks.
 TEST_F(MpiProgramCheckpoints, OfRunsThatWereKilled) {
   scene_ = "paper1 --bodies 1000";
   const Expected one = expected(scene_ + " --seconds 30");
   const std::string program = std::string("'") + KINESPHERE_MPI_PROGRAM + "'";
-  // Of the checkpoints that are there, and of none.
+  // Returns the newest checkpoint; works with and without one.
   const std::string newest = "ls '" + path("checkpoints") + "' | grep -E '^[0-9]+$' | sort -n | tail -1";
   Random random(16);
   int killed = 0;
@@ -78,7 +78,7 @@ TEST_F(MpiProgramCheckpoints, OfRunsThatWereKilled) {
     const auto ranks = 1 + static_cast<int>(random.bits() % 3);
     const auto victim = random.bits() % static_cast<std::uint64_t>(ranks);
     const std::uint64_t more = 1 + random.bits() % 4;
-    // Waits for so many more checkpoints, though not for ever, and a little.
+    // Waits for that many more checkpoints, with a limit, and a little longer.
     const std::string wait = "first=$(" + newest + "); for k in $(seq 3000); do last=$(" + newest +
                              "); [ ${last:-0} -ge $((${first:-0} + " + std::to_string(more) +
                              ")) ] && break; [ -e '" + path("all.csv") +

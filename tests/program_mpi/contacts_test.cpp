@@ -1,4 +1,4 @@
-// What kinesphere-mpi writes and prints is what kinesphere does, on any number of ranks.
+// kinesphere-mpi writes and prints what kinesphere does, on any number of ranks.
 #include "support.hpp"
 
 namespace kinesphere::program::contacts_test {

@@ -1,4 +1,4 @@
-// What goes wrong is said once, and all ranks end.
+// An error is printed once, and all ranks end.
 #include "support.hpp"
 
 namespace kinesphere::program::errors_test {
@@ -34,7 +34,7 @@ TEST_F(MpiProgramErrors, OfFilesThatCannotBeWritten) {
       "Not a directory");
 }
 
-/// A file that may have no more than some blocks is a full disk.
+/// A limit of some blocks for a file acts as a full disk.
 TEST_F(MpiProgramErrors, OfAFullDiskOnOneRank) {
   const std::string program = std::string("'") + KINESPHERE_MPI_PROGRAM + "'";
   const std::string limited =
@@ -46,7 +46,7 @@ TEST_F(MpiProgramErrors, OfAFullDiskOnOneRank) {
   expect_one_message(failed, 1, "rank 1: " + path("all.csv.1") + ": cannot write: File too large");
 }
 
-/// mpirun says which, and nobody waits for it.
+/// mpirun names the rank, and no other rank waits for it.
 TEST_F(MpiProgramErrors, OfARankThatIsKilled) {
   const std::string program = std::string("'") + KINESPHERE_MPI_PROGRAM + "'";
   const std::string killed =

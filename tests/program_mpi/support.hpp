@@ -1,4 +1,4 @@
-// Runs of kinesphere-mpi and of kinesphere, which it is compared with.
+// Runs kinesphere-mpi, and kinesphere for comparison.
 #pragma once
 
 #include <algorithm>
@@ -12,14 +12,14 @@ namespace kinesphere::program {
 
 class MpiProgramTest : public ProgramTest {
  protected:
-  /// `before` is shell text that goes before mpirun.
+  /// `before` is shell text that precedes mpirun.
   ProgramRun run_mpi(int ranks, const std::string& arguments, const std::string& before = "") const {
     const std::string mpirun =
         std::string("'") + KINESPHERE_MPIRUN + "' " + KINESPHERE_MPIRUN_RANKS + " " + std::to_string(ranks);
     return run_shell(before + mpirun + " '" + KINESPHERE_MPI_PROGRAM + "' " + arguments);
   }
 
-  /// What kinesphere prints and writes for a scene.
+  /// The output of kinesphere for a scene.
   struct Expected {
     std::string hash;
     std::string contacts;
@@ -41,7 +41,7 @@ inline std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// The lines that the program itself has printed, not mpirun.
+/// Returns the lines that the program itself has printed, without those of mpirun.
 inline std::vector<std::string> messages_in(const std::string& err) {
   std::vector<std::string> lines = lines_of(err);
   std::erase_if(lines, [](const std::string& line) { return !line.starts_with("kinesphere-mpi: "); });

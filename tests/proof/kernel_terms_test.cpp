@@ -1,7 +1,6 @@
-// The terms about which proof/ has theorems are those that the library computes: they are written down here
-// from its own sources and compared with proof/kernels.v. Where they differ, the library has changed: write
-// the file anew (KINESPHERE_WRITE_KERNELS=1 and this test) and run scripts/prove.sh, which says what still
-// holds.
+// Compares the terms of the theorems in proof/ with the library: records them from its own sources and
+// compares them with proof/kernels.v. If they differ, the library has changed: write the file anew
+// (KINESPHERE_WRITE_KERNELS=1 and this test) and run scripts/prove.sh, which shows which theorems still hold.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -52,7 +51,7 @@ kernels::SweptSphereQuery query(const std::string& name, const std::string& numb
           .to = variable<Single>("to" + number)};
 }
 
-/// The bound that comes of a report, as the term that builds it.
+/// Returns the bound of a report, as the term that builds it.
 Double bound_of_report() {
   const auto three = [](const std::string& name) {
     return kernels::Vec3{variable(name + "x"), variable(name + "y"), variable(name + "z")};
@@ -69,7 +68,7 @@ Double bound_of_report() {
               bound.growth_speed, bound.growth_acceleration);
 }
 
-/// What a search finds, run by run, in a table of these capsules.
+/// Returns the slots that a search finds, run by run, in a table of these swept spheres.
 std::vector<std::vector<std::uint32_t>> found(const std::vector<kernels::SweptSphere>& spheres,
                                               const std::vector<kernels::SweptSphereQuery>& queries,
                                               const std::vector<kernels::SlotRange>& runs) {
@@ -96,7 +95,7 @@ std::vector<std::vector<std::uint32_t>> found(const std::vector<kernels::SweptSp
   return answer;
 }
 
-/// Whether a search leaves a capsule out.
+/// Returns true if a search leaves a swept sphere out.
 bool left_out(const kernels::SweptSphere& other, const kernels::SweptSphereQuery& one) {
   return found({other}, {one}, {kernels::SlotRange{.begin = 0, .end = 1}})[0].empty();
 }
@@ -151,8 +150,8 @@ TEST(KernelTerms, AreThoseThatHaveBeenProved) {
   EXPECT_EQ(written, proved) << "the library computes something else than what proof/ is about";
 }
 
-/// In how many ways the comparisons of a search may turn out. In each it has to find those whom it does not
-/// leave out one by one.
+/// Returns the number of outcomes of the comparisons of a search. In each, it must find all swept spheres
+/// that it does not leave out one by one.
 int ways_to_search(const std::vector<kernels::SweptSphere>& spheres,
                    const std::vector<kernels::SweptSphereQuery>& queries,
                    const std::vector<kernels::SlotRange>& runs) {
@@ -175,7 +174,7 @@ TEST(KernelTerms, ASearchLooksAtEachCapsuleByItself) {
   EXPECT_GT(ways_to_search({capsule("a"), capsule("b")}, {query("c", "_1"), query("d", "_2")},
                            {{.begin = 0, .end = 2, .query = 1}, {.begin = 1, .end = 2, .query = 0}}),
             1);
-  // More than are looked at at a time: equal ones, so that all but one have the same answer.
+  // More than the search tests at a time: equal ones, so that all but one have equal answers.
   std::vector<kernels::SweptSphere> many(70, capsule("a"));
   many[66] = capsule("b");
   EXPECT_GT(ways_to_search(many, {query("c")}, {{.begin = 1, .end = 70}, {.begin = 66, .end = 68}}), 1);

@@ -1,8 +1,8 @@
-// The library's own sources, compiled once more with numbers that record what is done with them. The text
-// that is traced is the text that the library is built from.
+// The library's own sources, compiled once more with numbers that record their operations. The traced text is
+// the text of the library.
 #pragma once
 
-// All that the sources below include from elsewhere has to be read before names are replaced.
+// All other headers of the sources below must be included before names are replaced.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -23,7 +23,7 @@
 #include <variant>
 #include <vector>
 
-// These compute nothing.
+// These headers compute nothing.
 #include "kinesphere/body_id.hpp"
 #include "kinesphere/filter.hpp"
 #include "kinesphere/sensor.hpp"
@@ -41,7 +41,7 @@ using namespace kinesphere;  // NOLINT
 
 #include "bound/rounding.hpp"
 
-// From here on, what is in rounding.hpp and safe_steps.hpp is a term by itself, which others call.
+// From here on, the functions of rounding.hpp and safe_steps.hpp are terms of their own, which others call.
 namespace kinesphere::rounding {
 inline double called_widened(double size) { return traced::call("widened", size); }
 inline double called_capped(double size) { return traced::call("capped", size); }
@@ -58,8 +58,8 @@ inline double called_first_crossing(double c, double b, double a) {
 #include "bound/safe_steps.hpp"
 
 namespace kinesphere {
-/// What advance_by_safe_steps() is handed: the step that a round takes, d after the beginning; or, where the
-/// step is a term by itself, of this name, from when until when it goes on.
+/// The step that advance_by_safe_steps() gets: the step that a round takes, d after the beginning; or, if the
+/// step is a term of its own, of this name, its times of begin and end.
 inline std::string name_of_step;
 template <class SafeStep>
 double advance_by_a_step(double from, double until, SafeStep step) {

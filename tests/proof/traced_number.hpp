@@ -1,9 +1,8 @@
-// A number that records what is done with it, so that a function of the library can be written down as a
-// term.
+// A number that records its operations, so that a function of the library can be written down as a term.
 //
-// Operations make nodes of a graph; equal ones are one node. A comparison has to be decided: term_of() runs
-// the function once for each way through it, so that the term has all of them, as `if ... then ... else`.
-// What the compiler makes of the order in which operands are computed does not show.
+// Operations make nodes of a graph; equal ones are one node. A comparison needs a decision: term_of() runs
+// the function once for each way through it, so that the term has all of them, as `if ... then ... else`. The
+// order in which the compiler evaluates operands has no effect.
 #pragma once
 
 #include <cctype>
@@ -26,7 +25,7 @@ struct Node {
   std::vector<const Node*> operands;
 };
 
-/// The node of this operation, always the same one.
+/// Returns the unique node of this operation.
 inline const Node* node_of(const std::string& operation, const std::vector<const Node*>& operands = {}) {
   static std::map<std::pair<std::string, std::vector<const Node*>>, std::unique_ptr<Node>> nodes;
   std::unique_ptr<Node>& node = nodes[{operation, operands}];
@@ -34,7 +33,7 @@ inline const Node* node_of(const std::string& operation, const std::vector<const
   return node.get();
 }
 
-/// m 2^e, exactly.
+/// Returns m 2^e, exactly.
 inline const Node* literal(double value) {
   if (std::signbit(value)) return node_of("-", {literal(-value)});
   if (std::isinf(value)) return node_of("infinity");
@@ -58,7 +57,7 @@ struct Undecided {
   const Node* condition;
 };
 
-/// How the comparisons on the way are decided.
+/// Decisions of the comparisons on the way.
 inline std::map<const Node*, bool>& decisions() {
   static std::map<const Node*, bool> decided;
   return decided;
@@ -148,13 +147,13 @@ Value variable(const std::string& name) {
   return Value(node_of(name));
 }
 
-/// What another term computes from these.
+/// The result of another term with these arguments.
 template <class... Values>
 Double call(const std::string& term, Values... values) {
   return Double(node_of(term, {values.node()...}));
 }
 
-/// What a function returns: numbers, or a yes or no.
+/// The result of a function: numbers, or a yes or no.
 struct Answer {
   std::vector<const Node*> parts;
 
@@ -184,7 +183,8 @@ inline Term term_of(const std::function<Answer()>& function) {
   }
 }
 
-/// A term in Gallina, the language of Coq. What is used more than once, or is long, has a name.
+/// Prints a term in Gallina, the language of Coq. A long node, or one that is used more than once, has a
+/// name.
 class Printer {
  public:
   explicit Printer(const Term& term) {
@@ -233,7 +233,7 @@ class Printer {
     text_ << indent << "if " << expression(term.condition, names, false) << " then\n";
     print(*term.yes, depth + 1, names, named);
     text_ << "\n" << indent << "else\n";
-    // One comparison after the other would go ever farther to the right.
+    // Nested comparisons would go ever farther to the right.
     print(*term.no, depth, names, named);
   }
 
@@ -271,7 +271,7 @@ class Printer {
   std::ostringstream text_;
 };
 
-/// A definition of this name.
+/// Returns a definition of this name.
 inline std::string definition(const std::string& head, const std::function<Answer()>& function) {
   const Term term = term_of(function);
   return "Definition " + head + " :=\n" + Printer(term).text() + ".\n";
@@ -279,7 +279,7 @@ inline std::string definition(const std::string& head, const std::function<Answe
 
 }  // namespace traced
 
-/// What the library's sources mean by std:: when they compute with traced numbers.
+/// Replaces std:: in the library's sources when they compute with traced numbers.
 namespace traced_std {
 
 using namespace std;  // NOLINT

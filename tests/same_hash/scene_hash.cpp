@@ -31,7 +31,7 @@ struct Bodies {
   std::vector<double> radii, limits;
 };
 
-/// On a lattice, with room for the largest.
+/// Returns bodies on a lattice with space for the largest.
 Bodies drawn() {
   constexpr int rows = 6;
   constexpr double pitch = edge / rows;

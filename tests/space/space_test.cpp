@@ -1,4 +1,4 @@
-// Images of points and boxes, and the search across the border of a box that repeats.
+// Images of points and boxes, and the search across the border of a periodic box.
 #include "space/space.hpp"
 
 #include <gtest/gtest.h>
@@ -66,7 +66,7 @@ bool overlap(const Box& a, const Box& b) {
   return true;
 }
 
-/// Any image of the box overlaps the other.
+/// Returns true if any image of the box overlaps the other.
 bool overlap_somewhere(const Space& space, const Box& a, const Box& b) {
   for (int axis = 0; axis < 3; ++axis) {
     const double period = space.period()[axis];
@@ -110,7 +110,7 @@ TEST(Space, ASearchFindsEachBoxOnceInWhicheverImage) {
     }
     std::size_t hits = 0;
     for (int query = 0; query < 400; ++query) {
-      // Wide ones find some boxes several times, but miss none.
+      // Wide queries find some boxes several times, but miss none.
       const bool wide = query % 4 == 0;
       const Box asked = box_of(wide ? 8.0 : 1.0);
       std::vector<std::uint32_t> found;

@@ -1,4 +1,4 @@
-// Snapshots that no monitor wrote.
+// Feeds a monitor snapshots that no monitor has written.
 #include "stream/any_monitor.hpp"
 
 #include <array>
@@ -18,8 +18,8 @@ namespace {
 
 using Snapshot = std::vector<std::byte>;
 
-/// Of a monitor in the middle of things: pairs of all verdicts, contradictions, plans, silence, events that
-/// have not been told.
+/// Returns the snapshot of a monitor in use: pairs of all verdicts, contradictions, plans, stale tracks,
+/// undelivered events.
 Snapshot snapshot_of_monitor(std::uint64_t seed) {
   Random random(seed);
   Monitor monitor =
@@ -107,7 +107,7 @@ void try_small_numbers(std::uint64_t seed) {
     std::memcpy(&before, snapshot.data() + at, sizeof before);
     if (before >= small) continue;
     for (std::uint32_t other = 0; other < small; ++other) {
-      // Most are parts of larger numbers.
+      // Most zeros are bytes of larger numbers.
       if (other == before || (before == 0 && (at + other) % 8 != seed % 8)) continue;
       Snapshot damaged = snapshot;
       std::memcpy(damaged.data() + at, &other, sizeof other);

@@ -1,4 +1,4 @@
-// Any bytes as the snapshot of a monitor.
+// Turns any bytes into the snapshot of a monitor.
 #pragma once
 
 #include <cstdint>
@@ -6,14 +6,13 @@
 
 namespace kinesphere::any_monitor {
 
-/// The snapshot of a monitor (chosen by the first byte) with edits of four bytes each: place (2), how, and
-/// with what; length and checksum are made right. Monitor::restore refuses it, or what comes out is safe to
-/// use. Throws std::logic_error.
+/// Makes edits of four bytes each in the snapshot of a monitor, chosen by the first byte: place (2), kind,
+/// and value; corrects length and checksum. Checks that Monitor::restore refuses it, or that the restored
+/// monitor is safe to use. Throws std::logic_error.
 void try_as_monitor(std::span<const std::uint8_t> bytes);
 
-/// The same with one edit at a time: each whole number below 4 in the snapshot of a monitor becomes each
-/// other one, as far as it is not zero; of zeros, one in eight does. Slots, counts, verdicts and the numbers
-/// of tracks are such numbers.
+/// Makes one edit at a time: replaces each whole number below 4 in the snapshot of a monitor by each other
+/// one; of zeros only one in eight. Slots, counts, verdicts and numbers of tracks are such numbers.
 void try_small_numbers(std::uint64_t seed);
 
 }  // namespace kinesphere::any_monitor

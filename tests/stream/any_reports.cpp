@@ -1,4 +1,4 @@
-// What bytes choose of a sky, and what is held against its truth.
+// Turns bytes into a sky, and compares the monitor with the truth.
 #include "stream/any_reports.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr int segments = 12;
 
-/// Choices, from bytes; when they are used up, the least of all.
+/// Choices from bytes; when they are used up, always the smallest choice.
 class Choices {
  public:
   explicit Choices(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -31,7 +31,7 @@ class Choices {
   T of(std::initializer_list<T> list) {
     return list.begin()[below(static_cast<std::uint32_t>(list.size()))];
   }
-  /// In the unit ball.
+  /// Returns a vector in the unit ball.
   Vec3 direction() {
     const Vec3 v{signed_part(), signed_part(), signed_part()};
     const double length = norm(v);
@@ -43,7 +43,7 @@ class Choices {
   std::size_t at_ = 0;
 };
 
-/// In extended precision.
+/// A place in extended precision.
 struct Place {
   long double x = 0, y = 0, z = 0;
 
@@ -68,7 +68,7 @@ struct Piece {
 struct FiledPlan {
   double from, until;
   TrackReport::Plan plan;
-  bool is_beyond;  ///< the promise of the class
+  bool is_beyond;  ///< beyond the limits of the class
   bool told = false;
 };
 
@@ -174,7 +174,7 @@ class Sky {
         const double limit = choices_.of({0.0, 0.1, 1.0}) * size;
         const Vec3 planned = choices_.direction() * size;
         const bool is_beyond = !(norm(planned - planned_) + limit < 0.999 * limit_);
-        // Rounded inward, so that the truth keeps it.
+        // Rounded inward, so that the true motion stays within the limit.
         acceleration = planned + choices_.direction() * (0.999 * limit);
         truth.plans.push_back({begin, end, {planned, limit, end}, is_beyond});
       }
@@ -190,7 +190,7 @@ class Sky {
     latest_.push_back({});
   }
 
-  /// One that keeps what it says, as of a time.
+  /// Returns a report that keeps its limits, with a timestamp of `time`.
   TrackReport report_of(std::size_t track, double time) {
     const Truth& truth = truths_[track];
     TrackReport report{.timestamp = time};
@@ -213,20 +213,20 @@ class Sky {
     return report;
   }
 
-  /// What is in force at the time a report is of, if the report is to say so.
+  /// Adds the plan in force at the time of the report, if the report is to have it.
   void add_plan(std::size_t track, double time, TrackReport& report) {
     for (const FiledPlan& filed : truths_[track].plans)
       if (filed.from <= time && time < filed.until && filed.until > report.timestamp)
         report.plan = filed.plan;
   }
 
-  /// A plan beyond the class has to be known before it begins: so all are told.
+  /// A plan beyond the class must be known before it begins, so all such plans are reported.
   void tell_plans_that_begin(double until) {
     for (std::size_t track = 0; track < truths_.size(); ++track)
       for (FiledPlan& filed : truths_[track].plans) {
         if (filed.told || filed.from > until) continue;
         filed.told = true;
-        // Only what knows no accelerations can do without.
+        // Only a class without accelerations works without velocities.
         TrackReport report = report_of(track, filed.from);
         report.plan = filed.plan;
         if (filed.until <= report.timestamp) report.timestamp = filed.from;
@@ -289,7 +289,7 @@ class Sky {
           reports[k] = report;
         }
     };
-    // At each start of windows it asks whom undecided pairs are about, so short ones ask too often.
+    // Each start of windows requests reports for undecided pairs, so short windows would request too many.
     const bool asks = choices_.one_in(4) && definition_.window > 0.01 * unit_;
     for (int left = 100'000;; --left) {
       if (left == 0) return fail("advance does not end");
@@ -306,7 +306,7 @@ class Sky {
     if (counters.windows > 200'000 || counters.rechecks > 20'000'000) fail("too many steps");
   }
 
-  /// How far the pair is beyond the separation: negative inside, in units of its limits.
+  /// Returns true if the vector between two tracks is within the separation, enlarged by `more`.
   bool is_within(const Separation& separation, const Place& way, long double more) const {
     const long double flat = std::sqrt(way.x * way.x + way.y * way.y);
     if (definition_.dimensions == 2) return flat <= separation.horizontal + more;

@@ -1,4 +1,5 @@
-// Any bytes as a sky: tracks that keep their promises, reports of them, and a monitor that is never wrong.
+// Turns any bytes into a sky: tracks that keep their limits, reports of them, and a monitor that is never
+// wrong.
 #pragma once
 
 #include <cstddef>
@@ -10,19 +11,19 @@
 namespace kinesphere::watched_sky {
 
 struct WatchedSky {
-  std::optional<std::string> failure;  ///< what the monitor said or did that it may not
+  std::optional<std::string> failure;  ///< forbidden behaviour of the monitor
   std::size_t reports = 0;
   std::size_t events = 0;
-  std::size_t certain = 0;   ///< verdicts held against the truth that were not `undecided`
-  std::size_t promised = 0;  ///< those that an earlier answer had promised
-  std::size_t plans = 0;     ///< beyond the promise of the class
+  std::size_t certain = 0;   ///< checked verdicts that were not `undecided`
+  std::size_t promised = 0;  ///< verdicts that an earlier answer had certified
+  std::size_t plans = 0;     ///< plans beyond the limits of the class
   std::size_t wrong = 0;     ///< reports that were wrong
 };
 
-/// The bytes choose a definition, the true motion of up to six tracks, and what happens: reports that are
-/// noisy, late, early, repeated, without velocities or wrong, with plans and with stamps that are off; times
-/// that are advanced to, with and without a poll; snapshots taken and restored. Cost: about a millisecond for
-/// a thousand bytes.
+/// The bytes choose a definition, the true motion of up to six tracks, and a course: reports that are noisy,
+/// late, early, repeated, without velocities or wrong, with plans and with inexact timestamps; times to
+/// advance to, with and without a poll; snapshots taken and restored. Cost: about a millisecond for a
+/// thousand bytes.
 WatchedSky watch_sky(std::span<const std::uint8_t> bytes);
 
 }  // namespace kinesphere::watched_sky

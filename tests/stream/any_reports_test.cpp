@@ -1,4 +1,4 @@
-// Random skies, as bytes choose them, and damaged snapshots of monitors.
+// Random skies, chosen by bytes, and damaged snapshots of monitors.
 #include "stream/any_reports.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ std::vector<std::uint8_t> random_bytes(std::uint64_t seed, std::size_t size) {
   return bytes;
 }
 
-/// How many, if not as many as usually: KINESPHERE_SKIES.
+/// Returns the number of skies from KINESPHERE_SKIES, or the default.
 std::uint64_t skies() {
   const char* const set = std::getenv("KINESPHERE_SKIES");
   return set != nullptr ? std::strtoull(set, nullptr, 10) : 100;

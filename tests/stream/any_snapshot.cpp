@@ -1,4 +1,4 @@
-// Snapshots that no world wrote.
+// Feeds a world snapshots that no world has written.
 #include "stream/any_snapshot.hpp"
 
 #include <utility>
@@ -21,7 +21,7 @@ void restore_and_use(const Snapshot& snapshot, std::uint64_t seed) {
   use_for_a_while(std::move(*restored), random);
 }
 
-/// Of a world in the middle of things.
+/// Returns the snapshot of a world in use.
 Snapshot snapshot_of_stream(std::uint64_t seed) {
   Bytes stream = random_stream(seed, 40);
   stream[1] = 9;  // at most 12 bodies

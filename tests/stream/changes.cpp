@@ -16,7 +16,7 @@ T accepted(Result<T> result) {
 
 }  // namespace
 
-/// In a crowd all are smaller. Where space repeats there is no room for large ones.
+/// Radii are smaller in a crowd, and in periodic space, which has no room for large bodies.
 double Player::radius(const Operation& operation) const {
   const double radius = kind_.crowd ? 0.25 * operation.radius() : operation.radius();
   return truth_.definition().periodic.any() ? std::min(0.3, radius) : radius;
@@ -28,7 +28,7 @@ MotionLimits Player::limits(const Operation& operation) const {
   return promise;
 }
 
-/// In a world without overlaps it lies in the box as a whole.
+/// In a world without overlaps the body lies in the box as a whole.
 BodyDefinition Player::new_body(const Operation& operation) const {
   BodyDefinition body = with_motion_limits({.radius = radius(operation),
                                             .position = operation.position(),
@@ -43,7 +43,7 @@ BodyDefinition Player::new_body(const Operation& operation) const {
   return body;
 }
 
-/// The nearest place where a body of this radius may be put.
+/// Returns the nearest place where a body of this radius may be put.
 Vec3 Player::inside(Vec3 position, double radius) const {
   const WorldDefinition& world = truth_.definition();
   const double reach = world.allow_overlap ? 0.0 : radius;
@@ -52,7 +52,7 @@ Vec3 Player::inside(Vec3 position, double radius) const {
   return truth_.in_space(position);
 }
 
-/// Whether nothing keeps a body, with this extent, from being there where overlaps are refused.
+/// Returns true if a body of this shape may be there, in a world that refuses overlaps.
 bool Player::has_room(BodyId id, const CollisionShape& extent, const BodyDefinition& body) const {
   if (truth_.definition().allow_overlap) return true;
   for (const TrueBody& other : truth_.bodies()) {
@@ -172,7 +172,7 @@ void Player::set_velocity(const Operation& operation) {
   set_velocity(*id, truth_.in_space(operation.velocity()));
 }
 
-/// Bodies that have strayed far are sent back.
+/// Sends bodies back that have strayed far.
 void Player::send_back() {
   for (const BodyId id : truth_.ids()) {
     if (!truth_.is_present(id) || truth_.at(id).fixed) continue;
@@ -182,7 +182,7 @@ void Player::send_back() {
   }
 }
 
-/// The world learns nothing of it.
+/// Changes the true acceleration without a call of the world.
 void Player::steer(const Operation& operation) {
   const auto id = any_moving(operation);
   if (id) truth_.steer(*id, acceleration(operation, motion_limits_of(truth_.at(*id).definition)));
@@ -201,7 +201,7 @@ void Player::teleport(BodyId id, const State& state) {
   changed();
 }
 
-/// Where a body that has this radius may be put.
+/// Returns a place where a body of this radius may be put.
 State Player::place(const Operation& operation, double radius) const {
   return {inside(operation.position(), radius), new_body(operation).velocity};
 }
@@ -212,7 +212,7 @@ void Player::teleport(const Operation& operation) {
   teleport(*id, place(operation, truth_.at(*id).definition.radius));
 }
 
-/// A teleport so short that the body may stay in its contacts, or leave them by a hair.
+/// Teleports a body by so little that it may stay in its contacts, or leave them by a hair.
 void Player::nudge(const Operation& operation) {
   const auto id = any_moving(operation);
   if (!id || !truth_.is_present(*id)) return;
@@ -271,7 +271,7 @@ void Player::turn_off(const Operation& operation) {
   changed();
 }
 
-/// The first disabled body comes back.
+/// Enables the first disabled body.
 void Player::turn_on(const Operation& operation) {
   const auto off = std::find_if(truth_.bodies().begin(), truth_.bodies().end(),
                                 [](const TrueBody& body) { return body.alive && !body.enabled; });
@@ -304,9 +304,9 @@ bool Player::room_of_fixed(BodyId id) const {
   return has_room(id, {bound, true, body.shape ? &*body.shape : nullptr}, body.definition);
 }
 
-// Who may touch and sense whom.
+// Filters.
 
-/// `change` is about to change the answers about these bodies.
+/// Applies `change`, which may alter the filter's answers about these bodies.
 template <class Change>
 void Player::refresh_filter(const std::vector<BodyId>& ids, Change change) {
   std::vector<std::vector<Before>> before;
@@ -358,7 +358,7 @@ void Player::set_sensor(const Operation& operation) {
   require(world_.sensor(sensor_class) == sensor, "a sensor is not what was set");
 }
 
-/// The body becomes one of the haunted, or is so no longer: the pair filter answers otherwise.
+/// The body becomes haunted, or stops being so; this alters the answers of the pair filter.
 void Player::haunt(const Operation& operation) {
   const auto id = any(operation);
   if (!id) return;
@@ -368,7 +368,7 @@ void Player::haunt(const Operation& operation) {
   });
 }
 
-/// Empty when there is none.
+/// Returns an empty filter if there is none.
 PairFilter Player::pair_filter() const {
   if (!truth_.has_pair_filter) return {};
   return [this](BodyId a, BodyId b) { return truth_.pair_filter(a, b); };
@@ -376,7 +376,7 @@ PairFilter Player::pair_filter() const {
 
 void Player::give_pair_filter(World& world) const { accepted(world.set_pair_filter(pair_filter())); }
 
-/// The same one as before, which copies do not have.
+/// Sets the earlier pair filter again, since copies of a world have none.
 void Player::give_pair_filters() {
   give_pair_filter(world_);
   if (twin_) give_pair_filter(*twin_);

@@ -1,5 +1,5 @@
-// Operations that must not change what happens: restored worlds and clones, questions, and calls that are
-// refused.
+// Operations that must not change the course of the world: restored worlds and clones, queries, and refused
+// calls.
 #include <algorithm>
 
 #include "stream/on_world.hpp"
@@ -7,7 +7,8 @@
 
 namespace kinesphere::stream {
 
-/// The world goes on as the restored one, or has a twin from now on that must do the same to the last bit.
+/// Replaces the world by the restored one, or gives it a twin that must agree with it to the last bit from
+/// now on.
 void Player::restore(const Operation& operation) {
   const std::vector<std::byte> bytes = world_.save().value();
   if (twin_ && twin_saves_the_same_)
@@ -24,7 +25,7 @@ void Player::restore(const Operation& operation) {
   if (truth_.has_pair_filter) give_pair_filters();
 }
 
-/// With a probe or without: the truth lies within all answers.
+/// Queries with or without a probe; all answers must contain the truth.
 void Player::ask(const Operation& operation) {
   const auto id = any(operation);
   const std::vector<BodyId> ids = truth_.ids();
@@ -65,7 +66,7 @@ void Player::ask(const Operation& operation) {
   }
 }
 
-/// Each call is refused, and changes nothing.
+/// Makes calls that the world must refuse, without any change.
 void Player::call_wrongly(const Operation& operation) {
   const std::vector<std::byte> before = world_.save().value();
   const auto refused = [&](const auto& result, ErrorCode code) {

@@ -1,4 +1,4 @@
-// What the fuzzers have found worth keeping, played again.
+// Replays inputs that the fuzzers have found and that were kept.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace kinesphere::stream::corpus_test {
 namespace {
 
-/// The files of one corpus, by name.
+/// Returns the files of one corpus, by name.
 std::vector<std::filesystem::path> corpus(const char* name) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry :
@@ -30,7 +30,7 @@ Bytes bytes_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Neither a crash nor an exception comes of any file.
+/// Expects that no file causes a crash or an exception.
 template <class Try>
 void expect_harmless(const char* name, Try try_bytes) {
   const auto files = corpus(name);

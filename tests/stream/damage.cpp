@@ -13,7 +13,7 @@ double number_of(const std::vector<std::byte>& bytes, std::size_t at) {
   return value;
 }
 
-/// The first place from here on where eight bytes are a double as worlds have them.
+/// Returns the first place from `at` on where eight bytes are a double of a size usual in worlds.
 std::size_t next_double(const std::vector<std::byte>& bytes, std::size_t at) {
   for (std::size_t k = at; k + 8 <= bytes.size(); ++k) {
     const double value = std::abs(number_of(bytes, k));
@@ -22,7 +22,7 @@ std::size_t next_double(const std::vector<std::byte>& bytes, std::size_t at) {
   return at;
 }
 
-/// The first place from here on where eight bytes are a small whole number, as the size of a list is.
+/// Returns the first place from `at` on where eight bytes are a small whole number, like the size of a list.
 std::size_t next_count(const std::vector<std::byte>& bytes, std::size_t at) {
   for (std::size_t k = at; k + 8 <= bytes.size(); ++k) {
     std::uint64_t value;

@@ -1,4 +1,4 @@
-// Damage to bytes as numbers and lists are in snapshots and recordings.
+// Damages bytes in the forms that numbers and lists have in snapshots and recordings.
 #pragma once
 
 #include <cstddef>
@@ -8,11 +8,12 @@
 
 namespace kinesphere::stream {
 
-/// Bytes that say what one damage is: where (3), how (1) and with what (8).
+/// Bytes that define one damage: place (3), kind (1) and value (8).
 inline constexpr std::size_t damage_size = 12;
 
 /// Does one damage to the content of `bytes`, which begins at `first` and ends `behind` bytes before the end:
-/// another byte, one more or less, a strange double in the place of a double, another number or count.
+/// changes, inserts or removes a byte, or replaces a double by a strange one, or a number or count by
+/// another.
 void damage(std::vector<std::byte>& bytes, std::size_t first, std::size_t behind,
             std::span<const std::uint8_t> how);
 

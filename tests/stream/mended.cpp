@@ -20,7 +20,7 @@ void demand(bool holds, const char* what) {
   if (!holds) throw std::logic_error(what);
 }
 
-/// A snapshot, or a recording in its two parts: the snapshot that it begins with, and its steps.
+/// A snapshot, or a recording in two parts: its first snapshot, and its steps.
 struct Original {
   Content snapshot;
   Content recording_header{};
@@ -61,7 +61,7 @@ Content of_stream(std::uint64_t seed, int operations, bool many) {
   return player.world().save().value();
 }
 
-/// Bodies that move straight on and bounce, in a space of some kind.
+/// Bodies that move straight on and bounce, in one of several spaces.
 class Crowd {
  public:
   Crowd(const WorldDefinition& definition, int bodies, std::uint64_t seed)
@@ -118,7 +118,7 @@ class Crowd {
       if (what == 5) (void)world_.remove(id);
     }
   }
-  /// An advance that a bad answer ends.
+  /// Makes an advance that a bad answer ends.
   void fail() {
     (void)world_.advance(world_.time() + 1.0, [](std::span<const BodyId>, double, std::span<State>) {});
   }
@@ -164,7 +164,7 @@ std::vector<Original> make_originals() {
     all.push_back({few.world().save().value()});
     few.go(0.5);
     all.push_back(parts_of(few.world().stop_recording().value()));
-    // Enough for sorted layers.
+    // Sufficient for sorted grid levels.
     Crowd many(definitions[k], 150, k + 11);
     many.go(0.3);
     if (k % 2 == 1) {
@@ -181,7 +181,7 @@ const Original& original(std::uint8_t number) {
   return all[number % all.size()];
 }
 
-/// Asks a world all that it can be asked.
+/// Makes all queries of a world.
 void ask(World& world, Random& random, const Probe& probe) {
   const Vec3 point = 8.0 * random.point_in_ball();
   (void)world.audit();

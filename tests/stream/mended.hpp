@@ -1,5 +1,5 @@
-// Damage with a mended envelope: snapshots and recordings of varied worlds, with bytes and numbers in them
-// changed and all lengths and checksums made right again, so that the damage reaches the decoder.
+// Damage with a mended envelope: changes bytes and numbers in snapshots and recordings of varied worlds, and
+// corrects all lengths and checksums, so that the damage reaches the decoder.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +7,10 @@
 
 namespace kinesphere::stream {
 
-/// Damages a snapshot or a recording as `bytes` says: the first byte chooses which one; then twelve bytes for
-/// each edit: where (3), how (1), and with what (8). What is damaged is refused with the error of its kind,
-/// or can be used: advanced, asked, changed, audited, saved and restored again, and replayed to its end.
-/// Throws std::logic_error where that is not so.
+/// Damages a snapshot or a recording: the first byte chooses it; then each edit takes twelve bytes: place
+/// (3), kind (1) and value (8). The result must be refused with the error of its kind, or be safe to use:
+/// advanced, queried, changed, audited, saved and restored, and replayed to its end. Throws std::logic_error
+/// if it is not.
 void try_mended(std::span<const std::uint8_t> bytes);
 
 }  // namespace kinesphere::stream

@@ -1,4 +1,4 @@
-// Numbers in snapshots and recordings, replaced at random by strange ones.
+// Replaces numbers in snapshots and recordings at random by strange ones.
 #include "stream/mended.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace kinesphere::stream::mended_test {
 namespace {
 
-/// Where, how and with what, as try_mended() reads it.
+/// Returns place, kind and value in the form that try_mended() reads.
 std::vector<std::uint8_t> damage(Random& random) {
   std::vector<std::uint8_t> bytes{static_cast<std::uint8_t>(random.bits())};
   for (auto edits = random.bits() % 2 + 1; edits > 0; --edits) {

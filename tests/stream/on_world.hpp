@@ -1,4 +1,4 @@
-// Calls of the world, made on its twin too while there is one.
+// Calls of the world that are repeated on its twin while there is one.
 #pragma once
 
 #include "kinesphere/event_hash.hpp"
@@ -27,7 +27,7 @@ bool same_result(const Result<T>& a, const Result<T>& b) {
     return same_value(*a, *b);
 }
 
-/// `call(world)` on the world, and on the twin with the same result.
+/// Calls `call(world)` for the world, and for the twin with an equal result.
 template <class Call>
 auto Player::on_world(Call call) {
   auto result = call(world_);
@@ -35,7 +35,7 @@ auto Player::on_world(Call call) {
   return result;
 }
 
-/// The same, where the call wakes this island if it is not refused.
+/// Calls `call` for the world and its twin; it wakes this island unless it is refused.
 template <class Call>
 auto Player::waking(const EventProcessor& island, Call call) {
   auto result = on_world(call);

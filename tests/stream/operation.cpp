@@ -1,4 +1,4 @@
-// Streams of bytes: what they say of the world, and the operations in them.
+// Parses streams of bytes: the kind of world, and the operations.
 #include "stream/operation.hpp"
 
 #include <algorithm>
@@ -15,8 +15,7 @@ std::uint8_t header(std::span<const std::uint8_t> bytes, std::size_t k) {
   return k < bytes.size() ? bytes[k] : std::uint8_t{0};
 }
 
-/// Where space repeats, a whole number of periods away, so that what is asked of bodies near the origin is
-/// asked of images of theirs.
+/// Moves a periodic world by whole periods, so that queries near the origin meet images of bodies.
 void move_far(WorldDefinition& world) {
   const double away = world_size * std::floor(far_away * world.contact_tolerance / world_size);
   for (int axis = 0; axis < 3; ++axis) {
@@ -72,7 +71,7 @@ Shape Operation::shape(bool flat) const {
   const Vec3 edges = (velocity() + Vec3{4, 4, 4}) * 0.125;
   switch (byte(7) % 4) {
     case 0: {
-      // Most of the world is before it.
+      // The plane is turned so that most of the world is in front of it.
       Vec3 normal = Vec3{0.5, 0.5, 0.5} * world_size - at;
       if (flat) normal.z = 0.0;
       const double length = norm(normal);
@@ -91,8 +90,8 @@ Shape Operation::shape(bool flat) const {
   }
 }
 
-/// Through the position, a sixteenth to four times as long as the world, and as thin as a world allows or not
-/// quite so.
+/// Returns a triangle through the position, a sixteenth to four times as long as the world, and as thin as a
+/// world allows or slightly thinner.
 Triangle Operation::needle() const {
   Random random = this->random();
   const Needle needle = random_needle(random, 0.0);

@@ -1,4 +1,4 @@
-// A whole stream: playing it, and making one that fails shorter.
+// Plays a whole stream, and shortens one that fails.
 #include <algorithm>
 #include <iomanip>
 #include <sstream>
@@ -32,7 +32,7 @@ Bytes shrunk(Bytes bytes) {
     rest[3] = static_cast<std::uint8_t>(fewer);
     if (play(rest).failure) bytes = rest;
   }
-  // Ever smaller pieces are left out, as long as what is left still fails.
+  // Removes ever smaller pieces, as long as the rest still fails.
   for (std::size_t length = operations_of(bytes).size() / 2; length > 0; length /= 2) {
     for (bool shorter = true; shorter;) {
       shorter = false;

@@ -1,4 +1,4 @@
-// Playing: time, events, and what is checked after each operation.
+// Plays a stream: time, events, and the checks after each operation.
 #include "stream/player.hpp"
 
 #include <algorithm>
@@ -43,7 +43,7 @@ const std::array<Player::Kind, 29> Player::kinds{{
 
 namespace {
 
-/// What a probe throws that has none.
+/// Thrown by a probe that has no answer.
 struct NoAnswer {};
 
 }  // namespace
@@ -78,7 +78,7 @@ void Player::perform(const Operation& operation) {
   if (const auto id = any(operation); id && kind_.sensors) told_.check_account(world_, *id);
 }
 
-/// The world's own audit, and its account of the bodies.
+/// Runs the world's audit, and checks its account of the bodies.
 void Player::check_all() const {
   if (const auto finding = world_.audit())
     throw Disagreement("audit: " + finding->where + ": " + finding->what);
@@ -123,7 +123,7 @@ std::optional<BodyId> Player::any_moving(const Operation& operation) const {
   return id && !truth_.at(*id).fixed ? id : std::nullopt;
 }
 
-/// The same operation on another body.
+/// Returns the operation with another body.
 Operation Player::about(BodyId id, Operation operation) const {
   const std::vector<BodyId> ids = truth_.ids();
   const auto place = std::lower_bound(ids.begin(), ids.end(), id);
@@ -175,8 +175,8 @@ void Player::hear(const Event& event) {
   wake_by(event);
 }
 
-/// Events of one instant come in order. After a change the ends that it brought about come first, though
-/// others may have come before; then what was on its way already; then what the changes caused.
+/// Checks that events of one instant come in order. After a change the ends that it caused come first, even
+/// if others came before; then pending events; then events that the changes caused.
 void Player::check_order(const Event& event) {
   const bool same_instant = last_event_ && last_event_->time == event.time;
   if (same_instant && !delivered_before(*last_event_, event))
@@ -198,12 +198,12 @@ void Player::advance(const Operation& operation) {
   send_back();
 }
 
-/// Stops in the middle of whatever happens then.
+/// Stops at the next event, in the middle of its instant.
 void Player::advance_to_next(const Operation& operation) {
   (void)next_event(world_.time() + 0.1 * operation.fraction(0));
 }
 
-/// What the caller does at an event.
+/// Acts as the caller at an event.
 void Player::answer(const Event& event, const Operation& operation) {
   Random random = operation.random();
   for (std::size_t k = 0; k < events_ % 16; ++k) (void)random.bits();
@@ -222,7 +222,7 @@ void Player::answer(const Event& event, const Operation& operation) {
     Operation other = random_operation(random);
     const BodyId id = choice == 13 || event.second == no_body ? event.first : event.second;
     if (choice < 15 && truth_.is_alive(id)) other = about(id, other);
-    // All but the first four, which move time on.
+    // Any kind but the first four, which move time on.
     other.bytes[0] = static_cast<std::uint8_t>(90 + other.bytes[0] % (256 - 90));
     perform(other);
   }
@@ -257,7 +257,7 @@ void Player::advance_with_bad_probe(const Operation& operation) {
   }
 }
 
-/// The world can be saved as it is, and what is restored is the same and clean.
+/// Checks that the world can be saved, and that the restored one is equal and clean.
 void Player::check_snapshot() const {
   const std::vector<std::byte> bytes = world_.save().value();
   const auto restored = World::restore(bytes, pair_filter());

@@ -1,4 +1,4 @@
-// Plays a stream of operations on a world, and holds all that it says against the truth.
+// Plays a stream of operations on a world, and compares all results with the truth.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace kinesphere::stream {
 
-/// What no call may be given.
+/// An argument that every call must refuse.
 inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 class Player {
@@ -40,7 +40,7 @@ class Player {
   static const std::array<Kind, 29> kinds;
   static const Kind& kind_of(std::uint8_t code);
 
-  // The operations. Those without a body to be done to do nothing.
+  // The operations. Operations that need a body do nothing if there is none.
   void advance(const Operation& operation);
   void run(const Operation& operation);
   void advance_to_next(const Operation& operation);
@@ -139,16 +139,16 @@ class Player {
   Truth truth_;
   ToldContacts told_;
   World world_;
-  std::optional<World> twin_;                      ///< has to go on as the world does
+  std::optional<World> twin_;                      ///< must behave like the world
   bool twin_saves_the_same_ = false;               ///< to the last byte
-  std::array<std::optional<Workers>, 3> workers_;  ///< by their number, less one
+  std::array<std::optional<Workers>, 3> workers_;  ///< indexed by the number of threads, less one
   std::vector<BodyId> removed_;
-  std::set<BodyId> woken_;  ///< at this instant, and not told yet
+  std::set<BodyId> woken_;  ///< woken at this instant, without an event so far
   std::size_t events_ = 0;
   std::optional<Event> last_event_;
-  int rounds_ = 0;        ///< of events in order that may begin at this instant
-  bool crossed_ = false;  ///< in this round; the next distance of the same pair comes in one of its own
-  double asked_at_;       ///< by the last probe
+  int rounds_ = 0;        ///< ordered rounds of events that may begin at this instant
+  bool crossed_ = false;  ///< a crossing came in this round; the pair's next distance has a round of its own
+  double asked_at_;       ///< time of the last probe
 };
 
 struct Failure {
@@ -162,10 +162,10 @@ struct Played {
 };
 Played play(std::span<const std::uint8_t> bytes);
 
-/// The same failure, or another, by as few operations as leaving them out finds.
+/// Returns a stream with a failure, by as few operations as removing them finds.
 Bytes shrunk(Bytes bytes);
 
-/// What to print of a stream that fails: its operations by name, and its bytes.
+/// Returns text about a failing stream: its operations by name, and its bytes.
 std::string story_of(std::span<const std::uint8_t> bytes);
 
 }  // namespace kinesphere::stream

@@ -1,5 +1,5 @@
-// Long random streams of everything that one may do to a world, each operation followed by an audit and all
-// that the world says held against the exact truth.
+// Long random streams of all operations on a world, with an audit after each, and all results compared with
+// the exact truth.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -9,7 +9,7 @@
 namespace kinesphere::stream::random_streams_test {
 namespace {
 
-/// Each shard is a test of its own, so that they run side by side.
+/// Each shard is a test of its own, so that shards can run in parallel.
 class RandomStreams : public testing::TestWithParam<int> {
  protected:
   void play_all(Bytes (*stream)(std::uint64_t seed, std::size_t operations), int streams, int operations) {
@@ -37,12 +37,12 @@ INSTANTIATE_TEST_SUITE_P(Shards, RandomStreams, testing::Range(0, 16));
 
 class RandomCrowds : public RandomStreams {};
 
-/// Worlds in which islands run side by side.
+/// Worlds in which clusters run concurrently.
 TEST_P(RandomCrowds, RunAsALoopDoes) { play_all(crowd_stream, 4, 30); }
 
 INSTANTIATE_TEST_SUITE_P(Shards, RandomCrowds, testing::Range(0, 4));
 
-/// Hot pairs counted for an island that had stopped, and two that came a hair's breadth out of the tolerance.
+/// Regressions: certificates counted for a stopped cluster, and a pair that left the tolerance by a hair.
 TEST(Crowds, ThatOnceFailed) {
   for (const std::uint64_t seed : {40001u, 40008u}) {
     const Played played = play(crowd_stream(seed, 30));

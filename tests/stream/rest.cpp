@@ -1,7 +1,7 @@
-// Bodies that rest: what has to wake them, what must not, and who is told.
+// Sleeping bodies: what must wake them, what must not, and which events report it.
 //
-// What is in touch is measured from the true places: a body has to wake if its true gap is small enough, and
-// may do so if the bounds leave that open.
+// Touch is measured from the true places: a body must wake if its true gap is small enough, and may wake if
+// the bounds leave that open.
 #include <algorithm>
 
 #include "contact/contact_rule.hpp"
@@ -17,7 +17,7 @@ bool contains(const std::vector<BodyId>& ids, BodyId id) {
 
 }  // namespace
 
-/// Whether the resting body is in touch with the other: certainly, or perhaps.
+/// Returns true if the sleeping body is in touch with the other, certainly or perhaps.
 bool Player::in_touch(BodyId id, BodyId resting, bool certainly) const {
   const TrueBody& body = truth_.at(id);
   if (id == resting || !body.present() || !truth_.may_touch(id, body.definition, resting)) return false;
@@ -33,7 +33,8 @@ bool Player::in_touch(BodyId id, BodyId resting, bool certainly) const {
   return truth_.limits(extent, {bound_of_other}).lower <= rule.release_gap() + slack;
 }
 
-/// The body itself, if it rests, those that rest in touch with it, with these, and so on.
+/// Returns the body itself, if it sleeps, the sleeping bodies in touch with it, those in touch with them, and
+/// so on.
 std::vector<BodyId> Player::resting_with(BodyId id, bool certainly) const {
   std::vector<BodyId> reached{id};
   for (std::size_t k = 0; k < reached.size(); ++k)
@@ -50,19 +51,19 @@ void Player::EventProcessor::join(const EventProcessor& other) {
   may_wake.insert(may_wake.end(), other.may_wake.begin(), other.may_wake.end());
 }
 
-/// What has to wake when something happens to this body.
+/// Returns the bodies that an action on this body must wake.
 Player::EventProcessor Player::island_of(BodyId id) const {
   const bool any = std::any_of(truth_.bodies().begin(), truth_.bodies().end(),
                                [](const TrueBody& body) { return body.alive && body.resting; });
   return any ? EventProcessor{resting_with(id, true), resting_with(id, false)} : EventProcessor{};
 }
 
-/// Something that only matters to a body that rests.
+/// Returns the island of a sleeping body; empty for an awake one.
 Player::EventProcessor Player::island_if_resting(BodyId id) const {
   return truth_.at(id).resting ? island_of(id) : EventProcessor{};
 }
 
-/// The island has been woken, and nobody else.
+/// Checks that exactly the island has woken.
 void Player::check_woken(const EventProcessor& island) {
   for (const BodyId id : truth_.ids()) {
     if (!truth_.at(id).resting) continue;
@@ -73,7 +74,7 @@ void Player::check_woken(const EventProcessor& island) {
     }
     require(contains(island.may_wake, id), "a body that nothing has touched is awake");
     truth_.wake(id);
-    // Of bodies that have been removed or disabled nobody is told.
+    // Removed and disabled bodies have no events.
     if (view && view->enabled) woken_.insert(id);
     changed();
   }
@@ -86,7 +87,7 @@ void Player::hear_woken(const Event& event) {
   changed();
 }
 
-/// What the events of one contact wake.
+/// Wakes the bodies of the events of one contact.
 void Player::wake_by(const Event& event) {
   EventProcessor island;
   if (event.kind == EventKind::contact_begin || event.kind == EventKind::contact_end)
@@ -106,7 +107,7 @@ void Player::rest(BodyId id) {
   changed();
 }
 
-/// One body, or it and all that are in contact with it.
+/// Puts one body to sleep, or it and all in contact with it.
 void Player::rest(const Operation& operation) {
   if (kind_.crowd) return;
   const auto id = any_moving(operation);

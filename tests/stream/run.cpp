@@ -1,6 +1,6 @@
-// World::run: a copy of the world runs by itself, and does to the last bit what a loop over advance() does
-// that answers in the same way. The loop is held against the truth, event by event; so the truth holds for
-// the run as well.
+// World::run: a copy of the world runs by itself and must agree to the last bit with a loop over advance()
+// that has equal responses. The events of the loop are compared with the truth, so the truth holds for the
+// run as well.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -15,7 +15,7 @@
 namespace kinesphere::stream {
 namespace {
 
-/// A loop that has had so many events goes no further than to the end of their instant.
+/// Maximum events of a loop; it stops at the end of the instant that reaches it.
 constexpr std::size_t most_events = 300;
 
 bool same_in_all(const Event& a, const Event& b) {
@@ -32,13 +32,13 @@ bool is_begin(const Event& event) {
   return event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
 }
 
-/// Where a run fails, at one event.
+/// Places in which a run can fail, at one event.
 enum class Fault { nowhere, sink, respond, refused_answer, departure, states, refused_states };
 
-/// What a callback throws that fails.
+/// Thrown by a callback that fails.
 struct Failed {};
 
-/// Answers an event from the event alone: two that meet bounce, lose speed, settle, or pass.
+/// Responds to an event by the event alone: two bodies that meet bounce, lose speed, stick together, or pass.
 class Answering {
  public:
   Answering(const Truth& truth, std::uint64_t seed, bool passes)
@@ -46,7 +46,7 @@ class Answering {
 
   Response operator()(const Event& event) const {
     if (passes_) return {};
-    // It sets out from there, with the acceleration that it has when it is awake.
+    // The body starts from there, with the acceleration of its awake state.
     if (event.kind == EventKind::woke && moves(event.first))
       return {.first_velocity = event.first_state.velocity};
     if (!is_begin(event) || event.approach_speed <= 0.0) return {};
@@ -83,7 +83,7 @@ class Answering {
   bool passes_;
 };
 
-/// Moves bodies from where they are in truth when the run begins.
+/// Moves bodies from their true states at the begin of the run.
 class Moving final : public MotionSource {
  public:
   explicit Moving(const Truth& truth) : bodies_(truth.bodies()) {}
@@ -93,7 +93,7 @@ class Moving final : public MotionSource {
     fault_ = fault;
   }
   void fail_no_more() { fault_ = Fault::nowhere; }
-  /// Whatever was thrown from islands would only have made the run do without them.
+  /// Checks the calls. An exception inside a cluster would only make the run fall back.
   void check_use() const {
     if (const char* misuse = misuse_) throw Disagreement(misuse);
   }
@@ -114,7 +114,7 @@ class Moving final : public MotionSource {
     const Segment& path = bodies_[id.index].path.front();
     return {path.begin, {path.position, path.velocity}};
   }
-  /// A body that rested is awake then.
+  /// A body that slept is awake from then on.
   void set_origin(BodyId id, const MotionOrigin& origin) override {
     const auto& velocity = id == event_.first ? answer_.first_velocity : answer_.second_velocity;
     if (fault_ == Fault::departure && origin.time == event_.time &&
@@ -136,13 +136,13 @@ class Moving final : public MotionSource {
   Response answer_;
 };
 
-/// A world that runs, and what it has to tell.
+/// A world that runs, with its expected events.
 class Run {
  public:
   Run(World& world, Moving& source, const Answering& answer, const std::vector<Event>& expected)
       : world_(world), mover_(source), answer_(answer), expected_(expected) {}
 
-  /// At the first event that is as this one of those that are expected.
+  /// Fails at the first event that equals this one of the expected events.
   void fail_at(std::size_t place, Fault fault) {
     const Event& event = expected_[place];
     const auto same = [&](const Event& other) { return same_in_all(other, event); };
@@ -152,7 +152,7 @@ class Run {
     mover_.fail_at(event, answer_(event), fault);
   }
 
-  /// False if it failed, as it was to; it fails no more then.
+  /// Returns false if it failed as requested; it does not fail again.
   bool go(double until, bool answers, Workers& workers) {
     const auto states = [this](std::span<const BodyId> ids, double time, std::span<State> answer) {
       mover_.states(ids, time, answer);
@@ -183,7 +183,7 @@ class Run {
     return false;
   }
 
-  /// The rest by a loop.
+  /// Completes the run by a loop.
   void go_by_loop(double until, bool answers) {
     const auto probe = [this](std::span<const BodyId> ids, double time, std::span<State> states) {
       mover_.states(ids, time, states);
@@ -223,7 +223,7 @@ class Run {
     if (const auto done = world_.set_velocity(id, *velocity); !done)
       throw Disagreement("set_velocity after a run: " + done.error().message);
   }
-  /// The world stands where it should, and is clean.
+  /// Checks that the world is at the expected time, and clean.
   void check_failure() const {
     const bool at_event = fault_ == Fault::respond || fault_ == Fault::refused_answer;
     require(fault_ != Fault::sink || told_ == place_ + 1, "a run goes on when the sink has failed");
@@ -251,7 +251,7 @@ Workers& Player::workers(int threads) {
   return *place;
 }
 
-/// To `until`, or where much happens to some event before.
+/// Goes on to `until`, or to an event with many before it.
 std::vector<Event> Player::loop(double until, const ResponseFn& respond) {
   std::vector<Event> events;
   while (const auto event = next_event(until)) {
@@ -264,7 +264,7 @@ std::vector<Event> Player::loop(double until, const ResponseFn& respond) {
   return events;
 }
 
-/// The world is replaced by the copy that has run; the one that was moved by a loop may become its twin.
+/// Replaces the world by the copy that has run; the world that the loop advanced may become its twin.
 void Player::run(const Operation& operation) {
   const bool rests = !woken_.empty() || std::any_of(truth_.bodies().begin(), truth_.bodies().end(),
                                                     [](const TrueBody& body) { return body.resting; });
@@ -288,17 +288,17 @@ void Player::run(const Operation& operation) {
     static constexpr std::array faults{Fault::sink,    Fault::states,    Fault::refused_states,
                                        Fault::respond, Fault::departure, Fault::refused_answer};
     fault = faults[operation.byte(3) / 2 % (answers ? 6 : 3)];
-    // A mover cannot set a body back to where it rested: it would be awake.
+    // A motion source cannot set a body back to sleep, so this fault would wake it.
     if (fault == Fault::departure && rests) fault = Fault::respond;
     const std::size_t place = operation.byte(4) % events.size();
-    // What the mover is asked after a report of this instant, the world believes.
+    // The world does not probe again after a report of this instant.
     if (fault == Fault::refused_states && (events[place].time == start || !is_begin(events[place])))
       fault = Fault::states;
     run.fail_at(place, fault);
   }
   const int threads = 1 + operation.byte(1) % 3;
   if (!run.go(world_.time(), answers, workers(threads))) {
-    // What the sink has not been told is answered already, and a loop would not know.
+    // Events that the sink has not received already have responses, which a loop would not know.
     if (fault != Fault::sink && operation.byte(5) % 2 == 0)
       run.go_by_loop(world_.time(), answers);
     else
@@ -317,7 +317,7 @@ void Player::run(const Operation& operation) {
   }
   std::swap(world_, world);
   if (!twin_ && operation.byte(6) % 2 == 0) twin_ = std::move(world);
-  // It has the same pairs in another order.
+  // It has equal pairs in another order.
   twin_saves_the_same_ = false;
 }
 

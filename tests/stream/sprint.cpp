@@ -1,7 +1,7 @@
-// Bodies that are faster than single precision can square, in a clone of the world.
+// Bodies too fast for squares in single precision, in a clone of the world.
 //
-// Such a body may leave all that a world takes in the least step of time. So the clone has to stay clean,
-// must come to an end, and may refuse only what is out of range; and where the body ends in another one, they
+// Such a body may cross everything in a world in the shortest time step. The clone must stay clean, must come
+// to an end, and may refuse only values out of range; if the body ends inside another one, the two must
 // touch.
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ void require_clean(const World& world) {
     throw Disagreement("audit of a sprint: " + finding->where + ": " + finding->what);
 }
 
-/// False if the probe's answers went out of range.
+/// Returns false if the probe's answers went out of range.
 bool goes_on(World& world, double until, Probe probe) {
   for (int count = 0; count < most_events_of_a_sprint; ++count) {
     const auto event = world.advance(until, probe);
@@ -35,7 +35,7 @@ bool goes_on(World& world, double until, Probe probe) {
 
 }  // namespace
 
-/// At `place`, where it has come.
+/// Checks that the body touches what it overlaps at `place`, where it has arrived.
 void Player::check_touching(const World& world, BodyId id, const Vec3& place) const {
   if (truth_.definition().contacts == ContactMode::impacts) return;
   const BodyDefinition& body = truth_.at(id).definition;

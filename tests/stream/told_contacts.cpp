@@ -1,4 +1,4 @@
-// Events held against the truth.
+// Compares events with the truth.
 #include "stream/told_contacts.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ Contact contact_of(const Event& event) {
   return contact;
 }
 
-/// Of a half-space it has no end.
+/// The ball around a half-space is infinite.
 Ball ball_around(const Shape& shape) {
   if (const auto* box = std::get_if<Box>(&shape))
     return {0.5 * (box->lower + box->upper), 0.501 * norm(box->upper - box->lower) + 1e-9};
@@ -58,7 +58,7 @@ const ToldContacts::Told& ToldContacts::told(const Contact& contact) const {
   return sensed_[static_cast<std::size_t>(place - sensor_distances.begin())](first, contact.second.index);
 }
 
-/// Every contact of the body that there could be, but for filters and disabled partners.
+/// Calls `action` for every possible contact of the body, ignoring filters and disabled partners.
 template <class Action>
 void ToldContacts::for_each(BodyId id, Action action) const {
   for (const TrueBody& other : truth_.bodies()) {
@@ -162,19 +162,19 @@ void ToldContacts::appeared(BodyId id) {
   pairs_.resize(count);
   for (PairTable<Told>& pairs : sensed_) pairs.resize(count);
   walls_.resize(truth_.bodies().size());
-  // An index that is used again may have an end on its way still, but is in no contact.
+  // A reused index may have a pending end, but is in no contact.
   for_each(id, [this](const Contact& contact) {
     told(contact) = {};
     look_again(contact);
   });
 }
 
-/// Nothing is known of a contact: bouncing bodies may be deep in each other, as long as they part.
+/// Resets the state of a contact: bouncing bodies may overlap deeply, as long as they separate.
 void ToldContacts::look_again(const Contact& contact) {
   Told& state = told(contact);
   if (!impacts(contact) || state.touching || !truth_.may_be_told(contact)) return;
   state.due = true;
-  // The Zeno guard may take an eighth of the tolerance more.
+  // The Zeno guard may use an eighth of the tolerance more.
   state.floor = std::min(0.0, truth_.gap(contact) - 0.125 * rule_.tolerance() + rule_.tolerance());
 }
 
@@ -207,7 +207,7 @@ void ToldContacts::hear(const Event& event) {
   }
 }
 
-/// True when the event is an end that a change brought about.
+/// Returns true if the event is an end that a change caused.
 bool ToldContacts::take_end(const Event& event, const Contact& contact) {
   const auto end =
       std::find_if(ends_.begin(), ends_.end(), [&](const End& e) { return e.contact == contact; });
@@ -237,7 +237,7 @@ bool ToldContacts::comes_within(BodyId id, double part) const {
   return truth_.time() - body.last_contact < part * rule_.zeno_interval(acceleration);
 }
 
-/// Where space repeats a state is told in another image, and rounded.
+/// In periodic space a state may be reported in another image, and rounded.
 bool ToldContacts::same_state(const State& told, BodyId id) const {
   const State truth = truth_.state(id);
   if (!space_.repeats()) return told == truth;
@@ -272,7 +272,7 @@ void ToldContacts::begin(const Event& event, const Contact& contact) {
   if (!same_state(event.first_state, contact.first) ||
       (pair && !same_state(event.second_state, contact.second)))
     fail("a begin with wrong states", contact, gap);
-  // A world keeps the Zeno interval of a body in so many digits: near its end either mark is right.
+  // A world stores the Zeno interval of a body with few digits: near its end either mark is correct.
   constexpr double checkpoint = 1.0 - 0x1p-20;
   const auto comes_within_part = [&](double part) {
     return !contact.sensed &&
@@ -347,7 +347,7 @@ void ToldContacts::move_on_to(double time) {
   truth_.move_on_to(time);
 }
 
-/// For each body, by index, a ball that it does not leave until then.
+/// Returns for each body, by index, a ball that it does not leave until `time`.
 std::vector<Ball> ToldContacts::ways_until(double time) const {
   const double s = time - truth_.time();
   std::vector<Ball> ways(truth_.bodies().size());
@@ -364,7 +364,7 @@ std::vector<Ball> ToldContacts::ways_until(double time) const {
   return ways;
 }
 
-/// Or sense each other, or be near enough for a contact to go on.
+/// Returns true if the bodies may touch, sense each other, or be near enough for a contact to go on.
 bool ToldContacts::may_meet(const Ball& a, const Ball& b) const {
   const Vec3 way = b.centre + truth_.shift_to_nearest(b.centre, a.centre) - a.centre;
   const double near = sensor_distances.back() + rule_.release_gap() + slack_;
@@ -387,7 +387,7 @@ void ToldContacts::check_pair(Contact contact, double until) {
   }
 }
 
-/// The first time from `from` on at which the gap certainly passes a level.
+/// Returns the first time after `from` at which the gap certainly passes a level.
 std::optional<double> ToldContacts::reaches(const Contact& contact, LevelCrossing overlap, double level,
                                             double from, double until) const {
   const double beyond = overlap == LevelCrossing::falls_to ? level - slack_ : level + slack_;
@@ -422,7 +422,7 @@ void ToldContacts::check_impacts(const Contact& contact, Told& state, double unt
     fail("their approach is not told", contact, gap);
   state.due = false;
   if (state.floor < 0.0) {
-    // Once they have come out as far as this, the next approach counts again.
+    // After a gap this wide the next approach counts again.
     const auto out = reaches(contact, LevelCrossing::rises_to, rule_.surface_gap(), from, until);
     check_free(contact, state, from, out.value_or(until));
     if (!out) return;

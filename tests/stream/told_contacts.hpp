@@ -1,5 +1,5 @@
-// What a world has told of its contacts, held against the truth: the promise of docs/guarantee.md, checked
-// with exact polynomials between all stops.
+// Compares the events of a world with the truth: the guarantee of docs/guarantee.md, checked with exact
+// polynomials between all stops.
 #pragma once
 
 #include <array>
@@ -15,30 +15,29 @@
 
 namespace kinesphere::stream {
 
-/// A contact that is told and that a change of one of its bodies may end, as it is before the change.
+/// A reported contact that a change of one of its bodies may end, in its state before the change.
 struct Before {
   Contact contact;
-  Event end;     ///< what the world has to tell if the change ends it
-  bool is_over;  ///< the truth is already at the separation distance, so that an end may be on its way
+  Event end;     ///< the event that must come if the change ends it
+  bool is_over;  ///< the true gap is at the separation distance, so an end may be pending
 };
 
 class ToldContacts {
  public:
   ToldContacts(const WorldDefinition& definition, Truth& truth);
 
-  /// No more events come before this time. It moves the truth on.
+  /// Moves the truth on. Precondition: no event comes before `time`.
   void move_on_to(double time);
-  /// The world tells this, at the time of the truth.
+  /// Checks an event that the world reports at the time of the truth.
   void hear(const Event& event);
-  /// There is nothing more to tell now: ends that changes brought about have been told, what was not is no
-  /// end.
+  /// Checks that no end is missing: all ends that changes have caused were reported.
   void settle_ends();
 
-  // The caller's changes. `before` has to be asked before the change, the others called after it.
+  // Changes by the caller. before() must be called before the change, the others after it.
   std::vector<Before> before(const World& world, BodyId id) const;
-  /// The body has gone or is disabled.
+  /// The body was removed or disabled.
   void gone(const std::vector<Before>& before);
-  /// It was teleported, or has another radius or promise.
+  /// The body was teleported, or has another radius or other limits.
   void replaced(const World& world, BodyId id, const std::vector<Before>& before);
   void refiltered(BodyId id, const std::vector<Before>& before);
   void kicked(BodyId id);
@@ -48,30 +47,30 @@ class ToldContacts {
   /// Far below the tolerance, above rounding.
   double slack() const { return slack_; }
 
-  /// What the world says that the body touches and senses is what its events have told.
+  /// Checks that the contacts and overlaps of the body in the world are those of its events.
   void check_account(const World& world, BodyId id) const;
 
  private:
   struct Told {
-    bool touching = false;  ///< impacts: a begin was told, and the bodies have not certainly parted since
-    // ContactMode::impacts only.
+    bool touching = false;  ///< impacts: a begin was reported, and the bodies have not certainly parted since
+    // In ContactMode::impacts only.
     bool opened = false;  ///< since the begin the gap may have opened for a while
-    bool due = false;     ///< an approach now has to be told before time moves on
+    bool due = false;     ///< an approach now must be reported before time moves on
     double floor = 0.0;   ///< no lower gap may come unreported; 0 stands for minus the tolerance
-    /// When a Zeno guard was told last. It is not told twice at an instant, so an approach that has to wait
-    /// since the two have touched too often is not told either.
+    /// Time of the last Zeno guard event. There is only one at an instant, so an approach that the guard
+    /// delays again is not reported either.
     double guarded = -std::numeric_limits<double>::infinity();
 
     friend bool operator==(const Told&, const Told&) = default;
   };
-  /// An end that a change brought about, on its way to the caller.
+  /// An end that a change has caused, not yet delivered.
   struct End {
     Contact contact;
-    std::vector<Event> candidates;  ///< one for each change that may have been the one
+    std::vector<Event> candidates;  ///< an end for each possible change
     bool certain;
   };
 
-  /// No ends are told, and each approach.
+  /// True if ends are not reported, and each approach is.
   bool impacts(const Contact& contact) const { return rule_.impacts_only() && !contact.sensed; }
   Event end_now(const World& world, const Contact& contact) const;
   GapLimits limits(const World& world, const Contact& contact) const;
@@ -85,7 +84,7 @@ class ToldContacts {
   bool take_end(const Event& event, const Contact& contact);
   void begin(const Event& event, const Contact& contact);
   void end(const Event& event, const Contact& contact);
-  /// So soon after its last contact, in parts of its Zeno interval.
+  /// Returns true if the body's last contact was less than this part of its Zeno interval ago.
   bool comes_within(BodyId id, double part) const;
   std::vector<Ball> ways_until(double time) const;
   bool may_meet(const Ball& a, const Ball& b) const;
@@ -100,7 +99,7 @@ class ToldContacts {
 
   ContactRule rule_;
   Truth& truth_;
-  double rounding_;  ///< of a position or a gap
+  double rounding_;  ///< rounding error of a position or a gap
   double slack_;
   Space space_;
   PairTable<Told> pairs_;

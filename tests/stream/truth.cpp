@@ -13,7 +13,8 @@ namespace {
 using exact::Wide;
 using exact::WideVec;
 
-/// From the surface of a shape that is no ball: signed, and by other formulas than the library's.
+/// Returns the signed distance from the surface of a shape that is no ball, by formulas other than the
+/// library's.
 Wide distance_from(const Shape& shape, const WideVec& point) {
   return std::visit(
       [&]<class Solid>(const Solid& solid) -> Wide {
@@ -161,19 +162,19 @@ bool Truth::may_be_told(const Contact& contact) const {
 
 // Gaps.
 
-/// Of the two, one that has no shape but a radius.
+/// Returns the body with a radius and no shape.
 const TrueBody& Truth::mover(const Contact& contact) const {
   return at(at(contact.first).shape ? contact.second : contact.first);
 }
 
-/// Of the other, if it has one.
+/// Returns the shape of the other body; null if it has none.
 const Shape* Truth::shape(const Contact& contact) const {
   if (contact.wall != Wall::none) return nullptr;
   const auto& shape = at(at(contact.first).shape ? contact.first : contact.second).shape;
   return shape ? &*shape : nullptr;
 }
 
-/// A wall, or a shape that is like one.
+/// Returns the half-space of a wall, or of a shape that is one.
 std::optional<HalfSpace> Truth::inside(const Contact& contact) const {
   if (contact.wall != Wall::none) return half_space(*definition_.box, contact.wall);
   const Shape* solid = shape(contact);
@@ -181,7 +182,7 @@ std::optional<HalfSpace> Truth::inside(const Contact& contact) const {
   return std::get<HalfSpace>(*solid);
 }
 
-/// What the gap is less than the distance of the centres, or of the centre from a wall or shape.
+/// Returns the difference of the distance of the centres (or of the centre from a wall or shape) and the gap.
 double Truth::extent(const Contact& contact) const {
   const double radius = mover(contact).definition.radius;
   const bool ball = contact.wall == Wall::none && shape(contact) == nullptr;
@@ -230,8 +231,8 @@ GapLimits Truth::limits(const CollisionShape& a, const CollisionShape& b) const 
       [this](const Bound& bound, const auto& partner) { return gap_limits(bound, partner, time_); });
 }
 
-/// Of the first body to the second in its nearest image; of a body before a wall, along the normal. Of a body
-/// before another shape there is no position.
+/// Returns the motion of the first body relative to the second in its nearest image, or along the normal of a
+/// wall. Precondition: no other shape.
 Truth::Relative Truth::relative(const Contact& contact) const {
   const TrueBody& body = mover(contact);
   const auto [position, velocity] = body.path.front().state_at(time_);
@@ -246,7 +247,8 @@ Truth::Relative Truth::relative(const Contact& contact) const {
           second.velocity - velocity, at(contact.second).path.front().acceleration - acceleration};
 }
 
-/// Of a shape: how much nearer the body is after a way so short that only quadruple precision can tell.
+/// Returns the approach to a shape, from the difference of distances over a way so short that it needs
+/// quadruple precision.
 double Truth::approach_to_shape(const Contact& contact) const {
   const Wide moment = 0x1p-40;
   const WideVec centre = place_at(mover(contact), time_);
@@ -279,7 +281,7 @@ std::optional<double> Truth::first_time(const Contact& contact, LevelCrossing ov
   return first_in_images(contact, overlap, level, from, until);
 }
 
-/// By steps that the body takes to come to the level at its largest speed, though not too short ones.
+/// Steps through the times that the body needs to reach the level at its largest speed, with a lower limit.
 std::optional<double> Truth::march(const Contact& contact, LevelCrossing overlap, double level, double from,
                                    double until) const {
   const auto [x, v, g] = relative(contact);
@@ -293,8 +295,8 @@ std::optional<double> Truth::march(const Contact& contact, LevelCrossing overlap
   }
 }
 
-/// Where space repeats, one image after the other comes near; but bodies that have to part are near each
-/// other in one only.
+/// In periodic space one image after the other approaches; but bodies that must separate are near each other
+/// in one image only.
 std::optional<double> Truth::first_in_images(const Contact& contact, LevelCrossing overlap, double level,
                                              double from, double until) const {
   const Trajectory& path = at(contact.first).path;
@@ -319,14 +321,14 @@ std::optional<double> Truth::first_in_images(const Contact& contact, LevelCrossi
   return first;
 }
 
-/// From the greatest value of x.x' / (1, or |n.x| for a wall), where x is the relative position.
+/// Uses the greatest value of x.x' / (1, or |n.x| for a wall), for the relative position x.
 bool Truth::opens_before(const Contact& contact, double until) const {
   const auto [x, v, g] = relative(contact);
   if (const auto half = inside(contact)) {
     const Vec3 n = half->normal;
     return std::max(dot(n, v), dot(n, v + g * (until - time_))) >= -1e-9;
   }
-  // Of other shapes that is hard to tell.
+  // Returns true for other shapes, for which the course is unknown.
   if (shape(contact) != nullptr) return true;
   const double q0 = dot(x, v);
   const double q1 = norm_squared(v) + dot(x, g);

@@ -1,5 +1,5 @@
-// What is true of the bodies of a world, kept apart from the world: who is there, what each promises, and how
-// it really moves, which is with a constant acceleration between changes.
+// The truth about the bodies of a world, kept apart from the world: present bodies, their limits, and their
+// real motion, with a constant acceleration between changes.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@
 
 namespace kinesphere::stream {
 
-/// The world does not say what it should.
+/// The world contradicts the truth.
 struct Disagreement : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -29,10 +29,10 @@ inline void require(bool holds, const char* what) {
   if (!holds) throw Disagreement(what);
 }
 
-/// Two bodies, or a body and a wall; or two bodies and a sensor distance, beyond which their gap then counts.
+/// Two bodies, or a body and a wall; or two bodies and a sensor distance, which is subtracted from their gap.
 struct Contact {
   BodyId first;
-  BodyId second = no_body;  ///< of larger index than `first`
+  BodyId second = no_body;  ///< has a larger index than `first`
   Wall wall = Wall::none;
   std::optional<double> sensed{};
 
@@ -42,16 +42,16 @@ std::string text_of(const Contact& contact);
 
 struct TrueBody {
   BodyId id{};
-  BodyDefinition definition{};  ///< but for the state
+  BodyDefinition definition{};  ///< the state in it is ignored
   Trajectory path{};            ///< one segment, since the last change
   bool alive = false;
   bool enabled = false;
   bool fixed = false;
-  bool resting = false;          ///< stays where it is, without velocity or acceleration
-  double rested_at = 0.0;        ///< the time at which it was told to rest
-  Vec3 on_waking{};              ///< the acceleration that it has when it wakes
-  std::optional<Shape> shape{};  ///< of a fixed body that is no ball
-  double last_contact = -std::numeric_limits<double>::infinity();  ///< as events told
+  bool resting = false;          ///< asleep: in place, without velocity or acceleration
+  double rested_at = 0.0;        ///< time of falling asleep
+  Vec3 on_waking{};              ///< acceleration after waking
+  std::optional<Shape> shape{};  ///< shape of a static body that is no ball
+  double last_contact = -std::numeric_limits<double>::infinity();  ///< according to events
 
   bool present() const { return alive && enabled; }
 };
@@ -63,21 +63,21 @@ class Truth {
   double time() const { return time_; }
   void move_on_to(double time) { time_ = time; }
   const WorldDefinition& definition() const { return definition_; }
-  /// The walls that stand.
+  /// The present walls.
   const std::vector<Wall>& walls() const { return walls_; }
-  /// Nothing sticks out of the plane, where that is all there is.
+  /// Returns the vector without z in a world of the plane.
   Vec3 in_space(Vec3 v) const {
     if (definition_.dimensions == 2) v.z = 0.0;
     return v;
   }
-  /// Whole periods, to be added to `from`.
+  /// Returns whole periods, to be added to `from`.
   Vec3 shift_to_nearest(const Vec3& from, const Vec3& to) const;
 
   void add(BodyId id, const BodyDefinition& body, const Vec3& acceleration);
   void add_static(BodyId id, const BodyDefinition& body, const Shape& shape);
   void remove(BodyId id);
   void move(BodyId id, const State& state);
-  /// A resting body gets the acceleration when it wakes.
+  /// Sets the acceleration; a sleeping body gets it when it wakes.
   void steer(BodyId id, const Vec3& acceleration);
   void rest(BodyId id);
   void wake(BodyId id);
@@ -85,38 +85,38 @@ class Truth {
   const std::vector<TrueBody>& bodies() const { return bodies_; }
   TrueBody& at(BodyId id) { return bodies_[id.index]; }
   const TrueBody& at(BodyId id) const { return bodies_[id.index]; }
-  /// Of the living, by index.
+  /// Returns the present bodies, by index.
   std::vector<BodyId> ids() const;
   bool is_alive(BodyId id) const;
   bool is_present(BodyId id) const { return is_alive(id) && at(id).enabled; }
   State state(BodyId id) const { return at(id).path.front().state_at(time_); }
 
-  /// The predicate of the caller's own: haunted bodies touch only each other.
+  /// The caller's own filter: haunted bodies touch only each other.
   bool pair_filter(BodyId a, BodyId b) const { return haunted_.contains(a) == haunted_.contains(b); }
   bool has_pair_filter = false;
   void haunt(BodyId id);
   std::array<Sensor, sensor_classes> sensors{};
-  /// Whether events may tell of this contact.
+  /// Returns true if events may report this contact.
   bool may_be_told(const Contact& contact) const;
-  /// Whether a body with this definition touches the other when they meet.
+  /// Returns true if a body with this definition touches the other when they meet.
   bool may_touch(BodyId a, const BodyDefinition& definition_of_a, BodyId b) const;
 
-  /// At the present time; beyond the distance, for a sensor.
+  /// Returns the gap at the present time; for a sensor, beyond its distance.
   double gap(const Contact& contact) const;
-  /// The same in quadruple precision, from other formulas than the library's.
+  /// Returns the gap in quadruple precision, by formulas other than the library's.
   double exact_gap(const Contact& contact) const;
-  /// Of a point from the surface of the body.
+  /// Returns the distance of a point from the surface of the body.
   double distance(BodyId id, const Vec3& point) const;
-  /// The first time in [from, until] at which the gap is at most, or at least, `level`.
+  /// Returns the first time in [from, until] at which the gap is at most, or at least, `level`.
   std::optional<double> first_time(const Contact& contact, LevelCrossing overlap, double level, double from,
                                    double until) const;
-  /// What bounds say of the gap of two bodies now.
+  /// Returns the limits of the gap that bounds imply now.
   GapLimits limits(const CollisionShape& a, const CollisionShape& b) const;
-  /// How fast the gap closes now.
+  /// Returns the present closing speed of the gap.
   double approach_speed(const Contact& contact) const;
-  /// False only if the gap certainly stays above (falls_to) or below (rises_to) the level until then.
+  /// Returns false only if the gap certainly stays above (falls_to) or below (rises_to) the level until then.
   bool may_reach(const Contact& contact, LevelCrossing overlap, double level, double until) const;
-  /// Whether the gap opens at some time between now and `until`.
+  /// Returns true if the gap opens at some time between now and `until`.
   bool opens_before(const Contact& contact, double until) const;
 
  private:
@@ -141,7 +141,7 @@ class Truth {
   WorldDefinition definition_;
   std::vector<Wall> walls_;
   double time_;
-  std::vector<TrueBody> bodies_;  ///< by index
+  std::vector<TrueBody> bodies_;  ///< indexed by body
   std::set<BodyId> haunted_;
 };
 

@@ -1,5 +1,5 @@
-// Questions to ask of the certificates: pairs of bounds, drawn at random from families that are hard in
-// different ways.
+// Test cases for certificates: pairs of bounds, drawn at random from families that are difficult in different
+// ways.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ inline std::ostream& operator<<(std::ostream& out, const Vec3& v) {
   return out << "{" << v.x << ", " << v.y << ", " << v.z << "}";
 }
 
-/// As C++, so that a failure can be pasted into a test.
+/// Prints the bound as C++, for a failure to be pasted into a test.
 inline std::ostream& operator<<(std::ostream& out, const Bound& bound) {
   return out << std::hexfloat << "Bound{.time = " << bound.time << ", .position = " << bound.position
              << ", .velocity = " << bound.velocity
@@ -40,7 +40,7 @@ inline std::ostream& operator<<(std::ostream& out, const PairCase& c) {
              << c.horizon << ", distance " << c.distance << std::defaultfloat;
 }
 
-/// The largest length that enters the question up to time t: what rounding errors are relative to.
+/// Returns the largest length in the computation up to time t; rounding errors are relative to it.
 inline double length_scale(const Bound& bound, double t) {
   const double s = t - bound.time;
   const double speed = norm_one(bound.velocity) + bound.growth_speed;
@@ -61,7 +61,7 @@ inline double log_uniform(Random& random, int lower, int upper) {
 
 inline bool chance(Random& random, double probability) { return random.uniform() < probability; }
 
-/// The largest values that a bound is drawn with.
+/// The largest values of a random bound.
 struct Scales {
   double length = 10.0;
   double speed = 5.0;
@@ -90,13 +90,13 @@ inline PairCase random_pair(Random& random, const Scales& scales, double from = 
   return c;
 }
 
-/// Moves b so that at `from` the gap between the bounds is `gap`, as nearly as doubles allow.
+/// Moves b so that the gap between the bounds is `gap` at `from`, as nearly as doubles allow.
 inline void set_gap(PairCase& c, const Vec3& direction, double gap) {
   const double reach = c.a.radius_at(c.from) + c.b.radius_at(c.from);
   c.b.position += c.a.centre_at(c.from) + direction * (reach + gap) - c.b.centre_at(c.from);
 }
 
-/// The least gap between the bounds up to the horizon, sampled and then narrowed down.
+/// Returns the least gap between the bounds up to the horizon, by sampling and refinement.
 inline double least_gap(const PairCase& c) {
   const auto gap = [&c](double t) {
     return norm(c.a.centre_at(t) - c.b.centre_at(t)) - c.a.radius_at(t) - c.b.radius_at(t);
@@ -116,7 +116,7 @@ inline double least_gap(const PairCase& c) {
   return gap(low);
 }
 
-/// Every draw is a statement of its own, or one in braces, so that all compilers draw the same cases.
+/// Every draw is a statement of its own, or in braces, so that all compilers draw equal cases.
 namespace families {
 
 inline PairCase everyday(Random& random) { return random_pair(random, {}, random.uniform(-10.0, 10.0)); }
@@ -161,7 +161,7 @@ inline PairCase nearly_equal_velocities(Random& random) {
   return c;
 }
 
-/// Both fast, the gap and the speed at which it closes not far above what rounding leaves of them.
+/// Two fast bounds, with a gap and a closing speed not far above their rounding errors.
 inline PairCase hardly_closing(Random& random) {
   PairCase c = random_pair(random, {.length = 1.0, .growth_speed = 0.0, .growth_acceleration = 0.0});
   const Vec3 direction = random.unit_vector();
@@ -242,7 +242,7 @@ inline PairCase whole_numbers(Random& random) {
   return c;
 }
 
-/// Each number of any size, or zero.
+/// Each number has any magnitude, or is zero.
 inline PairCase any_scale(Random& random) {
   const auto scale = [&random] { return chance(random, 0.2) ? 0.0 : log_uniform(random, -40, 40); };
   const Scales scales{scale(), scale(), scale(), scale(), scale(), scale(), scale(), scale()};
@@ -252,7 +252,7 @@ inline PairCase any_scale(Random& random) {
   return c;
 }
 
-/// Just meets or just misses, by one part in 2^36 to 2^53 of the distance, or comes as near as can be told.
+/// Just meets or just misses, by one part in 2^36 to 2^53 of the distance.
 inline PairCase grazing(Random& random) {
   PairCase c = chance(random, 0.5) ? ballistic(random) : everyday(random);
   if (chance(random, 0.5)) c.a.growth_acceleration = c.b.growth_acceleration = 0.0;

@@ -1,4 +1,4 @@
-// What a certificate must be compared with its slow twin: never late, not needlessly early.
+// Compares a certificate with its slow twin: it must never be late, and not needlessly early.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,7 +15,8 @@ struct Tightness {
   double part = 1e-6;
 };
 
-/// `certificate` lies in [from, horizon] or is +infinity, and is no later than `truth`. No tolerance.
+/// Checks, without tolerance, that `certificate` lies in [from, horizon] or is +infinity, and is no later
+/// than `truth`.
 inline testing::AssertionResult never_late(double certificate, exact::Wide truth, double from,
                                            double horizon) {
   if (exact::Wide(certificate) > truth)
@@ -28,7 +29,7 @@ inline testing::AssertionResult never_late(double certificate, exact::Wide truth
   return testing::AssertionSuccess();
 }
 
-/// `truth` is the time for a distance that is wrong by as much as may be.
+/// `truth` is the time for a distance with the largest allowed error.
 inline testing::AssertionResult hardly_early(double certificate, exact::Wide truth, double from,
                                              double horizon, double part) {
   const exact::Wide end = exact::min(truth, horizon);

@@ -14,7 +14,7 @@
 
 namespace kinesphere {
 
-/// The first `at_most` events of the scene; the detector is audited before each.
+/// Returns the first `at_most` events of the scene; audits the detector before each.
 inline std::vector<Event> events_of(const Scene& scene, const DetectorMaker& make,
                                     std::size_t at_most = 1000000) {
   std::vector<Event> events;
@@ -30,7 +30,7 @@ inline std::vector<Event> events_of(const Scene& scene, const DetectorMaker& mak
   return events;
 }
 
-/// 30 bodies in a box of edge 12.
+/// Returns a scene of 30 bodies in a box of edge 12.
 inline Scene dense_scene(SceneResponse response, bool forces, std::uint64_t seed) {
   SceneParameters parameters{.bodies = 30,
                              .radius_min = 0.5,

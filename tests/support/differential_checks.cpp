@@ -26,7 +26,7 @@ std::vector<Event> audited_events(const Scene& scene, const DetectorMaker& make)
   return events;
 }
 
-/// The first time at which the gap is deeper than the tolerance, from when it is first not negative.
+/// Returns the first time at which the gap is deeper than the tolerance, after it was first not negative.
 std::optional<double> first_overlap(const GapCourse& gap, const Scene& scene) {
   const double from = scene.world.start_time;
   const auto apart = gap.first_time(LevelCrossing::rises_to, 0.0, from, scene.end_time);

@@ -71,7 +71,7 @@ Scene mixed_radii(Random& random) {
   p.radius_min = 0.03;
   p.radius_max = 0.1;
   Scene scene = make_scene(p).value();
-  // Large bodies may overlap others from the start: those contacts begin at once.
+  // Large bodies may overlap others from the start; these contacts begin at once.
   for (std::uint32_t body = 0; body < 3; ++body) scene.bodies[body].radius = random.uniform(10.0, 30.0);
   return scene;
 }
@@ -83,7 +83,7 @@ Scene points(Random& random) {
   return scene;
 }
 
-/// Grows trajectories piece by piece, all bodies side by side.
+/// Grows the trajectories of all bodies piece by piece.
 class Course {
  public:
   explicit Course(std::vector<State> start) : states_(std::move(start)), trajectories_(states_.size()) {}
@@ -190,8 +190,8 @@ Scene grazing(Random& random) {
   std::vector<double> radii;
   std::vector<Vec3> accelerations;
   for (std::uint32_t pair = 0; pair < pairs; ++pair) {
-    // Two bodies that would be nearest at `meeting`, side by side, with this gap between them; each pair has
-    // a region of its own.
+    // Two bodies that are nearest at `meeting`, with this gap between them; each pair has a region of its
+    // own.
     const Vec3 centre = Vec3{1000.0 * pair, 0, 0} + random.point_in_ball();
     const Vec3 along = random.unit_vector();
     const Vec3 aside =
@@ -205,7 +205,7 @@ Scene grazing(Random& random) {
     const double radius_a = random.uniform(0.1, 1.0) * size;
     const double radius_b = random.uniform(0.1, 1.0) * size;
     const Vec3 distance = aside * (radius_a + radius_b + gap);
-    // A common acceleration bends both paths and leaves the gap as it is.
+    // A common acceleration bends both paths and leaves the gap unchanged.
     const Vec3 common = random.point_in_ball() * either(random, 0.0, 10.0);
     start.push_back({centre - along * (speed * meeting), along * speed});
     start.push_back({centre + distance + along * (speed * meeting), along * -speed});
@@ -244,7 +244,7 @@ Scene bullets(Random& random) {
     std::vector<Vec3> accelerations;
     for (std::uint32_t body = 0; body < count; ++body) accelerations.push_back(random.point_in_ball() * 2.0);
     course.go_on(0.1, accelerations);
-    // Bullets that have flown by come back towards somebody.
+    // Bullets that have passed return towards another body.
     for (std::uint32_t bullet = 0; bullet < 5; ++bullet)
       accelerations[bullet] = course.states()[bullet].velocity * -20.0;
     course.go_on(0.1, accelerations);

@@ -1,5 +1,4 @@
-// Pass-through scenes on which every detector has to find the same contacts: random ones, and ones made to
-// deceive.
+// Pass-through scenes on which all detectors must find equal contacts: random scenes, and adversarial ones.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +10,10 @@ namespace kinesphere::scene_tests {
 
 enum class Family {
   random_forces,   ///< the paper's first experiment at many sizes and densities
-  velocity_field,  ///< its second
+  velocity_field,  ///< the paper's second experiment
   ballistic,       ///< straight lines, or gravity as the plan
   mixed_radii,     ///< 1:1000, few large among many small
-  pursuit,         ///< everyone accelerates at the limit straight at its nearest neighbour
+  pursuit,         ///< each body accelerates at its limit straight at its nearest neighbour
   bang_bang,       ///< full acceleration to and fro along one line through a neighbour
   grazing,         ///< pairs that pass each other at a gap between -1e-3 and 1e-3, down to 1e-12
   at_rest,         ///< zero speed, zero limit, or both, with a few visitors
@@ -27,7 +26,7 @@ enum class Family {
 
 std::string_view name_of(Family family);
 
-/// The scene that belongs to this seed.
+/// Returns the scene of this seed.
 Scene differential_scene(Family family, std::uint64_t seed);
 
 }  // namespace kinesphere::scene_tests

@@ -1,5 +1,5 @@
-// Slow twins of the functions of kinesphere/bound.hpp in quadruple precision: what the certificates would be
-// without rounding and without stopping early. Times are absolute; +infinity is "not up to the horizon".
+// Slow twins of the functions of kinesphere/bound.hpp in quadruple precision: certificates without rounding
+// and without an early stop. Times are absolute; +infinity means "not up to the horizon".
 #pragma once
 
 #include "kinesphere/bound.hpp"
@@ -43,7 +43,7 @@ inline Wide earliest_meeting(const Bound& a, const Bound& b, double from, double
   const Course course_a(a, from), course_b(b, from);
   const Polynomial reach =
       course_a.growth + course_b.growth + constant(Wide(a.radius) + b.radius + distance + extra);
-  // While the reach is negative nothing can be within it, whatever the squares say.
+  // While the reach is negative nothing is within it, whatever the squares say.
   const Wide end = Wide(horizon) - Wide(from);
   const Wide start = reach.c[0] < 0 ? first_zero(-reach, end) : Wide(0);
   if (start > end) return infinity;
@@ -56,13 +56,12 @@ inline Wide earliest_separation(const Bound& a, const Bound& b, double from, dou
   const Course course_a(a, from), course_b(b, from);
   const Polynomial slack =
       constant(Wide(a.radius) + b.radius + distance + extra) - course_a.growth - course_b.growth;
-  // Where the slack ends so does the certificate; for coincident centres the difference only touches zero
-  // there.
+  // The certificate ends with the slack; for coincident centres the difference only touches zero there.
   const Polynomial within = squared(slack) - squared_distance(course_a, course_b);
   return min(certified_until(slack, from, horizon), certified_until(within, from, horizon));
 }
 
-/// normal . centre - offset.
+/// Returns normal . centre - offset.
 inline Polynomial height(const Course& course, const HalfSpace& wall) {
   Polynomial sum = constant(-Wide(wall.offset));
   for (int axis = 0; axis < 3; ++axis)
@@ -85,7 +84,7 @@ inline Wide earliest_separation(const Bound& bound, const HalfSpace& wall, doubl
   return certified_until(slack - height(course, wall), from, horizon);
 }
 
-/// With the bound larger by `extra`.
+/// `extra` is added to the bound's radius.
 inline Wide earliest_exit(const Bound& bound, const Box& box, double from, double horizon, Wide extra = 0) {
   const Course course(bound, from);
   const Polynomial reach = course.growth + constant(Wide(bound.radius) + extra);
@@ -98,7 +97,8 @@ inline Wide earliest_exit(const Bound& bound, const Box& box, double from, doubl
   return first;
 }
 
-/// The greatest coordinate that the bound reaches on one axis during [from, to]; the least for sign = -1.
+/// Returns the greatest coordinate that the bound reaches on one axis during [from, to]; the least for sign =
+/// -1.
 inline Wide farthest(const Bound& bound, int axis, int sign, double from, double to) {
   const Course course(bound, from);
   Polynomial edge = course.growth + constant(bound.radius);

@@ -1,6 +1,6 @@
-// Polynomials in quadruple precision, and the first place where one is no longer positive: the slow
-// arithmetic that certificates are compared with. It has twice the digits of a double, so products of doubles
-// are exact, and errors are 2^-60 of the library's own margins.
+// Polynomials in quadruple precision, and the first place where one is no longer positive: slow arithmetic to
+// compare certificates with. It has twice the digits of a double, so products of doubles are exact, and its
+// errors are 2^-60 of the library's margins.
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@ struct Polynomial {
   Wide at(Wide d) const { return c[0] + d * (c[1] + d * (c[2] + d * (c[3] + d * c[4]))); }
   Wide slope_at(Wide d) const { return c[1] + d * (2 * c[2] + d * (3 * c[3] + d * 4 * c[4])); }
 
-  /// The same polynomial as one of d - start.
+  /// Returns the polynomial as one of d - start.
   Polynomial from(Wide start) const {
     Polynomial moved = *this;
     for (std::size_t i = 0; i < 4; ++i)
@@ -65,7 +65,8 @@ namespace detail {
 
 using Coefficients = std::array<Wide, 5>;
 
-/// Of p on [0, width] in the Bernstein basis: p lies between the least and the greatest of them.
+/// Returns the coefficients of p on [0, width] in the Bernstein basis: p lies between the least and the
+/// greatest.
 inline Coefficients bernstein(const Polynomial& p, Wide width) {
   static constexpr int binomial[5][5] = {
       {1, 0, 0, 0, 0}, {1, 1, 0, 0, 0}, {1, 2, 1, 0, 0}, {1, 3, 3, 1, 0}, {1, 4, 6, 4, 1}};
@@ -82,7 +83,7 @@ inline int sign_changes(const Coefficients& b) {
   return changes;
 }
 
-/// The one zero of p in [low, high], where p(low) > 0 >= p(high).
+/// Returns the only zero of p in [low, high]. Precondition: p(low) > 0 >= p(high).
 inline Wide only_zero(const Polynomial& p, Wide low, Wide high) {
   Wide guess = (low + high) / 2;
   for (int round = 0; round < 300 && high - low > 0x1p-104 * high; ++round) {
@@ -110,8 +111,8 @@ inline Wide first_zero_between(const Polynomial& p, Wide low, Wide high) {
 
 }  // namespace detail
 
-/// The first d in [0, end] with p(d) <= 0, or +infinity. By Bernstein coefficients over intervals that double
-/// in length, so that early zeros are found as precisely as late ones.
+/// Returns the first d in [0, end] with p(d) <= 0, or +infinity. Uses Bernstein coefficients over intervals
+/// that double in length, so that early zeros are as precise as late ones.
 inline Wide first_zero(const Polynomial& p, Wide end) {
   if (p.c[0] <= 0) return 0;
   const auto certainly_positive_until = [&](Wide d) {

@@ -1,4 +1,4 @@
-// Distances from shapes at rest in quadruple precision, by other ways than the library's.
+// Distances from static shapes in quadruple precision, by methods other than the library's.
 #pragma once
 
 #include "kinesphere/shape.hpp"
@@ -30,7 +30,7 @@ inline Wide growth_at(const Bound& bound, Wide t) {
   return bound.growth_speed * s + bound.growth_acceleration * s * s / 2;
 }
 
-/// Signed, as SurfacePoint::distance.
+/// Signed, like SurfacePoint::distance.
 inline Wide distance(const Box& box, const WideVec& from) {
   Wide outside = 0;
   Wide inside = -infinity;
@@ -64,7 +64,7 @@ inline Wide distance(const Triangle& triangle, const WideVec& from) {
   return over ? abs(dot(from - corner[0], normal)) / sqrt(dot(normal, normal)) : least;
 }
 
-/// The least height relative to the longest side.
+/// Returns the least height relative to the longest side.
 inline Wide thickness(const Triangle& triangle) {
   const std::array<WideVec, 3> corner{wide(triangle.a), wide(triangle.b), wide(triangle.c)};
   Wide longest = 0;
@@ -80,7 +80,7 @@ inline Wide distance(const HalfSpace& solid, const WideVec& from) {
   return dot(wide(solid.normal), from) - solid.offset;
 }
 
-/// As two-bound gaps: between the true surfaces at time t.
+/// Returns the gap between the true surfaces at time t.
 template <class Solid>
 Gaps shape_gaps(const Bound& bound, const Solid& solid, Wide t) {
   const Wide gap = distance(solid, centre_at(bound, t)) - bound.radius;

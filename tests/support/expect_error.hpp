@@ -1,4 +1,4 @@
-// What every refused call of the world has to say.
+// Checks the message of every refused call of the world.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 namespace kinesphere {
 
-/// The message is one line that begins with `call` and names the argument.
+/// Expects a message of one line that begins with `call` and names the argument.
 template <class T>
 void expect_error(const Result<T>& result, ErrorCode code, const std::string& argument,
                   const std::string& call, BodyId body = no_body) {

@@ -1,4 +1,4 @@
-// Tests that go through many cases of each family.
+// Tests that run many cases of each family.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -9,11 +9,11 @@ namespace kinesphere {
 
 inline constexpr std::uint64_t cases_per_family = 4000;
 
-/// `make(pair, random)` makes a case, which can be printed, of each pair that is drawn.
+/// `make(pair, random)` makes a printable case of each random pair.
 template <std::uint64_t seed, auto make>
 class FamilyTest : public testing::TestWithParam<Family> {
  protected:
-  /// Calls check(case, random) for one case after the other, until one fails. Each series has other cases.
+  /// Calls check(case, random) for one case after the other, until one fails. Each series has its own cases.
   template <class Check>
   void for_each_case(std::uint64_t series, Check check) {
     for (std::uint64_t k = 0; k < cases_per_family; ++k) {

@@ -1,4 +1,4 @@
-// A hash grid beside a plain list of boxes that is told the same, and what can be asked of both.
+// A hash grid and a plain list of boxes with the same content, and queries of the two.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,8 +22,8 @@ class MirroredGrid {
     boxes_.erase(body);
   }
 
-  /// Each body whose box, in single precision, overlaps is visited, once, and nobody else but those that are
-  /// missed by less than a step.
+  /// Checks that each body with a box, in single precision, that overlaps is visited once, and no other
+  /// except near misses by less than a step.
   testing::AssertionResult same_overlaps(const Box& query) const {
     std::vector<std::uint32_t> visited;
     grid_.for_each_overlap(query, [&](std::uint32_t body) { visited.push_back(body); });
@@ -43,7 +43,7 @@ class MirroredGrid {
   const std::map<std::uint32_t, Box>& boxes() const { return boxes_; }
 
  private:
-  /// Cells are at most four times as large as what they hold, or the finest.
+  /// Cells are at most four times as large as their content, or the finest.
   bool is_nearly_hit(const Box& box, const Box& query) const {
     const double largest_cell = std::max(grid_.finest_edge(), 4.0 * FloatBox(box).extent());
     const Vec3 step = Vec3{1, 1, 1} * (1.001 * largest_cell / 4096.0);

@@ -1,4 +1,4 @@
-// Triangles that are long and thin, and places and ways near them.
+// Long and thin triangles, and places and ways near them.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ struct Needle {
   Triangle triangle;
   double length;
 
-  /// A point of the triangle, perhaps one near a corner.
+  /// Returns a point of the triangle, possibly near a corner.
   Vec3 point(Random& random) const {
     const auto part = [&random] {
       const double u = random.uniform();
@@ -38,9 +38,9 @@ inline std::ostream& operator<<(std::ostream& out, const Needle& needle) {
   return out << std::defaultfloat << "}";
 }
 
-/// Lengths from 1e-3 to 1e6, the thickness (height by length) down to the least that a world allows, the foot
-/// of the height anywhere, often near an end, and corners in any order. All lies within `limit` of the origin
-/// on each axis, often out there.
+/// Returns a triangle with a length from 1e-3 to 1e6, a thickness (height by length) down to the least that a
+/// world allows, the foot of the height anywhere, often near an end, and corners in any order. It lies within
+/// `limit` of the origin on each axis, often far out.
 inline Needle random_needle(Random& random, double limit) {
   for (;;) {
     const double length = std::pow(10.0, random.uniform(-3.0, 6.0));
@@ -55,7 +55,7 @@ inline Needle random_needle(Random& random, double limit) {
                      away * random.uniform(-1.0, 1.0)};
     Triangle t{place, place + along * length,
                place + along * (length * foot) + across * (length * thickness)};
-    // Far out rounding makes others of the small ones.
+    // Rounding far out turns small triangles into other ones.
     if (exact::thickness(t) < 0x1.01p-20) continue;
     if (random.bits() % 2 == 0) std::swap(t.a, t.b);
     if (random.bits() % 2 == 0) std::swap(t.b, t.c);

@@ -1,5 +1,5 @@
-// Watches a pile of ballistic spheres from outside: exact least gaps of all neighbours, from bounce to
-// bounce, and how the heap settles.
+// Watches a pile of ballistic spheres from outside: exact least gaps of all neighbours between bounces, and
+// how the heap comes to rest.
 #pragma once
 
 #include <algorithm>
@@ -13,16 +13,16 @@
 
 namespace kinesphere::scene_tests {
 
-/// How the heap stands at one time.
+/// The heap at one time.
 struct PileFrame {
   double time;
   double kinetic_energy;  ///< per mass
-  double mean_height;     ///< of the centre of mass
+  double mean_height;     ///< height of the centre of mass
 };
 
-/// Feed it with the events and frames of simulate(). Paths between events are parabolas with a common
-/// acceleration, so two bodies move on straight lines relative to each other and a downward parabola is
-/// nearest to the floor at an end: the least gaps are exact.
+/// Takes the events and frames of simulate(). Paths between events are parabolas with a common acceleration,
+/// so two bodies move on straight lines relative to each other, and a downward parabola is nearest to the
+/// floor at an end: the least gaps are exact.
 class PileWatch {
  public:
   explicit PileWatch(const Scene& scene)
@@ -52,14 +52,14 @@ class PileWatch {
   }
 
   const std::vector<PileFrame>& frames() const { return frames_; }
-  /// Of all pairs and of all bodies with the walls, at any time (length).
+  /// Returns the least gap of all pairs, and of bodies with walls, at any time. Unit: length.
   double least_gap() const { return least_gap_; }
   std::uint64_t guards() const { return guards_; }
 
  private:
   State state(std::uint32_t body, double time) const { return motion_->state(body, time); }
 
-  /// The body's path up to now is known: looks along it, from its last event or that of the neighbour.
+  /// Examines the body's path up to now, from its last event or that of the neighbour.
   void finish(std::uint32_t body, double now) {
     const State self = state(body, now);
     for (const std::uint32_t other : near_[body]) {
@@ -94,7 +94,7 @@ class PileWatch {
     return {time, energy / masses, height / masses};
   }
 
-  /// All pairs that can touch within the next interval, in which nobody gets faster than falling lets them.
+  /// Finds all pairs that can touch within the next interval, in which bodies gain speed only by falling.
   void find_neighbours(double time, double interval) {
     double fastest = 0.0;
     std::vector<Vec3> at;

@@ -1,4 +1,4 @@
-// A world together with bodies whose true motion is known: each has a constant acceleration between changes.
+// A world with bodies of known true motion: each has a constant acceleration between changes.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -45,14 +45,14 @@ class Playground {
  public:
   explicit Playground(const WorldDefinition& definition = {}) : world(World::create(definition).value()) {}
 
-  /// The body moves with `acceleration`, or with its plan when none is given.
+  /// Adds a body that moves with `acceleration`, or with its plan if none is given.
   BodyId add(const BodyDefinition& body, std::optional<Vec3> acceleration = std::nullopt) {
     const BodyId id = world.add(body).value();
     start_course(id, body, acceleration);
     return id;
   }
 
-  /// For a body that has been added to the world already.
+  /// Starts the true motion of a body that has been added to the world already.
   void start_course(BodyId id, const BodyDefinition& body, std::optional<Vec3> acceleration = std::nullopt) {
     if (id.index >= courses_.size()) courses_.resize(id.index + 1);
     courses_[id.index] = {
@@ -62,13 +62,13 @@ class Playground {
   State state(BodyId id, double t) const { return courses_[id.index].at(t); }
   State state(BodyId id) const { return state(id, world.time()); }
 
-  /// Changes the true velocity and tells the world.
+  /// Changes the true velocity, and calls the world.
   void set_velocity(BodyId id, const Vec3& velocity) {
     set_velocity_unseen(id, velocity);
     world.set_velocity(id, velocity).value();
   }
 
-  /// Changes the true motion behind the world's back. A new acceleration within the promise is legitimate.
+  /// Changes the true velocity without a call of the world; this may break the limits.
   void set_velocity_unseen(BodyId id, const Vec3& velocity) {
     restart(id);
     courses_[id.index].state.velocity = velocity;
@@ -97,7 +97,7 @@ class Playground {
     return event;
   }
 
-  /// All events up to `until`, `answer` being called at each.
+  /// Returns all events up to `until`; calls `answer` at each.
   std::vector<Event> run(double until, const std::function<void(const Event&)>& answer = {},
                          std::size_t at_most = 100000) {
     std::vector<Event> events;
@@ -112,7 +112,7 @@ class Playground {
     return events;
   }
 
-  /// The distance between the true surfaces (errors left out).
+  /// Returns the distance between the true surfaces, without report errors.
   double gap(BodyId a, BodyId b, double t) const {
     return norm(state(a, t).position - state(b, t).position) - radius(a) - radius(b);
   }
@@ -121,7 +121,7 @@ class Playground {
 
   World world;
   EventHash hash;
-  /// Applied to each report.
+  /// Called for each report.
   std::function<void(BodyId, double, State&)> distort;
 
  private:
@@ -131,7 +131,7 @@ class Playground {
     course.since = world.time();
   }
 
-  std::vector<SeparationForecast> courses_;  ///< by index
+  std::vector<SeparationForecast> courses_;  ///< indexed by body
 };
 
 inline std::vector<Event> of_kind(const std::vector<Event>& events, EventKind kind) {
@@ -141,7 +141,7 @@ inline std::vector<Event> of_kind(const std::vector<Event>& events, EventKind ki
   return found;
 }
 
-/// Nothing that audit() finds.
+/// Expects that audit() finds nothing.
 inline testing::AssertionResult is_clean(const World& world) {
   const auto finding = world.audit();
   if (!finding) return testing::AssertionSuccess();

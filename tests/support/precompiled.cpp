@@ -1,1 +1,1 @@
-// Empty: what matters are the headers that are precompiled with it (tests/CMakeLists.txt).
+// Empty: only the headers that are precompiled with it matter (tests/CMakeLists.txt).

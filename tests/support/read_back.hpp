@@ -4,7 +4,7 @@
 
 namespace kinesphere {
 
-/// Writes a value to bytes and reads `back` from them. Whether that went well and nothing was left.
+/// Writes a value to bytes and reads `back` from them. Returns true if that succeeds and no bytes are left.
 template <class T>
 bool read_back(const T& value, T& back) {
   ByteWriter writer;

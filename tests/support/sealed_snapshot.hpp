@@ -1,4 +1,4 @@
-// Bytes made to look like a snapshot, and the use of whatever world comes out of them.
+// Makes bytes look like a snapshot, and uses the world that they restore.
 #pragma once
 
 #include <cstddef>
@@ -20,15 +20,15 @@ inline void write_number(std::vector<std::byte>& bytes, std::size_t at, std::uin
 inline constexpr std::size_t snapshot_header_size = 20;  ///< mark, version, length
 inline constexpr std::size_t snapshot_frame_size = 28;   ///< and the checksum
 
-/// Makes length and checksum of a snapshot right again.
+/// Corrects length and checksum of a snapshot.
 inline std::vector<std::byte> sealed(std::vector<std::byte> bytes) {
   write_number(bytes, 12, bytes.size() - snapshot_frame_size);
   write_number(bytes, bytes.size() - 8, checksum(std::span(bytes).first(bytes.size() - 8)));
   return bytes;
 }
 
-/// Uses a world that may be nonsense, with a probe that gives up after a while. Throws std::logic_error if it
-/// does what no world may do.
+/// Uses a world that may be nonsense, with a probe that gives up after a while. Throws std::logic_error if
+/// the world does what no world may do.
 inline void use_for_a_while(World world, Random& random) {
   const auto require = [](bool holds, const char* what) {
     if (!holds) throw std::logic_error(what);

@@ -1,4 +1,4 @@
-// Where the balls of bounds truly are, in extended precision, and whether two of them meet.
+// The true places of the balls of bounds, in extended precision, and whether two of them meet.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ inline TrueBall true_ball(const Bound& bound, Extended time) {
   return ball;
 }
 
-/// Between two balls, the second one moved by a shift; negative where they overlap.
+/// Returns the gap between two balls, the second one moved by a shift; negative if they overlap.
 inline Extended true_gap(const TrueBall& a, const TrueBall& b, const Vec3& shift = {}) {
   Extended square = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -39,8 +39,8 @@ inline Extended true_gap(const TrueBall& a, const TrueBall& b, const Vec3& shift
   return std::sqrt(square) - a.radius - b.radius;
 }
 
-/// The least gap between two bounds from one time to another: exact where both go straight on and do not
-/// grow, and the least of some samples where they do not.
+/// Returns the least gap between two bounds from one time to another: exact for bounds that go straight on
+/// and do not grow, else the least of some samples.
 inline Extended least_true_gap(const Bound& a, const Bound& b, double from, double until,
                                const Vec3& shift = {}) {
   const Extended duration = static_cast<Extended>(until) - static_cast<Extended>(from);

@@ -1,4 +1,4 @@
-// Certificates as answers: never later than what happens, as sharp as what is known, and honest about probes.
+// Certificates as answers: never late, as sharp as the bounds allow, and consistent with and without a probe.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ bool begins(const Event& event) {
   return event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
 }
 
-/// What an answer claims: no begin that concerns these bodies (no_body: anybody) comes before `time`.
+/// An answer: no begin that concerns these bodies (no_body: any body) comes before `time`.
 struct Claim {
   BodyId first = no_body;
   BodyId second = no_body;
@@ -32,7 +32,7 @@ class Answers : public testing::TestWithParam<CrowdKind> {
  protected:
   Answers() : crowd(GetParam()) {}
 
-  /// Asks a few questions, with the probe half the time. What they say of now is checked at once.
+  /// Makes a few queries, half of them with the probe. Checks at once what they say about the present.
   void ask() {
     World& world = crowd.world;
     const BodyId a = crowd.any();
@@ -78,7 +78,7 @@ class Answers : public testing::TestWithParam<CrowdKind> {
     }
   }
 
-  /// The world-wide answer is the least of those for all pairs and walls.
+  /// The answer for the whole world must be the least of the answers for all pairs and walls.
   void compare_with_all_pairs() {
     const World& world = crowd.world;
     const std::vector<BodyId> ids = world.bodies();
@@ -116,7 +116,7 @@ TEST_P(Answers, AreNeverLaterThanWhatHappens) {
   std::size_t begun = 0;
   for (int stop = 1; stop <= 80; ++stop) {
     claims.clear();
-    // Before the world has looked at the changes, too.
+    // Queries also before the world has processed the changes.
     for (int k = 0; k < 5; ++k) ASSERT_NO_FATAL_FAILURE(ask());
     if (stop % 8 == 1) {
       ASSERT_NO_FATAL_FAILURE(compare_with_all_pairs());
@@ -241,7 +241,7 @@ TEST(AnswersWithProbe, TellOfABrokenPromise) {
   EXPECT_TRUE(is_clean(p.world));
 }
 
-/// Questions without a probe leave no trace in what follows.
+/// Queries without a probe must not influence later results.
 TEST(AnswersWithoutProbe, ChangeNothing) {
   const auto hash = [](bool ask) {
     Crowd crowd({ContactMode::begin_and_end, true, 0.0, 40, 9});

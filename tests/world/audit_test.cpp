@@ -1,5 +1,5 @@
-// The audit finds what is wrong, and nothing else: also among boxes and triangles, where certificates that
-// are computed anew may be shorter than those that there are.
+// The audit finds each defect, and nothing else: also among boxes and triangles, where a new certificate may
+// be shorter than the existing one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ TEST(Audit, IsCleanAmongBoxesAndTriangles) {
   }
 }
 
-/// The snapshot with one number in place of another, wherever that stands.
+/// Returns the world of the snapshot with each occurrence of one number replaced by another.
 World with_number(const World& world, double old_number, double new_number) {
   std::vector<std::byte> bytes = world.save().value();
   const auto pattern = std::bit_cast<std::array<std::byte, 8>>(old_number);
@@ -82,8 +82,7 @@ TEST(Audit, FindsACertificateThatIsTooLate) {
   EXPECT_EQ(finding->where, "certificate") << finding->what;
 }
 
-/// As if the world had missed a contact: all that it has recorded is good for a while yet, but the bodies
-/// overlap now.
+/// Simulates a missed contact: all records stay valid for a while, but the bodies overlap now.
 TEST(Audit, FindsAContactThatNoEventHasToldOf) {
   Playground p;
   p.add({.radius = 1, .position = {0.015625, 0, 0}});
@@ -120,7 +119,8 @@ TEST(Audit, FindsASensorDistanceThatNoEventHasToldOf) {
   EXPECT_EQ(finding->where, "sensor") << finding->what;
 }
 
-/// A body that moves along a period of 8, at a time in whose shortest window it goes no farther than a few.
+/// Returns a world with a body that moves along a period of 8, with a shortest window in which it goes no
+/// farther than a few units.
 World in_a_period(double time, double speed) {
   World world =
       World::create({.box = Box{{0, 0, 0}, {8, 8, 8}}, .periodic = {true, true, true}, .start_time = time})
@@ -139,7 +139,7 @@ TEST(Audit, FindsABoxThatIsTooWideForItsPeriod) {
   for (const double time : {-100.0, 1.0, 1e6}) {
     const World world = in_a_period(time, speed);
     EXPECT_EQ(world.audit(), std::nullopt) << time;
-    // The window is 2^-13 long: at 1e6 the shortest would be 2^-31.
+    // The window is 2^-13 long; at 1e6 the shortest would be 2^-31.
     for (const double faster : {1e5, 0x1p30}) {
       const auto finding = with_number(world, speed, faster).audit();
       ASSERT_TRUE(finding) << time << ", " << faster;

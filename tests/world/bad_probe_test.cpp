@@ -1,4 +1,4 @@
-// Probes that answer wrongly: the call fails and may be repeated, and then everything is as if it had not.
+// Bad probe answers: the call fails and may be repeated; the later results are unaffected.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 using Spoil = std::function<void(std::span<const BodyId>, std::span<State>)>;
 
-/// A crowd in which much happens at once: several bodies are probed at one instant.
+/// A crowd with several probes at one instant.
 void populate(Playground& p) {
   Random random(99);
   for (int k = 0; k < 60; ++k) {
@@ -25,7 +25,7 @@ void populate(Playground& p) {
         .velocity = 3.0 * random.point_in_ball()};
     p.add(body, 4.9 * random.point_in_ball());
   }
-  // Mirror images, whose contacts come at the very same time.
+  // Mirror images, with contacts at exactly equal times.
   for (const double sign : {-1.0, 1.0}) {
     p.add({.radius = 0.5, .position = {sign * 20, 0, 0}, .velocity = {-sign, 0, 0}});
     p.add({.radius = 0.5, .position = {sign * 22, 0, 0}, .velocity = {-3 * sign, 0, 0}});
@@ -38,7 +38,7 @@ struct Kind {
   bool bounces;
 };
 
-/// Runs the crowd; `spoil`, if any, ruins the answer to every third question at first.
+/// Runs the crowd; `spoil`, if set, ruins the answer to every third probe at first.
 std::vector<Event> run(const Kind& kind, const Spoil& spoil, std::uint64_t& failures) {
   Playground p({.contacts = kind.mode});
   populate(p);
@@ -125,7 +125,7 @@ TEST(BadAnswer, NamesTheBodyTheTimeAndWhy) {
   EXPECT_EQ(result.error().body, culprit);
   EXPECT_NE(result.error().message.find("probe"), std::string::npos) << result.error().message;
   EXPECT_NE(result.error().message.find("body 1"), std::string::npos) << result.error().message;
-  // The first answers are the definitions; the bodies meet later, and only then matters the bad answer.
+  // The first answers are the definitions; the bodies meet later, and only then the bad answer matters.
   p.distort = {};
   EXPECT_EQ(p.run(20.0).size(), 2u);
 }
@@ -172,7 +172,7 @@ TEST(BadAnswer, BodyMayBeRemovedInstead) {
 TEST(BadAnswer, KicksAndNewBodiesBeforeTheRepetitionCount) {
   Playground p;
   const BodyId a = p.add({.radius = 1, .acceleration_limit = 1, .velocity = {1, 0, 0}});
-  // Somebody has to be near for a report to matter.
+  // A report matters only with another body nearby.
   p.add({.radius = 1, .position = {-40, 0, 0}});
   bool fail = false;
   p.distort = [&](BodyId, double, State& state) {
@@ -192,8 +192,8 @@ TEST(BadAnswer, KicksAndNewBodiesBeforeTheRepetitionCount) {
   EXPECT_NEAR(events[0].time, time + 3.0, 1e-5);
 }
 
-/// A body that rests near the floor looks around as often as that may matter. When its reports begin to err
-/// towards one who comes, a look around finds the two nearer than the look before did, and has to ask.
+/// A sleeping body near the floor is rechecked as often as may matter. When its reports begin to err towards
+/// an approaching body, a recheck finds the two nearer than before, and has to probe.
 TEST(BadAnswer, InALookAroundHidesNoContact) {
   std::size_t failures = 0;
   for (int k = 0; k < 60; ++k) {
@@ -202,7 +202,7 @@ TEST(BadAnswer, InALookAroundHidesNoContact) {
     const BodyId resting = p.add(
         {.radius = 0.5, .acceleration_limit = 1, .position_error = 0.1, .position = {2, 10, 0.605}}, Vec3{});
     p.add({.radius = 0.5, .position = {2 + distance, 10, 0.605}, .velocity = {-1, 0, 0}});
-    // Far from both: boxes are as large as bodies are sparse, and last for many looks.
+    // Far from the pair: swept spheres are as large as bodies are sparse, and last for many rechecks.
     p.add({.radius = 0.5, .position = {18, 2, 18}});
     p.distort = [&](BodyId id, double, State& state) {
       if (id == resting) state.position.x += 0.099;
@@ -223,7 +223,8 @@ TEST(BadAnswer, InALookAroundHidesNoContact) {
   EXPECT_GT(failures, 100u);
 }
 
-/// Two pairs meet at one instant; one of the second gives a bad answer when the first is known to meet.
+/// Two pairs meet at one instant; a body of the second pair gives a bad answer when the first contact is
+/// already known.
 TEST(BadAnswer, TellsNoEventBeforeAllOfItsInstantAreKnown) {
   const auto two_pairs = [](Playground& p) {
     for (const double y : {-16.0, 16.0})

@@ -1,4 +1,4 @@
-// A world in which bodies bounce, moved by a loop over advance() or by World::run: both have to do the same.
+// A world of bouncing bodies, advanced by a loop over advance() or by World::run, with equal results.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,16 +21,16 @@ struct BouncingWorld {
   OfMotion motion;
   World world;
   double restitution = 1.0;
-  bool passes = false;           ///< nobody answers
-  std::vector<double> masses{};  ///< by index; others are fixed
+  bool passes = false;           ///< no responses
+  std::vector<double> masses{};  ///< indexed by body; others are static
   EventHash hash{};
-  std::uint64_t order = 0;  ///< another hash, of events in the order in which they were told
+  std::uint64_t order = 0;  ///< hash of events that depends on their order
   std::size_t told = 0;
   double last = -std::numeric_limits<double>::infinity();  ///< the time of the last event
 
   BouncingWorld(OfMotion moved_by, World empty, double bounciness)
       : motion(std::move(moved_by)), world(std::move(empty)), restitution(bounciness) {}
-  /// The next body of the motion.
+  /// Adds the next body of the motion.
   void add(const BodyDefinition& body, double mass) {
     world.add(body).value();
     masses.push_back(mass);
@@ -83,7 +83,7 @@ struct BouncingWorld {
   }
 };
 
-/// The same events, from as many reports and looks.
+/// Expects equal events, from equal numbers of reports and rechecks.
 template <class OfMotion>
 void expect_same_course(const BouncingWorld<OfMotion>& found, const BouncingWorld<OfMotion>& expected) {
   EXPECT_EQ(found.told, expected.told);

@@ -1,4 +1,4 @@
-// A crowd to which everything is done that one may do to a world, failing probes and refused calls included.
+// A crowd with all operations on a world, including failing probes and refused calls.
 #pragma once
 
 #include <limits>
@@ -9,7 +9,7 @@
 
 namespace kinesphere {
 
-/// Filters by what the bodies carry, so that it can be given again for another world.
+/// A filter by the user data of bodies, so that another world can get it again.
 inline PairFilter filter_of(const World& world) {
   return [&world](BodyId a, BodyId b) {
     const auto data = [&](BodyId id) { return world.contains(id) ? world.user_data(id).value() : 0; };
@@ -49,7 +49,7 @@ class Bustle : public Crowd {
     if (event.second == no_body || (world.contains(event.second) && is_enabled(event.second))) bounce(event);
   }
 
-  /// The probe fails now and then, in both ways; the call is then repeated.
+  /// Advances; the probe fails now and then, in both ways, and the call is then repeated.
   std::optional<Event> advance_somehow(double until) {
     for (;;) {
       mischief_ = random.uniform() < 0.2 ? 1 + static_cast<int>(random.bits() % 5) : 0;
@@ -114,7 +114,7 @@ class Bustle : public Crowd {
         return;
       }
       case 9:
-        // What is refused leaves no trace.
+        // Refused calls must leave no trace.
         EXPECT_FALSE(world.set_radius(id, -1.0));
         EXPECT_FALSE(world.advance(world.time() - 1.0, probe()));
         return;
@@ -142,7 +142,7 @@ class Bustle : public Crowd {
   }
 
   std::vector<Event> events_;
-  int mischief_ = 0;  ///< how many states from now the probe fails; 0: it does not
+  int mischief_ = 0;  ///< the probe fails after this many states; 0: never
   bool throws_ = false;
 };
 

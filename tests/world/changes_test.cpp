@@ -1,5 +1,5 @@
-// Changes at run time: teleports, radii, promises, disabled bodies, batches, user data; and the wrong calls
-// of each.
+// Changes at run time: teleports, radii, limits, disabled bodies, batches, user data; and wrong calls of
+// each.
 #include <gtest/gtest.h>
 
 #include "number/infinity.hpp"
@@ -16,7 +16,7 @@ void teleport(Playground& p, BodyId id, const State& state) {
   p.world.teleport(id, state).value();
 }
 
-/// Two bodies in contact, their begin delivered.
+/// Two bodies in contact, after delivery of their begin.
 struct Touching : Playground {
   BodyId a = add({.radius = 1});
   BodyId b = add({.radius = 1, .position = {1.5, 0, 0}});
@@ -24,7 +24,7 @@ struct Touching : Playground {
     EXPECT_EQ(run(0.0).size(), 1u);
     EXPECT_TRUE(run(1.0).empty());
   }
-  /// The end of the contact, as it was before a change at time 1.
+  /// Expects the end of the contact, with the states before a change at time 1.
   void expect_end(const std::vector<Event>& events) {
     ASSERT_EQ(events.size(), 1u) << events;
     EXPECT_EQ(events[0].kind, EventKind::contact_end);
@@ -80,7 +80,7 @@ TEST(Change, TeleportAwayAtAnotherEventOfTheInstantTakesItsBeginBack) {
   EXPECT_TRUE(p.run(1.0).empty());
 }
 
-/// Two pairs that part at one instant; the end of the first has been told, that of the second is on its way.
+/// Two pairs that separate at one instant; the first end has been delivered, the second is pending.
 struct Parting : Playground {
   BodyId c, d;
   Parting() {
@@ -92,7 +92,7 @@ struct Parting : Playground {
     const auto end = advance(1.0);
     EXPECT_TRUE(end && end->kind == EventKind::contact_end && end->first == (BodyId{0, 0}));
   }
-  /// The end as it was before a change that makes the two overlap, and a new begin.
+  /// Expects the end with the states before a change that makes the two overlap, and a new begin.
   void expect_end_and_begin(double gap) {
     const auto events = run(world.time());
     ASSERT_EQ(events.size(), 2u) << events;
@@ -229,7 +229,7 @@ void expect_error(const Result<T>& result, ErrorCode code, const std::string& ca
   EXPECT_EQ(result.error().message.rfind(call, 0), 0u) << result.error().message;
 }
 
-/// Every change of body `id`.
+/// Expects that every change of body `id` is refused.
 void expect_all_refused(World& world, BodyId id, ErrorCode code) {
   expect_error(world.teleport(id, {}), code, "teleport");
   expect_error(world.set_radius(id, 1), code, "set_radius");

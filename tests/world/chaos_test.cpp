@@ -1,6 +1,5 @@
-// Random calls on random worlds of all scales of length and time: a world takes its own snapshot back, goes
-// on from it as it would have gone on without, and the audit finds nothing wrong, as no caller broke a
-// promise.
+// Random calls on random worlds of all scales of length and time: a restored snapshot continues like the
+// original, and the audit finds nothing, since no caller violates a limit.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +12,7 @@
 namespace kinesphere::chaos_test {
 namespace {
 
-/// Worlds that a seed may make.
+/// The range of worlds that a seed may make.
 struct Scales {
   double least_time, largest_time;      ///< powers of ten of the unit of time
   double least_start, largest_start;    ///< powers of ten of the start, in units of time; none below -2
@@ -32,7 +31,7 @@ class Chaos {
       world_.set_sensor(1, {.distances = {0.05 * length_, 0.02 * length_}}).value();
   }
 
-  /// What went wrong, or an empty text.
+  /// Returns the failure as text; empty if there is none.
   std::string go(int calls) {
     for (int k = 0; k < calls; ++k) {
       call();
@@ -62,7 +61,7 @@ class Chaos {
     const double start = power_of_ten(scales.least_start, scales.largest_start);
     if (start > 1e-2)
       definition.start_time = std::min(1e28, start * time_) * (random_.bits() % 4 == 0 ? -1.0 : 1.0);
-    // The corner of the box is nowhere special, or where rounding is.
+    // The corner of the box lies anywhere, or at a place with rounding.
     const double corner = random_.bits() % 3 == 0 ? 0.0 : random_.uniform(-2.0, 2.0);
     const Vec3 lower = Vec3{corner, corner, corner} * length_;
     if (repeats || random_.bits() % 2 == 0) {
@@ -86,7 +85,7 @@ class Chaos {
     return v;
   }
 
-  /// In the box, on its border or, where space repeats, some periods away.
+  /// Returns a place in the box, on its border or, in periodic space, some periods away.
   Vec3 place(double margin) {
     Vec3 position;
     const bool axes[3] = {periodic_.x, periodic_.y, periodic_.z};
@@ -254,8 +253,7 @@ TEST(Chaos, BoxesAndOpenSpaceOfOrdinaryScale) { expect_nothing_wrong(500, ordina
 
 TEST(Chaos, BoxesAndOpenSpaceOfAllScales) { expect_nothing_wrong(500, all, false); }
 
-/// The middle of the box around such a ball is on the border by rounding, and the border is in the next
-/// image.
+/// Rounding puts the middle of the box around such a ball on the border, in the next image.
 TEST(StaticBall, OnTheBorderOfAPeriodicBoxStaysInItsImage) {
   for (const double y : {0.0, -1e-300, -1e-20, -1e-17, -6e-17, -1e-16}) {
     World world =

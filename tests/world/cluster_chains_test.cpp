@@ -1,5 +1,5 @@
-// SpeculativeRunner that claim one body after the other, and run again for each: the same events as a loop
-// over advance(), not too often, and with no more memory than what they have done takes.
+// Clusters that take in one body after the other, and run again for each: events equal to those of a loop
+// over advance(), a bounded number of runs, and memory in proportion to the work.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -16,8 +16,8 @@
 namespace kinesphere::cluster_chains_test {
 namespace {
 
-/// Rows of balls at rest, the first of which is hit from behind; each is lighter than the one before, so that
-/// the wave gets faster. Far from them pairs of balls meet, as many as are asked for.
+/// Rows of balls at rest. The first of each row is hit from behind; each ball is lighter than the one before,
+/// so that the wave gets faster. Far away the requested number of pairs meet.
 struct Rows : BouncingWorld<Ballistic> {
   Rows(int rows, int length, int pairs)
       : BouncingWorld(Ballistic::create({.start = start(rows, length, pairs)}).value(),
@@ -35,7 +35,7 @@ struct Rows : BouncingWorld<Ballistic> {
     for (int k = 0; k < 2 * pairs; ++k) add_one(1.0);
   }
 
-  /// Counts how often an event is answered.
+  /// Counts the responses to events.
   std::size_t run_by(int threads, double until) {
     Workers workers = Workers::create(threads).value();
     SingleMotionSource source(motion);
@@ -80,7 +80,7 @@ TEST(ClustersOfRows, AreLeftToALoopWhereTheyRunAgainAndAgain) {
   EXPECT_LT(asked, 4 * run.told);
 }
 
-/// Where most islands are others.
+/// Most clusters are unrelated to the rows.
 TEST(ClustersOfRows, ForgetWhatTheyHaveDoneInVain) {
   for (const int threads : {2, 3}) {
     Rows looped(8, 70, 700), run(8, 70, 700);
@@ -95,7 +95,7 @@ TEST(ClustersOfRows, ForgetWhatTheyHaveDoneInVain) {
   }
 }
 
-/// A mover that throws some times when it has set a body back.
+/// A motion source that throws a number of times after it has set a body back.
 class ThrowsGoingBack final : public MotionSource {
  public:
   explicit ThrowsGoingBack(Motion& motion) : mover_(motion) {}

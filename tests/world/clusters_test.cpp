@@ -1,5 +1,5 @@
-// Crowds in clusters far from each other, of bodies whose speeds and limits are very unlike: no body keeps
-// the whole cluster as its neighbours.
+// Crowds far from each other, with bodies of very different speeds and limits: no body keeps the whole crowd
+// as neighbours.
 #include <gtest/gtest.h>
 
 #include "support/playground.hpp"
@@ -12,7 +12,7 @@ constexpr double berth_width = 40.0;
 
 Vec3 flat(const Vec3& v) { return {v.x, v.y, 0.0}; }
 
-/// Rows of bodies that nearly rest, in harbours far apart, and a few fast ones among them.
+/// Rows of bodies that are almost at rest, in harbours far apart, with a few fast bodies among them.
 class Harbours : public Playground {
  public:
   explicit Harbours(std::uint64_t seed, int harbours = 4, int berths = 300)
@@ -64,7 +64,7 @@ TEST(Clusters, body_in_a_cluster_has_few_neighbours) {
   EXPECT_TRUE(is_clean(harbours.world));
 }
 
-/// Added one by one they are a round of one body each.
+/// Bodies added one by one start as rounds of one body each.
 TEST(Clusters, body_that_comes_later_has_few_neighbours) {
   Harbours harbours(2, 2, 0);
   harbours.run(1.0);
@@ -79,7 +79,7 @@ TEST(Clusters, body_that_comes_later_has_few_neighbours) {
   EXPECT_TRUE(is_clean(harbours.world));
 }
 
-/// A slow body alone at sea has a large box for a long time, until others come.
+/// A slow body far from all others has a large swept sphere for a long time, until others approach.
 TEST(Clusters, body_that_sails_into_a_crowd_makes_its_box_smaller) {
   Harbours harbours(3, 2, 300);
   const BodyId ship = harbours.add({.radius = 10.0,

@@ -1,4 +1,4 @@
-// Begins and ends: when they come, in which order, and always in pairs.
+// Begins and ends: times, order, and pairing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -62,7 +62,7 @@ TEST_P(BeginsAndEnds, ComeWithinTheTolerance) {
       EXPECT_NEAR(to_second, 0.5 * gap, 1e-12);
       touching = !touching;
     }
-    // Whether they met at all is decided by sampling; a gap within the tolerance counts as a contact.
+    // Sampling decides whether the two met; a gap within the tolerance counts as a contact.
     double least = 1e9;
     for (int sample = 0; sample <= 10000; ++sample) least = std::min(least, p.gap(a, b, 1e-3 * sample));
     const bool met = p.world.counters().count(EventKind::contact_begin) > 0;
@@ -179,7 +179,7 @@ TEST(ContactPairs, RemovalBeforeTheBeginIsToldMeansNoContact) {
   const auto first = p.advance(1.0);
   ASSERT_TRUE(first);
   EXPECT_EQ(first->second, middle);
-  p.world.remove(middle).value();  // its contact with the third has not been told yet
+  p.world.remove(middle).value();  // the end of its contact with the third is pending
   const auto events = p.run(1.0);
   ASSERT_EQ(events.size(), 1u) << events;
   EXPECT_EQ(events[0].kind, EventKind::contact_end);
@@ -211,7 +211,7 @@ TEST(ContactPairs, CoincidentCentresHaveANormal) {
   EXPECT_EQ(event->gap, -3.0);
 }
 
-/// Bodies that fly in from all sides at the same distance and speed, towards a target in the middle.
+/// Adds bodies that fly in from all sides at equal distance and speed, towards a target in the middle.
 void add_star(Playground& p, int arms, bool with_target) {
   if (with_target) p.add({.radius = 1});
   for (int k = 0; k < arms; ++k) {
@@ -225,7 +225,7 @@ TEST(Order, SimultaneousEventsComeByKindAndIds) {
   for (const bool with_target : {true, false}) {
     Playground p;
     add_star(p, 6, with_target);
-    // A second star elsewhere, at the same instants.
+    // A second star elsewhere, at equal times.
     for (std::uint32_t k = 0; k < 6; ++k) {
       const State twin = p.state({with_target ? 6u - k : 5u - k, 0});
       p.add({.radius = 0.25, .position = twin.position + Vec3{64, 0, 0}, .velocity = twin.velocity});

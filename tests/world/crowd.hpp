@@ -1,4 +1,4 @@
-// A random crowd that is kicked, steered, joined and left at random, for tests that ask a world questions.
+// A random crowd with random velocity changes, additions and removals, for tests of queries.
 #pragma once
 
 #include <vector>
@@ -55,7 +55,7 @@ class Crowd : public Playground {
     add(body, plan + 0.999 * limit * random.point_in_ball());
   }
 
-  /// One random change, of the kinds that need no advance between.
+  /// Makes one random change that needs no advance.
   void change() {
     const double choice = random.uniform();
     if (choice < 0.2 && world.size() > 5)
@@ -74,7 +74,7 @@ class Crowd : public Playground {
         id, promise.planned_acceleration + 0.999 * promise.acceleration_limit * random.point_in_ball());
   }
 
-  /// Where begins are told again and again, the bodies have to part.
+  /// In a mode that repeats begins, the bodies have to separate.
   void bounce(const Event& event) {
     const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
     if (world.definition().contacts != ContactMode::impacts || !begins) return;
@@ -93,7 +93,7 @@ class Crowd : public Playground {
   Random random;
 
  private:
-  Random errors_;  ///< of reports, whose number must not change what happens
+  Random errors_;  ///< errors of reports; a generator of its own, so that the number of reports has no effect
   double noise_;
 };
 

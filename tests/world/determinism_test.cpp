@@ -1,4 +1,4 @@
-// The same run gives the same events, to the bit: again, in small steps, and after the world has moved house.
+// Equal runs have equal events, to the bit: repeated, in small steps, and after a move of the world.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -112,7 +112,7 @@ TEST(OrderOfAdding, ChangesNoContact) {
       const Event& a = events[k];
       const Event& b = other->second[k];
       EXPECT_EQ(a.kind, b.kind);
-      // Within the tolerance, at the speed at which they pass through it.
+      // Within the tolerance, at the speed at which the pair crosses it.
       const double speed = std::max(0.01, std::abs(a.approach_speed));
       EXPECT_NEAR(a.time, b.time, 2e-6 / speed) << a << "\n" << b;
     }

@@ -1,4 +1,4 @@
-// Going through a world's events in a range-for.
+// A range-for over a world's events.
 #include <gtest/gtest.h>
 
 #include <iterator>

@@ -1,4 +1,4 @@
-// Whatever state a failed advance leaves a world in, it can be saved, restored and audited, and goes on.
+// A failed advance leaves a world that can be saved, restored, audited and advanced.
 #include <gtest/gtest.h>
 
 #include <stdexcept>
@@ -19,7 +19,7 @@ testing::AssertionResult can_be_restored(const World& world) {
   return is_clean(*restored);
 }
 
-/// A fixed body is settled first, and records facts about bodies that have not been settled yet.
+/// A static body is recertified first, and records facts about bodies that have not been recertified yet.
 TEST(FailedAdvance, BetweenANewFixedBodyAndANewBodyCanBeSaved) {
   Playground p;
   const BodyId old = p.add({.radius = 1, .acceleration_limit = 1});
@@ -40,7 +40,7 @@ TEST(FailedAdvance, BetweenANewFixedBodyAndANewBodyCanBeSaved) {
   EXPECT_TRUE(is_clean(p.world));
 }
 
-/// A crowd among shapes, with sensors and changes, whose probe fails every so often.
+/// A crowd among shapes, with sensors and changes, and a probe that fails every so often.
 class RandomCrowd {
  public:
   explicit RandomCrowd(std::uint64_t seed) : random_(seed), playground_(definition()) {

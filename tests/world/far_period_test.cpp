@@ -1,5 +1,5 @@
-// Space that repeats far from its origin, where single precision cannot tell half a period: bodies whose
-// boxes are nearly as wide as they may be, and overlap by a sliver.
+// Periodic space far from its origin, with half a period below the resolution of single precision: bodies
+// with swept spheres nearly as wide as allowed, which overlap by a sliver.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace kinesphere::far_period_test {
 namespace {
 
 constexpr double eps = 1e-6;
-constexpr double half_width = 0.1;  ///< of both bodies
+constexpr double half_width = 0.1;  ///< half the width of each body
 
 struct Place {
   double lower;
@@ -20,7 +20,7 @@ struct Place {
 
   double upper() const { return lower + period; }
   double wrapped(double x) const { return x - std::floor((x - lower) / period) * period; }
-  /// The image of a way in which it is shortest, when its ends are rounded to single precision first.
+  /// Returns the image in which a way is shortest, if its ends are rounded to single precision first.
   int image_in_single_precision(double from, double to) const {
     const float way = static_cast<float>(wrapped(to)) - static_cast<float>(wrapped(from));
     return image(static_cast<double>(way));
@@ -37,16 +37,17 @@ std::ostream& operator<<(std::ostream& out, const Place& place) {
 
 class FarPeriod : public testing::TestWithParam<Place> {};
 
-/// How far a body may go in a window: its box may be half a period wide, but for what rounding needs.
+/// Returns the longest way of a body in a window: its swept sphere may be half a period wide, less rounding.
 double longest_way(const Place& place) {
   return (0.5 - 0x1p-10) * place.period - 2.0 * half_width - 10.0 * eps;
 }
 
-/// Of those in which a body of a speed near 1 goes nearly so far, the longest.
+/// Returns the longest window in which a body of a speed near 1 stays within that way.
 double window_length(const Place& place) { return std::exp2(std::floor(std::log2(longest_way(place)))); }
 
-/// One body goes along x, nearly as far in each window as it may; the other waits, far from it on y, until it
-/// is thrown towards the first from where its new box will reach into that of the first by `depth`.
+/// One body moves along x, nearly as far in each window as allowed; the other waits, far from it on y, until
+/// it is thrown towards the first, from a place at which its new swept sphere overlaps that of the first by
+/// `depth`.
 class Meeting : public Playground {
  public:
   Meeting(const Place& its_place, double start)
@@ -60,8 +61,8 @@ class Meeting : public Playground {
     distort = [this](BodyId, double, State& told) { told.position.x = place.wrapped(told.position.x); };
   }
 
-  /// Runs until the box of the goer is nearly half a period wide, and then until it lasts for a few more of
-  /// its diameters.
+  /// Runs until the swept sphere of the first body is nearly half a period wide, and then until it lasts for
+  /// a few more of its diameters.
   bool gets_ready() {
     const double length = window_length(place);
     const double start = std::ceil(400.0 / length) * length;
@@ -72,8 +73,8 @@ class Meeting : public Playground {
     return box.upper.x - box.lower.x > 0.49 * place.period && left > 3.5 && left < 4.0;
   }
 
-  /// Where the waiter goes for the boxes to overlap by `depth`, if single precision would then name another
-  /// image than the boxes do.
+  /// Returns the place of the second body for an overlap of `depth`, if single precision would then name
+  /// another image than the swept spheres do.
   std::optional<double> thrown_from(double depth) const {
     const double way = 0.99995 * longest_way(place);
     const double from = box.upper.x - depth + way + half_width;
@@ -84,7 +85,7 @@ class Meeting : public Playground {
     return from;
   }
 
-  /// Throws it, and runs until both boxes have ended.
+  /// Throws the second body, and runs until the two swept spheres have ended.
   void throw_from(double from) {
     const double thrown = 0.99995 * longest_way(place) / left;
     const State state{{from, 0, 0}, {-thrown, 0, 0}};

@@ -109,8 +109,8 @@ TEST(Filter, EndsImpactsSilently) {
   EXPECT_TRUE(is_clean(p.world));
 }
 
-/// Whatever asks the filter: a body that is added where overlaps are not allowed, advance(), a question, a
-/// change of filters, an audit.
+/// Makes all calls that use the filter: adding a body if overlaps are forbidden, advance(), a query, a change
+/// of filters, an audit.
 void ask_the_filter(Playground& p, BodyId a) {
   p.world.refresh_filter(a).value();
   p.run(p.world.time() + 1.0);
@@ -128,7 +128,7 @@ TEST(PairFilter, MayReadBodiesOfTheWorldThatAsksIt) {
       .set_pair_filter([&](BodyId first, BodyId second) {
         ++asked;
         for (const BodyId id : {first, second}) {
-          if (!p.world.contains(id)) continue;  // it is about to be added
+          if (!p.world.contains(id)) continue;  // the body is about to be added
           EXPECT_TRUE(p.world.body(id));
           EXPECT_TRUE(p.world.shape_of(id));
           EXPECT_TRUE(p.world.touching(id));
@@ -194,7 +194,7 @@ TEST(PairFilter, CannotMakeOtherCallsToTheWorldThatAsksIt) {
   EXPECT_TRUE(is_clean(p.world));
 }
 
-/// The filter of a world may ask another world anything, also one whose own filter asks back.
+/// The filter of a world may query another world, also one with a filter that queries back.
 TEST(PairFilter, OfOneWorldMayAskAnother) {
   Playground p;
   const BodyId a = p.add({.radius = 1, .velocity = {0.5, 0, 0}});

@@ -1,4 +1,4 @@
-// Ids know which world gave them out.
+// Ids know the world that created them.
 #include <gtest/gtest.h>
 
 #include "support/expect_error.hpp"
@@ -47,7 +47,7 @@ TEST(ForeignId, IsRefusedByEveryCallThatTakesOne) {
   EXPECT_EQ(world.save().value(), before);
 }
 
-/// All ids that a world gives out.
+/// Returns all ids that a world creates.
 std::vector<BodyId> given_out(Playground& p) {
   std::vector<BodyId> ids = p.world.bodies();
   for (const Event& event : p.run(10.0)) {

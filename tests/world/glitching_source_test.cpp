@@ -1,5 +1,5 @@
-// A mover whose states() gives bad answers now and then: World::run refuses each, also where an answer to an
-// event turns bodies, and goes on from there as if nothing had been.
+// A motion source with bad answers of states() now and then: World::run refuses each, also if a response
+// changes velocities, and continues as if nothing had happened.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -19,7 +19,7 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double inf = std::numeric_limits<double>::infinity();
 
-/// No state of a body in a world in the plane.
+/// Returns an invalid state of a body in a world in the plane.
 State bad_state(std::uint64_t kind) {
   const std::vector<State> all{{{nan, 0, 0}, {}}, {{0, -inf, 0}, {}}, {{0, 1e300, 0}, {}},
                                {{0, 0, 1}, {}},   {{}, {0, nan, 0}},  {{}, {1e200, 0, 0}}};
@@ -81,7 +81,7 @@ TEST(GlitchingSource, IsRefusedWhileAnAnswerTurnsABody) {
                    kind < 2 || kind == 4 || kind == 6 ? ErrorCode::not_finite : ErrorCode::out_of_range,
                    kind == 4 || kind == 5 ? "velocity" : "position", "run: the probe's answer at time 1.4999",
                    balls.world.bodies()[body]);
-      // Neither departed, and nobody was told.
+      // No body has a new origin, and no event was delivered.
       for (const MotionOrigin& origin : balls.departures) EXPECT_EQ(origin.time, 0.0);
       EXPECT_TRUE(balls.told.empty());
       EXPECT_TRUE(is_clean(balls.world));
@@ -120,7 +120,7 @@ struct Bouncing : BouncingWorld<RandomForces> {
   }
 };
 
-/// Every so many calls of states() one of its answers is bad.
+/// Answers wrongly after every few calls of states().
 class Glitching final : public MotionSource {
  public:
   Glitching(RandomForces& motion, std::uint64_t period) : mover_(motion), period_(period) {}

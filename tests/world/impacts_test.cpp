@@ -1,4 +1,4 @@
-// Bodies that bounce: impacts, chains of them at one instant, and contacts that want to stop time.
+// Bouncing bodies: impacts, chains of them at one instant, and contacts that could stop time.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,7 +34,7 @@ TEST(Impacts, HeadOnBouncesOnce) {
 
 TEST(Impacts, PassingThroughIsOneBeginPerApproach) {
   Playground p(impacts);
-  // They oscillate through each other: x = 5 cos would need a spring; a constant pull back does as well.
+  // The bodies oscillate through each other by a constant acceleration back.
   const BodyId a = p.add({.radius = 1});
   const BodyId b = p.add({.radius = 1, .acceleration_limit = 4, .position = {5, 0, 0}}, Vec3{-4, 0, 0});
   std::size_t begins = 0;
@@ -51,14 +51,14 @@ TEST(Impacts, PassingThroughIsOneBeginPerApproach) {
 }
 
 TEST(Impacts, BodyThatCameOutOfAnOverlapIsSeenWhenItComesBack) {
-  // It starts deep inside, leaves, and is pulled back: that is an approach like any other.
+  // The body starts deep inside, leaves, and is pulled back: an approach like any other.
   for (const bool wall : {false, true}) {
     WorldDefinition definition = impacts;
     if (wall) definition.box = Box{{0, -50, -50}, {100, 50, 50}};
     Playground p(definition);
     if (!wall) p.add({.radius = 0, .position = {0, 0, 0}});
     const BodyId ball = p.add({.radius = 1, .acceleration_limit = 2, .position = {0.5, 0, 0}}, Vec3{});
-    // Many kicks teach the world that its box may be large, so that no new box comes in between.
+    // Many velocity changes make large swept spheres affordable, so that no new one begins in between.
     for (int k = 0; k < 20; ++k) {
       p.set_velocity(ball, {});
       for (const Event& event : p.run(0.0)) EXPECT_EQ(event.kind, EventKind::zeno_guard) << event;
@@ -105,7 +105,7 @@ TEST(Impacts, NewtonsCradlePassesTheBlowOnInOneInstant) {
 }
 
 TEST(Impacts, ThreeAtOnceConserveMomentumAndEnergy) {
-  // Two come from both sides onto one in the middle at the same instant.
+  // Two bodies arrive from both sides at one in the middle at one instant.
   Playground p(impacts);
   const std::vector<BodyId> balls{p.add({.radius = 1}),
                                   p.add({.radius = 1, .position = {-6, 0, 0}, .velocity = {1, 0, 0}}),
@@ -123,7 +123,7 @@ TEST(Impacts, ThreeAtOnceConserveMomentumAndEnergy) {
 }
 
 TEST(Impacts, SecondEventOfAnInstantKnowsOfTheKickAtTheFirst) {
-  // One body hits two others at once; the answer to the first turns it away from the second.
+  // One body hits two others at once; the response to the first turns it away from the second.
   Playground p(impacts);
   const BodyId a = p.add({.radius = 1, .velocity = {4, 0, 0}});
   p.add({.radius = 1, .position = {10, 1, 0}});
@@ -221,7 +221,7 @@ TEST(Zeno, CallerWhoIgnoresRepeatedIsToldByTheGuard) {
           [&](const Event& event) {
             ++events;
             if (event.kind == EventKind::zeno_guard && guards++ == 0) at_guard = event.gap;
-            p.set_velocity(ball, {});  // dead stop, whatever it is
+            p.set_velocity(ball, {});  // stops it, whatever it is
           },
           50000);
     EXPECT_GT(guards, 0u);

@@ -1,5 +1,5 @@
-// Bodies that go into a solid box and stay there for a while: however small the contact tolerance is, the
-// world wakes hardly more often than it asks.
+// Bodies that enter a solid box and stay there for a while: for any contact tolerance the world wakes hardly
+// more often than it probes.
 #include <gtest/gtest.h>
 
 #include "support/playground.hpp"
@@ -30,7 +30,7 @@ TEST_P(VisitInABox, WakesHardlyMoreOftenThanItAsks) {
                            .velocity = {0.39, -2.9, 0}},
                           Vec3{});
   std::vector<Event> events;
-  // Small steps, so that a world that crawls is found out early.
+  // Small steps, so that a world that crawls is detected early.
   for (int step = 1; step <= 1000; ++step) {
     while (const auto event = p.advance(4e-5 * step)) events.push_back(*event);
     const Counters& counters = p.world.counters();

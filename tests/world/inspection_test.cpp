@@ -1,4 +1,4 @@
-// Seeing inside: memory by part, timings, cells and certificates.
+// Inspection of a world: memory by part, timings, cells and certificates.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,13 +27,13 @@ TEST(Memory, GrowsWithTheBodiesAndBelongsToParts) {
   BusyCrowd crowd;
   const Memory memory = crowd.world.memory();
   const std::size_t count = crowd.world.size();
-  // What each part needs at least.
+  // Lower limits of the parts.
   EXPECT_GE(memory.bodies, count * sizeof(Bound));
   EXPECT_GE(memory.pairs, crowd.world.certificates().size() * 16);
   EXPECT_GE(memory.contacts, count * 24);
   EXPECT_GE(memory.windows, count * 2 * 28);
   EXPECT_EQ(memory.recording, 0u);
-  // And no more than a few times that.
+  // An upper limit of a few times that.
   EXPECT_LT(memory.total(), count * 4000);
   EXPECT_EQ(memory.total(), memory.bodies + memory.windows + memory.pairs + memory.contacts + memory.other);
 }
@@ -65,7 +65,7 @@ TEST(Cells, HoldTheMiddlesOfTheCapsules) {
   EXPECT_EQ(entries, crowd.world.size());
   for (const BodyId id : crowd.world.bodies()) {
     const Box box = crowd.world.body(id).value().box;
-    // Part of the way has been gone, and the box is that of the rest.
+    // Part of the way has been covered, and the box is that of the rest.
     const auto holds = [&](const CellView& cell) {
       for (int axis = 0; axis < 3; ++axis)
         if (box.upper[axis] < cell.box.lower[axis] || box.lower[axis] > cell.box.upper[axis]) return false;

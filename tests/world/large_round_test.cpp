@@ -1,4 +1,4 @@
-// Many bodies that are settled at once, with numbers that say nothing about where they are.
+// Many bodies that are recertified together, with numbers unrelated to their places.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -13,7 +13,7 @@ namespace kinesphere::large_round_test {
 namespace {
 
 TEST(LargeRound, finds_every_pair_that_touches_at_the_start) {
-  constexpr std::uint32_t count = 6000;  // more than are settled in the order of their numbers
+  constexpr std::uint32_t count = 6000;  // more than are recertified in the order of their numbers
   Random random(1);
   std::vector<BodyDefinition> bodies(count);
   for (BodyDefinition& body : bodies) {
@@ -42,7 +42,7 @@ TEST(LargeRound, finds_every_pair_that_touches_at_the_start) {
   EXPECT_EQ(found, touching);
 }
 
-/// So many that memory is fetched ahead of those who are due.
+/// Enough bodies for memory to be prefetched.
 TEST(LargeWorld, can_be_emptied_and_filled_again) {
   constexpr std::uint32_t count = 20000;
   World world = World::create({}).value();
@@ -53,7 +53,7 @@ TEST(LargeWorld, can_be_emptied_and_filled_again) {
     for (std::size_t k = 0; k < ids.size(); ++k) states[k] = {place_of(ids[k]), {}};
   };
   for (int pass = 0; pass < 2; ++pass) {
-    // The ids of those that were removed come again in another order.
+    // The ids of removed bodies return in another order.
     std::vector<BodyId> ids;
     for (std::uint32_t k = 0; k < count; ++k) ids.push_back(world.add({.acceleration_limit = 1.0}).value());
     for (const BodyId id : ids) ASSERT_TRUE(world.teleport(id, {place_of(id), {}}));
@@ -92,7 +92,7 @@ TEST(Reserve, changes_nothing_but_memory) {
   EXPECT_EQ(plain.save().value(), roomy.save().value());
 }
 
-/// Bodies with a spacing of 4, as many beside each other as `numbers` says, after their first searches.
+/// Returns bodies with a spacing of 4, `numbers` of them along each axis, after their first searches.
 World lattice(int dimensions, const std::array<std::uint32_t, 3>& numbers, double radius) {
   World world = World::create({.dimensions = dimensions}).value();
   std::vector<BodyDefinition> bodies;
@@ -119,7 +119,8 @@ TEST(FirstBoxes, hold_few_others_wherever_bodies_are) {
   EXPECT_LT(candidates(2, {70, 70, 1}), 9.0);
 }
 
-/// In all directions by about a quarter of the distance between bodies, which is 4, however small they are.
+/// The margin in each direction is about a quarter of the distance between bodies, which is 4, however small
+/// they are.
 TEST(FirstBoxes, leave_room_for_a_part_of_the_distance_between_bodies) {
   const auto margin = [](int dimensions, const std::array<std::uint32_t, 3>& numbers) {
     const World world = lattice(dimensions, numbers, 0.01);

@@ -1,4 +1,4 @@
-// Probes as they are handed over: by name, as temporaries, as functions, and empty ones.
+// Ways to pass a probe: by name, as a temporary, as a function, and empty.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -24,7 +24,7 @@ State answer(const Probe& probe) {
   return state;
 }
 
-/// Writes over what the stack held of a temporary.
+/// Overwrites the part of the stack that held a temporary.
 [[gnu::noinline]] double disturb_stack() {
   volatile double numbers[512];
   for (volatile double& number : numbers) number = -1.0;

@@ -1,5 +1,5 @@
-// The limits of kinesphere/limits.hpp: what lies at one is taken and works, what lies beyond is refused; and
-// within them contacts are found at all sizes, speeds and times.
+// The limits of kinesphere/limits.hpp: a value at a limit is accepted and works, a value beyond it is
+// refused; within them contacts are found at all sizes, speeds and times.
 #include "kinesphere/limits.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ struct Limit {
   std::string argument;
   double value;
   std::string call;
-  /// Of a world with one body.
+  /// Passes the number to a world with one body.
   std::function<Result<void>(World&, BodyId, double)> take;
   bool names_the_body = true;
 };
@@ -51,7 +51,7 @@ std::vector<Limit> limits_of_a_world() {
   };
   const auto answer = [](auto set) {
     return [set](World& world, BodyId id, double value) {
-      // So that it has to be asked at once.
+      // The body has to be probed at once.
       const auto rests = [](auto, double, std::span<State> states) { states[0] = {}; };
       (void)world.advance(world.time() + 1e-3, rests).value();
       world.set_velocity(id, {}).value();
@@ -191,7 +191,7 @@ TEST(Limits, TheLeastToleranceIsTakenAndNoSmallerOne) {
     expect_error(with(smaller), ErrorCode::out_of_range, "contact_tolerance", "World::create");
 }
 
-/// Two bodies fly towards each other, `distance` apart, and pass through each other.
+/// Two bodies, `distance` apart, fly towards each other and pass through each other.
 void expect_one_contact(double unit, double radius, double distance, double speed, double start_time = 0.0) {
   SCOPED_TRACE(testing::Message() << "unit " << unit << ", radius " << radius << ", distance " << distance
                                   << ", speed " << speed << ", start " << start_time);
@@ -228,7 +228,7 @@ TEST(Limits, AtAllSizesContactsAreFound) {
         expect_one_contact(unit, radius, 10.0 * radius, 10.0 * radius * unit / duration);
 }
 
-/// Bodies that rest, for as long as times go.
+/// Bodies at rest, up to the largest time.
 TEST(Limits, TimeReachesItsLimitInAFewSteps) {
   for (const bool repeats : {false, true}) {
     Playground p({.box = Box{{-10, -10, -10}, {10, 10, 10}},
@@ -245,7 +245,7 @@ TEST(Limits, TimeReachesItsLimitInAFewSteps) {
   }
 }
 
-/// Bodies that fly far within one unit in the last place of the time: no event can be exact, but time goes
+/// Bodies that fly far within one unit in the last place of the time: no event can be exact, but time must go
 /// on.
 TEST(Limits, WhereTimesAreTooCoarseForTheBodiesTimeGoesOn) {
   for (const bool repeats : {false, true})

@@ -1,4 +1,4 @@
-// Sensors with thousands of distances: each crossing costs what one of a few distances does.
+// Sensors with thousands of distances: the cost of a crossing does not depend on their number.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ Sensor sensor_of(int count, double first, double step) {
   return sensor;
 }
 
-/// A body with this many distances, and one that flies through it; then nothing is sensed any more.
+/// A body with this many distances, and one that flies through it, until nothing is sensed any more.
 class Passage {
  public:
   explicit Passage(int count) : reach_(0.01 * count) {
@@ -34,7 +34,7 @@ class Passage {
   double reach_;
 };
 
-/// Processor time of a whole passage, or +infinity when it takes longer than `most`.
+/// Returns the processor time of a whole passage, or +infinity if it takes longer than `most`.
 double seconds(int count, double most) {
   Passage passage(count);
   const std::clock_t start = std::clock();
@@ -52,7 +52,7 @@ double least_seconds(int count, double most) {
 
 TEST(ManyDistances, CostLittleMoreThanTheirNumber) {
   const double few = least_seconds(250, infinity);
-  // Eight times as many: 64 times as much if each crossing cost their number, 512 times if it cost its
+  // Eight times as many: 64 times the cost if each crossing cost their number, 512 times if it cost its
   // square.
   EXPECT_LT(least_seconds(2000, 30 * few), 30 * few) << "the cost of 250 distances is " << few << " seconds";
 }
@@ -74,8 +74,8 @@ TEST(ManyDistances, AreCrossedInTheirOrder) {
   EXPECT_EQ(left, entered);
 }
 
-/// Distances that come to a sensor between crossed ones are crossed at once, from the outermost inward; those
-/// that it loses are left.
+/// Distances that a sensor gains between crossed ones are crossed at once, from the outermost inward;
+/// distances that it loses are left.
 TEST(ManyDistances, MayChangeAtAnyTime) {
   constexpr int count = 40;
   Passage passage(count);
@@ -94,7 +94,7 @@ TEST(ManyDistances, MayChangeAtAnyTime) {
   EXPECT_TRUE(std::is_sorted(entered.rbegin(), entered.rend()));
   EXPECT_GE(entered.size(), before.size() - 1);
   EXPECT_TRUE(is_clean(p.world));
-  // The other body senses, too, some of the same and some others.
+  // The other body senses, too, with some equal and some other distances.
   p.world.set_sensor(2, sensor_of(count, 0.001, 0.0125)).value();
   p.world.set_sensor_class(passage.comes, 2).value();
   while (const auto event = p.advance(p.world.time())) EXPECT_EQ(event->kind, EventKind::sensor_enter);

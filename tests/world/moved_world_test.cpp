@@ -1,4 +1,4 @@
-// Worlds that are moved from, and worlds that go while their own probe is being asked.
+// Moved-from worlds, and worlds that are destroyed while their own probe runs.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -105,7 +105,7 @@ TEST(MovedWorld, TakesItsRecordingAlong) {
   EXPECT_TRUE(taken.stop_recording());
 }
 
-/// A world whose next advance probes.
+/// Returns a world that probes in its next advance.
 World busy_world() {
   World world = World::create({}).value();
   world.add({.acceleration_limit = 1.0, .velocity = {1, 0, 0}}).value();

@@ -1,5 +1,5 @@
-// Bodies that fly through triangles as thin as a world allows: each passage is told once, in time, at a cost
-// that does not depend on the triangle.
+// Bodies that fly through triangles as thin as a world allows: each passage is reported once, in time, at a
+// cost that does not depend on the triangle.
 #include <gtest/gtest.h>
 
 #include <iomanip>
@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint64_t seed = 1403;
 constexpr int worlds = 400;
 constexpr double eps = 1e-6;
-/// A little more than what rounding does to a gap at the limit of coordinates.
+/// Slightly more than the rounding error of a gap at the limit of coordinates.
 constexpr double rounding = 0.1 * eps;
 constexpr std::uint64_t most_probes = 200;
 
@@ -34,7 +34,7 @@ TEST_P(FlightThroughNeedle, IsToldInTime) {
   int flights = 0;
   for (std::uint64_t k = 0; k < worlds; ++k) {
     Random random = Random::at(seed, k, 0);
-    // Room for the flight before and after.
+    // Leaves space for the flight before and after.
     const Needle needle = random_needle(random, 0x1p41 * eps - 10.0);
     const Vec3 hit = needle.point(random);
     const Vec3 velocity = 10.0 * random.unit_vector();
@@ -60,7 +60,7 @@ TEST_P(FlightThroughNeedle, IsToldInTime) {
             << "unseen at " << time << ", seed " << seed << ", world " << k << ", " << needle;
       }
     }
-    // A point meets the place at which it was aimed, or one beside it by what rounding did to that.
+    // A point meets the place at which it was aimed, or one beside it within rounding.
     const bool leaves = gap_at(0.5) > 5 * eps + rounding;
     ASSERT_EQ(events.size(), leaves ? 2u : 1u)
         << events << "seed " << seed << ", world " << k << ", " << needle;
@@ -74,8 +74,8 @@ TEST_P(FlightThroughNeedle, IsToldInTime) {
 
 INSTANTIATE_TEST_SUITE_P(OfRadius, FlightThroughNeedle, testing::Values(0.0, 1e-2, 1.0));
 
-/// A needle where the plane's normal, taken as the cross product of two sides, errs by 41 tolerances: the
-/// body was asked for a million times, and moved on by one unit in the last place of the time each.
+/// A needle with a plane normal that errs by 41 tolerances as the cross product of two sides: a regression
+/// with a million probes of the body, one unit in the last place of the time apart.
 TEST(NeedleFlight, OfAMillionProbes) {
   Surroundings p({.contact_tolerance = eps});
   const Triangle needle{{0, 0, 0},

@@ -1,4 +1,4 @@
-// Space that repeats: every contact over all images, each once, with image counts that follow the paths.
+// Periodic space: every contact over all images, each once, with image counts that follow the paths.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,10 +17,10 @@ constexpr Axes all_axes{true, true, true};
 
 class Periodic : public testing::TestWithParam<PeriodicKind> {};
 
-/// A contact that the tolerance does not leave open.
+/// True for an overlap deeper than the tolerance can leave open.
 bool is_clear(const Overlap& overlap) { return overlap.depth > 4.0 * eps; }
 
-/// The begins that the world tells of one pair, against all overlaps that there are.
+/// Expects the reported begins of one pair to be its overlaps.
 void expect_same(const PeriodicWorld& p, BodyId a, BodyId b, const std::vector<Overlap>& overlaps,
                  const std::vector<Event>& begins) {
   std::size_t next = 0;
@@ -92,7 +92,7 @@ TEST_P(Periodic, GoesOnFromASnapshotToTheBit) {
   EXPECT_EQ(hashes[0].value(), hashes[2].value());
 }
 
-/// What the world answers about the future, at several stops, against what comes.
+/// The world's answers about the future, at several stops, must not be later than the event.
 TEST_P(Periodic, AnswersAreNeverLate) {
   PeriodicWorld p(GetParam());
   const double end = p.kind.duration;
@@ -131,7 +131,7 @@ TEST_P(Periodic, AnswersAreNeverLate) {
   }
 }
 
-/// Positions of the truth in all images that matter.
+/// Returns the true positions in all relevant images.
 std::vector<Vec3> images_of(const PeriodicWorld& p, BodyId id, int most) {
   const Vec3 at = p.shortest(p.state(id).position - p.kind.box.lower) + p.kind.box.lower;
   std::vector<Vec3> images;
@@ -305,7 +305,7 @@ TEST(PeriodicBox, PairsMeetAcrossACorner) {
   }
 }
 
-/// A body with itself makes no contact, however often it comes round.
+/// A body makes no contact with its own image, however often it passes the border.
 TEST(PeriodicBox, OneBodyMeetsNobody) {
   PeriodicWorld p({.name = "alone", .box = {{0, 0, 0}, {3, 3, 3}}});
   const BodyId id = p.add({.radius = 0.5, .position = {1, 1, 1}, .velocity = {1000, 100, -10}});
@@ -335,7 +335,8 @@ TEST(PeriodicBox, PositionsFromTheCallerMayBeInAnyImage) {
   EXPECT_TRUE(is_clean(p.world));
 }
 
-/// Bodies that come and go, grow, jump and are kicked: the facts and the image counts hold at each stop.
+/// Bodies are added, removed, resized, teleported and get new velocities: the facts and the image counts hold
+/// at each stop.
 TEST(PeriodicBox, HoldsThroughEveryKindOfChange) {
   for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
     SCOPED_TRACE(seed);
@@ -350,7 +351,7 @@ TEST(PeriodicBox, HoldsThroughEveryKindOfChange) {
     std::set<std::pair<BodyId, BodyId>> touching;
     for (int step = 1; step <= 60; ++step) {
       const auto events = p.run(0.05 * step, [&](const Event& event) {
-        // Ends that a change brought about have the states before it.
+        // Ends that a change caused have the states before it.
         if (event.kind != EventKind::contact_end) p.check_event(event);
         if (event.kind == EventKind::contact_begin && mode == ContactMode::impacts) {
           const Vec3 change = event.normal * event.approach_speed;
@@ -400,7 +401,7 @@ TEST(PeriodicBox, HoldsThroughEveryKindOfChange) {
   }
 }
 
-/// Reports with errors, and true paths that bend as far as the promise allows.
+/// Reports with errors, and true paths that bend as far as the limits allow.
 TEST(PeriodicBox, NothingIsMissedWithErrorsAndAccelerations) {
   const double noise = 1e-3;
   PeriodicWorld p({.name = "noisy", .box = {{0, 0, 0}, {5, 4, 3}}}, {.separation_distance = 8 * noise});

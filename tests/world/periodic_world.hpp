@@ -1,4 +1,4 @@
-// Bodies on straight paths in a box that repeats, and their true contacts over all images.
+// Bodies on straight paths in a periodic box, and their true contacts over all images.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace kinesphere {
 
-/// How the caller of the world tells positions.
+/// The form of positions in reports.
 enum class Reports { unwrapped, wrapped, any_image };
 
 struct PeriodicCrowd {
@@ -28,14 +28,14 @@ struct PeriodicKind {
   PeriodicCrowd crowd{};
   double duration = 5.0;
   Reports reports = Reports::unwrapped;
-  /// The first body has this radius, if it is not zero.
+  /// Radius of the first body; 0 leaves it random.
   double first_radius = 0.0;
   std::uint64_t seed = 1;
 };
 
 inline std::ostream& operator<<(std::ostream& out, const PeriodicKind& kind) { return out << kind.name; }
 
-/// A time in which the true gap is below zero.
+/// A time span in which the true gap is below zero.
 struct Overlap {
   double begin;
   double end;
@@ -56,7 +56,7 @@ class PeriodicWorld : public Playground {
       double radius = crowd.least_radius + (crowd.largest_radius - crowd.least_radius) * random.uniform();
       if (k == 0 && kind.first_radius > 0.0) radius = kind.first_radius;
       const Vec3 velocity = crowd.speed * flat(random.point_in_ball());
-      // It promises less than it keeps, so that it has to be asked again and again.
+      // The limit is larger than the true acceleration, so that the body has to be probed again and again.
       const double limit = random.uniform() < 0.3 ? 0.0 : 0.3 * crowd.speed * random.uniform();
       ids.push_back(
           add({.radius = radius, .acceleration_limit = limit, .position = any_point(), .velocity = velocity},
@@ -83,7 +83,7 @@ class PeriodicWorld : public Playground {
     return flat(point);
   }
 
-  /// A position as the probe tells it.
+  /// Returns a position in the form of the reports.
   Vec3 told(Vec3 position) {
     for (int axis = 0; axis < 3; ++axis) {
       if (period[axis] == 0.0 || kind.reports == Reports::unwrapped) continue;
@@ -94,19 +94,20 @@ class PeriodicWorld : public Playground {
     return position;
   }
 
-  /// The way from one point to the nearest image of another.
+  /// Returns the way from one point to the nearest image of another.
   Vec3 shortest(Vec3 way) const {
     for (int axis = 0; axis < 3; ++axis)
       if (period[axis] > 0.0) way[axis] -= std::round(way[axis] / period[axis]) * period[axis];
     return way;
   }
 
-  /// Of the true surfaces, in the nearest image.
+  /// Returns the gap of the true surfaces, in the nearest image.
   double true_gap(BodyId a, BodyId b, double t) const {
     return norm(shortest(state(a, t).position - state(b, t).position)) - radius(a) - radius(b);
   }
 
-  /// From now, the bodies going straight on, until a time; by brute force over all images that come near.
+  /// Returns the overlaps from now until a time, for straight paths, by brute force over all images that come
+  /// near.
   std::vector<Overlap> overlaps(BodyId a, BodyId b, double until) const {
     const double now = world.time();
     const Vec3 offset = state(a, now).position - state(b, now).position;
@@ -141,7 +142,7 @@ class PeriodicWorld : public Playground {
     return found;
   }
 
-  /// The position that the world keeps, on the path since the body was placed.
+  /// Returns the position that the world keeps, on the path since the body was placed.
   Vec3 path_position(BodyId id) const {
     const BodyView view = world.body(id).value();
     Vec3 position = view.definition.position;
@@ -163,7 +164,7 @@ class PeriodicWorld : public Playground {
     EXPECT_EQ(view.definition.position, view.bound.position);
   }
 
-  /// What an event says must fit together, and be true.
+  /// Expects that an event is consistent and true.
   void check_event(const Event& event) const {
     if (event.second == no_body) return;
     for (int axis = 0; axis < 3; ++axis) {

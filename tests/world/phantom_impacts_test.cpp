@@ -1,5 +1,5 @@
-// Bodies that touch and slide past each other: an approach that rounding made is none. A real one, however
-// slow, is told before the gap has gone below minus the tolerance.
+// Bodies that touch and slide past each other: an approach caused by rounding is not reported. A real one,
+// however slow, is reported before the gap has gone below minus the tolerance.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ constexpr std::uint64_t seed = 1404;
 constexpr double eps = 1e-7;
 constexpr double restitution = 0.9;
 
-/// Answers all impacts by bounce() and counts them.
+/// Responds to all impacts with bounce(), and counts them.
 std::size_t impacts(Surroundings& p, double until) {
   const auto mass = [&p](BodyId id) { return p.fixed.contains(id) ? infinity : 1.0; };
   const auto answer = [&](const Event& event) {
@@ -29,7 +29,7 @@ std::size_t impacts(Surroundings& p, double until) {
   return p.run(until, answer).size();
 }
 
-/// Of length `speed`, normal to n but for rounding.
+/// Returns a vector of length `speed`, normal to n except for rounding.
 Vec3 sideways(Random& random, const Vec3& n, double speed) {
   const Vec3 c = cross(n, random.unit_vector());
   return c / norm(c) * speed;
@@ -39,7 +39,7 @@ BodyDefinition ball(const Vec3& position, const Vec3& velocity, double radius = 
   return {.radius = radius, .acceleration_limit = 0.15, .position = position, .velocity = velocity};
 }
 
-/// The most of so many trials.
+/// Returns the largest count of several trials.
 template <class Trial>
 std::size_t most_impacts(std::uint64_t trials, Trial impacts_in) {
   std::size_t most = 0;
@@ -60,7 +60,7 @@ TEST(PhantomImpacts, OfTwoBallsThatSlidePastEachOther) {
   EXPECT_LE(most, 2u);
 }
 
-/// Of all sizes, far from the origin, and fast ones that go the same way.
+/// Bodies of all sizes, far from the origin, and fast ones with a common direction.
 TEST(PhantomImpacts, OfTwoBallsAnywhere) {
   const std::size_t most = most_impacts(2000, [](std::uint64_t trial) {
     Random random = Random::at(seed, trial, 0);
@@ -86,7 +86,7 @@ TEST(PhantomImpacts, OfTwoBallsWhereSpaceRepeats) {
                     .contacts = ContactMode::impacts});
     const Vec3 n = random.unit_vector();
     const Vec3 v = random.point_in_ball();
-    // They lie on both sides of where the box ends.
+    // The bodies lie on both sides of the border of the box.
     const Vec3 place{random.bits() % 2 == 0 ? 0.5 : 19.5, 10, 10};
     p.add(ball(place, v), Vec3{});
     p.add(ball(place + 2.0 * n, v + sideways(random, n, 0.5)), Vec3{});
@@ -100,7 +100,7 @@ TEST(PhantomImpacts, OfABallAtAWall) {
     Random random = Random::at(seed, trial, 2);
     Surroundings p(
         {.box = Box{{0, 0, 0}, {20, 20, 20}}, .contact_tolerance = eps, .contacts = ContactMode::impacts});
-    // As a body has it that was thrown back by a wall and turned from elsewhere.
+    // The typical error after a bounce at a wall and a turn elsewhere.
     const double rounding = random.uniform(-1e-15, 1e-15);
     p.add(ball({1.0, 10, 10}, {rounding, random.uniform(0.5, 2.0), random.uniform(-1.0, 1.0)}), Vec3{});
     return impacts(p, 1e-3);
@@ -137,7 +137,7 @@ TEST(PhantomImpacts, OfABallAtAFixedShape) {
   EXPECT_LE(most, 2u);
 }
 
-/// Slower and slower, down to what rounding could have made.
+/// Ever slower approaches, down to the rounding error.
 TEST(PhantomImpacts, RealSlowApproachesAreTold) {
   for (double approach = 1e-3; approach > 1e-13; approach *= 0.1) {
     Surroundings p({.contact_tolerance = eps, .contacts = ContactMode::impacts});
@@ -151,7 +151,7 @@ TEST(PhantomImpacts, RealSlowApproachesAreTold) {
   }
 }
 
-/// An approach that rounding could have made goes on for so long that it takes most of the tolerance.
+/// An approach as slow as a rounding error that lasts until it has used most of the tolerance.
 TEST(PhantomImpacts, ApproachesThatDoNotEndAreToldInTime) {
   constexpr double fine = 1e-10;
   constexpr double approach = 1.5e-12;
@@ -161,7 +161,7 @@ TEST(PhantomImpacts, ApproachesThatDoNotEndAreToldInTime) {
                   .contact_tolerance = fine,
                   .contacts = ContactMode::impacts});
   const BodyId id = p.add({.radius = 1, .position = {1, 50, 0}, .velocity = {-approach, 1000, 0}}, Vec3{});
-  // In the box, and more exact than a product of doubles, which would break the promise.
+  // In the box, and more exact than a product of doubles, which would violate the limits.
   p.distort = [](BodyId, double time, State& state) {
     state.position.y = static_cast<double>(std::fmod(50.0L + 1000.0L * time, 100.0L));
   };

@@ -1,4 +1,4 @@
-// The gaps that audits compare with: they hold the exact ones, and closely.
+// The gaps that audits use contain the exact ones, closely.
 #include "query/plain_gap.hpp"
 
 #include <gtest/gtest.h>
@@ -73,7 +73,7 @@ TEST(PlainGap, WhereSpaceRepeatsIsThatOfTheNearestImages) {
   }
 }
 
-/// Also of triangles a millionth as high as they are long.
+/// Includes triangles a millionth as high as they are long.
 TEST(PlainGap, OfAShapeHoldsTheExactOne) {
   Random random(2007);
   for (int k = 0; k < 20000; ++k) {

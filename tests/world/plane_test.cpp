@@ -1,4 +1,5 @@
-// Worlds of two dimensions: discs find what spheres in the plane z = 0 find, at no cost of the third axis.
+// Worlds of two dimensions: discs have the events of spheres in the plane z = 0, without the cost of the
+// third axis.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +14,7 @@ constexpr double eps = 1e-6;
 
 Vec3 flat(Vec3 v) { return {v.x, v.y, 0.0}; }
 
-/// The same crowd whatever the definition says.
+/// Adds equal bodies for each definition.
 class Discs : public Playground {
  public:
   explicit Discs(const WorldDefinition& definition, std::uint64_t seed, std::size_t bodies = 80)
@@ -44,7 +45,7 @@ auto without_time(const Event& event) {
 }
 
 void expect_same_events(std::vector<Event> flat_events, std::vector<Event> deep_events) {
-  // Two contacts at nearly the same time may come in another order.
+  // Two contacts at almost equal times may be in another order.
   const auto order = [](const Event& a, const Event& b) {
     return without_time(a) != without_time(b) ? without_time(a) < without_time(b) : a.time < b.time;
   };
@@ -53,7 +54,7 @@ void expect_same_events(std::vector<Event> flat_events, std::vector<Event> deep_
   ASSERT_EQ(flat_events.size(), deep_events.size());
   for (std::size_t k = 0; k < flat_events.size(); ++k) {
     EXPECT_EQ(without_time(flat_events[k]), without_time(deep_events[k]));
-    // Each is exact to within the tolerance, which a grazing pair takes long to cross.
+    // Each time is exact to within the tolerance, which a grazing pair takes long to cross.
     const double closing = std::abs(flat_events[k].approach_speed);
     const double margin = 2.0 * eps / std::max(closing, 1e-3) + 1e-9;
     EXPECT_NEAR(flat_events[k].time, deep_events[k].time, margin) << flat_events[k] << deep_events[k];

@@ -1,4 +1,4 @@
-// Who is probed, and when: only where the reports that there are do not tell enough.
+// Which bodies are probed, and when: only if the existing reports are not sufficient.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -8,8 +8,8 @@
 namespace kinesphere::probes_test {
 namespace {
 
-/// Two at rest that could be within 1 of each other when both bounds have grown by 4.5; both began at time 0.
-/// A third body, far away, gives them boxes that last much longer.
+/// Two bodies at rest that could be within 1 of each other when both bounds have grown by 4.5; their reports
+/// are of time 0. A third body, far away, gives them swept spheres that last much longer.
 struct TwoAtRest : Playground, testing::WithParamInterface<std::vector<double>>, testing::Test {
   TwoAtRest() {
     world.set_sensor(0, {.distances = GetParam()}).value();
@@ -39,7 +39,7 @@ TEST_P(TwoAtRest, AreNotProbedAsLongAsALaterReportSuffices) {
   EXPECT_FALSE(world.audit());
 }
 
-/// In the second case they sense each other from the start.
+/// In the second case the two sense each other from the start.
 INSTANTIATE_TEST_SUITE_P(Distances, TwoAtRest,
                          testing::Values(std::vector<double>{1.0}, std::vector<double>{1.0, 50.0}));
 

@@ -1,4 +1,4 @@
-// Reports with errors, and promises that are broken.
+// Reports with errors, and violated limits.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -55,7 +55,7 @@ TEST_P(Noise, HidesNoTrueContactAndIsNoViolation) {
           ASSERT_GE(p.gap(ids[a], ids[b]), -eps) << ids[a] << " " << ids[b];
         }
     for (const BodyId id : ids) {
-      // They turn back by themselves before they leave the box.
+      // The bodies turn back by themselves before they leave the box.
       const State state = p.state(id);
       Vec3 towards = Vec3{6, 6, 6} - state.position - state.velocity;
       const double length = norm(towards);
@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(Errors, Noise,
                                          std::tuple(0.1, 0.5, ContactMode::begin_and_end),
                                          std::tuple(0.002, 0.01, ContactMode::impacts)));
 
-/// A body that breaks its promise while another waits for it.
+/// A body violates its limits while another waits for it.
 struct Breach {
   Playground p;
   BodyId culprit, witness;
@@ -86,7 +86,7 @@ struct Breach {
     p.run(5.0);
   }
 
-  /// Events until 50 time units later.
+  /// Returns events until 50 time units later.
   std::vector<Event> run_on() { return p.run(p.world.time() + 50.0); }
 };
 
@@ -133,7 +133,7 @@ TEST(BoundViolation, AccelerationBeyondTheLimitIsReportedAndTheContactFound) {
   Playground p;
   p.add({.radius = 1, .acceleration_limit = 0.1, .velocity = {1, 0, 0}}, Vec3{0, 0.4, 0});
   const BodyId target = p.add({.radius = 1, .position = {20, 80, 0}});
-  // With neighbours it is asked often enough to be caught early.
+  // With neighbours the body is probed often enough to be caught early.
   for (int k = 0; k < 20; ++k) p.add({.radius = 1, .position = {1.0 * k + 3.0, 0.2 * k * k, 0}});
   const auto events = p.run(30.0);
   const auto violations = of_kind(events, EventKind::bound_violation);
@@ -155,7 +155,7 @@ TEST(BoundViolation, TeleportIntoAndOutOfContactBeginsAndEndsIt) {
   p.set_velocity_unseen(breach.culprit, {1, 0, 0});
   p.set_position(breach.culprit, {0, 149, 0});
   auto events = p.run(p.world.time() + 0.0);
-  p.set_velocity(breach.culprit, {0, 0, 0});  // makes the world ask at once
+  p.set_velocity(breach.culprit, {0, 0, 0});  // makes the world probe at once
   events = p.run(p.world.time() + 1.0);
   ASSERT_EQ(events.size(), 2u) << events;
   EXPECT_EQ(events[0].kind, EventKind::bound_violation);
@@ -170,7 +170,7 @@ TEST(BoundViolation, TeleportIntoAndOutOfContactBeginsAndEndsIt) {
   EXPECT_TRUE(is_clean(p.world));
 }
 
-/// So many bodies are added that all others get new windows with them, for which some are asked.
+/// Enough bodies are added that all others get new windows with them, for which some are probed.
 TEST(BoundViolation, FoundOutWhileManyAreAddedLosesNobody) {
   for (int steps = 1; steps <= 40; ++steps) {
     Playground p;
@@ -209,8 +209,8 @@ TEST(BoundViolation, SeveralAtOneInstantAreAllTold) {
   }
 }
 
-/// A body is to meet one that has to look at the floor soon. Asked then, it turns out to have gone to the
-/// other side, and to come back fast through another image than that in which the two have been seen.
+/// A body is to meet one that has a recheck at the floor soon. A probe then finds it on the other side,
+/// returning fast through another image than the one in which the pair was certified.
 TEST(BoundViolation, FoundOutAtAMeetingSettlesThePairInItsNewImage) {
   const double speed = 100.0;
   for (const double gap : {0.05, 0.2, 1.0}) {
@@ -223,7 +223,8 @@ TEST(BoundViolation, FoundOutAtAMeetingSettlesThePairInItsNewImage) {
       if (culprit_first) add_culprit();
       other = p.add({.radius = 0.5, .acceleration_limit = 1, .position = {2, 5, 0.51}}, Vec3{});
       if (!culprit_first) add_culprit();
-      // Far from both: boxes are as large as bodies are sparse, and last beyond the next look at the floor.
+      // Far from the pair: swept spheres are as large as bodies are sparse, and last beyond the next recheck
+      // at the floor.
       p.add({.radius = 0.1, .position = {7, 0, 9}});
       bool broken = false;
       p.distort = [&](BodyId id, double time, State& state) {

@@ -1,4 +1,4 @@
-// Queries against brute force on the true bodies: nothing is missed, what is certain is true, and with a
+// Queries against brute force on the true bodies: nothing is missed, certain results are true, and with a
 // probe only position errors leave something open.
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double rounding = 1e-11;
 
-/// The way after which a sphere comes to touch the ball, if it does.
+/// Returns the way after which a sphere touches the ball; nothing if it does not.
 double true_way(const Vec3& origin, double radius, const Vec3& unit, const Vec3& centre, double ball) {
   const Vec3 offset = origin - centre;
   const double reach = radius + ball;
@@ -38,7 +38,7 @@ class Queries : public testing::TestWithParam<CrowdKind> {
     ASSERT_NO_FATAL_FAILURE(ask_cast());
   }
 
-  /// `true_distance(body)` is that of its surface from the region.
+  /// `true_distance(body)` is the distance of its surface from the region.
   void compare(const std::vector<OverlapHit>& found, const std::function<double(BodyId)>& true_distance) {
     std::set<BodyId> possible;
     for (const OverlapHit& each : found) {
@@ -173,7 +173,7 @@ class Queries : public testing::TestWithParam<CrowdKind> {
 TEST_P(Queries, AgreeWithBruteForce) {
   constexpr int questions = 6;
   for (int stop = 1; stop <= 40; ++stop) {
-    // Before the world has looked at the changes, too.
+    // Queries also before the world has processed the changes.
     for (int k = 0; k < questions; ++k) ASSERT_NO_FATAL_FAILURE(ask()) << "stop " << stop;
     while (const auto event = crowd.advance(-1.0 + 0.05 * stop)) {
       ASSERT_NE(event->kind, EventKind::bound_violation);

@@ -1,5 +1,5 @@
-// Balls that are steered and kicked at random among fixed bodies that come and go at random, held against
-// brute force.
+// Balls with random accelerations and velocity changes among static bodies that are added and removed at
+// random, compared with brute force.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -50,7 +50,7 @@ class RandomSurroundings : public testing::TestWithParam<Kind> {
     }
   }
 
-  /// As long as a world with this tolerance allows, and hardly thicker than it has to be.
+  /// Returns a triangle as long as a world with this tolerance allows, and hardly thicker than the minimum.
   Triangle needle_through(const Vec3& place) {
     constexpr double length = 1e7;
     const Vec3 along = length * random.unit_vector();
@@ -103,7 +103,7 @@ class RandomSurroundings : public testing::TestWithParam<Kind> {
     }
   }
 
-  /// Back to the middle, more or less.
+  /// Steers the ball back towards the middle.
   void steer(BodyId ball) {
     const Vec3 away = p.state(ball).position - Vec3{4, 4, 4};
     const Vec3 plan = p.world.body(ball)->definition.planned_acceleration;
@@ -120,7 +120,7 @@ class RandomSurroundings : public testing::TestWithParam<Kind> {
     if (event.kind == EventKind::contact_begin) {
       EXPECT_TRUE(touching.insert(pair).second) << event;
     } else if (event.kind == EventKind::contact_end) {
-      // The end of one that is gone comes after it.
+      // The end of a removed body's contact comes after its removal.
       const bool known = p.world.contains(event.first) && p.world.contains(event.second);
       EXPECT_TRUE(touching.erase(pair) == 1 || !known) << event;
     }
@@ -131,7 +131,8 @@ class RandomSurroundings : public testing::TestWithParam<Kind> {
     return view.enabled && view.definition.filter == Filter{};
   }
 
-  /// Of a gap: a hundredth of the tolerance for a needle, next to nothing for others.
+  /// Returns the rounding error of a gap: a hundredth of the tolerance for a needle, almost nothing for
+  /// others.
   static double rounding(const Shape& shape) {
     const auto* triangle = std::get_if<Triangle>(&shape);
     if (triangle == nullptr) return 1e-12;
@@ -184,7 +185,7 @@ TEST_P(RandomSurroundings, NothingIsMissed) {
     check_gaps();
   }
   EXPECT_GT(begins, 100u);
-  // Nobody crawls: a body that is far from all changes, or deep in a box, is left alone.
+  // Time does not crawl: a body far from all changes, or deep in a box, is not rechecked.
   const Counters& counters = p.world.counters();
   EXPECT_LE(counters.pair_checks, 2 * counters.probes);
   EXPECT_LE(counters.steps(), 3 * counters.probes);

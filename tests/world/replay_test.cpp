@@ -1,5 +1,5 @@
-// Recordings: a replay goes the same way to the last bit, whatever was done; another way is named; bytes that
-// are no recording are refused.
+// Recordings: a replay is equal to the last bit for all operations; a divergence is reported with its place;
+// bytes that are no recording are refused.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ std::uint64_t hash_of(const std::vector<Event>& events) {
 class Recording : public testing::TestWithParam<CrowdKind> {};
 INSTANTIATE_TEST_SUITE_P(Crowds, Recording, crowd_kinds());
 
-/// The replay of a bustling crowd. `replay` finds its own world by `itself`, where the pair filter looks.
+/// The replay of a busy crowd. `replay` finds its own world through `itself`, for the pair filter.
 struct Replayed {
   explicit Replayed(const Bytes& bytes)
       : replay(Replay::open(bytes, [this](BodyId a, BodyId b) {
@@ -96,7 +96,7 @@ TEST_P(Recording, IsReadWithoutAReplay) {
   EXPECT_EQ(run.start_time, -1.0);
   EXPECT_EQ(run.end_time, bustle.world.time());
   EXPECT_EQ(hash_of(run.events), hash_of(bustle.events()));
-  // The rest are those of probes that failed.
+  // The rest are states of failed probes.
   EXPECT_LE(run.probed_states.size(), bustle.world.counters().probes - probes);
   EXPECT_GE(run.probed_states.size(), (bustle.world.counters().probes - probes) / 2);
   for (const ProbedState& report : run.probed_states) ASSERT_TRUE(is_finite(report.state.velocity));
@@ -118,9 +118,9 @@ TEST(RecordingOfAWorld, GoesWithAWorldThatIsMovedAndNotWithAClone) {
   EXPECT_EQ(replay.world().body({0, 0})->definition.velocity, (Vec3{1, 0, 0}));
 }
 
-// Another way.
+// Divergences.
 
-/// Two bodies that meet at time 2 and pass; a wall after that.
+/// Returns the recording of two bodies that meet at time 2 and pass, and then reach a wall.
 Bytes meeting(bool with_kick = false) {
   Playground p({.box = Box{{-10, -10, -10}, {10, 10, 10}}});
   p.world.start_recording().value();
@@ -133,7 +133,7 @@ Bytes meeting(bool with_kick = false) {
   return p.world.stop_recording().value();
 }
 
-/// Makes length and checksum right again.
+/// Corrects length and checksum.
 Bytes sealed(Bytes bytes) {
   const auto write = [&](std::size_t at, std::uint64_t number) {
     for (std::size_t k = 0; k < 8; ++k) bytes[at + k] = static_cast<std::byte>(number >> (8 * k));
@@ -143,7 +143,7 @@ Bytes sealed(Bytes bytes) {
   return bytes;
 }
 
-/// The recording with other steps.
+/// Returns the recording with changed steps.
 template <class Change>
 Bytes altered(const Bytes& bytes, Change change) {
   RecordingContent content = read_content(bytes).value();
@@ -290,7 +290,7 @@ TEST(BadRecording, SealedNonsenseIsRefusedOrDivergesOrIsHarmless) {
   bustle.world.start_recording().value();
   bustle.go(0.5);
   const Bytes bytes = bustle.world.stop_recording().value();
-  // Changes in the snapshot are refused by its own checksum (tests of snapshots go on from there).
+  // Changes in the snapshot are refused by its own checksum (see the tests of snapshots).
   const std::size_t steps = 20 + 8 + bustle.world.save().value().size() / 2;
   ASSERT_GT(bytes.size(), steps + 1000);
   int diverged = 0, refused = 0;
@@ -318,7 +318,7 @@ TEST(BadRecording, SealedNonsenseIsRefusedOrDivergesOrIsHarmless) {
       ++diverged;
       break;
     }
-    // Wherever it stopped, it is a world that can be.
+    // At each stop it must be a valid world.
     const auto filter = [](BodyId, BodyId) { return true; };
     ASSERT_TRUE(World::restore(replay->world().save().value(), filter));
   }

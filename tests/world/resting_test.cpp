@@ -13,7 +13,7 @@ namespace {
 constexpr double g = 10.0;
 constexpr Vec3 gravity{0, 0, -g};
 
-/// A playground whose bodies settle; masses by index, equal unless given.
+/// A playground with responses by settle(); masses by index, equal unless given.
 struct Heap : Playground {
   Heap(const Box& box, double tolerance, double restitution_, double hop_speed = 0.0)
       : Playground({.box = box,
@@ -105,7 +105,7 @@ TEST(Sleeping, StackOfTenInATube) {
   }
 }
 
-/// Two heavy bodies are driven onto a light one between them, for ever.
+/// Two heavy bodies are driven onto a light one between them, without end.
 TEST(Sleeping, JammedBallDoesNotStopTime) {
   for (const double e : {0.0, 0.5, 1.0}) {
     const double tolerance = 1e-4;
@@ -130,8 +130,7 @@ TEST(Sleeping, JammedBallDoesNotStopTime) {
   }
 }
 
-/// A ball slides down a smooth dome of which it has lost its balance: it leaves where cos = 2/3 + v^2 / (3 g
-/// R).
+/// A ball slides down a smooth dome from an unstable position: it leaves where cos = 2/3 + v^2 / (3 g R).
 TEST(Sleeping, BallGrindsOverADomeAndLeavesWhereItMust) {
   const double tolerance = 1e-7;  // near the end hops take ever longer, the shorter the finer they are
   Heap p({{-100, -100, -100}, {100, 100, 100}}, tolerance, 0.0);
@@ -154,8 +153,8 @@ TEST(Sleeping, BallGrindsOverADomeAndLeavesWhereItMust) {
   EXPECT_EQ(p.world.counters().count(EventKind::zeno_guard), 0u);
 }
 
-/// With begin and end, a contact that lasts is one contact: who stops its body at the begin hears no more of
-/// it.
+/// With begin and end, a lasting contact is one contact: a caller that stops its body at the begin gets no
+/// further events.
 TEST(Sleeping, HeldByTheCallerIsOneLastingContact) {
   for (const bool wall : {true, false}) {
     Playground p({.box = room});
@@ -219,7 +218,7 @@ TEST(Jammed, AnswersThatGoOnAreStoppedByTheZenoGuard) {
   EXPECT_TRUE(is_clean(p.world));
 }
 
-/// Many that arrive at one instant are no jam.
+/// Many bodies that arrive at one instant are not a jam.
 TEST(Jammed, IsNotWhatManyHitAtOnce) {
   Playground p({.contacts = ContactMode::impacts});
   const BodyId target = p.add({.radius = 10});

@@ -1,5 +1,4 @@
-// Rollback as games do it: a copy of the world each frame, and when late input comes, back to the frame that
-// it belongs to and forward again.
+// Rollback as in games: a copy of the world each frame; for late input, back to its frame and forward again.
 #include <gtest/gtest.h>
 
 #include <deque>
@@ -12,7 +11,7 @@ namespace {
 
 constexpr double frame = 1.0 / 60.0;
 
-/// 300 bodies that bounce; all of its state can be copied.
+/// 300 bouncing bodies; the whole state can be copied.
 class Game {
  public:
   Game() {
@@ -31,7 +30,7 @@ class Game {
     }
   }
 
-  /// What a player does to one of the bodies at the start of the frame.
+  /// A player's input for one of the bodies at the start of the frame.
   void push(std::uint32_t body) {
     set_velocity({body, 0}, courses_[body].at(world_.time()).velocity + Vec3{0, 0, 5});
   }
@@ -77,7 +76,7 @@ class Game {
   int frames_ = 0;
 };
 
-/// Every third frame a push comes five frames late.
+/// Every third frame a push arrives five frames late.
 template <class Save>
 Game with_late_input(Save save) {
   constexpr std::size_t delay = 5;
@@ -102,7 +101,7 @@ Game with_late_input(Save save) {
 Game with_input_in_time() {
   Game game;
   for (std::uint32_t number = 0; number < 60; ++number) {
-    // The push that arrives in frame n + 4 belongs to this one.
+    // The push that arrives in frame n + 4 belongs to this frame.
     if (number % 3 == 2 && number + 4 < 60) game.push(number + 4);
     game.play_frame();
   }

@@ -1,4 +1,4 @@
-// World::run: the same as a loop over advance(), also when something goes wrong on the way.
+// World::run: equal to a loop over advance(), also after failures in callbacks.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -150,7 +150,7 @@ class Fuse {
   std::size_t burnt_ = 0;
 };
 
-/// A mover that another stands behind.
+/// A motion source that wraps another one.
 class Guarded final : public MotionSource {
  public:
   explicit Guarded(Motion& motion) : mover_(motion) {}
@@ -174,7 +174,7 @@ class Guarded final : public MotionSource {
   SingleMotionSource mover_;
 };
 
-/// Runs with something that blows the fuse, going on as often as that happens: the world does not mind.
+/// Runs with a callback that blows the fuse, and continues each time: the world is unaffected.
 void expect_no_trace(const std::function<void(Bouncing&, Guarded&, Fuse&, std::function<void()>& at_respond,
                                               std::function<void()>& at_tell)>& plant,
                      bool probes_again = false) {
@@ -272,7 +272,7 @@ TEST(InterruptedRun, ChangesNeitherBodyWhenTheSecondDepartureThrows) {
   EXPECT_TRUE(is_clean(run.world));
 }
 
-/// A run that stops at its first contact, which has not been answered.
+/// Runs until the first contact, which stays without a response.
 std::optional<Event> interrupt(Bouncing& run) {
   std::optional<Event> at;
   SingleMotionSource source(run.motion);
@@ -363,8 +363,8 @@ TEST(WrongRun, NamesTheBodyOfABadState) {
   EXPECT_EQ(b.hash.value(), expected.hash.value());
 }
 
-/// Answers the first event of a kind with something wrong, which is refused by name; then goes on as if
-/// nothing had happened.
+/// Responds to the first event of a kind with a wrong value, which is refused by name; then continues
+/// normally.
 void expect_refused(EventKind kind, const std::function<Response(const Event&)>& wrong, ErrorCode code,
                     const std::string& argument, bool of_second) {
   Bouncing b, expected;
@@ -421,7 +421,7 @@ TEST(WrongRun, CannotKickABodyThatHasGone) {
   EXPECT_TRUE(world.run(1.0, source, respond, silent));
 }
 
-/// What may not be called inside a run, by name.
+/// Expects that calls forbidden inside a run are refused by name.
 void expect_refused_inside(Bouncing& b) {
   const auto busy = ErrorCode::run_in_progress;
   SingleMotionSource source(b.motion);

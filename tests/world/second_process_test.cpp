@@ -1,4 +1,4 @@
-// A world that is saved in one process goes on to the bit in another.
+// A world that is saved in one process continues to the bit in another.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* variable = "KINESPHERE_SECOND_PROCESS";
 
-/// What is written by one process and read by the other.
+/// Files that one process writes and the other reads.
 struct Files {
   fs::path folder;
   fs::path saved() const { return folder / "saved"; }
@@ -38,7 +38,7 @@ Bytes read(const fs::path& path) {
   return bytes;
 }
 
-/// Bodies that keep to their plans, so that a snapshot says all of their future too. They bounce.
+/// Bouncing bodies that follow their plans, so that a snapshot determines all of their future.
 class Billiards {
  public:
   explicit Billiards(World from) : world(std::move(from)) {
@@ -50,7 +50,7 @@ class Billiards {
     courses_[id.index] = {bound.time, {bound.position, bound.velocity}, bound.planned_acceleration};
   }
 
-  /// At most so many events.
+  /// Delivers at most `at_most` events.
   void go(double until, int at_most) {
     const auto probe = [this](std::span<const BodyId> ids, double time, std::span<State> states) {
       for (std::size_t k = 0; k < ids.size(); ++k) states[k] = courses_[ids[k].index].at(time);
@@ -80,7 +80,7 @@ class Billiards {
   std::vector<SeparationForecast> courses_;
 };
 
-/// In the middle of an instant: four contacts begin at once, and one of them has been told.
+/// Saves in the middle of an instant: four contacts begin at once, and one of them has been delivered.
 Bytes saved_in_the_middle() {
   Billiards game(World::create({.box = Box{{0, 0, 0}, {9, 9, 9}}}).value());
   const auto add = [&](const BodyDefinition& body) {
@@ -97,7 +97,7 @@ Bytes saved_in_the_middle() {
   return game.world.save().value();
 }
 
-/// Goes on from there; the last bytes hold the events too.
+/// Continues from there; the last bytes contain the events.
 Bytes outcome(const Bytes& saved) {
   Billiards game(World::restore(saved).value());
   game.go(game.world.time() + 20.0, 500);
@@ -107,7 +107,7 @@ Bytes outcome(const Bytes& saved) {
   return bytes;
 }
 
-/// What the second process does; by itself it is no test.
+/// Runs in the second process; by itself it tests nothing.
 TEST(SecondProcess, GoesOnFromAFile) {
   const char* folder = std::getenv(variable);
   if (folder == nullptr) return;

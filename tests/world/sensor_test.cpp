@@ -1,4 +1,4 @@
-// Sensors: each crossing of each distance is told once, at its time, whatever moves and whatever changes.
+// Sensors: each crossing of each distance is reported once, at its time, through all motions and changes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 constexpr double eps = 1e-6;  // the default contact tolerance
 constexpr SensorClass watchful = 7;
 
-/// One rests at the origin and warns at 50, with an alarm at 10; the other comes along x.
+/// A body at rest at the origin warns at 50, with an alarm at 10; the other comes along x.
 struct Approach : Playground {
   explicit Approach(double velocity, const BodyDefinition& guard = {.radius = 1, .sensor_class = watchful})
       : rests(add(guard)), comes(add({.radius = 1, .position = {-102, 0, 0}, .velocity = {velocity, 0, 0}})) {
@@ -42,7 +42,7 @@ TEST(Sensor, WarnsThenAlarmsThenTouchesAndBackAgain) {
   ASSERT_EQ(crossings(events), expected) << events;
   const double times[] = {5.0, 9.0, 10.0, 10.4, 11.4, 15.4};
   for (std::size_t k = 0; k < events.size(); ++k) {
-    // Ends come between four and five tolerances beyond.
+    // Ends come between four and five tolerances beyond the distance.
     EXPECT_NEAR(events[k].time, times[k], 5.001 * eps / 10.0) << events[k];
     EXPECT_NEAR(events[k].gap, events[k].distance, 5.001 * eps);
     EXPECT_EQ(events[k].first, p.rests);
@@ -195,7 +195,7 @@ TEST(Sensor, OfOneCentimetreSeesTenThousandBullets) {
   std::vector<Vec3> aims;
   for (int k = 0; k < bullets; ++k) {
     const Vec3 inward = random.unit_vector();
-    // Aimed at the sensor itself, not at the centre of it, and with 0 to 10 s on the way.
+    // Aimed at the surface of the sensor, not at its centre, with 0 to 10 s of flight.
     const Vec3 start = inward * (-10000.0 * random.uniform() - 1.0) + random.point_in_ball() * 0.005;
     p.add({.radius = 0.0,
            .position = start,

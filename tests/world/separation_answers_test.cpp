@@ -17,7 +17,8 @@ class Separation : public testing::TestWithParam<CrowdKind> {
  protected:
   Separation() : crowd(GetParam()) {}
 
-  /// The true gap of the two, on the paths that they follow if nobody changes them, from now to `time`.
+  /// Expects the true gap of the two, on their unchanged paths from now to `time`, to stay above the
+  /// distance.
   void expect_apart(BodyId a, BodyId b, double distance, double time) {
     const double now = crowd.world.time();
     const double end = std::min(time, now + 2.0);
@@ -56,7 +57,7 @@ class Separation : public testing::TestWithParam<CrowdKind> {
           ASSERT_GE(fresh.time - world.time(), (1.0 - 1e-9) * (pair.time - world.time()));
         }
         ASSERT_NO_FATAL_FAILURE(expect_apart(a, b, distance, fresh.time));
-        // Fresh reports leave no more open than their errors do.
+        // Fresh reports leave only their errors open.
         if (fresh.time == world.time() && !fresh.within) {
           ASSERT_LE(crowd.gap(a, b, world.time()), distance + 8.0 * GetParam().noise + 1e-9);
         }
@@ -104,7 +105,7 @@ TEST(SafeSeparation, IsSharpForBallisticBodies) {
   EXPECT_FALSE(p.world.earliest_approach(b, 30.0)->within);
 }
 
-/// Where reports are old the world does not know whether it is within; a probe decides.
+/// With old reports the world does not know whether the pair is within; a probe decides.
 TEST(SafeSeparation, AProbeDecides) {
   Playground p;
   const BodyId a = p.add({.radius = 1, .acceleration_limit = 1, .position = {0, 0, 0}}, Vec3{});
@@ -148,7 +149,7 @@ TEST(SafeSeparation, CountsWallsAndShapes) {
   EXPECT_FALSE(p.world.safe_until(floor, box, 1.0)->within);
 }
 
-/// All images count.
+/// All images count in periodic space.
 TEST(SafeSeparation, WhereSpaceRepeats) {
   Playground p({.box = Box{{0, 0, 0}, {40, 40, 40}}, .periodic = {true, true, true}});
   const BodyId a = p.add({.radius = 1, .position = {2, 5, 5}, .velocity = {-1, 0, 0}});

@@ -1,4 +1,4 @@
-// Kicks: of bodies just probed and not, in contact and free, and of several at one stop.
+// Velocity changes: of bodies just probed and not, in contact and free, and of several at one stop.
 #include <gtest/gtest.h>
 
 #include "support/playground.hpp"
@@ -10,7 +10,7 @@ TEST(VelocityChange, OfABodyNotProbedForLongAsksFirst) {
   Playground p;
   const BodyId a = p.add({.radius = 1, .acceleration_limit = 1, .velocity = {1, 0, 0}}, Vec3{0, 0.9, 0});
   p.run(0.13);
-  // Where the world thinks it is, nobody is: only its bound holds it.
+  // The body is not at the place of its last report; only its bound contains it.
   const Vec3 there = p.state(a).position;
   p.set_velocity(a, {0, 0, 100});
   p.steer(a, {});
@@ -24,8 +24,8 @@ TEST(VelocityChange, OfABodyNotProbedForLongAsksFirst) {
 }
 
 TEST(VelocityChange, DoesNotTrustTheVelocityOfTheKickForAStaleBody) {
-  // The probe is right and the velocity handed to set_velocity() wrong: the report counts, and the caller is
-  // told.
+  // The probe is right and the velocity passed to set_velocity() wrong: the report counts, and the caller
+  // gets an error.
   Playground p;
   const BodyId a = p.add({.radius = 1, .velocity = {1, 0, 0}});
   p.add({.radius = 1, .position = {0.5, 0, 20}});
@@ -137,7 +137,7 @@ TEST(VelocityChange, AtTheStartBeforeAnyAdvanceCounts) {
 }
 
 TEST(VelocityChange, EveryStopWithoutTimeGoingOnTerminates) {
-  // A caller that kicks at every stop, with nothing else to do.
+  // A caller that changes the velocity at every stop.
   Playground p;
   const BodyId a = p.add({.radius = 1, .acceleration_limit = 1}, Vec3{});
   for (int k = 0; k < 100; ++k) {

@@ -1,4 +1,4 @@
-// Bodies that rest cost nothing until something wakes them, and then the whole island wakes.
+// Sleeping bodies cost nothing until something wakes them, and then the whole island wakes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -215,8 +215,8 @@ TEST(Sleep, RefusesWhatCannotRest) {
   expect_error(p.world.wake(id), ErrorCode::stale_body, "body", "wake: ", id);
 }
 
-/// Balls that fly about and are put to rest where they are, by a caller who knows nothing of what comes. What
-/// the world tells is held against the exact gaps.
+/// Balls that fly about and are put to sleep in place, by a caller that does not know the future. The
+/// reported events are compared with the exact gaps.
 class RandomScene {
  public:
   explicit RandomScene(std::uint64_t seed) : random_(seed), p_(definition()) {
@@ -322,7 +322,7 @@ class RandomScene {
     return ids;
   }
 
-  /// Each body that rested and does not any more will be told of, and nobody in touch with it rests.
+  /// Each body that slept and does not any more must be reported, and no body in touch with it sleeps.
   void note_woken(const std::set<BodyId>& before) {
     told_to_rest_ = all_resting();
     for (const BodyId id : before) {

@@ -1,4 +1,4 @@
-// A restored world goes on to the bit as the one that was saved, and bytes that are no snapshot are refused.
+// A restored world continues to the bit like the saved one, and bytes that are no snapshot are refused.
 #include <gtest/gtest.h>
 
 #include <stdexcept>
@@ -16,7 +16,7 @@ using Bytes = std::vector<std::byte>;
 
 enum class Answer { pass_through, bounce };
 
-/// A crowd that comes and goes, with all that it asks and all that it is told.
+/// A crowd with additions and removals, with all queries and all events.
 class Crowd {
  public:
   Crowd(ContactMode mode, Answer answer, int count, bool walls = true)
@@ -30,7 +30,7 @@ class Crowd {
   Crowd(const Crowd&) = delete;
   Crowd& operator=(const Crowd&) = delete;
 
-  /// Calls `at_stop` at every stop: before the answer to an event, after it, and between events.
+  /// Calls `at_stop` at every stop: before the response to an event, after it, and between events.
   template <class AtStop>
   void go(double until, AtStop at_stop) {
     const double start = playground_.world.time();
@@ -88,7 +88,7 @@ void expect_same(Crowd& found, Crowd& expected) {
   EXPECT_EQ(found.hash(), expected.hash());
   EXPECT_EQ(found.told().size(), expected.told().size());
   EXPECT_EQ(found.asked(), expected.asked());
-  // Counters and everything else.
+  // Counters and everything else are equal.
   EXPECT_EQ(found.world().save().value(), expected.world().save().value());
 }
 
@@ -138,7 +138,7 @@ TEST_P(Snapshot, ACloneGoesOnTheSameAndAlone) {
   found.go(1.5, [&](World& world) {
     if (++stop % 7 != 0) return;
     World clone = world.clone().value();
-    // Whatever becomes of the original.
+    // The original may change meanwhile.
     for (const BodyId id : world.bodies()) world.remove(id).value();
     world = std::move(clone);
   });
@@ -153,7 +153,7 @@ TEST_P(Snapshot, SavingChangesNothing) {
   expect_same(found, expected);
 }
 
-/// Where the bytes must not depend: on the addresses of this process.
+/// The bytes must not depend on addresses of this process.
 TEST_P(Snapshot, TheSameWorldGivesTheSameBytes) {
   Crowd first = crowd();
   const Bytes padding(12345);
@@ -185,7 +185,7 @@ TEST(SnapshotOfAWorld, KeepsAKickThatNoReportHasShownYet) {
   EXPECT_FALSE(p.advance(2.0)) << "the kick is taken for a broken promise";
 }
 
-/// Their first windows would take them farther than is computed well.
+/// Their first windows would take them farther than the computation is exact.
 TEST(SnapshotOfAWorld, MayHoldBodiesThatAreVeryFarFromEachOther) {
   for (const double distance : {1e4, 1e5, 1e6, 2e6}) {
     Playground p;
@@ -236,7 +236,8 @@ TEST(SnapshotOfAWorld, AfterABadAnswerGoesOnTheSame) {
 
 // Bytes that are no snapshot.
 
-/// In mid-contact, between two events of one instant, with kicks and additions that are not settled yet.
+/// Returns a snapshot in mid-contact, between two events of one instant, with unprocessed velocity changes
+/// and additions.
 Bytes rich_snapshot(ContactMode mode, const Axes& periodic = {}) {
   Playground p({.box = Box{{0, 0, 0}, {10, 10, 10}}, .periodic = periodic, .contacts = mode});
   for (int k = 0; k < 4; ++k) {
@@ -308,7 +309,7 @@ TEST(BadSnapshot, EveryFlippedBitIsRefused) {
   }
 }
 
-/// The highest bits of words are where sums over whole words are blind.
+/// Sums over whole words do not detect changes of their highest bits.
 TEST(BadSnapshot, AnyTwoFlippedHighestBitsAreRefused) {
   Playground p;
   for (int k = 0; k < 2; ++k)

@@ -1,4 +1,4 @@
-// World::run by several threads: the same events as a loop over advance(), to the last bit.
+// World::run with several threads: events equal to those of a loop over advance(), to the last bit.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,14 +18,14 @@ namespace {
 
 struct Kind {
   std::string name;
-  int side = 12;  ///< so many bodies along each axis
+  int side = 12;  ///< bodies along each axis
   double spacing = 2.4;
   double faster = 1.0;  ///< one in a hundred starts so many times as fast
   ContactMode contacts = ContactMode::begin_and_end;
   bool periodic = false;
   bool sensors = false;
   bool fixed = false;
-  bool passes = false;  ///< nobody answers
+  bool passes = false;  ///< no responses
   bool lies = false;    ///< one in three accelerates more than it promises
   double end = 3.0;
 };
@@ -85,17 +85,16 @@ TEST_P(SpeculativeRunner, AreAsOneLoop) {
     Hall run(GetParam());
     for (const double part : {0.01, 0.3, 0.3, 1.0}) run.run(part * run.kind.end, &workers).value();
     expect_same_course(run, looped);
-    // What islands have done in vain does not count.
+    // Work of rolled-back clusters does not count.
     const Counters& counters = run.world.counters();
     EXPECT_EQ(counters.searches, counters.starts + counters.restarts);
     EXPECT_TRUE(is_clean(run.world));
   }
 }
 
-/// A large ball that nobody is about to meet, in each of many places far from each other. On one side a body
-/// is hit that then passes by it, so that the ball is asked where it is; on the other side, later, one that
-/// comes to it after the first run. When that will be follows from the ball's last report, the one of the
-/// other island.
+/// A large ball without a collision course, in each of many places far from each other. On one side a body is
+/// hit and passes the ball, so that the ball is probed; on the other side, later, a body approaches the ball
+/// after the first run. The time of that follows from the ball's last report, which the other cluster made.
 struct LargeBalls : BouncingWorld<Ballistic> {
   LargeBalls()
       : BouncingWorld(Ballistic::create({.start = start()}).value(), World::create({}).value(), 1.0) {
@@ -139,7 +138,7 @@ TEST(ClustersThatReadABody, AreJoinedToTheOneThatHasIt) {
   expect_same_course(run, looped);
 }
 
-/// Throws at the events from a time on, until it is told not to.
+/// Throws at the events from a time on, until it is switched off.
 TEST(ClustersThatFail, LeaveAWorldThatGoesOnAsIfNothingHadHappened) {
   const Kind kind{.name = "failing", .sensors = true, .fixed = true};
   Hall looped(kind);
@@ -164,7 +163,7 @@ TEST(ClustersThatFail, LeaveAWorldThatGoesOnAsIfNothingHadHappened) {
   EXPECT_TRUE(is_clean(run.world));
 }
 
-/// An answer that is refused once is asked for again.
+/// A refused response is requested again.
 TEST(ClustersThatFail, GoOnWhenTheyFailNoMore) {
   const Kind kind{.name = "failing once"};
   Hall looped(kind);
@@ -190,15 +189,15 @@ TEST(ClustersThatFail, GoOnWhenTheyFailNoMore) {
   EXPECT_EQ(run.hash.value(), looped.hash.value());
 }
 
-/// Of some body, at this instant.
+/// Returns true if a window of a body ends at this instant.
 bool windows_end(const World& world) {
   const auto bodies = world.bodies();
   return std::any_of(bodies.begin(), bodies.end(),
                      [&](BodyId id) { return world.body(id).value().box_end == world.time(); });
 }
 
-/// Where the sink throws, the world may stand at the end of a phase: there queries find bodies where they
-/// are, also those that have been kicked since their windows started.
+/// If the sink throws, the world may stand at the end of an epoch: queries must find bodies at their places,
+/// also bodies with velocity changes since their windows started.
 TEST(ClustersThatWereInterrupted, LeaveBodiesWhereQueriesFindThem) {
   Workers workers = Workers::create(2).value();
   Hall run({.name = "interrupted"});

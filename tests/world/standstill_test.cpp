@@ -1,4 +1,4 @@
-// Bodies at rest within a hair of each other: nothing changes, and finding that out must not stop time.
+// Bodies at rest within a hair of each other: nothing changes, and time must go on.
 #include <gtest/gtest.h>
 
 #include "support/playground.hpp"
@@ -13,7 +13,7 @@ struct Standstill {
 
 class StandstillTest : public testing::TestWithParam<Standstill> {};
 
-/// A look is worth at least the time in which the gap could change by an eighth of the tolerance, 1e-6.
+/// A recheck is good for at least the time in which the gap could change by an eighth of the tolerance, 1e-6.
 constexpr std::uint64_t enough_looks = 50000;
 
 TEST_P(StandstillTest, OfTwoBodiesDoesNotStopTime) {
@@ -53,7 +53,7 @@ std::vector<Standstill> standstills() {
 
 INSTANTIATE_TEST_SUITE_P(Gaps, StandstillTest, testing::ValuesIn(standstills()));
 
-/// A contact that has begun and then stays where it could nearly end.
+/// A contact that has begun and then stays just short of its end.
 TEST(Standstill, AtTheEdgeOfSeparationDoesNotStopTime) {
   for (const double gap : {3.9e-6, 3.999999999e-6, 4.000000001e-6, 4.9e-6, 4.999999999e-6, 5.0e-6}) {
     Playground p;
@@ -69,8 +69,8 @@ TEST(Standstill, AtTheEdgeOfSeparationDoesNotStopTime) {
 }
 
 TEST(Standstill, OfBouncersDeepInEachOtherDoesNotStopTime) {
-  // No acceleration to scale the smallest step by, and gaps that rounding blurs more the farther out they
-  // are.
+  // Without an acceleration to scale the smallest step, and with gaps that rounding blurs more the farther
+  // out they are.
   for (const double place : {1.0, 30.0, 1e3, 1e5, 1e6}) {
     for (const double receding : {0.0, 0.5}) {
       Playground p({.contacts = ContactMode::impacts});

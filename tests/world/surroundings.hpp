@@ -1,5 +1,5 @@
-// A world with fixed bodies, for tests: their distances by brute force, bounces off them, and a probe that
-// may not be asked about them.
+// A world with static bodies, for tests: distances by brute force, bounces, and a probe that must not be
+// called for them.
 #pragma once
 
 #include <map>
@@ -9,7 +9,7 @@
 
 namespace kinesphere {
 
-/// The distance from any shape, by the slow twin.
+/// Returns the distance from any shape, by the slow twin.
 inline double distance(const Shape& shape, const Vec3& from) {
   return std::visit(
       [&]<class Solid>(const Solid& solid) {
@@ -21,7 +21,7 @@ inline double distance(const Shape& shape, const Vec3& from) {
       shape);
 }
 
-/// A playground whose probe fails the test when it is asked about a fixed body.
+/// A playground with a probe that fails the test if it is called for a static body.
 class Surroundings : public Playground {
  public:
   explicit Surroundings(const WorldDefinition& definition = {}) : Playground(definition) {
@@ -32,7 +32,7 @@ class Surroundings : public Playground {
 
   BodyId place(const Shape& shape, const Filter& filter = {}) {
     const BodyId id = world.add_static({.shape = shape, .filter = filter}).value();
-    // A place for its index, as Playground::state wants one.
+    // Fills the static body's index, as Playground::state requires.
     if (!fixed.contains(id)) fixed.emplace(id, shape);
     return id;
   }
@@ -43,7 +43,7 @@ class Surroundings : public Playground {
     return ids;
   }
 
-  /// A lower limit where they are far from each other, which is cheaper.
+  /// Returns the gap, or for distant bodies a lower limit, which is cheaper.
   double gap_to(BodyId ball, BodyId shape) const {
     if (const auto* triangle = std::get_if<Triangle>(&fixed.at(shape))) {
       const double size = std::max(norm(triangle->b - triangle->a), norm(triangle->c - triangle->a));
@@ -53,7 +53,7 @@ class Surroundings : public Playground {
     return distance(fixed.at(shape), state(ball).position) - radius(ball);
   }
 
-  /// The ball of a contact with a fixed body, thrown back without loss.
+  /// Throws the ball of a contact with a static body back without loss.
   void bounce(const Event& event) {
     if (event.kind != EventKind::contact_begin && event.kind != EventKind::wall_begin) return;
     const Vec3 change = event.normal * event.approach_speed;

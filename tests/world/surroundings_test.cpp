@@ -1,4 +1,4 @@
-// Bodies that never move: what touches them, when, and what the world says about it.
+// Static bodies: contacts with them, their times, and queries.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -116,7 +116,7 @@ TEST(Surroundings, OverlapsBeginAtOnceAndEndWithEitherBody) {
   EXPECT_NEAR(begin->gap, -1.5, 1e-12);
   EXPECT_EQ(begin->normal, (Vec3{-1, 0, 0})) << "the nearest face is at x = 1";
   EXPECT_FALSE(p.advance(1.0));
-  // Off and on again.
+  // Disabled and enabled again.
   p.world.disable(box).value();
   EXPECT_TRUE(is_clean(p.world));
   EXPECT_EQ(p.advance(2.0)->kind, EventKind::contact_end);
@@ -127,7 +127,7 @@ TEST(Surroundings, OverlapsBeginAtOnceAndEndWithEitherBody) {
   EXPECT_EQ(again->time, 2.0);
   EXPECT_NEAR(again->gap, -1.5, 1e-12);
   EXPECT_TRUE(is_clean(p.world));
-  // A filter ends it, and none begins it.
+  // A filter ends the contact, and no new one begins.
   p.world.set_filter(box, {.category = 2, .mask = 0}).value();
   EXPECT_EQ(p.advance(3.0)->kind, EventKind::contact_end);
   EXPECT_FALSE(p.advance(3.0));
@@ -139,7 +139,7 @@ TEST(Surroundings, OverlapsBeginAtOnceAndEndWithEitherBody) {
   EXPECT_EQ(p.advance(4.0)->kind, EventKind::contact_end);
   EXPECT_FALSE(p.advance(5.0));
   EXPECT_TRUE(is_clean(p.world));
-  // The index of the box and its shape's place are used again.
+  // The body's index and its shape's slot are used again.
   EXPECT_EQ(p.place(flat).index, box.index);
   EXPECT_EQ(std::get<Triangle>(p.world.shape_of({box.index, box.generation + 1}).value()), flat);
   EXPECT_EQ(p.advance(6.0)->kind, EventKind::contact_begin);
@@ -165,7 +165,7 @@ TEST(Surroundings, FixedBodiesDoNotConcernEachOther) {
   EXPECT_EQ(p.world.safe_until().value().time, infinity);
 }
 
-/// Six half-spaces and twelve triangles for the walls of a box: what happens inside is the same.
+/// Six half-spaces and twelve triangles for the walls of a box: the events inside are equal.
 class MarginOf : public testing::TestWithParam<const char*> {
  protected:
   static constexpr double size = 10.0;
@@ -219,7 +219,7 @@ TEST_P(MarginOf, BouncesAsWallsDo) {
     WorldDefinition definition{.contact_tolerance = eps, .contacts = ContactMode::impacts};
     if (walled) definition.box = Box{{0, 0, 0}, {size, size, size}};
     Surroundings p(definition);
-    // Far apart in filters, so that each bounces for itself.
+    // The filters separate all bodies, so that each bounces alone.
     Random random(7);
     std::vector<BodyId> balls;
     for (int k = 0; k < 6; ++k) {
@@ -268,7 +268,7 @@ TEST(Surroundings, OneBounceOnASharedEdge) {
 }
 
 TEST(Surroundings, ABallRestsAndRollsOnAMesh) {
-  // Stopped dead again and again: the Zeno guard and the mesh's edges together.
+  // Stopped again and again: the Zeno guard and the mesh's edges together.
   Surroundings p({.contact_tolerance = eps, .contacts = ContactMode::impacts});
   const std::vector<Vec3> vertices{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}};
   const std::vector<std::array<std::uint32_t, 3>> corners{{0, 1, 2}, {0, 2, 3}};
@@ -288,7 +288,7 @@ TEST(Surroundings, ABallRestsAndRollsOnAMesh) {
   EXPECT_TRUE(is_clean(p.world));
 }
 
-/// Hills of (2 n^2) triangles.
+/// Returns hills of (2 n^2) triangles.
 std::vector<StaticDefinition> terrain(int n, double width) {
   std::vector<Vec3> vertices;
   for (int i = 0; i <= n; ++i)
@@ -569,7 +569,7 @@ TEST(Surroundings, OneBallOnTheFloorDoesNotRepeatAnother) {
 }
 
 TEST(Surroundings, ManyBallsOnOneFloorCostNoMoreEach) {
-  // The floor keeps no list that grows with the balls and is gone through for each of them.
+  // The floor keeps no list that grows with the balls and is traversed for each of them.
   std::vector<double> wakes;
   for (const int count : {100, 1600}) {
     Surroundings p({.contact_tolerance = eps});

@@ -1,4 +1,4 @@
-// What one feature has to know of another, found by random mixtures of all of them.
+// Interactions of features, found by random mixtures of all of them.
 #include <gtest/gtest.h>
 
 #include "kinesphere/recording.hpp"
@@ -7,8 +7,7 @@
 namespace kinesphere::together_again_test {
 namespace {
 
-/// A half-space comes with a normal that the world makes as long as doubles allow: doing that twice may
-/// change its last bit.
+/// The world normalises the normal of a half-space; doing that twice may change its last bit.
 TEST(RecordingOfSurroundings, KeepsTheNormalsOfHalfSpacesToTheBit) {
   Random random(1);
   for (int k = 0; k < 200; ++k) {
@@ -24,7 +23,7 @@ TEST(RecordingOfSurroundings, KeepsTheNormalsOfHalfSpacesToTheBit) {
   }
 }
 
-/// The report is older than the promise, and the bound that it left grows with the old one.
+/// The report is older than the change of limits, and the bound that it left grows with the old limits.
 TEST(AnswersAfterALooserPromise, AreNotLaterThanTheContact) {
   Playground p({.box = Box{{0, 0, 0}, {100, 100, 100}}});
   const BodyId runner = p.add({.radius = 1, .position = {50, 50, 50}, .velocity = {1, 0, 0}});
@@ -62,7 +61,7 @@ TEST(AuditOfAStaticBody, KnowsThePlane) {
   EXPECT_TRUE(is_clean(p.world));
 }
 
-/// While anything senses, facts end with boxes; those that are left over do so afterwards, too.
+/// While a sensor exists, facts end with swept spheres; the remaining ones do so afterwards, too.
 TEST(Audit, AcceptsFactsFromBeforeTheLastSensorWentAway) {
   Playground p;
   p.world.set_sensor(1, {.distances = {2.0}}).value();

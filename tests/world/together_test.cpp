@@ -1,5 +1,4 @@
-// What one feature has to know of another: questions and snapshots of worlds with disabled and filtered
-// bodies.
+// Interactions of features: queries and snapshots of worlds with disabled and filtered bodies.
 #include <gtest/gtest.h>
 
 #include "number/infinity.hpp"

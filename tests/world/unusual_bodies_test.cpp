@@ -25,7 +25,7 @@ TEST(UnusualBodies, ThrownBallMeetsItsTargetWithFewProbes) {
 }
 
 TEST(UnusualBodies, AgentsWithOnlyASpeedLimitNeverMissEachOther) {
-  // Velocity unknown: reported as zero, and truly up to V in any direction.
+  // Unknown velocity: reported as zero, truly up to V in any direction.
   const double top_speed = 2.0, eps = 1e-3;
   Playground p({.contact_tolerance = eps});
   Random random(8);
@@ -78,7 +78,7 @@ TEST(UnusualBodies, PointsMeetOnlyWhenTheyCoincide) {
 }
 
 TEST(UnusualBodies, StaticPointsAtRoundPlacesAreFound) {
-  // Boxes of no extent at all, on coordinates that single precision holds exactly.
+  // Boxes of no extent, on coordinates that single precision holds exactly.
   Playground p;
   for (int k = 0; k < 50; ++k) p.add({.radius = 0, .position = {1.0 * k, 0, 0}});
   p.add({.radius = 0.25, .acceleration_limit = 1, .position = {-1, 0, 0}, .velocity = {5, 0, 0}}, Vec3{});
@@ -116,7 +116,7 @@ TEST(UnusualBodies, LoneBulletOfAnySizeCostsLittle) {
   }
 }
 
-/// The events of one scene, its lengths scaled by `length`, its times by `time`, and moved elsewhere.
+/// Returns the events of one scene, scaled in length by `length` and in time by `time`, and moved.
 std::vector<Event> scaled_scene(double length, double time, double start = 0.0, const Vec3& place = {}) {
   Playground p({.contact_tolerance = 1e-6 * length, .start_time = start});
   Random random(11);
@@ -182,7 +182,7 @@ TEST(Scale, PowersOfTwoScaleEveryBit) {
 }
 
 TEST(UnusualBodies, PointAtTheOriginIsFoundAfterAKick) {
-  // Its box has no size at all, at the one place where rounding gives it none.
+  // The swept sphere has no size, at the one place where rounding gives it none.
   Playground p;
   const BodyId point = p.add({.radius = 0});
   p.add({.radius = 1, .position = {10, 0, 0}});

@@ -1,5 +1,4 @@
-// Every call with wrong input: the error says what is wrong, and the world goes on as if nothing had
-// happened.
+// Every call with wrong input: the error names the cause, and the world is unaffected.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -113,7 +112,7 @@ TEST(WrongBody, OverlapIsFoundWithBodiesThatHaveMoved) {
   EXPECT_NEAR(p.state(source).position.x, 100.0, 1e-9);
 }
 
-/// What happens in a little scene, with `disturb` called on its world at several stops.
+/// Returns the hash of a little scene, with `disturb` called on its world at several stops.
 std::uint64_t hash_of_scene(const WorldDefinition& definition,
                             const std::function<void(Playground&)>& disturb) {
   Playground p(definition);
@@ -234,7 +233,7 @@ TEST(WrongIds, UnknownAndStaleAreToldApart) {
     EXPECT_FALSE(world.contains(wrong));
   }
   world.remove(id).value();
-  // Nobody has been given the next generation of this index yet.
+  // No body has had the next generation of this index yet.
   expect_error(world.remove(too_new), ErrorCode::unknown_body, "body", "remove", too_new);
   const auto stale = [&] {
     expect_error(world.remove(id), ErrorCode::stale_body, "body", "remove", id);

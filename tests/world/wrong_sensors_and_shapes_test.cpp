@@ -1,4 +1,4 @@
-// Calls about sensors and fixed bodies with ids that are gone, and in spaces that have no room for them.
+// Calls about sensors and static bodies with ids of removed bodies, and in spaces that have no room for them.
 #include <gtest/gtest.h>
 
 #include "kinesphere/recording.hpp"
@@ -74,8 +74,8 @@ TEST(WrongStaticBody, HasToLieInThePlane) {
   EXPECT_EQ(world.size(), 0u);
 }
 
-/// bounce() and settle() have no errors to give: the call that sets the velocity has to refuse what they make
-/// of numbers that are none.
+/// bounce() and settle() cannot return errors: the call that sets the velocity has to refuse their results
+/// for NaNs.
 TEST(WrongBounce, IsRefusedWhereTheVelocityIsSet) {
   World world = World::create({}).value();
   const BodyId id = world.add({}).value();

@@ -1,6 +1,5 @@
-// Wrong use in 45 ways, each in a line or three, as it happens: every one gets an answer that names what is
-// wrong, and none a crash. What wrong ids, moved worlds and lent probes do in every call is tested next to
-// this file.
+// Wrong use in 45 ways, each in a line or three: every one gets an error that names the cause, and none
+// crashes. Wrong ids, moved worlds and temporary probes in every call have test files of their own.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +14,7 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// A world with a ball, a wall of a room, and one body that has gone.
+/// A world with a ball, a wall, and one removed body.
 class WrongUse : public testing::Test {
  protected:
   Ballistic motion =
@@ -28,7 +27,7 @@ class WrongUse : public testing::Test {
 
   WrongUse() { world.remove(gone).value(); }
 
-  /// What a probe gets that asks the world something.
+  /// Calls `question` inside a probe.
   template <class Question>
   auto asked_in_probe(Question question) {
     using Answer = decltype(question());
@@ -228,7 +227,7 @@ TEST_F(WrongUse, 33_AMotionAskedAboutABodyThatItDoesNotHave) {
   }
 }
 
-// Bodies that cannot do what is asked.
+// Bodies that do not support the request.
 
 TEST_F(WrongUse, 34_AVelocityForAFixedBody) {
   expect_error(world.set_velocity(post, {}), ErrorCode::static_body, "body", "set_velocity:", post);

@@ -1,4 +1,4 @@
-// Zones, and what a sensor event says of who senses whom.
+// Zones, and the roles of the two bodies in a sensor event.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -112,7 +112,7 @@ TEST(SensorEvent, TellsWhichOfTheTwoSensesAtWhichDistance) {
   EXPECT_EQ(told, expected);
 }
 
-/// Whatever has become of the sensors in between: so the two can be matched.
+/// The sensors may have changed in between; the events of one overlap can still be matched.
 TEST(SensorEvent, OfALeaveSaysWhatItsEnterSaid) {
   Playground p;
   p.world.set_sensor(1, {.distances = {5}}).value();

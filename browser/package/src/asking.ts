@@ -1,4 +1,4 @@
-// What a world asks while it goes on: for the states of bodies, and for answers to events.
+// Callbacks of an advancing world: states of bodies, and responses to events.
 import { Event, eventNumbers, type Vec3 } from "./event.js";
 import type { Module } from "./module.js";
 import { type Motion, vector } from "./motion.js";
@@ -9,34 +9,37 @@ import { Scene } from "./scene.js";
  * It may not change the world that asks.
  */
 export type ProbeFunction = (ids: Float64Array, time: number, states: Float64Array) => void;
-/** In a world whose ids are the numbers of a motion's bodies, the motion itself will do. */
+/** If the ids of a world are the numbers of a motion's bodies, the motion itself is a probe. */
 export type Probe = ProbeFunction | Motion;
 
-/** The velocities that bodies have after an event; who is given none goes on as it did. */
+/** The velocities of bodies after an event; a body without one keeps its velocity. */
 export interface Answer {
   first?: Vec3;
   second?: Vec3;
 }
-/** Has to give the same event the same answer. */
+/** Precondition: equal events get equal answers. */
 export type RespondFunction = (event: Event) => Answer | undefined;
-/** Bodies bounce off each other and the walls; masses by index, by default 1, infinite for what stands still; what the motion does not move does. */
+/**
+ * Bodies bounce off each other and the walls. Masses are by index, by default 1, infinite for static bodies; a body
+ * that the motion does not move is static.
+ */
 export interface Bounces {
   masses?: ArrayLike<number>;
-  /** From 0 to 1, which is the default. */
+  /** Range: 0 to 1; default: 1. */
   restitution?: number;
   /** > 0: bodies that come to rest in a heap; see `settle` in kinesphere/response.hpp. */
   restingSpeed?: number;
 }
 
 export interface RunOptions {
-  /** Moves the bodies: its numbers are the indices of their ids. */
+  /** The source of states: its numbers are the indices of the ids. */
   motion: Motion;
   respond?: RespondFunction | Bounces | Scene;
 }
 
 const respondings = { nothing: 0, bounces: 1, asksJavaScript: 2, asInScene: 3 } as const;
 
-/** How to go on by an answer: for the module a number, masses and so on, and a scene; and the function to be asked. */
+/** Returns how to respond, for the module: a number, masses and so on, and a scene; and the function to call. */
 export function responded(respond: RunOptions["respond"]): [number, Bounces, number, RespondFunction | null] {
   if (respond === undefined) return [respondings.nothing, {}, 0, null];
   if (respond instanceof Scene) return [respondings.asInScene, {}, respond.address, null];
@@ -44,11 +47,11 @@ export function responded(respond: RunOptions["respond"]): [number, Bounces, num
   return [respondings.bounces, respond, 0, null];
 }
 
-/** What the module calls, with tables of numbers, and these functions answer. */
+/** Callbacks of the module, which pass tables of numbers to these functions. */
 export function asking(module: Module, probe: ProbeFunction | null, respond: RespondFunction | null) {
   return {
     probe(count: number, ids: number, time: number, states: number): void {
-      // The function may call the module, whose memory may grow then.
+      // The function may call the module, so its memory may grow.
       const answer = new Float64Array(6 * count).fill(NaN);
       probe!(module.numbersAt(ids, count).slice(), time, answer);
       module.numbersAt(states, 6 * count).set(answer);

@@ -1,4 +1,4 @@
-// What bodies are, and the tables of numbers that tell the module of them.
+// Definitions of bodies, and their tables of numbers for the module.
 import type { Box } from "./definition.js";
 import type { Vec3 } from "./event.js";
 import { type PerBody, type States, vector } from "./motion.js";
@@ -13,14 +13,14 @@ export interface MotionLimits {
   velocityError?: number;
 }
 
-/** What bodies have in common beside where they are. */
+/** The part of a definition that does not depend on the place. */
 export interface BodyOptions extends MotionLimits {
-  /** Which others it may touch: category and mask are bits, up to 2^53; -1 is the mask of all. */
+  /** Which bodies it may touch: category and mask are bits, up to 2^53; -1 is the mask of all. */
   filter?: { category?: number; mask?: number; group?: number };
-  /** One that is not solid only senses and is sensed. */
+  /** A body that is not solid only senses and is sensed. */
   solid?: boolean;
   sensorClass?: number;
-  /** A whole number for the caller, up to 2^53. */
+  /** A whole number of the caller's, up to 2^53. */
   userData?: number;
 }
 
@@ -44,7 +44,7 @@ export type Shape =
   | { box: Box }
   | { triangle: readonly [Vec3, Vec3, Vec3] };
 
-/** As body_at() in browser/module/world.cpp reads it. */
+/** Size of the table that body_at() in browser/module/world.cpp reads. */
 export const bodyNumbers = 20;
 
 export function putBody(numbers: Float64Array, at: number, body: BodyDefinition, call: string): void {

@@ -1,4 +1,4 @@
-// What a world is like.
+// Definitions of worlds.
 import type { Vec3 } from "./event.js";
 import type { Module } from "./module.js";
 import { vector } from "./motion.js";
@@ -8,11 +8,11 @@ export interface Box {
   upper: Vec3;
 }
 
-/** What a world is like; see kinesphere/world_definition.hpp for what each means exactly. */
+/** The definition of a world; kinesphere/world_definition.hpp documents each field. */
 export interface WorldDefinition {
   /** The walls. Without a box the world is unbounded. */
   box?: Box;
-  /** Axes on which space repeats with the box, instead of walls. */
+  /** Axes on which space is periodic with the box, without walls. */
   periodic?: { x?: boolean; y?: boolean; z?: boolean };
   /** 2: bodies are discs in the plane z = 0. */
   dimensions?: 2 | 3;
@@ -21,17 +21,17 @@ export interface WorldDefinition {
   /** > contactTolerance (length): the gap at which a contact ends. */
   separationDistance?: number;
   contacts?: "begin_and_end" | "impacts";
-  /** When false, bodies that certainly overlap are refused. */
+  /** If false, bodies that certainly overlap are refused. */
   allowOverlap?: boolean;
   /** >= 0 (time). */
   zenoInterval?: number;
   startTime?: number;
 }
 
-/** With all that was not said. */
+/** A definition with all defaults filled in. */
 export type Definition = Required<Omit<WorldDefinition, "box">> & Pick<WorldDefinition, "box">;
 
-/** In the order of definition_at() in browser/module/world.cpp. */
+/** Returns numbers in the order of definition_at() in browser/module/world.cpp. */
 export function definitionNumbers(definition: WorldDefinition): number[] {
   const { box, periodic } = definition;
   const corners = box === undefined
@@ -53,7 +53,7 @@ export function definitionNumbers(definition: WorldDefinition): number[] {
   ];
 }
 
-/** The one at this address in the module. */
+/** Returns the definition at this address in the module. */
 export function definitionAt(module: Module, address: number): Definition {
   module.call("definition_numbers", address);
   const numbers = module.answer();

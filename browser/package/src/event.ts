@@ -1,10 +1,10 @@
-// What a world tells: contacts and the like, each at its exact time.
+// Events of a world: contacts and the like, each at its exact time.
 import { theModule } from "./module.js";
 
-/** Three numbers, also of a typed array. */
+/** Three numbers; a typed array is possible. */
 export type Vec3 = ArrayLike<number>;
 
-/** A body's id: a whole number that is good in its own world alone, also as a key. */
+/** A body's id: a whole number, valid in its own world alone; usable as a key. */
 export type BodyId = number;
 
 export interface State {
@@ -27,10 +27,10 @@ export function wallOf(number: number): Wall | null {
 
 const senses = ["neither", "first", "second", "both"] as const;
 
-/** How many numbers an event has; see `put` in browser/module/exchange.cpp. */
+/** Size of an event in numbers; see `put` in browser/module/exchange.cpp. */
 export const eventNumbers = 33;
 
-/** Something that happened. It reads from numbers that nobody changes. */
+/** An event. It reads from numbers that never change. */
 export class Event {
   /** @internal */
   constructor(readonly numbers: Float64Array) {}
@@ -39,31 +39,31 @@ export class Event {
   get time(): number { return this.numbers[1]!; }
   /** The body, or the one of the two with the smaller id. */
   get first(): BodyId { return this.numbers[2]!; }
-  /** The other body; null for walls, violations and bodies that are woken. */
+  /** The other body; null for walls, violations and bodies that wake. */
   get second(): BodyId | null { return this.numbers[3]! < 0 ? null : this.numbers[3]!; }
   get wall(): Wall | null { return wallOf(this.numbers[4]!); }
-  /** One of the two touched something less than the Zeno interval ago. */
+  /** One of the two touched another body less than the Zeno interval ago. */
   get repeated(): boolean { return this.numbers[5] === 1; }
   /** Each of the two has had 64 contacts at this instant. */
   get jammed(): boolean { return this.numbers[6] === 1; }
-  /** Of sensor events: whose sensor it is. */
+  /** For sensor events: the body or bodies with the sensor. */
   get senses(): (typeof senses)[number] { return senses[this.numbers[7]!]!; }
-  /** States at `time`; where space repeats, those of the nearest images. */
+  /** States at `time`; in periodic space, of the nearest images. */
   get firstState(): State { return this.state(8); }
   get secondState(): State { return this.state(14); }
   /** The middle of the gap. */
   get point(): Float64Array { return this.numbers.subarray(20, 23); }
   /** Unit vector from the first towards the second, or the wall. */
   get normal(): Float64Array { return this.numbers.subarray(23, 26); }
-  /** Between the surfaces; negative when they overlap. */
+  /** Distance between the surfaces; negative if they overlap. */
   get gap(): number { return this.numbers[26]!; }
   get approachSpeed(): number { return this.numbers[27]!; }
-  /** Of violations: by how much the report lies outside what the body had promised. */
+  /** For violations: how far the report lies outside the limits of the body. */
   get positionExcess(): number { return this.numbers[28]!; }
   get velocityExcess(): number { return this.numbers[29]!; }
-  /** Of sensor events: the distance that was crossed. */
+  /** For sensor events: the crossed distance. */
   get distance(): number { return this.numbers[30]!; }
-  /** What was given when the bodies were added. Exact up to 2^53. */
+  /** The userData of the bodies. Exact up to 2^53. */
   get firstUserData(): number { return this.numbers[31]!; }
   get secondUserData(): number { return this.numbers[32]!; }
 
@@ -91,8 +91,8 @@ export class Events implements Iterable<Event> {
 }
 
 /**
- * One number for all events of a run, the same as the library's EventHash and the program's `hash` line: two
- * runs with the same number went the same way, to the last bit.
+ * One number for all events of a run, equal to the library's EventHash and the program's `hash` line: runs with equal
+ * numbers have equal events, to the last bit.
  */
 export class EventHash {
   /** Two numbers of 64 bits and the value, each as two halves. */

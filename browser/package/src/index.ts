@@ -1,4 +1,4 @@
-// Kinesphere: finds every collision among moving spheres whose trajectories nobody knows in advance.
+// Kinesphere: finds every collision among moving spheres with trajectories that are unknown in advance.
 export { type ErrorCode, KinesphereError, load, type LoadOptions, usesSimd, version } from "./module.js";
 export { type BodyId, Event, EventHash, type EventKind, eventKinds, Events, type State, type Vec3, type Wall } from "./event.js";
 export {

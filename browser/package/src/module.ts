@@ -1,7 +1,7 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 // The WebAssembly module: its memory, its functions, and its errors as exceptions.
 
-/** Why a call failed: one of the error codes of the library (kinesphere/result.hpp). */
+/** The reason of a failed call: one of the error codes of the library (kinesphere/result.hpp). */
 export type ErrorCode =
   | "not_finite" | "out_of_range" | "time_backwards" | "unknown_body" | "stale_body" | "foreign_body"
   | "disabled_body" | "enabled_body" | "static_body" | "outside_domain" | "overlapping" | "probe_in_progress"
@@ -9,15 +9,15 @@ export type ErrorCode =
   | "callback_threw" | "rank_failed" | "moved_from" | "unsupported" | "bad_snapshot" | "bad_bytes"
   | "recording" | "not_recording" | "bad_recording" | "diverged";
 
-/** What the library refuses. Its message names the call, the argument, the body, and what came. */
+/** An error of the library. Its message names the call, the argument, the body, and the wrong value. */
 export class KinesphereError extends Error {
   override readonly name = "KinesphereError";
   constructor(
     message: string,
     readonly code: ErrorCode,
-    /** The argument that is wrong, as the library spells it. */
+    /** The wrong argument, as the library spells it. */
     readonly argument: string,
-    /** The body that it concerns, if there is one. */
+    /** The body of the error, if there is one. */
     readonly body: number | null,
   ) {
     super(message);
@@ -27,13 +27,13 @@ export class KinesphereError extends Error {
 /** The exports of the module. Addresses and counts are numbers; see the folder browser/module. */
 type Exports = { memory: WebAssembly.Memory } & Record<string, (...values: number[]) => number>;
 
-/** What the module asks of JavaScript while it is in a call. */
+/** The callbacks of the module during a call. */
 interface Callbacks {
   probe(count: number, ids: number, time: number, states: number): void;
   respond(event: number, velocities: number): void;
 }
 
-/** Memory of the module that a call needs, and returns. */
+/** Memory of the module for the duration of a call. */
 export class Scratch {
   private readonly addresses: number[] = [];
   constructor(private readonly module: Module) {}
@@ -65,13 +65,14 @@ export class Module {
   readonly memory: WebAssembly.Memory;
   private readonly exports: Exports;
   private readonly decoder = new TextDecoder();
-  /** Of calls that are under way, the innermost last: what they ask, and of which object they are. */
+  /** Running calls, the innermost last: their callbacks and the address of their object. */
   private readonly asking: { callbacks: Callbacks; address: number }[] = [];
   private thrown: { value: unknown } | null = null;
   private written = "";
 
   constructor(compiled: WebAssembly.Module, readonly simd: boolean) {
-    // Whether it did not throw: an exception does not pass through the module, it is thrown again behind it.
+    // Returns whether the callback did not throw: an exception does not pass through the module, and is rethrown behind
+    // it.
     const asked = <K extends keyof Callbacks>(name: K) => (...values: Parameters<Callbacks[K]>): number => {
       try {
         (this.asking.at(-1)!.callbacks[name] as (...values: unknown[]) => void)(...values);
@@ -104,7 +105,7 @@ export class Module {
     return this.exports[name]!(...values);
   }
 
-  /** A call that asks for states or answers meanwhile. What a function threw is thrown again. */
+  /** Makes a call with callbacks. Rethrows what a callback threw. */
   callWith(callbacks: Callbacks, name: string, address: number, ...values: number[]): number {
     this.asking.push({ callbacks, address });
     const before = this.thrown;
@@ -120,12 +121,12 @@ export class Module {
     }
   }
 
-  /** Whether the object is in the middle of a call. */
+  /** True if the object is in the middle of a call. */
   isInUse(address: number): boolean {
     return this.asking.some((call) => call.address === address);
   }
 
-  /** The error of the last call that failed. */
+  /** Returns the error of the last failed call. */
   error(): KinesphereError {
     const body = this.call("error_body");
     return new KinesphereError(
@@ -135,7 +136,7 @@ export class Module {
       body < 0 ? null : body,
     );
   }
-  /** For calls that return 0 or false where they fail. */
+  /** Throws the error of a call that returned 0 or false. */
   require(result: number): number {
     if (result === 0) throw this.error();
     return result;
@@ -150,11 +151,11 @@ export class Module {
     }
   }
 
-  /** A view that is good until the module is called again. */
+  /** Returns a view that is valid until the module is called again. */
   numbersAt(address: number, count: number): Float64Array {
     return new Float64Array(this.memory.buffer, address, count);
   }
-  /** A copy of what the last call answered. */
+  /** Returns a copy of the last call's answer. */
   answer(): Float64Array {
     return this.numbersAt(this.call("answer_numbers"), this.call("answer_count")).slice();
   }
@@ -185,21 +186,21 @@ export class Module {
 
 let loaded: Module | null = null;
 
-/** The module, which load() has to have brought. */
+/** Returns the module. Precondition: load() has finished. */
 export function theModule(): Module {
   if (loaded === null) throw new Error("kinesphere: load() must be awaited before anything else is used");
   return loaded;
 }
 
-/** The smallest module that has a SIMD instruction in it. */
+/** The smallest module with a SIMD instruction. */
 const simdProbe = new Uint8Array([
   0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11,
 ]);
 
 export interface LoadOptions {
-  /** Whether to use the build with SIMD; by default where the engine has it. */
+  /** Whether to use the build with SIMD; by default if the engine supports it. */
   simd?: boolean;
-  /** The module itself, or where to fetch it from, instead of the file that comes with the package. */
+  /** The module itself, or an address to fetch it from, in place of the package's file. */
   source?: BufferSource | WebAssembly.Module | URL | string;
 }
 
@@ -217,8 +218,8 @@ async function compiled(source: BufferSource | WebAssembly.Module | URL | string
 }
 
 /**
- * Brings the library. Has to be awaited once before anything else; further calls do nothing.
- * Nothing is asked of any network but the file that lies beside this one.
+ * Loads the library. Must be awaited once before anything else; further calls do nothing. Fetches only the file next to
+ * this one.
  */
 export async function load(options: LoadOptions = {}): Promise<void> {
   if (loaded !== null) return;
@@ -230,23 +231,23 @@ export async function load(options: LoadOptions = {}): Promise<void> {
   loaded ??= module;
 }
 
-/** Of the library, such as "0.3.0". */
+/** Returns the library's version, such as "0.3.0". */
 export function version(): string {
   const module = theModule();
   return module.text(module.call("library_version"));
 }
 
-/** Whether the build with SIMD was loaded. What it computes is the same. */
+/** Returns true if the build with SIMD was loaded. Its results are equal. */
 export function usesSimd(): boolean {
   return theModule().simd;
 }
 
-/** Objects that nobody has freed, when they are collected. */
+/** Frees objects without a call of free() when they are collected. */
 const forgotten = new FinalizationRegistry<{ free: string; address: number }>(({ free, address }) => {
   loaded?.call(free, address);
 });
 
-/** Something in the module's memory. It goes with free(), with `using`, or when it is collected. */
+/** An object in the module's memory. It is freed by free(), by `using`, or when it is collected. */
 export abstract class Owned {
   #address: number;
   readonly #free: string;
@@ -260,7 +261,7 @@ export abstract class Owned {
     if (this.#address === 0) throw new Error("kinesphere: the object has been freed");
     return this.#address;
   }
-  /** Gives its memory back. Nothing else may be done with it then. */
+  /** Frees its memory. The object must not be used afterwards. */
   free(): void {
     if (this.#address === 0) return;
     if (theModule().isInUse(this.#address))

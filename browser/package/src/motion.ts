@@ -1,14 +1,14 @@
-// Ready-made motions, which move bodies inside the module: nothing of JavaScript is called for their states.
+// Ready-made motions, which move bodies inside the module: their states need no call of JavaScript.
 import type { State, Vec3 } from "./event.js";
 import { Owned, theModule } from "./module.js";
 
-/** States of many bodies: three numbers of each in `positions`, and in `velocities` where they move. */
+/** States of many bodies: three numbers for each in `positions`, and in `velocities` if they move. */
 export interface States {
   positions: ArrayLike<number>;
   velocities?: ArrayLike<number>;
 }
 
-/** One number for all, or one of each. */
+/** One number for all bodies, or one for each. */
 export type PerBody = number | ArrayLike<number>;
 
 export function countOf(positions: ArrayLike<number>, call: string): number {
@@ -30,7 +30,7 @@ export function vector(values: Vec3, what: string, call: string): [number, numbe
   return [values[0]!, values[1]!, values[2]!];
 }
 
-/** Where in the module a motion is that has been made there. */
+/** The address of a motion that was made in the module. */
 export class Made {
   /** @internal */
   constructor(readonly address: number) {}
@@ -56,14 +56,17 @@ export function sixOf(state: State, call: string): number[] {
   return [...vector(state.position, "position", call), ...vector(state.velocity, "velocity", call)];
 }
 
-/** How bodies move. Bodies are named by their numbers 0, 1, 2, ..., which are their ids in a world to which they were added in this order. */
+/**
+ * How bodies move. Bodies have the numbers 0, 1, 2, ..., which are their ids in a world to which they were added in
+ * this order.
+ */
 export class Motion extends Owned {
   /** @internal */
   constructor(made: Made) {
     super(made.address, "motion_free");
   }
 
-  /** All bodies have smaller numbers than this. */
+  /** An upper limit of the bodies' numbers; not reached itself. */
   get size(): number {
     return theModule().call("motion_size", this.address);
   }
@@ -71,8 +74,8 @@ export class Motion extends Owned {
     return body >= 0 && body < this.size && theModule().call("motion_contains", this.address, body) !== 0;
   }
   /**
-   * Six numbers for each: position and velocity, at `time` or, where the motion does not know a body then, at the
-   * nearest time at which it does; NaN for bodies that are not there. Of all bodies when none are named.
+   * Returns six numbers for each: position and velocity, at `time` or, if the motion does not have the body then, at
+   * the nearest time at which it does; NaN for absent bodies. Without `bodies`, for all.
    */
   states(time: number, bodies?: ArrayLike<number>): Float64Array {
     const module = theModule();
@@ -88,7 +91,7 @@ export class Motion extends Owned {
     const numbers = this.states(time, [body]);
     return { position: numbers.subarray(0, 3), velocity: numbers.subarray(3, 6) };
   }
-  /** What a world has to know of the body: its promise and its state. */
+  /** Returns the body's limits and state for a world. */
   definition(body: number, time: number): MotionDefinition {
     const module = theModule();
     return module.with((scratch) => {
@@ -105,26 +108,26 @@ export class Motion extends Owned {
       };
     });
   }
-  /** The world that watches the body has to be told as well: World.setVelocity. */
+  /** Sets the velocity. Call World.setVelocity as well if a world has the body. */
   setVelocity(body: number, time: number, velocity: Vec3): void {
     const numbers = vector(velocity, "velocity", "Motion.setVelocity");
     const module = theModule();
     module.with((scratch) =>
       module.require(module.call("motion_set_velocity", this.address, body, time, scratch.numbers(numbers))));
   }
-  /** As setVelocity(): World.teleport. */
+  /** Sets the state. Call World.teleport as well if a world has the body. */
   teleport(body: number, time: number, state: State): void {
     const numbers = sixOf(state, "Motion.teleport");
     const module = theModule();
     module.with((scratch) =>
       module.require(module.call("motion_teleport", this.address, body, time, scratch.numbers(numbers))));
   }
-  /** The next body that is added takes its number. */
+  /** Removes the body. The next added body takes its number. */
   remove(body: number): void {
     const module = theModule();
     module.require(module.call("motion_remove", this.address, body));
   }
-  /** A body that moves on from there; returns its number. The limit does not count for bodies that fly freely. */
+  /** Adds a body that moves on from there; returns its number. Bodies that fly freely ignore the limit. */
   add(time: number, state: State, accelerationLimit = 0): number {
     const numbers = sixOf(state, "Motion.add");
     const module = theModule();
@@ -133,7 +136,7 @@ export class Motion extends Owned {
     if (body < 0) throw module.error();
     return body;
   }
-  /** A copy that goes its own way. */
+  /** Returns an independent copy. */
   clone(): this {
     const kind = this.constructor as new (made: Made) => this;
     return new kind(new Made(theModule().call("motion_clone", this.address)));
@@ -147,9 +150,9 @@ export interface MotionDefinition extends State {
   velocityError: number;
 }
 
-/** What bodies have at the start whose acceleration is limited. */
+/** The start of bodies with limited acceleration. */
 export interface LimitedMotion {
-  /** >= 0 (length / time^2): no acceleration is longer. */
+  /** >= 0 (length / time^2): the largest acceleration. */
   accelerationLimits: PerBody;
   startTime?: number;
 }
@@ -215,7 +218,7 @@ export class Steered extends Motion {
   constructor(start: States | Made, options?: LimitedMotion) {
     super(start instanceof Made ? start : limited("motion_steered", "Steered", start, options!));
   }
-  /** The acceleration from `time` on, no longer than the body's limit. The world need not hear of it. */
+  /** Sets the acceleration from `time` on, within the body's limit. Needs no call of the world. */
   steer(body: number, time: number, acceleration: Vec3): void {
     const numbers = vector(acceleration, "acceleration", "steer");
     const module = theModule();
@@ -227,18 +230,18 @@ export class Steered extends Motion {
 export interface FramesOptions extends LimitedMotion {
   /** > 0 (time): from one frame to the next; by default 1 / 60. */
   interval?: number;
-  /** >= 0 (length): how far off the game's positions may be. */
+  /** >= 0 (length): the largest error of the game's positions. */
   positionError?: number;
 }
 
-/** A position with which a body broke its promise; see `FrameViolation` in kinesphere/motion/frames.hpp. */
+/** A position with which a body violated its limit; see `FrameViolation` in kinesphere/motion/frame_motion.hpp. */
 export interface FrameViolation {
   body: number;
-  /** > 0 (length): by how much the position lies beyond where the limit lets the body be. */
+  /** > 0 (length): how far the position lies beyond the places that the limit allows. */
   excess: number;
   /** (length / time^2): the limit that would have allowed it. */
   acceleration: number;
-  /** Of the body in the frame that was pushed. */
+  /** Velocity of the body in the pushed frame. */
   velocity: Float64Array;
 }
 
@@ -251,9 +254,9 @@ export interface FrameViolation {
  *     // each frame, after the game has moved its bodies:
  *     frames.push(positions);
  *     for (const event of world.events(frames.latestTime, frames)) ...
- *     positions.set(frames.latest());  // where changes at events have left the bodies
+ *     positions.set(frames.latest());  // includes changes at events
  *
- * A velocity that is changed at an event is told to both: frames.setVelocity(body, event.time, velocity) and
+ * To change a velocity at an event, call frames.setVelocity(body, event.time, velocity) and
  * world.setVelocity(body, velocity).
  */
 export class Frames extends Motion {
@@ -264,18 +267,18 @@ export class Frames extends Motion {
     super(start instanceof Made ? start
       : limited("motion_frames", "Frames", start, options!, options!.interval ?? 1 / 60, options!.positionError ?? 0));
   }
-  /** The next frame: three numbers for each body. */
+  /** Adds the next frame: three numbers for each body. */
   push(positions: ArrayLike<number>): void {
     const count = countOf(positions, "push");
     const module = theModule();
     module.with((scratch) =>
       module.require(module.call("frames_push", this.address, count, scratch.numbers(positions))));
   }
-  /** Three numbers for each body: where it is at latestTime, changes since the push included. */
+  /** Returns three numbers for each body: its position at latestTime, including changes since the push. */
   latest(): Float64Array {
     return this.frame().subarray(2);
   }
-  /** Of the last frame but one: states are known from here to latestTime. */
+  /** Time of the last frame but one: states are known from here to latestTime. */
   get previousTime(): number {
     return this.frame()[0]!;
   }
@@ -283,8 +286,8 @@ export class Frames extends Motion {
     return this.frame()[1]!;
   }
   /**
-   * Who broke its promise in the frame that was pushed last: by jumps of its velocity that the game has made by
-   * itself. The world must be told before it goes on: world.setVelocity(body, velocity) of each.
+   * Bodies that violated their limits in the last pushed frame, by jumps of velocity that the game has made itself.
+   * Before the world goes on, call world.setVelocity(body, velocity) for each.
    */
   violations(): FrameViolation[] {
     const module = theModule();
@@ -302,7 +305,7 @@ export class Frames extends Motion {
   }
 }
 
-/** The samples of one body in the order of their times: at least two. */
+/** The samples of one body in order of time: at least two. */
 export interface Track {
   times: ArrayLike<number>;
   /** Three numbers for each sample. */
@@ -311,7 +314,7 @@ export interface Track {
 
 /**
  * Motion along recorded tracks: the smoothest curve through the samples of each body, a natural cubic spline. Before
- * its first sample and after its last a body goes straight on. It takes no other velocities.
+ * its first sample and after its last a body goes straight on. It accepts no other velocities.
  */
 export class RecordedTracks extends Motion {
   constructor(tracks: readonly Track[]);
@@ -320,7 +323,7 @@ export class RecordedTracks extends Motion {
   constructor(tracks: readonly Track[] | Made) {
     super(tracks instanceof Made ? tracks : alongTracks(tracks));
   }
-  /** The times of the body's first and last sample. */
+  /** Returns the times of the body's first and last sample. */
   span(body: number): { begin: number; end: number } {
     const module = theModule();
     module.require(module.call("tracks_span", this.address, body));

@@ -1,13 +1,13 @@
-// A recording, gone through again.
+// Replays of recordings.
 import { Event } from "./event.js";
 import { Owned, theModule } from "./module.js";
 import { WorldView } from "./world.js";
 
-/** What a world recorded, here or in the program (`kinesphere run --record`). */
+/** A recording of a world, made here or by the program (`kinesphere run --record`). */
 export class Replay extends Owned {
   private readonly view: ReplayedWorld;
 
-  /** Throws KinesphereError for bytes that are no recording, or a damaged one. */
+  /** Throws KinesphereError for a damaged recording, or bytes that are no recording. */
   constructor(recording: Uint8Array) {
     const module = theModule();
     super(module.with((scratch) =>
@@ -24,14 +24,14 @@ export class Replay extends Owned {
   get finished(): boolean {
     return theModule().call("replay_finished", this.address) !== 0;
   }
-  /** Steps repeated so far, and all there are. */
+  /** Number of steps repeated so far, and of all steps. */
   get step(): number {
     return theModule().call("replay_step", this.address);
   }
   get stepCount(): number {
     return theModule().call("replay_step_count", this.address);
   }
-  /** As it is after the last step. */
+  /** The world after the last step. */
   get world(): WorldView {
     return this.view;
   }
@@ -48,6 +48,6 @@ class ReplayedWorld extends WorldView {
     return theModule().call("replay_world", this.#replay.address);
   }
   override free(): void {
-    // It goes with the replay.
+    // The replay owns it.
   }
 }

@@ -1,25 +1,27 @@
-// What two bodies do when they touch.
+// Responses of two bodies to a contact.
 import type { Event, Vec3 } from "./event.js";
 import { theModule } from "./module.js";
 
-/** The velocities that the two have afterwards; that of a wall is zero. */
+/** The velocities of the two bodies after the contact; that of a wall is zero. */
 export interface Bounce {
   first: Vec3;
   second: Vec3;
 }
 
-/** What `bounce` and `settle` take beside the contact. */
+/** Arguments of `bounce` and `settle` besides the contact. */
 export interface BounceOptions {
-  /** >= 0, infinite for what stands still (walls do by themselves); by default 1. */
+  /** >= 0, infinite for static bodies (walls always are); by default 1. */
   firstMass?: number;
   secondMass?: number;
-  /** From 0 to 1, which is the default: how much of the speed of approach is left. */
+  /** Range: 0 to 1; default: 1. The part of the approach speed that is left. */
   restitution?: number;
-  /** > 0 (length / time): bodies that come to rest in a heap, as `settle` in kinesphere/response.hpp has it. */
+  /** > 0 (length / time): for bodies that come to rest in a heap; see `settle` in kinesphere/response.hpp. */
   restingSpeed?: number;
 }
 
-/** Of smooth spheres, at a contact that begins: what `bounce` and `settle` of the C++ library answer. Momentum is kept. */
+/**
+ * Returns the response of smooth spheres to a begin, as `bounce` and `settle` of the C++ library do. Momentum is kept.
+ */
 export function bounce(contact: Event, options: BounceOptions = {}): Bounce {
   const { firstMass = 1, secondMass = 1, restitution = 1, restingSpeed = 0 } = options;
   const module = theModule();

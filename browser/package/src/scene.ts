@@ -1,9 +1,9 @@
-// The built-in scenes of the program `kinesphere`: what happens in them is the same, to the last bit.
+// The built-in scenes of the program `kinesphere`, with equal events, to the last bit.
 import { type Definition, definitionAt } from "./definition.js";
 import { Owned, theModule } from "./module.js";
 import { Made, Motion } from "./motion.js";
 
-/** What may differ from the built-in scene; see `kinesphere run --help`. */
+/** Changes of the built-in scene; see `kinesphere run --help`. */
 export interface SceneSettings {
   bodies?: number;
   seed?: number;
@@ -14,7 +14,7 @@ export interface SceneSettings {
   radiusMax?: number;
   speedMin?: number;
   speedMax?: number;
-  /** Of acceleration. */
+  /** Limits of the acceleration. */
   limitMin?: number;
   limitMax?: number;
   restitution?: number;
@@ -27,7 +27,7 @@ const sceneSettings: readonly (keyof SceneSettings)[] = [
   "limitMax", "restitution", "contactTolerance",
 ];
 
-/** "paper1" and so on. */
+/** Returns "paper1" and so on. */
 export function sceneNames(): string[] {
   const module = theModule();
   return Array.from({ length: module.call("scene_count") }, (_, k) => module.text(module.call("scene_name", k)));
@@ -59,18 +59,18 @@ export class Scene extends Owned {
   get endTime(): number {
     return theModule().call("scene_end_time", this.address);
   }
-  /** By body. */
+  /** Radius of each body. */
   get radii(): Float64Array {
     const module = theModule();
     module.call("scene_radii", this.address);
     return module.answer();
   }
-  /** Of the world that the scene is for. */
+  /** The definition of the scene's world. */
   get definition(): Definition {
     const module = theModule();
     return definitionAt(module, module.call("scene_world", this.address));
   }
-  /** The bodies' motion from the start, each time anew. */
+  /** Returns a new motion of the bodies from the start. */
   motion(): Motion {
     return new Motion(new Made(theModule().call("scene_motion", this.address)));
   }

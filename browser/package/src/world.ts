@@ -11,11 +11,11 @@ import { countOf, each, Motion, type MotionDefinition, type PerBody, sixOf, vect
 
 export interface BodyView {
   id: BodyId;
-  /** Where the middle of the bound is now, and how large the bound is: the body is in it. */
+  /** The centre of the bound now, and its radius: the bound contains the body. */
   centre: Float64Array;
   boundRadius: number;
   radius: number;
-  /** When the body was asked last, and what it said. */
+  /** Time of the body's last report, and its state in it. */
   reportTime: number;
   reported: State;
   /** Contains the body until boxEnd. */
@@ -27,22 +27,22 @@ export interface BodyView {
   accelerationLimit: number;
   sensorClass: number;
   userData: number;
-  /** Where space repeats: how many boxes it has gone beyond the first. */
+  /** In periodic space: the number of periods between the body and the first box. */
   image: Float64Array;
 }
 
-/** The first contact or approach that may come, and with whom. */
+/** The first possible contact or approach, and the partner. */
 export interface Earliest {
-  /** Nothing comes before it; infinite when nothing can. */
+  /** No contact or approach comes before this time; infinite if none can come. */
   time: number;
   partner: BodyId | null;
   wall: Wall | null;
-  /** It is there already. */
+  /** The contact or approach exists already. */
   now: boolean;
 }
 
 export interface Certain { body: BodyId; certainly: boolean }
-/** With limits of its distance. */
+/** A body with limits of its distance. */
 export interface Located extends Certain { lower: number; upper: number }
 
 export interface Counters {
@@ -63,12 +63,12 @@ export interface Counters {
 
 const viewNumbers = 28;
 
-/** What can be read of a world; also of one that a replay goes through. */
+/** Read access to a world, which may be that of a replay. */
 export class WorldView extends Owned {
   get time(): number {
     return theModule().call("world_time", this.address);
   }
-  /** How many bodies there are. */
+  /** Number of bodies. */
   get size(): number {
     return theModule().call("world_size", this.address);
   }
@@ -79,7 +79,7 @@ export class WorldView extends Owned {
   contains(body: BodyId): boolean {
     return theModule().call("world_contains", this.address, body) !== 0;
   }
-  /** All that are there, by index. */
+  /** Returns all present bodies, by index. */
   bodies(): Float64Array {
     const module = theModule();
     module.call("world_bodies", this.address);
@@ -88,7 +88,7 @@ export class WorldView extends Owned {
   body(id: BodyId): BodyView {
     return this.bodyViews([id])[0]!;
   }
-  /** Of all bodies when none are named. */
+  /** Without `ids`, for all bodies. */
   bodyViews(ids: ArrayLike<number> = this.bodies()): BodyView[] {
     const module = theModule();
     const all = module.with((scratch) => {
@@ -116,7 +116,7 @@ export class WorldView extends Owned {
       };
     });
   }
-  /** Whom the body touches, in the order in which the contacts began. */
+  /** Returns the bodies that the body touches, in order of their begins. */
   touching(body: BodyId): Float64Array {
     const module = theModule();
     module.require(module.call("world_touching", this.address, body));
@@ -143,44 +143,46 @@ export class WorldView extends Owned {
       repeatedContacts: numbers[after + 11]!,
     };
   }
-  /** Three numbers for each pair that may change soon: two ids, -1 for the walls, and the time before which it does not. */
+  /** Returns three numbers for each certificate: two ids, -1 for the walls, and its failure time. */
   certificates(): Float64Array {
     const module = theModule();
     module.call("world_certificates", this.address);
     return module.answer();
   }
-  /** Seven numbers for each cell that holds something: two corners, and how many bodies. */
+  /** Returns seven numbers for each occupied cell: two corners, and the number of bodies. */
   cells(): Float64Array {
     const module = theModule();
     module.call("world_cells", this.address);
     return module.answer();
   }
 
-  /** No contact begins before this: of anything, or of the two. */
+  /** Returns a time before which no contact begins: in the whole world, or of the two bodies. */
   safeUntil(): number;
   safeUntil(first: BodyId, second: BodyId): number;
   safeUntil(first?: BodyId, second?: BodyId): number {
     if (first === undefined) return this.earliest("world_safe_until").time;
     return this.earliest("world_safe_until_of_pair", first, second!).time;
   }
-  /** The first contact that the body may come to. */
+  /** Returns the first possible contact of the body. */
   earliestContact(body: BodyId): Earliest {
     return this.earliest("world_earliest_contact", body);
   }
-  /** When something may first be within `distance` (length >= 0) of the body, from surface to surface. */
+  /**
+   * Returns the first time at which another body may be within `distance` (length >= 0) of the body, between surfaces.
+   */
   earliestApproach(body: BodyId, distance: number): Earliest {
     return this.earliest("world_earliest_approach", body, distance);
   }
-  /** All bodies that may be among the `count` nearest to a point. */
+  /** Returns all bodies that may be among the `count` nearest to a point. */
   nearest(point: Vec3, count: number): Located[] {
     return this.located("world_nearest", [vector(point, "point", "nearest")], whole(count, 2 ** 32 - 1, "count", "nearest"));
   }
-  /** All bodies that may be the first on a way. */
+  /** Returns all bodies that may be the first on a way. */
   rayCast(origin: Vec3, direction: Vec3, length: number): Located[] {
     return this.located("world_ray_cast",
                         [vector(origin, "origin", "rayCast"), vector(direction, "direction", "rayCast")], length);
   }
-  /** The bodies that may overlap a sphere. */
+  /** Returns the bodies that may overlap a sphere. */
   overlapping(centre: Vec3, radius: number): Certain[] {
     const module = theModule();
     const numbers = module.with((scratch) => {
@@ -191,19 +193,19 @@ export class WorldView extends Owned {
     return Array.from({ length: numbers.length / 2 }, (_, k) =>
       ({ body: numbers[2 * k]!, certainly: numbers[2 * k + 1] === 1 }));
   }
-  /** Everything that should be true now, made anew; what is wrong first, or null. For tests: it takes long. */
+  /** Checks all invariants from scratch; returns the first defect, or null. For tests: it takes long. */
   audit(): string | null {
     const module = theModule();
     module.call("world_audit", this.address);
     return module.textOfBytes() || null;
   }
-  /** The whole world, for World.restore() in any process, also in native ones. */
+  /** Returns the whole world, for World.restore() in any process, including native ones. */
   save(): Uint8Array {
     const module = theModule();
     module.require(module.call("world_save", this.address));
     return module.bytes();
   }
-  /** A world that goes on as this one does. */
+  /** Returns a copy with an equal future. */
   clone(): World {
     const module = theModule();
     return World.at(module.require(module.call("world_clone", this.address)));
@@ -238,7 +240,7 @@ export class WorldView extends Owned {
 const existing = Symbol("existing");
 
 export class World extends WorldView {
-  /** Throws KinesphereError for what no world can be. */
+  /** Throws KinesphereError for an invalid definition. */
   constructor(definition?: WorldDefinition);
   /** @internal */
   constructor(definition: typeof existing, address: number);
@@ -249,7 +251,7 @@ export class World extends WorldView {
   static at(address: number): World {
     return new World(existing, address);
   }
-  /** The world that save() wrote, here or in any other program. */
+  /** Restores a world from save(), called here or in any other program. */
   static restore(snapshot: Uint8Array): World {
     const module = theModule();
     return World.at(module.with((scratch) =>
@@ -261,7 +263,7 @@ export class World extends WorldView {
     putBody(numbers, 0, body, "add");
     return this.addNumbers(numbers)[0]!;
   }
-  /** All of them or, on an error, none. Returns their ids. */
+  /** Adds all bodies or, after an error, none. Returns their ids. */
   addAll(bodies: BodyBatch): Float64Array {
     const call = "addAll";
     const count = countOf(bodies.positions, call);
@@ -289,7 +291,10 @@ export class World extends WorldView {
     }
     return this.addNumbers(numbers);
   }
-  /** All bodies of a motion, with these radii: their ids are their numbers there, if the world has had no bodies before. */
+  /**
+   * Adds all bodies of a motion, with these radii. If the world has had no bodies before, the ids are the numbers in
+   * the motion.
+   */
   addMotion(motion: Motion, radii: PerBody = 1, options: Omit<BodyOptions, keyof MotionLimits> = {}): Float64Array {
     const call = "addMotion";
     const count = motion.size;
@@ -301,18 +306,21 @@ export class World extends WorldView {
     }
     return this.addNumbers(numbers);
   }
-  /** A body that never moves. */
+  /** Adds a static body. */
   addStatic(shape: Shape, options: { solid?: boolean; sensorClass?: number; userData?: number } = {}): BodyId {
     return this.addSurroundings(shape, false, options, "addStatic");
   }
-  /** Touches nobody, and tells who comes in and goes: sensor_enter and sensor_leave at distance 0. */
+  /**
+   * Adds a zone, which touches no body and reports entering and leaving bodies: sensor_enter and sensor_leave at
+   * distance 0.
+   */
   addZone(shape: Shape, userData = 0): BodyId {
     return this.addSurroundings(shape, true, { userData }, "addZone");
   }
   remove(body: BodyId): void {
     this.change("world_remove", body);
   }
-  /** From now on the body has this velocity; what the probe says has to agree. */
+  /** Sets the velocity from now on; later probes must agree with it. */
   setVelocity(body: BodyId, velocity: Vec3): void {
     this.change("world_set_velocity", body, vector(velocity, "velocity", "setVelocity"));
   }
@@ -331,21 +339,21 @@ export class World extends WorldView {
       limits.velocityError ?? 0,
     ]);
   }
-  /** It touches nobody and is never asked. */
+  /** Disables the body: it touches no other and is never probed. */
   disable(body: BodyId): void {
     this.change("world_disable", body);
   }
   enable(body: BodyId, state: State): void {
     this.change("world_enable", body, sixOf(state, "enable"));
   }
-  /** It stays where it is, and is not asked, until something wakes it. */
+  /** Puts the body to sleep: it stays in place, and is not probed, until something wakes it. */
   sleep(body: BodyId): void {
     this.change("world_sleep", body);
   }
   wake(body: BodyId): void {
     this.change("world_wake", body);
   }
-  /** At these distances (length >= 0) all bodies of the class sense others. */
+  /** Sets the distances (length >= 0) at which all bodies of the class sense others. */
   setSensor(sensorClass: number, distances: ArrayLike<number>): void {
     const module = theModule();
     const number = whole(sensorClass, 255, "sensorClass", "setSensor");
@@ -353,7 +361,7 @@ export class World extends WorldView {
       module.require(module.call("world_set_sensor", this.address, number, distances.length, scratch.numbers(distances))));
   }
 
-  /** Goes on to the next event, or to `until`: then there is none. */
+  /** Advances to the next event and returns it, or to `until`, and returns null. */
   advance(until: number, probe: Probe): Event | null {
     const module = theModule();
     if (!(probe instanceof Motion) && typeof probe !== "function")
@@ -363,13 +371,16 @@ export class World extends WorldView {
     if (result < 0) throw module.error();
     return result === 0 ? null : new Event(module.answer());
   }
-  /** The events up to `until`, for a loop in which bodies may be changed. Left early, the world stands at the last one. */
+  /**
+   * Yields the events up to `until`, for a loop in which bodies may be changed. After an early exit the world stands at
+   * the last event.
+   */
   *events(until: number, probe: Probe): Generator<Event, void, undefined> {
     for (let event = this.advance(until, probe); event !== null; event = this.advance(until, probe)) yield event;
   }
   /**
-   * Goes on to `until` by itself, inside the module where bodies bounce: the fastest way. Returns all events,
-   * and hands them to `sink`, if there is one, also when something goes wrong: those that came before.
+   * Advances to `until` by itself, for bouncing bodies inside the module: the fastest way. Returns all events, and
+   * passes them to `sink` if there is one; after an error, those that came before.
    */
   run(until: number, options: RunOptions, sink?: (events: Events) => void): Events {
     const module = theModule();
@@ -393,12 +404,12 @@ export class World extends WorldView {
     });
   }
 
-  /** From now on all that goes into this world and comes out of it is recorded. */
+  /** Records all inputs and outputs of this world from now on. */
   startRecording(): void {
     const module = theModule();
     module.require(module.call("world_start_recording", this.address));
   }
-  /** For Replay, here or in any other program. */
+  /** Returns the recording, for Replay here or in any other program. */
   stopRecording(): Uint8Array {
     const module = theModule();
     module.require(module.call("world_stop_recording", this.address));

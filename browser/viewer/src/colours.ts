@@ -61,7 +61,7 @@ export function placeOfDuration(seconds: number): number {
   return Math.log10(Math.max(seconds, 1e-3) / 1e-3) / 3;
 }
 
-/** By body from 0 to 1: smallest to largest; equal ones differ by their numbers. */
+/** Returns a number for each body from 0 to 1: smallest to largest; equal radii differ by their numbers. */
 export function placesOfSizes(radii: Float64Array): Float64Array {
   let least = Infinity;
   let most = 0;
@@ -73,7 +73,7 @@ export function placesOfSizes(radii: Float64Array): Float64Array {
   return radii.map((radius) => (radius - least) / (most - least));
 }
 
-/** By body, how long it certainly touches nobody: a lower bound that costs little. */
+/** Returns for each body how long it certainly touches no other: a lower bound that costs little. */
 export function safeDurations(shown: Shown, views: readonly BodyView[]): Float64Array {
   const { time } = shown.view;
   const places = new Map(views.map((view, k) => [view.id, k]));

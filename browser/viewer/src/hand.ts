@@ -3,13 +3,13 @@ import { Plane, Raycaster, Vector2, Vector3 } from "three";
 import type { Simulation } from "./simulation.ts";
 import type { Stage } from "./stage.ts";
 
-/** The held sphere is to be where the pointer is after this long. */
+/** Seconds in which the held sphere is to reach the pointer. */
 const reach = 0.1;
-/** Pixels beside a sphere at which it is still grabbed. */
+/** Pixels beside a sphere at which it can still be grabbed. */
 const slack = 12;
 
 export class Hand {
-  /** The body that is held. */
+  /** The held body. */
   body: number | null = null;
   private readonly ray = new Raycaster();
   private readonly pointer = new Vector2();
@@ -18,10 +18,10 @@ export class Hand {
   private readonly offset = new Vector3();
   private pointerId = -1;
 
-  /** `simulation` is null while nothing can be pushed. */
+  /** `simulation` returns null while nothing can be pushed. */
   constructor(private readonly stage: Stage, private readonly simulation: () => Simulation | null) {
     const { canvas } = stage;
-    // Before the controls of the camera hear of it.
+    // Before the camera's controls get the event.
     canvas.addEventListener("pointerdown", (event) => this.grab(event), { capture: true });
     canvas.addEventListener("pointermove", (event) => this.follow(event));
     for (const name of ["pointerup", "pointercancel", "lostpointercapture"] as const)
@@ -30,7 +30,7 @@ export class Hand {
       });
   }
 
-  /** Gives the held sphere the velocity that brings it to the pointer, when a second lasts `speed` simulated ones. */
+  /** Gives the held sphere the velocity that brings it to the pointer; `speed` is simulated seconds for each second. */
   pull(speed: number): void {
     const simulation = this.simulation();
     const goal = this.goal();
@@ -43,7 +43,7 @@ export class Hand {
     simulation.setVelocity(this.body, velocity.toArray());
   }
 
-  /** Where the middle of the held sphere is to go: to the pointer, inside the walls. */
+  /** Returns the place for the centre of the held sphere: the pointer's, inside the walls. */
   goal(): Float64Array | null {
     const simulation = this.simulation();
     if (this.body === null || simulation === null) return null;
@@ -62,7 +62,7 @@ export class Hand {
     this.stage.canvas.classList.remove("holding");
   }
 
-  /** The body that is seen at a place of the page, if there is one. */
+  /** Returns the body that is seen at a place of the page, if there is one. */
   bodyAt(x: number, y: number): number | null {
     const simulation = this.simulation();
     if (simulation === null) return null;
@@ -84,7 +84,7 @@ export class Hand {
       const aside = Math.sqrt(Math.max(middle.lengthSq() - along * along, 0)) - radii[k]!;
       const near = slackPerDistance * along;
       if (aside > near) continue;
-      // Whoever is hit comes before all that are only near to the ray.
+      // A hit sphere comes before spheres that are only near the ray.
       const hit = aside <= 0;
       const order = hit ? along - radii[k]! : aside / near;
       if (hit === foundHit ? order < least : hit) {

@@ -63,7 +63,7 @@ export class Hud {
     put(this.hash, shown.hash, "");
   }
 
-  /** What went wrong. */
+  /** Shows an error message. */
   say(text: string): void {
     this.messageText.textContent = text;
     this.message.hidden = false;

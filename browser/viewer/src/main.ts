@@ -1,4 +1,4 @@
-// The page: what is shown, and what keys, buttons and files do.
+// The page: what it shows, and what keys, buttons and files do.
 import { KinesphereError, load } from "kinesphere";
 import { Color } from "three";
 import { along, bright, dark, type Palette, placeOfDuration, placesOfSizes, safeDurations } from "./colours.ts";
@@ -17,9 +17,9 @@ import { applyTheme, calmQuery, darkQuery, type Theme } from "./theme.ts";
 import "./base.css";
 import "./style.css";
 
-/** Milliseconds that the engine may take for one picture; what is not done then is left for the next. */
+/** Milliseconds that the engine may take for one picture; the rest of the work is left for the next. */
 const engineBudget = 14;
-/** Seconds between two pictures that simulated time follows at most. */
+/** Maximum seconds between two pictures that simulated time follows. */
 const longestFrame = 0.05;
 
 const element = <E extends HTMLElement>(id: string): E => document.querySelector<E>(`#${id}`)!;
@@ -46,7 +46,7 @@ let sizePlaces: Float64Array = new Float64Array(0);
 let told: Told[] = [];
 const times: Times = { engine: 0, drawing: 0, frame: 0 };
 const hand = new Hand(stage, () => (shown instanceof Simulation && shown.canBePushed ? shown : null));
-/** Tracks that the server has been given. */
+/** The tracks that the server was given. */
 let opened: TrackTable | null = null;
 
 function show(next: Shown): void {
@@ -61,7 +61,7 @@ function show(next: Shown): void {
   hud.update(shown, times);
 }
 
-/** What was chosen before stays where the scene cannot be made. */
+/** The earlier choice stays if the scene cannot be made. */
 let chosen = { ...settings };
 function restart(): void {
   hud.hideMessage();
@@ -102,7 +102,7 @@ function setPlaying(playing: boolean): void {
   document.querySelector("#play-shape")!.setAttribute("d", playing ? "M7 5h4v14H7zM13 5h4v14h-4z" : "M7 4.5l12 7.5-12 7.5z");
 }
 
-/** What the engine is asked to do; what it refuses is said, and stops the play. */
+/** Runs a call of the engine; an error is shown, and stops the play. */
 function attempt(action: () => Told[] | void): void {
   const start = performance.now();
   try {
@@ -140,7 +140,7 @@ async function openFile(file: File | undefined): Promise<void> {
   if (file !== undefined) openRecording(file.name, await file.arrayBuffer());
 }
 
-/** What `kinesphere view FILE` serves beside the page; its address ends in #opened then. */
+/** Opens the files that `kinesphere view FILE` serves with the page; its address ends in #opened then. */
 async function openServed(): Promise<void> {
   const served = async (name: string): Promise<Response> => {
     const response = await fetch(`opened/${name}`);
@@ -223,7 +223,7 @@ function draw(seconds: number): void {
   const views = needsViews ? shown.views() : null;
   const positions = shown.positions();
   const radii = shown.radii();
-  // Bodies may come and go in a recording.
+  // Bodies may be added and removed in a recording.
   if (sizePlaces.length !== radii.length) sizePlaces = placesOfSizes(radii);
   overlays.tell(told, shown, stage.extent.radius);
   told = [];
@@ -272,7 +272,7 @@ function frame(now: number): void {
   hud.update(shown, times);
 }
 
-/** For tests, and for whoever looks at it in the console. */
+/** For tests, and for the console. */
 const viewer = {
   get simulation(): Shown { return shown; },
   settings,

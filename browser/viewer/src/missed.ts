@@ -1,7 +1,7 @@
-// What a loop would overlook that only looks for overlaps at fixed times.
+// Contacts that a loop with overlap tests at fixed times would miss.
 import type { Event } from "kinesphere";
 
-/** Looks per second of the loop that the page compares with. */
+/** Overlap tests per second of the loop for comparison. */
 export const loopRate = 60;
 
 export function loopLooksWithin(from: number, to: number): boolean {
@@ -9,8 +9,8 @@ export function loopLooksWithin(from: number, to: number): boolean {
 }
 
 /**
- * The two go on as they did when they touched, as in a loop that has not yet noticed: whether they are apart
- * again before it looks. They overlap while the length of d + w s is less than the sum of their radii.
+ * Returns true if the two bodies, with their velocities at the touch, as in a loop that has not yet noticed it, are
+ * apart again at the next test. They overlap while the length of d + w s is less than the sum of their radii.
  */
 export function isMissedByLoop(event: Event, radiusSum: number): boolean {
   const { position: p, velocity: v } = event.firstState;

@@ -10,7 +10,7 @@ export const whole = new Intl.NumberFormat("en", { maximumFractionDigits: 0 });
 export class Numbers {
   constructor(private readonly list: HTMLElement) {}
 
-  /** A new one, below the others; `hint` says more about it. */
+  /** Adds a row below the others; `hint` explains it. */
   row(label: string, hint: string): Row {
     const row = document.createElement("div");
     row.className = "row";

@@ -1,4 +1,4 @@
-// What the engine knows and tells, drawn over the spheres.
+// The engine's knowledge and events, drawn over the spheres.
 import type { BodyView, Box } from "kinesphere";
 import {
   BoxGeometry, BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, LineBasicMaterial, LineSegments,
@@ -31,7 +31,7 @@ const sparkFragments = `
     #include <colorspace_fragment>
   }`;
 
-/** Lines of which the number changes from picture to picture. */
+/** Lines that change in number from picture to picture. */
 class Lines {
   readonly object: LineSegments<BufferGeometry, LineBasicMaterial>;
   private points = new Float32Array(0);
@@ -62,7 +62,7 @@ class Lines {
     this.colours[at + 1] = colour.g;
     this.colours[at + 2] = colour.b;
   }
-  /** From one body to the other or, where space repeats, to its nearest image. */
+  /** Adds a line from one body to the other or, in periodic space, to its nearest image. */
   between({ box, periodic }: Shown, positions: Float64Array, first: number, second: number, colour: Color): void {
     const from = positions.subarray(3 * first, 3 * first + 3);
     const to = positions.slice(3 * second, 3 * second + 3);
@@ -101,7 +101,7 @@ class Lines {
 }
 
 export class Overlays {
-  /** By body from 0 to 1: it has been asked just now. */
+  /** A number for each body from 0 to 1, near 1 just after a probe. */
   glow = new Float32Array(0);
   private reportTimes = new Float64Array(0);
   private readonly bounds = new Spheres(0.4);
@@ -113,7 +113,7 @@ export class Overlays {
   private readonly zoneMaterial = new MeshBasicMaterial({ transparent: true, opacity: 0.2, depthWrite: false });
   private zone: Mesh | null = null;
   private zoneFlash = 0;
-  /** Of each spark: how much of its life is left, from 1 to 0, and how bright it begins. */
+  /** The rest of each spark's life, from 1 to 0, and its initial brightness. */
   private readonly life = new Float32Array(sparkCount);
   private readonly strength = new Float32Array(sparkCount);
   private readonly places = new BufferAttribute(new Float32Array(3 * sparkCount), 3);
@@ -153,7 +153,7 @@ export class Overlays {
     if (shown.zone !== null) this.zone = this.zoneMesh(shown.zone);
   }
 
-  /** Sparks where things have touched. */
+  /** Adds sparks at contacts. */
   tell(told: readonly Told[], shown: Shown, extent: number): void {
     for (const { event, missed } of told) {
       if (shown.alarms !== null && event.kind === "sensor_enter") {
@@ -173,7 +173,7 @@ export class Overlays {
     }
   }
 
-  /** `views` are there when something is on that needs them. */
+  /** `views` is set if a visible overlay needs it. */
   update(shown: Shown, views: readonly BodyView[] | null, positions: Float64Array, settings: Settings,
          seconds: number, calm: boolean, pixels: number): void {
     const on = settings.overlays;
@@ -194,7 +194,7 @@ export class Overlays {
     this.drawAlarms(shown, positions);
   }
 
-  /** A line from a held sphere to where it is pulled to; none without. */
+  /** Shows a line from a held sphere to its goal; none for null. */
   showPull(from: Float64Array | null, to: Float64Array | null): void {
     this.pull.begin(1);
     if (from !== null && to !== null) {
@@ -228,7 +228,7 @@ export class Overlays {
     const duration = calm ? 3 : 0.6;
     for (let k = 0; k < sparkCount; ++k) {
       this.life[k] = Math.max(0, this.life[k]! - seconds / duration);
-      // Calm ones come up slowly as well.
+      // In calm mode sparks appear slowly, too.
       const shape = calm ? 0.35 * Math.min(1, 4 * (1 - this.life[k]!)) : 1;
       this.tints.setW(k, this.strength[k]! * this.life[k]! * shape);
     }
@@ -281,7 +281,7 @@ export class Overlays {
     this.cells.end();
   }
 
-  /** Lines between pairs, in the colour of how long they are safe. */
+  /** Draws lines between pairs, coloured by the time until their certificates fail. */
   private drawCertificates(shown: Shown, views: readonly BodyView[], positions: Float64Array): void {
     const certificates = shown.view.certificates();
     const places = new Map(views.map((view, k) => [view.id, k]));
@@ -296,7 +296,7 @@ export class Overlays {
     this.certificates.end();
   }
 
-  /** Lines between pairs that may be too near to each other. */
+  /** Draws lines between pairs that may be too near to each other. */
   private drawAlarms(shown: Shown, positions: Float64Array): void {
     const pairs = [...shown.near];
     this.alarms.begin(pairs.length);
@@ -307,7 +307,7 @@ export class Overlays {
   }
 }
 
-/** The corners of a box, moved so that its middle is where space is shown. */
+/** Returns the corners of a box, moved so that its centre is in the visible period. */
 function inSight({ box, periodic }: Shown, lower: Float64Array, upper: Float64Array): [Float64Array, Float64Array] {
   const shift = Float64Array.from([0, 1, 2], (axis) => shiftInto(box, periodic, axis, (lower[axis]! + upper[axis]!) / 2));
   return [lower.map((number, axis) => number + shift[axis]!), upper.map((number, axis) => number + shift[axis]!)];

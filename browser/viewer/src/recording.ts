@@ -1,4 +1,4 @@
-// A recording that is shown: bodies are drawn in the middle of their bounds, as nothing else is recorded of them.
+// A recording for display: bodies are drawn at the centres of their bounds, since nothing else is recorded.
 import { type BodyView, type Box, EventHash, Replay, type WorldView } from "kinesphere";
 import { isMissedByLoop } from "./missed.ts";
 import { emptyTally, RecentRate, type Shown, type Tally, type Told, wrapInto } from "./shown.ts";
@@ -23,7 +23,7 @@ export class Recording implements Shown {
     const { box, periodic } = this.replay.world.definition;
     this.box = box ?? null;
     this.periodic = [periodic.x === true, periodic.y === true, periodic.z === true];
-    // Bodies are added in the first steps.
+    // The first steps add bodies.
     while (!this.replay.finished && this.replay.world.size === 0) this.step([]);
     this.shownTime = this.replay.world.time;
   }
@@ -42,7 +42,7 @@ export class Recording implements Shown {
   positions(): Float64Array {
     const views = this.views();
     const positions = new Float64Array(3 * views.length);
-    // The world stands at the end of a recorded step, which may be a little later than what is shown.
+    // The world stands at the end of a recorded step, possibly a little later than the shown time.
     const early = this.replay.world.time - this.shownTime;
     views.forEach(({ centre, reported }, k) => {
       for (let axis = 0; axis < 3; ++axis) positions[3 * k + axis] = centre[axis]! - early * reported.velocity[axis]!;
@@ -67,7 +67,7 @@ export class Recording implements Shown {
     return told;
   }
 
-  /** A recording is gone through from its start again. */
+  /** Goes back by a replay from the start. */
   back(seconds: number): void {
     const target = this.shownTime - seconds;
     this.replay.free();

@@ -1,4 +1,4 @@
-// What can be chosen on the page.
+// The settings of the page.
 import type { Theme } from "./theme.ts";
 
 export type Colouring = "size" | "asked" | "safe";

@@ -1,8 +1,8 @@
-// What the page can show: a simulation or a recording, as the drawing and the numbers see it.
+// A simulation or a recording on the page, in a form for drawing and numbers.
 import type { BodyId, BodyView, Box, Event, WorldView } from "kinesphere";
 import type { AlarmDistances } from "./scenes/live_scene.ts";
 
-/** An event, and whether a loop of 60 Hz would overlook it. */
+/** An event, and whether a loop of 60 Hz would miss it. */
 export interface Told {
   event: Event;
   missed: boolean;
@@ -24,7 +24,7 @@ export const emptyTally = (): Tally => ({
   contacts: 0, missed: 0, wallContacts: 0, violations: 0, crossings: 0, missedCrossings: 0, warnings: 0, alarms: 0,
 });
 
-/** Two that may be within a distance, from surface to surface. */
+/** Two bodies that may be within a distance, between surfaces. */
 export interface NearPair {
   first: BodyId;
   second: BodyId;
@@ -35,42 +35,42 @@ export interface Shown {
   readonly title: string;
   readonly about: string;
   readonly time: number;
-  /** Infinite where there is no end. */
+  /** Infinite if there is no end. */
   readonly endTime: number;
   readonly view: WorldView;
   readonly box: Box | null;
-  /** By axis: whether space repeats with the box. */
+  /** By axis: true if space is periodic with the box. */
   readonly periodic: readonly boolean[];
-  /** What the camera looks at where there are no walls. */
+  /** The camera's target if there are no walls. */
   readonly region: Box | null;
   readonly zone: Box | null;
-  /** Distances at which pairs are told before they touch. */
+  /** Distances at which pairs are reported before they touch. */
   readonly alarms: AlarmDistances | null;
-  /** Pairs that may be within one of them now. */
+  /** Pairs that may be within one of these distances now. */
   readonly near: Iterable<NearPair>;
   readonly tally: Tally;
   /** 16 hexadecimal digits of all events so far. */
   readonly hash: string;
-  /** Asked of bodies per second of simulated time, lately. */
+  /** Recent probes of bodies per second of simulated time. */
   readonly probesPerSecond: number;
-  /** Of those that are there now. */
+  /** Number of present bodies. */
   readonly bodyCount: number;
-  /** By place in the picture. */
+  /** Returns the radii, by place in the picture. */
   radii(): Float64Array;
-  /** Three numbers for each body, in the box where space repeats; NaN for who is not there. */
+  /** Returns three numbers for each body, in the box if space is periodic; NaN for absent ones. */
   positions(): Float64Array;
-  /** The moving bodies as the world knows them, in the same order. */
+  /** Returns the moving bodies as the world knows them, in the order of positions(). */
   views(): BodyView[];
-  /** Goes on to `until`, or as far as `deadline` allows, a moment of performance.now(). */
+  /** Advances to `until`, or as far as `deadline`, a time of performance.now(), allows. */
   run(until: number, deadline?: number): Told[];
-  /** Goes on to the next event, and returns all that happen at its time. */
+  /** Advances to the next event, and returns all events of its time. */
   nextEvent(): Told[];
-  /** Goes back, as far as is known. */
+  /** Goes back, as far as the history reaches. */
   back(seconds: number): void;
   free(): void;
 }
 
-/** What has to be added to a coordinate to bring it into the box where space repeats. */
+/** Returns the shift that brings a coordinate into the box if space is periodic. */
 export function shiftInto(box: Box | null, periodic: readonly boolean[], axis: number, coordinate: number): number {
   if (box === null || !periodic[axis]) return 0;
   const lower = box.lower[axis]!;
@@ -78,7 +78,7 @@ export function shiftInto(box: Box | null, periodic: readonly boolean[], axis: n
   return -size * Math.floor((coordinate - lower) / size);
 }
 
-/** Moves coordinates into the box on axes where space repeats. */
+/** Moves coordinates into the box on periodic axes. */
 export function wrapInto(positions: Float64Array, box: Box | null, periodic: readonly boolean[]): Float64Array {
   for (let axis = 0; axis < 3; ++axis) {
     if (!periodic[axis]) continue;
@@ -87,7 +87,7 @@ export function wrapInto(positions: Float64Array, box: Box | null, periodic: rea
   return positions;
 }
 
-/** How often something that counts up has counted, per second of simulated time, over the last second. */
+/** Increments of a counter per second of simulated time, over the last second. */
 export class RecentRate {
   private samples: { time: number; count: number }[] = [];
   add(time: number, count: number): void {

@@ -1,4 +1,4 @@
-// A scene that runs, can be stepped and gone back in, and lets its bodies be pushed. Needs no page.
+// A running scene with single steps and a way back, in which bodies can be pushed. Needs no page.
 import { type BodyId, type BodyView, type Box, type Event, EventHash, type Vec3, type World } from "kinesphere";
 import { isMissedByLoop, loopLooksWithin } from "./missed.ts";
 import type { TrackTable } from "./scenes/crowd.ts";
@@ -9,15 +9,15 @@ import { emptyTally, type NearPair, RecentRate, type Shown, type Tally, type Tol
 /** Simulated time between two snapshots. */
 const snapshotInterval = 0.25;
 const snapshotsKept = 120;
-/** Simulated time in which the next event is looked for. */
+/** Simulated time in which the next event is searched for. */
 const eventHorizon = 60;
 
-/** All that changes as time goes on. */
+/** The state that changes with time. */
 interface Moment {
   scene: LiveScene;
   hash: EventHash;
   tally: Tally;
-  /** Bodies in the zone, and since when. */
+  /** Bodies in the zone, and the times at which they entered. */
   inZone: Map<BodyId, number>;
   /** Pairs within a distance of warning or alarm, by both bodies and the distance. */
   near: Map<string, NearPair>;
@@ -48,7 +48,7 @@ export class Simulation implements Shown {
   private snapshots: Moment[] = [];
   private rate = new RecentRate();
 
-  /** `opened` are the tracks that the scene of a recorded crowd shows. */
+  /** `opened` are the tracks of a recorded crowd. */
   constructor(readonly choice: SceneChoice, opened: TrackTable | null = null) {
     const about = sceneAbout(choice.name);
     this.setup = setUp(choice, opened);
@@ -74,7 +74,7 @@ export class Simulation implements Shown {
   get probesPerSecond(): number { return this.rate.value; }
   get bodyCount(): number { return this.now.scene.presentCount ?? this.setup.radii.length; }
   get near(): Iterable<NearPair> { return this.now.near.values(); }
-  /** Whether bodies can be pushed. */
+  /** True if bodies can be pushed. */
   get canBePushed(): boolean { return this.now.scene.setVelocity !== undefined; }
 
   radii(): Float64Array {
@@ -123,7 +123,7 @@ export class Simulation implements Shown {
     this.run(target);
   }
 
-  /** From now on the body has this velocity, until it is pushed or meets something. */
+  /** Sets the velocity until the body is pushed or hits something. */
   setVelocity(body: BodyId, velocity: Vec3): void {
     this.now.scene.setVelocity?.(body, velocity);
   }
@@ -141,14 +141,14 @@ export class Simulation implements Shown {
     this.rate.add(this.time, this.view.counters.probes);
   }
 
-  /** A copy goes ahead until something happens. */
+  /** Advances a copy to the next event; returns its time. */
   private timeOfNextEvent(): number | null {
     const ahead = this.now.scene.clone();
     try {
       let found: number | null = null;
       for (let by = 1e-3; found === null && by < eventHorizon; by *= 2) {
         ahead.run(Math.min(this.time + by, this.endTime), (event) => {
-          // An event may come at the very time at which the world stands.
+          // An event may come at the present time of the world.
           if (event.time >= this.time) found ??= event.time;
         });
       }
@@ -158,13 +158,13 @@ export class Simulation implements Shown {
     }
   }
 
-  /** Returns whether a loop would overlook it. */
+  /** Counts the event; returns true if a loop would miss it. */
   private count(event: Event): boolean {
     const { tally, inZone, near } = this.now;
     switch (event.kind) {
       case "contact_begin": {
         tally.contacts += 1;
-        // Of bodies that report with errors it is not known whether they have truly touched.
+        // If bodies report with errors, true contacts are unknown.
         if (this.alarms !== null) return false;
         const missed = isMissedByLoop(event, this.setup.radii[event.first]! + this.setup.radii[event.second!]!);
         if (missed) tally.missed += 1;

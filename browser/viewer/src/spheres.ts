@@ -1,5 +1,5 @@
-// Many spheres, each a square that faces the eye and on which the sphere is computed for each pixel: round at any
-// size, and cheap enough for thousands.
+// Many spheres, each a square facing the eye on which the sphere is computed for each pixel: round at any size, and
+// cheap enough for thousands.
 import {
   BufferAttribute, Color, CustomBlending, DynamicDrawUsage, GLSL3, InstancedBufferAttribute, InstancedBufferGeometry,
   Mesh, OneFactor, ShaderMaterial, Vector3, ZeroFactor,
@@ -20,7 +20,7 @@ const vertices = `
     vec3 ahead = centre / away;
     vec3 right = normalize(cross(ahead, vec3(0.0, 1.0, 0.0)));
     vec3 up = cross(right, ahead);
-    // As large as the sphere seems in perspective, and a little more for the soft rim.
+    // The apparent size of the sphere in perspective, and a little more for the soft rim.
     float size = 1.03 * radius * away / sqrt(max(away * away - radius * radius, 1e-3 * away * away));
     place = centre + size * (position.x * right + position.y * up);
     gl_Position = projectionMatrix * vec4(place, 1.0);
@@ -74,7 +74,7 @@ export class Spheres {
   private balls = new InstancedBufferAttribute(new Float32Array(0), 4);
   private tints = new InstancedBufferAttribute(new Float32Array(0), 3);
 
-  /** With a veil, a number up to 1, they are translucent and brighter at the rim. */
+  /** With a veil, a number up to 1, spheres are translucent and brighter at the rim. */
   constructor(veil = 0) {
     this.object = new Mesh(new InstancedBufferGeometry(), new ShaderMaterial({
       glslVersion: GLSL3,
@@ -83,7 +83,7 @@ export class Spheres {
       transparent: veil > 0,
       depthWrite: veil === 0,
       alphaToCoverage: veil === 0,
-      // Alpha says how much of a pixel is covered; in the picture it stays 1, or the page would shine through.
+      // Alpha is the covered part of a pixel; in the picture it stays 1, or the page would shine through.
       ...(veil > 0 ? {} : {
         blending: CustomBlending, blendSrc: OneFactor, blendDst: ZeroFactor, blendSrcAlpha: OneFactor, blendDstAlpha: OneFactor,
       }),
@@ -100,7 +100,7 @@ export class Spheres {
     this.object.renderOrder = veil > 0 ? 1 : 0;
   }
 
-  /** Room for so many. */
+  /** Makes room for `count` spheres. */
   resize(count: number): void {
     if (this.balls.count === count) return;
     this.object.geometry.dispose();
@@ -126,7 +126,7 @@ export class Spheres {
     this.tints.needsUpdate = true;
     this.object.visible = this.balls.count > 0;
   }
-  /** `sky` is where above is, as the eye sees it. */
+  /** `sky` is the upward direction in the eye's frame. */
   light(sky: Vector3, mist: Color, from: number, to: number, strength: number): void {
     const { uniforms } = this.object.material;
     uniforms["sky"]!.value.copy(sky);

@@ -13,7 +13,7 @@ export class Stage {
   readonly scene = new Scene();
   readonly camera = new PerspectiveCamera(38, 1, 0.1, 1000);
   readonly controls: OrbitControls;
-  /** The smallest sphere around all that is shown. */
+  /** The smallest sphere around everything shown. */
   readonly extent = new Sphere(new Vector3(), 1);
   private readonly renderer: WebGLRenderer;
   private readonly fog = new Fog(0, 1, 2);
@@ -44,7 +44,7 @@ export class Stage {
     this.lightStrength = palette.light;
   }
 
-  /** Makes room for what is shown from now on, and looks at it from the front. */
+  /** Prepares for another scene or recording, and looks at it from the front. */
   show(shown: Shown): void {
     for (const child of this.surroundings.children) (child as Mesh).geometry.dispose();
     this.surroundings.clear();
@@ -84,7 +84,7 @@ export class Stage {
     this.camera.near = radius / 100;
     this.camera.far = distance + radius * 12;
     this.camera.updateProjectionMatrix();
-    // A little below the middle, as the buttons cover the lower edge.
+    // A little below the centre, since the buttons cover the lower edge.
     const lift = new Vector3(0, 0, -0.07 * radius);
     this.camera.position.add(lift);
     this.controls.target.copy(center).add(lift);
@@ -93,7 +93,7 @@ export class Stage {
     this.controls.update();
   }
 
-  /** Three numbers of each body, and its colour. */
+  /** Draws bodies: three numbers for each, and its colour. */
   draw(positions: Float64Array, radii: Float64Array, colourOf: (body: number) => Color): void {
     this.bodies.resize(radii.length);
     for (let k = 0; k < radii.length; ++k) {
@@ -124,7 +124,7 @@ export class Stage {
   }
 }
 
-/** Squares on the floor of a region: ten or so along its longer side, of a round size. */
+/** Returns squares on the floor of a region: about ten along its longer side, of a round size. */
 function floorGrid({ lower, upper }: Box): BufferGeometry {
   const longest = Math.max(upper[0]! - lower[0]!, upper[1]! - lower[1]!, 1e-9);
   const decade = 10 ** Math.floor(Math.log10(longest / 10));

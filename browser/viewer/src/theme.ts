@@ -4,7 +4,7 @@ export type Theme = "system" | "dark" | "bright";
 export const darkQuery = matchMedia("(prefers-color-scheme: dark)");
 export const calmQuery = matchMedia("(prefers-reduced-motion: reduce)");
 
-/** Gives the page's elements the colours of a theme. True if that is dark. */
+/** Gives the page's elements the colours of a theme. Returns true if it is dark. */
 export function applyTheme(theme: Theme): boolean {
   const isDark = theme === "system" ? darkQuery.matches : theme === "dark";
   document.documentElement.dataset["theme"] = isDark ? "dark" : "bright";

@@ -1,4 +1,4 @@
-// A sphere that is dragged about at random for a minute: nothing overlaps, and what breaks a promise is shown.
+// A sphere that is dragged about at random for a minute: nothing overlaps, and violations are shown.
 import assert from "node:assert/strict";
 import { before, test } from "node:test";
 
@@ -10,7 +10,7 @@ before(async () => {
   page = await inBrowser.open();
 });
 
-/** Drags the sphere for so many simulated seconds, 60 pictures each, and looks at each picture. */
+/** Drags the sphere for a number of simulated seconds, 60 pictures each, and checks each picture. */
 function drag(settings) {
   return page.evaluate(({ seconds, seed, pointerId }) => {
     const { simulation, stage, hand } = window.kinesphereViewer;
@@ -29,7 +29,7 @@ function drag(settings) {
     const start = simulation.time;
     let before = simulation.positions().slice(3 * body, 3 * body + 3);
     for (let picture = 0; picture < 60 * seconds; ++picture) {
-      // A new place to go to three times a second, and the pointer on its way there.
+      // A new goal three times a second, and the pointer on its way there.
       if (picture % 20 === 0) {
         to.x = canvas.clientWidth * random();
         to.y = canvas.clientHeight * random();
@@ -78,7 +78,7 @@ for (const [scene, seconds, bodies, seed] of [["paper1", 60, 300, 1], ["gas", 10
     }, { scene, bodies, seed });
     const grabbed = await bodyInSight(page, 0);
     assert.notEqual(grabbed, null);
-    // A real button, so that the pointer is held; where it goes then is the test's own.
+    // A real button, so that the pointer is held; the test sets its further way.
     await page.evaluate(() => void (window.pointer = new Promise((known) =>
       document.addEventListener("pointerdown", (event) => known(event.pointerId), { capture: true, once: true }))));
     await page.mouse.move(grabbed.x, grabbed.y);
@@ -103,7 +103,7 @@ test("a broken promise is shown", async () => {
     viewer.setPlaying(false);
     const { simulation } = viewer;
     simulation.run(1);
-    // Behind the world's back.
+    // Without a call of the world.
     const { motion } = simulation.scene;
     motion.setVelocity(7, simulation.time, [900, 0, 0]);
     return simulation.run(simulation.time + 5).filter(({ event }) => event.kind === "bound_violation").length;

@@ -1,5 +1,5 @@
-// The map of `kinesphere watch --serve`, as a person uses it: the program, KINESPHERE_PROGRAM, reads a stream that stays
-// open, and serves the page of KINESPHERE_VIEWER.
+// The map of `kinesphere watch --serve` in use: the program, KINESPHERE_PROGRAM, reads a stream that stays open, and
+// serves the page of KINESPHERE_VIEWER.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { createInterface } from "node:readline";
@@ -14,7 +14,7 @@ const inBrowser = browserForTests({
 });
 const { complaints } = inBrowser;
 
-/** A watch whose stream goes on until `end`. */
+/** A watch of a stream that lasts until `end`. */
 class Watch {
   constructor(...options) {
     this.process = spawn(process.env.KINESPHERE_PROGRAM, ["watch", "--format", "jsonl", "--quiet", ...(options.includes("--serve") ? [] : ["--serve", "0"]), ...options],
@@ -25,7 +25,7 @@ class Watch {
   report(...reports) {
     for (const report of reports) this.process.stdin.write(`${JSON.stringify(report)}\n`);
   }
-  /** The exit code. */
+  /** Ends the stream; returns the exit code. */
   end() {
     const gone = new Promise((done) => this.process.once("exit", done));
     this.process.stdin.end();
@@ -35,24 +35,24 @@ class Watch {
 
 const at = (id, stamp, x, y, velocity = [0, 0, 0]) => ({ id, stamp, position: [x, y, 0], velocity });
 const hostile = `<img src=x onerror="window.wasRun = true">\u202e&amp;`;
-/** It is shown as one name in one line. */
+/** The hostile id is shown as one name in one line. */
 const shownHostile = `<img src=x onerror="window.wasRun = true">\ufffd&amp;`;
 
-/** Colours, of 255 each, of the picture at places of the screen. */
+/** Returns colours of the picture at places of the screen. Range: 0 to 255. */
 const coloursAt = (page, places) => page.evaluate((places) => {
   const canvas = document.querySelector("#picture");
   const { data, width } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
   const ratio = width / canvas.clientWidth;
   return places.map(([x, y]) => 4 * (Math.floor(y * ratio) * width + Math.floor(x * ratio))).map((at) => [...data.slice(at, at + 3)]);
 }, places);
-/** One of the map's, as the style sheet has it. */
+/** Returns a colour of the map, from the style sheet. */
 const namedColour = (page, name) => page.evaluate((name) => {
   const text = getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
   return [1, 3, 5].map((k) => parseInt(text.slice(k, k + 2), 16));
 }, name);
 const difference = (a, b) => Math.max(...a.map((value, k) => Math.abs(value - b[k])));
 
-/** How much of the line between two tracks, or of a part in its middle, has a colour. */
+/** Returns the part of the line between two tracks, or of a piece in its middle, that has a colour. */
 async function shareOfLine(page, first, second, name, part = 0.5) {
   await isDrawn(page);
   const ends = await page.evaluate((ids) => ids.map((id) => {
@@ -66,9 +66,9 @@ async function shareOfLine(page, first, second, name, part = 0.5) {
 
 const texts = (page, selector) => page.$$eval(selector, (found) => found.map((each) => each.textContent));
 const number = (page, name) => page.textContent(`#numbers [data-name="${name}"] dd`);
-/** The browser tells of every question that nobody answers. */
+/** The browser reports every unanswered request. */
 const isNoMissingServer = (complaint) => !complaint.startsWith("Failed to load resource: net::ERR_CONNECTION");
-/** The picture shows what was asked for last: nothing flies. */
+/** Resolves when the picture is up to date: no flight is going on. */
 const isDrawn = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 const calmly = { reducedMotion: "reduce" };
 
@@ -79,7 +79,7 @@ describe("a stream with x and y", () => {
   before(async () => {
     watch.report(at("quiet", 0, 300, 100), at("far", 0, 0, -200), at("far", 6, 0, -200));
     watch.report(at(hostile, 6, 0, 100), at("near", 6, 20, 100));
-    // 34 apart, which is not certain to be more than 30 after two seconds without a report.
+    // The two are 34 apart, which is not certain to be more than 30 after two seconds without a report.
     watch.report(at("west", 6, -100, 0), at("east", 6, -66, 0));
     watch.report(at("split", 7, -200, 0), at("split", 7.5, -200, 90), at("far", 8, 0, -200));
     page = await inBrowser.open(await watch.address, calmly);
@@ -267,7 +267,7 @@ describe("a watch that is started again", () => {
   });
 });
 
-/** What is seen of linear red, green and blue (Machado, Oliveira and Fernandes 2009). */
+/** Transforms of linear red, green and blue for kinds of colour vision (Machado, Oliveira and Fernandes 2009). */
 const sights = {
   usual: [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
   protanopia: [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],

@@ -1,5 +1,5 @@
-// What the pages cost here, for docs/browser.md: time to the first picture, and what a picture takes. The variables are
-// those of page.mjs. No test: what it prints is worth something only where nothing else runs.
+// Measures the pages for docs/browser.md: time to the first picture, and the duration of a picture. The variables are
+// those of page.mjs. No test: the results count only on an otherwise idle machine.
 import { test } from "node:test";
 
 import { browserForTests } from "./page.mjs";
@@ -24,7 +24,7 @@ for (const [scene, bodies] of [["gas", 0], ["gas", 1000], ["gas", 10_000], ["pap
       Object.assign(viewer.settings, { scene, bodies: Math.max(bodies, 10), seed: 1, speed: 1 });
       viewer.setPlaying(false);
       viewer.restart();
-      // An empty page tells what drawing alone costs here.
+      // An empty page gives the cost of drawing alone.
       if (bodies === 0) viewer.stage.scene.clear();
       else viewer.setPlaying(true);
       const until = (seconds) => new Promise((done) => setTimeout(done, 1000 * seconds));
@@ -45,9 +45,9 @@ for (const [scene, bodies] of [["gas", 0], ["gas", 1000], ["gas", 10_000], ["pap
   });
 }
 
-/** A state of a watch: tracks in a square, of which every third is silent, and pairs of neighbours. */
+/** Returns a state of a watch: tracks in a square, every third of them stale, and pairs of neighbours. */
 function crowdedState(trackCount, pairCount) {
-  // The same at each time.
+  // Equal at each call.
   let seed = 1;
   const random = () => (seed = (seed * 48271) % 2147483647) / 2147483647;
   const tracks = Array.from({ length: trackCount }, (_, k) => ({

@@ -21,7 +21,7 @@ const kinds = {
 const policy = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; " +
   "connect-src 'self'; img-src 'self' data:; font-src data:";
 
-/** The bytes of a file of one of the folders, or of what a test gives out itself; undefined where there is none. */
+/** Returns the bytes of a file of one of the folders, or of a text of the test; undefined if there is none. */
 async function bytesOf(path, given) {
   if (path in given) return given[path];
   const root = path.startsWith("/package/") ? "/package/" : "/";
@@ -42,7 +42,7 @@ async function serve(given) {
   return server;
 }
 
-/** Without a graphics card the viewer's WebGL takes these. */
+/** WebGL options without a graphics card. */
 const softwareGraphics = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 const hasViewerDrawn = () => window.kinesphereViewer?.firstPicture != null;
 
@@ -90,7 +90,7 @@ export function browserForTests({ given = {}, viewport = { width: 900, height: 7
   return found;
 }
 
-/** A body larger than `least` that can be grabbed, and where on the page its middle is. */
+/** Returns a body larger than `least` that can be grabbed, and the place of its centre on the page. */
 export function bodyInSight(page, least) {
   return page.evaluate((least) => {
     const { simulation, stage, hand } = window.kinesphereViewer;

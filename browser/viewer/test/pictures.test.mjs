@@ -1,6 +1,5 @@
-// What the page looks like, held coarsely against pictures that were looked at: pictures.json has the mean colours of
-// the squares of a grid. KINESPHERE_PICTURES=FOLDER writes the pictures there, and pictures.json anew: look at them
-// before it is committed.
+// Compares pictures of the page coarsely with checked ones: pictures.json has the mean colours of the squares of a grid.
+// KINESPHERE_PICTURES=FOLDER writes the pictures there, and a new pictures.json: look at them before it is committed.
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -10,7 +9,7 @@ import { browserForTests } from "./page.mjs";
 
 const columns = 24;
 const rows = 16;
-/** Of 255, by square: in the mean, and of any single one. */
+/** Allowed differences of squares, in their mean and at most. Range: 0 to 255. */
 const tolerance = { mean: 4, most: 40 };
 
 const file = new URL("pictures.json", import.meta.url);
@@ -19,7 +18,7 @@ const known = folder === undefined ? JSON.parse(readFileSync(file, "utf8")) : {}
 
 const inBrowser = browserForTests();
 
-/** Mean colours of the squares, three numbers each from 0 to 255, row by row. */
+/** Returns mean colours of the squares, three numbers each from 0 to 255, row by row. */
 function coarse(page, png) {
   return page.evaluate(async ({ png, columns, rows }) => {
     const image = new Image();
@@ -51,7 +50,7 @@ function difference(a, b) {
   return { mean: sum / a.length, most };
 }
 
-/** The page with a scene that stands still at a time. */
+/** Returns the page with a scene that stands still at a time. */
 async function pictureOf({ scene, bodies, seed = 1, time, theme, overlays = {}, colouring = "size", viewport = wide }) {
   if (inBrowser.page === undefined || viewport !== wide) await inBrowser.open("", { viewport });
   const { page } = inBrowser;

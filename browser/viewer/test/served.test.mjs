@@ -1,4 +1,4 @@
-// `kinesphere view FILE`, as a person calls it: the program, KINESPHERE_PROGRAM, serves the page and what it is to show.
+// `kinesphere view FILE` in use: the program, KINESPHERE_PROGRAM, serves the page and its files.
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
@@ -14,7 +14,7 @@ const program = process.env.KINESPHERE_PROGRAM;
 const folder = mkdtempSync(join(tmpdir(), "kinesphere-"));
 after(() => rmSync(folder, { recursive: true }));
 
-/** Opens what the program serves, and calls `action` with the page. */
+/** Opens the page that the program serves, and calls `action` with it. */
 async function viewed(options, action) {
   const server = spawn(program, ["view", "--no-browser", "--folder", process.env.KINESPHERE_VIEWER, ...options],
                        { stdio: ["ignore", "pipe", "inherit"] });

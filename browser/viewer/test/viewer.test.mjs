@@ -1,11 +1,11 @@
-// The page as a person uses it.
+// The page in use.
 import assert from "node:assert/strict";
 import { before, test } from "node:test";
 
 import { bodyInSight, browserForTests } from "./page.mjs";
 
 const line = (x, y, count) => Array.from({ length: count }, (_, k) => [x + k, y, 0]).flat();
-/** Two people who pass each other; the second comes later and leaves earlier. */
+/** Two people who pass each other; the second arrives later and leaves earlier. */
 const tracks = {
   name: "people.txt",
   plane: true,
@@ -167,7 +167,7 @@ test("every scene can be chosen", async () => {
     await page.keyboard.press(key);
     const name = await page.evaluate(() => window.kinesphereViewer.simulation.choice.name);
     await page.waitForFunction(() => window.kinesphereViewer.simulation.time > 0.02, null, { timeout: 60_000 });
-    // All switches at once, and each way to colour.
+    // All switches at once, with each way to colour.
     for (const colouring of ["asked", "safe", "size"]) {
       await page.evaluate((colouring) => {
         const { settings } = window.kinesphereViewer;
@@ -271,7 +271,7 @@ test("tracks that are served are shown: people come, pass each other and go", as
   assert.equal(seen.end, 14);
   assert.equal(seen.time, 14);
   assert.equal(seen.canBePushed, false);
-  // They pass at 12 s, 0.2 m aside, with 2 m/s: nearer than 0.5 m while |2 t| < sqrt(0.25 - 0.04).
+  // The two pass at 12 s, 0.2 m aside, with 2 m/s: nearer than 0.5 m while |2 t| < sqrt(0.25 - 0.04).
   const half = Math.sqrt(0.21) / 2;
   assert.deepEqual(seen.told.map(([kind]) => kind), ["contact_begin", "contact_end"]);
   assert.ok(Math.abs(seen.told[0][1] - (12 - half)) < 1e-4 && Math.abs(seen.told[1][1] - (12 + half)) < 1e-4, `${seen.told}`);

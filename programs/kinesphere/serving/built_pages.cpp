@@ -1,4 +1,4 @@
-// Where the pages of browser/viewer are, once they have been built.
+// Finds the built pages of browser/viewer.
 #include "serving/built_pages.hpp"
 
 #include <cstdlib>

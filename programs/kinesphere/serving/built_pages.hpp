@@ -1,4 +1,4 @@
-// Where the pages of browser/viewer are, once they have been built.
+// Finds the built pages of browser/viewer.
 #pragma once
 
 #include <filesystem>
@@ -8,13 +8,13 @@
 
 namespace kinesphere::program {
 
-/// The command that builds them.
+/// The command that builds the pages, for messages.
 extern const char* const build_pages_command;
 
-/// Where they may be, the first choice first: in the folder that the environment variable KINESPHERE_VIEWER
-/// names or, where it is not set, where they are installed beside this program, or in its build tree.
+/// Returns the folders to search, the first choice first: the folder in the environment variable
+/// KINESPHERE_VIEWER or, if that is not set, the install folder next to this program and its build tree.
 std::vector<std::filesystem::path> page_folders();
-/// The first of these that has this page.
+/// Returns the first of page_folders() that has this page; nothing if there is none.
 std::optional<std::filesystem::path> folder_with_page(const std::string& page);
 bool has_page(const std::filesystem::path& folder, const std::string& page);
 

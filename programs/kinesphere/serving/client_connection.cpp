@@ -1,4 +1,4 @@
-// One connection of a web server: a request is read, a response is sent, and that is all.
+// One connection of a web server, for one request and one response.
 #include "serving/client_connection.hpp"
 
 #include <poll.h>
@@ -57,7 +57,7 @@ void ClientConnection::read_head(const Respond& respond) {
   const ssize_t count = ::recv(socket(), bytes, sizeof bytes, 0);
   if (count < 0 && would_block()) return;
   if (count <= 0) return close();
-  // The end may have begun in what was read before.
+  // The end may have begun in earlier bytes.
   const std::size_t from = head_.size() - std::min(head_.size(), head_end.size() - 1);
   head_.append(bytes, static_cast<std::size_t>(count));
   const std::size_t end = head_.find(head_end, from);
@@ -78,7 +78,7 @@ void ClientConnection::send_response() {
   const std::string_view body = response_.content.body ? *response_.content.body : std::string_view();
   const std::size_t head_size = response_.head.size();
   for (std::size_t left = max_sent_at_once; left > 0;) {
-    // substr() throws rather than go beyond the end.
+    // substr() throws for a position beyond the end.
     const std::string_view rest =
         sent_ < head_size ? std::string_view(response_.head).substr(sent_) : body.substr(sent_ - head_size);
     if (rest.empty()) return finish_response();

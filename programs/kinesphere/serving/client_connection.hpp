@@ -1,4 +1,4 @@
-// One connection of a web server: a request is read, a response is sent, and that is all.
+// One connection of a web server, for one request and one response.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@
 
 namespace kinesphere::program {
 
-/// A file descriptor with its owner.
+/// A file descriptor with unique ownership.
 class FileDescriptor {
  public:
   explicit FileDescriptor(int number = -1) : number_(number) {}
@@ -30,45 +30,45 @@ class FileDescriptor {
   int number_;
 };
 
-/// What is sent: a head, then a body.
+/// The bytes to send: a head, then a body.
 struct HttpResponse {
   std::string head;
   Content content;  ///< `body` may be null, for no body
 };
 
-/// A connection whose socket does not block. It reads a head of at most max_head bytes, sends one response,
-/// discards what else comes, and closes. Memory: about max_head, the head of the response, and its content.
+/// A connection with a non-blocking socket. It reads a head of at most max_head bytes, sends one response,
+/// discards further input, and closes. Memory: about max_head, the head of the response, and its content.
 class ClientConnection {
  public:
   using Clock = std::chrono::steady_clock;
-  /// Makes the response to the head of a request. `head` is longer than max_head, and not whole, if the
+  /// Returns the response to the head of a request. `head` is truncated, and longer than max_head, if the
   /// client's is too long.
   using Respond = std::function<HttpResponse(std::string_view head)>;
 
   /// Browsers send cookies of all ports of this machine: heads of a few kB are usual.
   static constexpr std::size_t max_head = 16384;
-  /// From the connection's begin to the end of the request's head.
+  /// Limit from the connection's begin to the end of the request's head.
   static constexpr std::chrono::seconds head_time{5};
-  /// In which the client must take at least one more byte of the response.
+  /// The client must take at least one more byte of the response within this time.
   static constexpr std::chrono::seconds stall_time{10};
-  /// For the client to read its response and close; what it sends meanwhile is discarded.
+  /// Time for the client to read its response and close; further input is discarded.
   static constexpr std::chrono::milliseconds drain_time{500};
 
   explicit ClientConnection(FileDescriptor socket);
 
   int socket() const { return socket_.number(); }
   bool is_open() const { return socket_.is_open(); }
-  /// Events that poll() is to wait for.
+  /// Events for poll() to wait for.
   short events() const;
-  /// The connection is to be closed then.
+  /// Time at which the connection must be closed.
   Clock::time_point deadline() const { return deadline_; }
-  /// Memory of the content that is kept for this client alone.
+  /// Bytes of the content that is kept for this client alone.
   std::size_t owned_bytes() const { return response_.content.owned_bytes; }
 
-  /// Goes as far as the socket allows without waiting, and sends no more than 1 MB. Closes the connection if
-  /// it is finished or broken. Throws what `respond` throws.
+  /// Reads and sends as far as the socket allows without waiting, at most 1 MB. Closes the connection if it
+  /// is finished or broken. Throws what `respond` throws.
   void advance(const Respond& respond);
-  /// Gives up the response, too.
+  /// Closes the socket and drops the rest of the response.
   void close();
 
  private:

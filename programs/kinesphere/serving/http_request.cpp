@@ -1,4 +1,4 @@
-// The head of an HTTP request: what is asked for, or why it is refused.
+// Parses the head of an HTTP request, and decides which requests to refuse.
 #include "serving/http_request.hpp"
 
 #include <fmt/format.h>
@@ -38,8 +38,7 @@ std::optional<int> hexadecimal(char c) {
   return std::nullopt;
 }
 
-/// Returns the decoded path of a request target, nothing if the target is no path or stands for a control
-/// character.
+/// Returns the decoded path of a request target; nothing if it is no path or encodes a control character.
 std::optional<std::string> path_of(std::string_view target) {
   if (!target.starts_with('/')) return std::nullopt;
   target = target.substr(0, target.find_first_of("?#"));
@@ -71,7 +70,7 @@ std::optional<RequestLine> parse_request_line(std::string_view line) {
   return RequestLine{.method = *method, .target = *target};
 }
 
-/// The fields that count. A field that is there twice has the value of the last one.
+/// The fields with an effect. A repeated field has its last value.
 struct Fields {
   int hosts = 0;  ///< number of Host fields
   std::string_view host, fetch_site, fetch_mode;
@@ -98,8 +97,9 @@ std::optional<Fields> parse_fields(std::string_view lines) {
   return std::nullopt;
 }
 
-/// A page of another site can have a browser ask under a name of its own that leads here (DNS rebinding), or
-/// embed what is here. A link to here is allowed.
+/// Returns true if the request comes from a page of another site, which may use a host name of its own that
+/// resolves to this machine (DNS rebinding), or embed a page of this server. A link to this server is
+/// allowed.
 bool is_from_elsewhere(const Fields& fields, int port) {
   if (fields.hosts != 1) return true;
   if (fields.host != fmt::format("127.0.0.1:{}", port) && fields.host != fmt::format("localhost:{}", port))

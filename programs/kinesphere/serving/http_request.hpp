@@ -1,4 +1,4 @@
-// The head of an HTTP request: what is asked for, or why it is refused.
+// Parses the head of an HTTP request, and decides which requests to refuse.
 #pragma once
 
 #include <string>

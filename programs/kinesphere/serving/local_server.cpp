@@ -1,4 +1,4 @@
-// A web server for this machine alone.
+// A web server that only this machine can reach.
 #include "serving/local_server.hpp"
 
 #include <arpa/inet.h>
@@ -24,15 +24,15 @@
 namespace kinesphere::program {
 namespace {
 
-/// Connections that are open at once. A browser opens six; each costs up to 0.5 MB, most of it the kernel's.
+/// Maximum open connections. A browser opens six; each costs up to 0.5 MB, mostly in the kernel.
 constexpr std::size_t max_connections = 64;
-/// Bytes of content made for single clients that are kept at once. The state of 20,000 tracks has 7 MB.
+/// Maximum bytes of content made for single clients. The state of 20,000 tracks has 7 MB.
 constexpr std::size_t max_owned_bytes = std::size_t{64} << 20;
-/// Buffers of the kernel for each connection, which would otherwise grow to several MB.
+/// Bytes of the kernel's send buffer of a connection, which would otherwise grow to several MB.
 constexpr int send_buffer = 1 << 18;
 constexpr int receive_buffer = 1 << 15;
 
-/// Blocks all signals for this thread, and for threads that it starts meanwhile.
+/// Blocks all signals for this thread, and for threads that it starts meanwhile, until destruction.
 class SignalsHeldOff {
  public:
   SignalsHeldOff() {
@@ -131,7 +131,7 @@ class LocalServer::Serving {
  private:
   using Clock = ClientConnection::Clock;
 
-  /// Runs until the other end of stop_reader_ is closed.
+  /// Serves until the other end of stop_reader_ is closed.
   void run() {
     std::vector<pollfd> polled;
     while (true) {
@@ -155,7 +155,7 @@ class LocalServer::Serving {
     return static_cast<int>(std::max(left.count(), std::chrono::milliseconds::rep{0}));
   }
 
-  /// `polled` has the connections from its third entry on.
+  /// Precondition: `polled` has the connections from its third entry on.
   void advance_connections(const std::vector<pollfd>& polled) {
     for (std::size_t k = 0; k < connections_.size(); ++k) {
       ClientConnection& connection = connections_[k];
@@ -175,7 +175,7 @@ class LocalServer::Serving {
   }
 
   /// Closes connections that own content, the oldest first, until all own no more than max_owned_bytes or
-  /// `kept` is left alone.
+  /// only `kept` is left.
   void give_up_others_for(const ClientConnection& kept) {
     std::size_t owned = 0;
     for (const ClientConnection& each : connections_) owned += each.owned_bytes();
@@ -187,7 +187,7 @@ class LocalServer::Serving {
     }
   }
 
-  /// Accepts up to as many as may be open; more wait until these have been looked at once.
+  /// Accepts connections up to the maximum; more wait until all open ones have been served once.
   void accept_connections() {
     for (std::size_t k = 0; k < max_connections; ++k) {
       FileDescriptor socket(::accept4(listener_.number(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
@@ -204,7 +204,7 @@ class LocalServer::Serving {
     return errno == EMFILE || errno == ENFILE || errno == ENOMEM || errno == ENOBUFS;
   }
 
-  /// Closes the oldest connection or, where others have taken what there is, waits a little.
+  /// Closes the oldest connection or, if other processes hold the descriptors, waits a little.
   void make_room() {
     if (connections_.empty())
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -229,7 +229,7 @@ class LocalServer::Serving {
     }
   }
 
-  /// A response without a body.
+  /// Returns a response without a body.
   HttpResponse refusal(HttpStatus status) const { return {.head = head_of(status, 0, ""), .content = {}}; }
 
   std::string head_of(HttpStatus status, std::size_t length, const std::string& type) const {
@@ -240,7 +240,7 @@ class LocalServer::Serving {
   }
 
   std::string option_;
-  std::string fields_;  ///< of every response
+  std::string fields_;  ///< header fields of every response
   ServedContent content_;
   std::string address_;
   int port_ = 0;

@@ -1,4 +1,4 @@
-// What a web server serves: pages in memory, pages made for each request, files of folders.
+// The content of a web server: pages in memory, pages made for each request, files of folders.
 #include "serving/served_content.hpp"
 
 #include <filesystem>
@@ -27,7 +27,7 @@ std::string type_of(const std::filesystem::path& file) {
   return found == types.end() ? "application/octet-stream" : found->second;
 }
 
-/// True if a path is parts that are neither empty nor begin with a dot, joined by single slashes.
+/// Returns true if the path consists of parts joined by single slashes, none empty or with a leading dot.
 bool is_below_folder(const std::string& path) {
   return !path.starts_with('/') && !path.ends_with('/') && !path.starts_with('.') &&
          path.find("//") == std::string::npos && path.find("/.") == std::string::npos;
@@ -46,7 +46,7 @@ std::optional<Content> read_file(const std::filesystem::path& file) {
 void ServedContent::add_page(const std::string& address, const std::string& type,
                              const std::string& content) {
   pages_[address] = [type, &content] {
-    // Owns nothing: an alias of no owner.
+    // An aliasing pointer without an owner.
     return Content{.type = type, .body = {std::shared_ptr<void>(), &content}};
   };
 }

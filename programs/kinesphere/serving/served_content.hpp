@@ -1,4 +1,4 @@
-// What a web server serves: pages in memory, pages made for each request, files of folders.
+// The content of a web server: pages in memory, pages made for each request, files of folders.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +13,12 @@ namespace kinesphere::program {
 
 /// The content of one response.
 struct Content {
-  std::string type;                         ///< as in the header Content-Type
+  std::string type;                         ///< value for the header Content-Type
   std::shared_ptr<const std::string> body;  ///< not null
   std::size_t owned_bytes = 0;              ///< memory that goes with `body`; 0 if others keep it anyway
 };
 
-/// Contents by their address. Looking one up is thread-safe unless `add_*` runs; the callbacks have to be.
+/// Maps addresses to contents. find() is thread-safe unless `add_*` runs; the callbacks must be, too.
 class ServedContent {
  public:
   /// `content` is not copied and must outlive the server.
@@ -29,7 +29,7 @@ class ServedContent {
   bool add_folder(const std::string& address, const std::string& folder);
 
   /// Returns the content at a decoded path, a page before a file. A path with a part that begins with a dot
-  /// leads to no file, so none outside the folder. Links inside the folder are followed. Throws what the
+  /// finds no file, so no file outside the folder. Links inside the folder are followed. Throws what the
   /// callbacks throw.
   std::optional<Content> find(const std::string& path) const;
 

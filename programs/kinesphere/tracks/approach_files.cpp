@@ -26,7 +26,7 @@ std::vector<std::string> approach_columns() {
           "first_z",         "second_x",     "second_y", "second_z", "relative_speed"};
 }
 
-/// x, y and z as in the file; no z where there is none.
+/// Adds x, y and z in the file's coordinates; z is empty if the file has none.
 void add_position(std::vector<Cell>& cells, const Vec3& local, const Recording& recording) {
   const Vec3 position = recording.coordinates.as_in_file(local);
   cells.insert(cells.end(), {position.x, position.y});
@@ -42,7 +42,7 @@ nlohmann::ordered_json time_json(const TimeScale& times, double time) {
   return times.is_number() ? nlohmann::ordered_json::parse(text) : nlohmann::ordered_json(text);
 }
 
-/// RFC 7946: longitude, latitude.
+/// Returns a point with longitude and latitude, in the order of RFC 7946.
 nlohmann::ordered_json point_on_map(const Recording& recording, const Vec3& local) {
   const Vec3 place = recording.coordinates.geographic(local).value();
   nlohmann::ordered_json point{place.x, place.y};

@@ -1,4 +1,4 @@
-// Files of what `kinesphere tracks` has found, by the ending of their names.
+// Writes the results of `kinesphere tracks`, in the format of the file name's ending.
 #pragma once
 
 #include <memory>
@@ -13,8 +13,9 @@
 
 namespace kinesphere::program {
 
-/// Every approach: a table (.csv, .jsonl), or points on a map (.geojson). It is opened at once, so that a
-/// long run is not in vain, and appears with commit(). Throws ProgramError as TableFile and OutputFile.
+/// Every approach, as a table (.csv, .jsonl) or as points on a map (.geojson). The constructor opens the
+/// file, so that a wrong path fails before a long run; the file appears with commit(). Throws ProgramError
+/// like TableFile and OutputFile.
 class ApproachFile {
  public:
   explicit ApproachFile(const std::string& path);
@@ -31,18 +32,18 @@ class ApproachFile {
   std::optional<OutputFile> geojson_;
 };
 
-/// What there was between two ids.
+/// The approaches of two ids, summed up.
 struct PairSummary {
   std::string first, second;  ///< ids
   std::uint64_t approaches = 0;
-  double duration = 0.0;      ///< of all together
-  ClosestApproach closest{};  ///< of all
+  double duration = 0.0;      ///< sum of the durations
+  ClosestApproach closest{};  ///< closest of all approaches
 };
 
-/// The pair that came closest first.
+/// Returns the pairs, the one with the closest approach first.
 std::vector<PairSummary> pairs_in(const std::vector<Approach>& approaches, const Recording& recording);
 
-/// The columns of a table of pairs.
+/// Returns the columns of a table of pairs.
 std::vector<std::string> pair_columns();
 void write_pairs(TableFile& table, const std::vector<PairSummary>& pairs, const Recording& recording);
 

@@ -12,20 +12,20 @@
 namespace kinesphere::program {
 namespace {
 
-/// Of the closest approaches, one for each that is drawn (Okabe and Ito 2008: told apart by all eyes).
+/// Colours of the closest approaches, one each; distinct for all kinds of colour vision (Okabe and Ito 2008).
 constexpr std::array<std::string_view, 6> colours{"#d55e00", "#0072b2", "#009e73",
                                                   "#cc79a7", "#e69f00", "#56b4e9"};
-constexpr int curve_points = 200;  ///< of a distance over time
-constexpr int piece_points = 4;    ///< of a piece of a track
+constexpr int curve_points = 200;  ///< points of the curve of a distance
+constexpr int piece_points = 4;    ///< points of a piece of a track
 
 struct Point {
   double x, y;
 };
 
-/// A part of the picture with axes (pixels).
+/// A part of the picture with axes. Unit: pixels.
 struct Panel {
   double left, top, width, height;
-  double low_x, high_x, low_y, high_y;  ///< what is shown
+  double low_x, high_x, low_y, high_y;  ///< shown range
 
   double x(double value) const { return left + (value - low_x) / (high_x - low_x) * width; }
   double y(double value) const { return top + height - (value - low_y) / (high_y - low_y) * height; }
@@ -39,7 +39,7 @@ std::string escaped(std::string_view text) {
     } else if (c == '&') {
       safe += "&amp;";
     } else {
-      // What XML does not know.
+      // XML does not allow control characters.
       safe += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
     }
   }
@@ -56,7 +56,7 @@ std::string polyline(const std::vector<Point>& points, std::string_view style) {
   return svg + fmt::format("\" {}/>\n", style);
 }
 
-/// As many digits as tell the ticks apart.
+/// Returns the value with enough digits to distinguish ticks `step` apart.
 std::string tick_text(double value, double step) {
   const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 12);
   return fmt::format("{:.{}f}", value == 0.0 ? 0.0 : value, decimals);
@@ -91,7 +91,7 @@ std::string axes(const Panel& panel, std::string_view title, std::string_view x_
   return svg + text_at(panel.left, panel.top - 10, title, "font-weight=\"bold\"");
 }
 
-/// The two axes on which a recording is widest, and their names.
+/// The two axes along which a recording is widest, and their names.
 struct View {
   int across = 0, up = 1;
   std::string x_label, y_label;
@@ -129,7 +129,7 @@ class Picture {
     return view;
   }
 
-  /// Both axes to one scale; of longitudes and latitudes that in the middle.
+  /// Returns a panel with one scale for both axes; for longitudes and latitudes the scale of the middle.
   static Panel fitted(Point low, Point high, double x_scale) {
     Panel panel{80, 40, 400, 420, 0, 0, 0, 0};
     const Point middle{0.5 * (low.x + high.x), 0.5 * (low.y + high.y)};
@@ -175,7 +175,7 @@ class Picture {
     return svg + "</g>\n";
   }
 
-  /// The curve of a track, without what moves by less than half a pixel.
+  /// Returns the curve of a track, without points that move it by less than half a pixel.
   std::vector<Point> course(std::uint32_t track, const View& view, const Panel& panel) const {
     std::vector<Point> points;
     const auto& samples = recording_.tracks[track].samples;
@@ -197,7 +197,7 @@ class Picture {
     return {panel.x(at.x), panel.y(at.y)};
   }
 
-  /// One dot for all approaches in a pixel, and rings around the closest ones.
+  /// Returns one dot for all approaches in a pixel, and rings around the closest ones.
   std::string marks(const View& view, const Panel& panel) const {
     std::string svg;
     std::vector<std::pair<int, int>> drawn;
@@ -219,7 +219,7 @@ class Picture {
     return svg;
   }
 
-  /// From when to when both are there, about the closest approach of the two.
+  /// Returns the part of the time around the closest approach in which both tracks are present.
   std::pair<double, double> shown_time(const Approach& approach, double around) const {
     const SceneBody& first = scene_.bodies[approach.first];
     const SceneBody& second = scene_.bodies[approach.second];
@@ -232,7 +232,7 @@ class Picture {
                 scene_.motion->state(approach.second, time).position);
   }
 
-  /// As long as the approaches that are drawn usually last, on each side of the closest.
+  /// Returns the typical duration of the drawn approaches, shown on each side of the closest.
   double time_around() const {
     std::vector<double> lengths;
     for (const std::size_t k : closest_) lengths.push_back(approaches_[k].end - approaches_[k].begin);

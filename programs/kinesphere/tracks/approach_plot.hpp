@@ -9,11 +9,12 @@
 
 namespace kinesphere::program {
 
-/// An SVG picture, 1000 by 520 pixels. `distance` is what counts as an approach.
+/// Returns an SVG picture of 1000 by 520 pixels. `distance` is the largest distance of an approach.
 std::string plot_of(const Recording& recording, const Scene& scene, const std::vector<Approach>& approaches,
                     double distance);
 
-/// Round numbers from `low` to `high`, about `wanted` of them: multiples of 1, 2 or 5 times a power of ten.
+/// Returns round numbers from `low` to `high`, about `wanted` of them: multiples of 1, 2 or 5 times a power
+/// of ten.
 std::vector<double> ticks(double low, double high, int wanted);
 
 }  // namespace kinesphere::program

@@ -1,4 +1,4 @@
-// From the samples of one id to pieces of motion: duplicates, impossible jumps, gaps.
+// Turns the samples of one id into pieces of motion: handles duplicates, impossible jumps and gaps.
 #include "tracks/cleaning.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@
 namespace kinesphere::program {
 namespace {
 
-/// Samples that can be travelled one after the other.
+/// Samples that follow each other at a possible speed.
 struct Chain {
   std::vector<std::size_t> samples;  ///< numbers
 };
@@ -25,7 +25,7 @@ bool can_reach(const TrackSample& from, const TrackSample& to, double max_speed)
 std::vector<Chain> chains_of(const Piece& samples, double max_speed) {
   constexpr std::size_t looked_at = 8;
   std::vector<Chain> chains;
-  std::vector<std::size_t> recent;  // chains, the one that was last reached first
+  std::vector<std::size_t> recent;  // chains, the most recently extended first
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const auto chain = std::find_if(recent.begin(), recent.end(), [&](std::size_t number) {
       return can_reach(samples[chains[number].samples.back()].sample, samples[k].sample, max_speed);
@@ -80,7 +80,7 @@ std::vector<Piece> split_by_speed(const Piece& samples, double max_speed, const 
   std::stable_sort(by_size.begin(), by_size.end(), [&](std::size_t a, std::size_t b) {
     return chains[a].samples.size() > chains[b].samples.size();
   });
-  // Kept chains, by their first sample; none overlaps another.
+  // Kept chains by their first sample; none overlaps another.
   std::map<std::size_t, std::size_t> kept;
   for (std::size_t number : by_size) {
     const auto& chain = chains[number].samples;

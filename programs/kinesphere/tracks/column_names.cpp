@@ -1,4 +1,4 @@
-// What the name of a column says: which quantity it has, in which unit.
+// Parses the names of columns: quantity and unit.
 #include "tracks/column_names.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// From the coordinates of a file to those that are calculated with, and back.
+// Converts the coordinates of a file to those of the computation, and back.
 #include "tracks/coordinates.hpp"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace kinesphere::program {
 namespace {
 
-/// A multiple of `step` near the middle; zero when the middle is nearer than half a step.
+/// Returns a multiple of `step` near the middle; 0 if the middle is closer than half a step.
 double origin_near(double low, double high, double step) {
   return step * std::round((low / 2 + high / 2) / step);
 }
@@ -18,7 +18,7 @@ Coordinates::Coordinates(const Box& extent, double unit, std::optional<UtmZone> 
     : unit_(unit), zone_(zone) {
   const Vec3 size = extent.upper - extent.lower;
   const double largest = std::max({size.x, size.y, size.z});
-  // A power of two, so that nothing is rounded.
+  // Powers of two keep the numbers exact.
   const double step = largest > 0 ? std::exp2(6 + std::ceil(std::log2(largest))) : 0x1p-20;
   origin_ = {origin_near(extent.lower.x, extent.upper.x, step),
              origin_near(extent.lower.y, extent.upper.y, step),
@@ -36,7 +36,7 @@ Vec3 Coordinates::as_in_file(const Vec3& local) const {
 std::optional<Vec3> Coordinates::geographic(const Vec3& local) const {
   if (projection_) return projection_->geographic(local);
   if (!zone_) return std::nullopt;
-  // UTM is in metres, whatever unit the file has.
+  // UTM is in metres, in whatever unit the file is.
   return geographic_from_utm(*zone_, unit_ * as_in_file(local));
 }
 

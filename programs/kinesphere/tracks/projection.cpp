@@ -1,4 +1,4 @@
-// Longitudes and latitudes as lengths.
+// Projects longitudes and latitudes to lengths.
 #include "tracks/projection.hpp"
 
 #include <fmt/format.h>
@@ -54,8 +54,7 @@ struct LongitudeLatitude {
   double longitude, latitude;
 };
 
-/// Where the mean of the points in space lies above or below; no point is far from it that is not far from
-/// some other, the date line or not.
+/// Returns the place above or below the mean of the points in space; the date line does not disturb it.
 LongitudeLatitude middle_of(std::span<const Vec3> points) {
   Vec3 sum{};
   for (const Vec3& point : points) {

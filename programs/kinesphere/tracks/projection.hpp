@@ -1,5 +1,5 @@
-// Longitudes and latitudes as lengths. The mathematics is GeographicLib's; without it nothing can be
-// projected.
+// Projects longitudes and latitudes to lengths, with GeographicLib. Without that library all projections
+// fail.
 #pragma once
 
 #include <memory>
@@ -15,12 +15,12 @@ namespace kinesphere::program {
 class Projection {
  public:
   virtual ~Projection() = default;
-  /// In metres.
+  /// Returns metres.
   virtual Vec3 local(const Vec3& geographic) const = 0;
   virtual Vec3 geographic(const Vec3& local) const = 0;
-  /// Whether points on the ground have z = 0.
+  /// True if points on the ground have z = 0.
   virtual bool is_plane() const = 0;
-  /// For the summary: what it is, and by how much its lengths are wrong.
+  /// Text for the summary: the projection, and the largest error of its lengths.
   virtual std::string description() const = 0;
 };
 
@@ -30,26 +30,26 @@ enum class ProjectionChoice {
   earth,
 };
 
-/// A projection around the middle of these points.
+/// Returns a projection around the middle of these points.
 ///
 /// Plane: azimuthal equidistant. Distances from the middle are true; no other is too short, and none is too
 /// long by more than description() says. Heights are kept as z.
 /// Earth: the Earth's space, turned so that z goes up in the middle. Distances are true, in a straight line
 /// (through the ground, which makes 10 km a millimetre shorter). Motion is 3D.
 ///
-/// `has_heights` says whether points have heights above the ground, which make `automatic` choose earth.
-/// Throws ProgramError without GeographicLib, and when a plane is asked for points around the whole Earth.
+/// `has_heights`: the points have heights above the ground; `automatic` then chooses earth. Throws
+/// ProgramError without GeographicLib, and for a plane with points around the whole Earth.
 std::shared_ptr<const Projection> project(std::span<const Vec3> geographic, bool has_heights,
                                           ProjectionChoice choice);
 
-/// Easting and northing in a zone such as 33N or 5S as longitude and latitude in degrees.
+/// A UTM zone such as 33N or 5S, to turn easting and northing into longitude and latitude.
 struct UtmZone {
   int number;  ///< 1 to 60
   bool north;
 };
-/// Throws ProgramError naming `option`.
+/// Throws ProgramError naming `option` if the text is no zone.
 UtmZone parse_utm_zone(std::string_view text, std::string_view option);
-/// Throws ProgramError without GeographicLib.
+/// Returns degrees and metres. Throws ProgramError without GeographicLib.
 Vec3 geographic_from_utm(const UtmZone& zone, const Vec3& position);
 
 }  // namespace kinesphere::program

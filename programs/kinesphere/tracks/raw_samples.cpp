@@ -1,4 +1,4 @@
-// The rows of text files as samples.
+// Reads the rows of text files as samples.
 #include "tracks/raw_samples.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ bool is_missing(std::string_view field) {
                      [field](std::string_view name) { return same_name(field, name); });
 }
 
-/// For errors: a field of any length, on one line.
+/// Returns the field on one line and shortened, for errors.
 std::string shown(std::string_view field) {
   std::string text(field.substr(0, 60));
   std::replace_if(
@@ -40,7 +40,7 @@ std::string whole_id(std::string_view field) {
 
 bool is_date(TimeKind kind) { return kind == TimeKind::date || kind == TimeKind::utc; }
 
-/// The years of Unix times end here: larger numbers are not seconds.
+/// Larger numbers are not Unix times in seconds.
 constexpr std::int64_t last_likely_second = 100'000'000'000;
 
 }  // namespace
@@ -88,7 +88,7 @@ class RawRecording::FileReader {
     TimeKind kind = columns_.time_kind;
     std::optional<FileTime> time = parse_decimal_time(field);
     if (const auto date = parse_date_time(field)) {
-      // YYYYMMDD alone is a number, a date has a time of day.
+      // YYYYMMDD alone is a number; a date has a time of day.
       time = date->time;
       kind = date->has_offset ? TimeKind::utc : TimeKind::date;
     }
@@ -104,7 +104,7 @@ class RawRecording::FileReader {
     return *time;
   }
 
-  /// All times are of one kind.
+  /// Checks that all times are of one kind.
   void agree_on(TimeKind kind, const TableRow& row, const Place& place) {
     auto& known = recording_.time_kind_;
     if (!known) {
@@ -181,7 +181,7 @@ void RawRecording::read(std::string text, const std::string& file) {
   for (TableRow row; table.next(row); ++rows_) reader.read(row);
 }
 
-/// What one file means by its numbers, the others must mean too.
+/// Checks that all files have the units and time kind of the first.
 void RawRecording::agree(const TrackColumns& columns, const std::string& file) {
   const auto require_same = [&](bool same, std::string_view what) {
     if (!same) throw ProgramError(fmt::format("{}: expected {} as in {}", file, what, files_.front()));

@@ -1,4 +1,4 @@
-// The rows of text files as samples: who was where at which time, in the files' own numbers.
+// Reads the rows of text files as samples: ids, times and positions in the files' own numbers.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace kinesphere::program {
 
-/// A row of one of the files.
+/// A row of one of the files, for messages.
 struct Place {
   std::uint32_t file = 0;
   int line = 0;  ///< from 1
@@ -26,7 +26,7 @@ struct RawSample {
   Place place;
 };
 
-/// What the files say of one id.
+/// The rows of one id.
 struct RawTrack {
   std::string id;
   std::vector<RawSample> samples;  ///< in the order of the rows
@@ -39,9 +39,9 @@ class RawRecording {
   RawRecording(const TrackOptions& options, bool several_files)
       : options_(options), several_files_(several_files) {}
 
-  /// Adds a file's rows. Throws ProgramError naming file, line and column of what is wrong.
+  /// Adds a file's rows. Throws ProgramError naming file, line and column of an error.
   void read(std::string text, const std::string& file);
-  /// To be called when all files have been read: what their times are. Throws ProgramError where the frame
+  /// Returns the scale of the times. Precondition: all files have been read. Throws ProgramError if the frame
   /// numbers do not fit the format.
   TimeScale time_scale() const;
 
@@ -49,9 +49,9 @@ class RawRecording {
   const std::vector<RawTrack>& tracks() const { return tracks_; }
   std::size_t rows() const { return rows_; }
   const Tally& missing() const { return missing_; }
-  /// "file:line".
+  /// Returns "file:line".
   std::string name(const Place& place) const;
-  /// Counts one more.
+  /// Increments the tally.
   void count(Tally& tally, const Place& place) const;
 
  private:
@@ -63,7 +63,7 @@ class RawRecording {
   bool several_files_;
   std::vector<std::string> files_;
   TrackColumns columns_;
-  /// Kind of the first time, once there is one.
+  /// Kind of the first time; empty before it.
   std::optional<TimeKind> time_kind_;
   Place first_time_;
   std::vector<RawTrack> tracks_;

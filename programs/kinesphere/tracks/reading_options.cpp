@@ -1,4 +1,4 @@
-// The options that say how recordings are read.
+// The command-line options for reading recordings.
 #include "tracks/reading_options.hpp"
 
 #include <CLI/CLI.hpp>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* group = "Reading";
 
-/// An option whose value is one of a few names.
+/// Adds an option that takes one of a few names.
 template <class Value>
 void add_choice(CLI::App& command, const std::string& name, Value& value,
                 const std::map<std::string, Value>& choices, const std::string& default_name,

@@ -1,4 +1,4 @@
-// The options that say how recordings are read.
+// The command-line options for reading recordings.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -9,13 +9,13 @@
 
 namespace kinesphere::program {
 
-/// `files` and `options` must live until the command line has been parsed. Returns the option of the files,
-/// of which one must be given unless the caller says otherwise.
+/// Adds the options. `files` and `options` must live until the command line has been parsed. Returns the
+/// option of the files; at least one file is required unless the caller changes that.
 CLI::Option* add_reading_options(CLI::App& command, std::vector<std::string>& files, TrackOptions& options);
 /// `options` must live until the command line has been parsed.
 void add_interpolation_option(CLI::App& command, TrackOptions& options);
-/// The name of an option of these that was given, of the files apart; empty when there was none. To be called
-/// when the command line has been parsed.
+/// Returns the name of a reading option that was given, other than the files; empty if there was none.
+/// Precondition: the command line has been parsed.
 std::string given_reading_option(const CLI::App& command);
 
 }  // namespace kinesphere::program

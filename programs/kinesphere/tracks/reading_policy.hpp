@@ -1,4 +1,4 @@
-// How a recording is to be read, as said on the command line.
+// How the command line asks for a recording to be read.
 #pragma once
 
 #include <optional>
@@ -9,15 +9,15 @@
 
 namespace kinesphere::program {
 
-/// Rows without a time or a position: empty, NaN, NA, N/A, null or none; in longitudes and latitudes also 181
-/// and 91, with which AIS says that it knows none.
+/// Rows without a time or a position: empty, NaN, NA, N/A, null or none; for longitudes and latitudes also
+/// 181 and 91, the unknown position of AIS.
 enum class MissingPolicy {
   fail,
-  skip,   ///< as if the row were not there
+  skip,   ///< drops the row
   split,  ///< nor does its id's track go on over it; a row without a time is skipped
 };
 
-/// Samples of one id at one time.
+/// How to treat several samples of one id at one time.
 enum class DuplicatePolicy {
   fail,
   first,  ///< the first of the file counts
@@ -29,10 +29,10 @@ struct TrackOptions {
   ProjectionChoice projection = ProjectionChoice::automatic;
   MissingPolicy missing = MissingPolicy::fail;
   DuplicatePolicy duplicates = DuplicatePolicy::fail;
-  /// Samples that cannot be reached at this speed, in lengths per second, are left out.
+  /// Samples that cannot be reached at this speed, in lengths per second, are dropped.
   std::optional<double> max_speed;
-  /// A longer time (seconds) between two samples of one id splits them into two tracks. Default: 2.5 times
-  /// the median time between the samples of that id or, where it has fewer than 4, of all ids.
+  /// Seconds. A longer time between two samples of one id splits it into two tracks. Default: 2.5 times the
+  /// median time between samples of that id, or of all ids if it has fewer than 4 samples.
   std::optional<double> max_gap;
   Interpolation interpolation = Interpolation::spline;
 };

@@ -1,4 +1,4 @@
-// What was read, told to a person.
+// A summary of what was read.
 #include "tracks/reading_summary.hpp"
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 namespace kinesphere::program {
 namespace {
 
-/// Above this part of all rows, what was left out is worth a warning.
+/// Share of all rows above which dropped rows cause a warning.
 constexpr double many = 0.03;
 
 std::string format_text(const Recording& recording) {

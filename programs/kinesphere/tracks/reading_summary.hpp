@@ -1,4 +1,4 @@
-// What was read, told to a person.
+// A summary of what was read.
 #pragma once
 
 #include <string>
@@ -10,13 +10,13 @@
 
 namespace kinesphere::program {
 
-/// Files, format, tracks, samples, what was left out and why, span.
+/// Adds files, format, tracks, samples, dropped rows with reasons, and the span.
 void add_recording(Summary& summary, const std::vector<std::string>& files, const Recording& recording,
                    const TrackScene& scene);
 
-/// What should not pass unseen, one line each: many rows or samples left out.
+/// Returns warnings, one line each: many rows or samples were dropped.
 std::vector<std::string> warnings_of(const Recording& recording);
-/// These, and splines that swing out far.
+/// Returns those warnings, and one about splines that swing out far.
 std::vector<std::string> warnings_of(const Recording& recording, const TrackScene& scene);
 
 }  // namespace kinesphere::program

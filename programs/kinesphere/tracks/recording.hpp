@@ -1,4 +1,4 @@
-// A recording of real motion, as it was read.
+// A recording of real motion after it was read.
 #pragma once
 
 #include <cstdint>
@@ -13,24 +13,24 @@
 namespace kinesphere::program {
 
 struct RecordedTrack {
-  std::string id;                    ///< as in the file; 3.0 and 3.000000e+00 are 3
+  std::string id;                    ///< spelled like in the file; 3.0 and 3.000000e+00 are 3
   std::vector<TrackSample> samples;  ///< at least 2, by time
 };
 
-/// Things that were passed over, and where the first of them stand.
+/// Count of dropped items, and where the first ones stand.
 struct Tally {
   std::size_t count = 0;
   std::vector<std::string> first_places;  ///< at most 3: "line 7" or, with several files, "b.csv:7"
 };
 
-/// Times are seconds and positions lengths from origins of their own: `times` and `coordinates` tell them as
-/// the file does.
+/// A recording in seconds and lengths from its own origins; `times` and `coordinates` convert them to the
+/// file's.
 struct Recording {
-  std::string format;  ///< what the file was recognised as
+  std::string format;  ///< recognised format
   TimeScale times;
   double frame_rate = 0.0;  ///< frames per second; 0 where no frames are counted
   Coordinates coordinates;
-  bool in_metres = false;             ///< lengths; else nobody has said their unit
+  bool in_metres = false;             ///< unit of lengths; if false, it is unknown
   bool is_plane = false;              ///< nothing leaves the plane z = 0
   std::vector<RecordedTrack> tracks;  ///< without interruption, by the first sample's place in the file
   std::size_t ids = 0;
@@ -41,7 +41,8 @@ struct Recording {
   Tally duplicates;            ///< samples of an id that already has one at that time
   Tally too_fast;              ///< samples that --max-speed left out
   double sample_interval = 0;  ///< the median, over all ids
-  /// What cuts a track: a longer time between two samples of its id. Smallest and largest of the ids.
+  /// The smallest and the largest gap limit of the ids, in seconds; a longer time between two samples cuts a
+  /// track.
   double smallest_max_gap = 0, largest_max_gap = 0;
 };
 

@@ -1,4 +1,4 @@
-// Tables in text files: whatever separates their columns, quoted or not, with or without a header.
+// Reads tables in text files: any separator, quoted or not, with or without a header.
 #include "tracks/text_table.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@
 namespace kinesphere::program {
 namespace {
 
-/// Of the row that `text` begins with.
+/// Returns the separator of the first row of `text`.
 char separator_of(std::string_view text) {
   std::string outside;  // of quotes
   bool quoted = false;
@@ -29,7 +29,7 @@ char separator_of(std::string_view text) {
   return ' ';
 }
 
-/// The parts of a comment; `separator` as in the table.
+/// Returns the parts of a comment; `separator` is that of the table.
 std::vector<std::string> parts_of(std::string_view line, char separator) {
   std::vector<std::string> parts;
   const std::string_view between = separator == ' ' ? blanks : std::string_view(&separator, 1);
@@ -64,7 +64,7 @@ void TextTable::read_header() {
   const auto is_number = [](std::string_view field) { return parse_number(field).has_value(); };
   if (std::none_of(first_.fields.begin(), first_.fields.end(), is_number)) {
     header_.assign(first_.fields.begin(), first_.fields.end());
-    // Names are told in errors, which are one line.
+    // Errors contain the names, and are one line.
     for (std::string& name : header_)
       std::replace_if(
           name.begin(), name.end(), [](char c) { return c == '\r' || c == '\n'; }, ' ');
@@ -110,7 +110,7 @@ bool TextTable::skip_to_row() {
   return false;
 }
 
-/// A row ends where a line ends outside quotes.
+/// A row ends at a line end outside quotes.
 bool TextTable::read_row(TableRow& row) {
   row.line = line_;
   row.fields.clear();
@@ -130,7 +130,7 @@ bool TextTable::read_row(TableRow& row) {
   return true;
 }
 
-/// Stops at the separator or the end of the line behind the field.
+/// Reads up to the separator or the end of the line.
 std::string_view TextTable::read_field(int line, std::size_t column) {
   std::string_view ahead = line_ahead();
   const std::size_t blank =
@@ -152,11 +152,11 @@ std::string_view TextTable::read_field(int line, std::size_t column) {
   return field;
 }
 
-/// From behind the first quote to behind the blanks after the last one.
+/// Reads from behind the opening quote to behind the blanks after the closing one.
 std::string_view TextTable::read_quoted(int line, std::size_t column) {
   const std::string_view begin = rest_;
   std::size_t at = 0;
-  std::string* doubled = nullptr;  // the field as it is without the doubled quotes, where it has such
+  std::string* doubled = nullptr;  // the field without its doubled quotes; null if it has none
   std::size_t copied = 0;
   for (;;) {
     at = begin.find('"', at);

@@ -1,4 +1,4 @@
-// From the times of a file to the times that are calculated with, and back.
+// Converts the times of a file to those of the computation, and back.
 #include "tracks/time_scale.hpp"
 
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 namespace kinesphere::program {
 namespace {
 
-/// Whole and fraction with just so many decimals, the last ones not zero.
+/// A number with a fixed number of decimals, without trailing zeros.
 struct Decimal {
   std::int64_t whole;
   std::string decimals;  ///< with the point before them; empty for none
@@ -26,14 +26,14 @@ Decimal rounded(std::int64_t whole, double fraction, int decimals) {
   return {whole, text};
 }
 
-/// How many decimals of a number of this size are certain.
+/// Returns how many decimals of a number of this size are exact.
 int certain_decimals(double size) {
   return std::clamp(14 - static_cast<int>(std::floor(std::log10(std::max(std::abs(size), 1e-300)))), 0, 17);
 }
 
 std::string number_text(const Decimal& number) {
   if (number.whole >= 0 || number.decimals.empty()) return fmt::format("{}{}", number.whole, number.decimals);
-  // -2 + 0.75 is -1.25.
+  // For example, -2 + 0.75 is -1.25.
   const int decimals = static_cast<int>(number.decimals.size()) - 1;
   const Decimal positive = rounded(-number.whole - 1, 1.0 - std::stod("0" + number.decimals), decimals);
   return fmt::format("-{}{}", positive.whole, positive.decimals);
@@ -57,7 +57,7 @@ void TimeScale::set_origin(const FileTime& first, const FileTime& last) {
   const double span = static_cast<double>(last.whole - first.whole) + 1.0;
   std::int64_t step = 1;
   while (static_cast<double>(step) < 64.0 * span && step < (std::int64_t{1} << 60)) step *= 2;
-  // Downwards, for negative numbers too.
+  // Rounds down, also for negative numbers.
   origin_ = first.whole - ((first.whole % step) + step) % step;
 }
 

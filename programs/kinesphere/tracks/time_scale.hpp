@@ -1,4 +1,4 @@
-// From the times of a file to the times that are calculated with, and back.
+// Converts the times of a file to those of the computation, and back.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace kinesphere::program {
 
-/// What a file's times are.
+/// The kind of a file's times.
 enum class TimeKind {
   number,  ///< numbers of a unit
   frames,  ///< frame numbers
@@ -17,26 +17,26 @@ enum class TimeKind {
   utc,     ///< dates with Z or an offset
 };
 
-/// Calculated with are seconds since an origin near the recording, so that no digits are lost to a large
-/// offset such as that of Unix times. A recording that lies near zero keeps its own zero as origin.
+/// Computed times are seconds since an origin near the recording, so that no digits are lost to a large
+/// offset such as that of Unix times. A recording near zero keeps zero as its origin.
 class TimeScale {
  public:
-  /// Numbers of `unit` seconds each or, with `rate`, so many to a second; both > 0.
+  /// Numbers of `unit` seconds each or, with `rate`, that many to a second. Range: both > 0.
   explicit TimeScale(TimeKind kind = TimeKind::number, double unit = 1.0, double rate = 1.0)
       : kind_(kind), unit_(unit), rate_(rate) {}
 
-  /// Puts the origin near times from first to last.
+  /// Puts the origin near the times from first to last.
   void set_origin(const FileTime& first, const FileTime& last);
 
   TimeKind kind() const { return kind_; }
-  /// Frames per second, where frames are counted.
+  /// Frames per second, if the file counts frames.
   double rate() const { return rate_; }
-  /// Whether text() is a number.
+  /// True if text() returns a number.
   bool is_number() const { return kind_ == TimeKind::number || kind_ == TimeKind::frames; }
   double seconds(const FileTime& time) const;
-  /// A time as the file would tell it: a number of the file's unit, in UTC a date that ends in Z, a date
-  /// without a zone where the file has none; for frames seconds since frame 0. It has as many digits as are
-  /// certain, but at most so many behind the point.
+  /// Returns the time in the file's form: a number of its unit, a date that ends in Z for UTC, a date without
+  /// a zone if the file has none, or seconds since frame 0 for frames. It has all exact digits, but at most
+  /// `most_decimals` decimals.
   std::string text(double seconds, int most_decimals = 17) const;
 
  private:

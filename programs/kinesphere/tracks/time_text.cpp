@@ -1,4 +1,4 @@
-// Times as files tell them: dates or numbers.
+// Parses times in files: dates or numbers.
 #include "tracks/time_text.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ bool is_digit(char c) { return '0' <= c && c <= '9'; }
 
 bool all_digits(std::string_view text) { return std::all_of(text.begin(), text.end(), is_digit); }
 
-/// The number 0.digits.
+/// Returns the number 0.digits.
 double fraction_of(std::string_view digits) { return *parse_number("0." + std::string(digits)); }
 
 std::optional<FileTime> with_sign(bool negative, FileTime time) {
@@ -28,7 +28,7 @@ std::optional<FileTime> with_sign(bool negative, FileTime time) {
   return FileTime{-time.whole - 1, 1.0 - time.fraction};
 }
 
-/// Eats a text from its front.
+/// Reads a text from its front.
 class Reader {
  public:
   explicit Reader(std::string_view text) : rest_(text) {}
@@ -39,7 +39,7 @@ class Reader {
     rest_.remove_prefix(1);
     return true;
   }
-  /// A whole number of just so many digits, at most `most`.
+  /// Reads exactly `count` digits; nothing if there are fewer or the number exceeds `most`.
   std::optional<int> digits(std::size_t count, int most) {
     if (rest_.size() < count || !all_digits(rest_.substr(0, count))) return std::nullopt;
     int number = 0;
@@ -58,7 +58,7 @@ class Reader {
   std::string_view rest_;
 };
 
-/// Days since 1970-01-01. `extended`: with - between the parts.
+/// Returns days since 1970-01-01. `extended`: the parts have - between them.
 std::optional<std::int64_t> read_date(Reader& reader, bool& extended) {
   const auto year = reader.digits(4, 9999);
   extended = reader.take('-');
@@ -73,7 +73,7 @@ std::optional<std::int64_t> read_date(Reader& reader, bool& extended) {
   return std::chrono::sys_days(date).time_since_epoch().count();
 }
 
-/// Since midnight.
+/// Returns seconds since midnight.
 std::optional<FileTime> read_clock(Reader& reader, bool extended) {
   const auto hour = reader.digits(2, 24);
   if (extended && !reader.take(':')) return std::nullopt;
@@ -95,7 +95,7 @@ std::optional<FileTime> read_clock(Reader& reader, bool extended) {
   return with_sign(false, time);
 }
 
-/// Seconds east of Greenwich.
+/// Returns seconds east of Greenwich.
 std::optional<int> read_offset(Reader& reader) {
   if (reader.take('Z') || reader.take('z')) return 0;
   const int sign = reader.take('+') ? 1 : -1;

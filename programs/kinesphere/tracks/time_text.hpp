@@ -1,4 +1,4 @@
-// Times as files tell them: dates or numbers.
+// Parses times in files: dates or numbers.
 #pragma once
 
 #include <cstdint>
@@ -7,15 +7,15 @@
 
 namespace kinesphere::program {
 
-/// A time without rounding, however far from zero: whole + fraction, 0 <= fraction < 1, in the file's own
-/// unit; for dates seconds since 1970-01-01T00:00:00Z.
+/// An unrounded time: whole + fraction, 0 <= fraction < 1. Unit: that of the file; for dates seconds since
+/// 1970-01-01T00:00:00Z.
 struct FileTime {
   std::int64_t whole = 0;
   double fraction = 0.0;
 };
 
-/// A decimal number, below 2^61 in size; the digits behind the point are rounded by themselves, so that
-/// 1700000000.123 loses nothing to the digits before it.
+/// Parses a decimal number of absolute value below 2^61. The decimals are rounded on their own, so that
+/// 1700000000.123 loses nothing to its whole part.
 std::optional<FileTime> parse_decimal_time(std::string_view text);
 
 struct DateTime {

@@ -1,4 +1,4 @@
-// Which columns of a table hold a recorded motion, and what their numbers are.
+// Finds the columns of a recorded motion in a table, and the units of their numbers.
 #include "tracks/track_columns.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ std::string names_in(const TextTable& table) {
   return fmt::format("the columns {}", fmt::join(table.header(), ", "));
 }
 
-/// The only column of that name, or the only one up to upper and lower case.
+/// Returns the only column of that name, or the only one if case is ignored.
 std::optional<std::size_t> column_named(const TextTable& table, std::string_view name) {
   const auto& header = table.header();
   for (const bool exact : {true, false}) {
@@ -41,7 +41,7 @@ std::optional<std::size_t> column_named(const TextTable& table, std::string_view
   return std::nullopt;
 }
 
-/// One row per person and a few frames: frame id x z(=0) y vx vz(=0) vy, and no header.
+/// True for rows of person and frame: frame id x z(=0) y vx vz(=0) vy, without a header.
 bool looks_like_obsmat(const TextTable& table) {
   const auto& fields = table.first_row().fields;
   return table.header().empty() && fields.size() == 8 && parse_number(fields[3]) == 0.0 &&
@@ -85,7 +85,7 @@ TrackColumns obsmat(const TextTable& table, Film film) {
   return columns;
 }
 
-/// From a comment such as "framerate: 25 fps".
+/// Reads a rate from a comment such as "framerate: 25 fps".
 std::optional<double> frame_rate_in(const TextTable& table) {
   constexpr std::string_view label = "framerate:";
   for (std::string_view comment : table.comments()) {
@@ -124,7 +124,7 @@ TrackColumns pedpy(const TextTable& table) {
   return columns;
 }
 
-/// "object" joins interrupted tracks and jumps where it does; "oldobject" does not.
+/// "object" joins interrupted tracks, with jumps at the joints; "oldobject" does not.
 TrackColumns mosquitoes(const TextTable& table) {
   if (!is_mosquitoes(table)) {
     throw ProgramError(
@@ -144,7 +144,7 @@ TrackColumns mosquitoes(const TextTable& table) {
   return columns;
 }
 
-/// What a time column's name, or its having none, says of numbers in it.
+/// Derives the unit of times from the time column's name, or from its absence.
 void understand_time(const TextTable& table, TrackColumns& columns) {
   const auto meaning = table.header().empty() ? std::nullopt : meaning_of(table.header()[columns.time]);
   if (meaning && meaning->quantity == Quantity::time) {
@@ -160,7 +160,7 @@ void understand_time(const TextTable& table, TrackColumns& columns) {
   }
 }
 
-/// What the names of the columns x and y say.
+/// Derives the units of positions from the names of columns x and y.
 void understand_positions(const TextTable& table, TrackColumns& columns) {
   if (table.header().empty()) return;
   const auto x = meaning_of(table.header()[columns.x]);
@@ -177,11 +177,11 @@ class UsualNames {
     for (std::size_t column = 0; column < header.size(); ++column) {
       if (const auto meaning = meaning_of(header[column])) columns_[meaning->quantity].push_back(column);
     }
-    // Where a file has both, one of them is asked for.
+    // If the file has both kinds of columns, an option must choose one.
     if (hints.from == "lonlat" || hints.unit == "deg") forget({Quantity::x, Quantity::y});
     if (hints.from == "plane" || hints.from.starts_with("utm"))
       forget({Quantity::longitude, Quantity::latitude});
-    // A file that has times does not need its frame numbers.
+    // Frame numbers are not needed if there are times.
     if (columns_.contains(Quantity::time)) forget({Quantity::frame});
   }
 
@@ -220,7 +220,7 @@ class UsualNames {
   std::map<Quantity, std::vector<std::size_t>> columns_;
 };
 
-/// By its name in the header or its number from 1.
+/// Returns a column by its name in the header or its number from 1.
 std::size_t column_of(const TextTable& table, std::string_view key, std::string_view name) {
   if (const auto column = column_named(table, name)) return *column;
   const double number = parse_number(name).value_or(0.0);

@@ -1,4 +1,4 @@
-// Recorded motion from text files: who was where at which times.
+// Reads recorded motion from text files.
 #include "tracks/track_file.hpp"
 
 #include <fmt/format.h>
@@ -57,7 +57,7 @@ Coordinates coordinates_of(const RawRecording& raw, ProjectionChoice choice) {
   return Coordinates(extent, columns.length_unit.value_or(1.0), columns.zone);
 }
 
-/// The pieces of one id, before its gaps are looked at.
+/// The pieces of one id, before they are split at gaps.
 struct Body {
   std::string id;
   std::vector<Piece> pieces;
@@ -110,7 +110,7 @@ class Reading {
     return body;
   }
 
-  /// Fewer than 3 intervals show no rhythm of their own.
+  /// Fewer than 3 intervals give no reliable median.
   double max_gap_of(const Body& body) const {
     if (options_.max_gap) return *options_.max_gap;
     std::vector<double> intervals;

@@ -1,4 +1,4 @@
-// Recorded motion from text files: who was where at which times.
+// Reads recorded motion from text files.
 #pragma once
 
 #include <string>
@@ -14,13 +14,13 @@ struct NamedText {
   std::string text;
 };
 
-/// The recording that all of the texts are together: an id goes on from one to the next. Throws ProgramError
-/// naming file, line and column of what is wrong, or the option that is missing or wrong; also when there is
-/// no track.
+/// Returns one recording of all texts: an id continues from one text to the next. Throws ProgramError naming
+/// file, line and column of an error, or a missing or wrong option; also if there is no track.
 Recording parse_tracks(std::vector<NamedText> texts, const TrackOptions& options);
-/// Plain or gzipped; "-" is standard input. Throws ProgramError naming a file that cannot be read.
+/// Reads plain or gzipped files; "-" is standard input. Throws ProgramError naming a file that cannot be
+/// read.
 std::vector<NamedText> read_texts(const std::vector<std::string>& files);
-/// Both in one.
+/// Calls read_texts() and parse_tracks().
 Recording read_tracks(const std::vector<std::string>& files, const TrackOptions& options);
 
 }  // namespace kinesphere::program

@@ -1,4 +1,4 @@
-// A recording as a scene, in which a contact is an approach.
+// Turns a recording into a scene in which a contact is an approach.
 #include "tracks/track_scene.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@
 namespace kinesphere::program {
 namespace {
 
-/// The world's coordinates reach to 2^41 tolerances; half of that is left to curves that swing out.
+/// The world's coordinates reach to 2^41 tolerances; half of that is reserved for curves that swing out.
 constexpr double tolerances_in_extent = 0x1p40;
 
 struct Furthest {
@@ -60,7 +60,7 @@ double distance_to_line(const Vec3& point, const Vec3& from, const Vec3& to) {
   return norm(point - from - part * way);
 }
 
-/// How far the curve goes from the straight line between two samples, at 7 times between them.
+/// Returns the distance of the curve from the straight line between two samples, at 7 times between them.
 double swing(const Segment& segment, const Vec3& from, const Vec3& to) {
   double largest = 0.0;
   for (int k = 1; k < 8; ++k) {
@@ -101,7 +101,7 @@ std::vector<Track> samples_of(const Recording& recording) {
   return tracks;
 }
 
-/// Of the curves through its samples.
+/// Throws the error of a scene with curves through its samples.
 [[noreturn]] void refuse(const Recording& recording, const Error& error) {
   const bool is_known = error.body.index < recording.tracks.size();
   throw ProgramError(

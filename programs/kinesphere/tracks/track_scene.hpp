@@ -1,4 +1,4 @@
-// A recording as a scene, in which a contact is an approach.
+// Turns a recording into a scene in which a contact is an approach.
 #pragma once
 
 #include <cstddef>
@@ -13,19 +13,19 @@
 namespace kinesphere::program {
 
 struct ApproachQuestion {
-  double distance = 0.0;  ///< how close counts as an approach; > 0
+  double distance = 0.0;  ///< largest distance of an approach; > 0
   std::optional<double>
-      tolerance;  ///< of that distance; when empty a millionth of it, or 2^-40 of the extent
+      tolerance;  ///< tolerance of that distance; if empty, a millionth of it, or 2^-40 of the extent
   Interpolation interpolation = Interpolation::spline;
 };
 
-/// Where a spline swings out far beyond its samples: by more than the distance of an approach and more than
-/// the two samples it goes between are apart.
+/// Splines that swing out far beyond their samples: by more than the distance of an approach and more than
+/// the distance of the two samples.
 struct Overshoots {
-  std::size_t tracks = 0;  ///< how many have one
-  std::string id;          ///< of the largest
-  double size = 0.0;       ///< how far from the straight line between the two samples
-  double time = 0.0;       ///< of the first of the two samples
+  std::size_t tracks = 0;  ///< number of tracks with an overshoot
+  std::string id;          ///< id of the track with the largest
+  double size = 0.0;       ///< distance from the straight line between the two samples
+  double time = 0.0;       ///< time of the first of the two samples
 };
 
 struct TrackScene {
@@ -33,13 +33,13 @@ struct TrackScene {
   Overshoots overshoots;
 };
 
-/// The smooth curves through the samples, one for each track. Throws ProgramError naming the id for a curve
-/// that overflows.
+/// Returns smooth curves through the samples, one for each track. Throws ProgramError naming the id if a
+/// curve overflows.
 RecordedTracks splines_through(const Recording& recording);
 
-/// Each track is a body of half the distance as radius, which is there from its first sample to its last.
-/// Throws ProgramError naming the option or the id: for a tolerance that does not fit the distance or is too
-/// fine for the recording's extent, and for a curve that overflows.
+/// Returns a scene with a body for each track, with half the distance as radius, present from its first
+/// sample to its last. Throws ProgramError naming the option or the id: for a tolerance that does not fit the
+/// distance or is too fine for the recording's extent, and if a curve overflows.
 TrackScene scene_of(const Recording& recording, const ApproachQuestion& question);
 
 }  // namespace kinesphere::program

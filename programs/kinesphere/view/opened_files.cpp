@@ -1,4 +1,4 @@
-// The files that `kinesphere view` was given to show, as its page asks for them.
+// The files that `kinesphere view` shows, in the form that its page requests.
 #include "view/opened_files.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ std::string name_without_folder(const std::string& file) {
   return std::filesystem::path(file).filename().string();
 }
 
-/// Of any version, whole or damaged.
+/// True for a recording of any version, complete or damaged.
 bool is_recording(const NamedText& file) {
   const auto& mark = recording_envelope.mark;
   const auto bytes = std::as_bytes(std::span(file.text));

@@ -1,4 +1,4 @@
-// A recording of real motion as the JSON that the viewer's page reads.
+// Writes a recording of real motion as JSON for the viewer's page.
 #include "view/track_table.hpp"
 
 #include <fmt/format.h>
@@ -37,7 +37,7 @@ void add(std::string& text, const RecordedTrack& track) {
 }  // namespace
 
 std::string track_table(const Recording& recording, const std::string& name, std::size_t limit) {
-  // The page goes along these curves. JSON has no number for what overflows.
+  // The page follows these curves. JSON has no number for an overflow.
   splines_through(recording);
   std::string text = fmt::format(R"({{"name": {}, "plane": {}, "unit": {}, "tracks": [)", json_text(name),
                                  recording.is_plane, recording.in_metres ? R"("m")" : "null");

@@ -1,4 +1,4 @@
-// A recording of real motion as the JSON that the viewer's page reads.
+// Writes a recording of real motion as JSON for the viewer's page.
 #pragma once
 
 #include <cstddef>
@@ -8,15 +8,15 @@
 
 namespace kinesphere::program {
 
-/// Bytes. V8, the engine of Chromium, has no longer strings, and reads JSON from a string.
+/// Bytes: the longest string of V8, Chromium's engine, which parses JSON from a string.
 constexpr std::size_t longest_track_table = (std::size_t{1} << 29) - 24;
 
-/// {"name": ..., "plane": true, "unit": "m", "tracks": [{"id": "12", "times": [...], "positions": [...]},
-/// ...]}, with tracks in the order of the recording, which may have an id several times; positions are x, y,
-/// z of one sample after the other. `plane`: z is 0 everywhere. `unit` is null where nobody has said it.
-/// Times are seconds and positions lengths from the recording's origins, which need not be its first time:
-/// both are as in the file where that lies near zero. Each number reads back as the same double. Throws
-/// ProgramError naming the id whose curve overflows, or `name` when the text would be longer than `limit`.
+/// Returns {"name": ..., "plane": true, "unit": "m", "tracks": [{"id": "12", "times": [...], "positions":
+/// [...]}, ...]}. Tracks are in the order of the recording, which may have an id several times; positions are
+/// x, y, z of one sample after the other. `plane`: z is 0 everywhere. `unit` is null if it is unknown. Times
+/// are seconds and positions lengths from the recording's origins, which may differ from its first time; for
+/// files near zero both equal the file's. Each number reads back as the same double. Throws ProgramError
+/// naming the id of a curve that overflows, or `name` if the text would be longer than `limit`.
 std::string track_table(const Recording& recording, const std::string& name,
                         std::size_t limit = longest_track_table);
 

@@ -1,4 +1,4 @@
-// Where the alerts of a watch go.
+// Destinations of the alerts of a watch.
 #include "watch/alert_output.hpp"
 
 #include <fcntl.h>
@@ -72,7 +72,7 @@ class AlertFile final : public AlertOutput {
   }
 
  private:
-  /// How many of `size` bytes are to be kept.
+  /// Returns how many of `size` bytes to keep.
   std::uint64_t kept_of(const ToldBefore& before, std::uint64_t size) {
     const auto& [bytes, check] = before.place;
     if (bytes > 0 && before.was_here && size < bytes)
@@ -93,7 +93,7 @@ class AlertFile final : public AlertOutput {
     return 0;
   }
 
-  /// Of the bytes in between, behind the last line that is whole.
+  /// Returns the end of the last whole line in these bytes.
   std::uint64_t end_of_lines(std::uint64_t begin, std::uint64_t end) const {
     for (std::uint64_t at = end; at > begin; --at)
       if (bytes_at(descriptor_, at - 1, 1) == "\n") return at;

@@ -1,4 +1,4 @@
-// Where the alerts of a watch go.
+// Destinations of the alerts of a watch.
 #pragma once
 
 #include <cstdint>
@@ -18,30 +18,30 @@ struct AlertsPlace {
   std::uint32_t check = 0;  ///< a checksum of the last ones
 };
 
-/// Functions throw ProgramError naming the place that cannot be written to.
+/// Functions throw ProgramError naming the destination that cannot be written to.
 class AlertOutput {
  public:
   virtual ~AlertOutput() = default;
-  /// One line with its end, of a share of the pairs.
+  /// Writes one line, with its end, of a share of the pairs.
   virtual void write(std::uint64_t share, std::string_view line) = 0;
-  /// All of this, and nothing before, came of what stands at `position` of the stream. Returns when it is
-  /// out.
+  /// Sends the lines since the last flush, which result from the input at `position` of the stream. Returns
+  /// when they have left this process.
   virtual void flush(std::uint64_t position) = 0;
-  /// Returns when all of it would outlive the machine: from where a later run is to go on.
+  /// Returns when all lines would survive a crash of the machine, and from where a later run has to continue.
   virtual AlertsPlace sync() = 0;
 };
 
-/// Standard output.
+/// Writes to standard output.
 std::unique_ptr<AlertOutput> make_alert_lines();
-/// What an earlier run has told, for one that goes on from its snapshot.
+/// The alerts of an earlier run, for a run that continues from its snapshot.
 struct ToldBefore {
   AlertsPlace place{};
   bool was_here = false;       ///< in the file of this name
-  bool is_told_again = false;  ///< what came behind that place
+  bool is_told_again = false;  ///< true if alerts behind that place will come again
 };
-/// A file that is written as alerts come, and to which no other program may write meanwhile. Nothing of an
-/// earlier run is lost: what will be told again is cut off, and a file with something else is refused.
-/// Without an earlier run it begins empty.
+/// Writes alerts to a file at once; no other program may write to it meanwhile. Keeps the alerts of an
+/// earlier run up to its snapshot and cuts off the rest, which will be written again. Refuses a file with
+/// other content. Without an earlier run the file begins empty.
 std::unique_ptr<AlertOutput> make_alert_file(const std::string& path,
                                              const std::optional<ToldBefore>& before);
 

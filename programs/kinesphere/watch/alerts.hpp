@@ -11,12 +11,12 @@
 
 namespace kinesphere::program {
 
-/// A finite number; null for any other.
+/// Returns a finite number; null for any other.
 std::string json_number(double value);
-/// As in the stream: a number or a text with a date. null for a time that never comes, or never was.
+/// Returns the time in the stream's form, a number or a text with a date; null for an infinite time.
 std::string json_time(const TimeScale& times, double time);
 
-/// What alerts are written with.
+/// Context for writing alerts.
 struct AlertContext {
   const WatchSettings& settings;
   const TimeScale& times;
@@ -25,17 +25,18 @@ struct AlertContext {
   double stretch = 1.0;  ///< distances of the monitor are at most so many times too long
 };
 
-/// Two tracks, in the order of their ids as texts: so alerts name them.
+/// Two tracks in the order of their ids as texts, as in alerts.
 struct OrderedPair {
   TrackId first, second;
 };
 OrderedPair in_text_order(const TrackNames& names, TrackId a, TrackId b);
-/// Limits of the distance of two tracks, and so on, without the braces: `"distance": [1, 2], ...`.
+/// Returns the limits of the distance of two tracks and related fields, without the braces: `"distance": [1,
+/// 2], ...`.
 std::string answer_fields(const AlertContext& context, const PairAnswer& answer);
-/// What the bounds of a track rest upon.
+/// Returns the sources of the declared bounds of a track.
 std::string declarations_of(const NamedTrack& track);
-/// One line. The monitor stands at the time of the event. `is_dropped` says of a track that left that it was
-/// dropped from a crowd.
+/// Returns one line. Precondition: the monitor is at the time of the event. `is_dropped`: the track was
+/// dropped because of too many open pairs.
 std::string alert_line(const AlertContext& context, const MonitorEvent& event, bool is_dropped);
 
 }  // namespace kinesphere::program

@@ -1,4 +1,4 @@
-// Tables with a report in each line: with a map of columns, and AIS as marinecadastre.gov publishes it.
+// Tables with a report in each line: with a map of columns, or AIS as marinecadastre.gov publishes it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -49,7 +49,7 @@ enum class CsvUnit { none, time, length, speed };
 struct CsvKeyName {
   std::string_view name;
   CsvUnit unit = CsvUnit::none;
-  std::array<std::string_view, 4> others{};  ///< what a header may call it: lower case letters and digits
+  std::array<std::string_view, 4> others{};  ///< other names in headers, in lower case letters and digits
 };
 
 /// In the order of CsvKey.
@@ -74,7 +74,7 @@ constexpr std::array<CsvKeyName, csv_key_count> csv_keys{{{"id", CsvUnit::none, 
                                                           {"climb_error", CsvUnit::speed, {}},
                                                           {"stamp_error", CsvUnit::time, {}}}};
 
-/// Where a quantity stands, and how much its unit is.
+/// The place of a quantity, and the size of its unit.
 struct CsvColumn {
   std::size_t place = 0;
   double unit = 1.0;
@@ -100,7 +100,7 @@ double csv_unit(CsvUnit unit, std::string_view name, std::string_view entry) {
   throw ProgramError(fmt::format("--columns: expected a unit behind the colon, but got '{}'", entry));
 }
 
-/// By its name in the header or its number from 1.
+/// Returns a column by its name in the header or its number from 1.
 std::size_t place_of(std::string_view name, const std::vector<std::string_view>& header, std::size_t columns,
                      std::string_view entry) {
   for (const bool exact : {true, false})
@@ -114,7 +114,7 @@ std::size_t place_of(std::string_view name, const std::vector<std::string_view>&
                   columns, entry, header.empty() ? "no header" : "no such column"));
 }
 
-/// id=NAME[:UNIT],...
+/// Parses id=NAME[:UNIT],...
 CsvColumns columns_said(const std::string& said, const std::vector<std::string_view>& header,
                         std::size_t count) {
   CsvColumns columns;
@@ -143,7 +143,8 @@ CsvColumns columns_said(const std::string& said, const std::vector<std::string_v
   return columns;
 }
 
-/// What the usual names say, as `kinesphere tracks` reads them, and the keys of --columns themselves.
+/// Returns the columns with the usual names, as `kinesphere tracks` knows them, or with the keys of
+/// --columns.
 CsvColumns usual_columns(const std::vector<std::string_view>& header) {
   CsvColumns columns;
   const auto set = [&](CsvKey key, std::size_t place, double unit) {
@@ -200,8 +201,8 @@ CsvColumns usual_columns(const std::vector<std::string_view>& header) {
   return columns;
 }
 
-/// The columns MMSI, BaseDateTime, LAT, LON, SOG and COG, or since 2025 mmsi, base_date_time, latitude,
-/// longitude, sog and cog.
+/// Returns the columns MMSI, BaseDateTime, LAT, LON, SOG and COG, or since 2025 mmsi, base_date_time,
+/// latitude, longitude, sog and cog.
 CsvColumns ais_columns(const std::vector<std::string_view>& header) {
   CsvColumns columns;
   const auto set = [&](CsvKey key, std::initializer_list<std::string_view> names, double unit, bool needed) {
@@ -241,7 +242,7 @@ class CsvFormat final : public ReportFormat {
     } else {
       split(text);
     }
-    // A file that was appended to another brings its header along.
+    // A file that is appended to another repeats the header.
     if (fields_ == header_) return;
     if (fields_.size() < columns_needed_)
       throw MalformedRecord(
@@ -263,7 +264,7 @@ class CsvFormat final : public ReportFormat {
     if (!split_fields(line, separator_, fields_)) throw MalformedRecord("expected a quote that ends a field");
   }
 
-  /// Whether the first line is a header.
+  /// Returns true if the first line is a header.
   bool begin() {
     const bool has_header = std::none_of(fields_.begin(), fields_.end(), [](std::string_view field) {
       return parse_number(field).has_value();
@@ -293,7 +294,7 @@ class CsvFormat final : public ReportFormat {
 
   const std::optional<CsvColumn>& column(CsvKey key) const { return columns_[static_cast<std::size_t>(key)]; }
 
-  /// Nothing where there is no such column, or its field is empty.
+  /// Returns nothing if there is no such column or its field is empty.
   std::optional<double> number_at(CsvKey key) const {
     const auto& from = column(key);
     if (!from || fields_[from->place].empty()) return std::nullopt;
@@ -353,7 +354,7 @@ class CsvFormat final : public ReportFormat {
 
   void read_velocity(SourceReport& report) const {
     auto speed = number_at(CsvKey::speed), course = number_at(CsvKey::course);
-    // Values of AIS for what is not available.
+    // AIS has these values for an unknown speed or course.
     if (is_ais_ && ((speed && *speed >= 102.25 * knot) || (course && *course >= 360.0))) speed.reset();
     const auto vz = number_at(CsvKey::vz), climb = number_at(CsvKey::climb);
     const auto upward = vz ? vz : climb;
@@ -367,7 +368,7 @@ class CsvFormat final : public ReportFormat {
 
   FormatChoices choices_;
   bool is_ais_;
-  /// Without blank ones and comments before; empty before it has come.
+  /// The first line after blank ones and comments; empty before it has been read.
   std::string first_line_;
   bool is_geographic_ = false;
   char separator_ = ',';

@@ -1,4 +1,4 @@
-// Bytes of a file that is open, wherever it is being read or written.
+// Reads bytes of an open file, without moving its position.
 #pragma once
 
 #include <unistd.h>
@@ -10,7 +10,7 @@
 
 namespace kinesphere::program {
 
-/// Those from a position on, at most so many: fewer where the file ends or cannot be read.
+/// Returns at most `most` bytes from a position; fewer if the file ends or cannot be read.
 inline std::string bytes_at(int descriptor, std::uint64_t position, std::size_t most) {
   std::string bytes(most, '\0');
   const auto got = ::pread(descriptor, bytes.data(), most, static_cast<off_t>(position));

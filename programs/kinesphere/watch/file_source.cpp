@@ -1,4 +1,4 @@
-// A file or standard input as it comes in, plain or gzipped.
+// Reads a file or standard input as it grows, plain or gzipped.
 #include "watch/file_source.hpp"
 
 #include <fcntl.h>
@@ -22,13 +22,13 @@ namespace kinesphere::program {
 namespace {
 
 constexpr std::size_t source_block = std::size_t{1} << 16;
-/// So many bytes, at most, tell one stream from another.
+/// Maximum bytes in the checksum that identifies a stream.
 constexpr std::size_t most_checked = 4096;
 constexpr std::string_view gzip_begin = "\x1f\x8b";
 
 }  // namespace
 
-/// Unpacks as much as has come. Several gzip files may follow each other.
+/// Unpacks the bytes that have arrived. Several gzip files may follow each other.
 class FileSource::Inflater {
  public:
   Inflater() : unpacked_(4 * source_block) { start(); }
@@ -40,7 +40,8 @@ class FileSource::Inflater {
     stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes));
     stream_.avail_in = static_cast<uInt>(count);
   }
-  /// What can be unpacked of what was fed; empty when that is all. `damaged` is set when it cannot be.
+  /// Returns the next unpacked text; empty if more bytes are needed. Sets `damaged` if the bytes cannot be
+  /// unpacked.
   std::string_view next(bool& damaged) {
     while (stream_.avail_in > 0 || pending_) {
       if (is_between_) {
@@ -88,7 +89,7 @@ FileSource::FileSource(const std::string& path, const StopSignals& stop, const S
   if (descriptor_ < 0) fail(std::strerror(errno));
   struct stat status {};
   is_file_ = ::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode);
-  // Who opened standard input may have read some of it.
+  // The caller may have read a part of standard input already.
   if (is_file_)
     handed_over_ = static_cast<std::uint64_t>(std::max<off_t>(0, ::lseek(descriptor_, 0, SEEK_CUR)));
   is_packed_ = is_file_ && bytes_at(descriptor_, handed_over_, 2) == gzip_begin;
@@ -115,7 +116,7 @@ void FileSource::go_on_from(const StreamPlace& place) {
     handed_over_ = place.position;
     return;
   }
-  // What came through a pipe before is not in this file.
+  // A stream read through a pipe before is not in this file.
   if (place.check == 0) return;
   from_ = place;
   if (is_packed_) {
@@ -133,7 +134,7 @@ std::uint32_t FileSource::check_before(std::uint64_t position) const {
   const std::string bytes =
       is_packed_ ? beginning_.substr(0, count) : bytes_at(descriptor_, position - count, count);
   if (bytes.size() < count) return 0;
-  // 0 says that there is none.
+  // 0 stands for no checksum.
   return std::max<std::uint32_t>(1, checksum(bytes));
 }
 
@@ -145,7 +146,7 @@ StreamPlace FileSource::place(std::size_t without) const {
 
 std::optional<std::string> FileSource::identity() const {
   if (!is_file_) return std::nullopt;
-  // It may grow, and have other names.
+  // The file may grow, and may have several names.
   constexpr std::size_t enough = 512;
   return fmt::format("file {:08x}", checksum(bytes_at(descriptor_, 0, enough)));
 }

@@ -1,4 +1,4 @@
-// A file or standard input as it comes in, plain or gzipped.
+// Reads a file or standard input as it grows, plain or gzipped.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,9 @@ namespace kinesphere::program {
 
 class FileSource final : public ReportSource {
  public:
-  /// "-" is standard input. A file is read on from the place, if that is in it; what comes through a pipe
-  /// goes on by itself. Throws ProgramError when it cannot be opened, or is not the one that was read; next()
-  /// does where that shows only when it has been unpacked.
+  /// "-" is standard input. Reading continues from the place, if the file has it; a pipe continues by itself.
+  /// Throws ProgramError if the file cannot be opened, or is not the one that was read; for a gzipped file
+  /// next() finds the latter.
   FileSource(const std::string& path, const StopSignals& stop, const StreamPlace* from = nullptr);
   ~FileSource() override;
   FileSource(const FileSource&) = delete;
@@ -33,7 +33,7 @@ class FileSource final : public ReportSource {
   Outcome unpacked(std::chrono::milliseconds patience, std::string_view& text);
   void go_on_from(const StreamPlace& place);
   void pass_over(std::string_view& text);
-  /// Of a file that has been read up to there; 0 of what is none.
+  /// Returns the checksum of a file up to a position; 0 if it is not a file.
   std::uint32_t check_before(std::uint64_t position) const;
   [[noreturn]] void fail(std::string_view reason) const;
   [[noreturn]] void fail_as_another() const;
@@ -47,11 +47,11 @@ class FileSource final : public ReportSource {
   bool is_file_ = false;    ///< which can be read again
   bool is_packed_ = false;  ///< such a file, and gzipped
   std::uint64_t handed_over_ = 0;
-  // Of what is gzipped.
+  // Set for gzipped input.
   std::unique_ptr<Inflater> inflater_;
   std::string beginning_;            ///< unpacked
   std::optional<StreamPlace> from_;  ///< until what an earlier run has read is passed over
-  std::uint64_t to_pass_over_ = 0;   ///< of it, bytes
+  std::uint64_t to_pass_over_ = 0;   ///< bytes to skip
 };
 
 }  // namespace kinesphere::program

@@ -8,7 +8,7 @@
 namespace kinesphere::program {
 namespace {
 
-/// A number, or two for horizontal and upright.
+/// One number, or two: horizontal and vertical.
 struct ErrorPair {
   std::optional<double> flat, upright;
 };
@@ -111,7 +111,7 @@ class JsonLinesFormat final : public ReportFormat {
     return *time;
   }
 
-  /// Of two or three numbers.
+  /// Returns a vector of two or three numbers.
   static std::optional<Vec3> vector_in(ondemand::value value, std::string_view key, bool& has_third) {
     if (value.is_null()) return std::nullopt;
     Vec3 vector{};

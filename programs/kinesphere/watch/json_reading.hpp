@@ -1,4 +1,4 @@
-// Reading JSON with simdjson: values that are what was expected, or nothing.
+// Reads JSON with simdjson: values of an expected type.
 #pragma once
 
 #include <simdjson.h>
@@ -16,10 +16,10 @@ namespace kinesphere::program {
 
 namespace ondemand = simdjson::ondemand;
 
-/// Keeps the text of a document with the room behind it that simdjson reads.
+/// Keeps the text of a document, with the padding that simdjson requires.
 class JsonDocumentReader {
  public:
-  /// The document is valid until the next call. Throws MalformedRecord.
+  /// Returns the document, valid until the next call. Throws MalformedRecord.
   ondemand::document open(std::string_view text) {
     text_.assign(text);
     text_.reserve(text.size() + simdjson::SIMDJSON_PADDING);
@@ -34,7 +34,7 @@ class JsonDocumentReader {
   std::string text_;
 };
 
-/// A number; nothing for null. Sets `wrong` to `name` for anything else.
+/// Returns a number; nothing for null. Sets `wrong` to `name` for any other value.
 inline std::optional<double> number_in(ondemand::value value, const char* name, const char*& wrong) {
   const ondemand::json_type type = value.type();
   if (type == ondemand::json_type::number) return double(value.get_double());
@@ -42,7 +42,8 @@ inline std::optional<double> number_in(ondemand::value value, const char* name, 
   return std::nullopt;
 }
 
-/// Its text is valid as long as the document.
+/// Returns a text, valid as long as the document; nothing for null. Sets `wrong` to `name` for any other
+/// value.
 inline std::optional<std::string_view> text_in(ondemand::value value, const char* name, const char*& wrong) {
   const ondemand::json_type type = value.type();
   if (type == ondemand::json_type::string) return std::string_view(value.get_string());
@@ -50,7 +51,7 @@ inline std::optional<std::string_view> text_in(ondemand::value value, const char
   return std::nullopt;
 }
 
-/// Up to 2^61 seconds.
+/// Range: up to 2^61 seconds.
 inline FileTime time_of(double seconds) {
   const double whole = std::floor(seconds);
   return {static_cast<std::int64_t>(whole), seconds - whole};
@@ -68,7 +69,7 @@ inline bool is_place(double longitude, double latitude) {
   return std::abs(latitude) <= 90.0 && std::abs(longitude) <= 360.0;
 }
 
-/// A speed over ground and the direction it goes to, in degrees clockwise from north.
+/// Returns the velocity of a speed over ground and a course, in degrees clockwise from north.
 inline Vec3 going(double speed, double course, double climb) {
   constexpr double degree = 3.14159265358979323846 / 180.0;
   return {speed * std::sin(course * degree), speed * std::cos(course * degree), climb};

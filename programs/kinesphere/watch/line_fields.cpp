@@ -1,4 +1,4 @@
-// The fields of one line.
+// Splits a line into fields.
 #include "watch/line_fields.hpp"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ bool split_fields(std::string_view line, char separator, std::vector<std::string
     if (separator == ' ' && at == line.size()) return true;
     if (at < line.size() && line[at] == '"') {
       std::size_t end = line.find('"', at + 1);
-      // Two quotes in a row are one of the text.
+      // Two quotes in a row are one quote of the text.
       while (end != std::string_view::npos && line.substr(end + 1).starts_with('"'))
         end = line.find('"', end + 2);
       if (end == std::string_view::npos) return false;

@@ -1,4 +1,4 @@
-// The fields of one line.
+// Splits a line into fields.
 #pragma once
 
 #include <optional>
@@ -9,18 +9,18 @@
 
 namespace kinesphere::program {
 
-/// The first of ; , tab that the line has, else a blank.
+/// Returns the first of ; , tab in the line, else a blank.
 char field_separator_of(std::string_view line);
 
-/// Blanks around fields, and quotes around whole ones, do not count. Separators in quotes belong to the
-/// field. False for a quote that does not end.
+/// Drops blanks around fields, and quotes around whole ones. Separators in quotes belong to the field.
+/// Returns false for an unclosed quote.
 bool split_fields(std::string_view line, char separator, std::vector<std::string_view>& fields);
 
 struct TimeField {
   FileTime time{};
   TimeKind kind = TimeKind::number;
 };
-/// A number or a date. Nothing for another text.
+/// Parses a number or a date; returns nothing for other text.
 std::optional<TimeField> time_field(std::string_view text);
 
 }  // namespace kinesphere::program

@@ -1,4 +1,4 @@
-// A plane map of a part of the earth, and how wrong it can be.
+// A plane map of a part of the earth, with the bound of its error.
 #include "watch/local_frame.hpp"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ class LocalFrame::Projector {
  public:
   struct Point {
     double x = 0, y = 0;
-    double azimuth = 0;           ///< of the way from the origin, where it arrives
+    double azimuth = 0;           ///< azimuth of the way from the origin at its end
     double reciprocal_scale = 0;  ///< m / r
   };
   Point forward(double latitude, double longitude, const Vec3& geographic) const {
@@ -95,7 +95,7 @@ std::optional<LocalFrame::Placed> LocalFrame::place(const Vec3& geographic, bool
   const Vec3 across{along.y, -along.x, 0.0};
   const double speed_along = dot(velocity, along) * on_ground;
   const double speed_across = dot(velocity, across) * on_ground / point.reciprocal_scale;
-  // At the origin itself, where there is no way to it, GeographicLib tells an azimuth of 0.
+  // At the origin, where no direction exists, GeographicLib returns an azimuth of 0.
   const Vec3 outward = distance > 0.0 ? Vec3{point.x / distance, point.y / distance, 0.0} : along;
   const Vec3 sideward{outward.y, -outward.x, 0.0};
   Placed placed;

@@ -1,4 +1,4 @@
-// A plane map of a part of the earth, and how wrong it can be.
+// A plane map of a part of the earth, with the bound of its error.
 #pragma once
 
 #include <memory>
@@ -48,8 +48,8 @@ namespace kinesphere::program {
 ///    the speed W it is by at most V W / b + V^2 h / b^2 more.
 class LocalFrame {
  public:
-  /// `radius` < largest_radius is that in which reports are taken, `margin` how far beyond it a track may get
-  /// before it is forgotten (metres). Throws ProgramError without GeographicLib.
+  /// Reports are accepted within `radius` < largest_radius; tracks may move up to `margin` beyond it before
+  /// they are forgotten. Unit: metres. Throws ProgramError without GeographicLib.
   LocalFrame(double latitude, double longitude, double radius, double margin);
   ~LocalFrame();
   LocalFrame(LocalFrame&&) noexcept;
@@ -57,39 +57,40 @@ class LocalFrame {
 
   /// Metres.
   static constexpr double largest_radius = 5e6;
-  /// No track is higher than this, or deeper.
+  /// Largest height and depth of a track. Unit: metres.
   static constexpr double largest_height = 30e3;
 
   double latitude() const { return latitude_; }
   double longitude() const { return longitude_; }
   double radius() const { return radius_; }
-  /// By how much, at most, distances on the map are too long: kappa.
+  /// The largest factor by which distances on the map are too long: kappa.
   double stretch() const { return stretch_; }
 
   struct Placed {
     State state;
-    double velocity_error = 0.0;  ///< what the transformation of the velocity adds
+    double velocity_error = 0.0;  ///< added by the transformation of the velocity
   };
-  /// Degrees east and north, and metres of height (if they are known) in a Vec3. The velocity may have been
-  /// measured so far away from there. Nothing for a place beyond the radius.
+  /// Degrees east and north, and metres of height (if known) in a Vec3. The velocity may have been measured
+  /// up to that distance from the position. Returns nothing for a place beyond the radius.
   std::optional<Placed> place(const Vec3& geographic, bool has_height, const Vec3& velocity,
                               double away = 0.0) const;
-  /// Degrees east and north, and metres.
+  /// Returns degrees east and north, and metres.
   Vec3 geographic(const Vec3& position) const;
 
-  /// A horizontal error of a position, on the map.
+  /// Returns the bound of a horizontal position error on the map.
   double position_error(double metres) const { return stretch_ * metres + rounding; }
   double velocity_error(double metres_per_second) const { return stretch_ * metres_per_second; }
-  /// What holds on the map, of a class that promises this on the earth.
+  /// Returns the limits on the map of a class with these limits on the earth.
   TrackClass promise(const ErrorBound& acceleration, const ErrorBound& largest_speed) const;
-  /// What is certainly not within this on the map is not within `separation` on the earth.
+  /// Returns a separation on the map; if it certainly does not hold there, `separation` does not hold on the
+  /// earth.
   Separation separation(const Separation& separation) const;
 
  private:
-  /// Metres: GeographicLib's geodesics are right to 15 nanometres.
+  /// Unit: metres. GeographicLib's geodesics are exact to 15 nanometres.
   static constexpr double rounding = 1e-6;
 
-  /// How fast a straight way turns on the map, at most: 1 / metre.
+  /// Returns the largest curvature of a straight way on the map. Unit: 1 / metre.
   double curving() const;
 
   class Projector;

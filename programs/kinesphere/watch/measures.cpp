@@ -57,7 +57,7 @@ double unit_named(std::string_view unit, Measure measure) {
 
 double parse_measure(std::string_view text, Measure measure, std::string_view option) {
   std::size_t end = std::min(text.find_first_not_of("0123456789.+-eE"), text.size());
-  // An e that no digit follows belongs to no number.
+  // An e that no digit follows is not part of the number.
   while (end > 0 && (text[end - 1] == 'e' || text[end - 1] == 'E')) --end;
   std::string_view unit = text.substr(end);
   while (unit.starts_with(' ')) unit.remove_prefix(1);

@@ -1,4 +1,4 @@
-// aircraft.json of readsb, dump1090 and tar1090: what a receiver of ADS-B knows of all aircraft at one time.
+// aircraft.json of readsb, dump1090 and tar1090: all aircraft that a receiver of ADS-B knows at one time.
 #include <fmt/format.h>
 
 #include <array>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double unknown_accuracy = std::numeric_limits<double>::infinity();
 
-// 95 % of errors are less, as DO-260B and ICAO Doc 9871 encode it: metres and metres per second.
+// Limits of 95 % of errors, in metres and metres per second, by the codes of DO-260B and ICAO Doc 9871.
 constexpr std::array position_accuracies{
     unknown_accuracy, 18520.0, 7408.0, 3704.0, 1852.0, 926.0, 555.6, 185.2, 92.6, 30.0, 10.0, 3.0};
 constexpr std::array velocity_accuracies{unknown_accuracy, 10.0, 3.0, 1.0, 0.3};
@@ -30,7 +30,7 @@ struct AircraftEntry {
   std::optional<std::string_view> hex;
   std::optional<double> lat, lon, alt_baro, alt_geom, gs, track, baro_rate, geom_rate, seen_pos, rc, nac_p,
       nac_v, gva, sil;
-  /// The aircraft itself has told its position, and no radar or receivers on the ground.
+  /// True if the position is from the aircraft itself, not from radar or receivers on the ground.
   bool is_from_aircraft = true;
   const char* wrong = nullptr;
 
@@ -45,7 +45,7 @@ struct AircraftEntry {
         const auto type = text_in(value, "type", ignored);
         if (type && !type->starts_with("adsb") && !type->starts_with("adsr")) is_from_aircraft = false;
       } else if (key == "mlat" || key == "tisb") {
-        // Names of fields that come from there.
+        // Names of the fields of that source.
         ondemand::array names;
         if (value.get_array().get(names)) continue;
         for (auto name : names) {
@@ -53,7 +53,7 @@ struct AircraftEntry {
           if (!name.get_string().get(text) && text == "lat") is_from_aircraft = false;
         }
       } else if (key == "alt_baro") {
-        // "ground" is no height.
+        // The text "ground" is no height.
         if (value.type() == ondemand::json_type::number) alt_baro = double(value.get_double());
       } else {
         for (const auto& [name, place] : numbers)
@@ -132,7 +132,7 @@ class ReadsbFormat final : public ReportFormat {
     SourceReport report{.id = *entry.hex, .stamp = later_by(arrival, -*entry.seen_pos), .arrival = arrival};
     report.geographic = true;
     report.position = {*entry.lon, *entry.lat, 0.0};
-    // The same place again is told as one tenth of a second earlier or later.
+    // A repeated position appears up to a tenth of a second earlier or later.
     report.same_within = 0.25;
     if (entry.is_from_aircraft)
       add_errors(entry, report);
@@ -145,7 +145,7 @@ class ReadsbFormat final : public ReportFormat {
   }
 
   void add_errors(const AircraftEntry& entry, SourceReport& report) const {
-    // Of a source without integrity the radius contains nothing for certain.
+    // Without integrity the radius of containment guarantees nothing.
     const bool has_radius = entry.rc && *entry.rc > 0.0 && entry.sil.value_or(1.0) > 0.0;
     if (has_radius &&
         (choices_.position_bound == FormatChoices::PositionBound::containment_radius || !entry.nac_p))

@@ -11,7 +11,7 @@ bool is_json_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '
 }  // namespace
 
 void RecordCutter::feed(std::string_view text) {
-  // What has been cut goes, once it is most of it.
+  // Drops the text that has been cut once it is more than half.
   if (begin_ > text_.size() / 2) {
     text_.erase(0, begin_);
     at_ -= begin_;
@@ -87,7 +87,7 @@ std::optional<Record> RecordCutter::next_document() {
         ++at_;
         continue;
       }
-      // No document: until its line ends or one begins.
+      // Text outside a document is skipped until its line ends or a document begins.
       if (c == '\n' || c == '{') return cut(at_, at_);
       ++at_;
       continue;

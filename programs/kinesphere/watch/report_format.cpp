@@ -1,4 +1,4 @@
-// The formats of streams: their names, what they look like, and what is taken for granted in them.
+// The formats of streams: names, recognition and defaults.
 #include "watch/report_format.hpp"
 
 #include <algorithm>
@@ -15,9 +15,9 @@ constexpr std::pair<std::string_view, StreamFormat> stream_formats[] = {
     {"readsb", StreamFormat::readsb}, {"sbs", StreamFormat::sbs}, {"opensky", StreamFormat::opensky},
     {"ais", StreamFormat::ais},       {"csv", StreamFormat::csv}, {"jsonl", StreamFormat::jsonl}};
 
-/// 92.6 m and 10 m/s (both 95 %) are what 14 CFR 91.227 and (EU) 1207/2011 ask of those who must have ADS-B
-/// (NACp 8, NACv 1); 75 m is what ICAO Doc 9574 allows an altimeter to be off, and half of 25 ft is the step
-/// of its reports.
+/// 92.6 m and 10 m/s (95 % of errors) are the requirements of 14 CFR 91.227 and (EU) 1207/2011 for mandatory
+/// ADS-B (NACp 8, NACv 1); 75 m is the altimeter error that ICAO Doc 9574 allows, and half of 25 ft is the
+/// resolution of height reports.
 FormatDefaults of_aircraft() {
   constexpr double declared = 2.5;
   return {.acceleration = ErrorBound::cylinder(6.0, 3.0),
@@ -48,7 +48,7 @@ FormatDefaults of_vessels() {
           .window = 16.0};
 }
 
-/// Whether an object that begins with `line` has this key, not inside of another.
+/// Returns true if the outermost object that begins with `line` has this key.
 bool has_key(std::string_view line, std::string_view key) {
   int depth = 0;
   for (std::size_t at = 0; at < line.size(); ++at) {
@@ -101,7 +101,7 @@ FormatDefaults defaults_of(StreamFormat format) {
       return of_aircraft();
     case StreamFormat::opensky: {
       FormatDefaults defaults = of_aircraft();
-      // Whole seconds, and snapshots that are about ten seconds apart.
+      // Timestamps are whole seconds, of snapshots about ten seconds apart.
       defaults.stamp_error = 1.0;
       defaults.silence = 30.0;
       defaults.forget = 120.0;
@@ -139,7 +139,7 @@ std::optional<StreamFormat> recognised_format(std::string_view beginning) {
   }
   if (has_column(line, "MMSI") && (has_column(line, "BaseDateTime") || has_column(line, "base_date_time")))
     return StreamFormat::ais;
-  // A header of names.
+  // A header consists of names.
   const bool has_letters =
       std::any_of(line.begin(), line.end(), [](char c) { return ('a' <= (c | 32) && (c | 32) <= 'z'); });
   if (has_letters && line.find_first_of(",;\t") != std::string_view::npos && !line.starts_with('!') &&

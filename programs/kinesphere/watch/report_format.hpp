@@ -1,4 +1,4 @@
-// The formats of streams: what makes reports of records.
+// The formats of streams, which turn records into reports.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@
 
 namespace kinesphere::program {
 
-/// A record is not what its format says; the message says what was expected.
+/// A record does not match its format; the message says what was expected.
 class MalformedRecord : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -23,23 +23,23 @@ class MalformedRecord : public std::runtime_error {
 class ReportFormat {
  public:
   virtual ~ReportFormat() = default;
-  /// Hands over the reports of a record. Throws MalformedRecord; what has been handed over before holds.
+  /// Passes the reports of a record to `sink`. Throws MalformedRecord; reports passed before that stay valid.
   virtual void read(const Record& record, ReportSink& sink) = 0;
-  /// What it keeps of the records before, for one that goes on behind them.
+  /// Returns the state from earlier records, for a run that continues behind them.
   virtual nlohmann::json save() const;
-  /// Throws ProgramError as read() may, or an exception of nlohmann::json.
+  /// Restores the state of save(). Throws ProgramError like read(), or an exception of nlohmann::json.
   virtual void restore(const nlohmann::json& state);
 };
 
 enum class StreamFormat { readsb, sbs, opensky, ais, csv, jsonl };
 
-/// "readsb" and so on; with all names, separated by |, for help.
+/// Returns "readsb" and so on; the version without arguments returns all names, separated by |.
 std::string_view name_of(StreamFormat format);
 std::optional<StreamFormat> stream_format_named(std::string_view name);
 inline constexpr const char* stream_format_names = "readsb|sbs|opensky|ais|csv|jsonl";
 
-/// What is promised of tracks, and how far off reports are at most, where neither the stream nor an option
-/// says it. Empty: it has to be said.
+/// Limits of tracks, and largest errors of reports, if neither the stream nor an option has them. An empty
+/// value must be given by an option.
 struct FormatDefaults {
   int dimensions = 3;
   bool geographic = true;  ///< always; otherwise the stream may have either
@@ -51,29 +51,30 @@ struct FormatDefaults {
   double silence = 60.0, forget = 300.0;
   double window = 1.0;
 };
-/// docs/watch.md says where they come from.
+/// docs/watch.md cites the sources of the values.
 FormatDefaults defaults_of(StreamFormat format);
 
 struct FormatChoices {
-  std::string columns;  ///< of csv: id=...,time=...
+  std::string columns;  ///< for csv: id=...,time=...
   enum class Altitude { barometric, geometric } altitude = Altitude::barometric;
   enum class PositionBound {
     containment_radius,
     accuracy
   } position_bound = PositionBound::containment_radius;
-  /// So many times a 95 % accuracy is declared to contain all errors.
+  /// Multiple of a 95 % accuracy that is declared to contain all errors.
   double containment = 2.5;
-  /// Positions that the aircraft has not told itself, but radar or receivers on the ground, have no bound
-  /// unless one was said.
+  /// True if an option gave the position error; otherwise positions from radar or receivers on the ground
+  /// have no bound.
   bool position_error_is_said = false;
   double velocity_age = 5.0;  ///< sbs: an older velocity is not used (seconds)
 };
 
-/// Throws ProgramError naming an option that is wrong. `first_line` is that of the stream.
+/// Throws ProgramError naming a wrong option. `first_line` is that of the stream.
 std::unique_ptr<ReportFormat> make_format(StreamFormat format, const FormatChoices& choices);
 RecordCutter::Kind records_of(StreamFormat format);
 
-/// What the beginning of a stream, its first line or a part of that, unmistakably is.
+/// Returns the format of a stream that begins with this text, its first line or a part of it; nothing if it
+/// is ambiguous.
 std::optional<StreamFormat> recognised_format(std::string_view beginning);
 
 // One file each.

@@ -1,4 +1,4 @@
-// Where the text of a stream comes from.
+// Sources of the text of a stream.
 #pragma once
 
 #include <chrono>
@@ -16,7 +16,7 @@ namespace kinesphere::program {
 struct StreamPlace {
   std::string stream;          ///< its name
   std::uint64_t position = 0;  ///< in it: bytes, as they are when unpacked, or messages
-  std::uint32_t check = 0;     ///< of which stream this is, where it can be read again; else 0
+  std::uint32_t check = 0;     ///< identifies a stream that can be read again; else 0
 };
 
 class ReportSource {
@@ -28,24 +28,24 @@ class ReportSource {
     quiet,  ///< none has come in time
     end,    ///< there is no more
   };
-  /// Waits for text, at most so long or until the program is asked to stop. The text may end anywhere; it is
-  /// valid until the next call. Throws ProgramError naming the source.
+  /// Waits for text, at most `patience` or until the program is asked to stop. The text may end anywhere, and
+  /// is valid until the next call. Throws ProgramError naming the source.
   virtual Outcome next(std::chrono::milliseconds patience, std::string_view& text) = 0;
-  /// How far it has been handed over, without so many bytes at the end, as StreamPlace counts: of messages up
-  /// to the last one.
+  /// Returns how far text was returned, less `without` bytes, as StreamPlace counts; for messages the end of
+  /// the last one.
   virtual std::uint64_t position(std::size_t without) const = 0;
-  /// The same, for a later run to go on from.
+  /// Returns the place from which a later run continues, less `without` bytes.
   virtual StreamPlace place(std::size_t without) const = 0;
-  /// The same for all who read this stream from its begin, whenever they do. None where what has been read
-  /// cannot be read again: a later run goes on with what comes then.
+  /// Returns a name that all readers of this stream from its begin share, at any time; nothing if the stream
+  /// cannot be read again, so that a later run continues with new text only.
   virtual std::optional<std::string> identity() const = 0;
-  /// Whether no record goes on in the next text.
+  /// True if no record continues in the next text.
   virtual bool has_whole_records() const { return false; }
-  /// Whether it says itself when texts come in: then all that read it go by the same clock.
+  /// True if the source itself gives the arrival times of texts, so that all readers have one clock.
   virtual bool has_clock() const { return false; }
-  /// By that clock: when the last text came in.
+  /// Arrival of the last text by the source's clock.
   virtual FileTime arrival() const { return {}; }
-  /// For messages.
+  /// Name of the source in messages.
   virtual std::string name() const = 0;
 };
 

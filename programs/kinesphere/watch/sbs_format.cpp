@@ -1,5 +1,5 @@
-// SBS-1 BaseStation messages, as dump1090 and readsb give them out on port 30003. A message tells either
-// where an aircraft is or how it moves: the two are put together here.
+// SBS-1 BaseStation messages, as dump1090 and readsb send them on port 30003. A message has either the
+// position or the velocity of an aircraft; this format joins them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -115,7 +115,7 @@ class SbsFormat final : public ReportFormat {
                       report.position.y, report.position.x));
     report.has_height = !fields_[sbs::altitude].empty();
     if (report.has_height) report.position.z = number_at(sbs::altitude, "an altitude") * foot;
-    // Some receivers tell both in one message.
+    // Some receivers send both in one message.
     if (!fields_[sbs::speed].empty() && !fields_[sbs::course].empty()) {
       report.velocity = velocity_here();
       report.has_climb = !fields_[sbs::climb].empty();
@@ -133,7 +133,7 @@ class SbsFormat final : public ReportFormat {
     return report;
   }
 
-  /// Velocities that are too old for any report to come: from time to time, so that it costs next to nothing.
+  /// Drops velocities that are too old for any further report. Runs from time to time, so its cost is small.
   void forget_old(const FileTime& now) {
     if (++messages_ % 65536 != 0) return;
     std::erase_if(velocities_, [&](const auto& entry) {

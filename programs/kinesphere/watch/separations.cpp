@@ -11,7 +11,7 @@
 namespace kinesphere::program {
 namespace {
 
-/// Of "a:b c".
+/// Returns the parts of "a:b c".
 std::vector<std::string_view> separation_parts(std::string_view text) {
   std::vector<std::string_view> parts;
   while (!text.empty()) {

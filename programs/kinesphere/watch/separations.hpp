@@ -10,11 +10,11 @@
 namespace kinesphere::program {
 
 struct NamedSeparation {
-  std::string name;  ///< as it was given
+  std::string name;  ///< spelled like in the option
   Separation separation;
 };
 
-/// "sphere:50", "cylinder:5NM:1000ft", "ellipsoid:5NM:1000ft"; blanks will do instead of colons. Throws
+/// Parses "sphere:50", "cylinder:5NM:1000ft", "ellipsoid:5NM:1000ft"; blanks may replace colons. Throws
 /// ProgramError.
 NamedSeparation parse_separation(const std::string& text);
 

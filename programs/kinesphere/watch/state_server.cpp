@@ -1,4 +1,4 @@
-// The state of a watch over HTTP, on this machine alone.
+// Serves the state of a watch over HTTP, to this machine alone.
 #include "watch/state_server.hpp"
 
 #include <fmt/format.h>
@@ -46,7 +46,7 @@ void StateServer::serve_state(const char* address, const char* type, std::string
   });
 }
 
-/// Of the folder with the pages only what the map needs.
+/// Serves only the files of the page folder that the map needs.
 void StateServer::serve_map() {
   const auto folder = folder_with_page(map_page);
   if (folder && server_.serve_folder("/assets", (*folder / "assets").string())) {

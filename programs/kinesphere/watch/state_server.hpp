@@ -1,4 +1,4 @@
-// The state of a watch over HTTP, on this machine alone.
+// Serves the state of a watch over HTTP, to this machine alone.
 #pragma once
 
 #include <condition_variable>
@@ -11,18 +11,18 @@
 
 namespace kinesphere::program {
 
-/// Serves /state.json, /metrics and a page with a map of the state from a thread of its own. The watcher must
-/// not change but under the lock.
+/// Serves /state.json, /metrics and a page with a map of the state from a thread of its own. Precondition:
+/// the watcher changes only under the lock.
 class StateServer {
  public:
-  /// Throws ProgramError naming --serve when the port is taken. Port 0 is any that is free.
+  /// Throws ProgramError naming --serve if the port is taken. Port 0 is any free one.
   StateServer(const Watcher& watcher, int port);
   StateServer(const StateServer&) = delete;
   StateServer& operator=(const StateServer&) = delete;
 
   const std::string& address() const { return server_.address(); }
-  /// Held while the watcher changes, and while its state is written for a client. Whoever asks first comes
-  /// first: a client waits for one change, and the watcher for one client at most, however many ask.
+  /// Locks the watcher, for a change or to write its state for a client. The lock is fair: a client waits for
+  /// one change, and the watcher for one client at most.
   void lock();
   void unlock();
 

@@ -16,11 +16,11 @@ namespace {
 volatile std::sig_atomic_t stop_was_asked = 0;
 int stop_pipe[2] = {-1, -1};
 
-/// Calls nothing but what a handler may call.
+/// Calls only async-signal-safe functions.
 void ask_to_stop(int) {
   const int error = errno;
   stop_was_asked = 1;
-  // When the pipe is full it can be read from already.
+  // A full pipe is readable already.
   [[maybe_unused]] const auto ignored = ::write(stop_pipe[1], "", 1);
   errno = error;
 }
@@ -28,7 +28,7 @@ void ask_to_stop(int) {
 void handle_stops(void (*handler)(int)) {
   struct sigaction action {};
   action.sa_handler = handler;
-  // What is being written goes on to be written; poll() returns. A second signal stops the program at once.
+  // Interrupted writes continue, and poll() returns. A second signal stops the program at once.
   action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
   ::sigemptyset(&action.sa_mask);
   for (const int signal : {SIGINT, SIGTERM}) ::sigaction(signal, &action, nullptr);

@@ -1,10 +1,10 @@
-// SIGINT and SIGTERM as something to look at and wait for.
+// Turns SIGINT and SIGTERM into a flag and a descriptor to wait for.
 #pragma once
 
 namespace kinesphere::program {
 
-/// While there is one, the first of each of these signals does not stop the program, but asks it to end. One
-/// at a time.
+/// While an object lives, the first of each of these signals requests the program to end and does not stop
+/// it. At most one object may exist.
 class StopSignals {
  public:
   StopSignals();
@@ -13,7 +13,7 @@ class StopSignals {
   StopSignals& operator=(const StopSignals&) = delete;
 
   bool asked() const;
-  /// Can be read from as soon as the program is asked to stop: for poll().
+  /// Readable as soon as the program is asked to stop; for poll().
   int descriptor() const;
 };
 

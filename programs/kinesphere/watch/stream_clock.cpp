@@ -1,4 +1,4 @@
-// What time it is in a stream, and which reports are believed to know.
+// The present time of a stream, protected from wrong clocks.
 #include "watch/stream_clock.hpp"
 
 #include <cmath>

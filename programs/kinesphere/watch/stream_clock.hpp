@@ -1,4 +1,4 @@
-// What time it is in a stream, and which reports are believed to know.
+// The present time of a stream, protected from wrong clocks.
 #pragma once
 
 #include <cstddef>
@@ -10,25 +10,24 @@
 
 namespace kinesphere::program {
 
-/// later - earlier, in seconds.
+/// Returns later - earlier, in seconds.
 double seconds_between(const FileTime& earlier, const FileTime& later);
 
-/// Time goes on with the latest time told. One that leaps ahead by more than a limit is not believed until
-/// others confirm it, so that one wrong clock does not turn all others' reports into old ones. So it is with
-/// the first time of all.
+/// Follows the latest reported time. A time that leaps ahead by more than a limit, and the first time, counts
+/// only after others confirm it, so that one wrong clock does not make all other reports old.
 class StreamClock {
  public:
   enum class Source {
     stamps,    ///< times of the reports
-    arrivals,  ///< times at which they came in, as one clock tells them
+    arrivals,  ///< arrival times by one clock
   };
 
-  /// All that it remembers.
+  /// The complete state.
   struct Memory {
     Source source = Source::stamps;
     bool has_begun = false;
     FileTime now{};
-    // Of the times that are not believed.
+    // Count of consecutive unconfirmed times.
     std::size_t in_a_row = 0;
     FileTime first_ahead{}, latest_ahead{};
     std::string first_id{};
@@ -44,18 +43,18 @@ class StreamClock {
   const Memory& memory() const { return memory_; }
   void recall(Memory memory) { memory_ = std::move(memory); }
 
-  /// Whether a time is not ahead by more than the limit.
+  /// Returns true if a time is not ahead by more than the limit.
   bool believes(const FileTime& time) const { return has_begun() && seconds_between(now(), time) <= leap_; }
-  /// Goes on to a time that is believed, or known; never back.
+  /// Moves the clock to an accepted time; never backwards.
   void go_on(const FileTime& time);
 
-  /// A time that is not believed, of a track. Returns whether those that came one after the other, and no
-  /// other time in between, now confirm each other: of stamps three of at least two tracks, or ten of one; of
-  /// arrivals two that differ. `others` says whether there are tracks besides.
+  /// Adds an unconfirmed time of a track. Returns true if consecutive times, with no other in between,
+  /// confirm each other: three timestamps of at least two tracks, or ten of one; or two arrivals that differ.
+  /// `others`: there are more tracks.
   bool confirms(const FileTime& time, const std::string& id, bool others);
-  /// How many they are, this one included.
+  /// Number of consecutive unconfirmed times, this one included.
   std::size_t in_a_row() const { return memory_.in_a_row; }
-  /// Others have come in between.
+  /// Resets the count because an accepted time came in between.
   void interrupt() { memory_.in_a_row = 0; }
 
  private:

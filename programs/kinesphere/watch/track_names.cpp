@@ -1,4 +1,4 @@
-// The tracks of a watch by their ids in the stream.
+// The tracks of a watch, by their ids in the stream.
 #include "watch/track_names.hpp"
 
 namespace kinesphere::program {

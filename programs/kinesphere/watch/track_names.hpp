@@ -1,4 +1,4 @@
-// The tracks of a watch by their ids in the stream.
+// The tracks of a watch, by their ids in the stream.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +11,16 @@
 
 namespace kinesphere::program {
 
-/// A number for an id: the same in every process and at every time. Those of two ids that differ are the same
-/// once in 2^64 times; TrackNames finds it out.
+/// Returns a number for an id, equal in every process. Two different ids have equal numbers once in 2^64
+/// pairs; TrackNames detects it.
 TrackId track_id_of(std::string_view text);
 
-/// What the watch knows of a track besides the monitor.
+/// State of a track that the monitor does not hold.
 struct NamedTrack {
   std::string text;
-  FileTime stamp{};  ///< of its latest report
+  FileTime stamp{};  ///< timestamp of its latest report
   Vec3 position{};   ///< in the stream's own words
-  /// What declares the bounds of its latest report.
+  /// Sources of the declared bounds of the latest report.
   std::string_view position_by, height_by, velocity_by, climb_by;
 };
 
@@ -34,7 +34,7 @@ class TrackNames {
     const auto at = names_.find(id);
     return at == names_.end() ? nullptr : &at->second;
   }
-  /// As it was spelled; empty for one that has left.
+  /// Returns the id as spelled in the stream; empty for a dropped track.
   const std::string& text(TrackId id) const;
   NamedTrack& add(TrackId id, std::string_view text);
   void remove(TrackId id) { names_.erase(id); }

@@ -1,4 +1,4 @@
-// What came of a stream.
+// Counts of a watch.
 #pragma once
 
 #include <array>
@@ -16,22 +16,22 @@ struct MalformedLine {
 };
 
 struct WatchCounts {
-  // Reports that were not taken.
-  std::uint64_t repeated = 0;  ///< the same place at the same time as before
+  // Reports that were skipped.
+  std::uint64_t repeated = 0;  ///< equal place and time as in an earlier report
   std::uint64_t stale = 0;     ///< from before the time at which their track would have been forgotten
   std::uint64_t ahead = 0;     ///< stamped ahead by more than the limit, and not confirmed
   std::uint64_t outside = 0;   ///< beyond the radius of the map
   std::uint64_t no_position = 0;
   std::uint64_t no_height = 0;
   std::uint64_t no_bound = 0;
-  std::uint64_t crowded = 0;  ///< of new tracks, while there were as many tracks or open pairs as may be
+  std::uint64_t crowded = 0;  ///< reports of new tracks at the limit of tracks or open pairs
   std::uint64_t malformed = 0;
   std::vector<MalformedLine> first_malformed;  ///< ten at most
 
   std::uint64_t dropped = 0;  ///< tracks, because there were more open pairs than may be
   std::uint64_t alerts = 0;
-  std::array<std::uint64_t, 6> events{};  ///< by MonitorEventKind
-  /// Verdicts, by separation: that two turned undecided, within, and apart again.
+  std::array<std::uint64_t, 6> events{};  ///< indexed by MonitorEventKind
+  /// Changes of the verdict of a separation: to undecided, to within, and back to apart.
   struct Turns {
     std::uint64_t apart = 0, undecided = 0, within = 0;
   };

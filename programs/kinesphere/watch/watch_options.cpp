@@ -1,4 +1,4 @@
-// From the command line to what a watch goes by.
+// Turns the command line into the settings of a watch.
 #include "watch/watch_options.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ std::string spread_text(const ErrorBound& spread) {
              : fmt::format("{:.4g}:{:.4g}", spread.horizontal(), spread.vertical());
 }
 
-/// "3" or "3:1".
+/// Parses "3" or "3:1".
 void set_errors(const std::string& given, Measure measure, std::string_view option, FallbackError& flat,
                 FallbackError& upright) {
   if (given.empty()) return;
@@ -42,7 +42,7 @@ WatchSettings::Clock clock_named(const std::string& name) {
   throw ProgramError(fmt::format("--clock: expected stream, stamps or arrival, but got '{}'", name));
 }
 
-/// LAT,LON
+/// Parses LAT,LON.
 WatchSettings::Origin parse_origin(const std::string& text) {
   const std::size_t comma = std::min(text.find(','), text.size());
   const auto latitude = parse_number(std::string_view(text).substr(0, comma));
@@ -52,7 +52,7 @@ WatchSettings::Origin parse_origin(const std::string& text) {
   return {*latitude, *longitude};
 }
 
-/// "2/4" and "1-8/16"; all of them where nothing is given.
+/// Parses "2/4" and "1-8/16"; returns all shares for an empty text.
 Shard parse_share(const std::string& text) {
   if (text.empty()) return {};
   const auto wrong = [&text] {

@@ -7,11 +7,11 @@
 
 namespace kinesphere::program {
 
-/// With what the format takes for granted, where the options leave it open. Throws ProgramError.
+/// Returns the settings, with the defaults of the format for absent options. Throws ProgramError.
 WatchSettings settings_of(const WatchOptions& options, StreamFormat format, const std::string& source);
-/// Those that decide what is certain, as they were given.
+/// Returns the given options that influence verdicts.
 GivenOptions given_options(const WatchOptions& options);
-/// Between two snapshots: seconds. Throws ProgramError.
+/// Returns seconds between two snapshots. Throws ProgramError.
 double snapshot_interval(const WatchOptions& options);
 
 }  // namespace kinesphere::program

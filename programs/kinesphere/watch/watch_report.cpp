@@ -1,4 +1,4 @@
-// What came of a watch, for a person and as JSON; its state, and metrics.
+// The results of a watch, as text and as JSON; its state, and metrics.
 #include "watch/watch_report.hpp"
 
 #include <fmt/format.h>
@@ -11,7 +11,7 @@
 namespace kinesphere::program {
 namespace {
 
-/// Names are those of the JSON and of the metrics.
+/// Names in the JSON and in the metrics.
 struct WatchCount {
   const char* name;
   const char* label;
@@ -54,7 +54,7 @@ std::string without_quotes(std::string text) {
 
 bool is_always_shown(const WatchCount& count) { return *count.label != '\0'; }
 
-/// What a watch goes by, as far as its state rests upon it, and what it has counted.
+/// Returns the settings that the state depends on, and the counts.
 std::string setting_fields(const Watcher& watcher) {
   const WatchSettings& settings = watcher.settings();
   const auto& monitor = watcher.monitor();

@@ -1,4 +1,4 @@
-// What came of a watch, for a person and as JSON; its state, and metrics.
+// The results of a watch, as text and as JSON; its state, and metrics.
 #pragma once
 
 #include <string>
@@ -7,13 +7,12 @@
 
 namespace kinesphere::program {
 
-/// For a person, at the end.
+/// Returns the summary at the end, as text.
 std::string watch_summary_text(const Watcher& watcher, std::string_view format, double real_seconds);
 std::string watch_summary_json(const Watcher& watcher, std::string_view format, double real_seconds);
-/// What the watch goes by and has counted, tracks, pairs that are not certainly apart, and whose reports are
-/// needed.
+/// Returns settings, counts, tracks, pairs that are not certainly apart, and report requests.
 std::string watch_state_json(const Watcher& watcher);
-/// In Prometheus' text format.
+/// Returns the counts in Prometheus' text format.
 std::string watch_metrics(const Watcher& watcher);
 
 }  // namespace kinesphere::program

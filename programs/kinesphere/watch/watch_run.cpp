@@ -1,4 +1,4 @@
-// One run of a watch: a stream that is read to its end, or until the program is asked to stop.
+// One run of a watch, until the stream ends or the program is asked to stop.
 #include "watch/watch_run.hpp"
 
 #include <fmt/format.h>
@@ -42,15 +42,15 @@ std::unique_ptr<ReportSource> source_of(const WatchOptions& options, const StopS
   return std::make_unique<FileSource>(options.file, stop, from);
 }
 
-/// By which a later run knows the place of alerts again.
+/// Returns the name by which a later run recognises the destination of alerts.
 std::string alerts_name(const WatchOptions& options) {
   if (options.alerts.empty()) return {};
   if (is_nats_address(options.alerts)) return parse_nats_address(options.alerts, "--alerts").name;
   return std::filesystem::absolute(options.alerts).lexically_normal().string();
 }
 
-/// A word for the alerts that are told of a stream: the same for all who read it and judge it in the same
-/// way, whatever their shares are; where they cannot, another for each.
+/// Returns a word for the origin of alerts: equal for all readers of one stream with equal settings, whatever
+/// their shares; unique if the stream cannot be read again.
 std::string alerts_origin(const WatchOptions& options, const WatchSettings& settings,
                           const ReportSource& source) {
   const auto identity = source.identity();
@@ -65,8 +65,8 @@ std::string alerts_origin(const WatchOptions& options, const WatchSettings& sett
   return fmt::format("{:016x}", track_id_of(text));
 }
 
-/// Reads until the stream's first line has come in, and says what it is. None when the program is asked to
-/// stop before.
+/// Reads until the first line has arrived, and returns its format; nothing if the program is asked to stop
+/// before.
 std::optional<StreamFormat> format_of(const WatchOptions& options,
                                       const std::optional<WatchSnapshot>& snapshot, ReportSource& source,
                                       RecordCutter& cutter, const StopSignals& stop) {
@@ -74,7 +74,7 @@ std::optional<StreamFormat> format_of(const WatchOptions& options,
   if (!said.empty()) return stream_format_named(said).value();
   bool has_ended = false;
   std::string_view text;
-  // A first line of one document may be long: its beginning says enough.
+  // The first line may be one long document; its beginning is sufficient.
   constexpr std::size_t enough = 4096;
   while (!has_ended && !stop.asked()) {
     const std::string_view waiting = cutter.waiting();
@@ -86,7 +86,7 @@ std::optional<StreamFormat> format_of(const WatchOptions& options,
     has_ended = outcome == ReportSource::Outcome::end;
     if (outcome == ReportSource::Outcome::text) cutter.feed(text);
   }
-  // By the columns that an option names it is a table.
+  // An option that names columns implies a table.
   if (!options.choices.columns.empty()) return StreamFormat::csv;
   const std::string_view beginning = cutter.waiting();
   if (const auto format = recognised_format(beginning)) return *format;
@@ -115,7 +115,7 @@ WatchRun::WatchRun(const WatchOptions& options)
       begun_from_(snapshot_of(options)),
       source_(source_of(options, stop_, begun_from_)),
       known_format_(format_of(options, begun_from_, *source_, cutter_, stop_)),
-      // One that needs no options.
+      // This format needs no options.
       format_(known_format_.value_or(StreamFormat::readsb)),
       watcher_(settings_of(options, format_, source_->name()),
                [this](std::uint64_t share, std::string_view line) { alerts_->write(share, line); }),
@@ -133,7 +133,7 @@ WatchRun::WatchRun(const WatchOptions& options)
 void WatchRun::go_on_from(const WatchSnapshot& snapshot) {
   try {
     watcher_.restore(snapshot.watcher);
-    // What another stream begins with is not what this one began with.
+    // The begin of another stream differs from the saved one.
     if (snapshot.place.stream == source_->name()) {
       reader_->restore(snapshot.reader);
       cutter_.begin_at(snapshot.line);
@@ -161,12 +161,12 @@ std::string_view WatchRun::format_name() const { return known_format_ ? name_of(
 
 void WatchRun::run() {
   const bool by_machine = watcher_.settings().clock == WatchSettings::Clock::machine;
-  // So often alerts come by the passing of time alone.
+  // Interval of alerts that are due to the passing of time alone.
   const std::chrono::milliseconds patience(by_machine ? 50 : 1000);
   bool has_ended = false;
-  // From here on it goes on: with the file of alerts as it is now.
+  // A later run continues from here, with the present file of alerts.
   if (watcher_.monitor()) keep_snapshot();
-  // What has come in is taken, even when the program is asked to stop meanwhile.
+  // Text that has arrived is processed even if the program is asked to stop meanwhile.
   take();
   while (!has_ended && !stop_.asked()) {
     std::string_view text;
@@ -181,12 +181,12 @@ void WatchRun::run() {
     if (by_machine && is_later) pass_time();
     if (is_time_for_snapshot()) keep_snapshot();
   }
-  // A later run reads what may not be whole again.
+  // A later run reads a record that may be incomplete again.
   keep_snapshot();
   if (has_ended) {
     if (const auto last = cutter_.rest()) read(*last);
   }
-  // A stream that others read, too, goes on.
+  // A shared stream continues after this reader stops.
   if (!has_ended && source_->has_clock()) return;
   {
     const auto guard = guarded();
@@ -219,7 +219,7 @@ void WatchRun::read(const Record& record) {
     }
     watcher_.end_record();
   }
-  // Who asks for the state does not wait for a server that is to take alerts.
+  // A request for the state does not wait for a server that takes alerts.
   alerts_->flush(position);
   if (watcher_.counts().malformed > malformed) complain();
   warn_of_crowds();
@@ -255,8 +255,8 @@ void WatchRun::warn_of_crowds() {
 }
 
 bool WatchRun::is_time_for_snapshot() const {
-  // The first is kept as soon as there is something to lose: so a later run goes on with what was told, and
-  // who cannot write it learns so at once.
+  // The first snapshot is written as soon as there is a state: a later run then continues from earlier
+  // alerts, and an unwritable path fails at once.
   if (!last_snapshot_) return watcher_.monitor().has_value();
   return std::chrono::steady_clock::now() - *last_snapshot_ > snapshot_interval_;
 }

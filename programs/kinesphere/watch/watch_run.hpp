@@ -1,4 +1,4 @@
-// One run of a watch: a stream that is read to its end, or until the program is asked to stop.
+// One run of a watch, until the stream ends or the program is asked to stop.
 #pragma once
 
 #include <chrono>
@@ -17,26 +17,26 @@
 
 namespace kinesphere::program {
 
-/// Goes on from the snapshot, if there is one. Functions throw ProgramError.
+/// Continues from the snapshot, if there is one. Functions throw ProgramError.
 class WatchRun {
  public:
-  /// `options` must live longer.
+  /// `options` must outlive the run.
   explicit WatchRun(const WatchOptions& options);
 
   void run();
-  /// No more is served.
+  /// Stops the server.
   void close() { server_.reset(); }
 
   const Watcher& watcher() const { return watcher_; }
-  /// "unknown" where nothing of the stream has come in.
+  /// Returns "unknown" before any text has arrived.
   std::string_view format_name() const;
 
  private:
-  /// Holds off whoever asks for the state.
+  /// Blocks requests for the state while it lives.
   std::unique_lock<StateServer> guarded();
   void go_on_from(const WatchSnapshot& snapshot);
   std::unique_ptr<AlertOutput> open_alerts() const;
-  /// Takes what of the stream has come in.
+  /// Processes the text that has arrived.
   void take();
   void read(const Record& record);
   void pass_time();
@@ -60,7 +60,7 @@ class WatchRun {
   bool has_warned_of_crowds_ = false;
   std::chrono::duration<double> snapshot_interval_;
   std::optional<std::chrono::steady_clock::time_point> last_snapshot_;
-  /// Nothing is written before all else is found to be right.
+  /// Opened last, so that no alert file is touched if another option is wrong.
   std::unique_ptr<AlertOutput> alerts_;
 };
 

@@ -1,4 +1,4 @@
-// What a watch goes by.
+// The settings of a watch.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace kinesphere::program {
 
-/// A bound that holds where the stream has none, and who declares it.
+/// A bound for reports without one in the stream, and its source.
 struct FallbackError {
   std::optional<double> bound{};
   std::string declaration{};
@@ -18,12 +18,12 @@ struct FallbackError {
 
 struct WatchSettings {
   std::vector<NamedSeparation> separations;
-  Shard share{};                  ///< others watch the other pairs
+  Shard share{};                  ///< other watches have the other pairs
   std::optional<int> dimensions;  ///< empty: three if the first report has a height
-  // Promises. Infinite: none.
+  // Limits of tracks; infinite if there is none.
   ErrorBound acceleration = std::numeric_limits<double>::infinity();
   ErrorBound largest_speed = std::numeric_limits<double>::infinity();
-  std::string promise;  ///< both, as alerts tell them
+  std::string promise;  ///< text of both limits in alerts
   FallbackError position_error, height_error, velocity_error, climb_error;
   double stamp_error = 0.0;
   double velocity_age = 0.0;
@@ -31,9 +31,9 @@ struct WatchSettings {
   double window = 1.0;
   double leap = 60.0;
   enum class Clock {
-    stream,  ///< times of arrival that the stream tells, else stamps
+    stream,  ///< arrival times in the stream, else timestamps
     stamps,
-    machine,  ///< that of this machine
+    machine,  ///< this machine's clock
   } clock = Clock::stream;
   struct Origin {
     double latitude = 0.0, longitude = 0.0;
@@ -41,9 +41,9 @@ struct WatchSettings {
   std::optional<Origin> origin;  ///< empty: the first position
   double radius = 500e3;
   std::size_t most_malformed = std::numeric_limits<std::size_t>::max();
-  // Memory and alerts are bounded by these, whoever sends reports.
+  // These limit memory and alerts against hostile senders.
   std::size_t most_tracks = 50'000;
-  std::size_t most_pairs = 1'000'000;  ///< that are not certainly apart
+  std::size_t most_pairs = 1'000'000;  ///< maximum pairs that are not certainly apart
   std::string source;                  ///< the stream's name, for messages
 };
 

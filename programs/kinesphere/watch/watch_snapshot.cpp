@@ -1,4 +1,4 @@
-// The state of a watch in a file, for a later run that goes on from there.
+// The state of a watch in a file, from which a later run continues.
 #include "watch/watch_snapshot.hpp"
 
 #include <fmt/format.h>
@@ -17,8 +17,8 @@
 namespace kinesphere::program {
 namespace {
 
-/// The file begins with this, the length of what follows and its checksum, both as eight digits of base 16 or
-/// more; then comes CBOR. Raise the number when the fields change.
+/// The file begins with this title, the length of the rest and its checksum, each as at least eight
+/// hexadecimal digits; then comes CBOR. Increase the number when the fields change.
 constexpr std::string_view snapshot_title = "kinesphere watch snapshot 3\n";
 
 std::string heading(std::uint64_t size, std::uint32_t check) {
@@ -26,7 +26,7 @@ std::string heading(std::uint64_t size, std::uint32_t check) {
 }
 std::string heading(std::string_view content) { return heading(content.size(), checksum(content)); }
 
-/// What is written to a stream with this buffer goes to a function.
+/// A stream buffer that passes its output to a function.
 class CallingBuffer final : public std::streambuf {
  public:
   using Take = std::function<void(std::string_view)>;
@@ -47,7 +47,7 @@ class CallingBuffer final : public std::streambuf {
   Take take_;
 };
 
-/// CBOR piece by piece: in one text it would be another copy of the whole state.
+/// Writes CBOR piece by piece, which saves a copy of the whole state.
 void write_cbor(const nlohmann::json& json, CallingBuffer::Take take) {
   CallingBuffer buffer(std::move(take));
   std::ostream stream(&buffer);
@@ -74,7 +74,7 @@ void write_snapshot(const std::string& path, WatchSnapshot snapshot) {
     size += piece.size();
     check = checksum(piece, check);
   });
-  // What a killed run has begun to write is overwritten.
+  // The incomplete file of a killed run is overwritten.
   OutputFile file(OutputPlace{path, 0});
   file.write(heading(size, check));
   write_cbor(json, [&](std::string_view piece) { file.write(piece); });
@@ -86,7 +86,7 @@ std::optional<WatchSnapshot> read_snapshot(const std::string& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found) return std::nullopt;
-  // Some of what is no file has no end.
+  // Some things that are not regular files have no end.
   if (!error && !std::filesystem::is_regular_file(status))
     throw ProgramError(fmt::format("--snapshot: expected a file, but {} is something else", path));
   std::ifstream file(path, std::ios::binary);

@@ -1,4 +1,4 @@
-// The state of a watch in a file, for a later run that goes on from there.
+// The state of a watch in a file, from which a later run continues.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace kinesphere::program {
 
-/// Options that decide what is certain, and what they were given as.
+/// Options that influence verdicts, and their given values.
 using GivenOptions = std::vector<std::pair<std::string, std::string>>;
 
 struct WatchSnapshot {
@@ -22,17 +22,18 @@ struct WatchSnapshot {
   std::string format;
   StreamPlace place;
   RecordCutter::Line line;  ///< at that place
-  nlohmann::json reader;    ///< what the format keeps
+  nlohmann::json reader;    ///< state of the format
   nlohmann::json watcher;
-  std::string alerts;  ///< where they go: the whole path of a file, or an address
+  std::string alerts;  ///< destination: the absolute path of a file, or an address
   AlertsPlace alerts_place{};
 };
 
-/// The file is there as a whole or, whatever happens, as it was. Throws ProgramError naming the file.
+/// Replaces the file atomically. Throws ProgramError naming the file.
 void write_snapshot(const std::string& path, WatchSnapshot snapshot);
-/// Nothing where there is no such file. Throws ProgramError naming a file that is not a snapshot, or damaged.
+/// Returns nothing if there is no such file. Throws ProgramError naming a file that is damaged or not a
+/// snapshot.
 std::optional<WatchSnapshot> read_snapshot(const std::string& path);
-/// Throws ProgramError naming an option that was given otherwise.
+/// Throws ProgramError naming an option with another value than before.
 void check_options(const std::string& path, const GivenOptions& then, const GivenOptions& now);
 
 }  // namespace kinesphere::program

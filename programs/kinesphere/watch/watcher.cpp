@@ -1,4 +1,4 @@
-// A watch: takes the reports of a stream, whatever its format, and tells what is certain.
+// A watch: takes the reports of a stream and emits certain alerts.
 #include "watch/watcher.hpp"
 
 #include <fmt/format.h>
@@ -14,10 +14,10 @@ namespace kinesphere::program {
 namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
-/// Held while their times are not believed. A document of all aircraft on earth has fewer.
+/// Maximum reports held until their times are accepted. A document of all aircraft on earth has fewer.
 constexpr std::size_t most_held = 65536;
 
-/// Horizontal and upright; where nobody said anything about the latter, in all directions.
+/// Returns a horizontal and a vertical bound, or one for all directions if the vertical one is absent.
 ErrorBound spread_of(double flat, const std::optional<double>& upright) {
   return upright ? ErrorBound::cylinder(flat, *upright) : ErrorBound(flat);
 }
@@ -34,14 +34,14 @@ Watcher::Watcher(WatchSettings settings, Tell tell)
   counts_.turns.resize(settings_.separations.size());
 }
 
-// What comes in.
+// Input.
 
 void Watcher::take(const SourceReport& report) {
   if (!clock_is_chosen_) {
     clock_is_chosen_ = true;
     clock_.set_source(report.arrival ? StreamClock::Source::arrivals : StreamClock::Source::stamps);
   }
-  // The machine's clock has been told before the record was read.
+  // The caller sets the machine's clock before it passes a record.
   if (settings_.clock == WatchSettings::Clock::machine) return deliver(report);
   const bool by_arrival = clock_.source() == StreamClock::Source::arrivals;
   if (by_arrival && !report.arrival)
@@ -102,7 +102,7 @@ void Watcher::refuse(std::size_t line, const std::string& reason) {
   ++counts_.malformed;
   const bool is_too_much = counts_.malformed > settings_.most_malformed;
   if (counts_.first_malformed.size() == most_told && !is_too_much) return;
-  // What the stream has may not make more lines of it, or move the cursor.
+  // Text of the stream may not add lines to the message, or move the cursor.
   std::string text = reason;
   std::replace_if(
       text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; },
@@ -129,7 +129,7 @@ void Watcher::finish() {
   end_record();
 }
 
-// Times that are not believed yet.
+// Reports with unaccepted times.
 
 void Watcher::hold(const SourceReport& report) {
   if (clock_.in_a_row() == 1) drop_held();
@@ -181,7 +181,7 @@ void Watcher::start(const FileTime& time, TimeKind kind) {
 }
 
 void Watcher::begin_times(const FileTime& first, TimeKind kind) {
-  // Enough for years.
+  // Sufficient for years.
   constexpr std::int64_t span = std::int64_t{1} << 20;
   times_ = TimeScale(kind);
   times_.set_origin(first, {first.whole + span, 0.0});
@@ -205,7 +205,7 @@ void Watcher::advance(double until) {
 }
 
 bool Watcher::has_room() const {
-  // The other half is for tracks that are watched already and come near each other.
+  // The other half is reserved for watched tracks that approach each other.
   return names_.size() < settings_.most_tracks && monitor_->open_pair_count() < settings_.most_pairs / 2 + 1;
 }
 
@@ -219,7 +219,7 @@ void Watcher::drop_crowd() {
 }
 
 void Watcher::tell(const MonitorEvent& event) {
-  // Who watches other shares tells of this track.
+  // A watch of another share reports this track.
   const bool is_told = settings_.share.contains(event.first);
   if (is_told) count_and_tell(event);
   if (event.kind != MonitorEventKind::dropped) return;
@@ -256,7 +256,7 @@ double Watcher::time_covered() const {
 // Reports.
 
 void Watcher::begin_map(const WatchSettings::Origin& origin) {
-  // A track is forgotten before it gets farther beyond the radius.
+  // A track is dropped before it gets farther than this beyond the radius.
   const double margin = settings_.largest_speed.horizontal() * settings_.forget;
   if (!std::isfinite(margin))
     throw ProgramError(
@@ -361,8 +361,7 @@ std::optional<TrackReport> Watcher::on_map(const SourceReport& report, NamedTrac
   TrackReport result{.timestamp = times_.seconds(report.stamp)};
   double added_velocity_error = 0.0;
   if (is_geographic_) {
-    // Where the velocity was measured the track was a little before or after, and it is drawn where the track
-    // is reported to be.
+    // The velocity was measured a little earlier or later, elsewhere on the map than the reported position.
     const double error =
         report.position_error ? report.position_error->bound : settings_.position_error.bound.value_or(0.0);
     const double time = report.stamp_error.value_or(settings_.stamp_error) + velocity_age_of(report);
@@ -386,7 +385,7 @@ double Watcher::needed_bound(const FallbackError& fallback, const char* option) 
 
 void Watcher::add_errors(const SourceReport& report, double added_velocity_error, TrackReport& result,
                          NamedTrack& track) const {
-  // What the stream says, else what the options say; and who says so.
+  // Returns the bound of the stream, else that of the options, with its source.
   const auto said = [](const std::optional<DeclaredError>& error, const FallbackError& fallback,
                        std::string_view& declaration) -> std::optional<double> {
     declaration = error ? error->declaration : fallback.bound ? std::string_view(fallback.declaration) : "";
@@ -414,7 +413,7 @@ void Watcher::add_errors(const SourceReport& report, double added_velocity_error
     result.velocity_error = ErrorBound(unbounded);
     return;
   }
-  // It was measured a little before or after the position.
+  // The velocity was measured a little before or after the position.
   const double age = velocity_age_of(report);
   if (age > 0.0 && std::isfinite(settings_.acceleration.total())) {
     *turning += age * settings_.acceleration.horizontal();

@@ -1,4 +1,4 @@
-// A watch: takes the reports of a stream, whatever its format, and tells what is certain.
+// A watch: takes the reports of a stream and emits certain alerts.
 #pragma once
 
 #include <functional>
@@ -20,47 +20,48 @@
 
 namespace kinesphere::program {
 
-/// Has all state of a watch but what a format keeps of the lines before.
+/// Holds the whole state of a watch, except the state that a format keeps from earlier lines.
 class Watcher final : public ReportSink {
  public:
-  /// `tell` gets alerts, lines with their ends, in the order of their times, and whose share each is.
+  /// Receives alerts, as lines with their ends and in order of time, with the share of each.
   using Tell = std::function<void(std::uint64_t share, std::string_view alert)>;
 
   Watcher(WatchSettings settings, Tell tell);
 
-  // Of formats. These throw ProgramError naming an option that has to be given.
+  // Functions for formats. They throw ProgramError naming an option that has to be given.
   void take(const SourceReport& report) override;
   void time_is(const FileTime& arrival, TimeKind kind) override;
   void pass_over(Passed reason) override;
   void refuse(const std::string& reason) { refuse(line_, reason); }
-  /// Throws ProgramError when there have been too many.
+  /// Counts a malformed record. Throws ProgramError if there have been too many.
   void refuse(std::size_t line, const std::string& reason) override;
 
-  /// What comes until end_record() stands in this line of the stream.
+  /// Sets the line of the stream for all calls until end_record().
   void begin_record(std::size_t line) { line_ = line; }
-  /// All that is certain by what was taken is told.
+  /// Emits all alerts that are certain from the input so far.
   void end_record();
-  /// By the clock of this machine it is so late, seconds since 1970.
+  /// Sets the present time of this machine's clock, in seconds since 1970.
   void machine_time_is(const FileTime& now);
-  /// The stream has ended.
+  /// Call at the end of the stream.
   void finish();
 
-  /// All of its state but the settings, and back: to a new one with the same settings. restore() throws
-  /// ProgramError, or an exception of nlohmann::json, when that cannot be the state of a watch.
+  /// save() returns the whole state except the settings; restore() puts it into a new watcher with equal
+  /// settings. restore() throws ProgramError, or an exception of nlohmann::json, if this is not the state of
+  /// a watch.
   nlohmann::json save() const;
   void restore(const nlohmann::json& state);
 
   const WatchSettings& settings() const { return settings_; }
   const WatchCounts& counts() const { return counts_; }
-  /// Reports that the monitor has taken, and so on; zero before there is one.
+  /// Counts of reports and so on; zero before there is a monitor.
   MonitorCounters monitor_counters() const { return monitor_ ? monitor_->counters() : MonitorCounters{}; }
   /// Empty before the first report has been taken.
   const std::optional<Monitor>& monitor() const { return monitor_; }
   const std::optional<LocalFrame>& frame() const { return frame_; }
   const TrackNames& names() const { return names_; }
-  /// Needs a monitor.
+  /// Precondition: there is a monitor.
   AlertContext context() const;
-  /// From its first time to its last, as JSON; null before there is one.
+  /// First and last time as JSON; null before there is one.
   std::string first_time() const;
   std::string last_time() const;
   double time_covered() const;  ///< seconds
@@ -71,14 +72,15 @@ class Watcher final : public ReportSink {
     SourceReport report;
   };
 
-  /// Whether the clock believes in a time, or does now; then what was held has been delivered.
+  /// Returns true if the clock accepts the time, at once or by this report; then held reports have been
+  /// delivered.
   bool admit(const FileTime& time, const std::string& id, TimeKind kind);
   void hold(const SourceReport& report);
   void drop_held();
   void deliver_held();
   void start(const FileTime& time, TimeKind kind);
   void begin_times(const FileTime& first, TimeKind kind);
-  /// It is so late: tells what is certain by then.
+  /// Moves time on, and emits alerts that are certain by then.
   void go_on(const FileTime& time);
   void deliver(const SourceReport& report);
   void begin_monitor(const SourceReport& report);
@@ -89,9 +91,9 @@ class Watcher final : public ReportSink {
   double velocity_age_of(const SourceReport& report) const;
   double needed_bound(const FallbackError& fallback, const char* option) const;
   void advance(double until);
-  /// Whether the limits allow another track.
+  /// Returns true if the limits allow another track.
   bool has_room() const;
-  /// Removes the tracks in most open pairs, where more pairs are open than may be, until half of that are.
+  /// Removes the tracks in most open pairs if there are too many open pairs, until half of the limit is left.
   void drop_crowd();
   void tell(const MonitorEvent& event);
   void count_and_tell(const MonitorEvent& event);
@@ -109,10 +111,10 @@ class Watcher final : public ReportSink {
   bool is_geographic_ = false;
   int dimensions_ = 3;
   TrackNames names_;
-  std::set<TrackId> dropped_;  ///< of which has not been told yet that they leave
+  std::set<TrackId> dropped_;  ///< dropped tracks without an alert so far
   WatchCounts counts_;
   std::size_t line_ = 0;
-  std::set<std::string, std::less<>> declarations_;  ///< of a snapshot
+  std::set<std::string, std::less<>> declarations_;  ///< texts restored from a snapshot
 };
 
 }  // namespace kinesphere::program

@@ -1,4 +1,4 @@
-// The state of a watch as JSON, and back.
+// Saves the state of a watch as JSON, and restores it.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -32,7 +32,7 @@ namespace program {
 namespace {
 
 using Json = nlohmann::json;
-/// Gives a text that outlives the watch.
+/// Returns the text with a lifetime longer than the watch.
 using KeepText = std::function<std::string_view(const std::string&)>;
 
 }  // namespace
@@ -102,7 +102,7 @@ Json saved(const NamedTrack& track) {
   return {text, stamp, position, position_by, height_by, velocity_by, climb_by};
 }
 
-/// Arrays of tracks, each packed into CBOR: as JSON in memory they would take ten times as much.
+/// Arrays of tracks are packed into CBOR: as JSON in memory they would take ten times as much.
 Json saved(const TrackNames& names) {
   constexpr std::size_t tracks_at_once = 500;
   Json packed = Json::array();

@@ -1,4 +1,4 @@
-// Any bytes as a request to a real server: what fuzz_http and the replay of its corpus have in common.
+// Sends any bytes as a request to a real server, for fuzz_http and the replay of its corpus.
 #include "program/serving/any_request.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace kinesphere::program {
 namespace {
 
-/// Text that stands nowhere else in this process.
+/// Text that occurs nowhere else in this process.
 const char* const script = "export const page = 'script';";
 const char* const made = "made for each";
 const char* const index_page = "<p>index</p>";
@@ -34,7 +34,7 @@ bool has_field(const std::string& text, std::string name) {
   return std::search(text.begin(), text.end(), name.begin(), name.end(), is_same) != text.end();
 }
 
-/// The number behind "Content-Length: ", or nothing.
+/// Returns the number behind "Content-Length: ", or nothing.
 std::optional<std::size_t> length_of(const std::string& head) {
   constexpr std::string_view name = "\r\nContent-Length: ";
   const std::size_t at = head.find(name);
@@ -91,7 +91,7 @@ std::optional<std::string> AttackedServer::complaint(std::span<const unsigned ch
 
   const std::size_t request_end = request.find("\r\n\r\n");
   if (response_.empty()) {
-    // What follows a head of the largest size may have reset the connection before the response was read.
+    // Bytes after a head of the largest size may have reset the connection before the response was read.
     return request_end < 16'000 && request.size() < 60'000 ? std::optional("no response to a whole request")
                                                            : std::nullopt;
   }

@@ -1,4 +1,4 @@
-// Any bytes as a request to a real server: what fuzz_http and the replay of its corpus have in common.
+// Sends any bytes as a request to a real server, for fuzz_http and the replay of its corpus.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@
 
 namespace kinesphere::program {
 
-/// A running LocalServer with every kind of content: fixed, made for each request, empty, long, thrown away,
-/// and files. Its folder goes with it.
+/// A running LocalServer with every kind of content: fixed, made for each request, empty, long, dropped, and
+/// files. Removes its folder at destruction.
 class AttackedServer {
  public:
   AttackedServer();
@@ -22,17 +22,16 @@ class AttackedServer {
   AttackedServer(const AttackedServer&) = delete;
   AttackedServer& operator=(const AttackedServer&) = delete;
 
-  /// Sends bytes over one connection and looks at all that comes back. The first byte says after how many the
-  /// rest is sent apart; "$PORT" in the rest stands for the port. Returns what is wrong with the response, if
-  /// anything.
+  /// Sends bytes over one connection and checks the response. The first byte is the number of bytes after
+  /// which the rest is sent separately; "$PORT" in the rest stands for the port. Returns the defect of the
+  /// response, if any.
   std::optional<std::string> complaint(std::span<const unsigned char> bytes);
-  /// The response to the latest input.
+  /// Returns the response to the latest input.
   const std::string& response() const { return response_; }
 
  private:
   std::filesystem::path folder_;
-  /// Each is a block of memory of exactly its size, so that the address sanitizer sees what is read beyond
-  /// it.
+  /// Each is a memory block of exactly its size, so that the address sanitizer detects reads beyond it.
   std::unique_ptr<const std::string> page_, empty_, long_page_;
   std::unique_ptr<LocalServer> server_;
   int port_ = 0;

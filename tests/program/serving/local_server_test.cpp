@@ -1,4 +1,4 @@
-// The server of `kinesphere watch --serve` and `kinesphere view` against clients that want it no good.
+// The server of `kinesphere watch --serve` and `kinesphere view` against hostile clients.
 #include "serving/local_server.hpp"
 
 #include <gtest/gtest.h>
@@ -59,7 +59,7 @@ class LocalServerTest : public FolderTest {
   std::string get(const std::string& target, const std::string& fields = "") const {
     return raw(request("GET " + target, fields));
   }
-  /// Another client gets its page at once.
+  /// Expects that another client gets its page at once.
   void expect_open_to_others() const {
     const auto start = Clock::now();
     const RawConnection connection(port_, 2);
@@ -82,7 +82,7 @@ class LocalServerTest : public FolderTest {
   int port_ = 0;
 };
 
-/// No range of any kind brings a byte that is not of the content.
+/// No range of any kind returns a byte outside the content.
 TEST_F(LocalServerTest, NoRangeLeavesTheContent) {
   const std::string ranges[] = {"60000-120000",
                                 "0-0",
@@ -137,7 +137,7 @@ TEST_F(LocalServerTest, RefusesAllMethodsButGetAndHead) {
   EXPECT_EQ(made_, 0);
 }
 
-/// The response comes although the body does not, and what is sent of a long body is not kept.
+/// The response comes although the body does not, and a long body is not stored.
 TEST_F(LocalServerTest, RefusesBodiesUnread) {
   for (const char* const fields :
        {"Content-Length: 3000000000\r\n", "Transfer-Encoding: chunked\r\n",
@@ -218,7 +218,7 @@ TEST_F(LocalServerTest, BoundsTheHeadOfRequests) {
   EXPECT_EQ(status_of(raw(std::string(100'000, 'G'))), 431);
 }
 
-/// Whoever asks under another name is shown nothing, not even which addresses there are.
+/// A request under another name gets no content, and no hint which addresses exist.
 TEST_F(LocalServerTest, AnswersToItsOwnNameAlone) {
   const std::string port = std::to_string(port_);
   for (const std::string& fields :
@@ -237,8 +237,8 @@ TEST_F(LocalServerTest, AnswersToItsOwnNameAlone) {
   EXPECT_EQ(status_of(raw("GET /fixed HTTP/1.1\r\nhost:localhost:" + port + "\r\n\r\n")), 200);
 }
 
-/// Pages of other sites can have a browser ask, but neither read nor embed the answer, nor cost the watch
-/// time.
+/// Pages of other sites can make a browser send requests, but neither read nor embed the response, nor delay
+/// the watch.
 TEST_F(LocalServerTest, IsNoPartOfOtherSites) {
   EXPECT_EQ(status_of(get("/made", "Sec-Fetch-Site: cross-site\r\nSec-Fetch-Mode: no-cors\r\n")), 403);
   EXPECT_EQ(made_, 0);
@@ -288,7 +288,7 @@ TEST_F(LocalServerTest, ReadsRequestsInPieces) {
   EXPECT_EQ(body_of(half_closed.response()), fixed);
 }
 
-/// Clients that send a byte now and then hold up neither others nor the end of the server.
+/// Clients that send a byte now and then delay neither other clients nor the end of the server.
 TEST_F(LocalServerTest, SlowSendersLockNobodyOut) {
   std::vector<std::unique_ptr<RawConnection>> slow;
   std::atomic<bool> is_over = false;
@@ -308,7 +308,7 @@ TEST_F(LocalServerTest, SlowSendersLockNobodyOut) {
   drip.join();
 }
 
-/// A connection is closed for a new one only when 64 newer ones are open.
+/// A connection is closed for a new one only if 64 newer ones are open.
 TEST_F(LocalServerTest, ClosesTheOldestFirst) {
   std::vector<std::unique_ptr<RawConnection>> slow;
   const auto open = [&](int count) {
@@ -326,7 +326,7 @@ TEST_F(LocalServerTest, ClosesTheOldestFirst) {
   EXPECT_EQ(body_of(patient.response()), fixed);
 }
 
-/// Clients that send a body before they read get their response all the same.
+/// Clients that send a body before they read still get their response.
 TEST_F(LocalServerTest, LetsClientsFinishABodyThatItDiscards) {
   const RawConnection connection(port_);
   connection.send(request("POST /fixed", "Content-Length: 300000\r\n"));
@@ -337,7 +337,7 @@ TEST_F(LocalServerTest, LetsClientsFinishABodyThatItDiscards) {
   EXPECT_EQ(status_of(connection.response()), 405);
 }
 
-/// Clients that ask for much and read nothing hold up neither others nor the end of the server.
+/// Clients that request much and read nothing delay neither other clients nor the end of the server.
 TEST_F(LocalServerTest, SlowReadersLockNobodyOut) {
   std::vector<std::unique_ptr<RawConnection>> slow;
   for (int k = 0; k < 100; ++k) {
@@ -348,7 +348,7 @@ TEST_F(LocalServerTest, SlowReadersLockNobodyOut) {
   expect_quick_stop();
 }
 
-/// Content that was made for readers who do not read it is given up when there is more than 64 MB of it.
+/// Content for clients that do not read it is dropped if there is more than 64 MB of it.
 TEST_F(LocalServerTest, BoundsWhatItKeepsForSlowReaders) {
   std::vector<std::unique_ptr<RawConnection>> slow;
   for (int k = 0; k < 10; ++k) {
@@ -370,7 +370,7 @@ TEST_F(LocalServerTest, HandsOverMuchToManyAtOnce) {
   EXPECT_EQ(right, 6);
 }
 
-/// Slow clients are closed after five seconds, whether others need their place or not.
+/// Slow clients are closed after five seconds, even if their place is not needed.
 TEST_F(LocalServerTest, ClosesSlowSenders) {
   const auto start = Clock::now();
   const RawConnection slow(port_, 20);

@@ -1,4 +1,4 @@
-// A TCP connection that sends any bytes, which no HTTP client would.
+// A TCP connection that sends any bytes, including ones that no HTTP client would.
 #pragma once
 
 #include <arpa/inet.h>
@@ -15,11 +15,11 @@
 
 namespace kinesphere::program {
 
-/// A connection to a port of 127.0.0.1. Closing it resets it, so that it leaves no TIME_WAIT behind and
-/// fuzzers do not run out of ports.
+/// A connection to a port of 127.0.0.1. Closing it resets it, so that no TIME_WAIT remains and fuzzers do not
+/// run out of ports.
 class RawConnection {
  public:
-  /// `patience` is in seconds; each send and each read fails after it.
+  /// `patience` is the timeout of each send and each read, in seconds.
   explicit RawConnection(int port, int patience = 10)
       : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
     const timeval limit{.tv_sec = patience, .tv_usec = 0};
@@ -33,7 +33,7 @@ class RawConnection {
     address.sin_family = AF_INET;
     address.sin_port = htons(static_cast<std::uint16_t>(port));
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    // A signal interrupts it (libFuzzer's alarm, for one); another call then waits for the same connection.
+    // A signal such as libFuzzer's alarm interrupts the call; another call then waits for this connection.
     int result;
     do {
       result = ::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address);
@@ -45,7 +45,7 @@ class RawConnection {
   RawConnection& operator=(const RawConnection&) = delete;
 
   bool is_open() const { return is_open_; }
-  /// Returns how many of the bytes went out before the server closed the connection, or patience ran out.
+  /// Returns how many of the bytes went out before the server closed the connection, or the timeout.
   std::size_t send(std::string_view bytes) const {
     std::size_t sent = 0;
     while (sent < bytes.size()) {
@@ -56,7 +56,7 @@ class RawConnection {
     }
     return sent;
   }
-  /// The server reads an end of the stream; its response can still be read.
+  /// Ends the stream to the server; its response can still be read.
   void end() const { ::shutdown(socket_, SHUT_WR); }
   /// Reads until the server closes the connection.
   std::string response() const {
@@ -76,13 +76,13 @@ class RawConnection {
   bool is_open_ = false;
 };
 
-/// The body of a response, "" if it has none.
+/// Returns the body of a response, "" if it has none.
 inline std::string body_of(const std::string& response) {
   const std::size_t end = response.find("\r\n\r\n");
   return end == std::string::npos ? "" : response.substr(end + 4);
 }
 
-/// The status of a response, 0 if it is none.
+/// Returns the status of a response, 0 if it is none.
 inline int status_of(const std::string& response) {
   return response.starts_with("HTTP/1.1 ") && response.size() > 12 ? std::atoi(response.c_str() + 9) : 0;
 }

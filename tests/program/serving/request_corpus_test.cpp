@@ -1,4 +1,4 @@
-// The requests that fuzz_http has found to reach different code, replayed against a real server.
+// Replays the requests by which fuzz_http has reached different code, against a real server.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -42,7 +42,7 @@ TEST(UtmZone, IsANumberAndALetter) {
   }
 }
 
-/// Whether the program can project; all that follows needs it.
+/// True if the program can project; all tests below need it.
 bool can_project() {
   const Vec3 here{};
   try {

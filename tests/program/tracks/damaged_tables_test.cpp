@@ -1,4 +1,4 @@
-// Damaged files: an answer or an error that names the file, never anything else.
+// Damaged files: a result or an error that names the file, never anything else.
 #include <gtest/gtest.h>
 
 #include "kinesphere/random.hpp"
@@ -17,7 +17,7 @@ constexpr std::string_view healthy[] = {
     "# framerate: 25 fps\n# id frame x/m y/m z/m\n1\t0\t2\t3\t1.76\n1\t5\t4\t6\t1.76\n",
     "0 7 1 0 2 0 0 0\n10 7 1 0 2 0 0 0\n20 7 1 0 2 0 0 0\n"};
 
-/// Bytes that mean something to a table are drawn often.
+/// Bytes with a meaning in tables are drawn often.
 std::string damaged(std::string_view text, Random& random) {
   constexpr std::string_view bytes = "\"\"\"\r\n,;\t #-+.:0123456789eETZnaN/()[]_\0\xFF";
   const auto below = [&](std::size_t count) {

@@ -1,4 +1,4 @@
-// The public recordings, told in all the shapes that people have their data in: the approaches stay the same.
+// The public recordings, converted to all usual forms of data: the approaches stay equal.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ constexpr Source sources[] = {
     {"mosquitoes", "mosquito3d/anopheles_swarm_splined.csv.gz", "", 0.03},
 };
 
-/// A sample as the original file has it.
+/// A sample in the original file's form.
 struct Row {
   std::string id;
   std::int64_t milliseconds;
@@ -52,7 +52,7 @@ struct Original {
   bool has_z() const { return !recording.is_plane; }
 };
 
-/// A shape: the files that tell the rows, and how they are to be read.
+/// A converted recording: its files, and the options to read them.
 struct Told {
   std::vector<NamedText> files;
   TrackOptions options;
@@ -64,7 +64,7 @@ std::string header_of(const Original& original, std::string header) {
   return header + (original.has_z() ? ",z\n" : "\n");
 }
 
-/// `time_text` and positions with as few digits as bring back the same bits.
+/// `time_text` and positions have the fewest digits that read back as the same double.
 std::string table(const Original& original, const std::string& header,
                   const std::function<std::string(const Row&)>& time_text) {
   std::string text = header_of(original, header);
@@ -93,7 +93,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 Told plain(Original& original) { return {{{"t.csv", plain_table(original)}}, {}}; }
 
-/// Every field quoted, a name with quotes, separators and line ends beside it, CRLF, a byte order mark.
+/// Every field quoted, an extra name with quotes, separators and line ends, CRLF, a byte order mark.
 Told quoted(Original& original) {
   std::string text = "\xEF\xBB\xBF\"Name; \"\"of it\"\"\";\"TRACK_ID\";\"Time\";\"X\";\"Y\"";
   text += original.has_z() ? ";\"Z\"\r\n" : "\r\n";
@@ -105,7 +105,7 @@ Told quoted(Original& original) {
   return {{{"t.csv", text}}, {}};
 }
 
-/// From the last minute before a leap day on, in two zones.
+/// Dates from the last minute before a leap day on, in two zones.
 Told dates(Original& original) {
   const auto date = [](const Row& row) {
     const std::int64_t seconds = row.milliseconds / 1000 + 23 * 3600 + 59 * 60;
@@ -134,7 +134,7 @@ Told unix_milliseconds(Original& original) {
   return told;
 }
 
-/// 9 decimals: rounded by up to 1e-9, two doubles there being as far apart.
+/// 9 decimals: rounding errors up to 1e-9, the distance of two doubles there.
 Told utm(Original& original) {
   std::string text = header_of(original, "ped,time,Easting,Northing");
   for (const Row& row : original.rows) {
@@ -196,10 +196,10 @@ Told duplicates(Original& original, DuplicatePolicy policy) {
 }
 
 Told first_duplicates(Original& original) { return duplicates(original, DuplicatePolicy::first); }
-/// Of equal positions: two of them have that very mean, three up to a rounding.
+/// Equal positions: the mean of two of them is exact, of three up to rounding.
 Told mean_duplicates(Original& original) { return duplicates(original, DuplicatePolicy::mean); }
 
-/// Rows without a position between those that have one, and rows without a time.
+/// Rows without a position between rows with one, and rows without a time.
 Told missing(Original& original) {
   std::string text = header_of(original, "id,time,x,y");
   const char* const ways[] = {"NaN,1", "1,", "null,NA"};
@@ -226,7 +226,7 @@ Told shuffled(Original& original) {
   return plain(original);
 }
 
-/// Half of the rows in one file, the others by turns in two.
+/// Half of the rows are in one file, the others alternate between two.
 Told several_files(Original& original) {
   const std::string header = header_of(original, "id,time,x,y");
   std::string texts[3] = {header, header, header};
@@ -258,13 +258,13 @@ constexpr Shape shapes[] = {
     {"several_files", several_files},
 };
 
-/// The body of the original that a track of the told recording is, and the time that has to be added.
+/// The body of the original for a track of the converted recording, and the shift of time.
 struct Counterpart {
   std::uint32_t body;
   double shift;
 };
 
-/// By id and place in time among the tracks of the id.
+/// Finds bodies by id and order in time among the tracks of the id.
 std::vector<Counterpart> counterparts(const Recording& told, const Recording& original) {
   std::map<std::string, std::vector<std::uint32_t>> bodies;
   for (std::uint32_t body = 0; body < original.tracks.size(); ++body)
@@ -307,9 +307,9 @@ TEST_P(Shapes, HaveTheSameApproaches) {
   ASSERT_EQ(read.tracks.size(), original.recording.tracks.size());
   const std::vector<Counterpart> same = counterparts(read, original.recording);
 
-  // The truth of the original answers for what was found in the other shape. Its positions differ by
-  // roundings of 1e-9 at most, and a spline passes on no more than twice that: far less than a tolerance of
-  // a millionth of the distance, so that twice the tolerance leaves room for both.
+  // The truth of the original checks the approaches in the converted recording. Its positions differ by
+  // rounding errors of 1e-9 at most, and a spline passes on no more than twice that: far less than a
+  // tolerance of a millionth of the distance, so that twice the tolerance covers it.
   const ApproachQuestion question{.distance = source.distance};
   Scene truth = scene_of(original.recording, question).scene;
   const std::vector<Event> expected = events_of(truth);
@@ -322,7 +322,7 @@ TEST_P(Shapes, HaveTheSameApproaches) {
     event.time += same[event.first.index].shift;
     for (BodyId* body : {&event.first, &event.second}) {
       body->index = same[body->index].body;
-      // The shift may have been rounded; the first and last times of a track are meant exactly.
+      // The shift may have been rounded; the first and last times of a track are exact.
       for (double time : {truth.bodies[body->index].appears, truth.bodies[body->index].vanishes})
         if (std::abs(event.time - time) < 1e-12 * (1 + time)) event.time = time;
     }

@@ -1,4 +1,4 @@
-// What the engine finds in a scene.
+// The engine's events of a scene.
 #pragma once
 
 #include <vector>

@@ -58,7 +58,8 @@ TEST(TextTable, ReadsQuotedFields) {
   EXPECT_EQ(table.rows[1].fields, (Fields{"3", "4", "two\r\nlines, and a #\n# more"}));
   EXPECT_EQ(table.rows[2].fields, (Fields{"5", "6", ""}));
   EXPECT_EQ(table.rows[2].line, 6);
-  // A separator in quotes does not tell how fields are separated, nor does one in the quoted first line.
+  // A separator in quotes does not count in the search for the separator, nor does one in the quoted first
+  // line.
   EXPECT_EQ(parse("\"a;b\nc\",2\n").rows[0].fields, (Fields{"a;b\nc", "2"}));
 }
 

@@ -1,4 +1,4 @@
-// Times of files: dates and numbers, exact however far from zero, and told as the file tells them.
+// Times of files: dates and numbers, exact at any distance from zero, and written in the file's form.
 #include <gtest/gtest.h>
 
 #include "tracks/time_scale.hpp"

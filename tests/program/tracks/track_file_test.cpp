@@ -1,4 +1,4 @@
-// Recorded tracks: the formats, the columns, the gaps, and every way to get a file wrong.
+// Recorded tracks: formats, columns, gaps, and every kind of error in a file.
 #include "tracks/track_file.hpp"
 
 #include <zlib.h>
@@ -298,9 +298,9 @@ TEST(TrackFile, LeavesOutWhatIsTooFast) {
   // The first sample may be the wrong one.
   EXPECT_EQ(parse("id,t,x,y\na,0,900,0\na,1,1,0\na,2,2,0\na,3,3,0\n", options).too_fast.first_places,
             (std::vector<std::string>{"line 2"}));
-  // A jump that stays ends one track and begins another.
+  // A lasting jump ends one track and begins another.
   EXPECT_EQ(parse("id,t,x,y\na,0,0,0\na,1,1,0\na,2,900,0\na,3,901,0\n", options).tracks.size(), 2u);
-  // Two ships under one id: the one of more reports stays.
+  // Two ships under one id: the one with more reports is kept.
   const Recording two =
       parse("id,t,x,y\na,0,0,0\na,0.5,900,0\na,1,1,0\na,1.5,901,0\na,2,2,0\na,2.5,902,0\na,3,3,0\n", options);
   ASSERT_EQ(two.tracks.size(), 1u);

@@ -27,7 +27,7 @@ TEST(TrackScene, LinesGoStraightFromSampleToSample) {
   EXPECT_EQ(motion.definition(0, 1.5).acceleration_limit, 0.0);
   ASSERT_EQ(motion.turns().size(), 2u);
   EXPECT_EQ(motion.turns()[0].velocity, (Vec3{0, 1, 0}));
-  // A turn is none before it has been told, at its very time.
+  // A turn counts from its report on, which has its very time.
   LinearTracks told = motion;
   EXPECT_EQ(told.state(0, 1.0).velocity, (Vec3{1, 0, 0}));
   EXPECT_TRUE(told.set_velocity(0, 1.0, {0, 1, 0}));
@@ -46,7 +46,7 @@ TEST(TrackScene, LinesGoStraightFromSampleToSample) {
 }
 
 TEST(TrackScene, LinesAndCurvesAgreeWithTheOracle) {
-  // Walks of sudden turns in a small room.
+  // Walks with sudden turns in a small space.
   constexpr std::uint64_t seed = 2005;
   Random random(seed);
   std::string text = "id,t,x,y\n";
@@ -71,7 +71,7 @@ TEST(TrackScene, LinesAndCurvesAgreeWithTheOracle) {
 }
 
 TEST(TrackScene, WarnsOfSplinesThatSwingOutFar) {
-  // Two ships under one id, and one that only turns sharply.
+  // Two ships under one id, and one with a sharp turn.
   const Recording recording = parse(
       "id,t,x,y\na,0,0,0\na,100,0,10\na,101,9000,0\na,201,9000,10\na,202,0,30\na,302,0,40\n"
       "b,0,0,0\nb,100,100,0\nb,200,100,100\nb,300,0,100\n",

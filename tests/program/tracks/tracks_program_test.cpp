@@ -1,4 +1,4 @@
-// `kinesphere tracks` as people call it: far origins, pipes, warnings, questions.
+// `kinesphere tracks` in use: far origins, pipes, warnings, questions.
 #include "program/support.hpp"
 
 namespace kinesphere::program::tracks_program_test {
@@ -6,11 +6,11 @@ namespace {
 
 class TracksProgram : public ProgramTest {};
 
-/// Two that meet head-on: closer than 2 from 4 s to 6 s.
+/// Two bodies that meet head-on: closer than 2 from 4 s to 6 s.
 constexpr std::string_view meeting =
     "id,t,x,y\nann,0,0,0\nann,5,5,0\nann,10,10,0\nbob,0,10,0\nbob,5,5,0\nbob,10,0,0\n";
 
-/// The same in 2023, in UTM.
+/// The meeting in 2023, in UTM.
 constexpr std::string_view far_meeting =
     "MMSI,Timestamp,Easting,Northing\n"
     "ann,1700000000.125,500000,5400000\nann,1700000005.125,500005,5400000\nann,1700000010.125,500010,"

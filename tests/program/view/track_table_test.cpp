@@ -1,5 +1,5 @@
-// Recordings of real motion as JSON for the viewer's page: every number to the last bit, and nothing too
-// long.
+// Recordings of real motion as JSON for the viewer's page: every number to the last bit, and a limited
+// length.
 #include "view/track_table.hpp"
 
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace kinesphere::program::track_table_test {
 namespace {
 
-/// A mantissa of random bits, and sizes from 2^-300 to 2^300.
+/// Returns a number with a random mantissa, of a size from 2^-300 to 2^300.
 double any_number(Random& random) {
   const double size = std::ldexp(1.0, static_cast<int>(random.uniform(-300.0, 300.0)));
   return random.uniform(-1.0, 1.0) * size;

@@ -1,4 +1,4 @@
-// Streams of reports of tracks that come near each other again and again.
+// Streams of reports of tracks that approach each other again and again.
 #pragma once
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ inline const std::string crossing_promises =
 inline const std::string crossing_errors = " --position-error 0.3 --velocity-error 0.2 ";
 
 constexpr int crossing_tracks = 60;
-/// On circles that cross each other.
+/// The tracks move on circles that cross each other.
 inline State state_at(int track, double time) {
   const double angle = 0.25 * time + 1.7 * track, radius = 20.0 + track % 9, turn = 0.25 * radius;
   return {{radius * std::cos(angle) + 3.0 * (track % 13), radius * std::sin(angle), 0.2 * (track % 5)},
@@ -44,7 +44,7 @@ inline std::string csv_line(int track, double stamp, const State& state, bool is
                      position.y, position.z, velocity.x, velocity.y, velocity.z);
 }
 
-/// Places and velocities in messages of their own.
+/// Positions and velocities are in separate messages.
 inline std::string sbs_lines(int track, double stamp, const State& state, bool) {
   const auto milliseconds = static_cast<int>(std::lround(1000.0 * stamp));
   const std::string time = fmt::format("2026/03/01,12:{:02}:{:02}.{:03}", milliseconds / 60000,
@@ -57,8 +57,8 @@ inline std::string sbs_lines(int track, double stamp, const State& state, bool) 
                      8.0 + state.position.x / 1000.0);
 }
 
-/// Late reports, wrong ones, wrong clocks and damaged lines among them; some tracks fall silent and come
-/// back.
+/// Returns reports, among them late ones, wrong ones, wrong clocks and damaged lines; some tracks become
+/// stale and resume.
 inline std::string stream_of(LineOf line_of, int reports) {
   Random random(5);
   std::string text;
@@ -74,14 +74,14 @@ inline std::string stream_of(LineOf line_of, int reports) {
   return text;
 }
 
-/// The share of the pairs, from 0, that an alert belongs to.
+/// Returns the share, from 0, of the pair of an alert.
 inline std::uint64_t share_of_alert(const std::string& line, std::uint64_t of) {
   const auto alert = nlohmann::json::parse(line);
   const auto id = [&](const char* key) { return track_id_of(alert[key].get<std::string>()); };
   return (alert.contains("track") ? id("track") : std::min(id("first"), id("second"))) % of;
 }
 
-/// Alerts, in their order, by share.
+/// Alerts by share, in their order.
 using AlertsByShare = std::map<std::uint64_t, std::vector<std::string>>;
 
 inline void add_by_share(const std::string& alerts, std::uint64_t of, AlertsByShare& shares) {

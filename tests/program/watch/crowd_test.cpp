@@ -1,4 +1,4 @@
-// Tracks at one spot, ids without end: what a watch does when more comes in than it may take.
+// Tracks at one spot, ids without end: a watch with more input than its limits allow.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -35,7 +35,7 @@ class WatchedCrowd : public ProgramTest {
 TEST_F(WatchedCrowd, IdsWithoutEndAreNotTakenBeyondALimit) {
   std::string text;
   for (int k = 0; k < 500; ++k) text += report_line("spoof" + std::to_string(k), 0.01 * k, 1000.0 * k);
-  // Those that are watched already stay.
+  // Tracks that are watched already stay.
   text += report_line("spoof7", 5.5, 7000.0);
   const ProgramRun result = watch(text, "--most-tracks 100");
   EXPECT_EQ(summary_["tracks"], 100);

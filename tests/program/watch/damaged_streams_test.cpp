@@ -1,5 +1,5 @@
-// Streams with bytes that were lost, changed and swapped: what is no report is counted, nothing breaks, and
-// the lines that are whole are read.
+// Streams with lost, changed and swapped bytes: bad records are counted, nothing breaks, and complete lines
+// are read.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -64,7 +64,7 @@ std::string damaged(std::string text, Random& random) {
   return text;
 }
 
-/// Counts the reports that a watch is given.
+/// Counts the reports that it receives.
 class CountingSink final : public ReportSink {
  public:
   explicit CountingSink(Watcher& watcher) : watcher_(watcher) {}
@@ -131,7 +131,7 @@ TEST_P(DamagedStream, IsReadAsFarAsItGoes) {
   EXPECT_LE(watcher.counts().first_malformed.size(), 10u);
   for (const MalformedLine& line : watcher.counts().first_malformed)
     EXPECT_EQ(line.reason.find('\n'), std::string::npos) << line.reason;
-  // All but those that continue a damaged line without an end.
+  // All lines except those that continue a damaged line without an end.
   EXPECT_GT(read_whole, 0.75 * whole);
   EXPECT_GT(watcher.monitor_counters().reports, 0u);
 }

@@ -1,4 +1,4 @@
-// What each format says, of small samples as their sources write them, and which lines are refused.
+// The reports of each format, from small samples as their sources write them, and the refused lines.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace kinesphere::program::formats_test {
 namespace {
 
-/// Keeps what it takes.
+/// Stores everything that it receives.
 class Kept final : public ReportSink {
  public:
   struct Report {
@@ -35,7 +35,7 @@ class Kept final : public ReportSink {
   std::shared_ptr<ReportFormat> format;  ///< has the texts of declarations
 };
 
-/// All records of a text.
+/// Reads all records of a text.
 Kept read_all(StreamFormat name, std::string_view text, const FormatChoices& choices = {}) {
   Kept kept;
   kept.format = make_format(name, choices);
@@ -228,7 +228,7 @@ TEST(AisFormat, ReadsMarinecadastre) {
   ASSERT_EQ(kept.refused.size(), 2u);
   EXPECT_EQ(kept.refused[0], "5: expected a time (column 2), but got '2023-02-30T00:00:03'");
   EXPECT_EQ(kept.refused[1], "6: expected 6 columns or more, but got 3");
-  // As it is since 2025.
+  // The form of the file since 2025.
   const Kept later = read_all(StreamFormat::ais,
                               "mmsi,base_date_time,longitude,latitude,sog,cog,heading\n"
                               "367390380,2025-01-01 00:00:01,-90.01,29.94672,10.0,90.0,511\n");

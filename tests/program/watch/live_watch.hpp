@@ -1,4 +1,4 @@
-// `kinesphere watch` while it reads what the test writes.
+// `kinesphere watch` that reads while the test writes.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 
 namespace kinesphere::program {
 
-/// `kinesphere watch` while it reads what the test writes.
+/// `kinesphere watch` that reads while the test writes.
 class LiveWatch {
  public:
   LiveWatch(const std::string& arguments, const std::string& err_file) : err_(err_file) {
@@ -60,7 +60,7 @@ class LiveWatch {
     in_ = -1;
   }
   void signal(int number) const { ::kill(process_, number); }
-  /// The exit code.
+  /// Waits for the end; returns the exit code.
   int wait() {
     int status = 0;
     ::waitpid(process_, &status, 0);
@@ -68,7 +68,7 @@ class LiveWatch {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
   std::string err() const { return read_text(err_); }
-  /// On which it serves, once it has said so.
+  /// Waits for the message with the port, and returns it.
   int port() const {
     const std::string before = "http://127.0.0.1:";
     for (int k = 0; k < 500; ++k) {

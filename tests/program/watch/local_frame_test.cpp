@@ -1,4 +1,4 @@
-// The map errs no more than it says: geodesics of the ellipsoid are the truth.
+// The map's errors are within its bounds: geodesics of the ellipsoid are the truth.
 #include "watch/local_frame.hpp"
 
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ class LocalFrameOf : public testing::TestWithParam<Map> {
   LocalFrame frame() const {
     return {GetParam().origin.latitude, GetParam().origin.longitude, GetParam().radius, 0.0};
   }
-  /// Often near the rim, where the map is worst.
+  /// Often near the rim, with the largest errors of the map.
   Going somewhere(Random& random, double part = 1.0) const {
     Going way = GetParam().origin;
     way.azimuth = random.uniform(-180.0, 180.0);
@@ -72,7 +72,7 @@ TEST_P(LocalFrameOf, MakesDistancesNeverShorterAndAtMostSoMuchLonger) {
   double longest = 0.0;
   for (int k = 0; k < 4000; ++k) {
     const Going a = somewhere(random, 0.999);
-    // Near ones, and any.
+    // Near pairs, and any.
     Going b = k % 2 == 0 ? somewhere(random, 0.999)
                          : gone(a, 0.0009 * GetParam().radius * random.uniform(0.01, 1.0));
     const double truth = distance_between(a, b);
@@ -114,8 +114,7 @@ TEST_P(LocalFrameOf, TellsVelocitiesAsTheyAre) {
   }
 }
 
-/// Straight on, on the earth, is without acceleration: on the map it turns by what the class gets in
-/// addition.
+/// A straight way on the earth has no acceleration; on the map it turns by what the class gets in addition.
 TEST_P(LocalFrameOf, MakesRoomForTheCurvatureOfStraightWays) {
   const LocalFrame frame = this->frame();
   const double speed = 400.0, step = 10.0;
@@ -183,7 +182,7 @@ TEST_P(LocalFrameOf, KnowsHowFarVelocitiesTurnOnTheWay) {
 
 TEST(LocalFrame, KnowsThatThereIsRoomAtTheTop) {
   const LocalFrame frame(50.0, 8.0, 500e3, 20e3);
-  // 12 km above, the same angle is 0.19 % more way.
+  // At 12 km of height, the angle is 0.19 % more way.
   const auto low = frame.place({9.0, 50.0, 0.0}, true, {250.0, 0.0, 0.0});
   const auto high = frame.place({9.0, 50.0, 12e3}, true, {250.0, 0.0, 0.0});
   const auto unknown = frame.place({9.0, 50.0, 0.0}, false, {250.0, 0.0, 0.0});

@@ -20,7 +20,7 @@ namespace kinesphere::program {
 
 class NatsBroker {
  public:
-  /// In a folder of its own, on a port that is free.
+  /// Starts a server in a folder of its own, on a free port.
   explicit NatsBroker(std::string folder) : folder_(std::move(folder)) {
     std::filesystem::create_directories(folder_);
     for (int k = 0; k < 20 && !is_running(); ++k) {
@@ -48,7 +48,7 @@ class NatsBroker {
       ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
       ::_exit(127);
     }
-    // Until it answers, or has given up because the port is taken.
+    // Waits until the server answers, or has given up because the port is taken.
     for (int k = 0; k < 200; ++k) {
       std::this_thread::sleep_for(std::chrono::milliseconds(25));
       natsConnection* connection = nullptr;
@@ -69,7 +69,7 @@ class NatsBroker {
     process_ = 0;
   }
 
-  /// A stream of JetStream that holds these subjects.
+  /// Adds a stream of JetStream that holds these subjects.
   void add_stream(const std::string& name, const std::string& subjects) const {
     const NatsConnection connection = connect();
     jsStreamConfig config;
@@ -86,7 +86,7 @@ class NatsBroker {
     const NatsStreamInfo info = connection.stream_info(stream, status);
     return info ? info->State.Msgs : 0;
   }
-  /// What a stream has under a subject, in order.
+  /// Returns the messages of a stream under a subject, in order.
   std::vector<std::string> messages(const std::string& stream, const std::string& subject) const {
     const NatsConnection connection = connect();
     jsSubOptions options;
@@ -112,7 +112,7 @@ class NatsBroker {
   pid_t process_ = 0;
 };
 
-/// Sends until the server has said that it keeps it: twice, perhaps, when it was stopped in between.
+/// Sends until the server confirms that it keeps the message: possibly twice, if it was stopped in between.
 inline void publish_surely(const NatsConnection& connection, const std::string& subject,
                            const std::string& text, const std::string& message_id) {
   jsPubOptions options;

@@ -37,7 +37,7 @@ class WatchNats : public ProgramTest {
     ASSERT_EQ(expected_.size(), shares);
   }
 
-  /// As messages of several lines, on several subjects.
+  /// Publishes messages of several lines, on several subjects.
   void publish(double from = 0.0, double until = 1.0,
                std::chrono::milliseconds between = std::chrono::milliseconds(0)) {
     const NatsConnection connection = broker_->connect();
@@ -63,7 +63,7 @@ class WatchNats : public ProgramTest {
         broker_->url("sky.*") + options + more + " --share " + share + " --alerts " + broker_->url("alerts"),
         path("err" + std::to_string(++watches_)));
   }
-  /// Waits until so many alerts have been told.
+  /// Waits until there are `count` alerts.
   void wait_for_alerts(std::size_t count) {
     for (int k = 0; k < 1200; ++k) {
       if (broker_->messages_in("ALERTS") >= count) return;
@@ -71,17 +71,17 @@ class WatchNats : public ProgramTest {
     }
     ADD_FAILURE() << "only " << broker_->messages_in("ALERTS") << " of " << count;
   }
-  /// Each was told once, in the order in which one watch that reads a file tells them.
+  /// Expects each alert once, in the order in which one watch that reads a file emits them.
   void expect_all_alerts() {
     wait_for_alerts(count_);
-    // What would be too much may still come.
+    // Superfluous alerts may still arrive.
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     EXPECT_EQ(broker_->messages_in("ALERTS"), count_);
     for (const auto& [share, lines] : expected_)
       EXPECT_TRUE(broker_->messages("ALERTS", "alerts." + std::to_string(share + 1)) == lines)
           << "share " << share;
   }
-  /// Asked to stop, all of these do so, and nobody has complained.
+  /// Stops all of these; expects that they end without complaints.
   template <class Watches>
   void expect_to_end_well(const Watches& all) {
     for (const auto& live : all) {
@@ -100,7 +100,7 @@ class WatchNats : public ProgramTest {
 
 TEST_F(WatchNats, OneTwoAndFourTellTheSame) {
   publish();
-  // Four share the pairs, and all of them are watched by another two as well.
+  // Four watches share the pairs, and another two watch all of them as well.
   std::vector<std::unique_ptr<LiveWatch>> all;
   for (const char* share : {"1-2/8", "3-4/8", "5-6/8", "7-8/8", "1-4/8", "5-8/8", "1-8/8"})
     all.push_back(watch(share));
@@ -142,7 +142,7 @@ TEST_F(WatchNats, TheServerMayBeStartedAgain) {
   expect_to_end_well(std::array{first.get(), second.get()});
 }
 
-/// All of it at once: four share the pairs, one watches them all as well, the server and one of them are
+/// Everything at once: four share the pairs, one watches them all as well, the server and one of them are
 /// killed, and another takes over from its snapshot, all while reports come in.
 TEST_F(WatchNats, WhileReportsComeInAllMayBeKilled) {
   const std::string kept = " --snapshot '" + path("state") + "' --snapshot-every 20ms";
@@ -185,7 +185,7 @@ TEST_F(WatchNats, TimePassesForAllByTheClockOfTheServer) {
         fmt::format(R"({{"id": "t{}", "stamp": {:.3f}, "position": [{}, 0, 0], "velocity": [0, 0, 0]}})", k,
                     now, 1000 * k),
         "t" + std::to_string(k));
-  // After three seconds all are silent.
+  // After three seconds all are stale.
   wait_for_alerts(20);
   std::size_t silent = 0;
   for (const std::string& line : broker_->messages("ALERTS", "alerts.*"))
@@ -209,14 +209,14 @@ TEST_F(WatchNats, OfAFileThatIsReadAgainAndAgainEachIsToldOnce) {
   }
   EXPECT_GE(killed, 3) << "the stream was too short";
   expect_all_alerts();
-  // Nor does anything come twice of one that knows nothing, and reads in other pieces.
+  // A watch without a snapshot that reads in other pieces repeats no alert either.
   EXPECT_EQ(run("watch " + path("s.jsonl") + options + " --share 1-8/8 --alerts " + broker_->url("alerts"))
                 .exit_code,
             0);
   expect_all_alerts();
 }
 
-/// What was told of one stream says nothing of another.
+/// Alerts of one stream are independent of those of another.
 TEST_F(WatchNats, OtherStreamsHaveOtherAlerts) {
   const std::string told = options + " --share 1-8/8 --alerts " + broker_->url("alerts");
   const auto tell = [&](const std::string& arguments, const std::string& before = "") {
@@ -230,7 +230,7 @@ TEST_F(WatchNats, OtherStreamsHaveOtherAlerts) {
   std::string other = text_;
   other.erase(0, other.find('\n') + 1);
   EXPECT_GT(tell(write("other.jsonl", other)), count_ / 2);
-  // Nor of the same that is judged otherwise.
+  // A watch of the stream with other settings repeats alerts, too.
   EXPECT_GT(tell(path("s.jsonl") + " --separation sphere:20"), count_ / 2);
 }
 
@@ -246,7 +246,7 @@ TEST_F(WatchNats, AStreamThatIsMadeAnewEndsIt) {
   EXPECT_NE(read_text(path("err1")).find("made anew"), std::string::npos) << read_text(path("err1"));
 }
 
-/// The snapshot of one knows no place in the other.
+/// The snapshot of one has no place in the other.
 TEST_F(WatchNats, ASubjectAndAStreamOfTheSameNameAreTwo) {
   const std::string kept = " --snapshot '" + path("state") + "' --summary '" + path("sum") + "' ";
   const std::string arguments = "'" + broker_->url("plain.x") + "'" + options + kept;
@@ -333,7 +333,7 @@ TEST_F(WatchNats, ReadsASubjectWithoutAStream) {
   LiveWatch live("'" + broker_->url("plain.>") + "'" + loud, path("err"));
   const NatsConnection connection = broker_->connect();
   natsConnection_FlushTimeout(connection.get(), 1000);
-  // It may not listen yet.
+  // The watch may not listen yet.
   for (int k = 0; k < 1000 && live.err().find("no stream") == std::string::npos; ++k)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
@@ -351,9 +351,9 @@ TEST_F(WatchNats, RefusesWhatCannotBe) {
     expect_wrong_input("watch " + std::string(wrong) + options, {"FILE", "nats://HOST:PORT/SUBJECT"});
   expect_wrong_input("watch " + path("s.jsonl") + options + " --alerts " + "'" + broker_->url("a.*") + "'",
                      {"--alerts", "without wildcards"});
-  // What a stream holds some of is not all there.
+  // A stream that holds only some of the subjects is refused.
   expect_wrong_input("watch '" + broker_->url("sky.>") + "'" + options, {"all of 'sky.>'", "sky.*"});
-  // A stream that was made anew is not the one that was read.
+  // A recreated stream is not the one that was read.
   publish(0.0, 0.2);
   const std::string kept = " --snapshot '" + path("state") + "' --snapshot-every 20ms";
   auto live = watch("1-8/8", kept);

@@ -1,4 +1,4 @@
-// Records are the same however the text comes in, and one that is cut off takes no other along.
+// Records do not depend on the pieces of the text, and a truncated one does not swallow the next.
 #include "watch/record_cutter.hpp"
 
 #include <gtest/gtest.h>

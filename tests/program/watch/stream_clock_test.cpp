@@ -1,4 +1,4 @@
-// Whose time is believed.
+// Which times the clock accepts.
 #include "watch/stream_clock.hpp"
 
 #include <gtest/gtest.h>

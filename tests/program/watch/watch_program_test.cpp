@@ -1,4 +1,4 @@
-// `kinesphere watch` as it is used: alerts, their times, what is refused, how it ends, what it serves.
+// `kinesphere watch` in use: alerts, their times, refused input, its end, the served state.
 #include <csignal>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -29,7 +29,7 @@ std::vector<Json> json_lines(const std::string& text) {
   return lines;
 }
 
-/// Two that fly towards each other along x, a report each second, and meet at the time 10.
+/// Two tracks that fly towards each other along x, a report each second, and meet at time 10.
 std::string head_on(double seconds = 20) {
   std::ostringstream text;
   for (int t = 0; t <= seconds; ++t) {
@@ -47,7 +47,7 @@ const std::string promises = " --acceleration 1 --position-error 0.5 --velocity-
 
 class WatchProgram : public ProgramTest {
  protected:
-  /// The alerts of a run that must succeed.
+  /// Returns the alerts of a run that must succeed.
   std::vector<Json> alerts(const std::string& arguments) {
     const ProgramRun result = run("watch " + arguments + " --summary '" + path("summary.json") + "'");
     EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -112,7 +112,7 @@ TEST_F(WatchProgram, TellsOfEachSeparation) {
             4);
 }
 
-/// The same reports to a monitor by itself.
+/// Compares with a monitor that gets these reports directly.
 TEST_F(WatchProgram, TellsWhatAMonitorTells) {
   std::ostringstream text;
   Random random(7);
@@ -128,7 +128,7 @@ TEST_F(WatchProgram, TellsWhatAMonitorTells) {
                          .state = {state.position + state.velocity * stamp, state.velocity}};
       report.position_error = 0.25;
       report.velocity_error = 0.125;
-      // Late ones and jumps, too.
+      // Includes late reports and jumps.
       if (k == 3 && t == 9) report.state.position.x += 50.0;
       if (k == 5 && t > 12) continue;
       reports.push_back({k, report});
@@ -179,7 +179,7 @@ TEST_F(WatchProgram, TellsWhatAMonitorTells) {
       each += line["track"].get<std::string>();
     told.push_back(each);
   }
-  // At one instant they come in the order of the tracks' numbers, which are others here.
+  // Alerts of one instant are in the order of the tracks' numbers, which differ here.
   std::sort(expected.begin(), expected.end());
   std::sort(told.begin(), told.end());
   EXPECT_EQ(told, expected);
@@ -249,7 +249,7 @@ TEST_F(WatchProgram, GoesByTimesOfArrival) {
   EXPECT_EQ(summary_["malformed"], 1);
   EXPECT_EQ(summary_["from"], 1);
   EXPECT_EQ(summary_["to"], 7);
-  // By the stamps: the first one is not confirmed either.
+  // With the clock of timestamps the first one is not confirmed either.
   alerts(path("s.jsonl") + " --clock stamps --separation sphere:3 --largest-speed 1 --position-error 1");
   EXPECT_EQ(summary_["reports"], 5);
   EXPECT_EQ(summary_["ahead"], 3);
@@ -351,7 +351,7 @@ TEST_F(WatchProgram, WatchesAircraft) {
             "the 95 % of nac_v; "
             "climb: 2.5 times the 95 % of nac_v");
   EXPECT_EQ(lines[0]["rests_on"]["second"].get<std::string>().substr(0, 13), "position: rc;");
-  // 0.2 degrees at 51.5 north are 13.89 km, and they have come nearer since.
+  // 0.2 degrees at 51.5 north are 13.89 km, and the two have come nearer since.
   EXPECT_LT(lines[0]["distance"][0], 13890.0);
   EXPECT_GT(lines[0]["distance"][1], 13890.0 - 0.7 * 2 * 232);
   EXPECT_EQ(summary_["outside"], 1);
@@ -391,7 +391,7 @@ TEST_F(WatchProgram, TellsAtOnceAndEndsWhenAskedTo) {
 
 TEST_F(WatchProgram, WaitsForNothingThatIsNotNeeded) {
   LiveWatch live("--separation sphere:30" + promises, path("err"));
-  // Times that confirm each other, and then two that meet.
+  // Times that confirm each other, and then two tracks that meet.
   for (const char* id : {"far", "away", "here"})
     live.write(std::string(R"({"id": ")") + id + R"(", "stamp": 1, "position": [)" +
                (*id == 'h'   ? "0"
@@ -436,7 +436,7 @@ TEST_F(WatchProgram, ServesItsState) {
   const int port = live.port();
   httplib::Client client("127.0.0.1", port);
   Json state;
-  // The last report may still be on its way.
+  // The last report may not have been processed yet.
   for (int k = 0; k < 100 && (state.is_null() || state["time"] != 9.5); ++k) {
     const auto answer = client.Get("/state.json");
     ASSERT_TRUE(answer);
@@ -480,7 +480,7 @@ TEST_F(WatchProgram, ServesItsState) {
   EXPECT_EQ(live.wait(), 0);
 }
 
-/// Clients that want the watch no good see no memory of it, and hold up neither others nor its end.
+/// Hostile clients see no memory of the watch, and delay neither other clients nor its end.
 TEST_F(WatchProgram, ServesHostileClientsNothingElse) {
   LiveWatch live("--format jsonl --separation sphere:30 --serve 0" + promises, path("err"));
   const int port = live.port();
@@ -512,7 +512,7 @@ TEST_F(WatchProgram, ServesHostileClientsNothingElse) {
   EXPECT_LT(std::chrono::steady_clock::now() - asked, std::chrono::seconds(2));
 }
 
-/// Clients that ask without a pause do not hold up the stream.
+/// Clients that send requests without a pause do not delay the stream.
 TEST_F(WatchProgram, GoesOnWhileManyAsk) {
   LiveWatch live("--format jsonl --separation sphere:30 --serve 0" + promises, path("err"));
   const int port = live.port();
@@ -585,7 +585,7 @@ TEST_F(WatchProgram, ServesPlacesOnTheEarthAndOnItsMap) {
 
 #endif
 
-/// Sets an environment variable while it lives.
+/// Sets an environment variable until destruction.
 class Environment {
  public:
   Environment(const char* name, const std::string& value) : name_(name) {

@@ -1,5 +1,5 @@
-// A watch that is stopped or killed goes on from its snapshot, and tells everything once; several that share
-// the pairs tell together what one tells.
+// A watch that is stopped or killed continues from its snapshot, and emits every alert once; several watches
+// that share the pairs emit together the alerts of one.
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Long texts, of which a difference is shown by its first line.
+/// Compares long texts; a failure shows the first different line.
 void expect_same_lines(const std::string& text, const std::string& expected) {
   std::istringstream lines(text), expected_lines(expected);
   std::string line, expected_line;
@@ -42,7 +42,7 @@ class WatchRestart : public ProgramTest {
     return json;
   }
   void expect_the_same_when_it_grows(const std::string& text, const std::string& options, int parts);
-  /// Kills it again and again until it has come to the end.
+  /// Kills the watch again and again until it has reached the end.
   void expect_the_same_when_killed(const std::string& stream, const std::string& options, int seed) {
     SCOPED_TRACE(stream + ", seed " + std::to_string(seed));
     const std::string whole = run_whole(stream, options);
@@ -54,7 +54,7 @@ class WatchRestart : public ProgramTest {
                          "' --snapshot-every 3ms --alerts '" + path("parts.jsonl") + "' --summary '" +
                          path("parts.json") + "'",
                      path("err"));
-      // The longer it takes the longer it may live: on a slow machine it comes to the end, too.
+      // The time limit grows with each kill, so that a slow machine reaches the end, too.
       const double longest = 40.0 + 20.0 * killed;
       std::this_thread::sleep_for(std::chrono::milliseconds(static_cast<int>(random.uniform(10.0, longest))));
       live.signal(SIGKILL);
@@ -82,13 +82,13 @@ TEST_F(WatchRestart, KilledAtAnyMomentItTellsEverythingOnce) {
                               " --separation sphere:500m --position-error 10:10 --clock stamps" + timing, 4);
 }
 
-/// The last line is cut off each time but the last.
+/// Appends parts of the text; each time but the last the final line is incomplete.
 void WatchRestart::expect_the_same_when_it_grows(const std::string& text, const std::string& options,
                                                  int parts) {
   const std::string whole = run_whole(write("s", text), options);
   const std::string kept_in =
       " --quiet --snapshot '" + path("state") + "' --alerts '" + path("parts.jsonl") + "'";
-  // Nothing new the last time: nothing is told twice.
+  // The last time has no new input: no alert is repeated.
   for (int part = 1; part <= parts + 1; ++part) {
     const double size = static_cast<double>(text.size()) * std::min(part, parts) / parts;
     write("s", text.substr(0, static_cast<std::size_t>(size)));
@@ -102,7 +102,7 @@ void WatchRestart::expect_the_same_when_it_grows(const std::string& text, const 
 TEST_F(WatchRestart, GoesOnWithAFileThatHasGrown) {
   const std::string timing = " --silence 3 --forget 8 ";
   expect_the_same_when_it_grows(stream_of(json_line, 8000), crossing_promises + crossing_errors + timing, 5);
-  // Of tracks that keep no promise: each may be at several places.
+  // Tracks that violate their limits: each may be at several places.
   expect_the_same_when_it_grows(stream_of(sbs_lines, 15000),
                                 " --separation sphere:500m --position-error 10:10 --clock stamps" + timing,
                                 40);
@@ -205,7 +205,7 @@ TEST_F(WatchRestart, LeavesAlertsAsTheyAreWhenItRefuses) {
   expect_wrong_input("watch " + stream + options + alerts + " --snapshot-every 0s", {"--snapshot-every"});
   expect_wrong_input("watch " + stream + options + alerts + " --summary /nowhere/sum", {"/nowhere/sum"});
   EXPECT_EQ(read_text(path("alerts")), "precious\n");
-  // Others than those that the snapshot's run has written.
+  // Other alerts than those of the snapshot's run.
   ASSERT_EQ(run("watch --quiet " + stream + options + kept_in + alerts).exit_code, 0);
   std::string changed = read_text(path("alerts"));
   const std::string told = changed;
@@ -217,7 +217,7 @@ TEST_F(WatchRestart, LeavesAlertsAsTheyAreWhenItRefuses) {
   expect_wrong_input("watch " + stream + options + kept_in + " --alerts '" + path("other") + "'",
                      {"--alerts", path("other"), "something else"});
   EXPECT_EQ(read_text(path("other")), "precious\n");
-  // The same file under other names is the same, and another one is begun.
+  // A renamed file is recognised, and another file is begun.
   write("alerts", told);
   ASSERT_EQ(std::system(("cp '" + path("alerts") + "' '" + path("copy") + "'").c_str()), 0);
   for (const std::string& name : {path("./alerts"), path("copy")})
@@ -242,7 +242,7 @@ TEST_F(WatchRestart, TwoDoNotWriteToOneFileOfAlerts) {
   EXPECT_NE(read_text(path("alerts")), "");
 }
 
-/// What came through a pipe does not come again, so what was told of it stays.
+/// Input through a pipe does not come again, so its alerts stay.
 TEST_F(WatchRestart, KeepsWhatWasToldOfAPipe) {
   const std::string text = stream_of(json_line, 4000);
   const std::size_t middle = text.find('\n', text.size() / 2) + 1;
@@ -260,7 +260,7 @@ TEST_F(WatchRestart, KeepsWhatWasToldOfAPipe) {
   killed.signal(SIGKILL);
   killed.wait();
   EXPECT_GT(count(), 100);
-  // It was writing.
+  // The run was interrupted during a write.
   write("alerts", told + "{\"event\": \"ver");
   const ProgramRun later = run("watch " + arguments, "cat '" + write("rest", text.substr(middle)) + "' | ");
   EXPECT_EQ(later.exit_code, 0) << later.err;
@@ -271,7 +271,7 @@ TEST_F(WatchRestart, KeepsWhatWasToldOfAPipe) {
   for (std::string line; std::getline(alerts, line);) EXPECT_TRUE(Json::accept(line)) << line;
 }
 
-/// One that is stopped before anything has come in knows no format, and needs no options of one.
+/// A watch that is stopped before any input knows no format, and needs no options of one.
 TEST_F(WatchRestart, StoppedBeforeTheFirstLineItKeepsNothing) {
   for (const char* beginning : {"", "{\"id\": \"t1\", \"sta"}) {
     LiveWatch live(
@@ -306,7 +306,7 @@ TEST_F(WatchRestart, RefusesAnotherPackedFile) {
   EXPECT_EQ(run(arguments).exit_code, 0);
 }
 
-/// Of a file on standard input no more is passed over than was read of that file.
+/// At most the bytes that were read of a file are skipped, if it is on standard input.
 TEST_F(WatchRestart, ReadsAFileBehindAPipeFromItsBegin) {
   const std::string text = stream_of(json_line, 2000);
   const std::size_t middle = text.find('\n', text.size() / 2) + 1;
@@ -317,7 +317,7 @@ TEST_F(WatchRestart, ReadsAFileBehindAPipeFromItsBegin) {
   const int first = summary("sum")["reports"];
   ASSERT_EQ(run_shell("'" KINESPHERE_PROGRAM "' " + arguments + " <'" + rest + "'").exit_code, 0);
   EXPECT_GT(summary("sum")["reports"].get<int>(), 3 * first / 2);
-  // Who hands it over may have read some of it.
+  // The caller may have read some of it.
   const ProgramRun behind =
       run_shell("{ read first; '" KINESPHERE_PROGRAM "' " + arguments + "; } <'" + rest + "'");
   EXPECT_EQ(behind.exit_code, 0) << behind.err;
@@ -332,7 +332,7 @@ TEST_F(WatchRestart, SaysAtOnceThatItCannotKeepASnapshot) {
   EXPECT_NE(live.err().find("/nowhere/state"), std::string::npos) << live.err();
 }
 
-/// What is sealed well and is still no watch.
+/// Files with a correct checksum that hold no state of a watch.
 TEST_F(WatchRestart, RefusesSoundFilesOfNonsense) {
   const std::string stream = write("s.jsonl", stream_of(json_line, 2000));
   const std::string arguments =

@@ -1,5 +1,4 @@
-// Flights over the real earth, reported late and with errors: no verdict called certain is wrong, on the
-// ellipsoid.
+// Flights over the real earth, reported late and with errors: no certain verdict is wrong, on the ellipsoid.
 #include "watch/watcher.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +25,7 @@ using GeographicLib::Geodesic;
 constexpr double degree = 3.14159265358979323846 / 180.0;
 constexpr double tick = 0.05;
 
-/// Goes along the ellipsoid, turns and climbs.
+/// A flight along the ellipsoid, with turns and climbs.
 struct Flight {
   double latitude = 0, longitude = 0, azimuth = 0, height = 0;
   double speed = 0;  ///< over ground
@@ -38,7 +37,7 @@ struct Flight {
     azimuth += turn * tick;
     height += climb * tick;
   }
-  /// Where it flies, it is faster than the point below.
+  /// At its height it is faster than the point below.
   Vec3 velocity() const {
     const double there = speed * (1.0 + height / 6380e3);
     return {there * std::sin(azimuth * degree), there * std::cos(azimuth * degree), climb};
@@ -81,7 +80,7 @@ TEST_P(FlightsOverTheEarth, AreToldOfWithCertainty) {
   Random random(11);
   std::vector<Flight> flights(30);
   for (Flight& flight : flights) {
-    // Some near the middle, most near the rim, where the map is worst.
+    // Some flights are near the middle, most near the rim, with the largest errors of the map.
     const bool in_the_middle = random.uniform(0.0, 1.0) < 0.2;
     Geodesic::WGS84().Direct(place.latitude, place.longitude, 23.0, in_the_middle ? 0.0 : 0.9 * place.radius,
                              flight.latitude, flight.longitude);
@@ -99,7 +98,7 @@ TEST_P(FlightsOverTheEarth, AreToldOfWithCertainty) {
     std::string& verdict = verdicts[{alert["first"], alert["second"], alert["level"]}];
     ASSERT_EQ(alert["before"], verdict.empty() ? "apart" : verdict);
     verdict = alert["verdict"];
-    // Both have gone on by a tick at most.
+    // The two flights are at most a tick ahead.
     const auto flight = [&](const char* which) {
       return flights[std::stoul(alert[which].get<std::string>().substr(7)) - 10];
     };
@@ -125,7 +124,7 @@ TEST_P(FlightsOverTheEarth, AreToldOfWithCertainty) {
       if (k > 0) flight.go_on();
       past[n].push_back(flight.velocity());
       if (random.uniform(0.0, 1.0) > tick) continue;
-      // Once in a second, about; with errors of every part, and up to a second on its way.
+      // About once a second, with errors in every part, and a delay of up to a second.
       Flight seen = flight;
       Geodesic::WGS84().Direct(seen.latitude, seen.longitude, random.uniform(-180.0, 180.0),
                                error * random.uniform(0.0, 1.0), seen.latitude, seen.longitude);
@@ -153,7 +152,7 @@ TEST_P(FlightsOverTheEarth, AreToldOfWithCertainty) {
       watcher.take(next.report);
       watcher.end_record();
     }
-    // The clock stands a little before.
+    // The clock is a little behind.
     watcher.time_is(time_of(time), TimeKind::number);
     watcher.end_record();
     if (k % 4 != 0 || watcher.names().size() < flights.size()) continue;

@@ -6,7 +6,7 @@ import type { Place } from "./state.ts";
 import { lengthText, shortName } from "./text.ts";
 import type { View } from "./view.ts";
 
-/** The colours of a theme, as the style sheet has them. */
+/** The colours of a theme, from the style sheet. */
 const colourNames = ["ground", "grid", "grid-ink", "track", "silent", "undecided", "within", "need", "chosen", "ink"] as const;
 export type Colours = Record<(typeof colourNames)[number], string>;
 
@@ -35,7 +35,7 @@ const kindOf = ({ track, verdict }: DrawnTrack): Kind => (track.silent ? "silent
 
 export class Chart {
   colours: Colours = coloursOfPage();
-  /** How far ahead lines show where tracks would go; seconds. */
+  /** Seconds that lines extend ahead of tracks. */
   lookAhead = 0;
   showNames = true;
   private dotSize = 3.5;
@@ -51,7 +51,7 @@ export class Chart {
     this.context = canvas.getContext("2d", { alpha: false })!;
   }
 
-  /** The canvas gets the size that it has on the page. True if that is another one. */
+  /** Sets the canvas to its size on the page. Returns true if that has changed. */
   resize(view: View): boolean {
     const ratio = Math.min(devicePixelRatio, 2);
     if (ratio !== this.ratio) this.stamps.clear();
@@ -116,7 +116,7 @@ export class Chart {
     }
   }
 
-  /** Circle by circle: browsers are slow at paths of many that overlap. */
+  /** Draws circle by circle: browsers are slow at paths of many overlapping ones. */
   private drawBounds(view: View, tracks: DrawnTrack[], colour: string): void {
     const { context } = this;
     const largest = 0.3 * Math.min(...view.free);
@@ -141,7 +141,7 @@ export class Chart {
     context.globalAlpha = 1;
   }
 
-  /** Around the chosen track: what is nearer than this is within a separation. */
+  /** Draws the separations around the chosen track: a track inside is within one. */
   private drawSeparations(view: View, scene: Scene, chosen: Chosen): void {
     const { context, colours } = this;
     const drawn = scene.tracks.get(chosen.track ?? "");
@@ -165,7 +165,7 @@ export class Chart {
     context.setLineDash([]);
   }
 
-  /** Undecided pairs are drawn over those within: with several separations a pair may be both. */
+  /** Draws undecided pairs over pairs within: with several separations a pair may be both. */
   private drawPairs(view: View, pairs: DrawnPair[], chosenPair: DrawnPair | null): void {
     const { context, colours } = this;
     const path = (drawn: DrawnPair) => {
@@ -202,7 +202,7 @@ export class Chart {
     let fastest = 0;
     for (const { track } of scene.tracks.values())
       for (const { velocity } of track.places) fastest = Math.max(fastest, Math.hypot(velocity[0], velocity[1]));
-    // Where tracks are dense, longer lines would hide them.
+    // Longer lines would hide dense tracks.
     const most = Math.max(10, Math.min(70, this.room));
     this.lookAhead = fastest === 0 ? 0 : lookAheads.find((seconds) => fastest * seconds * view.look.scale <= most) ?? 0;
     if (this.lookAhead === 0) return;
@@ -223,7 +223,7 @@ export class Chart {
     context.globalAlpha = 1;
   }
 
-  /** Places of one track, of which nobody knows which is right, are joined. */
+  /** Joins the possible places of one track. */
   private drawDots(view: View, tracks: DrawnTrack[], kind: Kind): void {
     const { context, colours } = this;
     const colour = colours[kind];
@@ -238,7 +238,7 @@ export class Chart {
     context.setLineDash([1, 3]);
     context.stroke();
     context.setLineDash([]);
-    // Who is part of an open pair is seen in a crowd, too.
+    // A track of an open pair must be visible in a crowd, too.
     const size = isOpen ? Math.max(this.dotSize, 3) : this.dotSize;
     const dot = this.stamp(`dot ${colour} ${isHollow} ${size}`, size + 2, (stamp) => {
       stamp.arc(0, 0, size, 0, fullTurn);
@@ -251,7 +251,7 @@ export class Chart {
     for (const { track } of tracks) for (const place of track.places) this.print(dot, view, place);
   }
 
-  /** Four corners around those whom to ask next. */
+  /** Draws four corners around the tracks with report requests. */
   private drawNeeds(view: View, scene: Scene): void {
     const { colours } = this;
     const half = 9;
@@ -286,7 +286,7 @@ export class Chart {
     }
   }
 
-  /** Names of the most important tracks first, as long as there is room. */
+  /** Draws the names of the most important tracks first, while there is room. */
   private drawNames(view: View, scene: Scene, chosen: Chosen, chosenPair: DrawnPair | null, taken: Taken): void {
     const { context, colours } = this;
     const important = new Set([chosen.track, chosen.hovered, chosenPair?.pair.first, chosenPair?.pair.second]);
@@ -334,7 +334,10 @@ export class Chart {
     context.textBaseline = "alphabetic";
   }
 
-  /** A small picture that is drawn once, and printed often; its middle is at 0, and it reaches `half` pixels in each direction. */
+  /**
+   * A small picture that is drawn once, and printed often; its centre is at 0, and it reaches `half` pixels in each
+   * direction.
+   */
   private stamp(key: string, half: number, draw: (context: CanvasRenderingContext2D) => void): HTMLCanvasElement {
     let stamp = this.stamps.get(key);
     if (stamp === undefined) {
@@ -355,7 +358,7 @@ export class Chart {
     if (!isFar(view, atX, atY, size)) this.context.drawImage(stamp, atX - size / 2, atY - size / 2, size, size);
   }
 
-  /** In pixels, in the font that the context has. */
+  /** Width in pixels, in the context's font. */
   private widthOf(text: string): number {
     const key = `${this.context.font} ${text}`;
     let width = this.widths.get(key);
@@ -368,14 +371,17 @@ export class Chart {
   }
 }
 
-/** On which side of a track, right (> 0) or left, its name would hide the other of the chosen pair, or the line ahead. */
+/**
+ * Returns the side of a track, right (> 0) or left, on which its name would hide the partner in the chosen pair, or the
+ * line ahead.
+ */
 function headingOf({ track: { id, places } }: DrawnTrack, pair: DrawnPair | null): number {
   if (pair?.places != null && (pair.pair.first === id || pair.pair.second === id))
     return (pair.places[1].x - pair.places[0].x) * (pair.pair.first === id ? 1 : -1);
   return places[0]?.velocity[0] ?? 0;
 }
 
-/** The distance of neighbours, in pixels, if the tracks in sight were spread evenly over the picture. */
+/** Returns the distance of neighbours, in pixels, if the visible tracks were spread evenly over the picture. */
 function roomOf(view: View, scene: Scene | null): number {
   let inSight = 0;
   for (const { x, y } of placesOf(scene?.tracks.values() ?? [])) if (!isFar(view, ...view.toScreen(x, y), 0)) ++inSight;
@@ -390,7 +396,7 @@ function isFar(view: View, x: number, y: number, margin: number): boolean {
   return x < -margin || y < -margin || x > view.width + margin || y > view.height + margin;
 }
 
-/** The part of a line between two places that is in the picture, as two places of the screen; null if there is none. */
+/** Returns the visible part of a line between two places, as two places of the screen; null if there is none. */
 function lineInSight(view: View, from: Place, to: Place): [[number, number], [number, number]] | null {
   const a = view.toScreen(from.x, from.y);
   const b = view.toScreen(to.x, to.y);
@@ -409,7 +415,7 @@ function lineInSight(view: View, from: Place, to: Place): [[number, number], [nu
   return [at(first), at(last)];
 }
 
-/** Only what is in sight: the dashes of a line that goes far beyond would take a browser long. */
+/** Adds only the visible part: the dashes of a line that goes far beyond would take a browser long. */
 function addLine(context: CanvasRenderingContext2D, view: View, from: Place, to: Place): void {
   const line = lineInSight(view, from, to);
   if (line === null) return;
@@ -417,7 +423,10 @@ function addLine(context: CanvasRenderingContext2D, view: View, from: Place, to:
   context.lineTo(...line[1]);
 }
 
-/** Where a line of points crosses a horizontal (axis 1) or upright (axis 0) line of the screen; null if it does not. */
+/**
+ * Returns the place at which a line of points crosses a horizontal (axis 1) or vertical (axis 0) line of the screen;
+ * null if it does not.
+ */
 function crossing(view: View, points: number[], axis: 0 | 1, at: number): number | null {
   for (let k = 2; k < points.length; k += 2) {
     const before = view.toScreen(points[k - 2]!, points[k - 1]!);
@@ -429,11 +438,11 @@ function crossing(view: View, points: number[], axis: 0 | 1, at: number): number
   return null;
 }
 
-/** Room on the screen that text has taken, in squares. */
+/** Parts of the screen that text covers, in squares. */
 class Taken {
   private readonly squares = new Set<number>();
 
-  /** False where some of it is taken, unless it is to be taken anyway. */
+  /** Takes a rectangle. Returns false, without taking it, if a part is taken already, unless `anyway`. */
   take(x: number, y: number, width: number, height: number, anyway = false): boolean {
     if (!anyway && !this.isFree(x, y, width, height)) return false;
     this.occupy(x, y, width, height);

@@ -9,7 +9,7 @@ function cartesian(longitude: number, latitude: number): [number, number, number
   return [normal * Math.cos(phi) * Math.cos(lambda), normal * Math.cos(phi) * Math.sin(lambda), normal * (1 - eccentricity2) * Math.sin(phi)];
 }
 
-/** For drawing: within 500 km of the origin it is right to some metres. */
+/** For drawing: its error within 500 km of the origin is some metres. */
 export class EarthPlane {
   private readonly origin: readonly [number, number, number];
   private readonly meridional: number;
@@ -37,7 +37,7 @@ export class EarthPlane {
     return [arc * east / flat, arc * north / flat];
   }
 
-  /** Longitude and latitude. */
+  /** Returns longitude and latitude. */
   toEarth(x: number, y: number): [number, number] {
     const phi = this.latitude * radian;
     const distance = Math.hypot(x, y);

@@ -6,13 +6,13 @@ import type { View } from "./view.ts";
 
 export interface GridLine {
   label: string;
-  /** Whether it crosses the picture from below to above. */
+  /** True if it crosses the picture from bottom to top. */
   upright: boolean;
-  /** x and y by turns, in the plane. */
+  /** x and y alternating, in the plane. */
   points: number[];
 }
 
-/** About so many pixels lie between two lines. */
+/** About how many pixels lie between two lines. */
 const spacing = 130;
 const mostLines = 60;
 
@@ -24,7 +24,7 @@ export function niceStep(least: number): number {
 
 const angles = [1 / 3600, 2 / 3600, 5 / 3600, 10 / 3600, 20 / 3600, 30 / 3600, 1 / 60, 2 / 60, 5 / 60, 10 / 60, 20 / 60, 30 / 60,
                 1, 2, 5, 10, 20, 30, 60];
-/** Degrees; below a second decimal ones of a second. */
+/** Returns degrees; below a second, decimal parts of a second. */
 function angleStep(least: number): number {
   if (least < 1 / 3600) return niceStep(least * 3600) / 3600;
   return angles.find((angle) => angle >= least) ?? 60;
@@ -48,7 +48,7 @@ function plainGrid({ left, right, bottom, top }: Bounds, scale: number): GridLin
   ];
 }
 
-/** The longitudes and latitudes that are seen; longitudes go on beyond 180. */
+/** Returns the visible longitudes and latitudes; longitudes continue beyond 180. */
 function anglesIn({ left, right, bottom, top }: Bounds, plane: EarthPlane): Bounds {
   const seen = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity };
   const parts = 8;
@@ -81,7 +81,7 @@ function earthGrid(bounds: Bounds, scale: number, plane: EarthPlane): GridLine[]
   const across = angleStep(spacing / degree);
   const middle = Math.min(Math.abs(seen.bottom + seen.top) / 2, 85);
   const along = angleStep(spacing / degree / Math.cos(middle * Math.PI / 180));
-  // Steps of three degrees at most look round.
+  // Steps of three degrees at most appear round.
   const parts = Math.max(24, Math.ceil(Math.max(seen.right - seen.left, seen.top - seen.bottom) / 3));
   const line = (at: (part: number) => [number, number]): number[] =>
     Array.from({ length: parts + 1 }, (_, k) => at(k / parts)).flatMap(([longitude, latitude]) => plane.toPlane(longitude, latitude));
@@ -101,7 +101,7 @@ export function graticule(view: View, plane: EarthPlane | null): GridLine[] {
   return plane === null ? plainGrid(view.bounds, view.look.scale) : earthGrid(view.bounds, view.look.scale, plane);
 }
 
-/** The longest bar of a round length that is at most so many pixels long. */
+/** Returns the longest bar of a round length that is at most `most` pixels long. */
 export function scaleBar(scale: number, most: number): { length: number; pixels: number } {
   const longest = most / scale;
   const power = 10 ** Math.floor(Math.log10(longest));

@@ -1,14 +1,14 @@
-// What pointers do to the map: drag, zoom with the wheel or two fingers, choose.
+// Pointers on the map: drag, zoom with the wheel or two fingers, choose.
 import type { View } from "./view.ts";
 
 export interface HandActions {
-  /** The user has moved the view. */
+  /** Called when the user has moved the view. */
   moved(): void;
   chooseAt(x: number, y: number): void;
   hoverAt(x: number, y: number): void;
 }
 
-/** A pointer that moves less, in pixels, has clicked. */
+/** A pointer that moves less than this many pixels has clicked. */
 const stillness = 5;
 
 export function followPointers(canvas: HTMLCanvasElement, view: View, actions: HandActions): void {

@@ -1,9 +1,9 @@
-// A list of buttons on the page that follows data, and lets a person click what is about to move.
+// A list of buttons that follows data, and does not move entries away from a pointer.
 
 export class KeyedList<T> {
   private readonly items = new Map<string, { entry: HTMLLIElement; button: HTMLButtonElement; update: (value: T) => void }>();
 
-  /** `make` fills a new button, and returns what changes it. */
+  /** `make` fills a new button, and returns the function that updates it. */
   constructor(private readonly list: HTMLElement, private readonly make: (button: HTMLButtonElement, key: string) => (value: T) => void) {}
 
   show(values: readonly T[], keyOf: (value: T) => string): void {
@@ -13,7 +13,7 @@ export class KeyedList<T> {
       entry.remove();
       this.items.delete(key);
     }
-    // Entries do not move while somebody points at the list, or has the focus in it.
+    // Entries do not move while a pointer is over the list, or the focus in it.
     const mayMove = !this.list.matches(":hover, :focus-within");
     let next: Element | null = this.list.firstElementChild;
     for (const [key, value] of wanted) {
@@ -40,7 +40,7 @@ export class KeyedList<T> {
   }
 }
 
-/** A part of `parent` whose text is set later; texts are never taken for anything else. */
+/** Adds a part of `parent` and returns the function that sets its text; texts are never interpreted as HTML. */
 export function part(parent: HTMLElement, className: string): (text: string) => void {
   const element = document.createElement("span");
   element.className = className;

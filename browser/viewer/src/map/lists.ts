@@ -1,4 +1,4 @@
-// What stands beside the map: numbers, open pairs, whom to ask next, and all about the chosen track.
+// The lists next to the map: numbers, open pairs, report requests, and all about the chosen track.
 import { Numbers, put, whole } from "../numbers.ts";
 import { KeyedList, part } from "./keyed_list.ts";
 import type { DrawnPair, Scene } from "./scene.ts";
@@ -7,13 +7,13 @@ import { durationBetween, durationText, lengthText, placeText, rangeText, shownN
 
 const element = (id: string): HTMLElement => document.querySelector<HTMLElement>(`#${id}`)!;
 
-/** Of a list; more are counted. */
+/** Maximum shown entries of a list; the rest are counted. */
 const mostShown = 100;
 
-/** Seconds after which a time that stands still is told of. */
+/** Seconds without progress of time after which the page says so. */
 const longestQuiet = 10;
 
-/** What reports were not taken for, by their names in the state. */
+/** Reasons for skipped reports, by their names in the state. */
 const refusals = ["stale", "ahead", "outside", "no_position", "no_height", "no_bound", "malformed"];
 
 export interface ListActions {
@@ -183,7 +183,7 @@ export class Lists {
   }
 }
 
-/** The number of all, and of those that a list leaves out. */
+/** Shows the number of all entries, and of those that a list leaves out. */
 function showCounted(list: string, count: number): void {
   element(`${list}-count`).textContent = count > 0 ? whole.format(count) : "";
   element(`${list}-more`).textContent = count > mostShown ? `and ${whole.format(count - mostShown)} more` : "";

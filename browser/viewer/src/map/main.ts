@@ -1,4 +1,4 @@
-// The map of a watch: asks for its state, and shows it.
+// The map of a watch: fetches its state, and shows it.
 import { applyTheme, calmQuery, darkQuery, type Theme } from "../theme.ts";
 import { Chart, type Chosen, coloursOfPage } from "./chart.ts";
 import { EarthPlane } from "./earth.ts";
@@ -22,7 +22,7 @@ const chosen: Chosen = { track: null, pair: null, hovered: null };
 let scene: Scene | null = null;
 let plane: EarthPlane | null = null;
 let theme: Theme = "system";
-/** Whether the view follows the tracks: until somebody moves it. */
+/** True if the view follows the tracks, until the user moves it. */
 let isFollowing = true;
 
 const lists = new Lists({ choosePair, chooseTrack: (id) => chooseTrack(id, true) });
@@ -70,9 +70,9 @@ function resize(): void {
   redraw();
 }
 
-// Where to look.
+// The view.
 
-/** No part of the plane narrower than this is shown by itself: about the bounds and separations that are there. */
+/** Returns the smallest width of the plane to show: about that of the bounds and separations. */
 function leastWidth(): number {
   let width = 0;
   for (const { horizontal } of scene?.state.separations ?? []) width = Math.max(width, 2 * horizontal);
@@ -111,7 +111,7 @@ function pan(x: number, y: number): void {
   redraw();
 }
 
-// What is chosen.
+// The selection.
 
 function showChosen(): void {
   lists.showChosen(chosen.track, chosen.pair);
@@ -145,7 +145,7 @@ function nextPair(): void {
   choosePair(scene.pairs[(at + 1) % scene.pairs.length]!.key);
 }
 
-/** The track whose dot is nearest to a place of the screen, if any is near. */
+/** Returns the track with the dot nearest to a place of the screen, if one is near. */
 function trackAt(x: number, y: number): string | null {
   let nearest: string | null = null;
   let least = 14;
@@ -254,7 +254,7 @@ function planeOf({ origin }: WatchState): EarthPlane | null {
   return plane?.longitude === origin.lon && plane.latitude === origin.lat ? plane : new EarthPlane(origin.lon, origin.lat);
 }
 
-/** Of a watch that was started again, perhaps on another stream, what was chosen and looked at may not be there. */
+/** After a restart of the watch, possibly on another stream, the selection and the view may be gone. */
 function meetAgain({ tracks, pairs }: Scene): void {
   if (chosen.track !== null && !tracks.has(chosen.track)) chosen.track = null;
   if (chosen.pair !== null && !pairs.some(({ key }) => key === chosen.pair)) chosen.pair = null;
@@ -288,7 +288,7 @@ function lose({ since, reason }: Lost): void {
   if (scene === null) element("about").textContent = "No state has come yet.";
 }
 
-/** For tests, and for whoever looks at it in the console. */
+/** For tests, and for the console. */
 const map = {
   get scene(): Scene | null { return scene; },
   get plane(): EarthPlane | null { return plane; },
@@ -299,7 +299,7 @@ const map = {
   redraw,
   pictures: 0,
   states: 0,
-  /** Milliseconds of the last picture. */
+  /** Duration of the last drawing. Unit: milliseconds. */
   drawing: 0,
 };
 declare global {
@@ -311,7 +311,7 @@ repaint();
 resize();
 const polling = new Polling("state.json", show, lose);
 void polling.ask();
-// A page that was hidden has not asked for a while.
+// A hidden page has not fetched the state for a while.
 document.addEventListener("visibilitychange", () => {
   if (!document.hidden) void polling.ask();
 });

@@ -1,13 +1,13 @@
-// Asks the watch for its state again and again.
+// Fetches the state of the watch repeatedly.
 import type { WatchState } from "./state.ts";
 
-/** Milliseconds from one question to the next, while there are answers. */
+/** Milliseconds from one request to the next, while there are answers. */
 const interval = 1000;
 const longestWait = 15_000;
 const patience = 10_000;
 
 export interface Lost {
-  /** When the first question was not answered. */
+  /** Time of the first unanswered request. */
   since: Date;
   reason: string;
 }
@@ -18,10 +18,10 @@ export class Polling {
   private timer: ReturnType<typeof setTimeout> | undefined;
   private isAsking = false;
 
-  /** `lose` is called at each question that is not answered. */
+  /** `lose` is called for each unanswered request. */
   constructor(private readonly address: string, private readonly show: (state: WatchState) => void, private readonly lose: (lost: Lost) => void) {}
 
-  /** Asks now, and goes on. */
+  /** Fetches now, and continues. */
   async ask(): Promise<void> {
     if (this.isAsking) return;
     this.isAsking = true;
@@ -30,7 +30,7 @@ export class Polling {
     const state = await this.fetched();
     const taken = performance.now() - start;
     this.isAsking = false;
-    // A state that takes long is asked for less often.
+    // A slow state is fetched less often.
     this.wait = state !== null ? Math.max(interval - taken, 2 * taken) : Math.min(Math.max(2 * this.wait, interval), longestWait);
     this.timer = setTimeout(() => void this.ask(), this.wait);
     if (state !== null) this.show(state);
@@ -45,7 +45,7 @@ export class Polling {
       this.lost = null;
       return state;
     } catch (error) {
-      // Where nobody listens the browser has no reason that would tell a person anything.
+      // Without a server the browser gives no reason that helps a person.
       this.lost = { since: this.lost?.since ?? new Date(), reason: error instanceof TypeError ? "" : (error as Error).message };
       return null;
     }

@@ -1,10 +1,10 @@
-// A state with what belongs together found.
+// A state, with its tracks, places and pairs linked.
 import type { Need, OpenVerdict, Pair, Place, StreamTime, Track, WatchState } from "./state.ts";
 import { secondsOf } from "./text.ts";
 
 export interface DrawnTrack {
   track: Track;
-  /** The worst of its pairs. */
+  /** The worst verdict of its pairs. */
   verdict: OpenVerdict | null;
   need: Need | null;
 }
@@ -12,14 +12,14 @@ export interface DrawnTrack {
 export interface DrawnPair {
   key: string;
   pair: Pair;
-  /** Of the possible places of the two those that are nearest to each other; null where a track has left. */
+  /** The two possible places that are nearest to each other; null if a track was dropped. */
   places: readonly [Place, Place] | null;
 }
 
 export interface Scene {
   state: WatchState;
   tracks: Map<string, DrawnTrack>;
-  /** Within before undecided; of these those first that are likely to be within soonest. */
+  /** Pairs within before undecided ones; of the latter, the soonest likely ones first. */
   pairs: DrawnPair[];
   needs: Need[];
 }
@@ -73,7 +73,7 @@ export interface Bounds {
   top: number;
 }
 
-/** Of the centres of places; null where there are none. */
+/** Returns the bounds of the centres of places; null if there are none. */
 export function boundsOf(places: Iterable<Place>): Bounds | null {
   const bounds = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity };
   for (const { x, y } of places) {

@@ -1,10 +1,10 @@
-// What /state.json of `kinesphere watch --serve` tells (docs/watch.md).
+// The content of /state.json of `kinesphere watch --serve` (docs/watch.md).
 
-/** As in the stream: a number, or a text with a date. */
+/** A number, or a text with a date, as in the stream. */
 export type StreamTime = number | string;
 
 export interface Place {
-  /** In the plane of the watch. Of latitudes and longitudes that is metres east and north of the origin. */
+  /** Place in the plane of the watch. For latitudes and longitudes: metres east and north of the origin. */
   x: number;
   y: number;
   z: number;
@@ -12,7 +12,7 @@ export interface Place {
   lat?: number;
   alt?: number;
   velocity: [number, number, number];
-  /** Horizontal and vertical; null where there is no limit. */
+  /** Horizontal and vertical; null without a limit. */
   radius: [number | null, number | null];
 }
 
@@ -20,7 +20,7 @@ export interface Track {
   id: string;
   stamp: StreamTime | null;
   silent: boolean;
-  /** It certainly is in one of these. */
+  /** The track certainly is in one of these. */
   places: Place[];
 }
 
@@ -42,7 +42,7 @@ export interface Pair {
   ask_by: StreamTime | null;
 }
 
-/** Without a report of `track` by then something about the two turns undecided. */
+/** Without a report of `track` by then a verdict of the two turns undecided. */
 export interface Need {
   track: string;
   by: StreamTime | null;

@@ -1,10 +1,10 @@
 // Names, times, lengths and places in words.
 import type { Place, StreamTime } from "./state.ts";
 
-/** Characters that are not seen, or that turn the direction of what follows. */
+/** Invisible characters, and characters that change the direction of text. */
 const unseen = /[\u0000-\u001f\u007f-\u009f\u00ad\u061c\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff]/g;
 
-/** An id as it is shown: whatever the stream has, it stays one name in one line. */
+/** Returns an id for display: any text of the stream stays one name in one line. */
 export function shownName(id: string): string {
   const name = id.replace(unseen, "\ufffd");
   return name.trim() === "" ? "(no name)" : name;
@@ -15,7 +15,7 @@ export function shortName(id: string): string {
   return characters.length > 20 ? `${characters.slice(0, 19).join("")}…` : characters.join("");
 }
 
-/** Seconds since 1970, or since the zero of the stream's own numbers; NaN for what is no time. */
+/** Returns seconds since 1970, or since the zero of the stream's own numbers; NaN for an invalid time. */
 export function secondsOf(time: StreamTime): number {
   if (typeof time === "number") return time;
   // Dates without a zone are taken as UTC.
@@ -35,7 +35,7 @@ export function durationText(seconds: number): string {
 
 export const durationBetween = (from: StreamTime, to: StreamTime): string => durationText(Math.max(secondsOf(to) - secondsOf(from), 0));
 
-/** How long before or after now. */
+/** Returns the text of a duration before or after now. */
 export function whenText(time: StreamTime | null, now: StreamTime | null): string {
   if (time === null || now === null) return "–";
   const seconds = secondsOf(time) - secondsOf(now);
@@ -44,7 +44,7 @@ export function whenText(time: StreamTime | null, now: StreamTime | null): strin
   return seconds < 0 ? `${durationText(-seconds)} ago` : `in ${durationText(seconds)}`;
 }
 
-/** A time by itself; where it is a date, or counts seconds from 1970, that is apart. */
+/** Returns the text of a time; the date of a date, or of seconds from 1970, is apart. */
 export function timeText(time: StreamTime | null): { text: string; date: string } {
   if (time === null) return { text: "–", date: "" };
   if (typeof time === "number") {
@@ -55,7 +55,7 @@ export function timeText(time: StreamTime | null): { text: string; date: string 
   return { text: `${clock}.${tenths ?? "0"}`, date: `${date} ${zone === "Z" ? "UTC" : zone}`.trim() };
 }
 
-/** Metres, or the stream's own unit, which has no name. */
+/** Unit: metres, or the stream's own unit, which has no name. */
 export function lengthText(length: number | null, isMetres: boolean): string {
   if (length === null) return "any";
   if (!isMetres) return digits(length, 3);
@@ -69,10 +69,10 @@ export function rangeText(lower: number, upper: number | null, isMetres: boolean
   return unit !== undefined && to.endsWith(` ${unit}`) ? `${number} to ${to}` : `${from} to ${to}`;
 }
 
-/** With numbers and their units in one line. */
+/** Keeps numbers and their units in one line. */
 export const unbroken = (text: string): string => text.replace(/(\d) (k?m|s|min|h)\b/g, "$1\u00a0$2");
 
-/** Degrees, minutes and seconds, as far as `step` (degrees) needs them. */
+/** Returns degrees, minutes and seconds, as far as `step` (degrees) needs them. */
 export function angleText(degrees: number, step: number, hemispheres: readonly [string, string]): string {
   const decimals = Math.max(0, Math.ceil(-Math.log10(step * 3600) - 1e-9));
   const seconds = Number((Math.abs(degrees) * 3600).toFixed(decimals));
@@ -94,7 +94,7 @@ export function placeText(place: Place, isFlat: boolean): string {
   return (isFlat ? [place.x, place.y] : [place.x, place.y, place.z]).map((value) => digits(value, 6)).join(", ");
 }
 
-/** Speed, where to, and how steeply. */
+/** Returns speed, course and climb. */
 export function velocityText({ velocity: [x, y, z] }: Place, isMetres: boolean, isFlat: boolean): string {
   const speed = Math.hypot(x, y);
   const course = (Math.atan2(x, y) * 180 / Math.PI + 360) % 360;

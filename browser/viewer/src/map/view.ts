@@ -1,4 +1,4 @@
-// Which part of the plane is seen.
+// The visible part of the plane.
 import type { Bounds } from "./scene.ts";
 
 export interface Insets {
@@ -21,9 +21,9 @@ const mostScale = 1e9;
 export class View {
   width = 1;
   height = 1;
-  /** Room at the edges where panels lie over the picture. */
+  /** Space at the edges that panels cover. */
   insets: Insets = { left: 0, right: 0, top: 0, bottom: 0 };
-  /** What is in the middle between the insets. */
+  /** The centre of the space between the insets. */
   look: Look = { x: 0, y: 0, scale: 1 };
   private flight: { from: Look; to: Look; start: number; seconds: number } | null = null;
 
@@ -44,7 +44,7 @@ export class View {
     const [middleX, middleY] = this.middle;
     return [this.look.x + (x - middleX) / this.look.scale, this.look.y - (y - middleY) / this.look.scale];
   }
-  /** All that is seen, below panels too. */
+  /** The bounds of all that is visible, including the space below panels. */
   get bounds(): Bounds {
     const [left, top] = this.toPlane(0, 0);
     const [right, bottom] = this.toPlane(this.width, this.height);
@@ -55,7 +55,7 @@ export class View {
     this.flight = null;
     this.look = { ...this.look, x: this.look.x - pixelsX / this.look.scale, y: this.look.y + pixelsY / this.look.scale };
   }
-  /** What is at this place of the screen stays there. */
+  /** Zooms around this place of the screen. */
   zoom(factor: number, x = this.middle[0], y = this.middle[1]): void {
     this.flight = null;
     const [atX, atY] = this.toPlane(x, y);
@@ -65,7 +65,7 @@ export class View {
     this.look = { x: this.look.x + atX - nowX, y: this.look.y + atY - nowY, scale };
   }
 
-  /** The look that shows these bounds with a margin, and at least `leastWidth` of the plane. */
+  /** Returns the look that shows these bounds with a margin, and at least `leastWidth` of the plane. */
   lookAt(bounds: Bounds, leastWidth: number): Look {
     const [freeX, freeY] = this.free;
     const width = Math.max(bounds.right - bounds.left, leastWidth, 1e-9);
@@ -73,7 +73,7 @@ export class View {
     const scale = 0.84 * Math.min(freeX / width, freeY / height);
     return { x: (bounds.left + bounds.right) / 2, y: (bounds.bottom + bounds.top) / 2, scale: Math.min(Math.max(scale, leastScale), mostScale) };
   }
-  /** Whether the bounds lie between the panels and fill a good part of the room there. */
+  /** Returns true if the bounds lie between the panels and fill a good part of the space there. */
   suits(bounds: Bounds, leastWidth: number): boolean {
     const [left, top] = this.toScreen(bounds.left, bounds.top);
     const [right, bottom] = this.toScreen(bounds.right, bounds.bottom);
@@ -86,14 +86,14 @@ export class View {
     if (seconds === 0) this.look = to;
     this.flight = seconds === 0 ? null : { from: this.look, to, start: performance.now(), seconds };
   }
-  /** Goes on with a flight. True while there is one. */
+  /** Continues a flight. Returns true while there is one. */
   fly(now: number): boolean {
     if (this.flight === null) return false;
     const { from, to, start, seconds } = this.flight;
     const part = Math.min(Math.max((now - start) / 1000 / seconds, 0), 1);
     const eased = part * part * (3 - 2 * part);
     const scale = from.scale * (to.scale / from.scale) ** eased;
-    // The centre moves in proportion to the visible size, so that the flight looks even at every scale.
+    // The centre moves in proportion to the visible size, so that the flight appears even at every scale.
     const along = Math.abs(to.scale / from.scale - 1) < 1e-3 ? eased : (1 / from.scale - 1 / scale) / (1 / from.scale - 1 / to.scale);
     this.look = part === 1 ? to : { x: from.x + (to.x - from.x) * along, y: from.y + (to.y - from.y) * along, scale };
     if (part === 1) this.flight = null;

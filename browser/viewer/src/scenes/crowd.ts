@@ -1,18 +1,18 @@
-// People, or whatever else was recorded: each goes along its own track while it is there.
+// A recorded crowd: each track is a body while it is present.
 import { type Box, type Event, RecordedTracks, World } from "kinesphere";
 import type { LiveScene, SceneChoice, Setup } from "./live_scene.ts";
 
-/** What `kinesphere view FILE` serves as opened/tracks.json. */
+/** The content of opened/tracks.json, which `kinesphere view FILE` serves. */
 export interface TrackTable {
   name: string;
   /** All heights are the same. */
   plane: boolean;
-  /** Of positions, where that is known. */
+  /** Unit of positions, if it is known. */
   unit: string | null;
   tracks: { id: string; times: number[]; positions: number[] }[];
 }
 
-/** Someone comes or goes. */
+/** The begin or the end of a track. */
 interface Change {
   time: number;
   body: number;
@@ -20,7 +20,7 @@ interface Change {
 }
 
 class Crowd implements LiveScene {
-  /** `changes` by time; `next` of them comes next. */
+  /** `changes` are in order of time; `next` is the index of the next. */
   constructor(readonly world: World, private readonly motion: RecordedTracks, private readonly changes: readonly Change[],
               private next: number) {}
 
@@ -71,7 +71,7 @@ function regionOf(table: TrackTable): Box {
   return { lower, upper };
 }
 
-/** Half of the distance at which two are told. Of people 0.5 m in all; in larger scenes what can be seen. */
+/** Returns half of the distance of an approach. For people that is 0.5 m; at larger scales a visible size. */
 function radiusIn({ lower, upper }: Box, plane: boolean): number {
   const size = Math.max(...[0, 1, 2].map((axis) => upper[axis]! - lower[axis]!));
   return plane && size < 100 ? 0.25 : size / 200;

@@ -1,4 +1,4 @@
-// Drones that fly from place to place and report where they are with errors. Whom a warning names climbs or sinks.
+// Drones that fly from place to place and report with errors. A drone in a warning climbs or sinks.
 import { type BodyId, type Box, type Event, Steered, type Vec3, World } from "kinesphere";
 import type { AlarmDistances, LiveScene, SceneChoice, Setup } from "./live_scene.ts";
 import { randomNumbers } from "./random_numbers.ts";
@@ -10,15 +10,15 @@ const positionError = 1;
 const alarms: AlarmDistances = { warning: 20, alarm: 6 };
 const sensorClass = 1;
 const tick = 0.25;
-/** How long who is warned climbs or sinks. */
+/** Seconds for which a drone climbs or sinks after a warning. */
 const evasion = 2;
 
-/** What a drone is about to do; it is copied with the scene. */
+/** A drone's next actions; copied with the scene. */
 interface Plan {
   target: Float64Array;
-  /** How many places it has been sent to. */
+  /** Number of places to which it has been sent. */
   places: number;
-  /** It climbs (1) or sinks (-1) until then. */
+  /** It climbs (1) or sinks (-1) until `until`. */
   side: number;
   evadesUntil: number;
 }
@@ -52,7 +52,7 @@ class Airspace implements LiveScene {
     this.motion.free();
   }
 
-  /** Where drones say that they are: up to positionError away. The same drone says the same of the same time. */
+  /** Reports of the drones: up to positionError from the truth. Equal times of a drone have equal reports. */
   private readonly report = (ids: Float64Array, time: number, states: Float64Array): void => {
     states.set(this.motion.states(time, ids));
     const most = (0.95 * positionError) / Math.sqrt(3);
@@ -70,7 +70,7 @@ class Airspace implements LiveScene {
     }
     this.nextTick += tick;
   }
-  /** To a place that depends on the drone and on how many it has seen. */
+  /** Sends a drone to a place that depends on the drone and on its number of places so far. */
   private sendOn(drone: number, plan: Plan): void {
     plan.places += 1;
     const random = randomNumbers(this.seed + 7919 * drone + 104729 * plan.places);

@@ -10,7 +10,7 @@ const room: Box = { lower: [0, 0, 0], upper: [10, 10, 10] };
 const fastest = 60;
 
 class GameLoop implements LiveScene {
-  /** `velocities` are the game's own, three numbers of each ball. Its positions are those of the latest frame. */
+  /** `velocities` are the game's own, three numbers for each ball. Its positions are those of the latest frame. */
   constructor(readonly world: World, private readonly frames: Frames, private readonly velocities: Float64Array) {}
 
   run(until: number, tell: (event: Event) => void): void {

@@ -11,7 +11,7 @@ export function ofLibrary({ name, bodies, seed }: SceneChoice): Setup {
   return { scene: new MovedScene(world, motion, scene), radii };
 }
 
-/** In a larger box than the scene's own, a tenth of which is full, where so many do not fit into that. */
+/** Returns a larger box than the scene's own, a tenth of it filled, if the bodies do not fit into that. */
 function roomy(name: string, bodies: number, seed: number): Scene {
   try {
     return new Scene(name, { bodies, seed });

@@ -1,4 +1,4 @@
-// The scenes that can be chosen.
+// The list of scenes to choose from.
 import { bullets } from "./bullets.ts";
 import { crowd, type TrackTable } from "./crowd.ts";
 import { drones } from "./drones.ts";
@@ -11,7 +11,7 @@ export interface SceneAbout {
   title: string;
   about: string;
   bodies: number;
-  /** Simulated seconds per second at first. */
+  /** Initial speed, in simulated seconds per second. */
   speed: number;
 }
 
@@ -42,7 +42,7 @@ export function sceneAbout(name: string): SceneAbout {
   return found;
 }
 
-/** `opened` are the tracks that the server has been given, if it has. */
+/** `opened` are the tracks that the server was given, if any. */
 export function setUp(choice: SceneChoice, opened: TrackTable | null): Setup {
   switch (choice.name) {
     case "bullets":

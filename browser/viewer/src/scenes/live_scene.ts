@@ -1,36 +1,36 @@
-// A scene at work: a world, whatever moves its bodies, and whatever answers its events.
+// A running scene: a world, a motion of its bodies, and responses to its events.
 import type { BodyId, Box, Event, Motion, RunOptions, Vec3, World } from "kinesphere";
 
 export interface LiveScene {
   readonly world: World;
-  /** Goes on to `until`, and tells what happens, in order; also what came before an error. */
+  /** Advances to `until`, and passes the events to `tell`, in order, including those before an error. */
   run(until: number, tell: (event: Event) => void): void;
-  /** How many bodies are there now, where they come and go. */
+  /** Number of present bodies, if bodies are added and removed. */
   readonly presentCount?: number;
-  /** Where bodies truly are now, and how fast: six numbers of each, NaN of who is not there. */
+  /** Returns true positions and velocities of bodies: six numbers for each, NaN for absent ones. */
   states(): Float64Array;
-  /** From now on the body has this velocity, until it is pushed or meets something. Absent where bodies go their own way. */
+  /** Sets the velocity until the body is pushed or hits something. Absent if bodies follow fixed paths. */
   setVelocity?(body: BodyId, velocity: Vec3): void;
-  /** A copy that goes on as this one does. */
+  /** Returns a copy with an equal future. */
   clone(): LiveScene;
   free(): void;
 }
 
-/** A scene at its start, and what is known of it beside. */
+/** A scene at its start, and its properties for display. */
 export interface Setup {
   scene: LiveScene;
-  /** What is to be said of it, where that depends on what was opened. */
+  /** Title, if it depends on the opened files. */
   title?: string;
   about?: string;
-  /** By body. */
+  /** Radius of each body. */
   radii: Float64Array;
-  /** A thin zone whose crossings are counted. */
+  /** A thin zone; its crossings are counted. */
   zone?: { id: BodyId; box: Box };
   /** Distances between surfaces at which there is a warning and an alarm. */
   alarms?: AlarmDistances;
-  /** What the camera looks at where there are no walls. */
+  /** The camera's target if there are no walls. */
   region?: Box;
-  /** When all is over, if that is known. */
+  /** The end of the scene, if it is known. */
   endTime?: number;
 }
 
@@ -39,14 +39,14 @@ export interface AlarmDistances {
   alarm: number;
 }
 
-/** What the person chose. */
+/** The user's choice. */
 export interface SceneChoice {
   name: string;
   bodies: number;
   seed: number;
 }
 
-/** Bodies of a motion, whose answers to events the module computes by itself. */
+/** Bodies of a motion; the module computes the responses to their events. */
 export class MovedScene implements LiveScene {
   constructor(readonly world: World, private readonly motion: Motion,
               private readonly respond: NonNullable<RunOptions["respond"]>) {}

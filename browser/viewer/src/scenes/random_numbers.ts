@@ -1,4 +1,4 @@
-/** Numbers in [0, 1), the same for the same seed. */
+/** Returns numbers in [0, 1), equal for equal seeds. */
 export function randomNumbers(seed: number): () => number {
   let state = seed >>> 0;
   return () => {

@@ -9,7 +9,7 @@ namespace kinesphere::program {
 struct NatsAddress {
   std::string server;  ///< with a user and password, if there are any: not to be shown
   std::string subject;
-  std::string name;  ///< as it may be shown
+  std::string name;  ///< name for messages
 };
 
 bool is_nats_address(std::string_view text);

@@ -1,4 +1,4 @@
-// Alerts that go out on subjects of NATS.
+// Sends alerts to subjects of NATS.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -17,7 +17,8 @@ namespace {
 
 constexpr const char* told_header = "Kinesphere-Told";
 
-/// What an alert came of: the place in the stream of reports, and which one of those of its share.
+/// The origin of an alert: the place in the stream of reports, and its number among the alerts of its share
+/// there.
 struct Told {
   std::uint64_t position = 0;
   std::uint64_t number = 0;
@@ -29,7 +30,7 @@ std::string text_of(const Told& told, const std::string& origin) {
   return fmt::format("{} {} {}", told.position, told.number, origin);
 }
 
-/// Of another origin it says nothing of what has been told of this one.
+/// A message of another origin is no evidence of earlier alerts of this one.
 Told told_by(natsMsg* message, const std::string& origin) {
   const char* text = nullptr;
   if (natsMsgHeader_Get(message, told_header, &text) != NATS_OK) return {};
@@ -80,8 +81,8 @@ class NatsAlerts final : public AlertOutput {
   };
   struct Share {
     std::string subject;
-    Told next{};                      ///< that of the alert that is being told
-    Told last{};                      ///< that of the last one that has been told, by whomever
+    Told next{};                      ///< origin of the alert being sent
+    Told last{};                      ///< origin of the last alert, from any sender
     std::uint64_t last_sequence = 0;  ///< its number in the stream of alerts
   };
 
@@ -94,7 +95,7 @@ class NatsAlerts final : public AlertOutput {
     return at->second;
   }
 
-  /// Until the server answers.
+  /// Repeats until the server answers.
   void find_last(Share& share) {
     for (;;) {
       natsMsg* got = nullptr;
@@ -115,7 +116,8 @@ class NatsAlerts final : public AlertOutput {
     }
   }
 
-  /// Of all that tell this alert behind the same last one, the server takes it from one.
+  /// Publishes an alert if the share's last message is still the expected one; so the server accepts it from
+  /// one sender only.
   void tell_once(Share& share, const std::string& line) {
     while (share.last < share.next) {
       NatsMessage message = message_of(share.subject, line);
@@ -133,7 +135,8 @@ class NatsAlerts final : public AlertOutput {
         is_failure_told_ = false;
         return;
       }
-      // Somebody else has told one. So may this program itself have, when it has not heard the answer.
+      // Another sender has published an alert. It may be this program itself, if it missed the server's
+      // answer.
       if (code != JSStreamWrongLastSequenceErr) wait_for_server(share, status);
       find_last(share);
     }
@@ -156,7 +159,7 @@ class NatsAlerts final : public AlertOutput {
   void wait_for_server(const Share& share, natsStatus status) {
     if (stop_.asked()) connection_.fail(status, "alerts cannot be sent");
     connection_.check_open();
-    // A server that is started again takes a while.
+    // A restarted server needs some time.
     constexpr std::chrono::seconds patience(2);
     const auto now = std::chrono::steady_clock::now();
     if (!failing_since_) failing_since_ = now;

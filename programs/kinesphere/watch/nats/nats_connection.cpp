@@ -1,4 +1,4 @@
-// A connection to a NATS server that is made again whenever it breaks.
+// A connection to a NATS server that reconnects whenever it breaks.
 #include "watch/nats/nats_connection.hpp"
 
 #include <fmt/format.h>
@@ -44,7 +44,7 @@ NatsConnection::NatsConnection(const NatsAddress& address, bool is_quiet)
     next(natsOptions_SetURL(options.get(), address.server.c_str()));
     next(natsOptions_SetName(options.get(), "kinesphere watch"));
     next(natsOptions_SetTimeout(options.get(), 5000));
-    // For as long as it takes, with so many milliseconds between.
+    // Reconnects without a limit, with a fixed wait in between.
     next(natsOptions_SetMaxReconnect(options.get(), -1));
     next(natsOptions_SetReconnectWait(options.get(), 250));
   }
@@ -71,7 +71,7 @@ std::optional<std::string> NatsConnection::stream_of(const std::string& subject)
     throw ProgramError(
         fmt::format("{}: expected an answer about streams, but got '{}'", address_.name, text));
   if (const auto error = answer.find("error"); error != answer.end()) {
-    // JetStream is not there for this account, or not at all.
+    // JetStream is disabled for this account, or entirely.
     constexpr int not_for_account = 10039, not_at_all = 10076;
     const int code = error->value("err_code", 0);
     if (code == not_for_account || code == not_at_all) return std::nullopt;

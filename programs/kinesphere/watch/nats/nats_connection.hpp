@@ -1,4 +1,4 @@
-// A connection to a NATS server that is made again whenever it breaks.
+// A connection to a NATS server that reconnects whenever it breaks.
 #pragma once
 
 #include <nats/nats.h>
@@ -25,7 +25,7 @@ using NatsMessage = std::unique_ptr<natsMsg, NatsDelete<natsMsg_Destroy>>;
 using NatsSubscription = std::unique_ptr<natsSubscription, NatsDelete<natsSubscription_Destroy>>;
 using NatsStreamInfo = std::unique_ptr<jsStreamInfo, NatsDelete<jsStreamInfo_Destroy>>;
 
-/// Whether all that has a subject, which may have wildcards, has one that these hold.
+/// Returns true if the held subjects cover all subjects that match `subject`, which may have wildcards.
 bool holds_all_of(const std::vector<std::string>& held, std::string_view subject);
 
 /// Functions throw ProgramError naming the address.
@@ -38,16 +38,16 @@ class NatsConnection {
   const NatsAddress& address() const { return address_; }
   bool is_connected() const { return natsConnection_Status(connection_.get()) == NATS_CONN_STATUS_CONNECTED; }
 
-  /// The stream of JetStream that holds a subject; nothing where there is none, or no JetStream. One that
-  /// holds some of the subjects that are meant by a wildcard is refused.
+  /// Returns the JetStream stream that holds a subject; nothing if there is none, or no JetStream. Throws
+  /// ProgramError if a stream holds only some of the subjects of a wildcard.
   std::optional<std::string> stream_of(const std::string& subject) const;
-  /// `status` is NATS_NOT_FOUND where there is no such stream, and another one while the server does not
+  /// `status` is NATS_NOT_FOUND if there is no such stream, and another value while the server does not
   /// answer.
   NatsStreamInfo stream_info(const std::string& stream, natsStatus& status) const;
 
-  /// On standard error, unless the program is to be quiet.
+  /// Writes to standard error, unless the program is quiet.
   void warn(const std::string& what) const;
-  /// Fails where the server has refused the connection for good: otherwise it is made again.
+  /// Throws if the server has refused the connection for good; other failures reconnect.
   void check_open() const;
   [[noreturn]] void fail(natsStatus status, const char* what) const;
 

@@ -1,4 +1,4 @@
-// In place of NATS where its library is not installed.
+// Replaces NATS if its library is not installed.
 #include <fmt/format.h>
 
 #include "program_error.hpp"

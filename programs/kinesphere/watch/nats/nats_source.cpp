@@ -1,4 +1,4 @@
-// What comes in on a subject of NATS.
+// Reads the messages of a subject of NATS.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,10 +16,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-/// So often it is looked whether the program is asked to stop.
+/// Interval of checks for a request to stop.
 constexpr milliseconds glance(50);
 
-/// One message, with a line's end behind it: so no record goes on in the next.
+/// The text of one message with a line end added, so that no record continues in the next.
 class MessageText {
  public:
   std::string_view take(natsMsg* message) {
@@ -32,7 +32,7 @@ class MessageText {
   std::string text_;
 };
 
-/// Messages of a subscription as they come.
+/// Reads messages of a subscription as they arrive.
 class NatsSubjectSource final : public ReportSource {
  public:
   NatsSubjectSource(NatsConnection connection, const StopSignals& stop)
@@ -71,7 +71,7 @@ class NatsSubjectSource final : public ReportSource {
   std::string name() const override { return connection_.address().name; }
 
  private:
-  /// Too many waited. Those that follow come.
+  /// Too many messages waited and some were dropped; later ones arrive.
   void warn_of_lost() const {
     std::int64_t lost = 0;
     natsSubscription_GetDropped(subscription_.get(), &lost);
@@ -85,8 +85,9 @@ class NatsSubjectSource final : public ReportSource {
   std::uint64_t position_ = 0;
 };
 
-/// A stream of JetStream, message by message. Its consumer lives in the server's memory and goes with it:
-/// when one is missed, or nothing comes though there is more, another one is made behind the last message.
+/// Reads a stream of JetStream, message by message. The consumer lives in the server's memory and is lost
+/// with it: after a missed message, or a pause although there are more, a new consumer begins behind the last
+/// message.
 class NatsStreamSource final : public ReportSource {
  public:
   NatsStreamSource(NatsConnection connection, std::string stream, const StopSignals& stop, bool keeps_time,
@@ -96,7 +97,7 @@ class NatsStreamSource final : public ReportSource {
     const NatsStreamInfo info = connection_.stream_info(stream_, status);
     if (!info) connection_.fail(status, "cannot ask for its stream");
     created_ = info->Created;
-    // What came while no stream held the subject is not in this one.
+    // Messages from a time when no stream held the subject are not in this one.
     if (from != nullptr && from->stream == name() && from->check != 0) {
       position_ = from->position;
       if (from->check != check())
@@ -137,7 +138,7 @@ class NatsStreamSource final : public ReportSource {
   std::string name() const override { return connection_.address().name; }
 
  private:
-  /// Whether the next message has come.
+  /// Returns true if the next message has arrived.
   bool take(std::string_view& text) {
     if (taken_ == static_cast<std::size_t>(fetched_.Count)) fetch();
     if (!subscription_ || taken_ == static_cast<std::size_t>(fetched_.Count)) return false;
@@ -145,7 +146,7 @@ class NatsStreamSource final : public ReportSource {
     jsMsgMetaData* told = nullptr;
     const natsStatus status = natsMsg_GetMetaData(&told, message);
     const std::unique_ptr<jsMsgMetaData, NatsDelete<jsMsgMetaData_Destroy>> meta(told);
-    // What a consumer sends is counted: a message between was lost on the way.
+    // Messages of a consumer are numbered: a gap is a message lost on the way.
     if (status != NATS_OK || meta->Sequence.Consumer != ++delivered_ || meta->Sequence.Stream <= position_) {
       drop();
       return false;
@@ -157,7 +158,7 @@ class NatsStreamSource final : public ReportSource {
     return true;
   }
 
-  /// Asks for the next messages, and waits for the first of them.
+  /// Requests the next messages, and waits for the first.
   void fetch() {
     natsMsgList_Destroy(&fetched_);
     fetched_ = {};
@@ -168,7 +169,7 @@ class NatsStreamSource final : public ReportSource {
     if (status != NATS_OK && status != NATS_TIMEOUT) drop();
   }
 
-  /// Nothing has come for a second.
+  /// Called after a second without a message.
   void look_after_it() {
     last_look_ = Clock::now();
     connection_.check_open();
@@ -194,7 +195,7 @@ class NatsStreamSource final : public ReportSource {
     waits_for_ = what;
   }
 
-  /// Throws when messages that have been read are not in it, and others will have their numbers.
+  /// Throws if the stream no longer has messages that were read, since others will get their numbers.
   void check_stream(const jsStreamInfo& info) const {
     if (info.State.LastSeq < position_)
       throw ProgramError(
@@ -202,7 +203,7 @@ class NatsStreamSource final : public ReportSource {
                       name(), position_, info.State.LastSeq));
   }
 
-  /// Whether the consumer is there, and has sent nothing that has not been taken, and has no more to send.
+  /// Returns true if the consumer exists, all its messages were taken, and it has no more to send.
   bool has_all() const {
     jsConsumerInfo* got = nullptr;
     const natsStatus status = natsSubscription_GetConsumerInfo(&got, subscription_.get(), nullptr, nullptr);
@@ -210,10 +211,10 @@ class NatsStreamSource final : public ReportSource {
     return status == NATS_OK && info->NumPending == 0 && info->Delivered.Consumer == delivered_;
   }
 
-  /// Which stream this is.
+  /// Returns a number that identifies the stream.
   std::uint32_t check() const {
     const auto created = static_cast<std::uint64_t>(created_);
-    // 0 says that there is none.
+    // 0 stands for no stream.
     return static_cast<std::uint32_t>(created ^ created >> 32) | 1;
   }
 
@@ -240,7 +241,7 @@ class NatsStreamSource final : public ReportSource {
     const natsStatus status =
         js_PullSubscribe(&subscription, connection_.jetstream(), connection_.address().subject.c_str(),
                          nullptr, nullptr, &options, nullptr);
-    // Otherwise it is tried again.
+    // On failure the subscription is tried again.
     if (status == NATS_OK) subscription_.reset(subscription);
   }
 
@@ -258,13 +259,13 @@ class NatsStreamSource final : public ReportSource {
   bool keeps_time_;
   NatsSubscription subscription_;
   natsMsgList fetched_{};
-  std::size_t taken_ = 0;  ///< of them
+  std::size_t taken_ = 0;  ///< number of fetched messages already taken
   MessageText text_;
   FileTime arrival_{};
-  std::int64_t created_ = 0;     ///< when the stream was made
-  std::string waits_for_;        ///< as it was told; empty for the next message alone
+  std::int64_t created_ = 0;     ///< creation time of the stream
+  std::string waits_for_;        ///< last warning shown; empty after a message
   std::uint64_t position_ = 0;   ///< sequence number of the last message
-  std::uint64_t delivered_ = 0;  ///< by this consumer
+  std::uint64_t delivered_ = 0;  ///< messages delivered by this consumer
   Clock::time_point last_message_ = Clock::now(), last_look_ = Clock::now();
 };
 

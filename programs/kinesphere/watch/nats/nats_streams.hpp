@@ -1,4 +1,4 @@
-// Streams of NATS: what comes in on a subject, and alerts that go out on one.
+// NATS as a source of reports, and as a destination of alerts.
 #pragma once
 
 #include <memory>
@@ -10,20 +10,19 @@
 
 namespace kinesphere::program {
 
-/// What comes in on a subject, which may have wildcards. Where a stream of JetStream holds it, all of that is
-/// read in order from `from` on, if that is in it, or from the begin: nothing is lost as long as it is there,
-/// whoever is stopped and started again meanwhile. Otherwise it is what comes while this program is
-/// connected. With `keeps_time` a message without content is sent to the subject (in place of wildcards
-/// stands "tick") when nothing has come for a second: then all that read it know that time has passed. Throws
-/// ProgramError.
+/// Reads the messages of a subject, which may have wildcards. If a stream of JetStream holds it, all its
+/// messages are read in order, from `from` if the stream has that, else from the begin: nothing is lost while
+/// the stream keeps it, across restarts of any program. Otherwise only messages that arrive while connected
+/// are read. With `keeps_time` an empty message is sent to the subject ("tick" in place of wildcards) after a
+/// second without messages, so that all readers learn that time has passed. Throws ProgramError.
 std::unique_ptr<ReportSource> make_nats_source(const NatsAddress& address, const StopSignals& stop,
                                                bool keeps_time, bool is_quiet, const StreamPlace* from);
 
-/// Alerts of share k go to SUBJECT.k, counted from 1, a message each. Where a stream of JetStream holds that
-/// subject each is there once, whoever else tells the same alerts, and however often it is told again: with
-/// each goes, in the header Kinesphere-Told, at which place of the stream of reports it came, which of the
-/// alerts of that place it is, and `origin`, a word for what was read and how it was judged. Alerts of one
-/// origin come in the order of the other two; those of another come behind them. Throws ProgramError.
+/// Sends alerts of share k to SUBJECT.k, counted from 1, one message each. If a stream of JetStream holds
+/// that subject, each alert is stored once, however many senders publish it and however often. The header
+/// Kinesphere-Told identifies it: the place in the stream of reports, its number among the alerts of that
+/// place, and `origin`, a word for the input and the settings. Alerts of one origin are in the order of the
+/// other two; alerts of another origin follow them. Throws ProgramError.
 std::unique_ptr<AlertOutput> make_nats_alerts(const NatsAddress& address, const StopSignals& stop,
                                               bool is_quiet, const std::string& origin);
 
