@@ -1,4 +1,5 @@
 // A hierarchical hash grid, which finds the registered boxes that overlap a given box.
+//
 // The grid covers unbounded space: only cells that hold something exist. Each level has cells four times as
 // large as the level below. A box is registered on the finest level with cells at least as large as the box,
 // in one cell: that of its lower corner. A search extends its range downward by the largest box of the level,

@@ -1,4 +1,5 @@
 // The exact course of a gap along exact trajectories: the truth that detectors are compared with.
+//
 // Within a piece in which each motion is one cubic, the squared distance of two bodies is a polynomial of
 // degree 6 in time (4 without jerk), and the distance to a wall is a cubic. The Bernstein coefficients
 // enclose the polynomial: where all have one sign it has no root, and where all those of its derivative have

@@ -1,5 +1,6 @@
 // The spans of time in which bodies may be near each other, from exact trajectories alone. Only there the
 // exact course of a gap (gap_course.hpp) has to be followed.
+//
 // Time is cut into windows. In each window every trajectory lies in a box around the Bernstein coefficients
 // of its pieces, rounded outward. Two bodies with disjoint boxes are apart in that window.
 #pragma once
