@@ -11,7 +11,7 @@
 namespace kinesphere {
 namespace {
 
-/// What has come together up to `time`.
+/// The sums of a run up to `time`.
 struct Mark {
   double time = 0.0;
   std::uint64_t contacts = 0;
@@ -34,7 +34,7 @@ Totals totals_of(const Motion& motion, double time) {
   return totals;
 }
 
-/// Watches a run.
+/// Gauge watches a run and keeps the sums.
 class Gauge {
  public:
   void count(const Event& event) {
@@ -55,7 +55,7 @@ class Gauge {
 
   std::vector<Mark> marks;
   Totals start;
-  double energy_change = 0.0;  ///< twice
+  double energy_change = 0.0;  ///< twice the largest change of the energy
   double momentum_change = 0.0;
 
  private:
@@ -75,9 +75,9 @@ Estimate estimate_of(const std::vector<double>& blocks) {
 GasProperties properties_of(const Scene& scene, const Gauge& gauge, const GasBlocks& blocks) {
   const auto number = static_cast<double>(scene.bodies.size());
   const double diameter = 2.0 * scene.bodies.front().radius;
-  // The common motion has no part in the temperature.
+  // Temperature is that of the motion relative to the centre of mass.
   const double thermal_energy =
-      gauge.start.twice_energy - norm_squared(gauge.start.momentum) / number;  // twice
+      gauge.start.twice_energy - norm_squared(gauge.start.momentum) / number;  // twice the energy
   const double temperature = thermal_energy / (3.0 * (number - 1.0));
   const double thermal_speed = std::sqrt(temperature);
   std::vector<double> rates;

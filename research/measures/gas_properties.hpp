@@ -1,6 +1,6 @@
-// Collision rate and pressure of a gas of equal hard spheres: measured in a run, and as theory knows them.
+// Collision rate and pressure of a gas of equal hard spheres: as measured in a run, and as in theory.
 //
-// All in units of the diameter, the mass of a sphere and the thermal speed sqrt(kT / m).
+// All values are in units of the diameter, the mass of a sphere and the thermal speed sqrt(kT / m).
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,12 @@
 
 namespace kinesphere {
 
-/// Compressibility factor Z = p V / (N kT) of the hard-sphere fluid that fills this part of space, from 0 to
-/// freezing at 0.494: the polynomial of Kolafa, Labik and Malijevsky (Phys. Chem. Chem. Phys. 6, 2335, 2004)
-/// in x = packing / (1 - packing).
+/// Returns the compressibility factor Z = p V / (N kT) of the hard-sphere fluid that fills the part `packing`
+/// of space, from 0 to freezing at 0.494: the polynomial of Kolafa, Labik and Malijevsky (Phys. Chem. Chem.
+/// Phys. 6, 2335, 2004) in x = packing / (1 - packing).
 double hard_sphere_compressibility(double packing);
-/// Collisions of one sphere per unit of time, 6 (Z - 1) / sqrt(pi). Each collision counts for both partners.
+/// Returns the collisions of one sphere per unit of time, 6 (Z - 1) / sqrt(pi). Each collision counts for
+/// both partners.
 double hard_sphere_collision_rate(double packing);
 
 struct Estimate {
@@ -25,24 +26,26 @@ struct Estimate {
 
 struct GasProperties {
   double packing = 0.0;
-  Estimate collision_rate;     ///< as hard_sphere_collision_rate()
-  Estimate compressibility;    ///< as hard_sphere_compressibility(), from the virial of the collisions
-  std::uint64_t contacts = 0;  ///< that were measured
-  double energy_change = 0.0;  ///< largest since the start, as a part of the energy
+  Estimate collision_rate;  ///< comparable with hard_sphere_collision_rate()
+  Estimate
+      compressibility;  ///< comparable with hard_sphere_compressibility(); from the virial of the collisions
+  std::uint64_t contacts = 0;  ///< number of contacts measured
+  double energy_change = 0.0;  ///< largest change since the start, as a part of the energy
   /// Largest change of the total momentum since the start, in units of N m sqrt(kT / m).
   double momentum_change = 0.0;
-  SimulationResult result;  ///< of the whole run
+  SimulationResult result;  ///< result of the whole run
 };
 
-/// The time of a scene in blocks of one length.
+/// Division of the time of a scene into blocks of one length.
 struct GasBlocks {
-  int equilibration = 10;  ///< at the start, not measured
+  int equilibration = 10;  ///< blocks at the start that are not measured
   int measured = 20;
 };
 
-/// Runs a scene of equal spheres that fly freely and bounce without loss where space repeats on all axes.
-/// Errors: unsupported, naming what is otherwise; out_of_range for fewer than 2 measured blocks, or a
-/// negative number of others; those of simulate(). Differs from an infinite system by about 1 / N.
+/// Runs a scene of equal spheres that fly freely and bounce without loss, in space that is periodic on all
+/// axes. The result differs from an infinite system by about 1 / N. Errors: unsupported with the name of the
+/// property for other scenes; out_of_range for fewer than 2 measured blocks, or a negative number of others;
+/// those of simulate().
 Result<GasProperties> measure_gas(const Scene& scene, const DetectorMaker& make,
                                   const GasBlocks& blocks = {});
 

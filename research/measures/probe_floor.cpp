@@ -15,7 +15,7 @@
 namespace kinesphere {
 namespace {
 
-/// The true sphere of a body on a piece of its path: a bound that does not grow.
+/// Returns the true sphere of a body on a piece of its path, as a bound that does not grow.
 Bound true_sphere(const Segment& piece, double radius) {
   return {.time = piece.begin,
           .position = piece.position,
@@ -33,8 +33,8 @@ Box united(const Box& a, const Box& b) {
   return box;
 }
 
-/// When the bound first is that near: earliest_meeting() is never late, and taken again from its own answer
-/// it comes as near to the truth as rounding lets it.
+/// Returns the first time at which the bound is within `distance` of the other. earliest_meeting() is never
+/// late; repeated from its own answer, it comes as near to the truth as rounding allows.
 template <class Other>
 double meeting(const Bound& bound, const Other& other, double from, double to, double distance) {
   constexpr int most_rounds = 30;
@@ -86,10 +86,10 @@ class FloorCount {
  private:
   struct Body {
     BodyDefinition promise;
-    Bound bound;                ///< since its last probe
-    std::vector<double> stops;  ///< when its contacts begin and end: it is probed then anyway
+    Bound bound;                ///< bound since the last counted probe
+    std::vector<double> stops;  ///< times of contact begins and ends, at which the body is probed anyway
     std::size_t next_stop = 0;
-    std::vector<FlightContact> long_contacts;  ///< those that do not end when they begin
+    std::vector<FlightContact> long_contacts;  ///< contacts that end later than they begin
     std::uint64_t probes = 0;
   };
 
@@ -104,7 +104,8 @@ class FloorCount {
     return segment_at(flight_.paths[number], time).state_at(time);
   }
 
-  /// Others are looked for in windows of time, in which most move half way to their neighbours.
+  /// Returns the length of a window of time in which others are looked for: the average body moves half way
+  /// to its neighbours in it.
   double window_length() const {
     const double duration = scene_.end_time - scene_.world.start_time;
     Box all{bodies_.front().bound.position, bodies_.front().bound.position};
@@ -120,7 +121,7 @@ class FloorCount {
     speed /= count;
     acceleration /= count;
     const double window = 2.0 * distance / (speed + std::sqrt(speed * speed + 2.0 * acceleration * distance));
-    // Not a number, zero or infinite where all lie in a plane, or at rest.
+    // The window is NaN, zero or infinite if all bodies lie in a plane or are at rest.
     return window > 1e-3 * duration && window < duration ? window : 0.1 * duration;
   }
 
@@ -134,7 +135,7 @@ class FloorCount {
     return *box;
   }
 
-  /// Calls visit(true sphere, from, to) for the pieces of a path in turn, as long as it answers true.
+  /// Calls visit(true sphere, from, to) for the pieces of a path in turn, until it returns false.
   template <class Visit>
   void for_each_piece(std::uint32_t number, double begin, double end, Visit visit) const {
     const Trajectory& path = flight_.paths[number];
@@ -166,14 +167,14 @@ class FloorCount {
     }
   }
 
-  /// Where rounding leaves no room any more, at least this long passes: the bound grows by far less than the
-  /// tolerance.
+  /// Returns the least time between probes (time), for gaps that rounding has used up. The bound grows by far
+  /// less than the tolerance in it.
   double shortest_interval(const Body& body) const {
     const double limit = body.promise.acceleration_limit;
     return limit > 0.0 ? std::sqrt(tolerance_ / limit) / 64.0 : infinity;
   }
 
-  /// Until when the body need not be probed; infinite when not before `until`.
+  /// Returns the latest time at which the body has to be probed; infinity if that is not before `until`.
   double latest_probe(std::uint32_t number, double from, double until) {
     const Bound& bound = bodies_[number].bound;
     near_.clear();
@@ -210,8 +211,8 @@ class FloorCount {
   const Flight& flight_;
   double tolerance_;
   std::vector<Body> bodies_;
-  HashGrid grid_;                    ///< true boxes of the window
-  std::vector<std::uint32_t> near_;  ///< scratch
+  HashGrid grid_;                    ///< true boxes of the bodies in the window
+  std::vector<std::uint32_t> near_;  ///< scratch memory of latest_probe()
 };
 
 Result<void> check(const Scene& scene, const Flight& flight) {

@@ -1,13 +1,13 @@
-// The probe floor: how few probes a detector could do with that knew everything but the one body it asks.
+// The probe floor: the number of probes of a detector that knows everything but the one body it probes.
 //
-// For body i, with everyone else's true motion known, there is a longest time that it may go unprobed: until
-// the bound that has grown since its last report first reaches deeper than the contact tolerance into a true
-// sphere or a wall. Probing as late as that each time (greedily), and at its contacts, is the least number of
-// probes of that body. A real method knows less about the others, so it needs at least as many; how many
-// times as many is what it pays for not knowing.
+// If the true motion of all other bodies is known, there is a longest time that body i may go unprobed: until
+// its bound, grown since the last report, first reaches deeper than the contact tolerance into a true sphere
+// or a wall. Probing as late as that each time (greedily), and at contacts, takes the least number of probes
+// of that body. A real method knows less about the others and needs at least as many; the ratio is what it
+// pays for not knowing.
 //
-// While two bodies touch, nothing is asked about that pair but when its contact ends, and the probe at that
-// end is counted. Reports that bodies are added with are not.
+// While two bodies touch, the pair is probed at the end of its contact only, and that probe is counted.
+// Reports with which bodies are added are not counted.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,8 @@ struct ProbeFloor {
   std::uint64_t total() const;
 };
 
-/// Of a flight through this scene. Errors: unsupported for bodies that come or go on the way, for reports
-/// with errors, and for paths with jerk. Cost: some microseconds for each probe.
+/// Computes the floor for a flight through the scene. Cost: some microseconds for each probe. Errors:
+/// unsupported for bodies that appear or vanish on the way, for reports with errors, and for paths with jerk.
 Result<ProbeFloor> probe_floor(const Scene& scene, const Flight& flight);
 
 }  // namespace kinesphere

@@ -24,7 +24,7 @@ const std::vector<Span>& of(const std::map<TrackPair, std::vector<Span>>& spans,
   return at == spans.end() ? none : at->second;
 }
 
-/// Calls visit(span, verdict) for what was told of a pair while both were there.
+/// Calls visit(span, verdict) for each verdict that was reported of a pair while its two tracks were there.
 template <class Visit>
 void for_each_verdict(const std::vector<VerdictChange>& changes, const Span& there, Visit visit) {
   double begin = there.begin;

@@ -1,4 +1,4 @@
-// When whom a monitor, or another tool, warned of, and how that compares with the truth.
+// Alarms of a monitor and of another tool, and their comparison with the truth.
 #pragma once
 
 #include <cstddef>
@@ -10,45 +10,47 @@
 
 namespace kinesphere {
 
-/// What was told of pairs, by time. Before the first change, and where there is none, they are apart.
+/// A change of the reported verdict of a pair. Changes of a pair are sorted by time; before the first one the
+/// pair counts as apart.
 struct VerdictChange {
   double time = 0.0;
   Verdict verdict = Verdict::apart;
 };
 using VerdictHistory = std::map<TrackPair, std::vector<VerdictChange>>;
 
-/// Hands the deliveries to a monitor with one separation, lets each track leave at its end, and notes what
-/// the monitor tells.
+/// Hands the deliveries to a monitor with one separation, lets each track leave at its end, and returns the
+/// verdicts that the monitor reports.
 VerdictHistory watch(Monitor& monitor, const RecordedSky& sky, const std::vector<Delivery>& deliveries);
 
-/// How right verdicts about `distance` were.
+/// How often verdicts about `distance` were right, as sums of time over pairs.
 struct Correctness {
-  double pair_time = 0.0;       ///< in which both of a pair were there
-  double within_time = 0.0;     ///< of it, truly within the distance
-  double undecided_time = 0.0;  ///< of it, undecided
-  double wrong_time = 0.0;      ///< of it, told to be certain of what was not so
+  double pair_time = 0.0;       ///< the two tracks of a pair were there
+  double within_time = 0.0;     ///< part of pair_time in which a pair was truly within the distance
+  double undecided_time = 0.0;  ///< part of pair_time in which a pair was undecided
+  double wrong_time = 0.0;      ///< part of pair_time with a verdict that was certain and wrong
 };
-/// `clearly`: true spans within the distance less a rounding; `loosely`: within the distance and the
-/// tolerance.
+/// Compares verdicts with the truth. `clearly` has the true spans within the distance less a rounding,
+/// `loosely` those within the distance and the tolerance.
 Correctness correctness_of(const VerdictHistory& history, const RecordedSky& sky,
                            const std::map<TrackPair, std::vector<Span>>& clearly,
                            const std::map<TrackPair, std::vector<Span>>& loosely);
 
-/// Spans in which there was a warning about a pair.
+/// Spans of time with a warning, by pair.
 using Alarms = std::map<TrackPair, std::vector<Span>>;
-/// Where a pair was not certainly apart.
+/// Returns the spans in which a pair was not certainly apart.
 Alarms alarms_of(const VerdictHistory& history, const RecordedSky& sky);
-/// As tools do that take everybody to go straight on from the latest report: at each multiple of `step` they
-/// warn of all pairs whose closest approach comes within `look_ahead` and is nearer than the distance.
+/// Returns the alarms of a tool that extrapolates each track in a straight line from its latest report: at
+/// each multiple of `step` it warns of all pairs with a closest approach nearer than the distance, within the
+/// time `look_ahead`.
 Alarms straight_on_alarms(const RecordedSky& sky, const std::vector<Delivery>& deliveries, double distance,
                           double look_ahead, double step);
 
 struct AlarmScore {
-  std::size_t approaches = 0;    ///< in truth
-  std::size_t missed = 0;        ///< of them, no warning before their end
-  std::size_t late = 0;          ///< of the others, none before their begin
-  std::size_t alarms = 0;        ///< those no more than `look_ahead` apart count as one
-  std::size_t false_alarms = 0;  ///< no approach in them, or within `look_ahead` after them
+  std::size_t approaches = 0;    ///< true approaches
+  std::size_t missed = 0;        ///< approaches without a warning before their end
+  std::size_t late = 0;          ///< other approaches without a warning before their begin
+  std::size_t alarms = 0;        ///< warnings; those at most `look_ahead` apart count as one
+  std::size_t false_alarms = 0;  ///< alarms without an approach in them, or within `look_ahead` after them
 };
 AlarmScore score_of(const Alarms& alarms, const std::map<TrackPair, std::vector<Span>>& truth,
                     double look_ahead);

@@ -18,7 +18,8 @@ RandomForces motion_of(const FaultySettings& settings, Random& random) {
       .value();
 }
 
-/// So many good reports are made between two wrong ones, and after a gap: most of them come in between, too.
+/// Good reports made between two wrong ones, and after a gap. Fewer would let wrong reports arrive next to
+/// each other, as good reports overtake each other.
 constexpr std::uint32_t good_between = 9;
 
 }  // namespace
@@ -59,7 +60,7 @@ void FaultyReports::make_report(double time, std::uint32_t track) {
   report.state.position += settings_.position_error * random_.point_in_ball();
   report.state.velocity += settings_.velocity_error * random_.point_in_ball();
   const auto may_be_wrong = [this](std::uint32_t id) { return good_[id] >= good_between; };
-  // What is wrong is sent at once, or it might come between others that are.
+  // A wrong report is delivered at once; delayed, it could arrive between other wrong ones.
   const double fate = random_.uniform();
   if (fate < settings_.outliers && may_be_wrong(track)) {
     ++counts_.outliers;
@@ -69,7 +70,7 @@ void FaultyReports::make_report(double time, std::uint32_t track) {
   }
   if (fate > 1.0 - settings_.swapped) {
     const auto other = static_cast<std::uint32_t>(random_.uniform(0.0, settings_.tracks));
-    // Of one that is near nobody could tell.
+    // A swapped report near the other track could not be detected.
     if (may_be_wrong(other) && norm(motion_.state(other, time).position - report.state.position) > 500.0) {
       ++counts_.swapped;
       good_[other] = 0;

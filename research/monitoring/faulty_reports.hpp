@@ -1,4 +1,4 @@
-// Endless reports of many tracks whose true motion is known, with all that goes wrong on the way.
+// Endless reports of many tracks with known true motion, with all usual faults of transmission.
 #pragma once
 
 #include <cstdint>
@@ -13,20 +13,20 @@ namespace kinesphere {
 
 struct FaultySettings {
   std::uint32_t tracks = 20'000;
-  double width = 40'000.0;    ///< of the square in which they begin (length)
-  double height = 1000.0;     ///< of the layer above it
-  double speed = 15.0;        ///< at the begin, at most
-  double acceleration = 1.0;  ///< at most, drawn anew every two units of time
-  double interval = 1.0;      ///< of reports: 0.5 to 1.5 times this
+  double width = 40'000.0;    ///< edge of the square in which the tracks begin (length)
+  double height = 1000.0;     ///< height of the layer above the square (length)
+  double speed = 15.0;        ///< largest speed at the begin
+  double acceleration = 1.0;  ///< largest acceleration; drawn anew every two units of time
+  double interval = 1.0;      ///< mean time between reports of a track, each 0.5 to 1.5 times this
   double position_error = 3.0;
   double velocity_error = 0.5;
-  double delay = 2.0;        ///< at most: reports overtake each other
-  double clock_error = 0.2;  ///< of each track's stamps, at most; declared
-  // Parts of all reports.
+  double delay = 2.0;        ///< largest delay of a report; reports overtake each other
+  double clock_error = 0.2;  ///< largest error of a track's timestamps; declared in reports
+  // Faults, each as a part of all reports: repeated reports, and those below.
   double repeated = 0.02;
-  double outliers = 0.002;  ///< 500 to 5000 away
-  double swapped = 0.002;   ///< under the id of another track
-  double gaps = 0.001;      ///< behind which a track is silent for 20 to 40 times the interval
+  double outliers = 0.002;  ///< reports displaced by 500 to 5000
+  double swapped = 0.002;   ///< reports under the id of another track
+  double gaps = 0.001;      ///< gaps after a report, of 20 to 40 times the interval
   std::uint64_t seed = 1;
 };
 
@@ -38,18 +38,18 @@ struct FaultCounts {
   std::uint64_t gaps = 0;
 };
 
-/// Of any three successive reports under one id at most one is wrong.
+/// FaultyReports makes reports. At most one of any three successive reports under one id is wrong.
 class FaultyReports {
  public:
   explicit FaultyReports(const FaultySettings& settings);
 
-  /// The next one that comes in, by time.
+  /// Returns the next report that arrives, in order of arrival.
   Delivery next();
   const FaultCounts& counts() const { return counts_; }
-  /// As the tracks really move. Times never decrease.
+  /// The true motion of the tracks. Times of calls must never decrease.
   const RandomForces& motion() const { return motion_; }
   RandomForces& motion() { return motion_; }
-  /// What all tracks promise.
+  /// Returns the class of all tracks.
   TrackClass promise() const { return {.acceleration_limit = settings_.acceleration}; }
 
  private:
@@ -62,7 +62,7 @@ class FaultyReports {
   };
   struct Waiting {
     Delivery delivery;
-    std::uint64_t number;  ///< in the order in which they were made
+    std::uint64_t number;  ///< sequence number of the report
     friend bool operator<(const Waiting& a, const Waiting& b) {
       return a.delivery.time != b.delivery.time ? a.delivery.time > b.delivery.time : a.number > b.number;
     }
@@ -73,8 +73,8 @@ class FaultyReports {
   FaultySettings settings_;
   Random random_;
   RandomForces motion_;
-  std::vector<double> clocks_;       ///< by how much the stamps of a track are off
-  std::vector<std::uint32_t> good_;  ///< reports of an id since a wrong one, or a gap
+  std::vector<double> clocks_;       ///< by track: error of its timestamps
+  std::vector<std::uint32_t> good_;  ///< by id: good reports since a wrong one, or a gap
   std::priority_queue<Due> due_;
   std::priority_queue<Waiting> waiting_;
   std::uint64_t made_ = 0;

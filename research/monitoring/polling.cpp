@@ -20,7 +20,7 @@ Monitor monitor_for(const RecordedSky& sky, const PollingSettings& settings) {
       .value();
 }
 
-/// Tracks by when they come and go, in the order of time.
+/// A track that appears or vanishes. Changes are sorted by time.
 struct Change {
   double time;
   bool comes;

@@ -1,4 +1,4 @@
-// How many reports it takes to keep every pair of a recording decided.
+// The number of reports it takes to keep every pair of a recording decided.
 #pragma once
 
 #include <cstdint>
@@ -14,17 +14,17 @@ struct PollingSettings {
 };
 
 struct Polling {
-  std::uint64_t reports = 0;    ///< those with which tracks begin too
-  double undecided_time = 0.0;  ///< the sum over pairs
+  std::uint64_t reports = 0;    ///< includes the first report of each track
+  double undecided_time = 0.0;  ///< sum over pairs
 };
 
-/// A monitor asks when it has to.
+/// Polls the tracks that a monitor asks for.
 Polling poll_when_needed(const RecordedSky& sky, const PollingSettings& settings);
-/// Everybody is asked at the multiples of a time.
+/// Polls all tracks at the multiples of `interval`.
 Polling poll_everybody(const RecordedSky& sky, const PollingSettings& settings, double interval);
-/// No method that rests upon the same promises can do with less: each track is asked only when, with the true
-/// places of all others known, its own bound leaves a pair undecided. Looks at multiples of `step`, and so
-/// asks late by up to that. Cost: some seconds for a thousand tracks.
+/// Returns a lower bound on the reports of any method that relies on the same classes of tracks. Each track
+/// is polled only when its own bound leaves a pair undecided, with the true places of all others known. Times
+/// are multiples of `step`, so a poll may be late by up to `step`. Cost: some seconds for a thousand tracks.
 std::uint64_t polling_floor(const RecordedSky& sky, const PollingSettings& settings, double step);
 
 }  // namespace kinesphere

@@ -12,7 +12,8 @@
 namespace kinesphere {
 namespace {
 
-/// No speed on a segment is larger: that at its begin and all that its acceleration can add, piece by piece.
+/// Returns an upper bound on the speed on a segment: the speed at its begin and all that its acceleration can
+/// add.
 double largest_speed(const Segment& segment) {
   constexpr int pieces = 64;
   const double step = (segment.end - segment.begin) / pieces;

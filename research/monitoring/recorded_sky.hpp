@@ -1,5 +1,5 @@
-// Recorded tracks as something to be monitored: reports of them, late and noisy, and when which two were
-// within a distance in truth.
+// Recorded tracks as input of a monitor: late and noisy reports of them, and the true spans in which pairs
+// are within a distance.
 #pragma once
 
 #include <cstdint>
@@ -21,15 +21,15 @@ struct Span {
 using TrackPair = std::pair<TrackId, TrackId>;
 
 struct ReportingSettings {
-  double interval = 1.0;  ///< of the reports of a track: uniformly 0.2 to 1.8 times this
-  double delay = 0.0;     ///< of a report, at most
-  // Errors are drawn from the balls that are declared.
+  double interval = 1.0;  ///< mean time between reports of a track; each uniformly 0.2 to 1.8 times this
+  double delay = 0.0;     ///< largest delay of a report
+  // Declared errors; the true ones are drawn from balls of these radii.
   double position_error = 0.0;
   double velocity_error = 0.0;
   std::uint64_t seed = 1;
 };
 
-/// A report that comes in.
+/// A report with its time of arrival.
 struct Delivery {
   double time = 0.0;
   TrackId track = 0;
@@ -38,25 +38,27 @@ struct Delivery {
 
 class RecordedSky {
  public:
-  /// Errors: as RecordedTracks::create().
+  /// Makes a sky of these tracks. Errors: as RecordedTracks::create().
   static Result<RecordedSky> create(const std::vector<Track>& tracks, int dimensions);
 
   std::size_t size() const { return spans_.size(); }
   int dimensions() const { return dimensions_; }
-  /// When a track was there.
+  /// Returns the span of time in which a track is there.
   const Span& span(TrackId track) const { return spans_[track]; }
-  /// The sum of all spans.
+  /// Returns the sum of all spans.
   double track_time() const;
-  /// One class that promises the largest acceleration, and speed, of all.
+  /// Returns the class of all tracks: the largest acceleration and the largest speed of any.
   TrackClass promise() const { return {.acceleration_limit = fastest_turn_, .largest_speed = fastest_}; }
-  /// Of a track at a time. Its plan is to keep within its own largest acceleration.
+  /// Returns the report of a track at a time. Its plan is to keep within the track's own largest
+  /// acceleration.
   TrackReport report(TrackId track, double time) const;
 
-  /// In the order in which they come in. Each track reports at its begin.
+  /// Returns reports in order of arrival. Each track reports at its begin.
   std::vector<Delivery> deliveries(const ReportingSettings& settings) const;
-  /// Everybody reports at the multiples of a time, and at its begin, without error or delay.
+  /// Returns reports of all tracks at the multiples of `interval`, and at their begins, without error or
+  /// delay.
   std::vector<Delivery> polled(double interval) const;
-  /// When two were within a distance, by the exact course of their curves.
+  /// Returns the spans in which a pair is within a distance, by the exact course of the curves.
   Result<std::map<TrackPair, std::vector<Span>>> within(double distance) const;
 
  private:

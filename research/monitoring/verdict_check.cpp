@@ -11,7 +11,8 @@ std::uint64_t key(std::uint64_t a, std::uint64_t b) { return std::min(a, b) << 3
 
 VerdictCheck::VerdictCheck(const FaultySettings& settings, const RandomForces& motion, double distance,
                            double tolerance)
-    // Less than the distance by more than the world's tolerances, and more than it and the tolerance.
+    // near_ is below the distance, and far_ above the distance and the tolerance, by more than the world's
+    // tolerances.
     : near_(distance - margin),
       far_(distance + tolerance + margin),
       begin_(2.0 * settings.interval + settings.delay),
@@ -42,7 +43,8 @@ void VerdictCheck::compare(double until, std::span<const MonitorEvent> told) {
   take_told(until);
 }
 
-/// From a pair's coming near on it has to be told of, until it has parted.
+/// Counts an approach, as missed if the pair is not reported yet. A pair has to stay reported until it has
+/// parted.
 void VerdictCheck::approach(std::uint64_t pair, double time) {
   if (time < begin_) return;
   ++approaches;

@@ -1,4 +1,4 @@
-// Verdicts held against the true motion, by a world that knows it.
+// Comparison of verdicts with the true motion, by a world that has it.
 #pragma once
 
 #include <cstdint>
@@ -13,20 +13,21 @@
 
 namespace kinesphere {
 
-/// Of tracks that are numbered from 0, and one separation.
+/// VerdictCheck compares the verdicts of one separation, for tracks numbered from 0.
 class VerdictCheck {
  public:
-  /// `distance` is what was watched, `tolerance` the monitor's. Nothing is counted before everybody has been
-  /// heard of.
+  /// `distance` is that of the separation, `tolerance` the monitor's (length). Nothing is counted before all
+  /// tracks have reported.
   VerdictCheck(const FaultySettings& settings, const RandomForces& motion, double distance, double tolerance);
 
-  /// What has happened in truth, and what was told, up to a time; each in order.
+  /// Compares the truth with the reported events up to a time. `told` is sorted by time, and later calls
+  /// continue earlier ones.
   void compare(double until, std::span<const MonitorEvent> told);
 
-  std::uint64_t approaches = 0;      ///< in truth
-  std::uint64_t missed = 0;          ///< told to be apart at a time when they were near
-  std::uint64_t warnings = 0;        ///< how often a pair that was apart was so no longer
-  std::uint64_t wrongly_within = 0;  ///< told to be certainly near when they were not
+  std::uint64_t approaches = 0;      ///< true approaches
+  std::uint64_t missed = 0;          ///< approaches that were reported as apart at some time while near
+  std::uint64_t warnings = 0;        ///< changes of a pair from apart to another verdict
+  std::uint64_t wrongly_within = 0;  ///< pairs reported as certainly near when they were not
 
  private:
   static constexpr double margin = 1e-2;

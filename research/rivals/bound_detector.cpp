@@ -80,7 +80,7 @@ std::optional<Event> BoundDetector::deliver() {
   return event;
 }
 
-/// Predicts what has changed at this instant.
+/// Starts the new courses and predicts the contacts that changed at this instant.
 void BoundDetector::settle() {
   if (bodies_added_) prepare();
   bodies_added_ = false;
@@ -155,7 +155,7 @@ double BoundDetector::wall_outlook(std::uint32_t number, double horizon) {
   return first;
 }
 
-/// Holds fresh reports against the contact rule.
+/// Applies the contact rule to fresh reports.
 template <class Partner>
 double BoundDetector::judge(const ContactPredictor<Partner>& predictor, Event current,
                             const RelativeLimits& promise) {

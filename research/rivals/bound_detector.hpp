@@ -1,8 +1,8 @@
-// What the detectors that keep time-varying bounds have in common: bodies, their reports, contacts and their
-// delivery. A detector derived from this says when which pair is looked at.
+// The common part of detectors that keep time-varying bounds: bodies, their reports, contacts and event
+// delivery. A derived detector decides when each pair is rechecked.
 //
 // Time stands while advance() delivers the events of an instant; then changed courses and contacts are
-// predicted anew, and the clock moves on to what is scheduled next.
+// predicted anew, and the clock moves on to the next scheduled time.
 #pragma once
 
 #include <cstdint>
@@ -30,10 +30,10 @@ class BoundDetector : public Detector {
  protected:
   struct Body {
     BodyDefinition definition;
-    Bound bound;  ///< since its last report
+    Bound bound;  ///< bound since the last report
     bool present = false;
-    bool new_course = false;          ///< nothing is predicted of it
-    std::optional<Vec3> kicked_to{};  ///< since its last report
+    bool new_course = false;          ///< no prediction uses the body yet
+    std::optional<Vec3> kicked_to{};  ///< velocity set since the last report
 
     double largest_acceleration() const {
       return definition.acceleration_limit + norm(definition.planned_acceleration);
@@ -47,45 +47,47 @@ class BoundDetector : public Detector {
         time_(definition.start_time),
         bodies_(motion.size()) {}
 
-  // Asked of the derived detector.
-  /// Bodies have been added since the clock last moved: a chance to choose sizes. May not probe.
+  // Virtual functions of the derived detector.
+  /// Called after bodies were added, before the clock moves: a chance to choose sizes. May not probe.
   virtual void prepare() {}
-  /// The body has appeared or has been kicked; its bound is fresh. All that was predicted of it is void.
+  /// Called after the body was added or got a new velocity. Its bound is fresh; all predictions about it are
+  /// invalid.
   virtual void on_new_course(std::uint32_t number) = 0;
-  /// The body is gone. Called also for one of which nothing has been predicted yet.
+  /// Called after the body was removed, also if nothing was predicted of it yet.
   virtual void on_removed(std::uint32_t number) = 0;
-  /// The contact of two bodies (a body and itself: with walls) has begun or ended: it has to be predicted
-  /// anew.
+  /// Called after a contact of two bodies (a body twice: of a body and a wall) began or ended; it has to be
+  /// predicted anew.
   virtual void on_contact_change(std::uint32_t a, std::uint32_t b) = 0;
-  /// When the next thing is scheduled; +infinity if nothing is.
+  /// Returns the next scheduled time; +infinity if nothing is scheduled.
   virtual double next_time() const = 0;
-  /// Does the thing that is due now.
+  /// Handles the item that is due now.
   virtual void handle_next() = 0;
-  /// The state of a body now: a probe, unless the detector knows better.
+  /// Returns the state of a body at time(): by a probe, unless overridden.
   virtual State report(std::uint32_t number);
 
-  // Offered to it.
+  // Functions for the derived detector.
   std::uint32_t size() const { return static_cast<std::uint32_t>(bodies_.size()); }
   const Body& body(std::uint32_t number) const { return bodies_[number]; }
-  /// True when the body's report is of this instant.
+  /// Returns true if the last report of the body is of time().
   bool fresh(std::uint32_t number) const { return bodies_[number].bound.time == time_; }
-  /// Asks for the body's report and shrinks its bound to it. Not needed when fresh. A report that breaks the
-  /// body's promise is announced, and on_new_course follows. One that is not fit is an error, which advance()
-  /// answers from then on; until it does, the bound is what was expected.
+  /// Probes the body and renews its bound. Not needed if the body is fresh. A report that violates the bound
+  /// is reported as an event, and on_new_course() follows. An invalid report is an error, which advance()
+  /// returns from then on; until then the bound is the predicted one.
   void probe(std::uint32_t number);
-  /// True when the two are in contact.
+  /// Returns true if the two are in contact.
   bool touch(std::uint32_t a, std::uint32_t b) const { return book_.touch(a, b); }
-  /// Partners in contact.
+  /// Returns the partners in contact with the body.
   std::span<const std::uint32_t> touching(std::uint32_t number) const { return book_.partners_of(number); }
   const WorldDefinition& definition() const { return definition_; }
   const ContactRule& rule() const { return book_.rule(); }
 
-  /// When the two have to be looked at next, from their bounds as they are: whether they touch cannot change
-  /// before. time() when both have to be probed first. With both fresh the contact rule decides: a begin or
-  /// an end is announced and the answer is +infinity (after its delivery follows on_contact_change);
-  /// otherwise the answer is later than time(). +infinity also when nothing happens up to `horizon`.
+  /// Returns the next time at which the pair has to be rechecked, from the present bounds: the contact cannot
+  /// change before. Returns time() if the two have to be probed first. If both are fresh, the contact rule
+  /// decides: after a begin or an end an event is queued and the result is +infinity (on_contact_change()
+  /// follows its delivery); otherwise the result is later than time(). Returns +infinity also if nothing
+  /// happens up to `horizon`.
   double pair_outlook(std::uint32_t a, std::uint32_t b, double horizon = infinity);
-  /// The same for a body and all walls of the box.
+  /// Returns what pair_outlook() does, for a body and all walls of the box.
   double wall_outlook(std::uint32_t number, double horizon = infinity);
 
   DetectorCounters counters_;
@@ -108,7 +110,7 @@ class BoundDetector : public Detector {
   std::vector<Body> bodies_;
   std::vector<std::uint32_t> new_courses_;
   bool bodies_added_ = false;
-  std::optional<Error> error_;  ///< of a report
+  std::optional<Error> error_;  ///< error of an invalid report
 };
 
 }  // namespace kinesphere

@@ -1,4 +1,4 @@
-// The detectors by name, for programs, tests and benchmarks.
+// The table of detectors by name, for programs, tests and benchmarks.
 #pragma once
 
 #include <optional>
@@ -10,9 +10,9 @@
 
 namespace kinesphere {
 
-/// What some detectors can be told.
+/// Settings that only some detectors take.
 struct DetectorSettings {
-  /// Time step > 0 of those that take one.
+  /// Time step > 0 of detectors with fixed steps.
   std::optional<double> step{};
   PaperOptions paper{};
 };
@@ -20,17 +20,17 @@ struct DetectorSettings {
 struct DetectorEntry {
   std::string_view name;
   std::string_view description;  ///< one line
-  bool takes_step;               ///< looks at fixed steps, so it may miss contacts
-  bool ballistic_only;           ///< refuses bodies with a limit
+  bool takes_step;               ///< tests at fixed steps, so it may miss contacts
+  bool ballistic_only;           ///< refuses bodies with an acceleration limit
   Result<std::unique_ptr<Detector>> (*make)(const WorldDefinition& definition, const Motion& motion,
                                             const DetectorSettings& settings);
 };
 
-/// All detectors, the default one first.
+/// Returns all detectors, the default one first.
 const std::vector<DetectorEntry>& detector_table();
 
-/// Makes the detector of this name. Errors: out_of_range naming `name` for one that is not in the table, and
-/// naming `settings` where a step is missing or not wanted.
+/// Returns a maker of the detector with this name. Errors: out_of_range for `name` if it is not in the table,
+/// and for `settings` if a step is missing or not allowed.
 Result<DetectorMaker> detector_maker(std::string_view name, const DetectorSettings& settings = {});
 
 }  // namespace kinesphere

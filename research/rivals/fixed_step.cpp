@@ -1,4 +1,4 @@
-// Fixed steps: what most programs do. Every step all bodies are moved, and pairs that overlap then are
+// Fixed steps, as in most programs: at every step all bodies are moved, and pairs that overlap then are
 // contacts.
 #include <vector>
 
@@ -84,7 +84,7 @@ class FixedStep final : public Detector {
     bool present = false;
     double radius = 0.0;
     State state{};
-    double seen = 0.0;  ///< when it was in this state
+    double seen = 0.0;  ///< time of the state
   };
 
   Sphere sphere(std::uint32_t number) const {
@@ -124,7 +124,7 @@ class FixedStep final : public Detector {
   void look() {
     for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
       if (!bodies_[number].present) continue;
-      // Partners that have parted far may not be neighbours any more.
+      // Partners that have parted far may no longer be found by the search.
       const auto touched = book_.partners_of(number);
       const std::vector<std::uint32_t> partners(touched.begin(), touched.end());
       for (const std::uint32_t partner : partners)

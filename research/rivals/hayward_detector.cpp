@@ -1,9 +1,9 @@
 // The collision predictor of Hayward, Aubry, Foisy and Ghallab (1995): every pair of bodies has a safe
-// interval, in which the two certainly do not touch, and the most urgent pair is looked at first.
+// interval, in which the two certainly do not touch, and the most urgent pair is rechecked first.
 //
-// There is no grid: O(n^2) memory, and a look costs the same wherever the others are. It probes both bodies
-// and renews the interval of that pair alone; the others stay true, since an interval is a fact about bodies,
-// not about bounds.
+// There is no grid: memory is O(n^2), and the cost of a recheck does not depend on other bodies. A recheck
+// probes the two bodies and renews the interval of that pair alone. Other intervals stay valid, since an
+// interval is a fact about bodies, not about bounds.
 #include <algorithm>
 #include <functional>
 #include <queue>
@@ -18,7 +18,7 @@
 namespace kinesphere {
 namespace {
 
-/// Two bodies, or a body and itself for its walls. Pairs are numbered row by row.
+/// Two bodies, or a body twice for its walls. Pairs are numbered row by row.
 struct Pair {
   std::uint32_t larger;
   std::uint32_t smaller;
@@ -31,7 +31,7 @@ struct Pair {
   }
 };
 
-/// The number of a pair has 32 bits.
+/// Largest number of bodies for which the number of a pair fits into 32 bits.
 constexpr std::size_t most_bodies = 90000;
 
 class Hayward final : public BoundDetector {
@@ -50,7 +50,7 @@ class Hayward final : public BoundDetector {
 
  private:
   void on_new_course(std::uint32_t number) override {
-    // Of two that are new the second one finds the first.
+    // For a pair of two new bodies the second call renews the interval.
     for (std::uint32_t other = 0; other < size(); ++other)
       if (body(other).present && !body(other).new_course) renew({number, other});
   }
@@ -66,7 +66,7 @@ class Hayward final : public BoundDetector {
     return ends_.empty() ? infinity : ends_.top().first;
   }
 
-  /// Called after next_time(), so the first entry is not stale.
+  /// Rechecks the most urgent pair. Called after next_time(), so the first entry is not stale.
   void handle_next() override {
     const Pair pair = pair_of(ends_.top().second);
     ++counters_.pair_checks;
@@ -75,7 +75,7 @@ class Hayward final : public BoundDetector {
     renew(pair);
   }
 
-  /// The safe interval begins now.
+  /// Starts a new safe interval of the pair at time().
   void renew(const Pair& pair) {
     set_end(pair, pair.larger == pair.smaller ? wall_outlook(pair.larger)
                                               : pair_outlook(pair.larger, pair.smaller));
@@ -102,10 +102,10 @@ class Hayward final : public BoundDetector {
     return {low, number - Pair::row_start(low)};
   }
 
-  using End = std::pair<double, std::uint32_t>;  ///< of the safe interval of the pair with this number
+  using End = std::pair<double, std::uint32_t>;  ///< end of the safe interval, number of the pair
 
-  std::vector<double> interval_ends_;  ///< by pair; +infinity: none
-  /// Earliest first. An entry is stale if its time is not the pair's in interval_ends_.
+  std::vector<double> interval_ends_;  ///< by number of the pair; +infinity: none
+  /// A heap, earliest end first. An entry is stale if its time is not the pair's in interval_ends_.
   mutable std::priority_queue<End, std::vector<End>, std::greater<>> ends_;
 };
 

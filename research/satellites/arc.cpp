@@ -6,13 +6,13 @@
 namespace kinesphere {
 namespace {
 
-/// Of the part of gravity that comes from J2: 3/2 J2 G M R^2.
+/// Factor of the part of gravity that comes from J2: 3/2 J2 G M R^2.
 constexpr double j2_factor = 1.5 * earth::oblateness * earth::gravity * earth::radius * earth::radius;
 
-/// The coefficients of a power series, by powers.
+/// Coefficients of a power series, by powers.
 using Series = std::array<double, Arc::order + 1>;
 
-/// Of a product, the k-th coefficient.
+/// Returns the k-th coefficient of a product.
 double product(const Series& a, const Series& b, int k) {
   double sum = 0.0;
   for (int j = 0; j <= k; ++j) sum += a[static_cast<std::size_t>(j)] * b[static_cast<std::size_t>(k - j)];
@@ -37,8 +37,10 @@ double largest_gravity(double distance) {
   return (earth::gravity + 2.0 * j2_factor * inverse) * inverse * (1.0 + 0x1p-40);
 }
 
-// The coefficients of x'' = F x, y'' = F y, z'' = G z with
-//   F = -G M r^-3 - c (r^-5 - 5 z^2 r^-7),   G = F - 2 c r^-5,   c = j2_factor,
+// Computes the coefficients of x'' = F x, y'' = F y, z'' = G z with
+//   F = -G M r^-3 - c (r^-5 - 5 z^2 r^-7),
+//   G = F - 2 c r^-5,
+//   c = j2_factor,
 // each from those before it: of products by the sum of products, of powers p = s^a, s = r^2, from
 //   s p' = a s' p.
 Arc::Arc(const State& in_the_middle, double middle) : middle_(middle) {
@@ -77,16 +79,16 @@ Arc::Arc(const State& in_the_middle, double middle) : middle_(middle) {
     z[at + 2] = product(z, g, k) * divisor;
   }
 
-  double power = 1.0;  // of half_length: the (k - 3)-th
+  double power = 1.0;  // the (k - 3)-th power of half_length
   double jerk = 0.0;
   for (int k = 3; k <= order; ++k) {
     const auto at = static_cast<std::size_t>(k);
     jerk += norm(Vec3{x[at], y[at], z[at]}) * (k * (k - 1) * (k - 2)) * power;
     power *= half_length;
   }
-  // With room for the roundings.
+  // The factor covers the roundings.
   largest_jerk_ = jerk * (1.0 + 0x1p-40);
-  double change = 0.0;  // of the squared distance
+  double change = 0.0;  // change of the squared distance
   power = half_length;
   for (int k = 1; k <= order - 2; ++k, power *= half_length)
     change += std::abs(s[static_cast<std::size_t>(k)]) * power;

@@ -10,7 +10,7 @@
 namespace kinesphere {
 namespace {
 
-/// What a monitor tells, as approaches.
+/// ApproachLog collects the events of a monitor as approaches.
 class ApproachLog {
  public:
   explicit ApproachLog(double until) : until_(until) {}
@@ -48,7 +48,8 @@ class ApproachLog {
 
 TrackReport report_of(const Arc& arc, double time, double end) {
   const double ahead = end - time;
-  // The acceleration half-way: nowhere until the end is farther in time than half of what is ahead.
+  // The plan is the acceleration half-way; until `end` the true one differs from it by at most the largest
+  // jerk times half of the time ahead.
   return {.timestamp = time,
           .state = arc.state_at(time),
           .position_error = SatelliteMotion::position_error,
@@ -66,13 +67,13 @@ Result<SatelliteWatch> monitor_satellites(SatelliteMotion motion, double until, 
   if (check.error()) return *check.error();
   const double window = std::exp2(std::floor(std::log2(options.window)));
   const double acceleration = motion.largest_acceleration();
-  auto created = Monitor::create(
-      {.classes = {{.acceleration_limit = acceleration}},
-       .separations = {{0, 0, {Separation::sphere(options.distance)}}},
-       .tolerance = options.tolerance,
-       // While two pass the tolerance at the largest relative speed there is time for another look.
-       .time_resolution = 0.25 * options.tolerance / motion.largest_speed(),
-       .window = window});
+  auto created = Monitor::create({.classes = {{.acceleration_limit = acceleration}},
+                                  .separations = {{0, 0, {Separation::sphere(options.distance)}}},
+                                  .tolerance = options.tolerance,
+                                  // While two satellites pass the tolerance at the largest relative speed,
+                                  // there is time for another report.
+                                  .time_resolution = 0.25 * options.tolerance / motion.largest_speed(),
+                                  .window = window});
   if (!created) return created.error();
   Monitor& monitor = created.value();
 
@@ -80,7 +81,7 @@ Result<SatelliteWatch> monitor_satellites(SatelliteMotion motion, double until, 
   const auto report = [&](TrackId id, double time) {
     const Arc& arc = motion.arc(static_cast<std::uint32_t>(id), time);
     largest = std::max(largest, arc.largest_acceleration());
-    // Plans end as windows end.
+    // Plans end at the ends of windows.
     return report_of(arc, time, (std::floor(time / window) + 1.0) * window);
   };
   for (std::uint32_t k = 0; k < motion.size(); ++k)

@@ -12,7 +12,7 @@ std::tuple<std::uint32_t, std::uint32_t> pair_of(const SatelliteApproach& approa
   return {approach.first, approach.second};
 }
 
-/// Calls visit(approach, those of `others` that are of the same pair, from the first to behind the last).
+/// Calls visit(approach, first, last) for each approach, with the range of `others` of that pair.
 template <class Visit>
 void for_each_with_others(const std::vector<SatelliteApproach>& approaches,
                           const std::vector<SatelliteApproach>& others, Visit visit) {
@@ -35,7 +35,7 @@ void sort_by_pair(std::vector<SatelliteApproach>& approaches) {
 
 std::vector<SatelliteApproach> not_inside(const std::vector<SatelliteApproach>& approaches,
                                           const std::vector<SatelliteApproach>& others, double step) {
-  /// The first time after `time` that counts.
+  /// Returns the first multiple of the step after `time`.
   const auto next = [step](double time) {
     return step > 0.0 ? (std::floor(time / step) + 1.0) * step : time;
   };

@@ -13,7 +13,7 @@ std::vector<SatelliteApproach> step_satellites(SatelliteMotion motion, double un
     Vec3 position;
     std::uint32_t number;
   };
-  /// Steps that have seen a pair, without a gap.
+  /// Consecutive steps at which a pair is within the distance.
   struct Seen {
     std::int64_t first, last;
   };

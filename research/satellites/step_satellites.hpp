@@ -1,5 +1,4 @@
-// Approaches as fixed steps see them: where all satellites are at the multiples of a time, and who is close
-// to whom then.
+// Approaches as fixed steps see them: pairs of satellites that are close at the multiples of a time.
 #pragma once
 
 #include <vector>
@@ -9,8 +8,9 @@
 
 namespace kinesphere {
 
-/// By pair and begin: from the first to the last of successive steps at which the two are within the distance
-/// (km). Steps are at times 0, step, ... up to `until`. Cost of a step: about 0.1 us for each satellite.
+/// Returns approaches sorted by pair and begin: each from the first to the last of successive steps at which
+/// the two are within the distance (km). Steps are at times 0, step, ... up to `until` (s). Cost of a step:
+/// about 0.1 us for each satellite.
 std::vector<SatelliteApproach> step_satellites(SatelliteMotion motion, double until, double distance,
                                                double step);
 

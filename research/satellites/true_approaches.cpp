@@ -10,12 +10,13 @@
 namespace kinesphere {
 namespace {
 
-/// Pieces of time in which the distance differs by less are not divided (km).
+/// Pieces of time with bounds on the distance closer together than this are not divided (km). Smaller values
+/// make the truth sharper and the search longer.
 constexpr double finest = 2e-5;
-/// The distance of two computed positions is off by less, seams included (km).
+/// Bound on the error of the distance of two computed positions, seams included (km).
 constexpr double rounding_error = 4.0 * SatelliteMotion::position_error;
 
-/// Two satellites from one time to another: their distance is that of straight lines, to within an error.
+/// Bounds on the distance of two satellites during a piece of time: that of straight lines, with an error.
 struct Piece {
   double least, most;
 
@@ -33,7 +34,8 @@ struct Piece {
   }
 };
 
-/// Calls within(begin, end), or otherwise(begin, end), for pieces of time in their order.
+/// Calls within(begin, end) or otherwise(begin, end) for pieces of time in their order: the former where the
+/// two are certainly within the distance.
 template <class Within, class Otherwise>
 void look(const Arc& a, const Arc& b, double begin, double end, double distance, const Within& within,
           const Otherwise& otherwise) {
@@ -48,8 +50,8 @@ void look(const Arc& a, const Arc& b, double begin, double end, double distance,
 
 constexpr std::size_t at_once = 256;
 
-/// All satellites in the middle of their arcs, in single precision, in columns; by their least distances from
-/// the earth's centre.
+/// Shells holds all satellites in the middle of their arcs, in single precision, in columns, sorted by their
+/// least distances from the earth's centre.
 class Shells {
  public:
   void fill(SatelliteMotion& motion, double time, double distance) {
@@ -78,7 +80,8 @@ class Shells {
           order_.begin(), order_.end(), [&](std::uint32_t other) { return arcs_[other]->nearest() <= top; });
       last_[place] = static_cast<std::size_t>(above - order_.begin());
     }
-    // On straight lines from the middle of the arcs, and with 2^-18 of all sizes for single precision.
+    // The reach allows for straight lines from the middle of the arcs, and for single precision with 2^-18 of
+    // all sizes.
     constexpr double half = Arc::half_length;
     const double reach = distance + acceleration * half * half + rounding_error + 0x1p-18 * 2.0 * farthest;
     limit_ = static_cast<float>(reach * reach * 1.001);
@@ -104,7 +107,7 @@ class Shells {
   }
 
  private:
-  /// The squared least distance of satellite `a`, on straight lines, from each of `count` others.
+  /// Computes the squared least distances of satellite `a` from each of `count` others, on straight lines.
   void least_squares(std::size_t a, std::size_t first, std::size_t count, float* squares) const {
     constexpr auto half = static_cast<float>(Arc::half_length);
     const float* const x = columns_[0].data();
@@ -126,7 +129,8 @@ class Shells {
 
   std::vector<const Arc*> arcs_;
   std::vector<std::uint32_t> order_;
-  std::vector<std::size_t> last_;  ///< by place: behind the last one that is not above it
+  std::vector<std::size_t>
+      last_;  ///< by place: end of the places with satellites that are not entirely above this one
   std::array<std::vector<float>, 6> columns_;
   float limit_ = 0.0f;
 };
@@ -149,7 +153,7 @@ std::vector<SatelliteApproach> true_approaches(SatelliteMotion motion, double un
     });
   }
   sort_by_pair(approaches);
-  // Pieces that touch are one approach.
+  // Pieces that touch are joined to one approach.
   std::vector<SatelliteApproach> joined;
   for (const SatelliteApproach& approach : approaches) {
     if (!joined.empty() && joined.back().first == approach.first && joined.back().second == approach.second &&

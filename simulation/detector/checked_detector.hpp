@@ -1,4 +1,5 @@
-// A detector that checks what it is handed, in front of one that does not.
+// A detector that checks the arguments of each call before it passes them on to a detector that does not
+// check.
 #pragma once
 
 #include <memory>
@@ -8,18 +9,21 @@
 
 namespace kinesphere {
 
-/// How the detector takes the definitions of new bodies.
+/// NewBodies says which detector checks the definitions of new bodies: the wrapper (unchecked), or the
+/// wrapped one.
 enum class NewBodies { unchecked, checked_by_itself };
 
-/// `bodies` is how many the motion has.
+/// Wraps `detector` so that wrong arguments are answered with an Error and never reach it. `bodies` is the
+/// number of bodies in the motion; numbers from `bodies` on are unknown_body.
 std::unique_ptr<Detector> with_checked_input(std::unique_ptr<Detector> detector,
                                              const WorldDefinition& definition, std::size_t bodies,
                                              NewBodies new_bodies = NewBodies::unchecked);
 
-/// Only the world knows of space that repeats and of the plane.
+/// Returns unsupported for periodic space and for the plane, which only the world supports.
 Result<void> check_whole_space(const WorldDefinition& definition);
 
-/// A detector made by its constructor, once the world has been found to be fit, and with checked input.
+/// Checks the world definition, constructs a Made and wraps it by with_checked_input(). Errors: those of
+/// check_world() and check_whole_space().
 template <class Made, class... Options>
 Result<std::unique_ptr<Detector>> make_checked(const WorldDefinition& definition, const Motion& motion,
                                                Options&&... options) {

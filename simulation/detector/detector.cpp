@@ -1,4 +1,4 @@
-// What detectors cannot do unless they say otherwise.
+// The default answers of a detector: run and recording are unsupported.
 #include "simulation/detector/detector.hpp"
 
 #include <string>

@@ -1,5 +1,5 @@
-// Several ways to find the same contacts, behind one interface, so that every claim is a comparison
-// that anyone can run.
+// Detector: one interface for all algorithms that find contacts, so that claims about them can be checked by
+// running them on one scene.
 #pragma once
 
 #include <cstddef>
@@ -21,50 +21,49 @@
 
 namespace kinesphere {
 
-/// A detector watches bodies that are named by their number in a motion; ids in its events
-/// have that number as index and generation 0. The calls mean what they mean in World, and so do their
-/// errors.
+/// A detector watches bodies of a motion. A body goes by its number in the motion; an id in an event has that
+/// number as index and generation 0. Calls and errors mean what they mean in World.
 class Detector {
  public:
   virtual ~Detector() = default;
 
   virtual std::string_view name() const = 0;
-  /// Adds body number `body` at the current time, with its state there in `definition`.
+  /// Adds body number `body` at time(). `definition` has the state of the body at that time.
   virtual Result<void> add(std::uint32_t body, const BodyDefinition& definition) = 0;
   virtual Result<void> remove(std::uint32_t body) = 0;
-  /// From the current time on the body has this velocity. The caller has set it in the motion already.
+  /// Gives the body this velocity from time() on. Precondition: the caller has set it in the motion already.
   virtual Result<void> set_velocity(std::uint32_t body, const Vec3& velocity) = 0;
   virtual Result<std::optional<Event>> advance(double until) = 0;
-  /// Goes on to `until` by itself, as World::run does: `respond` and `sink` are called as there, with events
-  /// as advance() returns them. `motion`, which moves the bodies, is told of new velocities too. Errors:
-  /// unsupported, those of World::run, and what the motion throws.
+  /// Runs to time `until` as World::run does: `respond` and `sink` are called as there, with events as
+  /// advance() returns them. New velocities are set in `motion`, which moves the bodies. Errors: unsupported,
+  /// those of World::run, and what the motion throws.
   virtual Result<void> run(double until, Motion& motion, const ResponseFn& respond, const EventFn& sink,
                            Workers& workers);
   virtual double time() const = 0;
   virtual DetectorCounters counters() const = 0;
-  /// What the detector knows to contain the body, as of its last report; a sphere that does not grow where it
-  /// keeps no bound. Errors: unknown_body, stale_body.
+  /// Returns the bound of the body as of its last report; a sphere that does not grow if the detector keeps
+  /// no bounds. Errors: unknown_body, stale_body.
   virtual Result<Bound> bound(std::uint32_t body) const = 0;
-  /// Differences that an audit finds, if the detector has one.
+  /// Returns the first difference that an audit finds; nothing if there is none or the detector has no audit.
   virtual std::optional<AuditFinding> audit() const { return std::nullopt; }
-  /// What it takes, for detectors that know.
+  /// Returns the memory that the detector takes, if it keeps count.
   virtual std::optional<Memory> memory() const { return std::nullopt; }
-  // Recording (recording.hpp), for detectors that are a World: bodies carry their number as user data.
-  // Errors: unsupported, and those of World.
+  // Recording (recording.hpp), for detectors that are a World: each body has its number as user data. Errors:
+  // unsupported, and those of World.
   virtual Result<void> start_recording();
   virtual Result<std::vector<std::byte>> stop_recording();
 };
 
-/// Makes the detector that is to watch the bodies of a motion.
+/// Makes a detector that watches the bodies of a motion.
 using DetectorMaker =
     std::function<Result<std::unique_ptr<Detector>>(const WorldDefinition& definition, const Motion& motion)>;
 
-// Detectors read `motion`, through state() alone, as long as they live.
+// A detector reads `motion`, by state() alone, as long as the detector lives.
 
-/// The default engine: a World.
+/// Makes the default engine: a World.
 Result<std::unique_ptr<Detector>> make_world_detector(const WorldDefinition& definition,
                                                       const Motion& motion);
-/// The same where every body senses all others at these distances. Errors: as World::set_sensor().
+/// Makes a World in which each body senses all others at these distances. Errors: as World::set_sensor().
 Result<std::unique_ptr<Detector>> make_sensing_detector(const WorldDefinition& definition,
                                                         const Motion& motion, const Sensor& sensor);
 

@@ -1,4 +1,4 @@
-// What a detector has done so far.
+// Counts of the work that a detector has done so far.
 #pragma once
 
 #include <cstdint>
@@ -7,20 +7,21 @@
 
 namespace kinesphere {
 
-/// What a world counts, and what only its rivals do. For detectors without certificates these are pair tests.
+/// DetectorCounters adds to the counters of a world what only its rivals count. In detectors without
+/// certificates, `certificates` counts pair tests.
 struct DetectorCounters : Counters {
-  /// What came to pass in the paper's algorithm: a bound touched a cell, parted from one, outgrew its cells,
-  /// met another bound or a wall.
+  /// Events of the paper's algorithm: a bound touched a cell (entering), left one (leaving), outgrew its
+  /// cells (resetting), met another bound or a wall (colliding).
   std::uint64_t entering = 0;
   std::uint64_t leaving = 0;
   std::uint64_t resetting = 0;
   std::uint64_t colliding = 0;
-  /// Its event tree: candidates inserted, candidates removed before they came to pass, and the most it ever
-  /// held.
+  /// Event tree of the paper's algorithm: candidates inserted, candidates removed before they were due, and
+  /// the largest number it ever held.
   std::uint64_t event_insertions = 0;
   std::uint64_t event_removals = 0;
   std::uint64_t largest_queue = 0;
-  /// Times at which all space-time bounds were built anew (Hubbard's algorithm).
+  /// Times at which Hubbard's algorithm rebuilt all space-time bounds.
   std::uint64_t rebuilds = 0;
 };
 

@@ -1,4 +1,4 @@
-// Events of a world in the terms of a detector: bodies go by their number.
+// Events of a world as a detector reports them: with the numbers of bodies instead of their ids.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,8 @@
 
 namespace kinesphere {
 
-/// The event with numbers for ids, and the smaller number first. `number_of(id)` gives a number.
+/// Returns the event with numbers in place of ids and the smaller number first. `number_of(id)` returns the
+/// number of a body.
 template <class NumberOf>
 Event numbered(Event event, NumberOf number_of) {
   event.first = {number_of(event.first), 0};

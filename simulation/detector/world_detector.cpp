@@ -9,10 +9,10 @@
 namespace kinesphere {
 namespace {
 
-/// Moves bodies of a world by their numbers in a motion.
+/// NumberedMover moves the bodies of a world by their numbers in a motion.
 class NumberedMover final : public MotionSource {
  public:
-  /// `numbers` by the index of an id.
+  /// `numbers` maps the index of an id to the number of the body. It must outlive the mover.
   NumberedMover(Motion& motion, const std::vector<std::uint32_t>& numbers)
       : motion_(motion), numbers_(numbers) {}
 
@@ -38,7 +38,7 @@ class WorldDetector final : public Detector {
 
   Result<void> add(std::uint32_t number, const BodyDefinition& definition) override {
     BodyDefinition numbered = definition;
-    numbered.user_data = number;  // for whoever sees a recording
+    numbered.user_data = number;  // the number, for readers of a recording
     const auto id = world_.add(numbered);
     if (!id) return id.error();
     ids_[number] = *id;
@@ -48,7 +48,7 @@ class WorldDetector final : public Detector {
   }
 
   Result<void> remove(std::uint32_t number) override {
-    // Its events still come, under its number.
+    // Contacts of the removed body still end, in events under its number.
     departed_.push_back({ids_[number], number});
     return world_.remove(ids_[number]);
   }
@@ -108,8 +108,8 @@ class WorldDetector final : public Detector {
 
   World world_;
   const Motion& motion_;
-  std::vector<BodyId> ids_;             ///< by number
-  std::vector<std::uint32_t> numbers_;  ///< by the index of an id
+  std::vector<BodyId> ids_;             ///< ids by number
+  std::vector<std::uint32_t> numbers_;  ///< numbers by the index of an id
   std::vector<Departed> departed_;
 };
 
@@ -124,7 +124,7 @@ Result<std::unique_ptr<Detector>> make_sensing_detector(const WorldDefinition& d
                                                         const Motion& motion, const Sensor& sensor) {
   auto world = World::create(definition);
   if (!world) return world.error();
-  // All bodies are of the class 0.
+  // Sensor class 0 holds all bodies.
   if (auto set = world->set_sensor(0, sensor); !set) return set.error();
   if (auto reserved = world->reserve(motion.size()); !reserved) return reserved.error();
   return with_checked_input(std::make_unique<WorldDetector>(std::move(*world), motion), definition,

@@ -1,4 +1,4 @@
-// Eight boxes side by side, in whole steps: compared with another one all at once.
+// Eight boxes side by side, in whole steps, compared with another box all at once.
 #pragma once
 
 #include <algorithm>
@@ -13,9 +13,9 @@
 
 namespace kinesphere {
 
-/// A box in whole steps, ends included, of which only the last 16 bits are kept: enough to compare it with
-/// boxes that lie within `farthest` steps of it. Rounding all coordinates down keeps overlaps: boxes with a
-/// point in common have a step in common.
+/// StepBox is a box in whole steps, ends included, with the last 16 bits of each coordinate. That is enough
+/// to compare it with boxes that lie within `farthest` steps of it. All coordinates are rounded down, which
+/// keeps overlaps: boxes with a point in common have a step in common.
 struct StepBox {
   using Step = std::uint16_t;
   static constexpr int farthest = 0x7fff;
@@ -34,15 +34,15 @@ struct StepBox {
   static bool is_after(Step a, Step b) { return static_cast<Step>(b - a) > farthest; }
 };
 
-/// Boxes of bodies, coordinate by coordinate, in two cache lines. How many of its places are in use, its
-/// owner knows.
+/// BoxBlock holds the boxes of up to eight bodies, coordinate by coordinate, in two cache lines. The owner of
+/// the block keeps the number of places in use.
 class alignas(64) BoxBlock {
  public:
   static constexpr std::size_t width = 8;
-  /// A set of places: bit k for place k.
+  /// A set of places: bit k stands for place k.
   using Places = unsigned;
 
-  /// The first `count` places.
+  /// Returns the first `count` places.
   static constexpr Places first(std::size_t count) { return (1u << count) - 1u; }
 
   void put(std::size_t place, const StepBox& box, std::uint32_t body) {
@@ -57,7 +57,7 @@ class alignas(64) BoxBlock {
             {upper_[0][place], upper_[1][place], upper_[2][place]}};
   }
   std::uint32_t body(std::size_t place) const { return bodies_[place]; }
-  /// The place of a body, or width if it is in none of the first `count`.
+  /// Returns the place of a body, or `width` if it is in none of the first `count` places.
   std::size_t find(std::uint32_t body, std::size_t count = width) const {
     Places found = 0;
 #if defined(__SSE2__)
@@ -74,7 +74,7 @@ class alignas(64) BoxBlock {
     return static_cast<std::size_t>(std::countr_zero((found & first(count)) | 1u << width));
   }
 
-  /// A box that others are compared with.
+  /// A box prepared for comparisons with blocks.
   class Query {
    public:
     explicit Query(const StepBox& box) {
@@ -97,10 +97,10 @@ class alignas(64) BoxBlock {
 #endif
   };
 
-  /// The places whose boxes overlap it, in use or not.
+  /// Returns the places with boxes that overlap the query, places not in use included.
   [[gnu::always_inline]] Places overlapping(const Query& query) const {
 #if defined(__SSE2__)
-    // Negative where one ends before the other begins.
+    // The sign bit of a lane is set if one box ends before the other begins.
     const auto apart = [&](std::size_t axis) {
       const auto load = [](const std::array<StepBox::Step, width>& steps) {
         return _mm_load_si128(reinterpret_cast<const __m128i*>(steps.data()));
@@ -114,7 +114,7 @@ class alignas(64) BoxBlock {
     return overlapping_one_by_one(query.box_);
 #endif
   }
-  /// The same without vector instructions.
+  /// Returns what overlapping() does, without vector instructions.
   Places overlapping_one_by_one(const StepBox& query) const {
     Places found = 0;
     for (std::size_t place = 0; place < width; ++place)

@@ -1,4 +1,4 @@
-// A box in single precision that contains the double one it was made from.
+// A box in single precision that contains the double box it was made from.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ struct FloatBox {
 
   FloatBox() = default;
   FloatBox(const std::array<float, 3>& low, const std::array<float, 3>& high) : lower(low), upper(high) {}
-  /// Rounded outward.
+  /// Rounds the corners outward.
   explicit FloatBox(const Box& box);
 
   bool overlaps(const FloatBox& other) const {

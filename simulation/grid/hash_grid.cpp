@@ -1,4 +1,4 @@
-// Registration in the hierarchical hash grid.
+// Registration of boxes in the hierarchical hash grid.
 #include "simulation/grid/hash_grid.hpp"
 
 #include <algorithm>
@@ -13,7 +13,8 @@
 namespace kinesphere {
 namespace {
 
-/// The largest float that is not above. Without branches, as half of all numbers are rounded up at first.
+/// Returns the largest float that is not above `value`. It has no branches, as half of all values are rounded
+/// up first and no branch predictor foresees which.
 float rounded_down(double value) {
   const float nearest = static_cast<float>(value);
   const auto above = static_cast<std::int32_t>(static_cast<double>(nearest) > value);
@@ -24,9 +25,9 @@ float rounded_down(double value) {
 
 float rounded_up(double value) { return -rounded_down(-value); }
 
-/// Cell edges differ by this power of two from level to level.
+/// Base-two logarithm of the ratio of cell edges between neighbouring levels.
 constexpr int exponent_step = 2;
-/// The finest cells are 2^this as large as the typical box.
+/// Base-two logarithm of the ratio of the finest cell edge to the typical box.
 constexpr int finest_above_mean = 2;
 
 }  // namespace
@@ -70,7 +71,7 @@ HashGrid::Steps HashGrid::Level::steps_of(const FloatBox& box) const {
           {step_at(box.upper[0]), step_at(box.upper[1]), step_at(box.upper[2])}};
 }
 
-/// Of a position that is beyond them, in steps.
+/// Returns a position beyond the range of cell coordinates, clamped to that range (steps).
 double HashGrid::Level::outermost(float position) const {
   constexpr float farthest = std::numeric_limits<float>::max();
   const double steps = std::clamp(position, -farthest, farthest) * steps_per_length_;
@@ -148,7 +149,7 @@ bool HashGrid::Level::move_in_cell(const FloatBox& from, const FloatBox& to, std
   return true;
 }
 
-/// The last one of the first block takes its place.
+/// Erases a body; the last box of the first block of the cell takes its place.
 void HashGrid::Level::erase(const FloatBox& box, std::uint32_t body) {
   const Standing at = find(cell_of(box), body);
   std::uint32_t& front = slots_[at.slot].first_block;
@@ -164,7 +165,7 @@ void HashGrid::Level::erase(const FloatBox& box, std::uint32_t body) {
   }
 }
 
-/// Drops the empty cells and makes room for twice as many as remain.
+/// Drops the empty cells and sizes the table for at least twice as many cells as remain.
 void HashGrid::Level::rehash() {
   std::vector<Slot> kept;
   for (const Slot& slot : slots_) {
@@ -185,7 +186,8 @@ void HashGrid::Level::rehash() {
 
 namespace {
 
-/// A point counts as the smallest normal float, infinity as the greatest.
+/// Returns the bits of a width, which is clamped to [smallest normal float, greatest float]: a point counts
+/// as the former, an infinite width as the latter.
 std::uint32_t bits_of(float width) {
   using Limits = std::numeric_limits<float>;
   return bit_cast<std::uint32_t>(std::clamp(width, Limits::min(), Limits::max()));
@@ -196,19 +198,21 @@ constexpr int exponent_bias = 127;
 
 }  // namespace
 
-/// The smallest e with width <= 2^e.
+/// Returns the smallest e with width <= 2^e.
 int HashGrid::exponent_of(float width) {
   const std::uint32_t rounded_up = bits_of(width) + ((1u << mantissa_bits) - 1u);
   return static_cast<int>(rounded_up >> mantissa_bits) - exponent_bias;
 }
 
-/// About 2^octave_bits times log2 of a width: linear between powers of two, as the bits of a float are.
+/// Returns about 2^octave_bits times log2 of a width: linear between powers of two, as the bits of a float
+/// are.
 std::int16_t HashGrid::size_of(float width) {
   return static_cast<std::int16_t>(static_cast<int>(bits_of(width) >> (mantissa_bits - octave_bits)) -
                                    (exponent_bias << octave_bits));
 }
 
-/// The extent of a box, or what single precision can tell where it lies: so cell coordinates fit 32 bits.
+/// Returns the extent of a box, or the resolution of single precision at its distance if that is larger, so
+/// that cell coordinates fit into 32 bits.
 float HashGrid::width_of(const FloatBox& box) {
   float farthest = 0.0f;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -262,7 +266,8 @@ void HashGrid::remove(std::uint32_t body) {
   --size_;
 }
 
-/// Fits the finest level to the typical box, at most once in as many changes as there are bodies.
+/// Fits the finest level to the typical box and registers all bodies anew if the level is off. Runs at most
+/// once in as many changes as there are bodies, so a change stays O(1) amortised.
 void HashGrid::retune_if_worthwhile() {
   if (++changes_since_tuning_ < size_) return;
   changes_since_tuning_ = 0;

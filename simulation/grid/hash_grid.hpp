@@ -1,10 +1,10 @@
-// A hierarchical hash grid: which registered boxes overlap a given one?
+// A hierarchical hash grid, which finds the registered boxes that overlap a given box.
 //
-// Unbounded space: only cells that hold something exist. Each level has cells four times as large as the one
-// below. A box lies on the finest level whose cells are at least as large as the box, in the one cell where
-// its lower corner is; a search looks farther down by the largest box of the level, for those that reach up
-// to it. So radii may differ by any ratio, and a box is moved in O(1). Boxes are compared in whole steps of
-// 1/4096 cell, eight at a time.
+// The grid covers unbounded space: only cells that hold something exist. Each level has cells four times as
+// large as the level below. A box is registered on the finest level with cells at least as large as the box,
+// in one cell: that of its lower corner. A search extends its range downward by the largest box of the level,
+// for boxes that reach up to it. So radii may differ by any ratio, and a box is moved in O(1). Boxes are
+// compared in whole steps of 1/4096 cell, eight at a time.
 #pragma once
 
 #include <algorithm>
@@ -31,37 +31,38 @@ class HashGrid {
   void remove(std::uint32_t body);
   bool contains(std::uint32_t body) const { return body < places_.size() && places_[body].level >= 0; }
   std::size_t size() const { return size_; }
-  /// Of the cells on the finest level in use: about four times the typical box (length).
+  /// Returns the cell edge of the finest level in use (length): about four times the typical box.
   double finest_edge() const { return std::ldexp(1.0, finest_exponent_); }
 
-  /// Calls visit(body) once for each registered body whose box
-  /// overlaps `box`, touching included, and perhaps for some that it misses by less than a step. `visit` may
-  /// not change the grid. Cost: the cells that the box meets, on each level in use, and what they hold.
+  /// Calls visit(body) once for each registered body with a box that overlaps `box`, touching included, and
+  /// perhaps for some that miss it by less than a step. `visit` may not change the grid. Cost: the cells that
+  /// the box meets, on each level in use, and the boxes in them.
   template <class Visit>
   void for_each_overlap(const Box& box, Visit visit) const;
 
  private:
   static constexpr int cell_bits = 12;
   static constexpr std::int64_t steps_per_cell = std::int64_t{1} << cell_bits;
-  /// Cell coordinates stay within 32 bits: a box at distance X counts as at least X * 2^-24 wide. What a
-  /// search looks for may lie farther out, and endless boxes do.
+  /// Largest coordinate of a box in steps; keeps cell coordinates within 32 bits. A box at distance X counts
+  /// as at least X * 2^-24 wide. Queries and infinite boxes may lie farther out and are clamped.
   static constexpr double coordinate_limit = 2147483000.0 * steps_per_cell;
 
   struct CellIndex {
     std::int32_t x, y, z;
     friend bool operator==(const CellIndex&, const CellIndex&) = default;
   };
-  /// A box in steps of a level, ends included.
+  /// A box in whole steps of a level, ends included.
   struct Steps {
     std::array<std::int64_t, 3> lower;
     std::array<std::int64_t, 3> upper;
 
-    /// The cell of the lower corner.
+    /// Returns the cell of the lower corner.
     CellIndex cell() const { return {cell_on(lower[0]), cell_on(lower[1]), cell_on(lower[2])}; }
     StepBox low_bits() const;
-    /// No wider than half of what a StepBox can be compared over.
+    /// Returns true if no side is longer than half the range in which a StepBox can be compared.
     bool is_narrow() const;
-    /// The same for boxes that begin in the cell: its part between them and the end of the cell.
+    /// Returns the part of the box that lies in the cell. Boxes that begin in the cell overlap this part
+    /// exactly if they overlap the whole box.
     Steps seen_from(const CellIndex& cell) const;
     static std::int32_t cell_on(std::int64_t step) { return static_cast<std::int32_t>(step >> cell_bits); }
   };
@@ -74,22 +75,22 @@ class HashGrid {
     }
   };
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-  /// What belongs to a block of boxes. The bodies of a cell stand in a chain of blocks, all of which but the
-  /// first one are full.
+  /// Link is the part of a block that is kept outside it. The bodies of a cell are in a chain of blocks, all
+  /// full but the first.
   struct Link {
-    std::uint32_t next = none;  ///< the block behind it
-    std::uint32_t size = 0;     ///< how many places are in use
+    std::uint32_t next = none;  ///< the next block of the chain
+    std::uint32_t size = 0;     ///< number of places in use
   };
-  /// Of the table of cells.
+  /// A slot of the hash table of cells.
   struct Slot {
     CellIndex index{};
-    std::uint32_t first_block = none;  ///< of the cell; none: the slot is free
+    std::uint32_t first_block = none;  ///< first block of the cell; none if the slot is free
     bool is_free() const { return first_block == none; }
   };
 
   class Level {
    public:
-    /// Cells of this edge, a power of two (length).
+    /// `edge` is the cell edge (length), a power of two.
     explicit Level(double edge = 1.0) : steps_per_length_(steps_per_cell / edge) { rehash(); }
 
     double edge() const { return steps_per_cell / steps_per_length_; }
@@ -97,16 +98,17 @@ class HashGrid {
 
     void insert(const FloatBox& box, std::uint32_t body);
     void erase(const FloatBox& box, std::uint32_t body);
-    /// Gives a body another box, if that belongs into the same cell.
+    /// Gives a body another box and returns true, if that box belongs into the same cell; else changes
+    /// nothing.
     bool move_in_cell(const FloatBox& from, const FloatBox& to, std::uint32_t body);
     template <class Visit>
     void for_each_overlap(const FloatBox& box, Visit& visit) const;
 
    private:
     Steps steps_of(const FloatBox& box) const;
-    /// Where a box is registered.
+    /// Returns the cell in which a box is registered.
     CellIndex cell_of(const FloatBox& box) const;
-    /// A position in whole steps, rounded down, within what cell coordinates can hold.
+    /// Returns a position in whole steps, rounded down and clamped to the range of cell coordinates.
     std::int64_t step_at(float position) const {
       double steps = position * steps_per_length_;
       if (!(std::abs(steps) <= coordinate_limit)) steps = outermost(position);
@@ -114,7 +116,7 @@ class HashGrid {
       return towards_zero - static_cast<std::int64_t>(steps < static_cast<double>(towards_zero));
     }
     double outermost(float position) const;
-    /// The cells in which boxes that overlap this one are registered.
+    /// Returns the cells in which boxes that overlap this one are registered.
     CellRange cells_around(const Steps& box) const;
 
     /// Fibonacci hashing: the high bits of a sum of products, so that the next cell costs one addition.
@@ -126,7 +128,7 @@ class HashGrid {
              static_cast<std::uint64_t>(index.z) * step_z;
     }
     int hash_shift() const { return 64 - std::countr_zero(slots_.size()); }
-    /// The slot of the cell, or the free one where it would be.
+    /// Returns the slot of the cell, or the free slot in which it would be inserted.
     std::size_t slot_of(const CellIndex& index, std::uint64_t hashed, int shift) const {
       auto slot = static_cast<std::size_t>(hashed >> shift);
       while (!slots_[slot].is_free() && !(slots_[slot].index == index))
@@ -134,7 +136,7 @@ class HashGrid {
       return slot;
     }
     std::size_t slot_of(const CellIndex& index) const { return slot_of(index, hash(index), hash_shift()); }
-    /// Where a body stands.
+    /// The slot, block and place of a registered body.
     struct Standing {
       std::size_t slot;
       std::uint32_t block;
@@ -146,19 +148,19 @@ class HashGrid {
     void rehash();
 
     double steps_per_length_;
-    std::array<std::int64_t, 3> reach_{};  ///< no box has been wider since the level was made (steps)
+    std::array<std::int64_t, 3> reach_{};  ///< largest extent of any box since the level was made (steps)
     std::size_t bodies_ = 0;
-    std::size_t cells_ = 0;  ///< those in the table
+    std::size_t cells_ = 0;  ///< number of cells in the table
     std::size_t empty_cells_ = 0;
     std::vector<BoxBlock> blocks_;
-    std::vector<Link> links_;  ///< of the blocks: apart from them, to be in the cache before they are
+    std::vector<Link> links_;  ///< one per block; kept apart so that they are cached before the blocks are
     std::vector<std::uint32_t> free_blocks_;
-    std::vector<Slot> slots_;  ///< open addressing
+    std::vector<Slot> slots_;  ///< hash table of cells, open addressing
   };
   static constexpr std::int16_t nowhere = -1;
   struct Place {
     std::int16_t level = nowhere;
-    std::int16_t size = 0;  ///< as size_of()
+    std::int16_t size = 0;  ///< result of size_of()
     FloatBox box{};
     friend bool operator==(const Place&, const Place&) = default;
   };
@@ -171,14 +173,14 @@ class HashGrid {
 
   static int exponent_of(float width);
   static std::int16_t size_of(float width);
-  /// In size_of() an octave counts as 2^4.
+  /// Resolution of size_of(): an octave counts as 2^octave_bits.
   static constexpr int octave_bits = 4;
 
   std::vector<Level> levels_;
   std::vector<Place> places_;
   std::size_t size_ = 0;
-  int finest_exponent_ = 0;    ///< log2 of the edge on level 0
-  std::int64_t size_sum_ = 0;  ///< of the sizes of all registered boxes
+  int finest_exponent_ = 0;    ///< log2 of the cell edge on level 0
+  std::int64_t size_sum_ = 0;  ///< sum of the sizes of all registered boxes
   std::size_t changes_since_tuning_ = 0;
 };
 
@@ -193,11 +195,12 @@ template <class Visit>
 void HashGrid::Level::for_each_overlap(const FloatBox& box, Visit& visit) const {
   const Steps steps = steps_of(box);
   const CellRange range = cells_around(steps);
-  // The blocks of some cells come into the cache together.
+  // Blocks found in cells, prefetched together and visited once 64 are found or the search ends.
   std::array<std::uint32_t, 64> found;
   std::size_t found_count = 0;
   const auto visit_found = [&](const BoxBlock::Query& query) {
-    // What overlaps in some blocks is visited together: most have nothing, which nobody can foresee.
+    // Overlaps of several blocks are gathered into one bit set: most blocks have none, and a branch for each
+    // block would be mispredicted.
     constexpr std::size_t together = 64 / BoxBlock::width;
     for (std::size_t first = 0; first < found_count; first += together) {
       const std::size_t end = std::min(first + together, found_count);
@@ -238,7 +241,7 @@ void HashGrid::Level::for_each_overlap(const FloatBox& box, Visit& visit) const 
   for (std::int32_t z = range.first.z; z <= range.last.z; ++z)
     for (std::int32_t y = range.first.y; y <= range.last.y; ++y) {
       std::uint64_t hashed = hash({range.first.x, y, z});
-      // A free slot has no blocks.
+      // A free slot has no blocks, so it needs no test.
       for (std::int32_t x = range.first.x; x <= range.last.x; ++x, hashed += step_x)
         find_blocks(slots_[slot_of({x, y, z}, hashed, shift)], query);
     }

@@ -1,12 +1,12 @@
-// Having the cache fetch what will soon be used.
+// Prefetching of cache lines that will soon be used.
 #pragma once
 
 #include <cstddef>
 
 namespace kinesphere {
 
-/// Whatever calls this and does nothing else has to be always_inline too: to GCC it has no effect, and a call
-/// of it is left out.
+/// Prefetches the cache lines of an object. A function that only calls this one must be always_inline too: to
+/// GCC it has no effect, and a call of it is left out.
 template <class T>
 [[gnu::always_inline]] inline void prefetch(const T& object) {
   constexpr std::size_t cache_line = 64;

@@ -1,5 +1,5 @@
-// Comparing the contacts of a detector with the truth: one pair after the other, each only while its bodies
-// may be near.
+// Compares the contacts of a detector with the truth, pair by pair, and each pair only while its bodies may
+// be near.
 #include "simulation/oracle/comparison.hpp"
 
 #include <algorithm>
@@ -14,14 +14,14 @@
 namespace kinesphere {
 namespace {
 
-/// Two bodies, or a body (twice) and a wall.
+/// Key of a contact: two bodies, or a body twice and a wall.
 using Key = std::tuple<std::uint32_t, std::uint32_t, Wall>;
 
 using Interval = ContactInterval;
 using Contacts = std::map<Key, std::vector<Interval>>;
 using Spans = std::vector<NearSpan>;
 
-/// The contacts of an event list; one that does not end lasts for ever.
+/// Returns the contacts of an event list. A contact without an end event has the end infinity.
 Contacts contacts_of(const std::vector<Event>& events) {
   Contacts contacts;
   for (const Event& event : events) {
@@ -35,7 +35,7 @@ Contacts contacts_of(const std::vector<Event>& events) {
         break;
       case EventKind::contact_end:
       case EventKind::wall_end:
-        // An end without a begin shows as a contact since the beginning of time.
+        // An end without a begin shows as a contact that began at -infinity.
         if (intervals.empty() || intervals.back().end != infinity) intervals.push_back({-infinity, infinity});
         intervals.back().end = event.time;
         break;
@@ -52,7 +52,7 @@ class Comparison {
       : scene_(scene), motion_(scene), tolerance_(scene.world.contact_tolerance) {}
 
   ContactComparison run(const Contacts& found, const ComparisonProgress& on_progress) {
-    // Half of the time, about.
+    // Finding the spans takes about half of the time.
     const auto spans_progress = [&](double part) { on_progress(0.5 * part); };
     const Spans all = near_spans(motion_.bodies(), 0.0, on_progress ? spans_progress : ComparisonProgress());
     const auto tell = [&](std::size_t k) {
@@ -88,7 +88,7 @@ class Comparison {
     }
   }
 
-  /// Of two bodies that have not come near each other. Walls have been compared before.
+  /// Compares the contacts of a pair without a near span. Walls of a world with a box were compared before.
   void compare_far(const Contacts::value_type& contacts) {
     const auto& [a, b, wall] = contacts.first;
     if (wall != Wall::none && scene_.world.box) return;
@@ -103,8 +103,9 @@ class Comparison {
     }
   }
 
-  /// Walks through the two lists of one pair side by side. Between and within the contacts that were found,
-  /// the true gap has to obey the promise; where it does, every other difference only grazes the tolerance.
+  /// Walks through the found and the true contacts of one pair side by side. Between and within the found
+  /// contacts, the true gap has to keep within the limits of the contact rule; where it does, every other
+  /// difference only grazes the tolerance.
   void compare(const Key& key, const std::vector<Interval>& found, const Spans& spans) {
     const auto& [a, b, wall] = key;
     const GapCourse gap = wall == Wall::none ? motion_.pair(a, b) : motion_.wall(a, wall);
@@ -130,7 +131,7 @@ class Comparison {
     match(found, truth);
   }
 
-  /// The oracle's own times, held against the bare distance at them.
+  /// Checks the oracle's own times: the distance at each must be that of a begin or an end.
   void check_truth(const Key& key, const GapCourse& gap, const std::vector<Interval>& truth, double first,
                    double last) {
     for (const Interval& contact : truth) {
@@ -143,8 +144,8 @@ class Comparison {
     }
   }
 
-  /// While apart the gap never falls below -tolerance, which it cannot but in a span. Where it does, the
-  /// contact is a late one if it has been noticed before it ended.
+  /// Checks that the gap never falls below -tolerance between contacts. It can do so only in a span. Such a
+  /// contact counts as late if the detector reported it before it ended, else as missed.
   void check_apart(const Key& key, const GapCourse& gap, double from, double to, const Spans& spans,
                    const std::vector<Interval>& found, const std::vector<Interval>& truth) {
     for (const NearSpan& span : spans) {
@@ -152,7 +153,7 @@ class Comparison {
       from = check_apart(key, gap, from, std::min(to, span.end), found, truth);
     }
   }
-  /// Returns until when all has been checked.
+  /// Checks one span and returns the time until which all has been checked.
   double check_apart(const Key& key, const GapCourse& gap, double from, double to,
                      const std::vector<Interval>& found, const std::vector<Interval>& truth) {
     while (from < to) {
@@ -175,7 +176,7 @@ class Comparison {
     return from;
   }
 
-  /// While touching it never grows beyond the separation distance and the tolerance.
+  /// Checks that the gap never grows beyond the separation distance and the tolerance during a contact.
   void check_touching(const Key& key, const GapCourse& gap, double from, double end, double last) {
     const double to = std::min(end, last);
     if (!(from < to)) return;
@@ -183,7 +184,7 @@ class Comparison {
       differ(to < last ? result_.late : result_.missed, key, "end unreported", *wide);
   }
 
-  /// Counts how many begins and ends stand in both lists; contacts that overlap in time are the same one.
+  /// Counts begins and ends that are in both lists; contacts that overlap in time count as the same contact.
   void match(const std::vector<Interval>& found, const std::vector<Interval>& truth) {
     std::size_t i = 0;
     std::size_t k = 0;
@@ -204,7 +205,7 @@ class Comparison {
     result_.grazing += 2 * (found.size() + truth.size() - 2 * common);
   }
 
-  /// A time that is infinite lies behind the end of the scene.
+  /// Counts a begin or an end of two matching contacts. An infinite time lies beyond the end of the scene.
   void note_match(double found, double truth) {
     if (found == infinity && truth == infinity) return;
     if (found == infinity || truth == infinity) {
@@ -225,7 +226,7 @@ class Comparison {
         "body " + std::to_string(a) + " and " + partner + ": " + what + " at time " + std::to_string(time);
   }
 
-  /// Room for rounding in the truth itself.
+  /// Returns the allowance for rounding in the truth itself (length).
   double hair() const { return tolerance_ / 16.0; }
   const ContactRule& rule() const { return motion_.rule(); }
 
@@ -247,7 +248,8 @@ Result<ContactComparison> compare_with_oracle(const Scene& scene, const std::vec
     return Error{ErrorCode::unsupported, "periodic", no_body,
                  "compare_with_oracle: periodic must be false on all axes"};
   }
-  // Contacts of discs in a plane are those of the balls around the same centres.
+  // check_scene() accepts the plane too: contacts of discs in a plane are contacts of the balls around their
+  // centres.
   if (auto valid = check_scene(scene, "compare_with_oracle"); !valid) return valid.error();
   return Comparison(scene).run(contacts_of(events), on_progress);
 }

@@ -10,7 +10,7 @@ namespace kinesphere {
 namespace {
 
 constexpr int degree = 6;
-/// Power or Bernstein coefficients over [0, 1].
+/// Power or Bernstein coefficients of a polynomial over [0, 1].
 using Coefficients = std::array<double, degree + 1>;
 
 Coefficients to_bernstein(const Coefficients& power) {
@@ -28,7 +28,7 @@ Coefficients to_bernstein(const Coefficients& power) {
   return bernstein;
 }
 
-/// The motion of one piece, s = t - begin, with what is needed to find where the gap meets a level.
+/// The motion in one piece, in s = t - begin, and what it takes to find where the gap reaches a level.
 struct CoursePiece {
   double begin, end;
   std::array<Vec3, 4> centre;  ///< power coefficients of the position difference (pair) or position (wall)
@@ -41,14 +41,14 @@ struct CoursePiece {
     return is_pair ? norm(at) - radius : dot(wall.normal, at) - wall.offset - radius;
   }
 
-  /// Half the derivative of the squared distance.
+  /// Returns half the derivative of the squared distance of a pair.
   double slope(double s) const {
     const Vec3 at = centre[0] + (centre[1] + (centre[2] + centre[3] * s) * s) * s;
     return dot(at, centre[1] + (centre[2] * 2.0 + centre[3] * (3.0 * s)) * s);
   }
 
-  /// A polynomial over [0, 1] that is positive where, on the way from s = lower to s = upper, the gap is
-  /// larger than `level`; and the error that rounding may have left in its coefficients.
+  /// Returns a polynomial over [0, 1], for the way from s = lower to s = upper, that is positive where the
+  /// gap is larger than `level`. Sets `error` to a bound on the rounding in its coefficients.
   Coefficients above(double level, double lower, double upper, double& error) const {
     const std::array<Vec3, 4> c = centre_over(lower, upper);
     Coefficients power{};
@@ -73,8 +73,8 @@ struct CoursePiece {
   }
 
  private:
-  /// The centre's power coefficients over [0, 1] on the way from s = lower to s = upper. Expanding anew
-  /// there, instead of subdividing coefficients, makes the error shrink with the distance.
+  /// Returns the centre's power coefficients over [0, 1], for the way from s = lower to s = upper. They are
+  /// expanded anew at `lower` instead of subdivided, which makes the error shrink with the distance.
   std::array<Vec3, 4> centre_over(double lower, double upper) const {
     const double length = upper - lower;
     const Vec3 value = centre[0] + (centre[1] + (centre[2] + centre[3] * lower) * lower) * lower;
@@ -84,19 +84,19 @@ struct CoursePiece {
   }
 };
 
-/// Finds the first root of one piece for one level.
+/// Finds the first time in one piece at which the gap reaches a level.
 class RootSearch {
  public:
   RootSearch(const CoursePiece& piece, LevelCrossing crossing, double level)
       : piece_(piece), level_(level), sign_(crossing == LevelCrossing::falls_to ? 1.0 : -1.0) {}
 
-  /// The first s in [0, end - begin] at which the level is reached.
+  /// Returns the first s in [0, end - begin] at which the level is reached.
   std::optional<double> first() const { return first_within(0.0, piece_.end - piece_.begin, 0); }
 
  private:
   static constexpr int max_depth = 60;
 
-  /// Positive before the level is reached.
+  /// Returns the signed distance to the level, positive before the level is reached.
   double room(double s) const { return sign_ * (piece_.gap(s) - level_); }
 
   std::optional<double> first_within(double lower, double upper, int depth) const {
@@ -106,7 +106,7 @@ class RootSearch {
     if (std::all_of(c.begin(), c.end(), [=](double value) { return value > error; })) return std::nullopt;
     if (room(lower) <= 0.0) return lower;
     if (is_monotone(c, error)) return room(upper) <= 0.0 ? std::optional(bisect(lower, upper)) : std::nullopt;
-    // Where rounding hides what is left of the polynomial, its ends decide.
+    // Once rounding hides what is left of the polynomial, its values at the ends decide.
     const bool hidden = *std::max_element(c.begin(), c.end()) <= 2.0 * error;
     if (hidden || depth == max_depth) return room(upper) <= 0.0 ? std::optional(upper) : std::nullopt;
     const double middle = 0.5 * (lower + upper);
@@ -124,7 +124,7 @@ class RootSearch {
     return rises || falls;
   }
 
-  /// The least double found not to have room, between one that has and one that has not.
+  /// Returns the least double found with room() <= 0. Precondition: room(lower) > 0 and room(upper) <= 0.
   double bisect(double lower, double upper) const {
     for (;;) {
       const double middle = 0.5 * (lower + upper);
@@ -138,8 +138,8 @@ class RootSearch {
   double sign_;
 };
 
-/// Finds where the gap of a pair is least, piece after piece: parts that cannot hold a lesser one than is
-/// known are left out, and parts where the squared distance is monotone or convex are not divided further.
+/// Finds the least gap of a pair, piece after piece. It skips parts that cannot hold a smaller gap than is
+/// known, and does not divide parts in which the squared distance is monotone or convex.
 class LeastSearch {
  public:
   void visit(const CoursePiece& piece) {
@@ -170,7 +170,7 @@ class LeastSearch {
       falls = falls && c[i] >= c[i + 1];
       is_convex = is_convex && (i == 0 || c[i + 1] - c[i] >= c[i] - c[i - 1]);
     }
-    if (rises || falls) return;  // the ends have been offered
+    if (rises || falls) return;  // the ends were offered before
     if (is_convex) return offer(bottom(lower, upper));
     const double middle = 0.5 * (lower + upper);
     offer(middle);
@@ -179,7 +179,7 @@ class LeastSearch {
     search(middle, upper, depth + 1);
   }
 
-  /// Where the slope, which rises, changes its sign.
+  /// Returns the s at which the slope changes its sign. Precondition: the slope rises in [lower, upper].
   double bottom(double lower, double upper) const {
     for (;;) {
       const double middle = 0.5 * (lower + upper);
@@ -192,7 +192,7 @@ class LeastSearch {
   GapCourse::Least least_{0.0, std::numeric_limits<double>::infinity()};
 };
 
-/// The coefficients of a segment's position in powers of t - begin, for a later begin.
+/// Returns the coefficients of a segment's position in powers of t - begin, for a `begin` within the segment.
 std::array<Vec3, 4> position_from(const Segment& segment, double begin) {
   const State state = segment.state_at(begin);
   return {state.position, state.velocity, segment.acceleration_at(begin) * 0.5, segment.jerk / 6.0};
@@ -212,7 +212,7 @@ double GapCourse::gap_at(double t) const {
   return norm(at - segment_at(*b_, t).state_at(t).position) - radius_;
 }
 
-/// Visits the pieces of [from, to] on which both motions are one cubic, until `visit` returns true.
+/// Visits the pieces of [from, to] in which each motion is one cubic, until `visit` returns true.
 template <class Visit>
 void GapCourse::for_each_piece(double from, double to, const Visit& visit) const {
   const auto index_at = [&](const Trajectory& trajectory) {

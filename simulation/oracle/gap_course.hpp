@@ -1,9 +1,9 @@
-// The exact course of a gap along exact trajectories: the truth that detectors are held against.
+// The exact course of a gap along exact trajectories: the truth that detectors are compared with.
 //
-// Within a piece on which both motions are one cubic, the squared distance of two bodies is a polynomial of
-// degree 6 in time (4 without jerk), and the distance to a wall a cubic. Its Bernstein coefficients enclose
-// it: where they have one sign it has no root, where those of its derivative do it is monotone. Subdivision
-// leaves nothing out.
+// Within a piece in which each motion is one cubic, the squared distance of two bodies is a polynomial of
+// degree 6 in time (4 without jerk), and the distance to a wall is a cubic. The Bernstein coefficients
+// enclose the polynomial: where all have one sign it has no root, and where all those of its derivative have
+// one sign it is monotone. Subdivision leaves nothing out.
 #pragma once
 
 #include <functional>
@@ -14,11 +14,11 @@
 
 namespace kinesphere {
 
-/// Which way the gap goes through a level.
+/// The direction in which the gap passes a level.
 enum class LevelCrossing { falls_to, rises_to };
 
-/// The gap of two bodies or of a body and a wall, over the time that both trajectories cover. Refers to the
-/// trajectories, which must outlive it.
+/// The gap of two bodies, or of a body and a wall, over the time that the trajectories cover. It refers to
+/// the trajectories, which must outlive it.
 class GapCourse {
  public:
   GapCourse(const Trajectory& a, const Trajectory& b, double radii) : a_(&a), b_(&b), radius_(radii) {}
@@ -26,15 +26,16 @@ class GapCourse {
       : a_(&a), wall_(inside), radius_(radius) {}
 
   double gap_at(double t) const;
-  /// The first time in [from, to] at which the gap is at most (falls_to) or at least (rises_to) `level`.
+  /// Returns the first time in [from, to] at which the gap is at most (falls_to) or at least (rises_to)
+  /// `level`; nothing if there is none.
   std::optional<double> first_time(LevelCrossing crossing, double level, double from, double to) const;
 
   struct Least {
     double time;
     double gap;
   };
-  /// Where the gap of two bodies is least in [from, to]: the least value to within rounding, and the earliest
-  /// found of the times that have it.
+  /// Returns the least gap of two bodies in [from, to], to within rounding, and the earliest time found that
+  /// has it. Precondition: the course is that of two bodies.
   Least least(double from, double to) const;
 
  private:
@@ -47,7 +48,7 @@ class GapCourse {
   double radius_;
 };
 
-/// The segment of a trajectory that holds at time t.
+/// Returns the segment of a trajectory that holds at time t; the first one if t is before it.
 const Segment& segment_at(const Trajectory& trajectory, double t);
 
 }  // namespace kinesphere

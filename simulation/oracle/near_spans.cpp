@@ -12,9 +12,11 @@
 namespace kinesphere {
 namespace {
 
-/// Far more than what rounding does to a coordinate that is computed from numbers of this size.
+/// Relative margin of a coordinate, far above the rounding of its computation; larger margins make longer
+/// spans.
 constexpr double rounding = 0x1p-44;
-/// Also where trajectories have few pieces.
+/// Bounds on the number of windows. Windows last as long as a piece between them; more windows make shorter
+/// spans at the cost of one sort each.
 constexpr double fewest_windows = 64.0;
 constexpr double most_windows = 1 << 20;
 
@@ -25,7 +27,8 @@ void include(Box& box, const Vec3& point, double margin) {
   }
 }
 
-/// The four Bernstein coefficients of the position during [begin, end] enclose it.
+/// Includes the four Bernstein coefficients of the position during [begin, end], which enclose it, with a
+/// margin for rounding.
 void include(Box& box, const Segment& segment, double begin, double end) {
   const double duration = end - begin;
   const State state = segment.state_at(begin);
@@ -67,7 +70,7 @@ class Search {
       return std::tie(bodies[a].begin, a) < std::tie(bodies[b].begin, b);
     });
     const double duration = end - begin_;
-    // A window lasts as long as a piece.
+    // A window lasts about as long as a piece.
     const double wanted = body_time > 0.0 ? std::ceil(pieces / body_time * duration) : 1.0;
     windows_ = static_cast<std::uint32_t>(std::clamp(wanted, fewest_windows, most_windows));
     length_ = duration / windows_;
@@ -90,7 +93,7 @@ class Search {
 
  private:
   using Pair = std::pair<std::uint32_t, std::uint32_t>;
-  /// Windows one after the other in which two bodies may be near.
+  /// Consecutive windows in which two bodies may be near each other, up to the present one.
   struct Run {
     Pair pair;
     std::uint32_t first_window;
@@ -101,12 +104,13 @@ class Search {
   };
 
   double start_of(std::uint32_t window) const { return begin_ + window * length_; }
-  /// The last one holds the end whatever rounding does.
+  /// Returns the end of a window. The last window is endless, so that it holds the end of all bodies whatever
+  /// rounding does.
   double end_of(std::uint32_t window) const {
     return window + 1 == windows_ ? infinity : start_of(window + 1);
   }
 
-  /// The boxes of all who are there during the window.
+  /// Computes the boxes of all bodies that are there during the window.
   void enclose() {
     const double from = start_of(window_), to = end_of(window_);
     while (next_ < coming_.size() && bodies_[coming_[next_]].begin <= to)
@@ -148,7 +152,8 @@ class Search {
     std::sort(near_.begin(), near_.end());
   }
 
-  /// Those who are near now go on with those who were near in the window before.
+  /// Extends the runs of pairs that are near in this window too, begins those of new pairs and closes the
+  /// others.
   void join() {
     std::vector<Run> still;
     still.reserve(near_.size());
@@ -162,7 +167,7 @@ class Search {
     open_ = std::move(still);
   }
 
-  /// The run ends with the window before this one.
+  /// Ends a run with the window before the present one and adds its span, widened to whole pieces.
   void close(const Run& run) {
     const auto [first, second] = run.pair;
     const PresentBody& a = bodies_[first];
@@ -198,12 +203,12 @@ class Search {
   double length_ = 0.0;
   std::uint32_t windows_ = 0;
   std::uint32_t window_ = 0;
-  std::vector<std::uint32_t> coming_;  ///< by their begin
-  std::size_t next_ = 0;               ///< the first of them who is not there yet
+  std::vector<std::uint32_t> coming_;  ///< bodies in order of their begin
+  std::size_t next_ = 0;               ///< first entry of coming_ that is not there yet
   std::vector<std::uint32_t> present_;
   std::vector<Enclosed> enclosed_;
   std::vector<Pair> near_;
-  std::vector<Run> open_;  ///< by pair
+  std::vector<Run> open_;  ///< sorted by pair
   std::vector<NearSpan> spans_;
 };
 

@@ -17,9 +17,9 @@
 namespace kinesphere {
 namespace {
 
-/// One pair, or a body and a wall: whether they touch, and when that changes next.
+/// The state of a pair, or of a body and a wall: touching or not, and the time at which that changes next.
 struct Contact {
-  double change = infinity;  ///< if infinite: none before searched_until
+  double change = infinity;  ///< time; infinite if there is no change before searched_until
   double searched_until = -infinity;
   bool touching = false;
 };
@@ -90,11 +90,11 @@ class Oracle final : public Detector {
     bool active = false;
     double radius = 0.0;
     Trajectory trajectory;
-    double known_until = -infinity;  ///< how far the trajectory is good
+    double known_until = -infinity;  ///< time up to which the trajectory was computed
     std::array<Contact, wall_count> walls{};
   };
 
-  /// Names a contact: of body `row` with one of smaller number, or with a wall.
+  /// Names a contact: of body `row` with a body of smaller number, or with a wall.
   struct Key {
     std::uint32_t row;
     std::uint32_t other;
@@ -116,7 +116,7 @@ class Oracle final : public Detector {
     return {body.trajectory, bodies_[key.other].trajectory, body.radius + bodies_[key.other].radius};
   }
 
-  /// The event that changes a contact now.
+  /// Returns the event of a contact that changes at time_.
   Event event_of(const Key& key) {
     const bool ends = at(key).touching;
     if (key.wall != Wall::none)
@@ -142,7 +142,7 @@ class Oracle final : public Detector {
     return keys;
   }
 
-  /// Sets a contact and keeps the first change of its row right.
+  /// Sets a contact and updates the first change of its row.
   void replace(const Key& key, const Contact& contact) {
     const double before = std::exchange(at(key), contact).change;
     double& first = first_changes_[key.row];
@@ -154,13 +154,13 @@ class Oracle final : public Detector {
     }
   }
 
-  /// Cost: O(n), as little beside the O(n) of each event.
+  /// Returns the time of the next change. Cost: O(n), like each event.
   double next_change() const {
     return first_changes_.empty() ? infinity
                                   : *std::min_element(first_changes_.begin(), first_changes_.end());
   }
 
-  /// What was known of the body's future is void.
+  /// Discards what is known of the body's future. With `apart`, its contacts count as not touching.
   void forget(std::uint32_t number, bool apart) {
     bodies_[number].known_until = -infinity;
     for (const Key& key : contacts_of(number)) {
@@ -196,7 +196,7 @@ class Oracle final : public Detector {
     body.known_until = searched_until_;
   }
 
-  /// The contact with its next change, from now or from where the last search ended.
+  /// Returns the contact with its next change, searched from time_ or from the end of the last search.
   Contact searched(const Key& key) {
     ++counters_.certificates;
     const GapCourse gap = course(key);
@@ -219,7 +219,8 @@ class Oracle final : public Detector {
     return contact;
   }
 
-  /// Bodies that have been turned apart while in contact have to open before they can close again.
+  /// Returns the next impact of a pair at time_. Bodies that were turned apart while in contact have to open
+  /// before they can close again.
   double next_impact(const Key& key, const GapCourse& gap) {
     const Event now = event_of(key);
     std::optional<double> opens = time_;
@@ -233,10 +234,10 @@ class Oracle final : public Detector {
     return gap.first_time(LevelCrossing::falls_to, 0.0, *opens, searched_until_).value_or(infinity);
   }
 
-  /// A length far below the tolerance and far above rounding.
+  /// Returns a length far below the tolerance and far above rounding.
   double hair() const { return 1e-3 * definition_.contact_tolerance; }
 
-  /// Lets the first event of this instant happen.
+  /// Applies the first event of this instant, in order of delivery, and returns it.
   Event take_first() {
     std::optional<Event> first;
     Key changed{};
@@ -261,9 +262,9 @@ class Oracle final : public Detector {
   double time_;
   std::vector<Body> bodies_;
   PairTable<Contact> pairs_;
-  std::vector<double> first_changes_;  ///< of the contacts in each row
+  std::vector<double> first_changes_;  ///< by row: the earliest change among its contacts
   double searched_until_ = -infinity;
-  std::vector<Key> unsearched_;  ///< whose next change is not known up to searched_until_
+  std::vector<Key> unsearched_;  ///< contacts without a next change known up to searched_until_
   std::vector<Event> departures_;
   DetectorCounters counters_;
 };

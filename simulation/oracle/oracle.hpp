@@ -1,4 +1,4 @@
-// The truth, as a detector.
+// The oracle: the truth, as a detector.
 #pragma once
 
 #include <memory>
@@ -10,9 +10,9 @@
 
 namespace kinesphere {
 
-/// Brute force over exact trajectories: every root of every pair's distance polynomial, isolated
-/// rigorously. O(n^2) memory and time. Reads trajectories, not states. Knows neither space that repeats nor
-/// two dimensions: unsupported.
+/// Makes the oracle: brute force over exact trajectories, with each root of each pair's distance polynomial
+/// isolated rigorously. It reads trajectories, not states. Cost and memory: O(n^2). Errors: unsupported for
+/// periodic space and for two dimensions.
 Result<std::unique_ptr<Detector>> make_oracle(const WorldDefinition& definition, const Motion& motion);
 
 }  // namespace kinesphere

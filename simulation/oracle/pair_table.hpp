@@ -1,4 +1,4 @@
-// A value for every unordered pair of different bodies.
+// A table with a value for every unordered pair of different bodies.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace kinesphere {
 template <class Value>
 class PairTable {
  public:
-  /// Makes room for bodies 0 ... count - 1; values of earlier bodies stay.
+  /// Makes room for bodies 0 ... count - 1. Values of pairs that were there before stay.
   void resize(std::uint32_t count) { values_.resize(place(0, count)); }
   Value& operator()(std::uint32_t a, std::uint32_t b) {
     return values_[place(std::min(a, b), std::max(a, b))];

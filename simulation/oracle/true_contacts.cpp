@@ -43,7 +43,7 @@ std::vector<ContactInterval> TrueMotion::contacts(const GapCourse& gap, std::uin
   const double last = last_time(a, b);
   const bool one_vanishes = std::min(scene_.bodies[a].vanishes, scene_.bodies[b].vanishes) <= last;
   double now = first_time(a, b);
-  // Those that leave make room before others come.
+  // A body that vanishes at a time is removed before another is added at that time, so they do not touch.
   if (now > last || (now == last && one_vanishes)) return found;
   for (const NearSpan& span : spans) {
     now = std::max(now, span.begin);

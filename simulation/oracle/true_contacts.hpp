@@ -1,5 +1,4 @@
-// The contacts of a scene in which all bodies pass through each other: the truth, from exact trajectories
-// alone.
+// The true contacts of a scene in which all bodies pass through each other, from exact trajectories alone.
 #pragma once
 
 #include <cstdint>
@@ -16,32 +15,34 @@ namespace kinesphere {
 
 struct ContactInterval {
   double begin = 0.0;
-  double end = infinity;  ///< infinite if it lasts beyond the end of the scene
+  double end = infinity;  ///< infinite if the contact lasts beyond the end of the scene
   friend bool operator==(const ContactInterval&, const ContactInterval&) = default;
 };
 
-/// The exact motion of a scene.
+/// TrueMotion has the exact trajectories of a scene.
 class TrueMotion {
  public:
-  /// The scene must outlive it. Cost and memory: O(pieces of all trajectories).
+  /// Computes all trajectories. The scene must outlive this object. Cost and memory: O(pieces of all
+  /// trajectories).
   explicit TrueMotion(const Scene& scene);
   TrueMotion(const TrueMotion&) = delete;
   TrueMotion& operator=(const TrueMotion&) = delete;
 
-  /// Where each body is while it is there, if it ever is.
+  /// Returns each body with its trajectory while it is there; a body that never is there has no trajectory.
   const std::vector<PresentBody>& bodies() const { return present_; }
   const ContactRule& rule() const { return rule_; }
   GapCourse pair(std::uint32_t first, std::uint32_t second) const;
   GapCourse wall(std::uint32_t body, Wall wall) const;
-  /// From when on and until when two bodies (or one, twice) are both there. The first is larger if never.
+  /// Return the first and the last time at which two bodies (or one, twice) are there together. If they never
+  /// are, the first is larger.
   double first_time(std::uint32_t a, std::uint32_t b) const;
   double last_time(std::uint32_t a, std::uint32_t b) const;
 
-  /// The contacts with this gap of two bodies or, with a body twice, of a body and a wall. The gap is above 0
-  /// outside of the spans.
+  /// Returns the contacts of two bodies, or of a body (twice) and a wall, from the course of their gap.
+  /// Precondition: the gap is above 0 outside of the spans.
   std::vector<ContactInterval> contacts(const GapCourse& gap, std::uint32_t a, std::uint32_t b,
                                         const std::vector<NearSpan>& spans) const;
-  /// One span for all the time that both are there.
+  /// Returns one span for all the time that the two are there together.
   NearSpan whole_span(std::uint32_t a, std::uint32_t b) const;
 
  private:

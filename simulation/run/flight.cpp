@@ -40,7 +40,7 @@ class FlightRecorder {
   }
 
  private:
-  /// The way up to an event, before anybody is kicked at it.
+  /// Adds the path of a body up to an event. It is called before the event changes velocities.
   void note_path(std::uint32_t body, double until) {
     if (until <= since_[body]) return;
     for (Segment piece : motion_->trajectory(body, since_[body], until)) {
@@ -68,8 +68,8 @@ class FlightRecorder {
   }
 
   const Scene& scene_;
-  const Motion* motion_ = nullptr;                                              ///< of the run
-  std::vector<double> since_;                                                   ///< where each path goes on
+  const Motion* motion_ = nullptr;  ///< the motion of the run
+  std::vector<double> since_;       ///< by body: time up to which its path is noted
   std::map<std::tuple<std::uint32_t, std::uint32_t, Wall>, std::size_t> open_;  ///< last contact of each pair
   Flight flight_;
 };

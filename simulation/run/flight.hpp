@@ -1,5 +1,5 @@
-// What really happened in a run of a scene: the exact paths of all bodies, bounces included, and who touched
-// whom when.
+// What really happened in a run of a scene: the exact paths of all bodies, bounces included, and all
+// contacts.
 #pragma once
 
 #include <cstdint>
@@ -14,19 +14,19 @@ namespace kinesphere {
 
 struct FlightContact {
   std::uint32_t first;
-  std::uint32_t second;  ///< `first` again for a wall
+  std::uint32_t second;  ///< equals `first` for a wall
   Wall wall = Wall::none;
   double begin;
-  double end;  ///< `begin` in ContactMode::impacts; infinite when it has not ended
+  double end;  ///< equals `begin` in ContactMode::impacts; infinite if the contact has not ended
 };
 
 struct Flight {
   std::vector<Trajectory> paths;        ///< by body, from the start of the scene to its end
-  std::vector<FlightContact> contacts;  ///< by begin
+  std::vector<FlightContact> contacts;  ///< sorted by begin
   SimulationResult result;
 };
 
-/// Runs the scene under the detector and notes the paths, piece by piece from event to event. Errors: as
+/// Runs the scene under the detector and records the paths, piece by piece from event to event. Errors: as
 /// simulate().
 Result<Flight> record_flight(const Scene& scene, const DetectorMaker& make);
 

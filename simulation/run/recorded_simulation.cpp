@@ -1,4 +1,4 @@
-// The recording of a simulation, gone through again.
+// Replay of a recorded simulation.
 #include <map>
 
 #include "kinesphere/event_hash.hpp"
@@ -10,7 +10,7 @@
 namespace kinesphere {
 namespace {
 
-/// The numbers of bodies, those too that are gone by the time of an event.
+/// Maps ids to numbers, also for bodies that were removed before the event.
 class Numbers {
  public:
   void see(const World& world) {
@@ -41,7 +41,7 @@ Result<SimulationResult> replay(std::span<const std::byte> recording) {
     const auto event = opened->advance();
     if (!event) return event.error();
     result.body_time += (world.time() - before) * static_cast<double>(world.size());
-    // Between events bodies come and go.
+    // Bodies are added and removed between events only.
     if (*event)
       hash.add(numbered(**event, [&](BodyId id) { return numbers.of(id, world); }));
     else

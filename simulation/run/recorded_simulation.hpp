@@ -1,4 +1,4 @@
-// The recording of a simulation, gone through again.
+// Replay of a recorded simulation.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,9 @@
 
 namespace kinesphere {
 
-/// What simulate() gave when its detector was recorded (SimulationObserver::at_start and at_end), from the
-/// recording alone. Errors: as Replay::open() and Replay::advance(), which is where it stops.
+/// Returns the result of a simulation from its recording alone. Precondition: its detector was recorded from
+/// SimulationObserver::at_start to at_end. Errors: as Replay::open() and Replay::advance(); the replay stops
+/// at the first.
 Result<SimulationResult> replay(std::span<const std::byte> recording);
 
 }  // namespace kinesphere

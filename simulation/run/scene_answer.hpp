@@ -1,4 +1,4 @@
-// What the bodies of a scene do at an event.
+// The response of a scene to an event.
 #pragma once
 
 #include "kinesphere/event.hpp"
@@ -7,9 +7,9 @@
 
 namespace kinesphere {
 
-/// The velocities that the bodies of an event have from then on, as the scene's response says. Masses are
-/// radius^3, and event.first.index is the number of a body of the scene. It depends on the event alone, so it
-/// serves as a Respond.
+/// Returns the velocities that the scene's response gives the bodies of an event. Masses are radius^3.
+/// event.first.index is the number of a body of the scene. The result depends on the event alone, so the
+/// function serves as a ResponseFn.
 Response scene_answer(const Scene& scene, const Event& event);
 
 }  // namespace kinesphere

@@ -1,4 +1,4 @@
-// Running a scene under a detector.
+// Runs a scene under a detector.
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -36,7 +36,7 @@ class Simulation {
           turn.time < scene.end_time)
         changes_.push_back({turn.time, Change::turns, turn.body, &turn});
     }
-    // Those that leave make room before others come.
+    // At one time, bodies that vanish make room before others appear.
     std::sort(changes_.begin(), changes_.end(), [](const Change& a, const Change& b) {
       return std::tie(a.time, b.kind, a.body) < std::tie(b.time, a.kind, b.body);
     });
@@ -65,7 +65,7 @@ class Simulation {
       }
       if (stop >= scene_.end_time) break;
     }
-    // Bodies that vanish at the very end still report the end of their contacts.
+    // Contacts of bodies that vanish at the very end still report their end.
     if (auto advanced = advance_to(scene_.end_time); !advanced) return advanced.error();
     if (last_frame != scene_.end_time) show(scene_.end_time);
     result_.counters = detector_.counters();
@@ -81,7 +81,7 @@ class Simulation {
     double time;
     Kind kind;
     std::uint32_t body;
-    const SceneTurn* turn;  ///< where it turns
+    const SceneTurn* turn;  ///< the turn, if the kind is `turns`
   };
 
   Result<void> advance_to(double time) {
@@ -141,7 +141,7 @@ class Simulation {
     return detector_.set_velocity(body.index, *velocity);
   }
 
-  /// What a motion refuses, in the terms of the scene.
+  /// Returns an error of a motion in the terms of the scene.
   static Error named(const Error& error) {
     if (error.code != ErrorCode::unsupported) return error;
     return {ErrorCode::unsupported, "response", error.body,

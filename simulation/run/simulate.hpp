@@ -1,4 +1,4 @@
-// Running a scene under a detector.
+// Runs a scene under a detector.
 #pragma once
 
 #include <cstdint>
@@ -15,16 +15,16 @@
 
 namespace kinesphere {
 
-/// What simulate() hands out while it runs. Each may be empty.
+/// Callbacks of simulate(). Each may be empty.
 struct SimulationObserver {
-  /// Called for every event, in order.
+  /// Called for each event, in order.
   std::function<void(const Event&)> on_event;
   /// Called at start_time + k * frame_interval, and at the end.
   std::function<void(const Detector&, const Motion&, double time)> on_frame;
   double frame_interval = std::numeric_limits<double>::infinity();
-  /// Called with the detector before every advance (tests audit here).
+  /// Called with the detector before each advance (tests audit here).
   std::function<void(const Detector&)> between_events;
-  /// Called before anything is done with the detector, and when all is done; an error ends the simulation.
+  /// Called before the detector is used, and after the end of the scene. An error ends the simulation.
   std::function<Result<void>(Detector&)> at_start;
   std::function<Result<void>(Detector&)> at_end;
 };
@@ -33,16 +33,17 @@ struct SimulationResult {
   DetectorCounters counters;
   double simulated_time = 0.0;
   double body_time = 0.0;          ///< sum over bodies of the time they were there
-  std::uint64_t contact_hash = 0;  ///< of all events; see EventHash
-  std::optional<Memory> memory{};  ///< of the detector at the end, if it knows
+  std::uint64_t contact_hash = 0;  ///< event hash of all events; see EventHash
+  std::optional<Memory> memory{};  ///< memory of the detector at the end, if it keeps count
 };
 
-/// Runs a scene under a detector that `make` creates: adds and removes bodies when their time comes, answers
-/// contacts as the scene's response says. With workers the detector goes on by itself between those times
-/// (Detector::run), and between_events is called before that and at each event, when it cannot be audited;
-/// without, by one advance() for each event. Both give the same result. Errors: not_finite, time_backwards or
-/// out_of_range for times that cannot be, for more bodies than the motion has and for turns of none;
-/// unsupported where bodies are to bounce whose motion cannot be changed; those of the detector.
+/// Runs a scene under a detector that `make` creates: adds, turns and removes bodies at their times, and
+/// answers contacts as the scene's response says. Without workers it calls advance() for each event. With
+/// workers the detector runs by itself between the changes of the scene (Detector::run); between_events is
+/// then called before each run and at each event, where the detector cannot be audited. Results do not depend
+/// on the workers. Errors: not_finite, time_backwards or out_of_range for impossible times, for more bodies
+/// than the motion has and for turns of a body that does not exist; unsupported if bodies are to bounce and
+/// their motion cannot be changed; those of the detector.
 Result<SimulationResult> simulate(const Scene& scene, const DetectorMaker& make,
                                   const SimulationObserver& observer = {}, Workers* workers = nullptr);
 

@@ -1,4 +1,4 @@
-// Scenes from parameters, and the built-in ones.
+// Makes scenes from parameters, and lists the built-in ones.
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -74,7 +74,8 @@ Result<std::unique_ptr<const Motion>> make_motion(const SceneParameters& p, std:
   return moved(Ballistic::create({.start = std::move(start), .gravity = p.gravity}));
 }
 
-/// By Newton's method from above, which std::cbrt is not: the same on every machine. For value > 0.
+/// Returns the cube root, by Newton's method from above. Unlike std::cbrt it gives the same bits on every
+/// machine. Precondition: value > 0.
 double cube_root(double value) {
   double root = std::max(value, 1.0);
   for (;;) {
@@ -84,10 +85,10 @@ double cube_root(double value) {
   }
 }
 
-/// Masses are as the cubes of the radii.
+/// Returns the mass of a body, up to a common factor.
 double cube(double radius) { return radius * radius * radius; }
 
-/// The box in such a size that the bodies fill the part `packing` of it.
+/// Returns the box, scaled from its lower corner so that the bodies fill the part `packing` of it.
 Box packed(const Box& box, const std::vector<double>& radii, double packing) {
   constexpr double ball = 4.1887902047863905;  // volume of the ball of radius 1
   double filled = 0.0;
@@ -202,7 +203,7 @@ const std::vector<SceneParameters>& built_in_scenes() {
                          .box = {{0, 0, 0}, {100, 100, 100}},
                          .restitution = 0.9,
                          .seconds = 10.0}),
-      // They fall into a heap 6 spheres deep and come to rest.
+      // The bodies fall into a heap 6 spheres deep and come to rest.
       with_name("pile", {.motion = Kind::ballistic,
                          .radius_min = 0.45,
                          .radius_max = 0.55,

@@ -1,4 +1,4 @@
-// Scenes that are made by drawing: from a few parameters and a seed.
+// Scenes drawn at random from a few parameters and a seed.
 #pragma once
 
 #include <cstdint>
@@ -11,27 +11,28 @@
 
 namespace kinesphere {
 
-/// The parameters of the paper's experiments; scene files and the built-in scenes are made of these.
+/// The parameters of the paper's experiments, from which scene files and the built-in scenes are made.
 struct SceneParameters {
   std::string name = "custom";
   enum class MotionKind { random_forces, velocity_field, ballistic } motion = MotionKind::random_forces;
   std::uint32_t bodies = 1000;
   double radius_min = 0.1, radius_max = 10.0;
-  double speed_min = 4.3301270189221932, speed_max = 43.301270189221931;  ///< 2.5 sqrt 3, 25 sqrt 3
-  double limit_min = 10.0, limit_max = 20.0;                              ///< acceleration
-  Vec3 gravity{};                                                         ///< planned acceleration
+  double speed_min = 4.3301270189221932,
+         speed_max = 43.301270189221931;      ///< velocity: 2.5 sqrt 3 to 25 sqrt 3
+  double limit_min = 10.0, limit_max = 20.0;  ///< acceleration limit
+  Vec3 gravity{};                             ///< planned acceleration
   Box box{{0, 0, 0}, {200, 200, 200}};
-  /// In [0, 1). When positive, the box is made larger or smaller, in proportion and from its lower corner,
-  /// until the bodies fill this part of it. Up to about 0.55 there is room for spheres of one size.
+  /// Part of the box that the bodies fill, in [0, 1). If positive, the box is scaled from its lower corner
+  /// until they do; 0 leaves the box as it is. Up to about 0.55 spheres of one size find room.
   double packing = 0.0;
   bool walls = true;
-  /// Space repeats with the box on all three axes; there are no walls then, and the velocities at the start
-  /// are changed by as much as makes the total momentum zero.
+  /// Repeats space with the box on all three axes, without walls. The velocities at the start are then
+  /// shifted so that the total momentum is zero.
   bool periodic = false;
-  double redraw_interval = 0.2;  ///< how long a random force lasts
+  double redraw_interval = 0.2;  ///< time for which a random force lasts
   SceneResponse response = SceneResponse::bounce;
   double restitution = 1.0;
-  /// Scene::resting_speed. When positive and too small for the contact tolerance, it is raised to
+  /// Scene::resting_speed. A positive value that is too small for the contact tolerance is raised to
   /// least_resting_speed().
   double resting_speed = 0.0;
   double contact_tolerance = 1e-6;
@@ -40,11 +41,11 @@ struct SceneParameters {
   std::uint64_t seed = 1;
 };
 
-/// Places the bodies without overlap and makes the scene. Errors: out_of_range naming the parameter, also
-/// when so many bodies do not fit into the box.
+/// Places the bodies without overlap and makes the scene. Errors: out_of_range with the name of the
+/// parameter, also if the bodies do not fit into the box.
 Result<Scene> make_scene(const SceneParameters& parameters);
 
-/// The built-in scenes, by name.
+/// Returns the built-in scenes, each with its name.
 const std::vector<SceneParameters>& built_in_scenes();
 
 }  // namespace kinesphere

@@ -10,7 +10,8 @@
 namespace kinesphere {
 namespace {
 
-/// Tries for one sphere before the box counts as too full for random placement.
+/// Tries for one sphere before random placement is given up: fewer give up boxes with room left, more waste
+/// time before relax_spheres().
 constexpr int max_tries = 200000;
 
 class RandomPlacement {
@@ -68,7 +69,7 @@ class RandomPlacement {
   std::vector<Vec3> centres_;
 };
 
-/// The part of the box that the spheres fill.
+/// Returns the part of the box that the spheres fill.
 double filled_part(const std::vector<double>& radii, const Box& box) {
   const double ball = 4.1887;  // volume of the ball of radius 1, rounded down
   double volume = 0.0;
@@ -77,7 +78,8 @@ double filled_part(const std::vector<double>& radii, const Box& box) {
   return volume / (size.x * size.y * size.z);
 }
 
-/// Spheres of one size that are placed at random jam at 38 % of a large box, and take long well before that.
+/// Returns true if random placement is likely to fail: spheres of one size that are placed at random jam at
+/// 38 % of a large box, and take long well before that.
 bool will_jam(const std::vector<double>& radii, double filled) {
   const auto differs = [&](double radius) { return radius != radii.front(); };
   return filled > 0.28 && std::none_of(radii.begin(), radii.end(), differs);
@@ -88,7 +90,7 @@ bool will_jam(const std::vector<double>& radii, double filled) {
 std::optional<std::vector<Vec3>> place_spheres(const std::vector<double>& radii, const Box& box,
                                                double clearance, std::uint64_t seed) {
   const double filled = filled_part(radii, box);
-  if (filled > 1.0) return std::nullopt;  // no packing has less than no gaps
+  if (filled > 1.0) return std::nullopt;  // spheres cannot fill more than the box
   if (!will_jam(radii, filled)) {
     if (auto centres = RandomPlacement(radii, box, clearance, seed).run()) return centres;
   }

@@ -1,4 +1,4 @@
-// Placing spheres in a box without overlap.
+// Placement of spheres in a box without overlap.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 
 namespace kinesphere {
 
-/// Centres for spheres of these radii, all inside the box and at least `clearance` from each other and its
-/// walls; nothing when no room is found. Random, largest first (the small ones fit into the gaps that the
-/// large ones leave), which fills about 45 % of the box, and 28 % with spheres of one size; where that
-/// fails, relax_spheres(), which fills about 60 %. Cost: 2 us per sphere at 13 %, a second for 3500 spheres
-/// at 46 %, and for 4000 of one size at 49 %.
+/// Returns centres for spheres of these radii, all inside the box and at least `clearance` (length) from each
+/// other and from its walls; nothing if no room is found. Random placement, largest first (small spheres fit
+/// into the gaps between large ones), fills about 45 % of the box, and 28 % with spheres of one size. If it
+/// fails, relax_spheres() fills about 60 %. Cost: 2 us per sphere at 13 %, a second for 3500 spheres at 46 %,
+/// and for 4000 of one size at 49 %.
 std::optional<std::vector<Vec3>> place_spheres(const std::vector<double>& radii, const Box& box,
                                                double clearance, std::uint64_t seed);
 

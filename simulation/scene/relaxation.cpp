@@ -1,4 +1,4 @@
-// Packing spheres into a box by pushing them apart, for boxes too full to find room at random.
+// Packs spheres into a box by pushing them apart, for boxes too full for random placement.
 #include "simulation/scene/relaxation.hpp"
 
 #include <algorithm>
@@ -10,10 +10,11 @@
 namespace kinesphere {
 namespace {
 
-/// Pushed pairs end up this much farther apart than they must be, as a part of their distance: without it
-/// the last overlaps would shrink for ever and never vanish.
+/// Extra distance of a pushed pair, as a part of the distance it needs. Without it the last overlaps would
+/// shrink for ever and never vanish; a larger one pushes spheres into their other neighbours.
 constexpr double overshoot = 1e-3;
-/// Sweeps after which the remaining overlap must have become less by `least_progress`.
+/// Sweeps after which the total overlap must have shrunk by the factor `least_progress`; fewer give up
+/// packings that would succeed, more delay the failure of the others.
 constexpr int patience = 100;
 constexpr double least_progress = 0.9;
 
@@ -45,7 +46,7 @@ class Relaxation {
   }
 
  private:
-  /// Where the sphere's centre may be.
+  /// Returns the box in which the sphere's centre may be.
   Box room_of(std::uint32_t sphere) const {
     const double reach = radii_[sphere] + clearance_;
     const Vec3 half{reach, reach, reach};
@@ -66,7 +67,7 @@ class Relaxation {
     grid_.set(sphere, {centres_[sphere] - half, centres_[sphere] + half});
   }
 
-  /// Pushes every overlapping pair apart once; returns the sum of their overlaps as they were found.
+  /// Pushes every overlapping pair apart once. Returns the sum of the overlaps as they were found.
   double sweep() {
     double overlap = 0.0;
     for (std::uint32_t sphere = 0; sphere < centres_.size(); ++sphere) {
@@ -81,7 +82,8 @@ class Relaxation {
     return overlap;
   }
 
-  /// Returns their overlap. The smaller one gives way more, as its cross-section is smaller.
+  /// Pushes two spheres apart if they overlap, and returns their overlap. The smaller one moves more, as its
+  /// cross-section is smaller.
   double push_apart(std::uint32_t a, std::uint32_t b) {
     const Vec3 apart = centres_[b] - centres_[a];
     const double needed = radii_[a] + radii_[b] + clearance_;
@@ -103,7 +105,7 @@ class Relaxation {
   Random random_;
   HashGrid grid_;
   std::vector<Vec3> centres_;
-  std::vector<std::uint32_t> near_;  ///< scratch
+  std::vector<std::uint32_t> near_;  ///< scratch memory of sweep()
 };
 
 }  // namespace

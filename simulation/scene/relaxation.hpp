@@ -1,4 +1,4 @@
-// Packing spheres into a box by pushing them apart, for boxes too full to find room at random.
+// Packing of spheres into a box by pushing them apart, for boxes too full for random placement.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,10 @@
 
 namespace kinesphere {
 
-/// As place_spheres: starts with centres drawn at random and pushes overlapping spheres apart, pair by pair,
-/// until no overlap is left; nothing when that makes no more progress. Reaches about 60 % of the box's
-/// volume. Cost: some hundred sweeps, each about a microsecond per sphere. Exact to the bit on every machine.
+/// Returns centres as place_spheres() does: starts with random centres and pushes overlapping spheres apart,
+/// pair by pair, until no overlap is left; nothing if that makes no more progress. Reaches about 60 % of the
+/// box's volume. The result is the same to the bit on every machine. Cost: some hundred sweeps, each about a
+/// microsecond per sphere.
 std::optional<std::vector<Vec3>> relax_spheres(const std::vector<double>& radii, const Box& box,
                                                double clearance, std::uint64_t seed);
 

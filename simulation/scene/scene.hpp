@@ -1,5 +1,5 @@
-// Scenes: bodies, their motion and what they do on contact. One set of scenes serves the program, the tests
-// and the benchmarks.
+// Scenes: bodies, their motion and their response to contacts. The program, the tests and the benchmarks
+// share them.
 #pragma once
 
 #include <cstdint>
@@ -15,18 +15,18 @@
 namespace kinesphere {
 
 enum class SceneResponse {
-  pass_through,  ///< nobody reacts: the contacts are a fixed truth
-  bounce,        ///< bodies bounce off each other and the walls, mass ~ radius^3
+  pass_through,  ///< bodies do not react: the contacts are a fixed truth
+  bounce,        ///< bodies bounce off each other and off the walls; mass is radius^3
 };
 
 struct SceneBody {
   double radius = 1.0;
-  double appears = 0.0;                                       ///< when it is added
-  double vanishes = std::numeric_limits<double>::infinity();  ///< when it is removed
+  double appears = 0.0;                                       ///< time at which the body is added
+  double vanishes = std::numeric_limits<double>::infinity();  ///< time at which the body is removed
 };
 
-/// A velocity that a body is given at some time, whatever happens: the motion's set_velocity() is called with
-/// it, and the detector told.
+/// A velocity that a body gets at a given time, whatever happens: set_velocity() of the motion is called with
+/// it, then that of the detector.
 struct SceneTurn {
   double time = 0.0;
   std::uint32_t body = 0;
@@ -38,10 +38,11 @@ struct Scene {
   WorldDefinition world;
   std::vector<SceneBody> bodies;  ///< by their number in the motion
   std::unique_ptr<const Motion> motion;
-  std::vector<SceneTurn> turns;  ///< in any order; those of bodies that are not there then are passed over
+  std::vector<SceneTurn>
+      turns;  ///< in any order; turns of bodies that are not there at that time are skipped
   SceneResponse response = SceneResponse::pass_through;
   double restitution = 1.0;
-  double resting_speed = 0.0;  ///< positive: bodies settle() with it instead of just bounce()
+  double resting_speed = 0.0;  ///< if positive, bodies settle() with this speed instead of just bounce()
   double end_time = 1.0;
 };
 

@@ -1,4 +1,4 @@
-// Is this a scene that can be run?
+// Checks of scenes before they are run.
 #pragma once
 
 #include <string_view>
@@ -8,10 +8,11 @@
 
 namespace kinesphere {
 
-/// What neither a detector nor a motion will look at, or only too late: the scene's times, and that the
-/// motion has all its bodies. `call` is who asks.
+/// Checks what detector and motion do not check, or check too late: the scene's times, its turns, and that
+/// the motion has all its bodies. `call` is the name of the caller in the message.
 Result<void> check_times(const Scene& scene, std::string_view call);
-/// That, the world and all bodies, for those who have no detector.
+/// Checks the times, the world and all bodies, for callers without a detector. `call` is the name of the
+/// caller in the message.
 Result<void> check_scene(const Scene& scene, std::string_view call);
 
 }  // namespace kinesphere

@@ -1,4 +1,4 @@
-// When which two bodies of a recording were close, and how close they came.
+// Approaches of recorded tracks: times and closest points.
 #include "simulation/tracks/approaches.hpp"
 
 #include <algorithm>

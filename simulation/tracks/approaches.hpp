@@ -1,4 +1,4 @@
-// When which two bodies of a recording were close, and how close they came.
+// Approaches of recorded tracks: the pairs that were close, when, and how close they came.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 
 namespace kinesphere {
 
-/// Where two bodies were nearest: the exact least distance of their curves.
+/// The least distance of two tracks during an approach, along their exact curves.
 struct ClosestApproach {
   double time = 0.0;
-  double distance = 0.0;  ///< of the centres
-  Vec3 first, second;     ///< where the two were then
+  double distance = 0.0;  ///< distance of the centres
+  Vec3 first, second;     ///< positions at that time
   double relative_speed = 0.0;
 };
 
@@ -22,18 +22,17 @@ struct Approach {
   double begin = 0.0, end = 0.0;
   bool begins_with_track = false;  ///< the two were close at the first sample of one of them
   bool ends_with_track = false;    ///< the two were close at the last sample of one of them
-  ClosestApproach closest{};       ///< within [begin, end]; see find_closest()
+  ClosestApproach closest{};       ///< within [begin, end]; set by find_closest()
 };
 
-/// The approaches that a run of `scene` has reported, by begin. One without an end event ends with the track
-/// that ends first.
+/// Returns the approaches that a run of `scene` reported, sorted by begin. An approach without an end event
+/// ends with the track that ends first.
 std::vector<Approach> approaches_in(const Scene& scene, const std::vector<Event>& events);
 
-/// Finds where the two of each approach came closest. Cost: some time for each piece of the two curves
-/// during the approach.
+/// Sets `closest` of each approach. Cost: proportional to the pieces of the two curves during the approach.
 void find_closest(const Motion& motion, std::vector<Approach>& approaches);
 
-/// Numbers of approaches, the closest first, at most so many; equals by their begin.
+/// Returns the indices of at most `most` approaches, the closest first; equal ones in their order.
 std::vector<std::size_t> closest_of(const std::vector<Approach>& approaches, std::size_t most);
 
 }  // namespace kinesphere

@@ -28,7 +28,7 @@ Trajectory straight_lines(const Track& track) {
 }  // namespace
 
 Result<LinearTracks> LinearTracks::create(const std::vector<Track>& tracks) {
-  // The same samples are wrong for both.
+  // RecordedTracks::create() checks the samples; it refuses the ones that are wrong here.
   if (auto curves = RecordedTracks::create(tracks); !curves) return curves.error();
   std::vector<Trajectory> trajectories;
   trajectories.reserve(tracks.size());
@@ -54,7 +54,8 @@ void LinearTracks::require_known(std::uint32_t body, double t) const {
     refuse_question("state", *this, body, "t", t, {-infinity, infinity});
 }
 
-/// The one that ends at t, unless the turn there has been told.
+/// Returns the segment at time t. At a sample that is the segment before it, until set_velocity() has been
+/// called for the turn.
 const Segment& LinearTracks::segment(std::uint32_t body, double t) const {
   require_known(body, t);
   const Trajectory& known = trajectories_[body];
@@ -81,7 +82,7 @@ Trajectory LinearTracks::trajectory(std::uint32_t body, double begin, double end
   auto next = std::upper_bound(known.begin() + 1, known.end(), begin, begins_after) - 1;
   Trajectory result;
   while (result.empty() || (result.back().end < end && next != known.end())) result.push_back(*next++);
-  // Straight on before the first sample and after the last.
+  // The motion goes straight on before the first sample and after the last.
   if (begin < result.front().begin) {
     Segment& first = result.front();
     first.position += (begin - first.begin) * first.velocity;

@@ -1,4 +1,4 @@
-// Tracks as a scene, in which a contact is an approach.
+// Recorded tracks as a scene, in which a contact is an approach.
 #pragma once
 
 #include <vector>
@@ -11,13 +11,13 @@ namespace kinesphere {
 
 /// The motion between two samples.
 enum class Interpolation {
-  spline,  ///< the natural cubic spline: smooth, may swing out beyond the samples
+  spline,  ///< natural cubic spline: smooth, may swing out beyond the samples
   linear,  ///< straight on: never beyond the samples, with a sudden turn at each
 };
 
-/// Each track is a body of half the distance as radius, which is there from its first sample to its last. The
-/// tolerance of the world, and whether it is a plane, are left to the caller. There must be at least one
-/// track. Errors: as RecordedTracks::create().
+/// Makes a scene with a body for each track. Its radius is half of `distance` (length), and it is there from
+/// the first sample to the last. The caller sets the tolerance of the world and the number of dimensions.
+/// Precondition: there is at least one track. Errors: as RecordedTracks::create().
 Result<Scene> scene_of_tracks(const std::vector<Track>& tracks, double distance, Interpolation interpolation);
 
 }  // namespace kinesphere

@@ -1,4 +1,4 @@
-// The audit: cells and candidates as they should be now, rebuilt from the bounds.
+// The audit of an event-driven detector: cells and candidates as they should be now, rebuilt from the bounds.
 #include <cmath>
 #include <map>
 #include <string>
@@ -9,8 +9,9 @@
 namespace kinesphere {
 namespace {
 
-/// A recorded time may pass the one computed now by this part of the way there: both are lower bounds of the
-/// same truth, and each stops its iteration a little early.
+/// Part of the time ahead by which a recorded time may exceed the one computed now. Both are lower bounds of
+/// one true time, and each stops its iteration a little early; less would report that as a fault, more would
+/// hide late candidates.
 constexpr double slack = 1e-3;
 
 bool too_late(double recorded, double computed, double now) {
@@ -45,7 +46,7 @@ class EventDrivenDetector::Audit {
     return detector_.body(number).present && !detector_.body(number).new_course;
   }
 
-  /// Exactly the residents of each cell stand in the subspace tree.
+  /// Checks that the subspace tree holds exactly the residents of each cell.
   void check_tree() {
     std::map<Cell, SubspaceTree::Bodies> expected;
     for (std::uint32_t number = 0; number < detector_.size(); ++number) {
@@ -63,7 +64,7 @@ class EventDrivenDetector::Audit {
     }
   }
 
-  /// The body stands in the cells that its bound meets and, but for rounding, in no other.
+  /// Checks that the body is registered in the cells that its bound meets and, but for rounding, in no other.
   void check_cells(std::uint32_t number) {
     const CellRange& cells = detector_.residents_[number].cells;
     const Vec3 margin = Vec3{1.0, 1.0, 1.0} * (0.25 * detector_.definition().contact_tolerance);
@@ -110,7 +111,7 @@ class EventDrivenDetector::Audit {
     const bool touching = detector_.touch(a, b);
     // Rounding alone makes parallel courses meet in the far future.
     const double horizon = std::min({detector_.horizon(a), detector_.horizon(b), now_ + 0x1p30});
-    // Apart and not linked: no cell holds a part of both.
+    // The two are apart and not linked, so no cell may hold a part of each.
     if (!detector_.linked(a, b)) {
       if (gap_limits(first, second, now_).upper < 0.0) find("registration", pair(a, b) + " are not linked");
       return;
@@ -124,8 +125,9 @@ class EventDrivenDetector::Audit {
                               ", must not be later than " + std::to_string(change));
   }
 
-  /// A noisy report may lie outside what an earlier one promised; within the tolerance the contact rule
-  /// decides, and for a pair just seen an event that is still to be delivered or settled.
+  /// Returns false for pairs that cannot be checked: a noisy report may lie outside the earlier bound; within
+  /// the tolerance the contact rule decides; and a pair just probed may have an event that is not yet
+  /// delivered or handled.
   bool checkable(std::uint32_t a, std::uint32_t b) const {
     const auto exact = [this](std::uint32_t number) {
       const BodyDefinition& body = detector_.body(number).definition;

@@ -1,5 +1,5 @@
-// The algorithm of Kim, Guibas and Shin (1998) for spheres whose trajectories are known: nothing but a common
-// gravity acts on them between kicks, so all events have exact times and no bound grows.
+// The algorithm of Kim, Guibas and Shin (1998) for spheres with known trajectories: only a common gravity
+// acts on them between velocity changes, so all events have exact times and no bound grows.
 #include <optional>
 
 #include "bound/relative_motion.hpp"
@@ -12,8 +12,8 @@
 namespace kinesphere {
 namespace {
 
-/// As earliest_meeting, in one step: under a common acceleration the two move along a line relative to each
-/// other, and |X + V d| = R is a quadratic.
+/// Computes earliest_meeting() in one step. Under a common acceleration the two move along a line relative to
+/// each other, and |X + V d| = R is a quadratic.
 double ballistic_meeting(const Bound& a, const Bound& b, double from, double horizon, double distance) {
   constexpr double margin = rounding::margin;
   const RelativeMotion motion(a, b, from);
@@ -59,16 +59,16 @@ class BallisticDetector final : public EventDrivenDetector {
   }
 
  private:
-  /// Trajectories are known: nobody is asked.
+  /// Trajectories are known, so the state is computed without a probe.
   State report(std::uint32_t number) override {
     const Bound& bound = body(number).bound;
     return {bound.centre_at(time()), body(number).kicked_to.value_or(bound.velocity_at(time()))};
   }
 
-  /// Never due: no bound grows.
+  /// No bound grows, so resets are never due.
   void on_outgrown(std::uint32_t) override {}
 
-  /// Whatever else is predicted of the two stays true.
+  /// All other predictions about the two bodies stay valid.
   void on_meeting(std::uint32_t a, std::uint32_t b) override {
     ++counters_.colliding;
     for (const std::uint32_t number : {a, b})

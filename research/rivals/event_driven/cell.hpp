@@ -1,4 +1,4 @@
-// Cells of a hierarchy of grids: how they contain each other, and in which order they lie.
+// Cells of a hierarchy of grids: containment and order.
 #pragma once
 
 #include <array>
@@ -6,8 +6,8 @@
 
 namespace kinesphere {
 
-/// One cubical subspace. Level 0 is the finest grid; each level has cells twice as large as the one below, so
-/// cell i of an axis holds the cells 2 i and 2 i + 1 of the next finer level.
+/// One cubical subspace. Level 0 is the finest grid; each level has cells twice as large as the level below,
+/// so cell i of an axis holds the cells 2 i and 2 i + 1 of the next finer level.
 struct Cell {
   int level = 0;
   std::array<std::int64_t, 3> index{};
@@ -15,9 +15,9 @@ struct Cell {
   friend bool operator==(const Cell&, const Cell&) = default;
 };
 
-/// By level, then in Z-order: that of the numbers in which the bits of the three indices take turns. In it
-/// all subcells of a cell on one finer level lie side by side. Nothing is interleaved: the axis whose indices
-/// differ in the most significant bit decides, as it would in the interleaved number.
+/// Orders cells by level, then in Z-order: by the numbers made by interleaving the bits of the three indices.
+/// In that order all subcells of a cell on one finer level are contiguous. Nothing is interleaved: the axis
+/// with the most significant differing bit decides, as it would in the interleaved number.
 inline bool operator<(const Cell& a, const Cell& b) {
   if (a.level != b.level) return a.level < b.level;
   const auto difference = [&](std::size_t axis) {
@@ -27,13 +27,13 @@ inline bool operator<(const Cell& a, const Cell& b) {
   std::uint64_t greatest = difference(0);
   for (std::size_t axis = 1; axis < 3; ++axis) {
     const std::uint64_t other = difference(axis);
-    // True when the highest bit of `other` stands above that of `greatest`.
+    // The condition is true if the highest bit of `other` is above that of `greatest`.
     if (greatest < other && greatest < (greatest ^ other)) {
       deciding = axis;
       greatest = other;
     }
   }
-  // Signed comparison is the unsigned one with flipped sign bits.
+  // Signed comparison equals unsigned comparison with flipped sign bits.
   return a.index[deciding] < b.index[deciding];
 }
 
@@ -51,7 +51,7 @@ struct CellRange {
     return cell.level == level;
   }
 
-  /// The cells of a coarser level, or the same, that hold these.
+  /// Returns the cells of level `coarser` (at least the present level) that hold these.
   CellRange on_level(int coarser) const {
     CellRange range{coarser, first, last};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -69,7 +69,7 @@ struct CellRange {
   }
 };
 
-/// True when a cell of one range and a cell of the other, of whatever levels, intersect.
+/// Returns true if a cell of one range and a cell of the other intersect, on whatever levels they are.
 inline bool intersect(const CellRange& a, const CellRange& b) {
   if (a.level > b.level) return intersect(b, a);
   const int shift = b.level - a.level;

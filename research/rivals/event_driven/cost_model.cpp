@@ -1,5 +1,5 @@
 // The kinetic theory behind the cost model. A bound lives from one reset to the next: it grows, may meet
-// another or a wall at any age, and is reset at the latest when it fills its cell.
+// another bound or a wall at any age, and is reset at the latest when it fills its cell.
 #include "research/rivals/event_driven/cost_model.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace kinesphere {
 namespace {
 
-/// e^-x for x >= 0, to 1e-7, by the same operations on every machine.
+/// Returns e^-x for x >= 0, to 1e-7, by operations that give the same bits on every machine.
 double exp_minus(double x) {
   const double y = x / 1024.0;
   double power = 1.0 / (1.0 + y * (1.0 + y * (1.0 / 2.0 + y * (1.0 / 6.0))));
@@ -20,18 +20,19 @@ double exp_minus(double x) {
   return power;
 }
 
-/// Mean of max(0, u + growth), u being one component of a velocity of this size in any direction (u is
-/// uniform in [-speed, speed]): how fast a surface that grows sweeps over what lies before it.
+/// Returns the mean of max(0, u + growth) for u uniform in [-speed, speed], which is the distribution of one
+/// component of a velocity with random direction: the speed at which a growing surface sweeps over what is
+/// ahead.
 double closing_speed(double speed, double growth) {
   return growth < speed ? (speed + growth) * (speed + growth) / (4.0 * speed) : growth;
 }
 
-/// Before a contact is certain the bounds of the two meet again and again, each time after a shorter time;
-/// then they bounce, which makes all that was predicted void.
+/// Meetings and resets for each contact. Before a contact is certain the two bounds meet again and again,
+/// each time after a shorter time; then the bodies bounce, which makes all predictions about them stale.
 constexpr double looks_at_contact = 2.5;
 constexpr double resets_at_bounce = 1.0;
 
-/// Until the bound has the diameter `edge` (paper, eq 8).
+/// Returns the time until the bound has the diameter `edge` (paper, eq 8).
 double time_to_reset(const MovingSphere& sphere, double edge) {
   constexpr double longest = 1e30;
   const double margin = std::max(0.0, 0.5 * edge - sphere.radius);
@@ -41,32 +42,34 @@ double time_to_reset(const MovingSphere& sphere, double edge) {
 
 }  // namespace
 
-/// One grid, and the bounds that are assigned to it at a random instant.
+/// One grid, and the bounds assigned to it at a random instant.
 struct CostModel::Level {
   double edge = 0.0;
-  std::size_t first = 0, last = 0;  ///< its samples, [first, last): those of a radius
+  std::size_t first = 0, last = 0;  ///< samples of the level, [first, last), which are sorted by radius
   double bodies = 0.0;
-  // Means over its bodies.
+  // Means over the bodies of the level.
   double radius = 0.0, radius_squared = 0.0;  ///< of the bound
   double growth_speed = 0.0;
   double speed_squared = 0.0;
 };
 
-/// A bound from one reset to the next, on average.
+/// Averages over a bound's life from one reset to the next.
 struct CostModel::Cycle {
   double length = 0.0;                 ///< time
-  double meetings = 0.0, walls = 0.0;  ///< colliding events that end it: probabilities
-  double candidates_kept = 0.0;        ///< meetings predicted for the time until its reset
-  // Means over its length.
+  double meetings = 0.0, walls = 0.0;  ///< probabilities that a colliding event ends the cycle
+  double candidates_kept = 0.0;        ///< meetings predicted before the reset
+  // Means over the length of the cycle.
   double radius = 0.0, radius_squared = 0.0, growth_speed = 0.0;
   double face_speed = 0.0;  ///< mean of max(0, speed at which a face of its box advances)
 };
 
-/// Whom a search finds.
+/// Averages over what a search finds.
 struct CostModel::Neighbours {
-  double cells = 0.0, new_cells = 0.0;    ///< searched: of the body, and those of a layer that it enters
-  double pairs = 0.0, new_pairs = 0.0;    ///< with them, and with those who were no neighbours before
-  double visits = 0.0, new_visits = 0.0;  ///< a neighbour is found in each cell that it shares
+  double cells = 0.0, new_cells = 0.0;  ///< cells searched: all of the body; those of a layer that it enters
+  double pairs = 0.0,
+         new_pairs =
+             0.0;  ///< pairs with bodies in these cells; pairs with bodies that were not neighbours before
+  double visits = 0.0, new_visits = 0.0;  ///< bodies visited, once for each shared cell
 };
 
 CostModel::CostModel(const std::vector<MovingSphere>& spheres, const Box& extent, bool has_walls)
@@ -99,8 +102,8 @@ CostModel::CostModel(const std::vector<MovingSphere>& spheres, const Box& extent
   contact_density_ = (1.0 - 0.5 * packing) / ((1.0 - packing) * (1.0 - packing) * (1.0 - packing));
 }
 
-/// How many planes between cells there are inside of the extent, per length of an axis; the mean of the axes.
-/// One that coincides with a face of the extent has bounds on one side only: it counts half.
+/// Returns the number of planes between cells inside of the extent, per length of an axis; the mean of the
+/// axes. A plane that coincides with a face of the extent has bounds on one side only and counts half.
 double CostModel::planes_per_length(double edge) const {
   double sum = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -113,12 +116,12 @@ double CostModel::planes_per_length(double edge) const {
   return sum / 3.0;
 }
 
-/// Of a cube, as far as it is inside of the extent.
+/// Returns the volume of a cube, cut to the size of the extent.
 double CostModel::volume_within(double length) const {
   return std::min(length, sides_.x) * std::min(length, sides_.y) * std::min(length, sides_.z);
 }
 
-/// The grids in use, with bounds as they are just after a reset.
+/// Returns the grids in use, with bounds as they are just after a reset.
 std::vector<CostModel::Level> CostModel::levels_of(double finest_edge) const {
   std::vector<Level> levels;
   double edge = finest_edge;
@@ -142,9 +145,9 @@ std::vector<CostModel::Level> CostModel::levels_of(double finest_edge) const {
   return levels;
 }
 
-/// Colliding events per time with all others, and with the walls, of a bound of this radius that grows. In a
-/// gas of density n the spheres around one that come into touch with it are those that its surface, enlarged
-/// by their own radius, sweeps up: n times its area times the mean closing speed.
+/// Returns the colliding events per time of a growing bound of this radius with all other bounds. In a gas of
+/// density n, the spheres that come into touch with one sphere are those that its surface, enlarged by their
+/// own radius, sweeps up: n times its area times the mean closing speed.
 double CostModel::meeting_rate(double radius, double growth_speed, double speed,
                                const std::vector<Level>& levels) const {
   double rate = 0.0;
@@ -163,7 +166,8 @@ double CostModel::wall_rate(double growth_speed, double speed) const {
   return walls_per_length * closing_speed(speed, growth_speed);
 }
 
-/// By the ages that the bound comes through, more of them early, when it may often be reset.
+/// Integrates over the age of the bound. The steps are shorter early in the cycle, as many bounds are reset
+/// early.
 CostModel::Cycle CostModel::cycle_of(const MovingSphere& sphere, const Level& own,
                                      const std::vector<Level>& levels) const {
   constexpr int steps = 10;
@@ -197,7 +201,7 @@ CostModel::Cycle CostModel::cycle_of(const MovingSphere& sphere, const Level& ow
   return cycle;
 }
 
-/// The same level with bounds of all ages, each as long as it lasts.
+/// Returns the level with means over bounds of all ages, weighted by the time they last.
 CostModel::Level CostModel::aged(const Level& level, const std::vector<Level>& levels) const {
   Level result = level;
   result.radius = result.radius_squared = result.growth_speed = 0.0;
@@ -211,8 +215,9 @@ CostModel::Level CostModel::aged(const Level& level, const std::vector<Level>& l
   return result;
 }
 
-/// Of a bound of this width: two are neighbours where cells of theirs intersect, which are cells of the
-/// coarser of their two grids. On each axis both reach that far, and as far as they are wide.
+/// Returns the neighbours of a bound of this width. Two bodies are neighbours if cells of theirs intersect,
+/// on the coarser of their two grids. On each axis a pair reaches as far as a cell and the widths of the two
+/// bounds.
 CostModel::Neighbours CostModel::neighbours_of(double width, const Level& own,
                                                const std::vector<Level>& levels) const {
   const auto cells_along = [this](double length, double edge) {
@@ -238,7 +243,7 @@ CostModel::Neighbours CostModel::neighbours_of(double width, const Level& own,
   return neighbours;
 }
 
-/// What one body adds.
+/// Adds the rates and the cost of the bodies that one sample stands for.
 void CostModel::add_rates(ExpectedRates& rates, const MovingSphere& sphere, const Level& own,
                           const std::vector<Level>& levels, const std::vector<Level>& fresh) const {
   const Cycle cycle = cycle_of(sphere, own, levels);

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double margin = rounding::margin;
 
-/// Upper bound of the last d >= 0 at which c + b d + 1/2 a d^2 rises through 0: 0 when it is positive already
-/// and rises or stays so, +infinity when it never rises again. The twin of rounding::first_crossing.
+/// Returns an upper bound of the last d >= 0 at which c + b d + 1/2 a d^2 rises through 0: 0 if it is
+/// positive already and stays so, +infinity if it never rises again. Counterpart of rounding::first_crossing.
 double last_rise(double c, double b, double a) {
   if (c >= 0.0 && b >= 0.0) return 0.0;
   if (b <= 0.0 && a <= 0.0) return infinity;
@@ -48,7 +48,7 @@ MovingSide::MovingSide(const Bound& bound, int axis, bool upper, double from)
               (bound.growth_speed + 0.5 * bound.growth_acceleration * s) * s;
 }
 
-/// No more than the true distance.
+/// Returns a lower bound of the distance to the plane.
 double MovingSide::room_to(double plane) const {
   return (sign_ * plane - position_) - margin * (position_size_ + std::abs(plane));
 }
@@ -62,7 +62,7 @@ double MovingSide::earliest_entering(double plane, double horizon) const {
 }
 
 double MovingSide::latest_leaving(double plane, double horizon) const {
-  // It must have parted by more than the margin of entering, or it would enter again at once.
+  // The bound must have parted by more than the margin of entering, or it would enter again at once.
   const double gap = room_to(plane) - 2.0 * margin * (position_size_ + std::abs(plane));
   const double d = last_rise(gap, -speed_, -acceleration_);
   const double time = std::max(rounding::sum_up(from_, d), just_after(from_));

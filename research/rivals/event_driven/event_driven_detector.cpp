@@ -8,7 +8,8 @@
 namespace kinesphere {
 namespace {
 
-/// Cells are so many contact tolerances wide at least: rounding is nothing to them.
+/// Least cell edge, in contact tolerances; it keeps rounding negligible beside cells, at the cost of coarse
+/// cells for large tolerances.
 constexpr double least_edge_in_tolerances = 0x1p10;
 
 std::uint8_t face_of(std::size_t axis, bool upper) { return static_cast<std::uint8_t>(2 * axis + upper); }
@@ -16,14 +17,14 @@ std::size_t axis_of(std::uint8_t face) { return face / 2u; }
 bool is_upper(std::uint8_t face) { return face % 2u == 1u; }
 std::uint8_t opposite(std::uint8_t face) { return face ^ 1u; }
 
-/// The outermost layer of the cells on the side of a face.
+/// Returns the outermost layer of the cells on the side of a face.
 CellRange layer(CellRange cells, std::uint8_t face) {
   const std::size_t axis = axis_of(face);
   (is_upper(face) ? cells.first : cells.last)[axis] = (is_upper(face) ? cells.last : cells.first)[axis];
   return cells;
 }
 
-/// The cells with another layer on the side of a face, or (-1) one less.
+/// Returns the cells with `layers` (1 or -1) more layers on the side of a face.
 CellRange grown(CellRange cells, std::uint8_t face, int layers) {
   if (is_upper(face)) {
     cells.last[axis_of(face)] += layers;
@@ -59,7 +60,7 @@ double EventDrivenDetector::fit_edge(double edge) const {
   return std::max(edge, least_edge_in_tolerances * definition().contact_tolerance);
 }
 
-/// Everybody moves into new cells.
+/// Replaces the grids and moves all bodies into new cells.
 void EventDrivenDetector::change_grids(double edge) {
   std::vector<std::uint32_t> placed;
   for (std::uint32_t number = 0; number < size(); ++number)
@@ -72,7 +73,8 @@ void EventDrivenDetector::change_grids(double edge) {
   reset(placed);
 }
 
-/// What the cost model says of the bodies present, in the box or, without one, in what they span.
+/// Returns the edge that the cost model chooses for the bodies present, in the box or, without one, in their
+/// bounding box.
 double EventDrivenDetector::chosen_cell_edge() const {
   std::vector<MovingSphere> spheres;
   Box extent{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
@@ -122,12 +124,13 @@ void EventDrivenDetector::handle_next() {
   }
 }
 
-/// The bound has touched a face: it joins the cells behind it, and meets who is there.
+/// Handles a bound that touches a face: registers it in the cells behind the face, and predicts meetings with
+/// the bodies there.
 void EventDrivenDetector::enter(std::uint32_t number, std::uint8_t face) {
   ++counters_.entering;
   Resident& resident = residents_[number];
   const std::size_t axis = axis_of(face);
-  // No bound reaches from the first of three cells to the third: it has left the first but for rounding.
+  // No bound reaches from the first of three cells to the third, so it has left the first but for rounding.
   if (resident.cells.first[axis] < resident.cells.last[axis]) leave(number, opposite(face));
   const CellRange before = resident.cells;
   move_to(resident, number, grown(before, face, 1));
@@ -142,7 +145,8 @@ void EventDrivenDetector::enter(std::uint32_t number, std::uint8_t face) {
   });
 }
 
-/// The bound has parted from a face: it leaves the cells behind it, and forgets who is only there.
+/// Handles a bound that has parted from a face: removes it from the cells behind the face, and its candidates
+/// with bodies that are only there.
 void EventDrivenDetector::leave(std::uint32_t number, std::uint8_t face) {
   ++counters_.leaving;
   Resident& resident = residents_[number];
@@ -160,13 +164,13 @@ void EventDrivenDetector::reset(std::span<const std::uint32_t> numbers) {
   }
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     ++search_;
-    // Those before have found this one.
+    // The searches of earlier bodies have found this one, so pairs with them are skipped.
     for (std::size_t before = 0; before <= k; ++before) seen_[numbers[before]] = search_;
     predict_partners(numbers[k]);
   }
 }
 
-/// Puts the body into the cells that its bound meets, and predicts how it will outgrow and cross them.
+/// Registers the body in the cells that its bound meets, and predicts its reset and its crossings.
 void EventDrivenDetector::place(std::uint32_t number) {
   Resident& resident = residents_[number];
   const Bound& bound = body(number).bound;
@@ -180,7 +184,7 @@ void EventDrivenDetector::place(std::uint32_t number) {
   for (std::size_t axis = 0; axis < 3; ++axis) predict_crossings(number, axis);
 }
 
-/// Cells of before and after that are the same stay untouched.
+/// Moves a body to other cells. Cells in both ranges stay untouched.
 void EventDrivenDetector::move_to(Resident& resident, std::uint32_t number, const CellRange& cells) {
   const CellRange before = resident.cells;
   if (resident.placed) {
@@ -196,7 +200,7 @@ void EventDrivenDetector::move_to(Resident& resident, std::uint32_t number, cons
   resident.placed = true;
 }
 
-/// Entering and leaving candidates of both sides of an axis, in place of those that it has.
+/// Replaces the entering and leaving candidates of both sides of an axis.
 void EventDrivenDetector::predict_crossings(std::uint32_t number, std::size_t axis) {
   events_.remove_if(number, [=](const Candidate& candidate) {
     return (candidate.kind == CandidateKind::entering || candidate.kind == CandidateKind::leaving) &&
@@ -217,8 +221,7 @@ void EventDrivenDetector::predict_crossings(std::uint32_t number, std::size_t ax
   }
 }
 
-/// Colliding candidates with all whom it is linked to and who have not been seen in this search, and with
-/// walls.
+/// Predicts colliding candidates with all linked bodies that this search has not seen yet, and with walls.
 void EventDrivenDetector::predict_partners(std::uint32_t number) {
   const auto meet = [&](std::uint32_t other) {
     if (seen_[other] == search_) return;
@@ -226,7 +229,7 @@ void EventDrivenDetector::predict_partners(std::uint32_t number) {
     predict_pair(number, other);
   };
   subspaces_.for_each_neighbour(residents_[number].cells, meet);
-  // A copy: a prediction may find that a contact is over, and take it out.
+  // The list is copied, as a prediction may end a contact and remove it from the original.
   const auto touched = touching(number);
   std::vector<std::uint32_t> partners(touched.begin(), touched.end());
   while (!partners.empty()) {
@@ -242,7 +245,8 @@ void EventDrivenDetector::predict_pair(std::uint32_t a, std::uint32_t b) {
   if (linked(a, b)) schedule(time, CandidateKind::colliding, std::min(a, b), std::max(a, b));
 }
 
-/// As pair_outlook, by the chosen way to the time of a meeting where nothing but that is asked.
+/// Returns what pair_outlook() does. For a pair that is apart and not in contact it uses the chosen
+/// meeting-time function, if there is one.
 double EventDrivenDetector::outlook(std::uint32_t a, std::uint32_t b, double horizon) {
   const Bound& first = body(a).bound;
   const Bound& second = body(b).bound;

@@ -1,13 +1,13 @@
-// The event-driven approach (paper, section 3; Kim, Guibas and Shin 1998): what its detectors share.
+// The event-driven approach (paper, section 3; Kim, Guibas and Shin 1998): the common part of its detectors.
 //
-// Each body stands in the cells of its grid that its bound meets, at most eight. The event tree holds what
-// can happen next:
+// Each body is registered in the cells of its grid that its bound meets, at most eight. The event tree holds
+// what can happen next:
 //   entering, leaving    a bound touches a face of its cells, or parts from one
 //   resetting            the diameter of a bound reaches the edge of its cells
-//   colliding            two bounds meet that are linked, or a bound meets a wall
-// Two bodies are linked when cells of theirs, on whatever grids, intersect, or when they are in contact. What
-// holds whenever the clock moves on: a linked pair has a colliding candidate or nothing happens to it before
-// the horizon of one of the two, at which all candidates of that body are renewed.
+//   colliding            two linked bounds meet, or a bound meets a wall
+// Two bodies are linked if cells of theirs intersect, on whatever grids, or if they are in contact. Invariant
+// whenever the clock moves on: a linked pair has a colliding candidate, or nothing happens to it before the
+// horizon of one of the two, at which all candidates of that body are renewed.
 #pragma once
 
 #include <optional>
@@ -21,20 +21,23 @@
 
 namespace kinesphere {
 
-/// When two bounds can meet first, in [from, horizon] or +infinity, as earliest_meeting.
+/// Returns the first time in [from, horizon] at which two bounds can meet, or +infinity, as
+/// earliest_meeting().
 using MeetingTime = double (*)(const Bound& a, const Bound& b, double from, double horizon, double distance);
 
 class EventDrivenDetector : public BoundDetector {
  public:
   DetectorCounters counters() const override;
-  /// Rebuilds the subspace tree and all candidates: they must be what they should be.
+  /// Rebuilds the subspace tree and all candidates and compares them with the present ones.
   std::optional<AuditFinding> audit() const override;
 
  protected:
   struct Options {
-    double cell_edge;  ///< of the finest grid; 0: the cost model chooses when the first bodies are there
-    bool trimming;     ///< section 3.3
-    MeetingTime meeting_time;  ///< of bounds farther apart than the contact tolerance; null: as pair_outlook
+    double cell_edge;  ///< edge of the finest grid (length); 0: the cost model chooses once the first bodies
+                       ///< are there
+    bool trimming;     ///< leave out late candidates (section 3.3)
+    MeetingTime
+        meeting_time;  ///< for bounds farther apart than the contact tolerance; null: as pair_outlook()
   };
 
   EventDrivenDetector(const WorldDefinition& definition, const Motion& motion, const Options& options)
@@ -42,30 +45,31 @@ class EventDrivenDetector : public BoundDetector {
     events_.resize(size());
   }
 
-  // Asked of the derived detector.
-  /// The diameter of the body's bound has reached the edge of its cells.
+  // Virtual functions of the derived detector.
+  /// Called when the diameter of the body's bound has reached the edge of its cells.
   virtual void on_outgrown(std::uint32_t number) = 0;
-  /// The bounds of two bodies (a body and itself: of a body and a wall) have met.
+  /// Called when the bounds of two bodies (a body twice: of a body and a wall) have met.
   virtual void on_meeting(std::uint32_t a, std::uint32_t b) = 0;
 
-  // Offered to it.
-  /// Renews the cells and all candidates of these bodies, whose bounds have been renewed.
+  // Functions for the derived detector.
+  /// Renews the cells and all candidates of these bodies. Precondition: their bounds have been renewed.
   void reset(std::span<const std::uint32_t> numbers);
-  /// Predicts the colliding event of the two (a body and itself: with walls), which has no candidate.
+  /// Predicts the colliding event of the two (a body twice: with walls). Precondition: they have no such
+  /// candidate.
   void predict_pair(std::uint32_t a, std::uint32_t b);
   void on_new_course(std::uint32_t number) override;
 
  private:
   class Audit;
 
-  /// Where a body stands.
+  /// Cells and reset time of a body.
   struct Resident {
     CellRange cells;
     double reset_time = infinity;
     bool placed = false;
   };
 
-  /// Chooses the cells, and again whenever the bodies have doubled in number.
+  /// Chooses the cells, and again whenever the number of bodies has doubled.
   void prepare() override;
   double fit_edge(double edge) const;
   void change_grids(double edge);
@@ -83,7 +87,7 @@ class EventDrivenDetector : public BoundDetector {
   void predict_partners(std::uint32_t number);
   double outlook(std::uint32_t a, std::uint32_t b, double horizon);
   bool linked(std::uint32_t a, std::uint32_t b) const;
-  /// Candidates after this are not inserted: the body's reset renews them anyway.
+  /// Returns the time after which candidates of the body are not inserted: its reset renews them anyway.
   double horizon(std::uint32_t number) const {
     return options_.trimming ? residents_[number].reset_time : infinity;
   }
@@ -96,7 +100,7 @@ class EventDrivenDetector : public BoundDetector {
   SubspaceTree subspaces_;
   EventTree events_;
   std::vector<Resident> residents_;
-  std::vector<std::uint64_t> seen_;  ///< by body: the last search that found it
+  std::vector<std::uint64_t> seen_;  ///< by body: number of the last search that found it
   std::uint64_t search_ = 0;
 };
 

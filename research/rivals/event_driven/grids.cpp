@@ -16,7 +16,7 @@ double edge_rounded_up(double edge) {
   return std::ldexp(std::ceil(std::ldexp(fraction, significant_bits)), exponent - significant_bits);
 }
 
-/// Indices of a level run from -cells_to_a_side to cells_to_a_side - 1.
+/// Returns half the number of cells of an axis: indices run from -cells_to_a_side to cells_to_a_side - 1.
 std::int64_t cells_to_a_side(int level) { return std::int64_t{1} << (Grids::coarsest_level - level); }
 
 }  // namespace
@@ -41,7 +41,7 @@ double Grids::plane(int level, std::int64_t index) const {
 std::int64_t Grids::index_of(int level, double coordinate) const {
   const double cells = std::floor(coordinate / edge(level));
   const auto lowest = static_cast<double>(-cells_to_a_side(level));
-  // In this order, so that a coordinate that is no number lies somewhere too.
+  // The comparisons are in this order so that NaN gets an index too.
   const auto index = static_cast<std::int64_t>(cells > lowest ? std::min(cells, -lowest - 1.0) : lowest);
   // The quotient may have been rounded up to a whole number, but not down below one.
   return plane(level, index) > coordinate ? index - 1 : index;

@@ -1,4 +1,4 @@
-// The hierarchy of regular grids: edges, planes, and which cells a box meets (paper, section 3.1).
+// The hierarchy of regular grids: edges, planes, and the cells that a box meets (paper, section 3.1).
 #pragma once
 
 #include <cstdint>
@@ -8,22 +8,23 @@
 
 namespace kinesphere {
 
-/// All grids divide all of space. Cell i of an axis holds the coordinates plane(i) <= x < plane(i + 1); the
-/// outermost cells of a level reach to infinity, and those of a finer level lie in those of a coarser one. On
-/// the coarsest level each axis has just two cells.
+/// Grids divides all of space on each level. Cell i of an axis holds the coordinates plane(i) <= x < plane(i
+/// + 1). The outermost cells of a level reach to infinity, and those of a finer level lie in those of a
+/// coarser one. On the coarsest level each axis has just two cells.
 class Grids {
  public:
   static constexpr int coarsest_level = 43;
 
-  /// `finest_edge` > 0 (length) is rounded up to 10 significant bits: every plane is then an exact product.
+  /// `finest_edge` > 0 (length) is rounded up to 10 significant bits, so that every plane is an exact
+  /// product.
   explicit Grids(double finest_edge);
 
   double edge(int level) const;
-  /// The finest level whose cells are at least twice as large as a sphere of this diameter.
+  /// Returns the finest level with cells at least twice as large as a sphere of this diameter (length).
   int level_for(double diameter) const;
-  /// Where the cell begins; infinite for what lies beyond the outermost planes.
+  /// Returns the coordinate at which the cell begins; infinite beyond the outermost planes.
   double plane(int level, std::int64_t index) const;
-  /// The cell that holds a coordinate, consistent with plane() to the last bit.
+  /// Returns the cell that holds a coordinate, consistent with plane() to the last bit.
   std::int64_t index_of(int level, double coordinate) const;
   CellRange cells_of(int level, const Box& box) const;
 

@@ -1,4 +1,4 @@
-// The paper's own algorithm: time-varying bounds on hierarchical grids, and four kinds of events (sections
+// The algorithm of the paper: time-varying bounds on hierarchical grids, and four kinds of events (sections
 // 3.2, 3.3 and 4.1).
 #include <array>
 
@@ -10,7 +10,7 @@
 namespace kinesphere {
 namespace {
 
-/// Planes are products of an edge and an index: none may overflow.
+/// Largest cell edge (length): planes are products of an edge and an index, and none may overflow.
 constexpr double largest_edge = 1e200;
 
 class PaperDetector final : public EventDrivenDetector {
@@ -28,13 +28,13 @@ class PaperDetector final : public EventDrivenDetector {
     reset(std::span(&number, 1));
   }
 
-  /// Both are reset, whether or not they are in contact.
+  /// Resets both bodies, in contact or not.
   void on_meeting(std::uint32_t a, std::uint32_t b) override {
     std::array<std::uint32_t, 2> stale{};
     std::size_t count = 0;
     if (!fresh(a)) stale[count++] = a;
     if (b != a && !fresh(b)) stale[count++] = b;
-    // Both have been reset at this instant.
+    // Both bodies were reset at this instant already.
     if (count == 0) return predict_pair(a, b);
     ++counters_.colliding;
     for (std::size_t k = 0; k < count; ++k) probe(stale[k]);

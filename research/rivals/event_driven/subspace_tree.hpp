@@ -11,19 +11,20 @@
 
 namespace kinesphere {
 
-/// Which bodies stand in which cells. A cell that holds nobody is not in the tree.
+/// SubspaceTree holds the bodies of each cell. An empty cell is not in the tree.
 class SubspaceTree {
  public:
   using Bodies = std::vector<std::uint32_t>;
 
-  /// The body may not stand in the cell yet. Cost: O(log n).
+  /// Adds the body to the cell. Precondition: it is not in the cell. Cost: O(log n).
   void insert(const Cell& cell, std::uint32_t body);
-  /// The body must stand in the cell. Cost: O(log n), and the length of the cell's list.
+  /// Removes the body from the cell. Precondition: it is in the cell. Cost: O(log n), and the length of the
+  /// cell's list.
   void erase(const Cell& cell, std::uint32_t body);
 
-  /// Calls visit(body) for every body in every cell, of whatever level, that intersects one of these cells:
-  /// as often as it stands in such a cell. `visit` may not change the tree. Cost: O(log n) per cell and level
-  /// in use, and what is visited.
+  /// Calls visit(body) for every body in every cell, of any level, that intersects one of these cells: once
+  /// for each such cell that holds the body. `visit` may not change the tree. Cost: O(log n) per cell and
+  /// level in use, and the visits.
   template <class Visit>
   void for_each_neighbour(const CellRange& cells, Visit visit) const;
 
@@ -36,10 +37,10 @@ class SubspaceTree {
 
   Tree tree_;
   std::array<std::size_t, Grids::coarsest_level + 1> cells_on_level_{};
-  std::vector<Tree::node_type> spare_;  ///< kept for their memory
+  std::vector<Tree::node_type> spare_;  ///< nodes kept for their memory
 };
 
-/// The first or the last of the subcells on a finer level, in the order of cells.
+/// Returns the first or the last of the subcells on a finer level, in the order of cells.
 constexpr Cell SubspaceTree::subcell(const Cell& cell, int finer, bool last) {
   const int shift = cell.level - finer;
   Cell sub{finer, cell.index};

@@ -1,25 +1,25 @@
 // Hubbard's broad phase (1995, 1996) as a detector, as the paper describes it in sections 1.2 and 4.2.
 //
-// All bodies are probed at the same time t0, and each gets a space-time bound, a hypertrapezoid, for the
-// interval [t0, t1]. A sweep finds the first time at which two of them meet, or one meets a wall. There, or
-// at t1, all space-time bounds are built anew; so they are when a body is kicked, appears or vanishes.
+// All bodies are probed at one time t0, and each gets a space-time bound, a hypertrapezoid, for the interval
+// [t0, t1]. A sweep finds the first time at which two of them meet, or one meets a wall. There, or at t1, all
+// space-time bounds are rebuilt; so they are when a body gets a new velocity, appears or vanishes.
 //
-// What the papers leave open, and what is done here:
-//   - Pairs whose space-time bounds overlap from the start. The bounds of two spheres that pass each other
-//     corner to corner overlap while the spheres are apart, and those of spheres that touch or nearly touch
-//     overlap in any interval. Hubbard's time went by in frames, which hid that; an exact time would stand
+// The papers leave some points open; this detector decides them so:
+//   - Pairs with space-time bounds that overlap from the start. The bounds of two spheres that pass corner to
+//     corner overlap while the spheres are apart, and those of spheres that touch or nearly touch overlap in
+//     any interval. Hubbard's time advanced in frames, which hid that; an exact time would stand
 //     still. Such pairs are handed to the narrow phase, here the exact test of spheres: until the next
-//     rebuild they are looked at when certificates of their time-varying bounds run out, and the sweep
-//     ignores them. The same goes for bodies whose bounds reach a wall from the start.
-//   - What is done with the pair whose space-time bounds have met: it too is checked by the narrow phase, and
-//     stays there until the next rebuild. That makes every rebuild but those that the caller asks for (kicks)
-//     later than the one before.
-//   - How far the sweep goes. The paper says that it finds the intersections of each set of segments; here it
-//     stops at the first meeting, which is all that is used.
-//   - The length of the interval: twice the running mean of the time that passes from a rebuild to the first
-//     meeting. Longer intervals make the bounds wider without need, because the chord of a parabola lies
-//     above it in proportion to its length; shorter ones end before anything happens. An interval in which
-//     nothing meets counts as a time of twice its length. Rebuilds that a kick asks for do not count.
+//     rebuild they are rechecked when certificates of their time-varying bounds fail, and the sweep ignores
+//     them. Bodies with bounds that reach a wall from the start are handled likewise.
+//   - The pair with space-time bounds that have met: the narrow phase rechecks it until the next rebuild.
+//     That makes every rebuild later than the one before, but for rebuilds that the caller causes (velocity
+//     changes).
+//   - The end of the sweep. The paper says that it finds the intersections of each set of segments; here it
+//     stops at the first meeting, as only that is used.
+//   - The length of the interval: twice the running mean of the time from a rebuild to the first meeting.
+//     Longer intervals make the bounds wider without need, because the chord of a parabola lies above it in
+//     proportion to its length; shorter ones end before anything happens. An interval without a meeting
+//     counts as a time of twice its length. Rebuilds that a velocity change causes do not count.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -56,7 +56,7 @@ class HubbardDetector final : public BoundDetector {
  private:
   using Meeting = SpaceTimeSweep::Meeting;
 
-  /// A pair (a body and itself: its walls) in the hands of the narrow phase.
+  /// A pair (a body twice: the body and its walls) that the narrow phase rechecks at `time`.
   struct Watch {
     double time;
     std::uint32_t a;
@@ -80,17 +80,17 @@ class HubbardDetector final : public BoundDetector {
 
   SpaceTimeSweep sweep_;
   bool rebuild_due_ = false;
-  double mean_time_ = 0.0;               ///< from a rebuild to the first meeting
-  double start_ = 0.0;                   ///< of the interval
-  double end_ = infinity;                ///< of the interval, or its first meeting
-  std::optional<Meeting> last_meeting_;  ///< that ended the interval before this one
-  std::optional<Meeting> meeting_;       ///< that will end this one
+  double mean_time_ = 0.0;               ///< running mean of the time from a rebuild to the first meeting
+  double start_ = 0.0;                   ///< begin of the interval
+  double end_ = infinity;                ///< end of the interval, or its first meeting
+  std::optional<Meeting> last_meeting_;  ///< the meeting that ended the interval before this one
+  std::optional<Meeting> meeting_;       ///< the meeting that will end this interval
   std::vector<Meeting> handed_over_;
   std::vector<bool> walls_handed_over_;
-  std::vector<Watch> watches_;  ///< a heap, the first time in front
+  std::vector<Watch> watches_;  ///< a heap, earliest time first
 };
 
-/// The first guess of the mean time is so short that hardly anything can meet in it.
+/// Sets the first guess of the mean time, so short that hardly anything can meet in it.
 void HubbardDetector::prepare() {
   if (mean_time_ > 0.0) return;
   const double way = 0x1p10 * definition().contact_tolerance;
@@ -147,14 +147,14 @@ void HubbardDetector::rebuild() {
   for (const Meeting& pair : handed_over_) watch(pair.a, pair.b);
 }
 
-/// The interval has ended as planned.
+/// Updates the mean time from an interval that ended as planned.
 void HubbardDetector::learn_interval() {
   const double passed = end_ - start_;
   const double observed = meeting_ ? passed : 2.0 * passed;
   mean_time_ += 0.125 * (observed - mean_time_);
 }
 
-/// Long enough for the clock to move.
+/// Returns the length of the next interval (time), at least long enough for the clock to move.
 double HubbardDetector::duration() const {
   return std::max(2.0 * mean_time_, 0x1p-48 * std::abs(start_) + std::numeric_limits<double>::min());
 }
@@ -163,15 +163,15 @@ void HubbardDetector::build_bounds(double duration) {
   for (std::uint32_t number = 0; number < size(); ++number) {
     if (!body(number).present) continue;
     if (!fresh(number)) probe(number);
-    // Contacts that last have to overlap: their gap, as reported, may be as large as the rule and errors of
-    // reports allow.
+    // Lasting contacts have to overlap: their gap, as reported, may be as large as the contact rule and the
+    // errors of reports allow.
     const double clearance = 0.5 * rule().release_gap() + 2.0 * body(number).definition.position_error;
     sweep_.set(number, enclose(body(number).bound, duration, clearance));
   }
   sweep_.begin(duration);
 }
 
-/// What overlaps from the start, and what has met, is for the narrow phase.
+/// Hands pairs that overlap from the start, and the pair that has met, to the narrow phase.
 void HubbardDetector::hand_over_what_overlaps() {
   handed_over_.clear();
   walls_handed_over_.assign(size(), false);
@@ -191,7 +191,8 @@ void HubbardDetector::hand_over(const Meeting& pair) {
   if (pair.a == pair.b) walls_handed_over_[pair.a] = true;
 }
 
-/// Pairs that have overlapped in this sweep do not meet in it.
+/// Returns true if the narrow phase rechecks the pair of a meeting. Pairs that overlapped in this sweep need
+/// no test: they do not meet in it again.
 bool HubbardDetector::is_handed_over(const Meeting& meeting) const {
   if (meeting.a == meeting.b) return walls_handed_over_[meeting.a];
   return last_meeting_ && meeting.a == last_meeting_->a && meeting.b == last_meeting_->b;
@@ -216,7 +217,7 @@ void HubbardDetector::watch(std::uint32_t a, std::uint32_t b) {
   std::push_heap(watches_.begin(), watches_.end(), std::greater<>{});
 }
 
-/// When the pair has to be looked at next; probes both if that is needed to know.
+/// Returns the next time at which the pair has to be rechecked; probes the two if that is needed to know.
 double HubbardDetector::outlook(std::uint32_t a, std::uint32_t b) {
   const auto from_bounds = [=, this] { return a == b ? wall_outlook(a, end_) : pair_outlook(a, b, end_); };
   const double time_ahead = from_bounds();
@@ -239,7 +240,7 @@ std::optional<AuditFinding> HubbardDetector::audit() const {
   if (rebuild_due_) return std::nullopt;
   for (std::uint32_t number = 0; number < size(); ++number) {
     const BodyDefinition& promise = body(number).definition;
-    // A noisy report may lie outside what an earlier one promised, though the body does not.
+    // A noisy report may lie outside the earlier bound, though the body does not.
     const bool exact = promise.position_error == 0.0 && promise.velocity_error == 0.0;
     if (!sweep_.contains(number) || !body(number).present || !exact) continue;
     const Box inner = swept_box(body(number).bound, time(), time());

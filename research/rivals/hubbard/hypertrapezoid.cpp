@@ -9,12 +9,12 @@
 namespace kinesphere {
 namespace {
 
-/// A coordinate beyond this stands for all of space. Sums of several such do not overflow.
+/// A coordinate beyond this stands for all of space (length). Sums of several such do not overflow.
 constexpr double everywhere = 0x1p1000;
 
-/// A line above p + radius + (v + growth) s + 1/2 (g + limit) s^2 for 0 <= s <= duration. Seen from the other
-/// side (p, v and g negated) the result lies at least as high and rises at least as fast as the negated one
-/// of this side, because rounding is monotone: the two faces of a body never cross.
+/// Returns a line above p + radius + (v + growth) s + 1/2 (g + limit) s^2 for 0 <= s <= duration. Called for
+/// the other side (with p, v and g negated), it returns a line that is at least as high and rises at least as
+/// fast as the negated line of this side, because rounding is monotone: the two faces of a body never cross.
 inline Line line_above(const Bound& bound, double p, double v, double g, double duration, double clearance) {
   const double curvature = g + bound.growth_acceleration;
   const double speed = (v + bound.growth_speed) + curvature * (0.5 * duration);

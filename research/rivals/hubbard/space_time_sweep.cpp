@@ -1,4 +1,4 @@
-// From exchanges of faces to meetings of space-time bounds.
+// Meetings of space-time bounds, from exchanges of their faces.
 #include "research/rivals/hubbard/space_time_sweep.hpp"
 
 #include <algorithm>
@@ -97,8 +97,8 @@ Box SpaceTimeSweep::cross_section(std::uint32_t body, double time) const {
   return box;
 }
 
-/// Two faces have changed places, `below` having been the lower one. True when a bound meets another or a
-/// wall by that.
+/// Handles the exchange of two faces, of which `below` was the lower one. Returns true if a bound meets
+/// another or a wall by that.
 bool SpaceTimeSweep::exchanged(std::uint32_t below, std::uint32_t above) {
   if (is_wall(below) || is_wall(above)) {
     return (below == lower_wall && is_lower(above)) || (above == upper_wall && !is_lower(below));

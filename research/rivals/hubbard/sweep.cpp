@@ -7,7 +7,7 @@
 namespace kinesphere {
 namespace {
 
-/// Makes a heap with the first crossing in front.
+/// Order of a heap with the first crossing in front.
 struct Later {
   bool operator()(const Sweep::Crossing& a, const Sweep::Crossing& b) const {
     return std::tie(a.time, a.below, a.above) > std::tie(b.time, b.below, b.above);
@@ -30,8 +30,8 @@ void Sweep::erase(std::uint32_t number) {
   queue_.clear();
 }
 
-/// Appends the crossing of an entry and the next one to the queue, if they have one in what is left of the
-/// interval. An order that rounding has delayed is made good at once.
+/// Appends the crossing of an entry and the next one to the queue and returns true, if they cross in what is
+/// left of the interval. A crossing that rounding has delayed gets the present time.
 inline bool Sweep::find_crossing(std::size_t lower) {
   const Entry& below = status_[lower];
   const Entry& above = status_[lower + 1];
@@ -66,7 +66,7 @@ void Sweep::schedule_crossing(std::size_t lower) {
   if (find_crossing(lower)) std::push_heap(queue_.begin(), queue_.end(), Later{});
 }
 
-/// The front of the queue must be a crossing that will happen.
+/// Removes outdated crossings from the front of the queue.
 void Sweep::drop_outdated() {
   while (!queue_.empty() && rank_[queue_.front().below] + 1 != rank_[queue_.front().above]) pop();
 }
