@@ -61,11 +61,11 @@ inline MotionLimits motion_limits_of(const BodyDefinition& body) {
 }
 
 /// Returns `body` with its motion limits replaced.
-inline BodyDefinition with_motion_limits(BodyDefinition body, const MotionLimits& promise) {
-  body.acceleration_limit = promise.acceleration_limit;
-  body.planned_acceleration = promise.planned_acceleration;
-  body.position_error = promise.position_error;
-  body.velocity_error = promise.velocity_error;
+inline BodyDefinition with_motion_limits(BodyDefinition body, const MotionLimits& limits) {
+  body.acceleration_limit = limits.acceleration_limit;
+  body.planned_acceleration = limits.planned_acceleration;
+  body.position_error = limits.position_error;
+  body.velocity_error = limits.velocity_error;
   return body;
 }
 

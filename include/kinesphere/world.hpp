@@ -440,7 +440,7 @@ class World {
   class Preconditions;
   class StaleProber;
   class Run;
-  struct UntoldEvents;
+  struct UndeliveredEvents;
   explicit World(std::unique_ptr<Engine> engine);
   CallState activity() const;
   void require_idle(const char* done) const noexcept;
@@ -460,9 +460,9 @@ class World {
   Result<bool> refresh(std::span<const std::uint32_t> numbers, const Probe& probe, std::string_view call);
 
   std::unique_ptr<const Engine> engine_;
-  std::unique_ptr<Recorder> recorder_;    ///< null unless the world is recorded
-  std::unique_ptr<UntoldEvents> untold_;  ///< null until the first run()
-  bool running_ = false;                  ///< true inside run()
+  std::unique_ptr<Recorder> recorder_;              ///< null unless the world is recorded
+  std::unique_ptr<UndeliveredEvents> undelivered_;  ///< null until the first run()
+  bool running_ = false;                            ///< true inside run()
   Timings timings_{};
   bool profiling_ = false;
 };

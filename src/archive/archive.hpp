@@ -4,10 +4,9 @@
 //   struct Appointment {
 //     double time;
 //     std::uint32_t partner;
-//     template <class Self, class Archive>
-//     static void serialize(Self& self, Archive& archive) {
-//       auto& [when, whom] = self;  // names every field: one that is forgotten does not compile
-//       archive(when, whom);
+//     static void serialize(auto& self, auto& archive) {
+//       auto& [time, partner] = self;  // names every field: one that is forgotten does not compile
+//       archive(time, partner);
 //     }
 //   };
 //

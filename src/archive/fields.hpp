@@ -3,8 +3,6 @@
 #pragma once
 
 #include <concepts>
-#include <cstdint>
-#include <limits>
 #include <type_traits>
 
 #include "kinesphere/body.hpp"
@@ -22,101 +20,85 @@ namespace kinesphere {
 template <class Self, class T>
 concept Some = std::same_as<std::remove_const_t<Self>, T>;
 
-template <Some<Vec3> Self, class Archive>
-void serialize(Self& self, Archive& archive) {
+void serialize(Some<Vec3> auto& self, auto& archive) {
   auto& [x, y, z] = self;
   archive(x, y, z);
 }
 
-template <Some<Box> Self, class Archive>
-void serialize(Self& self, Archive& archive) {
+void serialize(Some<Box> auto& self, auto& archive) {
   auto& [lower, upper] = self;
   archive(lower, upper);
 }
 
-template <Some<BodyId> Self, class Archive>
-void serialize(Self& self, Archive& archive) {
+void serialize(Some<BodyId> auto& self, auto& archive) {
   // The tag of the world is left out, because it would make equal histories differ.
   auto& [index, generation, world] = self;
   archive(index, generation);
 }
 
-template <Some<State> Self, class Archive>
-void serialize(Self& self, Archive& archive) {
+void serialize(Some<State> auto& self, auto& archive) {
   auto& [position, velocity] = self;
   archive(position, velocity);
 }
 
-template <Some<MotionOrigin> Self, class Archive>
-void serialize(Self& self, Archive& archive) {
+void serialize(Some<MotionOrigin> auto& self, auto& archive) {
   auto& [time, state] = self;
   archive(time, state);
 }
 
-template <Some<Segment> Self, class Archive>
-void serialize(Self& self, Archive& archive) {
+void serialize(Some<Segment> auto& self, auto& archive) {
   auto& [begin, end, position, velocity, acceleration, jerk] = self;
   archive(begin, end, position, velocity, acceleration, jerk);
 }
 
-template <Some<Filter> Self, class Archive>
-void serialize(Self& self, Archive& archive) {
+void serialize(Some<Filter> auto& self, auto& archive) {
   auto& [category, mask, group] = self;
   archive(category, mask, group);
 }
 
-template <Some<Sensor> Self, class Archive>
-void serialize(Self& self, Archive& archive) {
+void serialize(Some<Sensor> auto& self, auto& archive) {
   auto& [distances, mask] = self;
   archive(distances, mask);
 }
 
-template <Some<BodyDefinition> Self, class Archive>
-void serialize(Self& self, Archive& archive) {
+void serialize(Some<BodyDefinition> auto& self, auto& archive) {
   auto& [radius, acceleration_limit, planned_acceleration, position_error, velocity_error, position, velocity,
          filter, solid, sensor_class, user_data] = self;
   archive(radius, acceleration_limit, planned_acceleration, position_error, velocity_error, position,
           velocity, filter, solid, sensor_class, user_data);
 }
 
-template <Some<MotionLimits> Self, class Archive>
-void serialize(Self& self, Archive& archive) {
+void serialize(Some<MotionLimits> auto& self, auto& archive) {
   auto& [acceleration_limit, planned_acceleration, position_error, velocity_error] = self;
   archive(acceleration_limit, planned_acceleration, position_error, velocity_error);
 }
 
-template <Some<Bound> Self, class Archive>
-void serialize(Self& self, Archive& archive) {
+void serialize(Some<Bound> auto& self, auto& archive) {
   auto& [time, position, velocity, planned_acceleration, radius, growth_speed, growth_acceleration] = self;
   archive(time, position, velocity, planned_acceleration, radius, growth_speed, growth_acceleration);
 }
 
-template <Some<HalfSpace> Self, class Archive>
-void serialize(Self& self, Archive& archive) {
+void serialize(Some<HalfSpace> auto& self, auto& archive) {
   auto& [normal, offset] = self;
   archive(normal, offset);
 }
 
-template <Some<Ball> Self, class Archive>
-void serialize(Self& self, Archive& archive) {
+void serialize(Some<Ball> auto& self, auto& archive) {
   auto& [centre, radius] = self;
   archive(centre, radius);
 }
 
-template <Some<Triangle> Self, class Archive>
-void serialize(Self& self, Archive& archive) {
+void serialize(Some<Triangle> auto& self, auto& archive) {
   auto& [a, b, c] = self;
   archive(a, b, c);
 }
 
-template <Some<StaticDefinition> Self, class Archive>
-void serialize(Self& self, Archive& archive) {
+void serialize(Some<StaticDefinition> auto& self, auto& archive) {
   auto& [shape, filter, solid, sensor_class, user_data] = self;
   archive(shape, filter, solid, sensor_class, user_data);
 }
 
-template <Some<Event> Self, class Archive>
-void serialize(Self& self, Archive& archive) {
+void serialize(Some<Event> auto& self, auto& archive) {
   auto& [kind, time, first, second, wall, repeated, jammed, senses, first_state, second_state, point, normal,
          gap, approach_speed, position_excess, velocity_excess, distance, first_user_data, second_user_data] =
       self;
@@ -124,22 +106,19 @@ void serialize(Self& self, Archive& archive) {
           gap, approach_speed, position_excess, velocity_excess, distance, first_user_data, second_user_data);
 }
 
-template <Some<Axes> Self, class Archive>
-void serialize(Self& self, Archive& archive) {
+void serialize(Some<Axes> auto& self, auto& archive) {
   auto& [x, y, z] = self;
   archive(x, y, z);
 }
 
-template <Some<WorldDefinition> Self, class Archive>
-void serialize(Self& self, Archive& archive) {
+void serialize(Some<WorldDefinition> auto& self, auto& archive) {
   auto& [box, periodic, dimensions, contact_tolerance, separation_distance, contacts, allow_overlap,
          zeno_interval, start_time] = self;
   archive(box, periodic, dimensions, contact_tolerance, separation_distance, contacts, allow_overlap,
           zeno_interval, start_time);
 }
 
-template <Some<Counters> Self, class Archive>
-void serialize(Self& self, Archive& archive) {
+void serialize(Some<Counters> auto& self, auto& archive) {
   auto& [events, probes, window_ends, starts, restarts, pair_checks, wall_checks, searches, candidates,
          hot_pairs, certificates, zeno_steps, repeated_contacts] = self;
   archive(events, probes, window_ends, starts, restarts, pair_checks, wall_checks, searches, candidates,

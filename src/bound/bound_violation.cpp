@@ -3,16 +3,16 @@
 namespace kinesphere {
 
 std::optional<BoundViolation> bound_violation(const Bound& before, const Bound& after, double radius,
-                                              const std::optional<Vec3>& kicked_to,
+                                              const std::optional<Vec3>& new_velocity,
                                               double contact_tolerance) {
   const double s = after.time - before.time;
   const Vec3 way = after.position - before.centre_at(after.time);
   const double position_errors = (before.radius - radius) + (after.radius - radius);
   const double deviation_limit = before.radius_at(after.time) - before.radius + position_errors;
-  const Vec3 expected = kicked_to.value_or(before.velocity_at(after.time));
+  const Vec3 expected = new_velocity.value_or(before.velocity_at(after.time));
   const Vec3 turn = after.velocity - expected;
   const double change_limit =
-      (kicked_to ? 0.0 : before.growth_acceleration * s) + (before.growth_speed + after.growth_speed);
+      (new_velocity ? 0.0 : before.growth_acceleration * s) + (before.growth_speed + after.growth_speed);
   const double position_slack = contact_tolerance / 16.0;
   // Fast path without square roots: nearly all reports satisfy the bound.
   if (norm_squared(way) <= deviation_limit * deviation_limit &&

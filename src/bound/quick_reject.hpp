@@ -6,7 +6,6 @@
 // below 2^-49 L, so `margin` must be at least that.
 #pragma once
 
-#include <cmath>
 #include <limits>
 
 #include "bound/rounding.hpp"

@@ -119,14 +119,14 @@ void BroadPhase::take_out(std::uint32_t number) {
   here.level = none;
 }
 
-void BroadPhase::sort(GridLevel& layer, PoolLease& shift) {
+void BroadPhase::sort(GridLevel& layer, PoolLease& lease) {
   layer.spheres.sort(
-      shift, [this](std::uint32_t number, std::uint32_t place) { registrations_[number].slot = place; });
+      lease, [this](std::uint32_t number, std::uint32_t slot) { registrations_[number].slot = slot; });
 }
 
-void BroadPhase::tidy(PoolLease& shift) {
+void BroadPhase::tidy(PoolLease& lease) {
   for (GridLevel& layer : levels_)
-    if (layer.spheres.is_untidy()) sort(layer, shift);
+    if (layer.spheres.is_untidy()) sort(layer, lease);
 }
 
 std::optional<std::string> BroadPhase::check(std::uint32_t number) const {

@@ -62,12 +62,12 @@ class BroadPhase {
   /// Registers many bodies as enter() does; no body may occur twice. bound_of(k) returns the bound of the
   /// k-th arrival at its time, and is called by several threads concurrently.
   template <class BoundOf>
-  void enter_all(std::span<const Arrival> arrivals, BoundOf bound_of, PoolLease& shift);
+  void enter_all(std::span<const Arrival> arrivals, BoundOf bound_of, PoolLease& lease);
   /// Removes the body's registration. Precondition: contains(number).
   void leave(std::uint32_t number);
   /// Sorts each grid level that many bodies have entered or left one by one, so that searches are fast again.
   /// Slots in these levels change.
-  void tidy(PoolLease& shift);
+  void tidy(PoolLease& lease);
   void tidy() {
     PoolLease alone;
     tidy(alone);
@@ -93,7 +93,7 @@ class BroadPhase {
   /// Registers the starters in the given order. Preconditions: end_windows() came before; the windows are
   /// free (Window::free_at). bound_of(number) is called by several threads concurrently.
   template <class BoundOf>
-  void start(std::span<const Starter> starters, double now, BoundOf bound_of, PoolLease& shift);
+  void start(std::span<const Starter> starters, double now, BoundOf bound_of, PoolLease& lease);
   /// Number of bodies that have started since the last end_windows().
   std::size_t started() const;
 
@@ -102,8 +102,7 @@ class BroadPhase {
   std::optional<std::string> check(std::uint32_t number) const;
   /// True if the deserialized state is consistent in a world with `bodies` bodies.
   bool is_valid(std::size_t bodies) const;
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
+  static void serialize(auto& self, auto& archive) {
     auto& [space, registrations, layers, levels, base, has_base, next_end] = self;
     archive(registrations, layers, levels, base, has_base, next_end);
   }
@@ -114,10 +113,9 @@ class BroadPhase {
     std::uint32_t level = none;
     std::uint32_t slot = 0;
 
-    template <class Self, class Archive>
-    static void serialize(Self& self, Archive& archive) {
-      auto& [until, its_layer, its_place] = self;
-      archive(until, its_layer, its_place);
+    static void serialize(auto& self, auto& archive) {
+      auto& [end, level, slot] = self;
+      archive(end, level, slot);
     }
   };
   /// Result of prepare(): the body's size class and, unless `level` is none, the slot that the body has
@@ -144,11 +142,11 @@ class BroadPhase {
   void add(std::uint32_t number, std::uint32_t layer, const InflatedBound& bound, double now);
   std::uint32_t level_for(const Window& window, int level);
   void open(GridLevel& layer, double origin);
-  void sort(GridLevel& layer, PoolLease& shift);
+  void sort(GridLevel& layer, PoolLease& lease);
   template <class Visit>
   void for_each_ended(double now, bool all, Visit visit) const;
   std::vector<Opening> choose_levels(std::span<const Starter> starters, Sizes& sizes);
-  void finish_start(const std::vector<UnsortedSweptSpheres>& unsorted, PoolLease& shift);
+  void finish_start(const std::vector<UnsortedSweptSpheres>& unsorted, PoolLease& lease);
   template <class Sort>
   void sort_to_start(GridLevel& layer, Sort sort_layer);
   void merge_size_classes(const Sizes& sizes);
@@ -163,12 +161,12 @@ class BroadPhase {
 };
 
 template <class BoundOf>
-void BroadPhase::enter_all(std::span<const Arrival> arrivals, BoundOf bound_of, PoolLease& shift) {
+void BroadPhase::enter_all(std::span<const Arrival> arrivals, BoundOf bound_of, PoolLease& lease) {
   constexpr std::size_t bodies_at_once = 256;
   std::vector<std::vector<SweptSphereGrid::Growth>> growth(
-      shift.count(), std::vector<SweptSphereGrid::Growth>(levels_.size()));
-  std::vector<std::vector<std::size_t>> others(shift.count());
-  shift.parallel_for(arrivals.size(), bodies_at_once,
+      lease.count(), std::vector<SweptSphereGrid::Growth>(levels_.size()));
+  std::vector<std::vector<std::size_t>> others(lease.count());
+  lease.parallel_for(arrivals.size(), bodies_at_once,
                      [&](std::size_t begin, std::size_t end, std::size_t worker) {
                        for (std::size_t k = begin; k < end; ++k) {
                          const auto& [number, time, window] = arrivals[k];
@@ -193,7 +191,7 @@ void BroadPhase::enter_all(std::span<const Arrival> arrivals, BoundOf bound_of, 
 }
 
 template <class BoundOf>
-void BroadPhase::start(std::span<const Starter> starters, double now, BoundOf bound_of, PoolLease& shift) {
+void BroadPhase::start(std::span<const Starter> starters, double now, BoundOf bound_of, PoolLease& lease) {
   std::vector<UnsortedSweptSpheres> unsorted(levels_.size());
   Sizes sizes;
   for (const Opening& opening : choose_levels(starters, sizes)) {
@@ -204,7 +202,7 @@ void BroadPhase::start(std::span<const Starter> starters, double now, BoundOf bo
     unsorted[opening.level] = UnsortedSweptSpheres(opening.bodies);
   }
   constexpr std::size_t bodies_at_once = 512;
-  shift.parallel_for(starters.size(), bodies_at_once, [&](std::size_t begin, std::size_t end, std::size_t) {
+  lease.parallel_for(starters.size(), bodies_at_once, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::uint32_t number = starters[k].number;
       const Registration& here = registrations_[number];
@@ -213,7 +211,7 @@ void BroadPhase::start(std::span<const Starter> starters, double now, BoundOf bo
       all.spheres[here.slot] = levels_[here.level].swept_sphere(bound_of(number), now);
     }
   });
-  finish_start(unsorted, shift);
+  finish_start(unsorted, lease);
   merge_size_classes(sizes);
 }
 

@@ -31,9 +31,9 @@ void BroadPhase::for_each_ended(double now, bool all, Visit visit) const {
   for (const GridLevel& layer : levels_) {
     if (!has_ended(layer.window.end)) continue;
     const SweptSphereTable& table = layer.spheres.table();
-    for (std::uint32_t place = 0; place < table.slots(); ++place) {
-      const std::uint32_t number = table.number_at(place);
-      if (number != SweptSphereTable::nobody) visit(number);
+    for (std::uint32_t slot = 0; slot < table.slots(); ++slot) {
+      const std::uint32_t number = table.number_at(slot);
+      if (number != SweptSphereTable::free_slot) visit(number);
     }
   }
 }
@@ -106,17 +106,17 @@ std::vector<BroadPhase::Opening> BroadPhase::choose_levels(std::span<const Start
 
 /// Fills the grid levels in which bodies start, which are empty, and sorts the lasting levels that have
 /// changed much.
-void BroadPhase::finish_start(const std::vector<UnsortedSweptSpheres>& unsorted, PoolLease& shift) {
+void BroadPhase::finish_start(const std::vector<UnsortedSweptSpheres>& unsorted, PoolLease& lease) {
   for (std::size_t k = 0; k < levels_.size(); ++k) {
     GridLevel& layer = levels_[k];
     if (layer.fresh) {
       sort_to_start(layer, [&] {
-        layer.spheres.fill(unsorted[k], shift, [&](std::uint32_t number, std::uint32_t place) {
-          registrations_[number].slot = place;
+        layer.spheres.fill(unsorted[k], lease, [&](std::uint32_t number, std::uint32_t slot) {
+          registrations_[number].slot = slot;
         });
       });
     } else if (layer.changes > least_changes + layer.spheres.size() / 2) {
-      sort_to_start(layer, [&] { sort(layer, shift); });
+      sort_to_start(layer, [&] { sort(layer, lease); });
     }
   }
 }

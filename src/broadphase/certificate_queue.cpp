@@ -1,7 +1,6 @@
 #include "broadphase/certificate_queue.hpp"
 
 #include <cassert>
-#include <iterator>
 #include <utility>
 
 namespace kinesphere {

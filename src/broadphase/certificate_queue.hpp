@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <tuple>
 #include <vector>
 
 #include "number/infinity.hpp"
@@ -15,11 +14,16 @@ namespace kinesphere {
 /// A certificate that nothing changes between two bodies, or between a body and the walls or its window,
 /// before failure_time. The certificate is stale once the revision of one of its bodies differs.
 struct PairCertificate {
-  /// Value of `second` in a certificate between a body and the walls.
+  /// What a certificate is about besides its first body: a second body, the walls, or the end of its window.
+  enum class Kind { pair, with_walls, window_end };
+  /// Values of `second` that stand for the walls and for the end of a window.
   static constexpr std::uint32_t walls = std::numeric_limits<std::uint32_t>::max();
-  /// Value of `second` in a certificate for the end of a window that the first body has for itself.
   static constexpr std::uint32_t window_end = walls - 1;
-  bool has_second() const { return second < window_end; }
+  bool has_second() const { return kind() == Kind::pair; }
+  Kind kind() const {
+    if (second < window_end) return Kind::pair;
+    return second == walls ? Kind::with_walls : Kind::window_end;
+  }
 
   double failure_time = 0.0;
   std::uint32_t first = 0;
@@ -31,10 +35,9 @@ struct PairCertificate {
     if (a.failure_time != b.failure_time) return a.failure_time < b.failure_time;
     return a.first != b.first ? a.first < b.first : a.second < b.second;
   }
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
-    auto& [when, one, other, stamp_of_one, stamp_of_other] = self;
-    archive(when, one, other, stamp_of_one, stamp_of_other);
+  static void serialize(auto& self, auto& archive) {
+    auto& [failure_time, first, second, first_revision, second_revision] = self;
+    archive(failure_time, first, second, first_revision, second_revision);
   }
 };
 
@@ -73,11 +76,11 @@ class CertificateQueue {
   /// Number of certificates, stale ones included.
   std::size_t size() const { return (sorted_.size() - next_) + heap_.size() + waiting_; }
   /// Moves on to the next bucket that holds a certificate, if the current one is used up.
-  /// is_void(certificate) returns true for a stale one. Must be called after each change, before next_time()
+  /// is_stale(certificate) returns true for a stale one. Must be called after each change, before next_time()
   /// and first().
-  template <class IsVoid>
-  void open(IsVoid is_void) {
-    while (next_ == sorted_.size() && heap_.empty() && waiting_ > 0) begin_bucket(is_void);
+  template <class IsStale>
+  void open(IsStale is_stale) {
+    while (next_ == sorted_.size() && heap_.empty() && waiting_ > 0) begin_bucket(is_stale);
   }
   /// Returns the failure time of the first certificate, or +infinity if the queue is empty. Precondition:
   /// open().
@@ -100,15 +103,15 @@ class CertificateQueue {
   /// Moves certificates that fail before `end`, and no later than `last`, to `pairs`, without stale ones.
   /// Once `pairs` holds `most`, only certificates with the failure time of its last one follow. Returns the
   /// failure time of the next certificate if it stopped at `most`, otherwise `end`.
-  template <class IsVoid>
+  template <class IsStale>
   double take_until(double last, double end, std::size_t most, std::vector<PairCertificate>& pairs,
-                    IsVoid is_void) {
+                    IsStale is_stale) {
     for (;;) {
-      open(is_void);
+      open(is_stale);
       const double next = next_time();
       if (!(next <= last && next < end)) return end;
       if (pairs.size() >= most && pairs.back().failure_time < next) return next;
-      if (!is_void(first())) pairs.push_back(first());
+      if (!is_stale(first())) pairs.push_back(first());
       drop_first();
     }
   }
@@ -142,14 +145,14 @@ class CertificateQueue {
   void wait(const PairCertificate& pair);
   void divide(double first, double last, std::size_t pairs);
 
-  template <class IsVoid>
-  void begin_bucket(IsVoid is_void) {
+  template <class IsStale>
+  void begin_bucket(IsStale is_stale) {
     sorted_.clear();
     next_ = 0;
     while (heads_[++bucket_] == none) continue;
     for (std::uint32_t at = heads_[bucket_]; at != none;) {
       Node& node = nodes_[at];
-      if (!is_void(node.pair)) sorted_.push_back(node.pair);
+      if (!is_stale(node.pair)) sorted_.push_back(node.pair);
       const std::uint32_t next = node.next;
       node.next = free_;
       free_ = at;

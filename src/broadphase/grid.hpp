@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "broadphase/float_aabb.hpp"
-#include "kinesphere/world_definition.hpp"
 
 namespace kinesphere {
 
@@ -106,8 +105,7 @@ class Grid {
 
   /// True if the deserialized state is consistent.
   bool is_valid() const;
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
+  static void serialize(auto& self, auto& archive) {
     auto& [edge, per_edge, first, count, folded] = self;
     archive(edge, per_edge, first, count, folded);
   }

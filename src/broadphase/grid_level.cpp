@@ -41,9 +41,9 @@ SweptSphereQuery GridLevel::query(const InflatedBound& bound, double now, double
   return {swept_sphere_of(bound.moved, now, duration_until(end, now), bound.margin, frame), from, to};
 }
 
-Box GridLevel::box_at(std::uint32_t place, double now) const {
+Box GridLevel::box_at(std::uint32_t slot, double now) const {
   const SweptSphereFrame& frame = spheres.frame();
-  const SweptSphere sphere = spheres.table().swept_sphere_at(place);
+  const SweptSphere sphere = spheres.table().swept_sphere_at(slot);
   const double from = time(now);
   const double to = window.end < infinity ? 1.0 : 0.0;
   Box box;

@@ -43,7 +43,7 @@ struct GridLevel {
   /// Upper limit of the widths of the level's swept spheres (length).
   double widest() const { return spheres.widest() / spheres.frame().per_length; }
   /// Returns a box that contains the body at a slot from `now` until the window ends.
-  Box box_at(std::uint32_t place, double now) const;
+  Box box_at(std::uint32_t slot, double now) const;
   /// Calls visit(box, number of bodies) for each cell that holds a body.
   template <class Visit>
   void for_each_cell(Visit visit) const {
@@ -61,8 +61,7 @@ struct GridLevel {
 
   /// True if the deserialized state is consistent.
   bool is_valid() const;
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
+  static void serialize(auto& self, auto& archive) {
     auto& [its_window, size, is_framed, is_fresh, sorted, entered] = self;
     archive(its_window, size, is_framed, is_fresh, sorted, entered);
   }

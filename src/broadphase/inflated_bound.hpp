@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "bound/quick_reject.hpp"
-#include "kinesphere/world_definition.hpp"
 
 namespace kinesphere {
 

@@ -1,6 +1,5 @@
 #include "broadphase/neighbour_search.hpp"
 
-#include <algorithm>
 #include <cassert>
 #include <functional>
 #include <iterator>
@@ -49,16 +48,16 @@ std::vector<std::uint32_t>& NeighbourSearch::near(const BroadPhase& windows, std
   for (const GridLevel& layer : windows.levels()) {
     if (layer.is_empty()) continue;
     const SweptSphereTable& table = layer.spheres.table();
-    const auto note = [&](std::uint32_t place) {
-      const std::uint32_t other = table.number_at(place);
-      if (other != number && other != SweptSphereTable::nobody) numbers_.push_back(other);
+    const auto note = [&](std::uint32_t slot) {
+      const std::uint32_t other = table.number_at(slot);
+      if (other != number && other != SweptSphereTable::free_slot) numbers_.push_back(other);
     };
     clear_searches();
     if (add_searches(windows.space(), layer, 0, bound, now, end)) {
       layer.spheres.make(searches_);
-      searches_.for_each_found([&](std::uint32_t, std::uint32_t place) { note(place); });
+      searches_.for_each_found([&](std::uint32_t, std::uint32_t slot) { note(slot); });
     } else {
-      for (std::uint32_t place = 0; place < table.slots(); ++place) note(place);
+      for (std::uint32_t slot = 0; slot < table.slots(); ++slot) note(slot);
     }
   }
   return numbers_;
@@ -77,9 +76,9 @@ std::span<const std::uint32_t> NeighbourSearch::in_box(const BroadPhase& windows
       layer.spheres.add_search(layer.query({BoundAt(ball, now), 0.0}, now, end), searches_);
     });
     layer.spheres.make(searches_);
-    searches_.for_each_found([&](std::uint32_t, std::uint32_t place) {
-      const std::uint32_t number = layer.spheres.table().number_at(place);
-      if (number != SweptSphereTable::nobody) numbers_.push_back(number);
+    searches_.for_each_found([&](std::uint32_t, std::uint32_t slot) {
+      const std::uint32_t number = layer.spheres.table().number_at(slot);
+      if (number != SweptSphereTable::free_slot) numbers_.push_back(number);
     });
   }
   return numbers_;
@@ -97,9 +96,9 @@ NeighbourSearch::Started NeighbourSearch::started_at(std::span<const GridLevel> 
                                                      std::size_t most) {
   const auto holds = [&k](const GridLevel& layer) {
     if (!layer.fresh) return false;
-    const std::size_t places = layer.spheres.table().slots();
-    if (k < places) return true;
-    k -= places;
+    const std::size_t slots = layer.spheres.table().slots();
+    if (k < slots) return true;
+    k -= slots;
     return false;
   };
   const auto found = std::find_if(layers.begin(), layers.end(), holds);
@@ -114,8 +113,8 @@ void NeighbourSearch::search_behind(const Started& some) {
   clear_searches();
   for (std::uint32_t k = 0; k < some.count; ++k) layer.add_search_behind(some.slot + k, searches_);
   layer.make(searches_);
-  searches_.for_each_found([&](std::uint32_t k, std::uint32_t place) {
-    pairs_.push_back({layer.table().number_at(some.slot + k), layer.table().number_at(place)});
+  searches_.for_each_found([&](std::uint32_t k, std::uint32_t slot) {
+    pairs_.push_back({layer.table().number_at(some.slot + k), layer.table().number_at(slot)});
   });
 }
 
@@ -127,19 +126,19 @@ void NeighbourSearch::search_other_levels(const BroadPhase& windows, const Start
         (is_own && !windows.space().repeats()))
       continue;
     const SweptSphereTable& table = other.spheres.table();
-    const auto note = [&](const ImageSearch& image, std::uint32_t place) {
-      if (is_own && (!image.shifted || place <= some.slot + image.k)) return;
-      const std::uint32_t number = table.number_at(place);
-      if (number != SweptSphereTable::nobody)
+    const auto note = [&](const ImageSearch& image, std::uint32_t slot) {
+      if (is_own && (!image.shifted || slot <= some.slot + image.k)) return;
+      const std::uint32_t number = table.number_at(slot);
+      if (number != SweptSphereTable::free_slot)
         pairs_.push_back({some.own.spheres.table().number_at(some.slot + image.k), number});
     };
     clear_searches();
     for (std::uint32_t k = 0; k < some.count; ++k) {
       if (add_searches(windows.space(), other, k, bounds_[k], now, some.own.window.end)) continue;
-      for (std::uint32_t place = 0; place < table.slots(); ++place) note({k, true}, place);
+      for (std::uint32_t slot = 0; slot < table.slots(); ++slot) note({k, true}, slot);
     }
     other.spheres.make(searches_);
-    searches_.for_each_found([&](std::uint32_t query, std::uint32_t place) { note(images_[query], place); });
+    searches_.for_each_found([&](std::uint32_t query, std::uint32_t slot) { note(images_[query], slot); });
   }
 }
 

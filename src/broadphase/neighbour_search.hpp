@@ -42,8 +42,8 @@ class NeighbourSearch {
       search_behind(some);
       if (beyond_their_layer) {
         bounds_.clear();
-        for (std::uint32_t place = some.slot; place < some.slot + some.count; ++place)
-          bounds_.push_back(bound_of(some.own.spheres.table().number_at(place)));
+        for (std::uint32_t slot = some.slot; slot < some.slot + some.count; ++slot)
+          bounds_.push_back(bound_of(some.own.spheres.table().number_at(slot)));
         search_other_levels(windows, some, now);
       }
       k += some.count;

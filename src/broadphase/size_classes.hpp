@@ -39,8 +39,7 @@ class SizeClasses {
 
   /// True if the deserialized state is consistent.
   bool is_valid() const;
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
+  static void serialize(auto& self, auto& archive) {
     auto& [merged, next_merged, coarse] = self;
     archive(merged, next_merged, coarse);
   }
@@ -50,10 +49,9 @@ class SizeClasses {
     int size_class;
     int into;
 
-    template <class Self, class Archive>
-    static void serialize(Self& self, Archive& archive) {
-      auto& [from, to] = self;
-      archive(from, to);
+    static void serialize(auto& self, auto& archive) {
+      auto& [size_class, into] = self;
+      archive(size_class, into);
     }
   };
   struct Coarseness {
@@ -61,10 +59,9 @@ class SizeClasses {
     int size_class;
     float coarseness;
 
-    template <class Self, class Archive>
-    static void serialize(Self& self, Archive& archive) {
-      auto& [power, size, edge] = self;
-      archive(power, size, edge);
+    static void serialize(auto& self, auto& archive) {
+      auto& [rung, size_class, coarseness] = self;
+      archive(rung, size_class, coarseness);
     }
   };
 

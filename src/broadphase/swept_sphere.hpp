@@ -2,8 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
-#include <cstdint>
 #include <limits>
 
 #include "bound/quick_reject.hpp"
@@ -21,10 +19,9 @@ struct SweptSphereFrame {
 
   float time(double t) const { return static_cast<float>((t - origin) * per_time); }
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
-    auto& [zero, start, lengths, times] = self;
-    archive(zero, start, lengths, times);
+  static void serialize(auto& self, auto& archive) {
+    auto& [base, origin, per_length, per_time] = self;
+    archive(base, origin, per_length, per_time);
   }
 };
 

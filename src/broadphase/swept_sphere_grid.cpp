@@ -1,6 +1,5 @@
 #include "broadphase/swept_sphere_grid.hpp"
 
-#include <algorithm>
 #include <atomic>
 #include <cassert>
 #include <cmath>
@@ -33,28 +32,28 @@ std::uint32_t SweptSphereGrid::add(std::uint32_t number, const SweptSphere& sphe
   return table_.add(number, sphere);
 }
 
-std::optional<float> SweptSphereGrid::looseness_at(std::uint32_t place, const SweptSphere& sphere,
+std::optional<float> SweptSphereGrid::looseness_at(std::uint32_t slot, const SweptSphere& sphere,
                                                    float from) const {
-  assert(table_.number_at(place) != SweptSphereTable::nobody);
+  assert(table_.number_at(slot) != SweptSphereTable::free_slot);
   // Swept spheres added since the last sort have no cell.
-  if (place >= sorted_) return 0.0f;
+  if (slot >= sorted_) return 0.0f;
   const FloatAabb aabb = float_aabb_of(sphere, from, 1.0f);
-  const Grid::Cell here = grid_.nearest_image(cells_[place], grid_.cell_around(aabb));
+  const Grid::Cell here = grid_.nearest_image(cells_[slot], grid_.cell_around(aabb));
   const float out = grid_.looseness(here, aabb);
   return out <= grid_.edge() ? std::optional(out) : std::nullopt;
 }
 
-void SweptSphereGrid::replace(std::uint32_t place, const SweptSphere& sphere, float from, float looseness,
+void SweptSphereGrid::replace(std::uint32_t slot, const SweptSphere& sphere, float from, float looseness,
                               Growth& growth) {
   growth.reach = std::max(growth.reach, looseness);
   growth.widest = std::max(growth.widest, float_aabb_of(sphere, from, 1.0f).widest());
   ++growth.replaced;
-  table_.replace(place, sphere);
+  table_.replace(slot, sphere);
 }
 
-SweptSphereSpread SweptSphereGrid::spread_of(const UnsortedSweptSpheres& all, PoolLease& shift) {
-  std::vector<SweptSphereSpread> spreads(shift.count());
-  shift.parallel_for(all.spheres.size(), many, [&](std::size_t begin, std::size_t end, std::size_t worker) {
+SweptSphereSpread SweptSphereGrid::spread_of(const UnsortedSweptSpheres& all, PoolLease& lease) {
+  std::vector<SweptSphereSpread> spreads(lease.count());
+  lease.parallel_for(all.spheres.size(), many, [&](std::size_t begin, std::size_t end, std::size_t worker) {
     SweptSphereSpread spread;
     for (std::size_t k = begin; k < end; ++k) spread.add(float_aabb_of(all.spheres[k], 0.0f, 1.0f));
     spreads[worker].add(spread);
@@ -67,7 +66,7 @@ SweptSphereSpread SweptSphereGrid::spread_of(const UnsortedSweptSpheres& all, Po
 /// Chooses a grid with cells coarse enough that each filled one holds several swept spheres, and counts by
 /// its cells.
 void SweptSphereGrid::choose_grid(const UnsortedSweptSpheres& all, const SweptSphereSpread& spread,
-                                  std::vector<std::uint32_t>& cells, PoolLease& shift) {
+                                  std::vector<std::uint32_t>& cells, PoolLease& lease) {
   const std::size_t count = cells.size();
   // Cells wider than 4 times the extent of all swept spheres would separate nothing.
   const auto is_of_use = [&spread](float coarseness) {
@@ -76,8 +75,8 @@ void SweptSphereGrid::choose_grid(const UnsortedSweptSpheres& all, const SweptSp
   while (!is_of_use(coarseness_)) coarseness_ *= 0.5f;
   for (;;) {
     grid_ = Grid(spread, count, coarseness_);
-    count_by_cells(all, cells, shift);
-    filled_ = filled_cubes(shift);
+    count_by_cells(all, cells, lease);
+    filled_ = filled_cubes(lease);
     const bool few_in_cells = grid_.cells() > 1 && count < too_few_in_a_cell * filled_;
     if (!(few_in_cells && coarseness_ < coarsest && is_of_use(2.0f * coarseness_))) break;
     coarseness_ *= 2.0f;
@@ -86,11 +85,11 @@ void SweptSphereGrid::choose_grid(const UnsortedSweptSpheres& all, const SweptSp
 }
 
 /// Returns the number of cubes that hold any swept sphere. Precondition: count_by_cells().
-std::uint32_t SweptSphereGrid::filled_cubes(PoolLease& shift) const {
+std::uint32_t SweptSphereGrid::filled_cubes(PoolLease& lease) const {
   const std::size_t along = grid_.cells_in_a_row();
   const std::size_t rows = grid_.cells() / along;
   std::atomic<std::uint32_t> all = 0;
-  shift.parallel_for(rows, many / along + 1, [&](std::size_t from, std::size_t to, std::size_t) {
+  lease.parallel_for(rows, many / along + 1, [&](std::size_t from, std::size_t to, std::size_t) {
     std::uint32_t filled = 0;
     for (std::size_t row = from * along; row < to * along; row += along) {
       for (std::size_t first = 0; first < along; first += Grid::slices) {
@@ -113,9 +112,9 @@ double SweptSphereGrid::density(bool flat) const {
 /// Writes the cell of each swept sphere to `cells`, the number in each cell to starts_[cell], and the
 /// greatest looseness to reach_.
 void SweptSphereGrid::count_by_cells(const UnsortedSweptSpheres& all, std::vector<std::uint32_t>& cells,
-                                     PoolLease& shift) {
-  std::vector<float> reaches(shift.count());
-  shift.parallel_for(all.spheres.size(), many, [&](std::size_t begin, std::size_t end, std::size_t worker) {
+                                     PoolLease& lease) {
+  std::vector<float> reaches(lease.count());
+  lease.parallel_for(all.spheres.size(), many, [&](std::size_t begin, std::size_t end, std::size_t worker) {
     float reach = 0.0f;
     for (std::size_t k = begin; k < end; ++k) {
       const FloatAabb aabb = float_aabb_of(all.spheres[k], 0.0f, 1.0f);
@@ -130,7 +129,7 @@ void SweptSphereGrid::count_by_cells(const UnsortedSweptSpheres& all, std::vecto
   starts_.reserve(grid_.cells() + 1);
   starts_.resize(grid_.cells() + 1);
   starts_.back() = 0;
-  for_each_range(cells.size(), shift, [&](std::uint32_t from, std::uint32_t to) {
+  for_each_range(cells.size(), lease, [&](std::uint32_t from, std::uint32_t to) {
     std::fill(starts_.begin() + from, starts_.begin() + to, 0);
     for (const std::uint32_t cell : cells)
       if (cell - from < to - from) ++starts_[cell];
@@ -140,11 +139,11 @@ void SweptSphereGrid::count_by_cells(const UnsortedSweptSpheres& all, std::vecto
 /// Calls visit(from, to) for disjoint ranges that together are all cells. Many swept spheres get one range
 /// per thread, but at most 8, because each call goes through all swept spheres; few get a single range.
 template <class Visit>
-void SweptSphereGrid::for_each_range(std::size_t spheres, PoolLease& shift, Visit visit) const {
+void SweptSphereGrid::for_each_range(std::size_t spheres, PoolLease& lease, Visit visit) const {
   const std::size_t cells = grid_.cells();
   constexpr std::size_t most_ranges = 8;
-  const std::size_t ranges = spheres < many ? 1 : std::min(shift.count(), most_ranges);
-  shift.parallel_for(ranges, 1, [&](std::size_t begin, std::size_t end, std::size_t) {
+  const std::size_t ranges = spheres < many ? 1 : std::min(lease.count(), most_ranges);
+  lease.parallel_for(ranges, 1, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t k = begin; k < end; ++k)
       visit(static_cast<std::uint32_t>(cells * k / ranges),
             static_cast<std::uint32_t>(cells * (k + 1) / ranges));
@@ -153,43 +152,43 @@ void SweptSphereGrid::for_each_range(std::size_t spheres, PoolLease& shift, Visi
 
 /// Assigns each swept sphere its slot: by cell and, within a cell, in the order given. Precondition:
 /// count_by_cells().
-void SweptSphereGrid::choose_places(const std::vector<std::uint32_t>& cells,
-                                    std::vector<std::uint32_t>& places, PoolLease& shift) {
+void SweptSphereGrid::choose_slots(const std::vector<std::uint32_t>& cells, std::vector<std::uint32_t>& slots,
+                                   PoolLease& lease) {
   // Each entry of starts_ is at first the end of its cell, and counts down to the cell's begin as slots are
   // taken from the back.
   std::uint32_t sum = 0;
   for (std::uint32_t& start : starts_) start = sum += start;
-  for_each_range(cells.size(), shift, [&](std::uint32_t from, std::uint32_t to) {
+  for_each_range(cells.size(), lease, [&](std::uint32_t from, std::uint32_t to) {
     for (std::size_t k = cells.size(); k-- > 0;)
-      if (cells[k] - from < to - from) places[k] = --starts_[cells[k]];
+      if (cells[k] - from < to - from) slots[k] = --starts_[cells[k]];
   });
 }
 
 /// Fills the table with `all`, sorted by cell, and returns the width of the widest swept sphere.
-float SweptSphereGrid::arrange(const UnsortedSweptSpheres& all, PoolLease& shift) {
+float SweptSphereGrid::arrange(const UnsortedSweptSpheres& all, PoolLease& lease) {
   const auto count = static_cast<std::uint32_t>(all.numbers.size());
   std::vector<std::uint32_t> cells(count);
-  const SweptSphereSpread spread = spread_of(all, shift);
-  choose_grid(all, spread, cells, shift);
-  std::vector<std::uint32_t> places(count);
-  choose_places(cells, places, shift);
+  const SweptSphereSpread spread = spread_of(all, lease);
+  choose_grid(all, spread, cells, lease);
+  std::vector<std::uint32_t> slots(count);
+  choose_slots(cells, slots, lease);
   most_behind_ = least_behind + static_cast<std::uint32_t>(4.0 * std::sqrt(static_cast<double>(count)));
   table_.resize(count, most_behind_ + 2);
   cells_.resize(count);
-  shift.parallel_for(count, many, [&](std::size_t begin, std::size_t end, std::size_t) {
+  lease.parallel_for(count, many, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t k = begin; k < end; ++k) {
-      table_.fill(places[k], all.numbers[k], all.spheres[k]);
-      cells_[places[k]] = cells[k];
+      table_.fill(slots[k], all.numbers[k], all.spheres[k]);
+      cells_[slots[k]] = cells[k];
     }
   });
   sorted_ = count;
   return spread.largest();
 }
 
-/// Adds a query, and ranges of sorted slots from `first_place` on that hold all swept spheres which may meet
+/// Adds a query, and ranges of sorted slots from `first_slot` on that hold all swept spheres which may meet
 /// the query's own.
-void SweptSphereGrid::add_runs(const SweptSphereQuery& query, std::uint32_t first_place,
-                               SweptSphereSearches& searches) const {
+void SweptSphereGrid::add_ranges(const SweptSphereQuery& query, std::uint32_t first_slot,
+                                 SweptSphereSearches& searches) const {
   const auto number = static_cast<std::uint32_t>(searches.queries.size());
   searches.queries.push_back(query);
   const auto cells = grid_.cells_near(float_aabb_of(query.sphere, query.from, query.to), reach_);
@@ -197,38 +196,38 @@ void SweptSphereGrid::add_runs(const SweptSphereQuery& query, std::uint32_t firs
   // Two ranges become one, with all slots between them, if that takes no more vectors than reading them
   // separately. Cells must come in ascending order, or the slots between may have been read already.
   const bool in_order = !grid_.wraps(*cells);
-  const auto vectors = [](const SlotRange& run) {
-    return (run.end - run.begin + search_lanes - 1) / search_lanes;
+  const auto vectors = [](const SlotRange& range) {
+    return (range.end - range.begin + search_lanes - 1) / search_lanes;
   };
-  std::vector<SlotRange>& runs = searches.runs;
+  std::vector<SlotRange>& ranges = searches.ranges;
   grid_.for_each_row(*cells, [&](std::uint32_t first, std::uint32_t last) {
-    const SlotRange run{std::max(starts_[first], first_place), starts_[last], number};
-    if (run.begin >= run.end) return;
-    if (in_order && !runs.empty() && runs.back().query == number) {
-      const SlotRange both{runs.back().begin, run.end, number};
-      if (vectors(both) <= vectors(runs.back()) + vectors(run)) {
-        runs.back() = both;
+    const SlotRange range{std::max(starts_[first], first_slot), starts_[last], number};
+    if (range.begin >= range.end) return;
+    if (in_order && !ranges.empty() && ranges.back().query == number) {
+      const SlotRange both{ranges.back().begin, range.end, number};
+      if (vectors(both) <= vectors(ranges.back()) + vectors(range)) {
+        ranges.back() = both;
         return;
       }
     }
-    runs.push_back(run);
+    ranges.push_back(range);
   });
 }
 
 void SweptSphereGrid::add_search(const SweptSphereQuery& query, SweptSphereSearches& searches) const {
   if (sorted_ > 0) {
-    add_runs(query, 0, searches);
+    add_ranges(query, 0, searches);
   } else {
     searches.queries.push_back(query);
   }
   if (table_.slots() > sorted_)
-    searches.runs.push_back(
+    searches.ranges.push_back(
         {sorted_, table_.slots(), static_cast<std::uint32_t>(searches.queries.size() - 1)});
 }
 
-void SweptSphereGrid::add_search_behind(std::uint32_t place, SweptSphereSearches& searches) const {
+void SweptSphereGrid::add_search_behind(std::uint32_t slot, SweptSphereSearches& searches) const {
   assert(sorted_ == table_.slots());
-  add_runs({table_.swept_sphere_at(place), 0.0f, 1.0f}, place + 1, searches);
+  add_ranges({table_.swept_sphere_at(slot), 0.0f, 1.0f}, slot + 1, searches);
 }
 
 bool SweptSphereGrid::is_valid() const {
@@ -240,9 +239,8 @@ bool SweptSphereGrid::is_valid() const {
   if (!table_.is_valid() || sorted_ > table_.slots()) return false;
   if (sorted_ == 0) return true;
   if (!grid_.is_valid() || starts_.size() != grid_.cells() + 1 || cells_.size() < sorted_) return false;
-  for (std::uint32_t place = 0; place < sorted_; ++place)
-    if (cells_[place] >= grid_.cells() || place < starts_[cells_[place]] ||
-        place >= starts_[cells_[place] + 1])
+  for (std::uint32_t slot = 0; slot < sorted_; ++slot)
+    if (cells_[slot] >= grid_.cells() || slot < starts_[cells_[slot]] || slot >= starts_[cells_[slot] + 1])
       return false;
   return starts_.front() == 0 && starts_.back() == sorted_ && std::is_sorted(starts_.begin(), starts_.end());
 }

@@ -46,7 +46,7 @@ class SweptSphereGrid {
   /// Returns the looseness (how far out of its cell) of another swept sphere for the body at a slot, which
   /// would hold from time `from` until 1. Returns nothing if it exceeds the edge of a cell: searches would
   /// then cost more. Precondition: the slot is not free.
-  std::optional<float> looseness_at(std::uint32_t place, const SweptSphere& sphere, float from) const;
+  std::optional<float> looseness_at(std::uint32_t slot, const SweptSphere& sphere, float from) const;
   /// Accumulates, over replaced swept spheres, the greatest looseness and width, and their number.
   struct Growth {
     float reach = 0.0f;
@@ -56,13 +56,13 @@ class SweptSphereGrid {
   /// Replaces the swept sphere at a slot; `looseness` is what looseness_at() returned. Thread safety:
   /// concurrent calls for different slots, each with a `growth` of its own, are safe. Precondition of the
   /// next search: grow().
-  void replace(std::uint32_t place, const SweptSphere& sphere, float from, float looseness, Growth& growth);
+  void replace(std::uint32_t slot, const SweptSphere& sphere, float from, float looseness, Growth& growth);
   void grow(const Growth& growth) {
     reach_ = std::max(reach_, growth.reach);
     widest_ = std::max(widest_, growth.widest);
   }
   /// Makes the slot free.
-  void remove(std::uint32_t place) { table_.remove(place); }
+  void remove(std::uint32_t slot) { table_.remove(slot); }
 
   /// True if searches would cost less after a sort, because many swept spheres are behind the sorted ones or
   /// many slots are free.
@@ -72,28 +72,28 @@ class SweptSphereGrid {
   /// Replaces the contents by `all`, sorted by cell. The swept spheres hold from time 0 of the frame until 1.
   /// moved(number, slot) is called for each body, by several threads concurrently. Cost: linear.
   template <class Moved>
-  void fill(const UnsortedSweptSpheres& all, PoolLease& shift, Moved moved) {
-    widest_ = arrange(all, shift);
-    shift.parallel_for(table_.slots(), many, [&](std::size_t begin, std::size_t end, std::size_t) {
-      for (auto place = static_cast<std::uint32_t>(begin); place < end; ++place)
-        moved(table_.number_at(place), place);
+  void fill(const UnsortedSweptSpheres& all, PoolLease& lease, Moved moved) {
+    widest_ = arrange(all, lease);
+    lease.parallel_for(table_.slots(), many, [&](std::size_t begin, std::size_t end, std::size_t) {
+      for (auto slot = static_cast<std::uint32_t>(begin); slot < end; ++slot)
+        moved(table_.number_at(slot), slot);
     });
   }
   /// Sorts all swept spheres by cell and removes free slots. Slots change: moved(number, slot) is called for
   /// each body. Cost: linear.
   template <class Moved>
-  void sort(PoolLease& shift, Moved moved) {
-    arrange(table_.all(), shift);
-    for (std::uint32_t place = 0; place < table_.slots(); ++place) moved(table_.number_at(place), place);
+  void sort(PoolLease& lease, Moved moved) {
+    arrange(table_.all(), lease);
+    for (std::uint32_t slot = 0; slot < table_.slots(); ++slot) moved(table_.number_at(slot), slot);
   }
 
   /// Adds a search for all swept spheres that the query's may touch during its span; it may find free slots
   /// too.
   void add_search(const SweptSphereQuery& query, SweptSphereSearches& searches) const;
-  /// Adds a search, among the slots behind `place`, for all that the swept sphere at `place` may touch from
+  /// Adds a search, among the slots behind `slot`, for all that the swept sphere at `slot` may touch from
   /// time 0 to 1. Searches from all slots find each pair once. Precondition: all slots are sorted (none added
   /// since).
-  void add_search_behind(std::uint32_t place, SweptSphereSearches& searches) const;
+  void add_search_behind(std::uint32_t slot, SweptSphereSearches& searches) const;
   /// Runs the searches.
   void make(SweptSphereSearches& searches) const { searches.make(table_.columns()); }
 
@@ -102,9 +102,9 @@ class SweptSphereGrid {
   template <class Visit>
   void for_each_cell(Visit visit) const {
     std::map<Grid::Cell, std::size_t> filled;
-    for (std::uint32_t place = 0; place < table_.slots(); ++place)
-      if (table_.number_at(place) != SweptSphereTable::nobody)
-        ++filled[grid_.cell_around(float_aabb_of(table_.swept_sphere_at(place), 0.0f, 1.0f))];
+    for (std::uint32_t slot = 0; slot < table_.slots(); ++slot)
+      if (table_.number_at(slot) != SweptSphereTable::free_slot)
+        ++filled[grid_.cell_around(float_aabb_of(table_.swept_sphere_at(slot), 0.0f, 1.0f))];
     for (const auto& [cell, count] : filled) visit(grid_.box_of(cell), count);
   }
   /// Returns the number of swept spheres per unit of volume (of area, if `flat`) in the cubes that hold any.
@@ -113,8 +113,7 @@ class SweptSphereGrid {
   /// True if the deserialized state is consistent.
   bool is_valid() const;
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
+  static void serialize(auto& self, auto& archive) {
     auto& [frame, table, cells, starts, sorted, grid, reach, widest, most_behind, filled, coarseness] = self;
     archive(frame, table, cells, starts, sorted, grid, reach, widest, most_behind, filled, coarseness);
   }
@@ -124,18 +123,18 @@ class SweptSphereGrid {
   /// Minimum swept spheres per parallel chunk; below this, dispatch costs more than the work.
   static constexpr std::size_t many = 1024;
 
-  static SweptSphereSpread spread_of(const UnsortedSweptSpheres& all, PoolLease& shift);
+  static SweptSphereSpread spread_of(const UnsortedSweptSpheres& all, PoolLease& lease);
   void choose_grid(const UnsortedSweptSpheres& all, const SweptSphereSpread& spread,
-                   std::vector<std::uint32_t>& cells, PoolLease& shift);
-  void count_by_cells(const UnsortedSweptSpheres& all, std::vector<std::uint32_t>& cells, PoolLease& shift);
-  std::uint32_t filled_cubes(PoolLease& shift) const;
+                   std::vector<std::uint32_t>& cells, PoolLease& lease);
+  void count_by_cells(const UnsortedSweptSpheres& all, std::vector<std::uint32_t>& cells, PoolLease& lease);
+  std::uint32_t filled_cubes(PoolLease& lease) const;
   template <class Visit>
-  void for_each_range(std::size_t spheres, PoolLease& shift, Visit visit) const;
-  void choose_places(const std::vector<std::uint32_t>& cells, std::vector<std::uint32_t>& places,
-                     PoolLease& shift);
-  float arrange(const UnsortedSweptSpheres& all, PoolLease& shift);
-  void add_runs(const SweptSphereQuery& query, std::uint32_t first_place,
-                SweptSphereSearches& searches) const;
+  void for_each_range(std::size_t spheres, PoolLease& lease, Visit visit) const;
+  void choose_slots(const std::vector<std::uint32_t>& cells, std::vector<std::uint32_t>& slots,
+                    PoolLease& lease);
+  float arrange(const UnsortedSweptSpheres& all, PoolLease& lease);
+  void add_ranges(const SweptSphereQuery& query, std::uint32_t first_slot,
+                  SweptSphereSearches& searches) const;
 
   SweptSphereFrame frame_;
   SweptSphereTable table_;

@@ -2,9 +2,6 @@
 // near_swept_spheres_plain() in swept_sphere_search_plain.cpp defines what it computes.
 #include "broadphase/swept_sphere_search.hpp"
 
-#include <array>
-#include <bit>
-
 // Without this macro, Highway 1.0 does not compile for a processor with AVX3_DL vectors and no better ones.
 #ifndef HWY_WANT_AVX3_DL
 #define HWY_WANT_AVX3_DL
@@ -22,20 +19,20 @@ namespace hn = hwy::HWY_NAMESPACE;
 // The kernel uses no fused operations, because every processor has to round alike. It does not branch on what
 // it finds: whether a swept sphere is near is unpredictable, and each misprediction would wait for the whole
 // chain of operations.
-void near_swept_spheres(const float* const* table, const SweptSphereQuery* queries, const SlotRange* runs,
+void near_swept_spheres(const float* const* table, const SweptSphereQuery* queries, const SlotRange* ranges,
                         std::size_t run_count, std::uint64_t* words) {
   const hn::CappedTag<float, search_lanes> d;
   const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
   const auto least = hn::Set(d, swept_sphere_search::least_square);
-  for (std::size_t run = 0; run < run_count; ++run) {
-    const auto& [capsule, first_time, last_time] = queries[runs[run].query];
-    const auto& [centre, velocity, radius] = capsule;
+  for (std::size_t range = 0; range < run_count; ++range) {
+    const auto& [sphere, first_time, last_time] = queries[ranges[range].query];
+    const auto& [centre, velocity, radius] = sphere;
     const auto x = hn::Set(d, centre[0]), y = hn::Set(d, centre[1]), z = hn::Set(d, centre[2]);
     const auto u = hn::Set(d, velocity[0]), v = hn::Set(d, velocity[1]), w = hn::Set(d, velocity[2]);
     const auto r = hn::Set(d, radius);
     const auto from = hn::Set(d, first_time), to = hn::Set(d, last_time);
-    const std::uint32_t end = runs[run].end;
-    for (std::uint32_t first = runs[run].begin; first < end; first += slots_in_a_word) {
+    const std::uint32_t end = ranges[range].end;
+    for (std::uint32_t first = ranges[range].begin; first < end; first += slots_in_a_word) {
       const std::uint32_t count = HWY_MIN(end - first, slots_in_a_word);
       std::uint64_t apart_bits = 0;
       for (std::uint32_t at = 0; at < count; at += lanes) {
@@ -73,8 +70,8 @@ namespace kinesphere {
 HWY_EXPORT(near_swept_spheres);
 
 void near_swept_spheres(const SweptSphereColumns& table, std::span<const SweptSphereQuery> queries,
-                        std::span<const SlotRange> runs, std::uint64_t* words) {
-  HWY_DYNAMIC_DISPATCH(near_swept_spheres)(table.data(), queries.data(), runs.data(), runs.size(), words);
+                        std::span<const SlotRange> ranges, std::uint64_t* words) {
+  HWY_DYNAMIC_DISPATCH(near_swept_spheres)(table.data(), queries.data(), ranges.data(), ranges.size(), words);
 }
 
 }  // namespace kinesphere

@@ -27,8 +27,8 @@ inline constexpr std::size_t search_lanes = 16;
 
 /// The result of a search in a slot range has a bit for each slot, 64 to a word, from the range's begin on.
 inline constexpr std::uint32_t slots_in_a_word = 64;
-inline std::size_t words_for(const SlotRange& run) {
-  return (std::size_t{run.end} - run.begin + slots_in_a_word - 1) / slots_in_a_word;
+inline std::size_t words_for(const SlotRange& range) {
+  return (std::size_t{range.end} - range.begin + slots_in_a_word - 1) / slots_in_a_word;
 }
 
 namespace swept_sphere_search {
@@ -49,39 +49,39 @@ struct SweptSphereQuery {
 /// processors. near_swept_spheres() uses the best vectors of the processor (Google Highway);
 /// near_swept_spheres_plain() uses none.
 void near_swept_spheres(const SweptSphereColumns& table, std::span<const SweptSphereQuery> queries,
-                        std::span<const SlotRange> runs, std::uint64_t* words);
+                        std::span<const SlotRange> ranges, std::uint64_t* words);
 void near_swept_spheres_plain(const SweptSphereColumns& table, std::span<const SweptSphereQuery> queries,
-                              std::span<const SlotRange> runs, std::uint64_t* words);
+                              std::span<const SlotRange> ranges, std::uint64_t* words);
 
 /// Calls visit(query, slot) for each bit that is set.
 template <class Visit>
-void for_each_near(std::span<const SlotRange> runs, const std::uint64_t* words, Visit visit) {
-  for (const SlotRange& run : runs)
-    for (std::uint32_t first = run.begin; first < run.end; first += slots_in_a_word)
+void for_each_near(std::span<const SlotRange> ranges, const std::uint64_t* words, Visit visit) {
+  for (const SlotRange& range : ranges)
+    for (std::uint32_t first = range.begin; first < range.end; first += slots_in_a_word)
       for (std::uint64_t bits = *words++; bits != 0; bits &= bits - 1)
-        visit(run.query, first + static_cast<std::uint32_t>(std::countr_zero(bits)));
+        visit(range.query, first + static_cast<std::uint32_t>(std::countr_zero(bits)));
 }
 
 /// Searches of one table that run together, so that the processor works on several at a time.
 struct SweptSphereSearches {
   std::vector<SweptSphereQuery> queries;
-  std::vector<SlotRange> runs;
-  std::vector<std::uint64_t> words;  ///< results, one bit per slot of `runs`
+  std::vector<SlotRange> ranges;
+  std::vector<std::uint64_t> words;  ///< results, one bit per slot of `ranges`
 
   void clear() {
     queries.clear();
-    runs.clear();
+    ranges.clear();
   }
   void make(const SweptSphereColumns& table) {
     std::size_t all = 0;
-    for (const SlotRange& run : runs) all += words_for(run);
+    for (const SlotRange& range : ranges) all += words_for(range);
     if (words.size() < all) words.resize(all);
-    near_swept_spheres(table, queries, runs, words.data());
+    near_swept_spheres(table, queries, ranges, words.data());
   }
   /// Calls visit(query, slot) for each swept sphere found.
   template <class Visit>
   void for_each_found(Visit visit) const {
-    for_each_near(runs, words.data(), visit);
+    for_each_near(ranges, words.data(), visit);
   }
 };
 

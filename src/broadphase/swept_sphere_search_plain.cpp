@@ -11,12 +11,12 @@
 namespace kinesphere {
 
 void near_swept_spheres_plain(const SweptSphereColumns& table, std::span<const SweptSphereQuery> queries,
-                              std::span<const SlotRange> runs, std::uint64_t* words) {
-  for (const SlotRange& run : runs) {
-    const auto& [capsule, from, to] = queries[run.query];
-    const auto& [centre, velocity, radius] = capsule;
-    std::fill_n(words, words_for(run), 0);
-    for (std::uint32_t k = run.begin; k < run.end; ++k) {
+                              std::span<const SlotRange> ranges, std::uint64_t* words) {
+  for (const SlotRange& range : ranges) {
+    const auto& [sphere, from, to] = queries[range.query];
+    const auto& [centre, velocity, radius] = sphere;
+    std::fill_n(words, words_for(range), 0);
+    for (std::uint32_t k = range.begin; k < range.end; ++k) {
       const float dx = table[0][k] - centre[0], dy = table[1][k] - centre[1], dz = table[2][k] - centre[2];
       const float du = table[3][k] - velocity[0], dv = table[4][k] - velocity[1],
                   dw = table[5][k] - velocity[2];
@@ -28,11 +28,11 @@ void near_swept_spheres_plain(const SweptSphereColumns& table, std::span<const S
       const float s = late < to ? late : to;
       const float px = dx + du * s, py = dy + dv * s, pz = dz + dw * s;
       const float square = px * px + py * py + pz * pz;
-      const std::uint32_t at = k - run.begin;
+      const std::uint32_t at = k - range.begin;
       if (!(square > radii * radii + swept_sphere_search::least_square))
         words[at / slots_in_a_word] |= std::uint64_t{1} << (at % slots_in_a_word);
     }
-    words += words_for(run);
+    words += words_for(range);
   }
 }
 

@@ -11,9 +11,9 @@ constexpr SweptSphere empty_slot{{0x1p55f, 0x1p55f, 0x1p55f}, {}, 0.0f};
 
 }  // namespace
 
-SweptSphere SweptSphereTable::swept_sphere_at(std::uint32_t place) const {
+SweptSphere SweptSphereTable::swept_sphere_at(std::uint32_t slot) const {
   const auto& [x, y, z, u, v, w, r] = columns_;
-  return {{x[place], y[place], z[place]}, {u[place], v[place], w[place]}, r[place]};
+  return {{x[slot], y[slot], z[slot]}, {u[slot], v[slot], w[slot]}, r[slot]};
 }
 
 SweptSphereColumns SweptSphereTable::columns() const {
@@ -25,10 +25,10 @@ SweptSphereColumns SweptSphereTable::columns() const {
 UnsortedSweptSpheres SweptSphereTable::all() const {
   UnsortedSweptSpheres all(bodies());
   std::size_t next = 0;
-  for (std::uint32_t place = 0; place < slots(); ++place) {
-    if (numbers_[place] == nobody) continue;
-    all.numbers[next] = numbers_[place];
-    all.spheres[next++] = swept_sphere_at(place);
+  for (std::uint32_t slot = 0; slot < slots(); ++slot) {
+    if (numbers_[slot] == free_slot) continue;
+    all.numbers[next] = numbers_[slot];
+    all.spheres[next++] = swept_sphere_at(slot);
   }
   return all;
 }
@@ -40,35 +40,35 @@ void SweptSphereTable::clear() {
 }
 
 std::uint32_t SweptSphereTable::add(std::uint32_t number, const SweptSphere& sphere) {
-  const std::uint32_t place = slots();
+  const std::uint32_t slot = slots();
   for (std::vector<float>& column : columns_) {
-    if (column.size() < place + search_lanes + 1) column.resize(place + search_lanes + 1);
+    if (column.size() < slot + search_lanes + 1) column.resize(slot + search_lanes + 1);
   }
   numbers_.push_back(number);
-  store(place, sphere);
-  return place;
+  store(slot, sphere);
+  return slot;
 }
 
-void SweptSphereTable::replace(std::uint32_t place, const SweptSphere& sphere) {
-  assert(numbers_[place] != nobody);
-  store(place, sphere);
+void SweptSphereTable::replace(std::uint32_t slot, const SweptSphere& sphere) {
+  assert(numbers_[slot] != free_slot);
+  store(slot, sphere);
 }
 
-void SweptSphereTable::remove(std::uint32_t place) {
-  assert(numbers_[place] != nobody);
-  numbers_[place] = nobody;
+void SweptSphereTable::remove(std::uint32_t slot) {
+  assert(numbers_[slot] != free_slot);
+  numbers_[slot] = free_slot;
   ++free_slots_;
-  store(place, empty_slot);
+  store(slot, empty_slot);
 }
 
-void SweptSphereTable::resize(std::uint32_t places, std::uint32_t more) {
+void SweptSphereTable::resize(std::uint32_t count, std::uint32_t more) {
   // Without reserve(), the first addition would double the vectors.
   for (std::vector<float>& column : columns_) {
-    column.reserve(places + more + search_lanes);
-    column.resize(places + search_lanes);
+    column.reserve(count + more + search_lanes);
+    column.resize(count + search_lanes);
   }
-  numbers_.reserve(places + more);
-  numbers_.resize(places);
+  numbers_.reserve(count + more);
+  numbers_.resize(count);
   free_slots_ = 0;
 }
 
@@ -76,7 +76,7 @@ bool SweptSphereTable::is_valid() const {
   const std::size_t filled = numbers_.empty() ? 0 : numbers_.size() + search_lanes;
   return std::all_of(columns_.begin(), columns_.end(),
                      [=](const std::vector<float>& column) { return column.size() >= filled; }) &&
-         static_cast<std::size_t>(std::count(numbers_.begin(), numbers_.end(), nobody)) == free_slots_;
+         static_cast<std::size_t>(std::count(numbers_.begin(), numbers_.end(), free_slot)) == free_slots_;
 }
 
 }  // namespace kinesphere

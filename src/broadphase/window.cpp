@@ -16,8 +16,8 @@ constexpr int digits = 50;
 }  // namespace
 
 Window Window::at(double now, int rung) {
-  const int tellable = std::clamp(exponent_of(now) - digits, -longest_rung, longest_rung);
-  const int possible = std::clamp(rung, tellable, longest_rung);
+  const int resolvable = std::clamp(exponent_of(now) - digits, -longest_rung, longest_rung);
+  const int possible = std::clamp(rung, resolvable, longest_rung);
   return {possible, (std::floor(now * power_of_two(-possible)) + 1.0) * power_of_two(possible)};
 }
 

@@ -36,10 +36,9 @@ struct Window {
   bool is_valid() const;
 
   friend bool operator==(const Window&, const Window&) = default;
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
-    auto& [power, until] = self;
-    archive(power, until);
+  static void serialize(auto& self, auto& archive) {
+    auto& [rung, end] = self;
+    archive(rung, end);
   }
 };
 

@@ -1,6 +1,5 @@
 #include "broadphase/window_policy.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -126,7 +125,7 @@ double WindowPolicy::Starts::cost_of_finding(double factor, int dimensions) cons
 
 /// Returns the number of swept-sphere tests in `searches` searches that find `found` near pairs, if main
 /// windows were `times_longer` times as long; at most one test per search and body.
-double WindowPolicy::looks(std::uint64_t searches, double found, double times_longer) const {
+double WindowPolicy::cost_of_searches(std::uint64_t searches, double found, double times_longer) const {
   return std::min(found * main_.cost_of_finding(times_longer, dimensions_),
                   static_cast<double>(searches) * static_cast<double>(bodies_));
 }
@@ -137,13 +136,13 @@ double WindowPolicy::looks(std::uint64_t searches, double found, double times_lo
 double WindowPolicy::main_rate(double times_longer, const RenewalCounts& updates, double windows) const {
   const auto pairs = [&](std::uint64_t searches, std::uint64_t near) {
     const double found = static_cast<double>(near) * main_.times_larger(times_longer, dimensions_);
-    return found * cost_of_near_pair + looks(searches, found, times_longer);
+    return found * cost_of_near_pair + cost_of_searches(searches, found, times_longer);
   };
   const double starts =
       static_cast<double>(main_.bodies) * (start_cost + search_cost) + pairs(main_.bodies, main_.near);
-  const double of_kicks =
+  const double of_updates =
       static_cast<double>(updates.bodies) * 2.0 * search_cost + pairs(updates.bodies, updates.near);
-  return starts / times_longer + of_kicks / windows;
+  return starts / times_longer + of_updates / windows;
 }
 
 /// Returns the cost that main_rate() returns, for the bodies that are much faster than most. They search the
@@ -240,7 +239,7 @@ void WindowPolicy::finish_start(const Sample& round, std::uint64_t near, std::ui
 void WindowPolicy::note_price() {
   const auto count = static_cast<double>(main_.bodies);
   const auto near = static_cast<double>(main_.near);
-  const double pairs = near * price_of_near_pair + looks(main_.bodies, near, 1.0);
+  const double pairs = near * price_of_near_pair + cost_of_searches(main_.bodies, near, 1.0);
   const double across = main_.short_side(1.0) / count;
   const double along = main_.long_side(1.0) / count;
   price_ = {};

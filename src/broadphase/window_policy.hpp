@@ -34,8 +34,7 @@ struct RenewalCounts {
     near += more.near;
     return *this;
   }
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
+  static void serialize(auto& self, auto& archive) {
     auto& [count, due] = self;
     archive(count, due);
   }
@@ -120,10 +119,9 @@ class WindowPolicy {
   /// Returns the cost of widening a typical body's swept sphere by `more` (length), in swept-sphere tests.
   double cost_of_width(double more) const;
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
-    auto& [longest, dimensions, tier, way, fast_way, bodies, main, fast, start, price] = self;
-    archive(tier, way, fast_way, bodies, main, fast, start, price);
+  static void serialize(auto& self, auto& archive) {
+    auto& [longest, dimensions, main_rung, way, fast_way, bodies, main, fast, start, price] = self;
+    archive(main_rung, way, fast_way, bodies, main, fast, start, price);
   }
   /// True if the deserialized state is consistent.
   bool is_valid() const;
@@ -153,8 +151,7 @@ class WindowPolicy {
     /// Returns the cost of a search for each near pair that it finds, in swept-sphere tests.
     double cost_of_finding(double factor, int dimensions) const;
 
-    template <class Self, class Archive>
-    static void serialize(Self& self, Archive& archive) {
+    static void serialize(auto& self, auto& archive) {
       auto& [count, most, by_way, width, way, growth, due] = self;
       archive(count, most, by_way, width, way, growth, due);
     }
@@ -166,14 +163,13 @@ class WindowPolicy {
     double long_side = 0.0;
     double pairs = 0.0;  ///< cost of a body's near pairs, in swept-sphere tests
 
-    template <class Self, class Archive>
-    static void serialize(Self& self, Archive& archive) {
+    static void serialize(auto& self, auto& archive) {
       auto& [across, along, due] = self;
       archive(across, along, due);
     }
   };
 
-  double looks(std::uint64_t searches, double found, double times_longer) const;
+  double cost_of_searches(std::uint64_t searches, double found, double times_longer) const;
   double main_rate(double times_longer, const RenewalCounts& updates, double windows) const;
   double fast_rate(double times_longer) const;
   void note_price();

@@ -16,19 +16,18 @@ struct ContactCheckpoint {
   PartnerList partners{};
   std::vector<OverlapRecord> overlaps{};
 
-  static ContactCheckpoint of(const ContactGraph& book, std::uint32_t body);
+  static ContactCheckpoint of(const ContactGraph& graph, std::uint32_t body);
   /// Restores the body's own rate, flags, partners and overlaps. The lists of its partners stay unchanged.
-  void restore(ContactGraph& book, std::uint32_t body) const;
+  void restore(ContactGraph& graph, std::uint32_t body) const;
   /// Restores only the rate and the flags of the body. Its partners and overlaps stay unchanged.
-  void restore_alone(ContactGraph& book, std::uint32_t body) const;
+  void restore_alone(ContactGraph& graph, std::uint32_t body) const;
   /// Updates the lists of static bodies with the contacts and overlaps that `body` has gained or lost since
   /// this checkpoint. Those lists are frozen between start_side_by_side() and stop_side_by_side().
-  void update_static(ContactGraph& book, std::uint32_t body) const;
+  void update_static(ContactGraph& graph, std::uint32_t body) const;
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
-    auto& [last, marks, touched, sensed] = self;
-    archive(last, marks, touched, sensed);
+  static void serialize(auto& self, auto& archive) {
+    auto& [rate, flags, partners, overlaps] = self;
+    archive(rate, flags, partners, overlaps);
   }
 };
 

@@ -33,9 +33,9 @@ void ContactGraph::set_touching(const Event& contact, bool touching) {
 }
 
 /// Adds or removes `partner` in the list of `body` only. Lists of static bodies stay unchanged while
-/// fixed_wait_.
+/// statics_deferred_.
 void ContactGraph::set_half(std::uint32_t body, std::uint32_t partner, const Event& contact, bool touching) {
-  if (fixed_wait_ && flags_[body].is_static) return;
+  if (statics_deferred_ && flags_[body].is_static) return;
   if (is_of_sensor(contact.kind)) {
     const OverlapRecord overlap{partner, contact.distance, contact.senses};
     if (touching) {
@@ -55,7 +55,7 @@ void ContactGraph::release_all(std::uint32_t body) {
   flags_[body].walls = 0;
   if (body >= partners_.size()) return;
   for (const std::uint32_t partner : partners_of(body))
-    if (!(fixed_wait_ && flags_[partner].is_static)) partners_[partner].erase(body);
+    if (!(statics_deferred_ && flags_[partner].is_static)) partners_[partner].erase(body);
   partners_[body].clear();
 }
 
@@ -79,7 +79,7 @@ void ContactGraph::set_links(std::uint32_t body, std::span<const std::uint32_t> 
 }
 
 void ContactGraph::start_side_by_side(bool with_sensors) {
-  fixed_wait_ = true;
+  statics_deferred_ = true;
   // Allocates every list now: threads read the outer vectors concurrently, so these must not grow later.
   if (partners_.size() < flags_.size()) partners_.resize(flags_.size());
   if (with_sensors) overlaps_.make_lists(flags_.size());

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "contact/contact_event.hpp"
@@ -90,13 +89,12 @@ class ContactGraph {
   // Lists of static bodies, which any thread might touch, are frozen (see ContactCheckpoint::update_static).
 
   void start_side_by_side(bool with_sensors);
-  void stop_side_by_side() { fixed_wait_ = false; }
+  void stop_side_by_side() { statics_deferred_ = false; }
 
   /// Serializes everything except the rules and the space, which follow from the world's definition.
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
-    auto& [rule, sensor_rule, space, recent, flags, partners, crossings, wait, in_tags] = self;
-    archive(recent, flags, partners, crossings);
+  static void serialize(auto& self, auto& archive) {
+    auto& [rule, sensor_rule, space, recent, flags, partners, overlaps, wait, in_tags] = self;
+    archive(recent, flags, partners, overlaps);
   }
   /// Validates a graph that was read from bytes, for a world of `bodies` bodies: contacts must be mutual,
   /// unique and not with the body itself. `box` holds the existing walls, as from walls_of().
@@ -110,10 +108,9 @@ class ContactGraph {
     std::uint8_t walls = 0;
     bool is_static = false;
 
-    template <class Self, class Archive>
-    static void serialize(Self& self, Archive& archive) {
-      auto& [touched_walls, is_fixed] = self;
-      archive(touched_walls, is_fixed);
+    static void serialize(auto& self, auto& archive) {
+      auto& [touched_walls, is_static] = self;
+      archive(touched_walls, is_static);
     }
   };
 
@@ -128,7 +125,7 @@ class ContactGraph {
   std::vector<Flags> flags_;
   std::vector<PartnerList> partners_;  ///< by body, up to the last body that ever had a partner
   OverlapRecords overlaps_;
-  bool fixed_wait_ = false;  ///< true between start_side_by_side() and stop_side_by_side()
+  bool statics_deferred_ = false;  ///< true between start_side_by_side() and stop_side_by_side()
   bool numbers_in_tags_ = false;
 };
 

@@ -1,7 +1,6 @@
 #include "contact/contact_predictor.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <type_traits>
 
@@ -37,15 +36,15 @@ double ContactPredictor<Partner>::until_reports() const {
 }
 
 template <class Partner>
-ContactDecision ContactPredictor<Partner>::decide(const Event& current, const RelativeLimits& promise) const {
-  ContactDecision verdict;
+ContactDecision ContactPredictor<Partner>::decide(const Event& current, const RelativeLimits& limits) const {
+  ContactDecision decision;
   const double beyond = current.gap - threshold_.distance;
   const double error = approach_error(current, arm(current.gap));
-  verdict.change = rule_.decide(threshold_.within, beyond, current.approach_speed, error);
-  if (verdict.is_event()) return verdict;
-  if (threshold_.within && verdict.change != ContactRule::Change::release) {
-    verdict.next_check = std::max(separation(rule_.release_gap()), just_after(now_));
-    return verdict;
+  decision.change = rule_.decide(threshold_.within, beyond, current.approach_speed, error);
+  if (decision.is_event()) return decision;
+  if (threshold_.within && decision.change != ContactRule::Change::release) {
+    decision.next_check = std::max(separation(rule_.release_gap()), just_after(now_));
+    return decision;
   }
   // A certificate cannot guard a gap that is closer to the present gap than the certificate's own rounding
   // error. Within the tolerance that can be so, hence the reduction.
@@ -53,12 +52,12 @@ ContactDecision ContactPredictor<Partner>::decide(const Event& current, const Re
   double time = meeting(rule_.guarded_gap(gap));
   const double hidden_approach = std::max(current.approach_speed + error, 0.0);
   const double least =
-      now_ + rule_.least_step(beyond, promise.speed_error + hidden_approach, promise.acceleration);
+      now_ + rule_.least_step(beyond, limits.speed_error + hidden_approach, limits.acceleration);
   if (time < least) {
     // The Zeno guard: time must advance between two checks of a contact that does not approach.
     time = least;
-    verdict.zeno_step = true;
-    verdict.breaks_tolerance = rule_.step_breaks_tolerance(beyond);
+    decision.zeno_step = true;
+    decision.breaks_tolerance = rule_.step_breaks_tolerance(beyond);
   }
   if (rule_.is_deep(gap)) {
     const double surfaces = separation(rule_.surface_gap());
@@ -66,16 +65,16 @@ ContactDecision ContactPredictor<Partner>::decide(const Event& current, const Re
     // the time.
     if (surfaces <= horizons_.meeting) time = std::min(time, surfaces);
   }
-  verdict.next_check = std::max(time, just_after(now_));
-  return verdict;
+  decision.next_check = std::max(time, just_after(now_));
+  return decision;
 }
 
 template <class Partner>
-ContactDecision ContactPredictor<Partner>::defer(const Event& current, const RelativeLimits& promise) const {
+ContactDecision ContactPredictor<Partner>::defer(const Event& current, const RelativeLimits& limits) const {
   const double beyond = current.gap - threshold_.distance;
-  const double speed = promise.speed_error + std::max(current.approach_speed, 0.0);
-  const double next_look = now_ + rule_.least_step(beyond, speed, promise.acceleration);
-  return {.next_check = std::max(next_look, just_after(now_)),
+  const double speed = limits.speed_error + std::max(current.approach_speed, 0.0);
+  const double next_time = now_ + rule_.least_step(beyond, speed, limits.acceleration);
+  return {.next_check = std::max(next_time, just_after(now_)),
           .zeno_step = true,
           .breaks_tolerance = rule_.step_breaks_tolerance(beyond)};
 }
@@ -105,8 +104,8 @@ namespace {
 
 Box walls_in_reach(const ContactRule& rule, const BoundAt& bound, const Box& box, double duration) {
   // 1/16 of the tolerance covers rounding, as positions and displacements are at most 2^45 tolerances.
-  const double rounding_room = rule.tolerance() / 16.0;
-  return sides_in_reach(bound, box, duration, rule.tolerance() + rounding_room);
+  const double rounding_margin = rule.tolerance() / 16.0;
+  return sides_in_reach(bound, box, duration, rule.tolerance() + rounding_margin);
 }
 
 }  // namespace

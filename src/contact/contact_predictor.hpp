@@ -64,11 +64,11 @@ class ContactPredictor {
   double until_reports() const;
 
   /// Decides from fresh reports. `current` is an event that describes the pair now.
-  ContactDecision decide(const Event& current, const RelativeLimits& promise) const;
+  ContactDecision decide(const Event& current, const RelativeLimits& limits) const;
 
   /// Defers the begin of a jammed contact: the Zeno guard lets the gap shrink, by at most its limit, before
   /// the next check.
-  ContactDecision defer(const Event& current, const RelativeLimits& promise) const;
+  ContactDecision defer(const Event& current, const RelativeLimits& limits) const;
 
  private:
   double meeting(double gap) const {

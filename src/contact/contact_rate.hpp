@@ -22,10 +22,7 @@ class ContactRate {
         : upper_half_(static_cast<std::uint32_t>(bit_cast<std::uint64_t>(value) >> 32)) {}
     double value() const { return bit_cast<double>(std::uint64_t{upper_half_} << 32); }
 
-    template <class Self, class Archive>
-    static void serialize(Self& self, Archive& archive) {
-      archive(self.upper_half_);
-    }
+    static void serialize(auto& self, auto& archive) { archive(self.upper_half_); }
 
    private:
     std::uint32_t upper_half_ = 0;
@@ -39,10 +36,9 @@ class ContactRate {
     /// Contacts at time last_contact. Saturates at the limit of is_jammed().
     std::uint16_t contacts_then = 0;
 
-    template <class Self, class Archive>
-    static void serialize(Self& self, Archive& archive) {
-      auto& [last, interval, count_then] = self;
-      archive(last, interval, count_then);
+    static void serialize(auto& self, auto& archive) {
+      auto& [last_contact, zeno_interval, contacts_then] = self;
+      archive(last_contact, zeno_interval, contacts_then);
     }
   };
   /// Marks for the begin of a contact.
@@ -68,10 +64,7 @@ class ContactRate {
 
   /// Validates values read from bytes.
   bool is_valid() const;
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
-    archive(self.bodies_);
-  }
+  static void serialize(auto& self, auto& archive) { archive(self.bodies_); }
 
  private:
   std::uint32_t contacts_now(std::span<const std::uint32_t> bodies, double time) const;

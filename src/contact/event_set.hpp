@@ -71,8 +71,7 @@ class EventSet {
     return all_of([&](const Event& event) { return !predicate(event); });
   }
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
+  static void serialize(auto& self, auto& archive) {
     auto& [earliest, later] = self;
     archive(earliest, later);
   }

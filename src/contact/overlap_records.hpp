@@ -26,10 +26,9 @@ struct OverlapRecord {
   /// Direction of sensing as in the sensor_enter event; "first" is the body with the smaller index.
   Senses senses = Senses::neither;
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
-    auto& [whom, how_far, who_senses] = self;
-    archive(whom, how_far, who_senses);
+  static void serialize(auto& self, auto& archive) {
+    auto& [partner, distance, senses] = self;
+    archive(partner, distance, senses);
   }
   friend bool operator==(const OverlapRecord&, const OverlapRecord&) = default;
   /// Orders by partner, then by falling distance: the last record of a partner is the next one to be left.

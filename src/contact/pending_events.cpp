@@ -15,8 +15,8 @@ void describe_now(Event& event, const Sphere& first, const Sphere& second, const
   }
 }
 
-bool still_begins(const ContactGraph& book, const Event& now, const Sphere& first, const Sphere& second) {
-  const ContactRule& rule = book.rule_of({.within = false, .sensed = is_of_sensor(now.kind)});
+bool still_begins(const ContactGraph& graph, const Event& now, const Sphere& first, const Sphere& second) {
+  const ContactRule& rule = graph.rule_of({.within = false, .sensed = is_of_sensor(now.kind)});
   return rule.decide(false, now.gap - now.distance, now.approach_speed, approach_error(now, first, second)) ==
          ContactRule::Change::begin;
 }
@@ -24,18 +24,18 @@ bool still_begins(const ContactGraph& book, const Event& now, const Sphere& firs
 }  // namespace
 
 /// Returns the sensing direction that the sensor_enter of this pair and distance had.
-Senses PendingEvents::senses_at_enter(const ContactGraph& book, const Event& leave) {
+Senses PendingEvents::senses_at_enter(const ContactGraph& graph, const Event& leave) {
   for (const OverlapRecord& overlap :
-       book.overlaps_of(book.number_of(leave.first), book.number_of(leave.second)))
+       graph.overlaps_of(graph.number_of(leave.first), graph.number_of(leave.second)))
     if (overlap.distance == leave.distance) return overlap.senses;
   return Senses::neither;
 }
 
-void PendingEvents::end(ContactGraph& book, const Event& contact) {
-  book.set_touching(contact, false);
+void PendingEvents::end(ContactGraph& graph, const Event& contact) {
+  graph.set_touching(contact, false);
   // The end may also be pending because the contact ended by itself; it is dropped there.
   pending_.erase(contact);
-  if (is_of_sensor(contact.kind) || !book.rule().impacts_only()) ended_.insert(contact);
+  if (is_of_sensor(contact.kind) || !graph.rule().impacts_only()) ended_.insert(contact);
 }
 
 void PendingEvents::queue(const Event& event) {
@@ -46,16 +46,16 @@ void PendingEvents::queue(const Event& event) {
 
 /// Applies the event to the contact graph, after recomputing it from the present states. Returns false, and
 /// leaves the graph unchanged, if the event no longer holds.
-bool PendingEvents::take_effect(ContactGraph& book, Event& event, const Sphere& first, const Sphere& second,
+bool PendingEvents::take_effect(ContactGraph& graph, Event& event, const Sphere& first, const Sphere& second,
                                 const std::optional<Box>& box) {
   if (event.kind == EventKind::zeno_guard) delivered_guards_.insert(event);
   if (event.kind == EventKind::zeno_guard || event.kind == EventKind::bound_violation) return true;
   const bool begins_now = begins(event.kind);
-  describe_now(event, first, second, book.space(), box);
-  if (begins_now && !still_begins(book, event, first, second)) return false;
-  if (begins_now && !is_of_sensor(event.kind)) book.note_contact(event);
-  book.set_touching(event, begins_now);
-  changed_.emplace_back(book.number_of(first.id), book.number_of(second.id));
+  describe_now(event, first, second, graph.space(), box);
+  if (begins_now && !still_begins(graph, event, first, second)) return false;
+  if (begins_now && !is_of_sensor(event.kind)) graph.note_contact(event);
+  graph.set_touching(event, begins_now);
+  changed_.emplace_back(graph.number_of(first.id), graph.number_of(second.id));
   return true;
 }
 

@@ -43,16 +43,16 @@ class PendingEvents {
   /// Ends those contacts and overlaps of `body` for which `ends`(Event) is true, because the caller is about
   /// to change the body. `sphere(number)` returns a body as it is before the change.
   template <class SphereNow, class Ends>
-  void end_contacts(ContactGraph& book, std::uint32_t body, double time, SphereNow sphere,
+  void end_contacts(ContactGraph& graph, std::uint32_t body, double time, SphereNow sphere,
                     const std::optional<Box>& box, Ends ends) {
-    for (const Event& event : ends_of(book, body, time, sphere, box))
-      if (ends(event)) end(book, event);
+    for (const Event& event : ends_of(graph, body, time, sphere, box))
+      if (ends(event)) end(graph, event);
   }
   /// Ends all contacts and overlaps of a body that is about to be removed.
   template <class SphereNow>
-  void remove_body(ContactGraph& book, std::uint32_t body, double time, SphereNow sphere,
+  void remove_body(ContactGraph& graph, std::uint32_t body, double time, SphereNow sphere,
                    const std::optional<Box>& box) {
-    end_contacts(book, body, time, sphere, box, [](const Event&) { return true; });
+    end_contacts(graph, body, time, sphere, box, [](const Event&) { return true; });
   }
 
   /// Returns the next event, or nullopt if none is left. Ends caused by the caller come first, as they were
@@ -60,7 +60,7 @@ class PendingEvents {
   /// `is_there(id)` is true unless the body was removed, `sphere(number)` returns its present state, and
   /// `senses_in(event)` returns whose sensor the pair enters.
   template <class IsThere, class SphereNow, class SensesIn>
-  std::optional<Event> pop(ContactGraph& book, IsThere is_there, SphereNow sphere, SensesIn senses_in,
+  std::optional<Event> pop(ContactGraph& graph, IsThere is_there, SphereNow sphere, SensesIn senses_in,
                            const std::optional<Box>& box) {
     std::optional<Event> event;
     if (!ended_.empty()) {
@@ -71,10 +71,10 @@ class PendingEvents {
       event = pending_.take_first();
       const bool alone = event->second == no_body;
       if (is_there(event->first) && (alone || is_there(event->second))) {
-        const Sphere first = sphere(book.number_of(event->first));
+        const Sphere first = sphere(graph.number_of(event->first));
         if (event->kind == EventKind::sensor_enter) event->senses = senses_in(*event);
-        if (event->kind == EventKind::sensor_leave) event->senses = senses_at_enter(book, *event);
-        if (take_effect(book, *event, first, alone ? first : sphere(book.number_of(event->second)), box))
+        if (event->kind == EventKind::sensor_leave) event->senses = senses_at_enter(graph, *event);
+        if (take_effect(graph, *event, first, alone ? first : sphere(graph.number_of(event->second)), box))
           return event;
       } else if (!begins(event->kind) && event->kind != EventKind::zeno_guard) {
         return event;
@@ -86,10 +86,10 @@ class PendingEvents {
 
   /// Does the above in a world without sensors.
   template <class IsThere, class SphereNow>
-  std::optional<Event> pop(ContactGraph& book, IsThere is_there, SphereNow sphere,
+  std::optional<Event> pop(ContactGraph& graph, IsThere is_there, SphereNow sphere,
                            const std::optional<Box>& box) {
     return pop(
-        book, is_there, sphere, [](const Event&) { return Senses::neither; }, box);
+        graph, is_there, sphere, [](const Event&) { return Senses::neither; }, box);
   }
 
   /// Pairs whose contact a delivered event has changed, so that their certificates are void. A pair of a body
@@ -97,10 +97,9 @@ class PendingEvents {
   std::vector<std::pair<std::uint32_t, std::uint32_t>>& changed() { return changed_; }
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& changed() const { return changed_; }
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
-    auto& [pending, ended, guards_told, changed] = self;
-    archive(pending, ended, guards_told, changed);
+  static void serialize(auto& self, auto& archive) {
+    auto& [pending, ended, zeno_guards, changed] = self;
+    archive(pending, ended, zeno_guards, changed);
   }
   /// Validates events read from bytes, for a world of `bodies` bodies at `time`: true if every event could be
   /// queued now. `box` holds the existing walls; `is_known(id)` is true if an id was ever given out.
@@ -111,27 +110,27 @@ class PendingEvents {
   /// Returns the end events of all contacts and overlaps of the body, as if they ended now. `sphere(number)`
   /// returns the present state of a body.
   template <class SphereNow>
-  static std::vector<Event> ends_of(const ContactGraph& book, std::uint32_t body, double time,
+  static std::vector<Event> ends_of(const ContactGraph& graph, std::uint32_t body, double time,
                                     SphereNow sphere, const std::optional<Box>& box) {
     const auto end_with = [&](EventKind kind, std::uint32_t partner) {
-      return contact_event(kind, time, sphere(body), sphere(partner), book.space());
+      return contact_event(kind, time, sphere(body), sphere(partner), graph.space());
     };
     std::vector<Event> found;
-    for (const std::uint32_t partner : book.partners_of(body))
+    for (const std::uint32_t partner : graph.partners_of(body))
       found.push_back(end_with(EventKind::contact_end, partner));
     for (const Wall wall : walls)
-      if (book.touches_wall(body, wall))
+      if (graph.touches_wall(body, wall))
         found.push_back(wall_event(EventKind::wall_end, time, sphere(body), *box, wall));
-    for (const OverlapRecord& overlap : book.overlaps_of(body)) {
+    for (const OverlapRecord& overlap : graph.overlaps_of(body)) {
       found.push_back(end_with(EventKind::sensor_leave, overlap.partner));
       found.back().distance = overlap.distance;
       found.back().senses = overlap.senses;
     }
     return found;
   }
-  static Senses senses_at_enter(const ContactGraph& book, const Event& leave);
-  void end(ContactGraph& book, const Event& contact);
-  bool take_effect(ContactGraph& book, Event& event, const Sphere& first, const Sphere& second,
+  static Senses senses_at_enter(const ContactGraph& graph, const Event& leave);
+  void end(ContactGraph& graph, const Event& contact);
+  bool take_effect(ContactGraph& graph, Event& event, const Sphere& first, const Sphere& second,
                    const std::optional<Box>& box);
 
   EventSet pending_;

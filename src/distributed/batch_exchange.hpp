@@ -20,8 +20,8 @@ namespace kinesphere {
 /// finish() and renew_ghosts() once each, in this order.
 class BatchExchange {
  public:
-  BatchExchange(Communicator& communicator, ErrorConsensus& agreement, RankState& local, Migration& transit,
-                HaloRegions& known, SpeculativeRunner& islands);
+  BatchExchange(Communicator& communicator, ErrorConsensus& consensus, RankState& rank_state,
+                Migration& migration, HaloRegions& known, SpeculativeRunner& runner);
 
   /// Collective. Executes clusters and exchanges rounds with the other ranks until no rank has news. Errors:
   /// the error of the first rank in which a cluster has failed, equal on all ranks.
@@ -40,32 +40,32 @@ class BatchExchange {
  private:
   // batch_exchange.cpp: the rounds.
   Result<bool> share();
-  void send_to(int rank, SendBuffers& outbox);
+  void send_to(int rank, SendBuffers& buffers);
   void take_in(const std::vector<Communicator::Bytes>& incoming);
-  void join_as_told();
-  bool join_as_told(JoinList& list);
+  void join_requested();
+  bool join_requested(JoinList& list);
   void ask_for(const JoinList::Member& member);
   bool ask_for(const Box& box);
   void send(std::uint32_t number, int to);
   void note_news();
-  void note_space(const Cluster& group);
-  void note_list(const Cluster& group, std::optional<std::uint32_t> met);
-  void note_updates(const Cluster& group);
-  bool is_own(std::uint32_t number) const { return local_.directory.is_own(number); }
-  bool is_ours(const Cluster& group) const;
-  bool is_ready(const Cluster& group) const;
-  std::vector<int> owners_of(const Cluster& group) const;
+  void note_space(const Cluster& cluster);
+  void note_list(const Cluster& cluster, std::optional<std::uint32_t> met);
+  void note_updates(const Cluster& cluster);
+  bool is_own(std::uint32_t number) const { return rank_.directory.is_own(number); }
+  bool is_ours(const Cluster& cluster) const;
+  bool is_ready(const Cluster& cluster) const;
+  std::vector<int> owners_of(const Cluster& cluster) const;
 
   // batch_exchange_end.cpp: committing results and renewing ghosts.
   void add_costs();
-  std::vector<std::uint32_t> own_updated(const Cluster& group) const;
-  BodyMessage pack_changed(std::uint32_t number, bool is_kicked, const Cluster& group) const;
-  void renew_ghosts(const Cluster& group, SendBuffers& outbox);
+  std::vector<std::uint32_t> own_updated(const Cluster& cluster) const;
+  BodyMessage pack_changed(std::uint32_t number, bool is_updated, const Cluster& cluster) const;
+  void renew_ghosts(const Cluster& cluster, SendBuffers& buffers);
 
   Communicator& communicator_;
-  ErrorConsensus& agreement_;
-  RankState& local_;
-  Migration& transit_;
+  ErrorConsensus& consensus_;
+  RankState& rank_;
+  Migration& migration_;
   HaloRegions& known_;
   SpeculativeRunner& runner_;
   std::vector<JoinList> lists_;        ///< lists that wait for a body to arrive or to join a cluster

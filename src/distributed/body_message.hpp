@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "archive/fields.hpp"
@@ -20,10 +19,9 @@ struct BodyMessage {
     double time;
     std::uint32_t other;
 
-    template <class Self, class Archive>
-    static void serialize(Self& self, Archive& archive) {
-      auto& [when, with] = self;
-      archive(when, with);
+    static void serialize(auto& self, auto& archive) {
+      auto& [time, other] = self;
+      archive(time, other);
     }
   };
 
@@ -33,28 +31,27 @@ struct BodyMessage {
   PeriodicImage image{};
   Filter filter{};
   ContactCheckpoint contacts{};
-  /// Registration in the broad phase and, if registered, the window (`tier`, `end`). `enters`: the receiver
+  /// Registration in the broad phase and, if registered, the window (`rung`, `end`). `enters`: the receiver
   /// inserts it now, with a new swept sphere. `starts`: it takes part in the bulk window start that is in
   /// progress.
   bool is_registered = false;
   bool enters = false;
   bool starts = false;
-  std::int32_t tier = 0;
+  std::int32_t rung = 0;
   double end = 0.0;
   /// True if certificates that the receiver holds for the body are stale.
-  bool is_void = false;
+  bool is_stale = false;
   std::vector<Due> due{};
   std::vector<Event> pending{};  ///< events of the body that have not been reported yet
   std::vector<std::byte> motion{};
 
-  Window window() const { return {tier, end}; }
+  Window window() const { return {rung, end}; }
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
-    auto& [named, whose, itself, at_home, meets, touches, registered, entering, starting, power, until, voids,
-           pairs, news, moves] = self;
-    archive(named, whose, itself, at_home, meets, touches, registered, entering, starting, power, until,
-            voids, pairs, news, moves);
+  static void serialize(auto& self, auto& archive) {
+    auto& [name, owner, body, image, filter, contacts, is_registered, enters, starts, rung, end, is_stale,
+           due, pending, motion] = self;
+    archive(name, owner, body, image, filter, contacts, is_registered, enters, starts, rung, end, is_stale,
+            due, pending, motion);
   }
 };
 

@@ -35,10 +35,10 @@ Result<Checkpoint> Checkpoint::read(std::span<const std::byte> bytes) {
   Checkpoint checkpoint;
   reader(checkpoint);
   if (reader.failed() || reader.remaining() != 0)
-    return refusal("must hold parts of a world, but the content of one does not have the form of it");
-  if (!check_world(checkpoint.definition) || checkpoint.part >= checkpoint.stamp.parts ||
-      !std::isfinite(checkpoint.stamp.time) || std::isnan(checkpoint.epoch_end))
-    return refusal("must hold parts of a world that can be, but one contradicts itself");
+    return refusal("must be parts of a world, but one has the wrong format");
+  if (!check_world(checkpoint.definition) || checkpoint.part >= checkpoint.identity.parts ||
+      !std::isfinite(checkpoint.identity.time) || std::isnan(checkpoint.epoch_end))
+    return refusal("must be consistent, but one contradicts itself");
   return checkpoint;
 }
 
@@ -56,7 +56,7 @@ Result<void> gather_common(Communicator& communicator, std::span<const Checkpoin
   ByteWriter writer;
   if (!here.empty()) {
     writer(here.size());
-    for (const Checkpoint& checkpoint : here) writer(checkpoint.stamp, checkpoint.part);
+    for (const Checkpoint& checkpoint : here) writer(checkpoint.identity, checkpoint.part);
     writer(here[0].definition, here[0].window_policy, here[0].sensors, here[0].epoch_end);
   }
   std::vector<std::uint64_t> found;
@@ -67,10 +67,10 @@ Result<void> gather_common(Communicator& communicator, std::span<const Checkpoin
     std::size_t count = 0;
     reader(count);
     for (; count > 0; --count) {
-      Checkpoint::Stamp stamp;
-      reader(stamp, found.emplace_back());
-      of_one_world = of_one_world && (found.size() == 1 || stamp == common.stamp);
-      common.stamp = stamp;
+      Checkpoint::Identity identity;
+      reader(identity, found.emplace_back());
+      of_one_world = of_one_world && (found.size() == 1 || identity == common.identity);
+      common.identity = identity;
     }
     reader(common.definition, common.window_policy, common.sensors, common.epoch_end);
   }
@@ -78,9 +78,9 @@ Result<void> gather_common(Communicator& communicator, std::span<const Checkpoin
   const bool once = std::adjacent_find(found.begin(), found.end()) == found.end();
   if (!of_one_world || !once || found.empty())
     return refusal("must be all of one world, each of them once, but are not");
-  for (std::uint64_t part = 0; part < common.stamp.parts; ++part) {
+  for (std::uint64_t part = 0; part < common.identity.parts; ++part) {
     if (part < found.size() && found[part] == part) continue;
-    return refusal("must be all of one world, but of " + std::to_string(common.stamp.parts) + " part " +
+    return refusal("must be all of one world, but of " + std::to_string(common.identity.parts) + " part " +
                    std::to_string(part) + " is missing");
   }
   return {};
@@ -90,7 +90,7 @@ Result<void> read_window_policy(std::span<const std::byte> bytes, WindowPolicy& 
   ByteReader reader(bytes);
   reader(window_policy);
   if (!reader.failed() && window_policy.is_valid()) return {};
-  return refusal("must hold parts of a world that can be, but have no tempo");
+  return refusal("must hold a consistent window policy, but do not");
 }
 
 }  // namespace kinesphere

@@ -25,20 +25,19 @@ namespace kinesphere {
 /// One part of a checkpoint: the state of one rank.
 struct Checkpoint {
   /// Identity of a checkpoint; equal in all of its parts.
-  struct Stamp {
+  struct Identity {
     std::uint64_t parts = 0;
     double time = 0.0;
     std::array<std::uint64_t, 2> hash{};
 
-    template <class Self, class Archive>
-    static void serialize(Self& self, Archive& archive) {
-      auto& [count, when, events] = self;
-      archive(count, when, events);
+    static void serialize(auto& self, auto& archive) {
+      auto& [parts, time, hash] = self;
+      archive(parts, time, hash);
     }
-    friend bool operator==(const Stamp&, const Stamp&) = default;
+    friend bool operator==(const Identity&, const Identity&) = default;
   };
 
-  Stamp stamp{};
+  Identity identity{};
   std::uint64_t part = 0;
   WorldDefinition definition{};
   // Shared state; equal in all parts.
@@ -46,15 +45,14 @@ struct Checkpoint {
   SensorTable sensors{};
   double epoch_end = infinity;
   // State of this part alone.
-  RenewalCounts kicks{};
+  RenewalCounts recertified{};
   Counters counters{};
   std::array<std::uint64_t, 2> hash{};
   std::vector<BodyMessage> bodies{};
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
-    archive(self.stamp, self.part, self.definition, self.window_policy, self.sensors, self.epoch_end,
-            self.kicks, self.counters, self.hash, self.bodies);
+  static void serialize(auto& self, auto& archive) {
+    archive(self.identity, self.part, self.definition, self.window_policy, self.sensors, self.epoch_end,
+            self.recertified, self.counters, self.hash, self.bodies);
   }
 
   std::vector<std::byte> write() const;

@@ -1,6 +1,5 @@
 #include "kinesphere/distributed/distributed_world.hpp"
 
-#include <string>
 #include <utility>
 
 #include "archive/archive.hpp"

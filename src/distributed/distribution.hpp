@@ -16,8 +16,8 @@ namespace kinesphere {
 /// Migration::exchange().
 class Distribution {
  public:
-  Distribution(Communicator& communicator, ErrorConsensus& agreement, RankState& local, Migration& transit,
-               HaloRegions& known);
+  Distribution(Communicator& communicator, ErrorConsensus& consensus, RankState& rank_state,
+               Migration& migration, HaloRegions& known);
 
   // Windows start in the following steps, in this order. `starters` are the bodies whose windows start now:
   // at first own bodies only; in the end the remaining own bodies, bodies that have migrated here, and
@@ -34,7 +34,7 @@ class Distribution {
   /// ranks. Sends own bodies that may enter the halo region of another rank there as ghosts. Appends arriving
   /// ghosts that start to `starters`. `anew`: rebuilds the halo region from this rank's region of space and
   /// the swept boxes of all its own bodies.
-  Result<void> spread(std::vector<BroadPhase::Starter>& starters, bool anew);
+  Result<void> update_ghosts(std::vector<BroadPhase::Starter>& starters, bool anew);
 
   /// Partitions space for the bodies of a checkpoint and sends each body to its rank. Does not send ghosts;
   /// spread() does.
@@ -45,18 +45,18 @@ class Distribution {
 
  private:
   BodyMessage pack_to_start(const BroadPhase::Starter& starter) const;
-  Result<void> exchange(SendBuffers& outbox, std::vector<BroadPhase::Starter>& starters);
+  Result<void> exchange(SendBuffers& buffers, std::vector<BroadPhase::Starter>& starters);
   Box way_of(const BroadPhase::Starter& starter) const;
   Box core_of(std::span<const Box> ways, std::span<const std::uint32_t> others);
   std::vector<std::vector<Box>> gather_boxes(std::span<const Box> boxes);
   void send_starters(std::span<const BroadPhase::Starter> starters, std::span<const Box> ways,
-                     SendBuffers& outbox);
-  void send_ghosts(int to, std::span<const std::uint32_t> numbers, SendBuffers& outbox);
+                     SendBuffers& buffers);
+  void send_ghosts(int to, std::span<const std::uint32_t> numbers, SendBuffers& buffers);
 
   Communicator& communicator_;
-  ErrorConsensus& agreement_;
-  RankState& local_;
-  Migration& transit_;
+  ErrorConsensus& consensus_;
+  RankState& rank_;
+  Migration& migration_;
   HaloRegions& known_;
   Partition partition_;
   std::uint64_t partitions_ = 0;

@@ -4,57 +4,33 @@
 #include <utility>
 
 #include "distributed/guarded.hpp"
+#include "number/scope_guard.hpp"
 
 namespace kinesphere {
-namespace {
-
-/// Sets the motion origin of a body to `origin`, if given, and restores the previous origin on destruction.
-class TemporaryDeparture {
- public:
-  TemporaryDeparture(Motion& motion, std::uint32_t number, const std::optional<MotionOrigin>& origin)
-      : motion_(motion), number_(number) {
-    if (!origin) return;
-    before_ = motion.origin(number);
-    motion.set_origin(number, *origin).value();
-  }
-  TemporaryDeparture(const TemporaryDeparture&) = delete;
-  TemporaryDeparture& operator=(const TemporaryDeparture&) = delete;
-  ~TemporaryDeparture() {
-    if (before_) (void)motion_.set_origin(number_, *before_);
-  }
-
- private:
-  Motion& motion_;
-  std::uint32_t number_;
-  std::optional<MotionOrigin> before_;
-};
-
-}  // namespace
-
 BodyMessage Migration::pack(std::uint32_t number) const {
-  const Bodies& bodies = local_.bodies();
-  const BodyDirectory::Entry& entry = local_.directory[number];
+  const Bodies& bodies = rank_.bodies();
+  const BodyDirectory::Entry& entry = rank_.directory[number];
   BodyMessage message;
-  message.name = local_.name_of(number);
+  message.name = rank_.name_of(number);
   message.owner = entry.owner;
-  const auto [body, home] = bodies.checkpoint(number);
+  const auto [body, image] = bodies.checkpoint(number);
   message.body = body;
-  message.image = home;
+  message.image = image;
   message.filter = bodies.filters.of(number);
-  message.contacts = ContactCheckpoint::of(local_.state.contacts, number);
-  const BroadPhase& windows = local_.state.broad_phase;
+  message.contacts = ContactCheckpoint::of(rank_.state.contacts, number);
+  const BroadPhase& windows = rank_.state.broad_phase;
   message.is_registered = windows.contains(number);
   if (message.is_registered) {
-    message.tier = windows.window_of(number).rung;
+    message.rung = windows.window_of(number).rung;
     message.end = windows.end_of(number);
   }
   motion_.write_body(entry.in_motion, message.motion).value();
   // Replace numbers by names.
   PartnerList partners;
   std::vector<OverlapRecord>& overlaps = message.contacts.overlaps;
-  for (const std::uint32_t partner : message.contacts.partners.all()) partners.add(local_.name_of(partner));
-  for (OverlapRecord& overlap : overlaps) overlap.partner = local_.name_of(overlap.partner);
-  if (const PendingLinks::Links* links = dangling_.of(message.name)) {
+  for (const std::uint32_t partner : message.contacts.partners.all()) partners.add(rank_.name_of(partner));
+  for (OverlapRecord& overlap : overlaps) overlap.partner = rank_.name_of(overlap.partner);
+  if (const PendingLinks::Links* links = pending_links_.of(message.name)) {
     for (const std::uint32_t partner : links->partners) partners.add(partner);
     overlaps.insert(overlaps.end(), links->overlaps.begin(), links->overlaps.end());
   }
@@ -62,28 +38,36 @@ BodyMessage Migration::pack(std::uint32_t number) const {
   return message;
 }
 
-BodyMessage Migration::pack_checkpoint(std::uint32_t number, SpeculativeRunner& islands) {
-  const Cluster* group = islands.cluster_of(number);
+BodyMessage Migration::pack_checkpoint(std::uint32_t number, SpeculativeRunner& runner) {
+  const Cluster* cluster = runner.cluster_of(number);
   const BodyCheckpoint* checkpoint =
-      group != nullptr && group->executed ? islands.checkpoint_of(number) : nullptr;
+      cluster != nullptr && cluster->executed ? runner.checkpoint_of(number) : nullptr;
   BodyMessage message;
   if (checkpoint == nullptr) {
     message = pack(number);
   } else {
     std::optional<MotionOrigin> before;
-    for (const auto& [body, departure] : islands.undo_log_of(*group))
-      if (!before && body.index == local_.name_of(number)) before = departure;
-    const TemporaryDeparture as_it_began(motion_, local_.directory[number].in_motion, before);
-    const Bodies::Checkpoint now = local_.bodies().checkpoint(number);
-    const ContactCheckpoint contacts = ContactCheckpoint::of(local_.state.contacts, number);
-    local_.bodies().restore(number, checkpoint->body);
-    checkpoint->contacts.restore(local_.state.contacts, number);
+    for (const auto& [body, origin] : runner.undo_log_of(*cluster))
+      if (!before && body.index == rank_.name_of(number)) before = origin;
+    const std::uint32_t in_motion = rank_.directory[number].in_motion;
+    std::optional<MotionOrigin> present;
+    if (before) {
+      present = motion_.origin(in_motion);
+      motion_.set_origin(in_motion, *before).value();
+    }
+    const ScopeGuard reset([&] {
+      if (present) (void)motion_.set_origin(in_motion, *present);
+    });
+    const Bodies::Checkpoint now = rank_.bodies().checkpoint(number);
+    const ContactCheckpoint contacts = ContactCheckpoint::of(rank_.state.contacts, number);
+    rank_.bodies().restore(number, checkpoint->body);
+    checkpoint->contacts.restore(rank_.state.contacts, number);
     message = pack(number);
-    local_.bodies().restore(number, now);
-    contacts.restore(local_.state.contacts, number);
+    rank_.bodies().restore(number, now);
+    contacts.restore(rank_.state.contacts, number);
   }
-  if (group != nullptr) {
-    for (const Event& event : group->pending)
+  if (cluster != nullptr) {
+    for (const Event& event : cluster->pending)
       if (event.first.index == message.name) message.pending.push_back(event);
   }
   return message;
@@ -91,47 +75,47 @@ BodyMessage Migration::pack_checkpoint(std::uint32_t number, SpeculativeRunner& 
 
 BodyMessage::Due Migration::due_of(const PairCertificate& pair, std::uint32_t number) const {
   if (!pair.has_second()) return {pair.failure_time, pair.second};
-  return {pair.failure_time, local_.name_of(pair.first == number ? pair.second : pair.first)};
+  return {pair.failure_time, rank_.name_of(pair.first == number ? pair.second : pair.first)};
 }
 
 /// Returns the body's revision at the start of the batch, if a batch is running and has changed the body;
 /// otherwise its current revision.
-std::uint32_t Migration::revision_of(std::uint32_t number, const SpeculativeRunner* islands) const {
-  const BodyCheckpoint* checkpoint = islands != nullptr ? islands->checkpoint_of(number) : nullptr;
-  return checkpoint != nullptr ? checkpoint->body.body.revision : local_.bodies()[number].revision;
+std::uint32_t Migration::revision_of(std::uint32_t number, const SpeculativeRunner* runner) const {
+  const BodyCheckpoint* checkpoint = runner != nullptr ? runner->checkpoint_of(number) : nullptr;
+  return checkpoint != nullptr ? checkpoint->body.body.revision : rank_.bodies()[number].revision;
 }
 
 PairCertificate Migration::certificate(const BodyMessage::Due& due, std::uint32_t number, std::uint32_t other,
-                                       const SpeculativeRunner* islands) const {
-  PairCertificate pair = local_.main.certifier().certificate(due.time, number, other);
-  pair.first_revision = revision_of(pair.first, islands);
-  if (pair.has_second()) pair.second_revision = revision_of(pair.second, islands);
+                                       const SpeculativeRunner* runner) const {
+  PairCertificate pair = rank_.main.certifier().certificate(due.time, number, other);
+  pair.first_revision = revision_of(pair.first, runner);
+  if (pair.has_second()) pair.second_revision = revision_of(pair.second, runner);
   return pair;
 }
 
 void Migration::add_due(std::vector<BodyMessage>& messages, std::span<const std::uint32_t> numbers,
-                        SpeculativeRunner* islands) {
+                        SpeculativeRunner* runner) {
   if (numbers.empty()) return;
-  places_.resize(local_.bodies().numbers());
-  for (std::size_t k = 0; k < numbers.size(); ++k) places_[numbers[k]] = static_cast<std::uint32_t>(k) + 1;
+  positions_.resize(rank_.bodies().numbers());
+  for (std::size_t k = 0; k < numbers.size(); ++k) positions_[numbers[k]] = static_cast<std::uint32_t>(k) + 1;
   const auto note = [&](const PairCertificate& pair) {
-    const std::uint32_t first = places_[pair.first];
-    const std::uint32_t second = pair.has_second() ? places_[pair.second] : 0;
+    const std::uint32_t first = positions_[pair.first];
+    const std::uint32_t second = pair.has_second() ? positions_[pair.second] : 0;
     if (first == 0 && second == 0) return;
-    if (revision_of(pair.first, islands) != pair.first_revision) return;
-    if (pair.has_second() && revision_of(pair.second, islands) != pair.second_revision) return;
+    if (revision_of(pair.first, runner) != pair.first_revision) return;
+    if (pair.has_second() && revision_of(pair.second, runner) != pair.second_revision) return;
     if (first != 0) messages[first - 1].due.push_back(due_of(pair, pair.first));
     if (second != 0) messages[second - 1].due.push_back(due_of(pair, pair.second));
   };
-  local_.main.queue().for_each(note);
-  if (islands != nullptr) {
-    for (const Cluster& group : islands->clusters()) {
-      if (group.is_merged()) continue;
-      for (const PairCertificate& pair : islands->due_of(group)) note(pair);
+  rank_.main.queue().for_each(note);
+  if (runner != nullptr) {
+    for (const Cluster& cluster : runner->clusters()) {
+      if (cluster.is_merged()) continue;
+      for (const PairCertificate& pair : runner->due_of(cluster)) note(pair);
     }
   }
   for (std::size_t k = 0; k < numbers.size(); ++k) {
-    places_[numbers[k]] = 0;
+    positions_[numbers[k]] = 0;
     if (!loose_) continue;
     if (const auto loose = loose_->find(numbers[k]); loose != loose_->end())
       messages[k].due.insert(messages[k].due.end(), loose->second.begin(), loose->second.end());
@@ -145,7 +129,7 @@ void Migration::add_due(BodyMessage& message, std::uint32_t number,
       message.due.push_back(due_of(pair, number));
 }
 
-Result<InitialWork> Migration::install(std::vector<BodyMessage>& messages, const SpeculativeRunner* islands) {
+Result<InitialWork> Migration::install(std::vector<BodyMessage>& messages, const SpeculativeRunner* runner) {
   InitialWork beginning;
   std::vector<std::uint32_t> numbers;
   for (BodyMessage& message : messages) {
@@ -159,19 +143,19 @@ Result<InitialWork> Migration::install(std::vector<BodyMessage>& messages, const
     BodyMessage& message = messages[k];
     const std::uint32_t number = numbers[k];
     if (message.enters && message.is_registered)
-      local_.state.broad_phase.enter(number, inflated_bound(local_.bodies(), number, local_.time()),
-                                     local_.time(), message.window());
+      rank_.state.broad_phase.enter(number, inflated_bound(rank_.bodies(), number, rank_.time()),
+                                    rank_.time(), message.window());
     for (const BodyMessage::Due& due : message.due) {
       if (due.other >= PairCertificate::window_end) {
-        beginning.due.push_back(certificate(due, number, due.other, islands));
-      } else if (const auto other = local_.directory.find(due.other)) {
-        beginning.due.push_back(certificate(due, number, *other, islands));
+        beginning.due.push_back(certificate(due, number, due.other, runner));
+      } else if (const auto other = rank_.directory.find(due.other)) {
+        beginning.due.push_back(certificate(due, number, *other, runner));
       } else if (loose_) {
         (*loose_)[number].push_back(due);
       }
     }
     for (Event& event : message.pending) {
-      event.first = local_.bodies().id_of(number);
+      event.first = rank_.bodies().id_of(number);
       beginning.pending.push_back(event);
     }
   }
@@ -179,14 +163,14 @@ Result<InitialWork> Migration::install(std::vector<BodyMessage>& messages, const
   std::sort(beginning.due.begin(), beginning.due.end());
   const auto same = [](const PairCertificate& a, const PairCertificate& b) { return !(a < b) && !(b < a); };
   beginning.due.erase(std::unique(beginning.due.begin(), beginning.due.end(), same), beginning.due.end());
-  local_.state.broad_phase.tidy();
+  rank_.state.broad_phase.tidy();
   return beginning;
 }
 
 /// Installs the body's own state. Contacts and the broad phase follow in link() and in install() of the list.
 Result<std::uint32_t> Migration::install(BodyMessage& message) {
-  Bodies& bodies = local_.bodies();
-  BodyDirectory& directory = local_.directory;
+  Bodies& bodies = rank_.bodies();
+  BodyDirectory& directory = rank_.directory;
   std::span<const std::byte> bytes(message.motion);
   const auto known = directory.find(message.name);
   if (known) {
@@ -197,24 +181,24 @@ Result<std::uint32_t> Migration::install(BodyMessage& message) {
   const std::uint32_t number = known ? *known : bodies.add(BodyDefinition{}, message.name);
   Body& body = bodies[number];
   const std::uint32_t generation = body.generation;
-  const std::uint32_t stamp = message.is_void || !known ? body.revision + 1 : body.revision;
+  const std::uint32_t new_revision = message.is_stale || !known ? body.revision + 1 : body.revision;
   body = message.body;
   body.generation = generation;
-  body.revision = stamp;
+  body.revision = new_revision;
   body.shape_number = body.change_number = body.sleep_number = Body::none;
   bodies.filters.keep(number, message.filter);
   bodies.set_solid(number, body.solid);
   if (bodies.space().repeats()) bodies.images[number] = message.image;
   if (!known) {
-    local_.state.contacts.add(number, 0.0);
+    rank_.state.contacts.add(number, 0.0);
     directory.add(message.name, number, message.owner);
   }
   directory[number].owner = message.owner;
   directory[number].in_motion = *in_motion;
-  message.contacts.restore_alone(local_.state.contacts, number);
+  message.contacts.restore_alone(rank_.state.contacts, number);
   if (body.dirty) {
     body.dirty = false;
-    local_.main.dirty().add(local_.bodies(), number);
+    rank_.main.dirty().add(rank_.bodies(), number);
   }
   return number;
 }
@@ -225,54 +209,54 @@ void Migration::link(const BodyMessage& message) {
   std::vector<OverlapRecord> overlaps;
   PendingLinks::Links missing;
   for (const std::uint32_t name : message.contacts.partners.all()) {
-    if (const auto partner = local_.directory.find(name)) {
+    if (const auto partner = rank_.directory.find(name)) {
       partners.push_back(*partner);
-      dangling_.remove(name, message.name);
+      pending_links_.remove(name, message.name);
     } else {
       missing.partners.push_back(name);
     }
   }
   for (const OverlapRecord& overlap : message.contacts.overlaps) {
-    if (const auto partner = local_.directory.find(overlap.partner)) {
+    if (const auto partner = rank_.directory.find(overlap.partner)) {
       overlaps.push_back({*partner, overlap.distance, overlap.senses});
-      dangling_.remove(overlap.partner, message.name);
+      pending_links_.remove(overlap.partner, message.name);
     } else {
       missing.overlaps.push_back(overlap);
     }
   }
-  local_.state.contacts.set_links(*local_.directory.find(message.name), partners, std::move(overlaps));
-  dangling_.set(message.name, std::move(missing));
+  rank_.state.contacts.set_links(*rank_.directory.find(message.name), partners, std::move(overlaps));
+  pending_links_.set(message.name, std::move(missing));
 }
 
-Result<std::vector<BodyMessage>> Migration::exchange(Communicator& communicator, ErrorConsensus& agreement,
-                                                     SendBuffers& outbox) {
+Result<std::vector<BodyMessage>> Migration::exchange(Communicator& communicator, ErrorConsensus& consensus,
+                                                     SendBuffers& buffers) {
   std::vector<BodyMessage> messages;
-  for (const Communicator::Bytes& bytes : outbox.exchange(communicator)) {
+  for (const Communicator::Bytes& bytes : buffers.exchange(communicator)) {
     ByteReader reader(bytes);
     while (reader.remaining() > 0 && !reader.failed()) reader(messages.emplace_back());
   }
-  agreement.note(guarded([&]() -> Result<void> {
+  consensus.note(guarded([&]() -> Result<void> {
     auto beginning = install(messages, nullptr);
     if (!beginning) return beginning.error();
-    local_.main.queue().add_all(beginning->due);
+    rank_.main.queue().add_all(beginning->due);
     return {};
   }));
-  if (auto agreed = agreement.agree_on_noted(); !agreed) return agreed.error();
+  if (auto agreed = consensus.agree_on_noted(); !agreed) return agreed.error();
   return messages;
 }
 
 void Migration::drop(std::uint32_t number) {
-  const std::uint32_t name = local_.name_of(number);
-  for (const std::uint32_t partner : local_.state.contacts.partners_of(number))
-    dangling_.add_partner(local_.name_of(partner), name);
-  for (const OverlapRecord& overlap : local_.state.contacts.overlaps_of(number))
-    dangling_.add_overlap(local_.name_of(overlap.partner), {name, overlap.distance, overlap.senses});
-  local_.state.contacts.set_links(number, {}, {});
-  dangling_.remove(name);
-  if (local_.state.broad_phase.contains(number)) local_.state.broad_phase.leave(number);
-  (void)motion_.remove(local_.directory[number].in_motion);
-  local_.directory.remove(name, number);
-  local_.bodies().remove(number);
+  const std::uint32_t name = rank_.name_of(number);
+  for (const std::uint32_t partner : rank_.state.contacts.partners_of(number))
+    pending_links_.add_partner(rank_.name_of(partner), name);
+  for (const OverlapRecord& overlap : rank_.state.contacts.overlaps_of(number))
+    pending_links_.add_overlap(rank_.name_of(overlap.partner), {name, overlap.distance, overlap.senses});
+  rank_.state.contacts.set_links(number, {}, {});
+  pending_links_.remove(name);
+  if (rank_.state.broad_phase.contains(number)) rank_.state.broad_phase.leave(number);
+  (void)motion_.remove(rank_.directory[number].in_motion);
+  rank_.directory.remove(name, number);
+  rank_.bodies().remove(number);
 }
 
 }  // namespace kinesphere

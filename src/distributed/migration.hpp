@@ -22,30 +22,30 @@ namespace kinesphere {
 ///
 /// While a batch runs, clusters have changed bodies that may be rolled back to the start of the batch. So a
 /// body sent during a batch has to be packed, with its certificates, as it was when the batch began.
-/// Functions that take `islands` do that; null means that no batch is running.
+/// Functions that take `runner` do that; null means that no batch is running.
 class Migration {
  public:
-  Migration(Motion& motion, RankState& local) : motion_(motion), local_(local) {}
+  Migration(Motion& motion, RankState& rank_state) : motion_(motion), rank_(rank_state) {}
 
   /// Packs the body in its current state, without its certificates. Throws what Motion::write_body throws,
   /// and BadResult with the errors of Motion::write_body.
   BodyMessage pack(std::uint32_t number) const;
   /// Packs the body as it was when the batch began, with its events that were pending then; without its
   /// certificates.
-  BodyMessage pack_checkpoint(std::uint32_t number, SpeculativeRunner& islands);
+  BodyMessage pack_checkpoint(std::uint32_t number, SpeculativeRunner& runner);
   /// Adds the certificates of bodies numbers[k] to messages[k]. Cost: O(certificates of the rank).
   void add_due(std::vector<BodyMessage>& messages, std::span<const std::uint32_t> numbers,
-               SpeculativeRunner* islands);
+               SpeculativeRunner* runner);
   /// Adds to `message` the certificates in `pairs` that involve the body.
   void add_due(BodyMessage& message, std::uint32_t number, std::span<const PairCertificate> pairs) const;
 
   /// Installs the bodies: adds unknown ones and replaces the state of known ones. Returns the initial work,
   /// whose certificates may fail at any time. Errors: those of Motion::read_body.
-  Result<InitialWork> install(std::vector<BodyMessage>& messages, const SpeculativeRunner* islands);
+  Result<InitialWork> install(std::vector<BodyMessage>& messages, const SpeculativeRunner* runner);
   /// Collective; not during a batch. Sends the messages in the outbox and installs and returns those that
   /// arrive. Errors, equal on all ranks: those that a rank has noted, including those of Motion::read_body.
-  Result<std::vector<BodyMessage>> exchange(Communicator& communicator, ErrorConsensus& agreement,
-                                            SendBuffers& outbox);
+  Result<std::vector<BodyMessage>> exchange(Communicator& communicator, ErrorConsensus& consensus,
+                                            SendBuffers& buffers);
   /// Removes the body from this rank.
   void drop(std::uint32_t number);
 
@@ -58,17 +58,17 @@ class Migration {
  private:
   BodyMessage::Due due_of(const PairCertificate& pair, std::uint32_t number) const;
   PairCertificate certificate(const BodyMessage::Due& due, std::uint32_t number, std::uint32_t other,
-                              const SpeculativeRunner* islands) const;
-  std::uint32_t revision_of(std::uint32_t number, const SpeculativeRunner* islands) const;
+                              const SpeculativeRunner* runner) const;
+  std::uint32_t revision_of(std::uint32_t number, const SpeculativeRunner* runner) const;
   Result<std::uint32_t> install(BodyMessage& message);
   void link(const BodyMessage& message);
 
   Motion& motion_;
-  RankState& local_;
-  PendingLinks dangling_;
+  RankState& rank_;
+  PendingLinks pending_links_;
   std::optional<std::unordered_map<std::uint32_t, std::vector<BodyMessage::Due>>> loose_;  ///< by number
   /// By number: index of the body's message plus 1 while add_due() collects certificates; 0 otherwise.
-  std::vector<std::uint32_t> places_;
+  std::vector<std::uint32_t> positions_;
 };
 
 }  // namespace kinesphere

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
-#include <string>
 
 #include "number/infinity.hpp"
 

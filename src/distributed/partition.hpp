@@ -1,8 +1,6 @@
 // Partition divides space into one box per rank; together the boxes cover all of space.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <span>
 #include <vector>
 

@@ -37,10 +37,10 @@ class DistributedWorld::RankEngine {
   RankEngine(const WorldDefinition& definition, Motion& motion);
 
   Communicator& communicator() { return communicator_; }
-  const WorldDefinition& definition() const { return local_.bodies().definition(); }
-  double time() const { return local_.time(); }
+  const WorldDefinition& definition() const { return rank_.bodies().definition(); }
+  double time() const { return rank_.time(); }
   /// Collective. See ErrorConsensus::agree().
-  Result<void> agree(const Result<void>& here) { return agreement_.agree(here); }
+  Result<void> agree(const Result<void>& here) { return consensus_.agree(here); }
 
   Result<void> add(std::uint32_t name, const BodyDefinition& body, std::uint32_t number_in_motion);
   Result<void> set_sensor(SensorClass sensor_class, const Sensor& sensor);
@@ -51,33 +51,33 @@ class DistributedWorld::RankEngine {
   static Result<std::unique_ptr<RankEngine>> restore(std::span<const std::vector<std::byte>> parts,
                                                      Motion& motion);
 
-  std::uint64_t own_bodies() const { return local_.directory.own_count(); }
-  const Counters& counters() const { return local_.main.work().counters; }
+  std::uint64_t own_bodies() const { return rank_.directory.own_count(); }
+  const Counters& counters() const { return rank_.main.work().counters; }
   const EventHash& hash() const { return hash_; }
   RankFigures figures() const;
 
  private:
   Result<void> check_body_to_add(std::uint32_t name, const BodyDefinition& body,
                                  std::uint32_t number_in_motion) const;
-  Result<void> check_run(double until, const PoolLease& shift) const;
-  Result<void> go(double until, const OrderedEventFn& sink, PoolLease& shift, SpeculativeRunner& islands);
-  Result<void> settle_arrivals(PoolLease& shift, SpeculativeRunner& islands);
-  Result<double> run_part(double until, double latest, SpeculativeRunner& islands);
-  void tell(const OrderedEventFn& sink);
+  Result<void> check_run(double until, const PoolLease& lease) const;
+  Result<void> go(double until, const OrderedEventFn& sink, PoolLease& lease, SpeculativeRunner& runner);
+  Result<void> start_arrivals(PoolLease& lease, SpeculativeRunner& runner);
+  Result<double> run_batch(double until, double latest, SpeculativeRunner& runner);
+  void deliver(const OrderedEventFn& sink);
   Result<void> resume(const Checkpoint& common, std::vector<Checkpoint>& parts);
 
   Communicator communicator_;
-  ErrorConsensus agreement_;
-  RankState local_;
-  RankSource mover_;
-  Migration transit_;
+  ErrorConsensus consensus_;
+  RankState rank_;
+  RankSource source_;
+  Migration migration_;
   HaloRegions known_;
   Distribution distribution_;
   WindowStarts starts_;
   UniqueNames names_;
   std::deque<OrderedEvent> events_;  ///< events to be reported
   EventHash hash_;                   ///< hash of all committed events
-  std::uint64_t parts_ = 0;
+  std::uint64_t batches_ = 0;
   std::uint64_t rounds_ = 0;
 };
 

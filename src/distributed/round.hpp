@@ -21,20 +21,18 @@ struct JoinList {
     bool is_registered;
     Box box;  ///< around its swept sphere; valid if it is registered
 
-    template <class Self, class Archive>
-    static void serialize(Self& self, Archive& archive) {
-      auto& [named, whose, registered, place] = self;
-      archive(named, whose, registered, place);
+    static void serialize(auto& self, auto& archive) {
+      auto& [name, owner, is_registered, box] = self;
+      archive(name, owner, is_registered, box);
     }
   };
   std::vector<Member> together{};
   /// Names of bodies in the cluster's read set, which the cluster assumes to belong to no cluster.
-  std::vector<std::uint32_t> counted_on{};
+  std::vector<std::uint32_t> read_set{};
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
-    auto& [members, relied_upon] = self;
-    archive(members, relied_upon);
+  static void serialize(auto& self, auto& archive) {
+    auto& [together, read_set] = self;
+    archive(together, read_set);
   }
 };
 
@@ -43,8 +41,7 @@ struct NamedUpdate {
   std::uint32_t name;
   SweptSphereUpdate update;
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
+  static void serialize(auto& self, auto& archive) {
     auto& update = self.update;
     archive(self.name, update.time, update.window.rung, update.window.end, update.bound, update.middle);
   }
@@ -59,10 +56,9 @@ struct RoundMessage {
   std::vector<NamedUpdate> updates{};
 
   bool is_empty() const { return bodies.empty() && lists.empty() && wanted.empty() && updates.empty(); }
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
-    auto& [bodies, islands, names, kicked] = self;
-    archive(bodies, islands, names, kicked);
+  static void serialize(auto& self, auto& archive) {
+    auto& [bodies, lists, wanted, updates] = self;
+    archive(bodies, lists, wanted, updates);
   }
 };
 

@@ -10,13 +10,13 @@
 namespace kinesphere {
 
 Result<void> UniqueNames::check(Communicator& communicator) {
-  SendBuffers outbox(communicator.ranks());
+  SendBuffers buffers(communicator.ranks());
   const auto ranks = static_cast<std::uint32_t>(communicator.ranks());
-  for (const std::uint32_t name : new_) outbox.add(static_cast<int>(name % ranks), name);
+  for (const std::uint32_t name : new_) buffers.add(static_cast<int>(name % ranks), name);
   new_.clear();
   std::vector<std::pair<std::uint32_t, std::size_t>>
       repeated;  // name and the rank that added the second body
-  const std::vector<Communicator::Bytes> incoming = outbox.exchange(communicator);
+  const std::vector<Communicator::Bytes> incoming = buffers.exchange(communicator);
   for (std::size_t from = 0; from < incoming.size(); ++from) {
     ByteReader reader(incoming[from]);
     while (reader.remaining() > 0) {

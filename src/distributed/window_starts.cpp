@@ -5,59 +5,58 @@
 
 #include "archive/archive.hpp"
 #include "distributed/guarded.hpp"
-#include "number/infinity.hpp"
 
 namespace kinesphere {
 
 Arrivals WindowStarts::count_arrivals() {
-  std::vector<std::uint32_t> arrived = local_.main.dirty().arrivals(local_.bodies());
-  std::uint64_t sums[] = {arrived.size(), local_.own_registered(), local_.own_moving()};
+  std::vector<std::uint32_t> arrived = rank_.main.dirty().arrivals(rank_.bodies());
+  std::uint64_t sums[] = {arrived.size(), rank_.own_registered(), rank_.own_moving()};
   communicator_.sum(sums);
   return {std::move(arrived), sums[0], sums[1], sums[2]};
 }
 
-Result<void> WindowStarts::start_with(const Arrivals& arrivals, PoolLease& shift) {
+Result<void> WindowStarts::start_with(const Arrivals& arrivals, PoolLease& lease) {
   std::vector<std::uint32_t> joining = arrivals.here;
   const bool anew = are_many(arrivals.everywhere, arrivals.registered);
   if (anew)
-    std::erase_if(joining, [this](std::uint32_t number) { return local_.bodies()[number].stands_still(); });
+    std::erase_if(joining, [this](std::uint32_t number) { return rank_.bodies()[number].stands_still(); });
   const std::uint64_t all_joining = communicator_.sum(joining.size());
   const bool was_for_few = anew && 2 * all_joining >= arrivals.moving;
-  if (all_joining > 0 && (was_for_few || !local_.state.window_policy.is_chosen()))
-    choose_policy(joining, shift);
+  if (all_joining > 0 && (was_for_few || !rank_.state.window_policy.is_chosen()))
+    choose_policy(joining, lease);
   if (!anew || all_joining == 0) return {};
   const auto probed = guarded([&]() -> Result<void> {
-    auto stale = local_.main.probe_stale(joining, shift);
+    auto stale = rank_.main.probe_stale(joining, lease);
     return stale ? Result<void>() : stale.error();
   });
-  if (auto agreed = agreement_.agree(probed); !agreed) return agreed;
-  return start(shift, true, joining);
+  if (auto agreed = consensus_.agree(probed); !agreed) return agreed;
+  return start(lease, true, joining);
 }
 
-void WindowStarts::choose_policy(std::span<const std::uint32_t> joining, PoolLease& shift) {
-  WindowStart starting(local_.state, local_.main, shift, found_);
-  MotionStatistics statistics = starting.survey(joining);
+void WindowStarts::choose_policy(std::span<const std::uint32_t> joining, PoolLease& lease) {
+  WindowStart starting(rank_.state, rank_.main, lease, found_);
+  MotionStatistics statistics = starting.measure(joining);
   statistics.reduce([this](std::span<std::uint64_t> numbers) { communicator_.sum(numbers); },
                     [this](std::span<double> numbers) { communicator_.least(numbers); });
   starting.choose_policy(statistics);
 }
 
 void WindowStarts::begin_epoch_of_arrivals() {
-  const BroadPhase& windows = local_.state.broad_phase;
-  double end = local_.main.epoch_end();
-  for (std::uint32_t number = 0; number < local_.bodies().numbers(); ++number)
-    if (windows.contains(number) && local_.directory.is_own(number) && windows.end_of(number) > local_.time())
+  const BroadPhase& windows = rank_.state.broad_phase;
+  double end = rank_.main.epoch_end();
+  for (std::uint32_t number = 0; number < rank_.bodies().numbers(); ++number)
+    if (windows.contains(number) && rank_.directory.is_own(number) && windows.end_of(number) > rank_.time())
       end = std::min(end, windows.end_of(number));
-  local_.main.begin_epoch(communicator_.least(end));
+  rank_.main.begin_epoch(communicator_.least(end));
 }
 
 /// Starts the main window. Its length depends on the number of bodies of all ranks that were recertified one
 /// by one since the last main window started.
 void WindowStarts::start_main_window() {
-  const RenewalCounts here = std::exchange(local_.main.work().recertified, {});
+  const RenewalCounts here = std::exchange(rank_.main.work().recertified, {});
   std::uint64_t updates[] = {here.bodies, here.near};
   communicator_.sum(updates);
-  local_.state.window_policy.start_main(local_.time(), {updates[0], updates[1]});
+  rank_.state.window_policy.start_main(rank_.time(), {updates[0], updates[1]});
 }
 
 /// Returns the union of the lists of all ranks, in ascending order.
@@ -76,23 +75,23 @@ std::vector<int> WindowStarts::union_of(const std::vector<int>& held) {
   return all;
 }
 
-Result<void> WindowStarts::start(PoolLease& shift, bool all, std::span<const std::uint32_t> joining) {
-  BroadPhase& windows = local_.state.broad_phase;
-  WindowPolicy& window_policy = local_.state.window_policy;
-  EventProcessor& main = local_.main;
-  const double now = local_.time();
-  WindowStart starting(local_.state, main, shift, found_);
+Result<void> WindowStarts::start(PoolLease& lease, bool all, std::span<const std::uint32_t> joining) {
+  BroadPhase& windows = rank_.state.broad_phase;
+  WindowPolicy& window_policy = rank_.state.window_policy;
+  EventProcessor& main = rank_.main;
+  const double now = rank_.time();
+  WindowStart starting(rank_.state, main, lease, found_);
   std::vector<std::uint32_t> numbers = windows.ended(now, all);
-  std::uint64_t sums[] = {0, joining.size(), local_.own_moving()};
+  std::uint64_t sums[] = {0, joining.size(), rank_.own_moving()};
   distribution_.drop_ghosts(numbers);
   sums[0] = numbers.size();
   communicator_.sum(sums);
   const bool most = 2 * (sums[0] + sums[1]) > sums[2];
-  if (auto probed = agreement_.agree(guarded([&] { return starting.refresh(numbers); })); !probed)
+  if (auto probed = consensus_.agree(guarded([&] { return starting.refresh(numbers); })); !probed)
     return probed;
   if (most) start_main_window();
   windows.end_windows(now, all);
-  std::erase_if(numbers, [this](std::uint32_t number) { return local_.bodies()[number].dirty; });
+  std::erase_if(numbers, [this](std::uint32_t number) { return rank_.bodies()[number].dirty; });
   if (communicator_.rank() == 0) ++main.work().counters.window_ends;
   main.work().counters.starts += numbers.size();
   main.work().counters.restarts += joining.size();
@@ -105,14 +104,14 @@ Result<void> WindowStarts::start(PoolLease& shift, bool all, std::span<const std
       starting.choose_windows(numbers, union_of(windows.held_rungs()), round);
   round.reduce([this](std::span<std::uint64_t> sum) { communicator_.sum(sum); });
   for (const BroadPhase::Starter& starter : starters) {
-    local_.bodies()[starter.number].mark_visited();
-    local_.directory[starter.number].cost += 1.0f;
+    rank_.bodies()[starter.number].mark_visited();
+    rank_.directory[starter.number].cost += 1.0f;
   }
   if (most) distribution_.divide_space(starters);
   if (auto moved = distribution_.migrate(starters); !moved) return moved;
-  if (auto known = distribution_.spread(starters, most); !known) return known;
-  std::uint64_t found[] = {starting.start(starters, &local_.directory.are_ghosts()), 0};
-  found[1] = local_.own_registered();
+  if (auto known = distribution_.update_ghosts(starters, most); !known) return known;
+  std::uint64_t found[] = {starting.start(starters, &rank_.directory.are_ghosts()), 0};
+  found[1] = rank_.own_registered();
   communicator_.sum(found);
   window_policy.finish_start(round, found[0], found[1]);
   main.begin_epoch(communicator_.least(windows.next_end()));

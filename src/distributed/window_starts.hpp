@@ -25,32 +25,32 @@ struct Arrivals {
 /// continue; those of Migration::exchange().
 class WindowStarts {
  public:
-  WindowStarts(Communicator& communicator, ErrorConsensus& agreement, RankState& local,
+  WindowStarts(Communicator& communicator, ErrorConsensus& consensus, RankState& rank_state,
                Distribution& distribution)
-      : communicator_(communicator), agreement_(agreement), local_(local), distribution_(distribution) {}
+      : communicator_(communicator), consensus_(consensus), rank_(rank_state), distribution_(distribution) {}
 
   /// Ends windows and starts new ones, as World::Engine::start_windows() does. Drops ghosts whose windows
   /// end; their owners send them again. `all`: all windows end now. `joining`: added bodies of this rank that
   /// get a window in this bulk start.
-  Result<void> start(PoolLease& shift, bool all, std::span<const std::uint32_t> joining);
+  Result<void> start(PoolLease& lease, bool all, std::span<const std::uint32_t> joining);
 
   /// Counts added and registered bodies over all ranks, for start_with().
   Arrivals count_arrivals();
   /// Does what World::Engine::start_with_arrivals() does: if many bodies were added, all windows restart
   /// together with them. Bodies that stand still, and added bodies that are too few, remain dirty.
-  Result<void> start_with(const Arrivals& arrivals, PoolLease& shift);
+  Result<void> start_with(const Arrivals& arrivals, PoolLease& lease);
   /// Begins an epoch that ends with the earliest window end of all ranks. Precondition: all added bodies have
   /// been recertified.
   void begin_epoch_of_arrivals();
 
  private:
-  void choose_policy(std::span<const std::uint32_t> joining, PoolLease& shift);
+  void choose_policy(std::span<const std::uint32_t> joining, PoolLease& lease);
   void start_main_window();
   std::vector<int> union_of(const std::vector<int>& held);
 
   Communicator& communicator_;
-  ErrorConsensus& agreement_;
-  RankState& local_;
+  ErrorConsensus& consensus_;
+  RankState& rank_;
   Distribution& distribution_;
   std::vector<SearchResults> found_;  ///< search results by worker; kept to reuse their memory
 };

@@ -52,8 +52,10 @@ struct BatchState {
   bool is_in_batch(double time) const { return time < stop && time <= until; }
   /// Returns nullptr if the body is in the state that it had at the start of the batch.
   const BodyCheckpoint* checkpoint_of(std::uint32_t number) const {
-    const std::uint32_t place = number < slots.size() ? slots[number].checkpoint : none;
-    return place < has_checkpoint.size() && has_checkpoint[place] != 0 ? &checkpoints[place] : nullptr;
+    const std::uint32_t checkpoint_index = number < slots.size() ? slots[number].checkpoint : none;
+    return checkpoint_index < has_checkpoint.size() && has_checkpoint[checkpoint_index] != 0
+               ? &checkpoints[checkpoint_index]
+               : nullptr;
   }
 };
 

@@ -1,7 +1,6 @@
 #include "engine/bodies.hpp"
 
 #include "engine/body_bounds.hpp"
-#include "engine/validation.hpp"
 
 namespace kinesphere {
 
@@ -62,8 +61,8 @@ BodyDefinition Bodies::definition_of(std::uint32_t number) const {
     definition = with_motion_limits(definition, change->limits);
     definition.velocity = change->velocity.value_or(bound.velocity);
   }
-  if (const SleepRecord* rest = sleep_records.find(body))
-    definition = with_motion_limits(definition, rest->limits);
+  if (const SleepRecord* record = sleep_records.find(body))
+    definition = with_motion_limits(definition, record->limits);
   return definition;
 }
 

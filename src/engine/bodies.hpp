@@ -91,11 +91,11 @@ class Bodies {
   /// Bodies that are read get ids with tag 0.
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive) {
-    auto& [changed, resting, filtered, at_home, fixed, sensing, definition, space, enclosure, numbered] =
+    auto& [changes, sleep_records, filters, images, shapes, sensors, definition, space, enclosure, table] =
         self;
-    auto& [bodies, live_count, free, tag, names] = numbered;
-    auto& [by_number, pair_filter, any] = filtered;
-    archive(bodies, live_count, changed, resting, by_number, at_home, free, fixed, sensing, any);
+    auto& [bodies, live_count, free, tag, names] = table;
+    auto& [by_number, pair_filter, any] = filters;
+    archive(bodies, live_count, changes, sleep_records, by_number, images, free, shapes, sensors, any);
     if constexpr (!std::is_const_v<Self>) tag = 0;
   }
   /// Returns the name of the part that no sequence of calls could have produced, or nullptr if there is none.

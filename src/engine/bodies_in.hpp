@@ -10,7 +10,7 @@ namespace kinesphere {
 
 /// Returns all bodies that may be in the box now, in ascending order. Cost: one search, plus one step for
 /// each body in the dirty list.
-std::vector<std::uint32_t> bodies_in(const Box& box, const WorldState& tables, const DirtyList& unsettled,
+std::vector<std::uint32_t> bodies_in(const Box& box, const WorldState& state, const DirtyList& dirty,
                                      double now);
 
 }  // namespace kinesphere

@@ -120,18 +120,18 @@ bool Bodies::is_valid(std::uint32_t number, double now) const {
 
 /// Checks the motion limits that take effect later; definition_of() returns only one set of them.
 bool Bodies::limits_are_valid(const Body& body, BodyDefinition definition) const {
-  const auto is_promise = [&](const MotionLimits& limits) {
+  const auto are_limits = [&](const MotionLimits& limits) {
     return static_cast<bool>(
         check_limits(with_motion_limits(definition, limits), no_body, definition_, "restore"));
   };
   const Change* change = changes.find(body);
-  const SleepRecord* rest = sleep_records.find(body);
-  if (change && !(is_promise(change->limits) &&
+  const SleepRecord* record = sleep_records.find(body);
+  if (change && !(are_limits(change->limits) &&
                   (!change->velocity || check_velocity(*change->velocity, no_body, definition_, "restore"))))
     return false;
-  if (rest && !is_promise(rest->limits)) return false;
+  if (record && !are_limits(record->limits)) return false;
   definition.position_error = body.position_error;
-  return is_promise(motion_limits_of(definition));
+  return are_limits(motion_limits_of(definition));
 }
 
 /// A static body must equal the body that its shape defines.
@@ -151,13 +151,13 @@ bool Bodies::is_valid_static(std::uint32_t number, double now) const {
 /// A sleeping body is present and not static; its bound stands still unless a change still waits for a
 /// report.
 bool Bodies::sleep_is_valid(const Body& body) const {
-  const SleepRecord* rest = sleep_records.find(body);
-  if (!rest) return true;
+  const SleepRecord* record = sleep_records.find(body);
+  if (!record) return true;
   Bound still = body.bound;
   still.velocity = still.planned_acceleration = {};
   still.growth_speed = still.growth_acceleration = 0.0;
   return body.present() && (!body.is_at_rest() || same(still, body.bound)) &&
-         rest->limits.position_error == body.position_error;
+         record->limits.position_error == body.position_error;
 }
 
 }  // namespace kinesphere

@@ -56,12 +56,11 @@ struct Body {
   bool fresh(double time) const { return bound.time == time || is_static() || is_at_rest(); }
   double largest_acceleration() const { return bound.growth_acceleration + norm(bound.planned_acceleration); }
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
-    auto& [since_report, own_stamp, lives, takes_part, unsettled, is_settled, has_come, touches, senses_as,
-           own_shape, own_change, own_generation, own_rest, size, error, data] = self;
-    archive(since_report, own_stamp, lives, takes_part, unsettled, is_settled, has_come, touches, senses_as,
-            own_shape, own_change, own_generation, own_rest, size, error, data);
+  static void serialize(auto& self, auto& archive) {
+    auto& [bound, revision, alive, enabled, dirty, visited, relocated, solid, sensor_class, shape_number,
+           change_number, generation, sleep_number, radius, position_error, user_data] = self;
+    archive(bound, revision, alive, enabled, dirty, visited, relocated, solid, sensor_class, shape_number,
+            change_number, generation, sleep_number, radius, position_error, user_data);
   }
 };
 static_assert(sizeof(Body) <= 168);
@@ -73,10 +72,9 @@ struct Change {
   std::optional<Vec3> velocity{};  ///< new velocity, if it was set
   MotionLimits limits{};
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
-    auto& [whose, velocity, promised] = self;
-    archive(whose, velocity, promised);
+  static void serialize(auto& self, auto& archive) {
+    auto& [body, velocity, limits] = self;
+    archive(body, velocity, limits);
   }
 };
 
@@ -85,10 +83,9 @@ struct SleepRecord {
   std::uint32_t body = 0;
   MotionLimits limits{};
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
-    auto& [whose, awake] = self;
-    archive(whose, awake);
+  static void serialize(auto& self, auto& archive) {
+    auto& [body, limits] = self;
+    archive(body, limits);
   }
 };
 

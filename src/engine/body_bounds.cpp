@@ -1,7 +1,6 @@
 #include "engine/body_bounds.hpp"
 
 #include "engine/validation.hpp"
-#include "kinesphere/limits.hpp"
 
 namespace kinesphere {
 namespace {

@@ -32,7 +32,7 @@ inline CollisionShape collision_shape_of(const Bodies& bodies, std::uint32_t num
 /// Returns the shift that moves body b to the image in which body a may meet it while both windows last.
 /// Requires periodic space.
 inline Vec3 shift_to_meet(const Bodies& bodies, std::uint32_t a, std::uint32_t b) {
-  return bodies.space().shift_between_homes(bodies.images[b].middle, bodies.images[a].middle);
+  return bodies.space().shift_between_images(bodies.images[b].middle, bodies.images[a].middle);
 }
 /// Calls visit_shapes() for two bodies, in the image in which they may meet before the earlier window end.
 /// Worlds without static bodies and without periodic space take the shortest path.

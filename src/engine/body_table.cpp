@@ -44,10 +44,10 @@ std::uint32_t BodyTable::take(std::uint32_t name) {
 void BodyTable::give_back(std::uint32_t number) {
   Body& body = bodies_[number];
   const std::uint32_t generation = body.generation + 1;
-  const std::uint32_t stamp = body.revision;
+  const std::uint32_t revision = body.revision;
   body = Body{};
   body.generation = generation;
-  body.revision = stamp;
+  body.revision = revision;
   free_.push_back(number);
   --live_count_;
 }

@@ -3,7 +3,6 @@
 
 #include <string_view>
 
-#include "kinesphere/filter.hpp"
 #include "kinesphere/result.hpp"
 
 namespace kinesphere {

@@ -35,10 +35,10 @@ void append(std::vector<T>& list, IndexRange& stretch, const T& one) {
 }  // namespace
 
 void Clusters::form(std::span<const PairCertificate> due, const Bodies& bodies,
-                    std::vector<BatchState::BodySlot>& places) {
+                    std::vector<BatchState::BodySlot>& slots) {
   bodies_ = &bodies;
-  slots_ = &places;
-  places.resize(bodies.numbers());
+  slots_ = &slots;
+  slots.resize(bodies.numbers());
   merge_bodies(due);
   distribute(due);
 }
@@ -57,28 +57,28 @@ std::uint32_t Clusters::mobile_of(const PairCertificate& pair) const {
 
 /// Returns the index of a body, assigned in order of first occurrence.
 std::uint32_t Clusters::index_of(std::uint32_t number) {
-  std::uint32_t& place = (*slots_)[number].checkpoint;
-  if (place == BatchState::none) {
-    place = static_cast<std::uint32_t>(parents_.size());
-    parents_.push_back(place);
+  std::uint32_t& node = (*slots_)[number].checkpoint;
+  if (node == BatchState::none) {
+    node = static_cast<std::uint32_t>(parents_.size());
+    parents_.push_back(node);
     numbers_.push_back(number);
   }
-  return place;
+  return node;
 }
 
-std::uint32_t Clusters::root_at(std::uint32_t place) {
-  while (parents_[place] != place) place = parents_[place] = parents_[parents_[place]];
-  return place;
+std::uint32_t Clusters::root_at(std::uint32_t node) {
+  while (parents_[node] != node) node = parents_[node] = parents_[parents_[node]];
+  return node;
 }
 
 void Clusters::merge_bodies(std::span<const PairCertificate> due) {
   parents_.clear();
   numbers_.clear();
-  const bool any_fixed = bodies_->shapes.any();
+  const bool any_static = bodies_->shapes.any();
   for (const PairCertificate& pair : due) {
     const std::uint32_t one = root_at(index_of(mobile_of(pair)));
     if (!pair.has_second()) continue;
-    if (any_fixed && ((*bodies_)[pair.first].is_static() || (*bodies_)[pair.second].is_static())) continue;
+    if (any_static && ((*bodies_)[pair.first].is_static() || (*bodies_)[pair.second].is_static())) continue;
     const std::uint32_t other = root_at(index_of(pair.second));
     parents_[std::max(one, other)] = std::min(one, other);
   }
@@ -86,28 +86,28 @@ void Clusters::merge_bodies(std::span<const PairCertificate> due) {
 
 /// Sorts bodies and pairs by cluster.
 void Clusters::distribute(std::span<const PairCertificate> due) {
-  for (std::uint32_t place = 0; place < parents_.size(); ++place) {
+  for (std::uint32_t node = 0; node < parents_.size(); ++node) {
     // The root has the smallest index of its cluster, so its cluster exists already.
-    const std::uint32_t top = root_at(place);
-    const std::uint32_t own = top == place ? add().index : (*slots_)[numbers_[top]].cluster;
-    (*slots_)[numbers_[place]].cluster = own;
-    ++clusters_[own].members.end;
+    const std::uint32_t top = root_at(node);
+    const std::uint32_t index = top == node ? add().index : (*slots_)[numbers_[top]].cluster;
+    (*slots_)[numbers_[node]].cluster = index;
+    ++clusters_[index].members.end;
   }
   for (const PairCertificate& pair : due) ++clusters_[(*slots_)[mobile_of(pair)].cluster].due.end;
   std::uint32_t members = 0;
   std::uint32_t pairs = 0;
-  for (Cluster& group : all()) {
-    members += group.members.end;
-    pairs += group.due.end;
-    group.members = {members - group.members.end, members - group.members.end};
-    group.due = {pairs - group.due.end, pairs - group.due.end};
+  for (Cluster& cluster : all()) {
+    members += cluster.members.end;
+    pairs += cluster.due.end;
+    cluster.members = {members - cluster.members.end, members - cluster.members.end};
+    cluster.due = {pairs - cluster.due.end, pairs - cluster.due.end};
   }
   members_.resize(members);
   due_.resize(pairs);
   for (const std::uint32_t number : numbers_) {
-    BatchState::BodySlot& place = (*slots_)[number];
-    place.checkpoint = clusters_[place.cluster].members.end++;
-    members_[place.checkpoint] = number;
+    BatchState::BodySlot& slot = (*slots_)[number];
+    slot.checkpoint = clusters_[slot.cluster].members.end++;
+    members_[slot.checkpoint] = number;
   }
   for (const PairCertificate& pair : due)
     due_[clusters_[(*slots_)[mobile_of(pair)].cluster].due.end++] = pair;
@@ -116,37 +116,37 @@ void Clusters::distribute(std::span<const PairCertificate> due) {
 
 Cluster& Clusters::add() {
   if (clusters_.size() == count_) clusters_.emplace_back();
-  Cluster& group = clusters_[count_];
-  group.index = group.merged_into = static_cast<std::uint32_t>(count_++);
-  group.needs_run = group.is_unsent = true;
-  group.executed = group.has_run = group.updates_are_checked = group.failed = false;
-  group.runs = group.superseded = 0;
-  group.members = group.due = {};
-  group.record = {};
-  group.dirty.clear();
-  group.pending.clear();
-  return group;
+  Cluster& cluster = clusters_[count_];
+  cluster.index = cluster.merged_into = static_cast<std::uint32_t>(count_++);
+  cluster.needs_run = cluster.is_unsent = true;
+  cluster.executed = cluster.has_run = cluster.updates_are_checked = cluster.failed = false;
+  cluster.runs = cluster.superseded = 0;
+  cluster.members = cluster.due = {};
+  cluster.record = {};
+  cluster.dirty.clear();
+  cluster.pending.clear();
+  return cluster;
 }
 
-Cluster& Clusters::root_of(std::uint32_t own) {
-  while (clusters_[own].merged_into != own) own = clusters_[own].merged_into;
-  return clusters_[own];
+Cluster& Clusters::root_of(std::uint32_t index) {
+  while (clusters_[index].merged_into != index) index = clusters_[index].merged_into;
+  return clusters_[index];
 }
 
 Cluster* Clusters::cluster_of(std::uint32_t number) {
-  const std::uint32_t own = number < slots_->size() ? (*slots_)[number].cluster : BatchState::unassigned;
-  return own == BatchState::unassigned ? nullptr : &root_of(own);
+  const std::uint32_t index = number < slots_->size() ? (*slots_)[number].cluster : BatchState::unassigned;
+  return index == BatchState::unassigned ? nullptr : &root_of(index);
 }
 
-void Clusters::add_member(Cluster& group, std::uint32_t number) {
-  assert(!group.is_merged());
-  (*slots_)[number].cluster = group.index;
+void Clusters::add_member(Cluster& cluster, std::uint32_t number) {
+  assert(!cluster.is_merged());
+  (*slots_)[number].cluster = cluster.index;
   (*slots_)[number].checkpoint = static_cast<std::uint32_t>(checkpoint_count_++);
-  append(members_, group.members, number);
-  group.is_unsent = true;
+  append(members_, cluster.members, number);
+  cluster.is_unsent = true;
 }
 
-void Clusters::add_due(Cluster& group, const PairCertificate& pair) { append(due_, group.due, pair); }
+void Clusters::add_due(Cluster& cluster, const PairCertificate& pair) { append(due_, cluster.due, pair); }
 
 Cluster& Clusters::merge(Cluster& one, Cluster& other) {
   assert(&one != &other && !one.is_merged() && !other.is_merged());

@@ -43,20 +43,22 @@ class Clusters {
  public:
   /// Forms the clusters of a batch: bodies connected by due pairs share a cluster.
   void form(std::span<const PairCertificate> due, const Bodies& bodies,
-            std::vector<BatchState::BodySlot>& places);
+            std::vector<BatchState::BodySlot>& slots);
   /// Removes all clusters; call at the end of a batch.
   void clear();
 
   /// Returns all clusters, including merged ones. A cluster is merged only into one with a smaller index.
   std::span<Cluster> all() { return std::span(clusters_).first(count_); }
   std::span<const Cluster> all() const { return std::span(clusters_).first(count_); }
-  Cluster& operator[](std::uint32_t own) { return clusters_[own]; }
-  const Cluster& operator[](std::uint32_t own) const { return clusters_[own]; }
+  Cluster& operator[](std::uint32_t index) { return clusters_[index]; }
+  const Cluster& operator[](std::uint32_t index) const { return clusters_[index]; }
   std::size_t size() const { return count_; }
-  std::span<const std::uint32_t> members_of(const Cluster& group) const { return group.members.of(members_); }
-  std::span<const PairCertificate> due_of(const Cluster& group) const { return group.due.of(due_); }
+  std::span<const std::uint32_t> members_of(const Cluster& cluster) const {
+    return cluster.members.of(members_);
+  }
+  std::span<const PairCertificate> due_of(const Cluster& cluster) const { return cluster.due.of(due_); }
   /// Follows merges to the cluster that finally contains this one.
-  Cluster& root_of(std::uint32_t own);
+  Cluster& root_of(std::uint32_t index);
   /// Returns nullptr if the body belongs to no cluster.
   Cluster* cluster_of(std::uint32_t number);
   /// Returns the number of bodies in clusters; each BodySlot::checkpoint is smaller.
@@ -64,8 +66,8 @@ class Clusters {
 
   // add_member() and add_due() require a cluster that is not merged.
   Cluster& add();
-  void add_member(Cluster& group, std::uint32_t number);
-  void add_due(Cluster& group, const PairCertificate& pair);
+  void add_member(Cluster& cluster, std::uint32_t number);
+  void add_due(Cluster& cluster, const PairCertificate& pair);
   /// Merges two different clusters into the one with the smaller index, which is returned. Precondition:
   /// neither is merged already.
   Cluster& merge(Cluster& one, Cluster& other);
@@ -74,7 +76,7 @@ class Clusters {
   void merge_bodies(std::span<const PairCertificate> due);
   void distribute(std::span<const PairCertificate> due);
   std::uint32_t index_of(std::uint32_t number);
-  std::uint32_t root_at(std::uint32_t place);
+  std::uint32_t root_at(std::uint32_t node);
   std::uint32_t mobile_of(const PairCertificate& pair) const;
 
   std::vector<BatchState::BodySlot>* slots_ = nullptr;  ///< by body number

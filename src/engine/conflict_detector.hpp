@@ -18,8 +18,8 @@ class ConflictDetector {
   /// Resets the detector; call at the start of a batch.
   void clear();
   /// Records that these clusters have been executed.
-  void note_runs(std::span<const std::uint32_t> groups) {
-    unchecked_.insert(unchecked_.end(), groups.begin(), groups.end());
+  void note_runs(std::span<const std::uint32_t> clusters) {
+    unchecked_.insert(unchecked_.end(), clusters.begin(), clusters.end());
   }
   /// Adds an update of a body that another process executes.
   void add_foreign(const SweptSphereUpdate& update) { foreign_.push_back(update); }
@@ -27,10 +27,12 @@ class ConflictDetector {
   /// Collects the updates of all executed clusters and of other processes. The first ones, whose number is
   /// returned, have not been compared yet and count as compared afterwards. Leaves `updates` empty if there
   /// are none.
-  std::size_t take(Clusters& groups, const RunPool& pool, std::vector<ClusterUpdate>& updates);
+  std::size_t take(Clusters& clusters, const RunPool& pool, std::vector<ClusterUpdate>& updates);
 
   /// Records that a cluster may meet a body whose velocity another process changes.
-  void note_conflict(std::uint32_t group, std::uint32_t number) { conflicts_.emplace_back(group, number); }
+  void note_conflict(std::uint32_t cluster, std::uint32_t number) {
+    conflicts_.emplace_back(cluster, number);
+  }
   std::vector<std::pair<std::uint32_t, std::uint32_t>> take_conflicts() {
     return std::exchange(conflicts_, {});
   }

@@ -23,21 +23,23 @@ double conflict_of(const Bodies& bodies, const SweptSphereUpdate& earlier, const
   const double until = apart_until(bodies, known(earlier), known(later), now);
   // A later report only shrinks a bound, so two bodies certified apart stay apart. The order of changes at
   // one instant is not known across clusters.
-  const bool as_kicked = earlier.time < now && now < earlier.first_change.changed;
-  return as_kicked || earlier.first_change.invalidated < now || until == infinity ? until : Conflict::unknown;
+  const bool had_velocity_changed = earlier.time < now && now < earlier.first_change.changed;
+  return had_velocity_changed || earlier.first_change.invalidated < now || until == infinity
+             ? until
+             : Conflict::unknown;
 }
 
 }  // namespace
 
-std::vector<Conflict> find_conflicts(const WorldState& tables, std::span<const ClusterUpdate> updates,
-                                     std::size_t fresh, double begin, PoolLease& shift) {
-  const Bodies& bodies = tables.bodies;
+std::vector<Conflict> find_conflicts(const WorldState& state, std::span<const ClusterUpdate> updates,
+                                     std::size_t fresh, double begin, PoolLease& lease) {
+  const Bodies& bodies = state.bodies;
   const auto bound_at_begin = [&](std::uint32_t k) {
     const SweptSphereUpdate& update = *updates[k].update;
     return margin_for(bodies, update.number, BoundAt(update.bound, begin));
   };
   std::vector<BroadPhase::Starter> starters(fresh);
-  shift.parallel_for(fresh, updates_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
+  lease.parallel_for(fresh, updates_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
     for (std::size_t k = from; k < to; ++k) {
       const auto number = static_cast<std::uint32_t>(k);
       const Window& window = updates[k].update->window;
@@ -45,9 +47,9 @@ std::vector<Conflict> find_conflicts(const WorldState& tables, std::span<const C
     }
   });
   BroadPhase windows(bodies.space());
-  windows.start(starters, begin, bound_at_begin, shift);
-  std::vector<NeighbourSearch> searches(shift.count());
-  std::vector<std::vector<Conflict>> meeting(shift.count());
+  windows.start(starters, begin, bound_at_begin, lease);
+  std::vector<NeighbourSearch> searches(lease.count());
+  std::vector<std::vector<Conflict>> meeting(lease.count());
   const auto compare = [&](std::uint32_t a, std::uint32_t b, std::size_t worker) {
     if (updates[a].cluster == updates[b].cluster) return;
     const bool in_order = updates[a].update->time < updates[b].update->time;
@@ -57,11 +59,11 @@ std::vector<Conflict> find_conflicts(const WorldState& tables, std::span<const C
     if (until < infinity)
       meeting[worker].push_back({a, b, until, earlier.first_change.invalidated < later.time});
   };
-  shift.parallel_for(fresh, updates_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
+  lease.parallel_for(fresh, updates_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
     for (const auto& [a, b] : searches[worker].near_started(windows, from, to, begin, bound_at_begin))
       compare(a, b, worker);
   });
-  shift.parallel_for(
+  lease.parallel_for(
       updates.size() - fresh, updates_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
         for (auto k = static_cast<std::uint32_t>(fresh + from); k < fresh + to; ++k) {
           const double end = updates[k].update->window.end;

@@ -35,7 +35,7 @@ struct Conflict {
 /// Returns the pairs of updates of different clusters whose bodies may meet while both windows last. At least
 /// one of each pair is among the first `fresh` updates. Each update is searched for as if it existed from
 /// `begin` on. Cost: a window start for the fresh updates, plus one search for each other update.
-std::vector<Conflict> find_conflicts(const WorldState& tables, std::span<const ClusterUpdate> updates,
-                                     std::size_t fresh, double begin, PoolLease& shift);
+std::vector<Conflict> find_conflicts(const WorldState& state, std::span<const ClusterUpdate> updates,
+                                     std::size_t fresh, double begin, PoolLease& lease);
 
 }  // namespace kinesphere

@@ -19,10 +19,10 @@ class CrossClusterPairs {
   }
   /// Calls visit(pair) for each pair of which neither cluster has been rolled back or merged since note().
   template <class Visit>
-  void for_each_standing(const Clusters& groups, Visit visit) const {
-    const auto stands = [&](std::uint32_t own, std::uint32_t attempt) {
-      const Cluster& group = groups[own];
-      return !group.is_merged() && group.executed && group.runs == attempt;
+  void for_each_standing(const Clusters& clusters, Visit visit) const {
+    const auto stands = [&](std::uint32_t index, std::uint32_t run) {
+      const Cluster& cluster = clusters[index];
+      return !cluster.is_merged() && cluster.executed && cluster.runs == run;
     };
     for (const Entry& late : entries_)
       if (stands(late.one, late.run_of_one) && stands(late.other, late.run_of_other)) visit(late.pair);

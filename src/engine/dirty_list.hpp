@@ -45,10 +45,7 @@ class DirtyList {
   }
   void clear() { numbers_.clear(); }
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
-    archive(self.numbers_);
-  }
+  static void serialize(auto& self, auto& archive) { archive(self.numbers_); }
 
  private:
   std::vector<std::uint32_t> numbers_;

@@ -1,10 +1,6 @@
 // The clock of a world: the order of window starts, rechecks and events.
 #include "engine/engine.hpp"
 
-#include <algorithm>
-
-#include "number/infinity.hpp"
-
 namespace kinesphere {
 
 World::Engine::Engine(const WorldDefinition& definition)
@@ -22,7 +18,7 @@ Result<std::optional<Event>> World::Engine::advance(double until, const Probe& p
     if (!main_.events().is_quiet()) {
       if (std::optional<Event> event = main_.pop()) return event;
     }
-    if (auto settled = recertify(alone); !settled) return settled.error();
+    if (auto recertified = recertify(alone); !recertified) return recertified.error();
     if (!main_.events().pending().empty()) continue;
     const double next = std::min(main_.epoch_end(), main_.next_time());
     if (next > until) {
@@ -33,20 +29,20 @@ Result<std::optional<Event>> World::Engine::advance(double until, const Probe& p
   }
 }
 
-Result<bool> World::Engine::run_epoch(double until, const Probe& probe, PoolLease& shift,
-                                      SpeculativeRunner& islands, std::deque<Event>& events) {
+Result<bool> World::Engine::run_epoch(double until, const Probe& probe, PoolLease& lease,
+                                      SpeculativeRunner& runner, std::deque<Event>& events) {
   main_.reports().ask(probe, "advance");
   if (main_.is_gathering() || !main_.events().is_quiet()) return false;
   if (main_.epoch_end() <= time()) {
-    if (auto started = start_windows(shift, false); !started) return started.error();
+    if (auto started = start_windows(lease, false); !started) return started.error();
     if (!main_.events().is_quiet()) {
       // As in advance(), all events of an instant are known before the first is delivered.
       main_.begin_instant(time());
       return false;
     }
   }
-  if (auto settled = recertify(shift); !settled) return settled.error();
-  return main_.is_certified() && islands.run(until, events);
+  if (auto recertified = recertify(lease); !recertified) return recertified.error();
+  return main_.is_certified() && runner.run(until, events);
 }
 
 /// Starts the windows that end at this instant, then rechecks all certificates that are due.
@@ -55,15 +51,15 @@ Result<void> World::Engine::gather() {
   if (main_.epoch_end() <= time()) {
     if (auto started = start_windows(alone, false); !started) return started;
   }
-  if (auto settled = recertify(alone); !settled) return settled;
+  if (auto recertified = recertify(alone); !recertified) return recertified;
   return main_.gather();
 }
 
 /// Restarts all windows if many bodies were relocated; otherwise recertifies dirty bodies one by one.
-Result<void> World::Engine::recertify(PoolLease& shift) {
+Result<void> World::Engine::recertify(PoolLease& lease) {
   main_.recertify_changed();
   if (!main_.dirty().empty()) {
-    if (auto started = start_with_arrivals(shift); !started) return started;
+    if (auto started = start_with_arrivals(lease); !started) return started;
   }
   return main_.recertify();
 }

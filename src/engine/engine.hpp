@@ -10,7 +10,6 @@
 #include <optional>
 #include <span>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "engine/bodies_in.hpp"
@@ -35,10 +34,10 @@ class World::Engine {
   /// Processes many events concurrently (speculative_runner.hpp), up to `until` or to the end of a batch of
   /// the epoch, and appends them to `events`. Results are those of advance(). Returns false if speculation is
   /// impossible or does not pay until the end of the epoch; the caller then uses advance().
-  Result<bool> run_epoch(double until, const Probe& probe, PoolLease& shift, SpeculativeRunner& islands,
+  Result<bool> run_epoch(double until, const Probe& probe, PoolLease& lease, SpeculativeRunner& runner,
                          std::deque<Event>& events);
-  SpeculativeRunner runner(PoolLease& shift, const Probe& probe, ResponseHandler* handler) {
-    return {state_, main_, shift, probe, handler};
+  SpeculativeRunner runner(PoolLease& lease, const Probe& probe, ResponseHandler* handler) {
+    return {state_, main_, lease, probe, handler};
   }
   double epoch_end() const { return main_.epoch_end(); }
   /// Returns true if there is work to do before time can advance.
@@ -80,10 +79,10 @@ class World::Engine {
   class Audit;
 
   // epochs.cpp and engine.cpp
-  Result<void> start_windows(PoolLease& shift, bool all, std::span<const std::uint32_t> joining = {});
-  Result<void> start_with_arrivals(PoolLease& shift);
+  Result<void> start_windows(PoolLease& lease, bool all, std::span<const std::uint32_t> joining = {});
+  Result<void> start_with_arrivals(PoolLease& lease);
   Result<void> gather();
-  Result<void> recertify(PoolLease& shift);
+  Result<void> recertify(PoolLease& lease);
 
   // snapshot.cpp
   template <class Self, class Archive>

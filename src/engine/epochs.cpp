@@ -8,7 +8,7 @@ namespace kinesphere {
 
 /// Restarts all windows if many bodies were relocated since the last window start. Recertifying that many
 /// bodies one by one would cost more.
-Result<void> World::Engine::start_with_arrivals(PoolLease& shift) {
+Result<void> World::Engine::start_with_arrivals(PoolLease& lease) {
   std::vector<std::uint32_t> joining = main_.dirty().arrivals(bodies());
   const bool anew = are_many(joining.size(), broad_phase().size());
   if (anew) {
@@ -16,14 +16,14 @@ Result<void> World::Engine::start_with_arrivals(PoolLease& shift) {
       return bodies()[number].is_static() || bodies()[number].stands_still();
     });
   }
-  WindowStart starting(state_, main_, shift, found_);
+  WindowStart starting(state_, main_, lease, found_);
   // A window policy that was chosen for few bodies may be far off for many.
   const bool was_for_few = anew && 2 * joining.size() >= broad_phase().moving();
   if (!joining.empty() && (was_for_few || !state_.window_policy.is_chosen()))
-    starting.choose_policy(starting.survey(joining));
+    starting.choose_policy(starting.measure(joining));
   if (!anew || joining.empty()) return {};
-  if (auto probed = main_.probe_stale(joining, shift); !probed) return probed.error();
-  if (auto started = start_windows(shift, true, joining); !started) return started;
+  if (auto probed = main_.probe_stale(joining, lease); !probed) return probed.error();
+  if (auto started = start_windows(lease, true, joining); !started) return started;
   // Bodies for which no window was found stay dirty.
   for (const std::uint32_t number : joining)
     if (broad_phase().contains(number)) state_.bodies[number].mark_visited();
@@ -32,12 +32,12 @@ Result<void> World::Engine::start_with_arrivals(PoolLease& shift) {
 
 /// Starts new windows for the bodies whose windows have ended, or for all if `all`, together with the bodies
 /// `joining`.
-Result<void> World::Engine::start_windows(PoolLease& shift, bool all,
+Result<void> World::Engine::start_windows(PoolLease& lease, bool all,
                                           std::span<const std::uint32_t> joining) {
   BroadPhase& windows = state_.broad_phase;
   WindowPolicy& window_policy = state_.window_policy;
   const double now = time();
-  WindowStart starting(state_, main_, shift, found_);
+  WindowStart starting(state_, main_, lease, found_);
   std::vector<std::uint32_t> numbers = windows.ended(now, all);
   const bool most = 2 * (numbers.size() + joining.size()) > windows.moving();
   if (auto probed = starting.refresh(numbers); !probed) return probed;

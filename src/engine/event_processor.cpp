@@ -2,9 +2,6 @@
 // they changed are recertified before time advances.
 #include "engine/event_processor.hpp"
 
-#include <algorithm>
-
-#include "archive/fields.hpp"
 #include "archive/heap_counter.hpp"
 #include "engine/sleeping.hpp"
 
@@ -12,12 +9,12 @@ namespace kinesphere {
 
 Result<void> EventProcessor::gather() {
   for (;;) {
-    if (auto settled = recertify(); !settled) return settled;
+    if (auto recertified = recertify(); !recertified) return recertified;
     if (next_time() > time_) break;
     const PairCertificate pair = queue_.first();
     queue_.drop_first();
     if (certifier().is_stale(pair)) continue;
-    if (auto looked = recheck(pair); !looked) return looked;
+    if (auto rechecked = recheck(pair); !rechecked) return rechecked;
   }
   gathering_ = false;
   return {};
@@ -63,28 +60,28 @@ Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers) {
   return probe(numbers, alone);
 }
 
-Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers, PoolLease& shift) {
+Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers, PoolLease& lease) {
   // Probes are counted first, so that a probe that throws leaves the same state as one that gives no answer.
   work_.counters.probes += numbers.size();
   if (log_)
     for (const std::uint32_t number : numbers) log_->note_change(number, time_);
-  const auto broken = reports_.take(bodies(), time_, numbers, shift);
+  const auto broken = reports_.take(bodies(), time_, numbers, lease);
   if (!broken) return broken.error();
-  for (const auto& [k, velocity, promise] : *broken) {
+  for (const auto& [k, velocity, violation] : *broken) {
     Sphere reported = sphere(numbers[k]);
     reported.state.velocity = velocity;
-    events_.queue(violation_event(time_, reported, promise));
+    events_.queue(violation_event(time_, reported, violation));
     invalidate(numbers[k]);
   }
   return {};
 }
 
-Result<bool> EventProcessor::probe_stale(std::span<const std::uint32_t> numbers, PoolLease& shift) {
+Result<bool> EventProcessor::probe_stale(std::span<const std::uint32_t> numbers, PoolLease& lease) {
   std::vector<std::uint32_t> stale;
   for (const std::uint32_t number : numbers)
     if (bodies()[number].enabled && !bodies()[number].fresh(time_)) stale.push_back(number);
   if (stale.empty()) return false;
-  if (auto probed = probe(stale, shift); !probed) return probed.error();
+  if (auto probed = probe(stale, lease); !probed) return probed.error();
   return true;
 }
 
@@ -122,7 +119,7 @@ Result<void> EventProcessor::recertify() {
   recertify_changed();
   // Reports can violate bounds, which makes further bodies dirty.
   while (!dirty_.empty()) {
-    if (auto settled = recertify_dirty(); !settled) return settled;
+    if (auto recertified = recertify_dirty(); !recertified) return recertified;
   }
   return {};
 }

@@ -43,10 +43,10 @@ namespace kinesphere {
 
 class alignas(128) EventProcessor {
  public:
-  EventProcessor(WorldState& tables, double time) : state_(&tables), time_(time) {}
-  /// Copies a processor, to work on `tables`, a copy of the other's world state.
-  EventProcessor(EventProcessor other, WorldState& tables) : EventProcessor(std::move(other)) {
-    state_ = &tables;
+  EventProcessor(WorldState& state, double time) : state_(&state), time_(time) {}
+  /// Copies a processor, to work on `state`, a copy of the other's world state.
+  EventProcessor(EventProcessor other, WorldState& state) : EventProcessor(std::move(other)) {
+    state_ = &state;
   }
 
   double time() const { return time_; }
@@ -72,7 +72,7 @@ class alignas(128) EventProcessor {
   bool is_gathering() const { return gathering_; }
   /// Returns the earliest failure time in the queue; +infinity if the queue is empty.
   double next_time() {
-    queue_.open([facts = certifier()](const PairCertificate& pair) { return facts.is_stale(pair); });
+    queue_.open([certifier = certifier()](const PairCertificate& pair) { return certifier.is_stale(pair); });
     return queue_.next_time();
   }
   void advance_clock(double time) {
@@ -120,14 +120,14 @@ class alignas(128) EventProcessor {
   const Reports& reports() const { return reports_; }
   Result<void> probe(std::span<const std::uint32_t> numbers);
   /// Probes as above; several threads may call the probe concurrently.
-  Result<void> probe(std::span<const std::uint32_t> numbers, PoolLease& shift);
+  Result<void> probe(std::span<const std::uint32_t> numbers, PoolLease& lease);
   /// Probes the enabled bodies whose state at the current time is unknown. Returns true if there were any.
-  Result<bool> probe_stale(std::span<const std::uint32_t> numbers, PoolLease& shift);
+  Result<bool> probe_stale(std::span<const std::uint32_t> numbers, PoolLease& lease);
 
   /// Starts the execution of a cluster at the start of its batch. Its initial work is certificates that are
   /// due, bodies to recertify first, and events that are known already.
-  void begin(SpeculationLog& log, std::span<const PairCertificate> due,
-             std::span<const std::uint32_t> unsettled, std::span<const Event> pending);
+  void begin(SpeculationLog& log, std::span<const PairCertificate> due, std::span<const std::uint32_t> dirty,
+             std::span<const Event> pending);
 
   // Epoch.
   /// Returns the end of the epoch. No window ends earlier, except for those of bodies that were recertified
@@ -136,15 +136,13 @@ class alignas(128) EventProcessor {
   void begin_epoch(double end) { epoch_end_ = end; }
 
   /// Serializes all fields of a snapshot except the queue, which is archived separately.
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
+  static void serialize(auto& self, auto& archive) {
     archive(self.events_, self.time_, self.epoch_end_, self.dirty_, self.gathering_, self.work_.counters,
             self.work_.recertified);
   }
   std::size_t bytes() const;
 
  private:
-  class RequeueGuard;
   WindowChoice window_choice() const { return {*state_, time_}; }
   Bodies& bodies() { return state_->bodies; }
   const Bodies& bodies() const { return state_->bodies; }
@@ -171,7 +169,7 @@ class alignas(128) EventProcessor {
   std::optional<double> decide_walls(std::uint32_t number);
   template <class Partner>
   std::optional<double> decide(const ContactPredictor<Partner>& predictor, const Threshold& threshold,
-                               Event current, const RelativeLimits& promise);
+                               Event current, const RelativeLimits& limits);
   Result<void> probe_staler(std::uint32_t a, std::uint32_t b);
   Sphere sphere(std::uint32_t number) const { return sphere_at(bodies(), time_, number); }
   Event contact(EventKind kind, std::uint32_t a, std::uint32_t b) const;

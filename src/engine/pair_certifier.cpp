@@ -1,6 +1,5 @@
 #include "engine/pair_certifier.hpp"
 
-#include <cmath>
 #include <utility>
 
 #include "number/infinity.hpp"
@@ -14,7 +13,7 @@ namespace {
   const double end = std::min(a.end, b.end);
   const double sensed = reach_of_pair(bodies, a.number, b.number);
   BoundAt moved(*b.bound, now);
-  if (bodies.space().repeats()) moved.centre += bodies.space().shift_between_homes(*b.middle, *a.middle);
+  if (bodies.space().repeats()) moved.centre += bodies.space().shift_between_images(*b.middle, *a.middle);
   const QuickReject pair(BoundAt(*a.bound, now), moved);
   const double near = sensed + bodies.definition().contact_tolerance;
   if (pair.stay_apart(end - now, near)) return infinity;

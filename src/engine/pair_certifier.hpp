@@ -55,8 +55,8 @@ double apart_until(const Bodies& bodies, const BoundRef& a, const BoundRef& b, d
 /// got in this batch, and the checkpoints of bodies in other clusters.
 class PairCertifier {
  public:
-  PairCertifier(const WorldState& tables, double time, const SpeculationLog* log)
-      : state_(tables), time_(time), log_(log) {}
+  PairCertifier(const WorldState& state, double time, const SpeculationLog* log)
+      : state_(state), time_(time), log_(log) {}
 
   /// Returns the time until which the body stays in its swept sphere.
   double window_end_of(std::uint32_t number) const {

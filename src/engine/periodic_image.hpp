@@ -25,8 +25,8 @@ struct PeriodicImage {
   /// Moves the image so that the centre of the box around the path is in the primary box. Returns the shift
   /// from the new position to the old one.
   Vec3 wrap(const Space& space, const Box& way) {
-    const auto [home, images] = space.wrapped(0.5 * (way.lower + way.upper));
-    middle = home;
+    const auto [centre, images] = space.wrapped(0.5 * (way.lower + way.upper));
+    middle = centre;
     if (images == Vec3{}) return {};
     image += images;
     // Counts saturate, because paths span any number of periods at times too coarse to distinguish periods.
@@ -43,10 +43,9 @@ struct PeriodicImage {
     }
     return true;
   }
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
-    auto& [of_capsule, images] = self;
-    archive(of_capsule, images);
+  static void serialize(auto& self, auto& archive) {
+    auto& [middle, image] = self;
+    archive(middle, image);
   }
 };
 

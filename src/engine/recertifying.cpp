@@ -1,11 +1,9 @@
 // Recertification: single bodies get new swept spheres, and certificates for the pairs that may change before
 // their windows end.
 #include <algorithm>
-#include <cmath>
 
 #include "engine/event_processor.hpp"
 #include "number/infinity.hpp"
-#include "number/powers.hpp"
 
 namespace kinesphere {
 /// Gives each dirty body a new swept sphere and new certificates.
@@ -59,14 +57,14 @@ void EventProcessor::search(std::span<const std::uint32_t> numbers) {
 
 /// Starts a new window for a body whose individual window ends.
 Result<void> EventProcessor::renew(std::uint32_t number) {
-  const WindowChoice pacing = this->window_choice();
-  if (pacing.needs_report(number)) {
+  const WindowChoice choice = this->window_choice();
+  if (choice.needs_report(number)) {
     if (auto probed = probe(std::span(&number, 1)); !probed) return probed;
   }
   if (bodies()[number].dirty) return {};
   const auto ended = certifier().window_of(number);
   const bool lasted = ended && ended->end <= time_;
-  enter(number, lasted ? pacing.longer_window(number, *ended) : pacing.window_for(number));
+  enter(number, lasted ? choice.longer_window(number, *ended) : choice.window_for(number));
   search(std::span(&number, 1));
   return {};
 }

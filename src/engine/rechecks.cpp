@@ -1,37 +1,21 @@
 // Rechecks of certificates that are due: the current bounds decide whether a contact can have changed; if so,
 // fresh reports decide whether it has.
 #include <algorithm>
-#include <cmath>
 
 #include "engine/event_processor.hpp"
 #include "number/infinity.hpp"
+#include "number/scope_guard.hpp"
 
 namespace kinesphere {
 
-/// Returns a certificate to the queue unless its recheck has completed.
-class EventProcessor::RequeueGuard {
- public:
-  RequeueGuard(EventProcessor& island, const PairCertificate& pair) : processor_(island), pair_(pair) {}
-  RequeueGuard(const RequeueGuard&) = delete;
-  RequeueGuard& operator=(const RequeueGuard&) = delete;
-  ~RequeueGuard() {
-    if (!done_) processor_.queue_.add(pair_);
-  }
-  void finish() { done_ = true; }
-
- private:
-  EventProcessor& processor_;
-  PairCertificate pair_;
-  bool done_ = false;
-};
-
 Result<void> EventProcessor::recheck(const PairCertificate& pair) {
-  RequeueGuard due(*this, pair);
-  auto looked = pair.second == PairCertificate::walls        ? recheck_walls(pair.first)
-                : pair.second == PairCertificate::window_end ? renew(pair.first)
-                                                             : recheck_pair(pair.first, pair.second);
-  if (looked) due.finish();
-  return looked;
+  // Returns the certificate to the queue unless its recheck completes.
+  ScopeGuard requeue([this, pair] { queue_.add(pair); });
+  auto rechecked = pair.kind() == PairCertificate::Kind::pair         ? recheck_pair(pair.first, pair.second)
+                   : pair.kind() == PairCertificate::Kind::with_walls ? recheck_walls(pair.first)
+                                                                      : renew(pair.first);
+  if (rechecked) requeue.dismiss();
+  return rechecked;
 }
 
 Result<void> EventProcessor::recheck_pair(std::uint32_t a, std::uint32_t b) {
@@ -94,20 +78,20 @@ std::optional<double> EventProcessor::decide_pair(std::uint32_t a, std::uint32_t
 template <class Partner>
 std::optional<double> EventProcessor::decide(const ContactPredictor<Partner>& predictor,
                                              const Threshold& threshold, Event current,
-                                             const RelativeLimits& promise) {
-  ContactDecision verdict = predictor.decide(current, promise);
-  if (verdict.change == ContactRule::Change::begin && !threshold.sensed && contacts().is_jammed(current))
-    verdict = predictor.defer(current, promise);
-  if (verdict.is_event()) {
-    current.kind = kind_of(verdict.change, threshold.sensed, current.wall);
+                                             const RelativeLimits& limits) {
+  ContactDecision decision = predictor.decide(current, limits);
+  if (decision.change == ContactRule::Change::begin && !threshold.sensed && contacts().is_jammed(current))
+    decision = predictor.defer(current, limits);
+  if (decision.is_event()) {
+    current.kind = kind_of(decision.change, threshold.sensed, current.wall);
     current.distance = threshold.distance;
     events_.queue(current);
     return std::nullopt;
   }
-  if (verdict.change == ContactRule::Change::release) contacts().set_touching(current, false);
-  if (verdict.zeno_step) ++work_.counters.zeno_steps;
-  if (verdict.breaks_tolerance) events_.queue(current);
-  return verdict.next_check;
+  if (decision.change == ContactRule::Change::release) contacts().set_touching(current, false);
+  if (decision.zeno_step) ++work_.counters.zeno_steps;
+  if (decision.breaks_tolerance) events_.queue(current);
+  return decision.next_check;
 }
 
 /// Rechecks the certificate of a body and the walls.
@@ -136,7 +120,7 @@ Result<void> EventProcessor::recheck_walls(std::uint32_t number) {
 std::optional<double> EventProcessor::decide_walls(std::uint32_t number) {
   const Body& body = bodies()[number];
   const double end = certifier().window_end_of(number);
-  const RelativeLimits promise{body.bound.growth_speed, body.largest_acceleration()};
+  const RelativeLimits limits{body.bound.growth_speed, body.largest_acceleration()};
   const Box near = walls_in_reach(contacts().rule(), body.bound, *bodies().walls(), time_, end);
   double first = infinity;
   for (const Wall wall : walls) {
@@ -146,8 +130,7 @@ std::optional<double> EventProcessor::decide_walls(std::uint32_t number) {
     const Threshold threshold{.within = touches};
     const ContactPredictor<HalfSpace> predictor(contacts().rule(), threshold, body.bound, inside, time_,
                                                 {end, end});
-    const auto next =
-        decide(predictor, threshold, wall_contact(EventKind::zeno_guard, number, wall), promise);
+    const auto next = decide(predictor, threshold, wall_contact(EventKind::zeno_guard, number, wall), limits);
     if (next) first = std::min(first, *next);
   }
   return first;

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "archive/heap_counter.hpp"
-#include "engine/scoped_flag.hpp"
 #include "engine/validation.hpp"
+#include "number/scope_guard.hpp"
 
 namespace kinesphere {
 namespace {
@@ -18,41 +18,42 @@ constexpr std::size_t reports_at_once = 512;
 
 Result<std::span<const Reports::Violation>> Reports::take(Bodies& bodies, double time,
                                                           std::span<const std::uint32_t> numbers,
-                                                          PoolLease& shift) {
-  ask_for(bodies, time, numbers, shift);
+                                                          PoolLease& lease) {
+  ask_for(bodies, time, numbers, lease);
   violations_.clear();
   // Most calls concern one body.
   if (numbers.size() == 1) {
     if (auto valid = check(bodies, time, 0); !valid) return valid.error();
     apply(bodies, time, 0, 1, violations_);
   } else {
-    const std::size_t bad = first_bad(bodies, time, shift);
+    const std::size_t bad = first_bad(bodies, time, lease);
     if (bad < numbers.size()) return check(bodies, time, bad).error();
-    apply_all(bodies, time, shift);
+    apply_all(bodies, time, lease);
   }
   return std::span<const Violation>(violations_);
 }
 
 void Reports::ask_for(const Bodies& bodies, double time, std::span<const std::uint32_t> numbers,
-                      PoolLease& shift) {
+                      PoolLease& lease) {
   ids_.resize(numbers.size());
   states_.resize(numbers.size());
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     ids_[k] = bodies.id_of(numbers[k]);
     states_[k] = no_answer;
   }
-  const ScopedFlag guard(asking_);
-  shift.parallel_for(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
+  asking_ = true;
+  const ScopeGuard answered([&] { asking_ = false; });
+  lease.parallel_for(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
     const std::size_t count = to - from;
     (*probe_)(std::span(ids_).subspan(from, count), time, std::span(states_).subspan(from, count));
   });
 }
 
 /// Returns the index of the first invalid report, or the number of reports if all are valid.
-std::size_t Reports::first_bad(const Bodies& bodies, double time, PoolLease& shift) const {
+std::size_t Reports::first_bad(const Bodies& bodies, double time, PoolLease& lease) const {
   std::size_t first = ids_.size();
   std::mutex mutex;
-  shift.parallel_for(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
+  lease.parallel_for(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
     for (std::size_t k = from; k < to; ++k) {
       if (check(bodies, time, k)) continue;
       const std::lock_guard lock(mutex);
@@ -67,11 +68,11 @@ Result<void> Reports::check(const Bodies& bodies, double time, std::size_t k) co
   return check_report(states_[k], ids_[k], time, bodies.definition(), call_);
 }
 
-void Reports::apply_all(Bodies& bodies, double time, PoolLease& shift) {
+void Reports::apply_all(Bodies& bodies, double time, PoolLease& lease) {
   PoolLease alone;
   std::mutex mutex;
   // Pending changes are in a table shared by all bodies, so applying them is not thread-safe.
-  (bodies.changes.empty() ? shift : alone)
+  (bodies.changes.empty() ? lease : alone)
       .parallel_for(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
         std::vector<Violation> some;
         apply(bodies, time, from, to, some);
@@ -92,9 +93,9 @@ void Reports::apply(Bodies& bodies, double time, std::size_t from, std::size_t t
     State state = states_[k];
     if (space.repeats()) state.position += space.shift_to_nearest(state.position, body.bound.centre_at(time));
     const Bound before = body.bound;
-    std::optional<Vec3> kicked_to;
+    std::optional<Vec3> new_velocity;
     if (const Change* change = bodies.changes.find(bodies[number])) {
-      kicked_to = change->velocity;
+      new_velocity = change->velocity;
       body.bound = bound_of(bodies.definition_of(number), state, time);
       bodies.forget_change(number);
     } else {
@@ -102,10 +103,10 @@ void Reports::apply(Bodies& bodies, double time, std::size_t from, std::size_t t
       body.bound.position = state.position;
       body.bound.velocity = state.velocity;
     }
-    const auto promise =
-        bound_violation(before, body.bound, body.radius, kicked_to, bodies.definition().contact_tolerance);
+    const auto violation =
+        bound_violation(before, body.bound, body.radius, new_velocity, bodies.definition().contact_tolerance);
     if (body.is_sleeping()) body.stand_still();
-    if (promise) broken.push_back({k, states_[k].velocity, *promise});
+    if (violation) broken.push_back({k, states_[k].velocity, *violation});
   }
 }
 

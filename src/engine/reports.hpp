@@ -32,18 +32,18 @@ class Reports {
   }
   bool is_asking() const { return asking_; }
 
-  /// Probes bodies at a time, with several threads if `shift` has them, and starts their bounds anew from the
+  /// Probes bodies at a time, with several threads if `lease` has them, and starts their bounds anew from the
   /// reports. Returns the violated bounds in the order of `numbers`; the span is valid until the next call.
   /// Errors: an invalid state; then all bounds are unchanged.
   Result<std::span<const Violation>> take(Bodies& bodies, double time, std::span<const std::uint32_t> numbers,
-                                          PoolLease& shift);
+                                          PoolLease& lease);
   std::size_t bytes() const;
 
  private:
-  void ask_for(const Bodies& bodies, double time, std::span<const std::uint32_t> numbers, PoolLease& shift);
-  std::size_t first_bad(const Bodies& bodies, double time, PoolLease& shift) const;
+  void ask_for(const Bodies& bodies, double time, std::span<const std::uint32_t> numbers, PoolLease& lease);
+  std::size_t first_bad(const Bodies& bodies, double time, PoolLease& lease) const;
   Result<void> check(const Bodies& bodies, double time, std::size_t k) const;
-  void apply_all(Bodies& bodies, double time, PoolLease& shift);
+  void apply_all(Bodies& bodies, double time, PoolLease& lease);
   void apply(Bodies& bodies, double time, std::size_t from, std::size_t to,
              std::vector<Violation>& broken) const;
 

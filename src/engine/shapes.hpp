@@ -34,8 +34,7 @@ class Shapes {
 
   /// Returns true if each shape belongs to one body or is free. Call after reading.
   bool is_valid(const BodyTable& bodies) const;
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
+  static void serialize(auto& self, auto& archive) {
     auto& [shapes, free] = self;
     archive(shapes, free);
   }

@@ -21,7 +21,7 @@ class EventProcessor;
 
 class Sleeping {
  public:
-  Sleeping(WorldState& tables, EventProcessor& island) : state_(tables), processor_(island) {}
+  Sleeping(WorldState& state, EventProcessor& processor) : state_(state), processor_(processor) {}
 
   /// Puts the body to sleep from the current time on.
   void sleep(std::uint32_t number);

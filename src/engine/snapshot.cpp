@@ -13,7 +13,6 @@
 #include "archive/envelope.hpp"
 #include "archive/fields.hpp"
 #include "engine/engine.hpp"
-#include "engine/static_body.hpp"
 #include "engine/validation.hpp"
 #include "input/input_check.hpp"
 #include "kinesphere/limits.hpp"
@@ -94,7 +93,7 @@ const char* World::Engine::first_invalid_part() const {
       !static_contacts_are_valid())
     return "contacts";
   if (!broad_phase().is_valid(bodies().numbers()) || !state_.window_policy.is_valid()) return "windows";
-  if (!queue_is_valid() || !window_ends_are_valid()) return "agenda";
+  if (!queue_is_valid() || !window_ends_are_valid()) return "certificates";
   for (std::uint32_t number = 0; number < bodies().numbers(); ++number) {
     const bool takes_part = bodies()[number].present();
     const bool registered = broad_phase().contains(number);
@@ -117,9 +116,9 @@ bool World::Engine::queue_is_valid() const {
     if (!(pair.failure_time >= -limits::largest_time && pair.failure_time < infinity) ||
         !takes_part(pair.first))
       return false;
-    if (pair.second == PairCertificate::window_end)
+    if (pair.kind() == PairCertificate::Kind::window_end)
       return !bodies()[pair.first].is_static() && !main_.certifier().is_stale(pair);
-    if (pair.second == PairCertificate::walls)
+    if (pair.kind() == PairCertificate::Kind::with_walls)
       return bodies().walls() && !bodies()[pair.first].is_static() && !main_.certifier().is_stale(pair);
     return pair.first < pair.second && takes_part(pair.second) && !main_.certifier().is_stale(pair) &&
            !(bodies()[pair.first].is_static() && bodies()[pair.second].is_static());
@@ -131,7 +130,8 @@ bool World::Engine::queue_is_valid() const {
 bool World::Engine::window_ends_are_valid() const {
   std::vector<bool> is_renewed(bodies().numbers(), false);
   for (const PairCertificate& pair : read_pairs_)
-    if (pair.second == PairCertificate::window_end && pair.failure_time <= broad_phase().end_of(pair.first))
+    if (pair.kind() == PairCertificate::Kind::window_end &&
+        pair.failure_time <= broad_phase().end_of(pair.first))
       is_renewed[pair.first] = true;
   for (std::uint32_t number = 0; number < bodies().numbers(); ++number)
     if (broad_phase().contains(number) && !bodies()[number].dirty && !is_renewed[number] &&
@@ -142,27 +142,31 @@ bool World::Engine::window_ends_are_valid() const {
 
 /// Static bodies must neither touch each other or walls, nor have such events pending.
 bool World::Engine::static_contacts_are_valid() const {
-  const auto fixed = [this](std::uint32_t number) { return bodies()[number].is_static(); };
-  const auto lives_fixed = [&](BodyId id) { return id == bodies().id_of(id.index) && fixed(id.index); };
+  const auto is_static = [this](std::uint32_t number) { return bodies()[number].is_static(); };
+  const auto is_living_static = [&](BodyId id) {
+    return id == bodies().id_of(id.index) && is_static(id.index);
+  };
   for (std::uint32_t number = 0; number < bodies().numbers(); ++number) {
-    if (!fixed(number)) continue;
+    if (!is_static(number)) continue;
     const auto partners = contacts().partners_of(number);
     const auto overlaps = contacts().overlaps_of(number);
-    if (contacts().walls_of(number) != 0 || std::any_of(partners.begin(), partners.end(), fixed) ||
+    if (contacts().walls_of(number) != 0 || std::any_of(partners.begin(), partners.end(), is_static) ||
         std::any_of(overlaps.begin(), overlaps.end(),
-                    [&](const OverlapRecord& c) { return fixed(c.partner); }))
+                    [&](const OverlapRecord& c) { return is_static(c.partner); }))
       return false;
   }
   // A static body may have reused the number of a removed body; then it is dirty, and the pair is not
   // rechecked.
-  const auto settled_fixed = [&](std::uint32_t number) {
-    return fixed(number) && bodies()[number].present() && !bodies()[number].dirty;
+  const auto is_certified_static = [&](std::uint32_t number) {
+    return is_static(number) && bodies()[number].present() && !bodies()[number].dirty;
   };
-  return std::none_of(
-             main_.events().changed().begin(), main_.events().changed().end(),
-             [&](const auto& pair) { return settled_fixed(pair.first) && settled_fixed(pair.second); }) &&
+  return std::none_of(main_.events().changed().begin(), main_.events().changed().end(),
+                      [&](const auto& pair) {
+                        return is_certified_static(pair.first) && is_certified_static(pair.second);
+                      }) &&
          main_.events().pending().none_of([&](const Event& event) {
-           return lives_fixed(event.first) && (event.second == no_body || lives_fixed(event.second));
+           return is_living_static(event.first) &&
+                  (event.second == no_body || is_living_static(event.second));
          });
 }
 

@@ -1,14 +1,12 @@
 #include "engine/speculation_log.hpp"
 
-#include <cassert>
-
 #include "engine/event_processor.hpp"
 #include "number/infinity.hpp"
 
 namespace kinesphere {
 
 void EventProcessor::begin(SpeculationLog& log, std::span<const PairCertificate> due,
-                           std::span<const std::uint32_t> unsettled, std::span<const Event> pending) {
+                           std::span<const std::uint32_t> dirty, std::span<const Event> pending) {
   log_ = &log;
   time_ = log.batch->begin;
   epoch_end_ = log.batch->epoch_end;
@@ -16,7 +14,7 @@ void EventProcessor::begin(SpeculationLog& log, std::span<const PairCertificate>
   for (const PairCertificate& pair : due) queue_.add(pair);
   events_.clear();
   for (const Event& event : pending) events_.queue(event);
-  dirty_.assign(unsettled);
+  dirty_.assign(dirty);
   gathering_ = true;
   work_ = {};
 }

@@ -13,7 +13,6 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -143,9 +142,9 @@ struct SpeculationLog {
     work.clear();
     failure.reset();
   }
-  void begin(BatchState& all, std::uint32_t place) {
+  void begin(BatchState& all, std::uint32_t slot) {
     batch = &all;
-    index = place;
+    index = slot;
     events.start();
     updates.start();
     late_pairs.start();
@@ -183,8 +182,8 @@ struct SpeculationLog {
   /// Returns the checkpoint of a body that another cluster may be changing concurrently; nullptr for all
   /// other bodies.
   const BodyCheckpoint* checkpoint_of(std::uint32_t number) const {
-    const std::uint32_t island = batch->slots[number].cluster;
-    return island == index || island == BatchState::unassigned ? nullptr : batch->checkpoint_of(number);
+    const std::uint32_t owner = batch->slots[number].cluster;
+    return owner == index || owner == BatchState::unassigned ? nullptr : batch->checkpoint_of(number);
   }
   /// Calls visit(number) for each body that has been updated in this run.
   template <class Visit>
@@ -196,24 +195,23 @@ struct SpeculationLog {
     }
   }
   const SweptSphereUpdate* last_update(std::uint32_t number) const {
-    const BatchState::BodySlot& place = batch->slots[number];
-    return place.cluster == index && place.update != BatchState::none ? &updates.all()[place.update]
-                                                                      : nullptr;
+    const BatchState::BodySlot& slot = batch->slots[number];
+    return slot.cluster == index && slot.update != BatchState::none ? &updates.all()[slot.update] : nullptr;
   }
 
  private:
   std::uint32_t last_revision(std::uint32_t number) const {
-    const BatchState::BodySlot& place = batch->slots[number];
-    return place.update != BatchState::none ? updates.all()[place.update].revision
-                                            : batch->checkpoints[place.checkpoint].body.body.revision;
+    const BatchState::BodySlot& slot = batch->slots[number];
+    return slot.update != BatchState::none ? updates.all()[slot.update].revision
+                                           : batch->checkpoints[slot.checkpoint].body.body.revision;
   }
   /// Returns the first changes of a body of the cluster since its last update or, without one, since the
   /// start of the batch.
   FirstChange& first_change(std::uint32_t number) {
     assert(is_own(number));
-    const BatchState::BodySlot& place = batch->slots[number];
-    return place.update != BatchState::none ? updates.all()[place.update].first_change
-                                            : batch->checkpoints[place.checkpoint].first_change;
+    const BatchState::BodySlot& slot = batch->slots[number];
+    return slot.update != BatchState::none ? updates.all()[slot.update].first_change
+                                           : batch->checkpoints[slot.checkpoint].first_change;
   }
 };
 

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
-#include <exception>
 #include <tuple>
-#include <utility>
 
 #include "number/infinity.hpp"
 
@@ -15,13 +13,13 @@ constexpr std::size_t clusters_at_once = 8;
 
 }  // namespace
 
-SpeculativeRunner::SpeculativeRunner(WorldState& tables, EventProcessor& main, PoolLease& shift,
+SpeculativeRunner::SpeculativeRunner(WorldState& state, EventProcessor& main, PoolLease& lease,
                                      const Probe& probe, ResponseHandler* handler)
-    : state_(tables),
+    : state_(state),
       main_(main),
-      lease_(shift),
+      lease_(lease),
       handler_(handler),
-      pool_(tables, main, shift.count(), probe, handler) {}
+      pool_(state, main, lease.count(), probe, handler) {}
 
 bool SpeculativeRunner::run(double until, std::deque<Event>& events) {
   const Bodies& bodies = state_.bodies;
@@ -52,7 +50,7 @@ double SpeculativeRunner::take_due(double until, double latest) {
   due_.clear();
   return main_.queue().take_until(
       until, std::min(batch_.epoch_end, latest), sizer_.most_due(state_.bodies.table().live_count()), due_,
-      [facts = main_.certifier()](const PairCertificate& pair) { return facts.is_stale(pair); });
+      [certifier = main_.certifier()](const PairCertificate& pair) { return certifier.is_stale(pair); });
 }
 
 void SpeculativeRunner::begin_batch(double stop) {
@@ -72,11 +70,11 @@ void SpeculativeRunner::begin_batch(double stop) {
   // Spare room for bodies added by conflicts, so that the list rarely grows while it has contents.
   if (batch_.checkpoints.size() < clusters_.checkpoint_count())
     batch_.checkpoints = std::vector<BodyCheckpoint>(2 * clusters_.checkpoint_count());
-  InitialWork unsettled;
+  InitialWork initial;
   for (const std::uint32_t number : main_.dirty().numbers())
-    if (state_.bodies[number].dirty) unsettled.dirty.push_back(number);
-  main_.events().pending().for_each([&](const Event& event) { unsettled.pending.push_back(event); });
-  add(unsettled);
+    if (state_.bodies[number].dirty) initial.dirty.push_back(number);
+  main_.events().pending().for_each([&](const Event& event) { initial.pending.push_back(event); });
+  add(initial);
   state_.contacts.start_side_by_side(state_.bodies.sensors.any());
 }
 
@@ -90,42 +88,43 @@ bool SpeculativeRunner::is_worthwhile() const {
   constexpr std::size_t few = 16;
   std::size_t all = 0;
   std::size_t largest = 0;
-  for (const Cluster& group : clusters_.all()) {
-    all += group.due.size();
-    largest = std::max<std::size_t>(largest, group.due.size());
+  for (const Cluster& cluster : clusters_.all()) {
+    all += cluster.due.size();
+    largest = std::max<std::size_t>(largest, cluster.due.size());
   }
   return clusters_.size() >= few && 2 * largest < all;
 }
 
 void SpeculativeRunner::merge_bodies(std::span<const std::uint32_t> numbers) {
-  Cluster* group = nullptr;
+  Cluster* cluster = nullptr;
   for (const std::uint32_t number : numbers) {
     Cluster* const theirs = cluster_of(number);
-    if (theirs == nullptr || theirs == group) continue;
-    if (group != nullptr) merge(*group, *theirs);
-    group = cluster_of(number);
+    if (theirs == nullptr || theirs == cluster) continue;
+    if (cluster != nullptr) merge(*cluster, *theirs);
+    cluster = cluster_of(number);
   }
-  if (group == nullptr) group = &clusters_.add();
+  if (cluster == nullptr) cluster = &clusters_.add();
   for (const std::uint32_t number : numbers)
-    if (cluster_of(number) == nullptr) add_member(*group, number);
+    if (cluster_of(number) == nullptr) add_member(*cluster, number);
 }
 
 void SpeculativeRunner::add(const InitialWork& more) {
   batch_.slots.resize(state_.bodies.numbers());
-  const auto group_with = [this](std::initializer_list<std::uint32_t> numbers) -> Cluster& {
+  const auto cluster_with = [this](std::initializer_list<std::uint32_t> numbers) -> Cluster& {
     merge_bodies(numbers);
-    Cluster& group = *cluster_of(*numbers.begin());
-    rollback(group);
-    group.needs_run = group.is_unsent = true;
-    return group;
+    Cluster& cluster = *cluster_of(*numbers.begin());
+    rollback(cluster);
+    cluster.needs_run = cluster.is_unsent = true;
+    return cluster;
   };
   for (const PairCertificate& pair : more.due) {
-    Cluster& group = pair.has_second() ? group_with({pair.first, pair.second}) : group_with({pair.first});
-    clusters_.add_due(group, pair);
+    Cluster& cluster =
+        pair.has_second() ? cluster_with({pair.first, pair.second}) : cluster_with({pair.first});
+    clusters_.add_due(cluster, pair);
   }
-  for (const std::uint32_t number : more.dirty) group_with({number}).dirty.push_back(number);
+  for (const std::uint32_t number : more.dirty) cluster_with({number}).dirty.push_back(number);
   for (const Event& event : more.pending)
-    group_with({state_.bodies.table().number_of(event.first)}).pending.push_back(event);
+    cluster_with({state_.bodies.table().number_of(event.first)}).pending.push_back(event);
 }
 
 /// Returns false on failure, or when rollbacks exceed 8 times the first-run work; the caller falls back to
@@ -143,8 +142,8 @@ bool SpeculativeRunner::execute_found() {
   std::stable_partition(to_run_.begin(), to_run_.end(),
                         [this](std::uint32_t own) { return clusters_[own].due.size() >= large; });
   for (const std::uint32_t own : to_run_) {
-    Cluster& group = clusters_[own];
-    sizer_.note_run(group.due.size(), std::exchange(group.has_run, true));
+    Cluster& cluster = clusters_[own];
+    sizer_.note_run(cluster.due.size(), std::exchange(cluster.has_run, true));
   }
   try {
     lease_.parallel_for(to_run_.size(), clusters_at_once,
@@ -154,8 +153,8 @@ bool SpeculativeRunner::execute_found() {
     lease_.parallel_for(to_run_.size(), clusters_at_once,
                         [this](std::size_t begin, std::size_t end, std::size_t worker) {
                           for (std::size_t k = begin; k < end; ++k) {
-                            Cluster& group = clusters_[to_run_[k]];
-                            pool_.run(group, due_of(group), batch_, static_cast<std::uint32_t>(worker));
+                            Cluster& cluster = clusters_[to_run_[k]];
+                            pool_.run(cluster, due_of(cluster), batch_, static_cast<std::uint32_t>(worker));
                           }
                         });
   } catch (const std::exception& thrown) {
@@ -179,47 +178,47 @@ bool SpeculativeRunner::execute_found() {
 
 /// Saves the state of the cluster's bodies at the start of the batch. Other clusters may read it during the
 /// run.
-void SpeculativeRunner::checkpoint(const Cluster& group) {
-  for (const std::uint32_t number : clusters_.members_of(group)) {
-    const std::uint32_t place = batch_.slots[number].checkpoint;
-    if (std::exchange(batch_.has_checkpoint[place], std::uint8_t{1}) == 0)
-      batch_.checkpoints[place] = {state_.bodies.checkpoint(number),
-                                   ContactCheckpoint::of(state_.contacts, number)};
+void SpeculativeRunner::checkpoint(const Cluster& cluster) {
+  for (const std::uint32_t number : clusters_.members_of(cluster)) {
+    const std::uint32_t slot = batch_.slots[number].checkpoint;
+    if (std::exchange(batch_.has_checkpoint[slot], std::uint8_t{1}) == 0)
+      batch_.checkpoints[slot] = {state_.bodies.checkpoint(number),
+                                  ContactCheckpoint::of(state_.contacts, number)};
   }
 }
 
 void SpeculativeRunner::rollback() {
-  for (Cluster& group : clusters()) {
-    rollback(group);
-    if (group.is_merged()) continue;
-    const std::span<const PairCertificate> due = due_of(group);
+  for (Cluster& cluster : clusters()) {
+    rollback(cluster);
+    if (cluster.is_merged()) continue;
+    const std::span<const PairCertificate> due = due_of(cluster);
     deferred_.insert(deferred_.end(), due.begin(), due.end());
   }
   main_.queue().add_all(deferred_);
 }
 
 /// Restores the state before the first run of the cluster.
-void SpeculativeRunner::rollback(Cluster& group) {
-  if (!group.executed) return;
-  for (const std::uint32_t number : members_of(group)) {
+void SpeculativeRunner::rollback(Cluster& cluster) {
+  if (!cluster.executed) return;
+  for (const std::uint32_t number : members_of(cluster)) {
     if (checkpoint_of(number) == nullptr) continue;
-    BatchState::BodySlot& place = batch_.slots[number];
-    BodyCheckpoint& before = batch_.checkpoints[place.checkpoint];
+    BatchState::BodySlot& slot = batch_.slots[number];
+    BodyCheckpoint& before = batch_.checkpoints[slot.checkpoint];
     state_.bodies.restore(number, before.body);
     before.contacts.restore(state_.contacts, number);
     before.first_change = {};
-    place.update = BatchState::none;
+    slot.update = BatchState::none;
   }
   // Origins are restored in reverse order, so that a body changed several times gets its first origin.
-  const std::span<const UndoEntry> turned = undo_log_of(group);
-  std::for_each(turned.rbegin(), turned.rend(), [this](const UndoEntry& turn) { restore_origin(turn); });
-  group.executed = false;
+  const std::span<const UndoEntry> undone = undo_log_of(cluster);
+  std::for_each(undone.rbegin(), undone.rend(), [this](const UndoEntry& entry) { restore_origin(entry); });
+  cluster.executed = false;
 }
 
 /// Restores one origin. An exception is stored, so that all other bodies are restored before it is rethrown.
-void SpeculativeRunner::restore_origin(const UndoEntry& turn) {
+void SpeculativeRunner::restore_origin(const UndoEntry& entry) {
   try {
-    handler_->set_origin(turn.first, turn.second);
+    handler_->set_origin(entry.first, entry.second);
   } catch (...) {
     if (exception_) return;
     exception_ = std::current_exception();
@@ -227,10 +226,10 @@ void SpeculativeRunner::restore_origin(const UndoEntry& turn) {
   }
 }
 
-void SpeculativeRunner::add_member(Cluster& group, std::uint32_t number) {
-  rollback(group);
-  group.needs_run = true;
-  clusters_.add_member(group, number);
+void SpeculativeRunner::add_member(Cluster& cluster, std::uint32_t number) {
+  rollback(cluster);
+  cluster.needs_run = true;
+  clusters_.add_member(cluster, number);
 }
 
 /// Rolls two clusters back and merges them. Precondition: neither is merged already. If both arguments are
@@ -261,22 +260,22 @@ bool SpeculativeRunner::merge_conflicts() {
 }
 
 bool SpeculativeRunner::merge_read_sets() {
-  constexpr std::size_t groups_at_once = 512;
+  constexpr std::size_t clusters_at_once = 512;
   std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> found(lease_.count());
-  lease_.parallel_for(clusters_.size(), groups_at_once,
+  lease_.parallel_for(clusters_.size(), clusters_at_once,
                       [&](std::size_t begin, std::size_t end, std::size_t worker) {
-                        for (Cluster& group : clusters_.all().subspan(begin, end - begin)) {
-                          if (group.is_merged()) continue;
-                          group.superseded = 0;
-                          for (const auto& [number, time] : read_set_of(group)) {
+                        for (Cluster& cluster : clusters_.all().subspan(begin, end - begin)) {
+                          if (cluster.is_merged()) continue;
+                          cluster.superseded = 0;
+                          for (const auto& [number, time] : read_set_of(cluster)) {
                             const BodyCheckpoint* const before = checkpoint_of(number);
                             if (before == nullptr) continue;
                             // merge_updates() compares the new swept sphere of the body with those of other
                             // clusters.
                             if (before->first_change.invalidated < time && sizer_.may_decline()) {
-                              ++group.superseded;
+                              ++cluster.superseded;
                             } else if (before->first_change.changed <= time) {
-                              found[worker].emplace_back(group.index, number);
+                              found[worker].emplace_back(cluster.index, number);
                             }
                           }
                         }
@@ -308,7 +307,7 @@ bool SpeculativeRunner::merge_updates() {
   const std::size_t fresh = conflicts_.take(clusters_, pool_, updates);
   if (fresh == 0) return false;
   bool any = false;
-  for (const auto& [a, b, until, is_void] : find_conflicts(state_, updates, fresh, batch_.begin, lease_)) {
+  for (const auto& [a, b, until, is_stale] : find_conflicts(state_, updates, fresh, batch_.begin, lease_)) {
     const auto [own, foreign] =
         updates[a].cluster == BatchState::unassigned ? std::pair(b, a) : std::pair(a, b);
     if (updates[foreign].cluster == BatchState::unassigned) {
@@ -324,7 +323,7 @@ bool SpeculativeRunner::merge_updates() {
     // Processes exchange the late certificates of each cluster, but none between two clusters; so distributed
     // worlds merge in any case.
     if (until != Conflict::unknown && !batch_.is_in_batch(until) && sizer_.may_decline()) {
-      if (!is_void)
+      if (!is_stale)
         cross_pairs_.note(one, other, certificate_of(*updates[a].update, *updates[b].update, until));
       continue;
     }
@@ -334,23 +333,23 @@ bool SpeculativeRunner::merge_updates() {
   return any;
 }
 
-void SpeculativeRunner::commit(const Cluster& group, bool is_counted,
-                               std::vector<const EventInRound*>& told) {
+void SpeculativeRunner::commit(const Cluster& cluster, bool is_counted,
+                               std::vector<const EventInRound*>& committed) {
   if (is_counted) {
-    const WorkCounters& work = pool_.work_of(group);
+    const WorkCounters& work = pool_.work_of(cluster);
     main_.work().counters += work.counters;
-    main_.work().recertified += {work.recertified.bodies, work.recertified.near - group.superseded};
-    main_.work().counters.hot_pairs -= group.superseded;
+    main_.work().recertified += {work.recertified.bodies, work.recertified.near - cluster.superseded};
+    main_.work().counters.hot_pairs -= cluster.superseded;
   }
-  const std::span<const PairCertificate> left = late_pairs_of(group);
+  const std::span<const PairCertificate> left = late_pairs_of(cluster);
   deferred_.insert(deferred_.end(), left.begin(), left.end());
-  for (const EventInRound& one : pool_.events_of(group)) told.push_back(&one);
+  for (const EventInRound& one : pool_.events_of(cluster)) committed.push_back(&one);
   if (!state_.bodies.shapes.any()) return;
-  for (const std::uint32_t number : members_of(group))
+  for (const std::uint32_t number : members_of(cluster))
     batch_.checkpoints[batch_.slots[number].checkpoint].contacts.update_static(state_.contacts, number);
 }
 
-void SpeculativeRunner::commit(std::vector<const EventInRound*>& told) {
+void SpeculativeRunner::commit(std::vector<const EventInRound*>& committed) {
   register_updates();
   // The work is counted as if a search had found the pair.
   cross_pairs_.for_each_standing(clusters_, [this](const PairCertificate& pair) {
@@ -360,7 +359,7 @@ void SpeculativeRunner::commit(std::vector<const EventInRound*>& told) {
   });
   main_.discard_initial_work();
   main_.queue().add_all(deferred_);
-  std::sort(told.begin(), told.end(), [](const EventInRound* a, const EventInRound* b) {
+  std::sort(committed.begin(), committed.end(), [](const EventInRound* a, const EventInRound* b) {
     if (a->event.time != b->event.time) return a->event.time < b->event.time;
     return a->round != b->round ? a->round < b->round : delivered_before(a->event, b->event);
   });
@@ -373,11 +372,11 @@ void SpeculativeRunner::commit(std::vector<const EventInRound*>& told) {
 void SpeculativeRunner::register_updates() {
   std::vector<BroadPhase::Arrival> arrivals;
   std::vector<const SweptSphereUpdate*> updates;
-  for (const Cluster& group : clusters_.all()) {
-    if (group.is_merged()) continue;
-    std::uint32_t place = group.record.updates.begin;
-    for (const SweptSphereUpdate& update : updates_of(group)) {
-      if (batch_.slots[update.number].update != place++) continue;
+  for (const Cluster& cluster : clusters_.all()) {
+    if (cluster.is_merged()) continue;
+    std::uint32_t slot = cluster.record.updates.begin;
+    for (const SweptSphereUpdate& update : updates_of(cluster)) {
+      if (batch_.slots[update.number].update != slot++) continue;
       arrivals.push_back({update.number, update.time, update.window});
       updates.push_back(&update);
     }

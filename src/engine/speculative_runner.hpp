@@ -49,7 +49,7 @@ struct InitialWork {
 class SpeculativeRunner {
  public:
   /// `handler` may be null; then events get no response.
-  SpeculativeRunner(WorldState& tables, EventProcessor& main, PoolLease& shift, const Probe& probe,
+  SpeculativeRunner(WorldState& state, EventProcessor& main, PoolLease& lease, const Probe& probe,
                     ResponseHandler* handler);
 
   /// Advances from now to `until` or to the end of a batch, whichever is earlier, except for what is due at
@@ -76,8 +76,8 @@ class SpeculativeRunner {
   template <class IsReady>
   bool execute_all(IsReady is_ready) {
     return run_rounds([&] {
-      for (const Cluster& group : clusters_.all())
-        if (group.needs_run && is_ready(group)) to_run_.push_back(group.index);
+      for (const Cluster& cluster : clusters_.all())
+        if (cluster.needs_run && is_ready(cluster)) to_run_.push_back(cluster.index);
     });
   }
   /// Returns the error of the run that failed.
@@ -86,19 +86,19 @@ class SpeculativeRunner {
   std::span<Cluster> clusters() { return clusters_.all(); }
   /// Returns nullptr if the body belongs to no cluster.
   Cluster* cluster_of(std::uint32_t number) { return clusters_.cluster_of(number); }
-  std::span<const std::uint32_t> members_of(const Cluster& group) const {
-    return clusters_.members_of(group);
+  std::span<const std::uint32_t> members_of(const Cluster& cluster) const {
+    return clusters_.members_of(cluster);
   }
-  std::span<const PairCertificate> due_of(const Cluster& group) const { return clusters_.due_of(group); }
+  std::span<const PairCertificate> due_of(const Cluster& cluster) const { return clusters_.due_of(cluster); }
   // Results of the last run of a cluster; empty if it was rolled back.
-  std::span<const SweptSphereUpdate> updates_of(const Cluster& group) const {
-    return pool_.updates_of(group);
+  std::span<const SweptSphereUpdate> updates_of(const Cluster& cluster) const {
+    return pool_.updates_of(cluster);
   }
-  std::span<const PairCertificate> late_pairs_of(const Cluster& group) const {
-    return pool_.late_pairs_of(group);
+  std::span<const PairCertificate> late_pairs_of(const Cluster& cluster) const {
+    return pool_.late_pairs_of(cluster);
   }
-  std::span<const ReadEntry> read_set_of(const Cluster& group) const { return pool_.read_set_of(group); }
-  std::span<const UndoEntry> undo_log_of(const Cluster& group) const { return pool_.undo_log_of(group); }
+  std::span<const ReadEntry> read_set_of(const Cluster& cluster) const { return pool_.read_set_of(cluster); }
+  std::span<const UndoEntry> undo_log_of(const Cluster& cluster) const { return pool_.undo_log_of(cluster); }
   /// Merges clusters so that one cluster contains all these bodies.
   void merge_bodies(std::span<const std::uint32_t> numbers);
   /// Adds initial work, of bodies that became known after begin_batch().
@@ -124,11 +124,11 @@ class SpeculativeRunner {
   /// execute_all() returned true.
   template <class IsCounted>
   std::vector<const EventInRound*> commit(IsCounted is_counted) {
-    std::vector<const EventInRound*> told;
-    for (const Cluster& group : clusters_.all())
-      if (!group.is_merged() && group.executed) commit(group, is_counted(group), told);
-    commit(told);
-    return told;
+    std::vector<const EventInRound*> committed;
+    for (const Cluster& cluster : clusters_.all())
+      if (!cluster.is_merged() && cluster.executed) commit(cluster, is_counted(cluster), committed);
+    commit(committed);
+    return committed;
   }
   /// Rolls back all clusters, which restores the state at the start of the batch.
   void rollback();
@@ -145,18 +145,18 @@ class SpeculativeRunner {
   template <class FindAgain>
   bool run_rounds(FindAgain find_again);
   bool execute_found();
-  void checkpoint(const Cluster& group);
-  void rollback(Cluster& group);
+  void checkpoint(const Cluster& cluster);
+  void rollback(Cluster& cluster);
   void restore_origin(const UndoEntry& turn);
-  void add_member(Cluster& group, std::uint32_t number);
+  void add_member(Cluster& cluster, std::uint32_t number);
   void merge(Cluster& one, Cluster& other);
   bool merge_conflicts();
   bool merge_read_sets();
   PairCertificate certificate_of(const SweptSphereUpdate& update, const SweptSphereUpdate& other,
                                  double until) const;
   bool merge_updates();
-  void commit(const Cluster& group, bool is_counted, std::vector<const EventInRound*>& told);
-  void commit(std::vector<const EventInRound*>& told);
+  void commit(const Cluster& cluster, bool is_counted, std::vector<const EventInRound*>& committed);
+  void commit(std::vector<const EventInRound*>& committed);
   void register_updates();
 
   WorldState& state_;

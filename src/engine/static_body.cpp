@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "engine/validation.hpp"
-#include "kinesphere/limits.hpp"
 #include "space/space.hpp"
 
 namespace kinesphere {
@@ -18,14 +17,14 @@ Vec3 anchor_of(const Triangle& t) { return (t.a + t.b + t.c) / 3.0; }
 
 }  // namespace
 
-BodyDefinition body_of(const StaticDefinition& fixed) {
-  const Ball* ball = std::get_if<Ball>(&fixed.shape);
+BodyDefinition body_of(const StaticDefinition& definition) {
+  const Ball* ball = std::get_if<Ball>(&definition.shape);
   return {.radius = ball ? ball->radius : 0.0,
-          .position = std::visit([](const auto& solid) { return anchor_of(solid); }, fixed.shape),
-          .filter = fixed.filter,
-          .solid = fixed.solid,
-          .sensor_class = fixed.sensor_class,
-          .user_data = fixed.user_data};
+          .position = std::visit([](const auto& solid) { return anchor_of(solid); }, definition.shape),
+          .filter = definition.filter,
+          .solid = definition.solid,
+          .sensor_class = definition.sensor_class,
+          .user_data = definition.user_data};
 }
 
 StaticDefinition static_definition(const Bodies& bodies, BodyId id) {

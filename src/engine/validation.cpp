@@ -1,7 +1,6 @@
 #include "engine/validation.hpp"
 
 #include <cmath>
-#include <string>
 #include <tuple>
 #include <utility>
 
@@ -27,8 +26,8 @@ void require_radius(InputCheck& check, double radius, BodyId body, const WorldDe
 }
 
 /// Ensures that a pair can meet in one image only; space/space.hpp has the limit and the proof.
-void require_room(InputCheck& check, std::string_view argument, const BodyDefinition& definition, BodyId body,
-                  const WorldDefinition& world) {
+void require_fit(InputCheck& check, std::string_view argument, const BodyDefinition& definition, BodyId body,
+                 const WorldDefinition& world) {
   if (!world.box) return;
   const double needed = 6.0 * definition.position_error + ContactRule(world).release_gap();
   for (int axis = 0; axis < 3; ++axis) {
@@ -42,13 +41,13 @@ void require_room(InputCheck& check, std::string_view argument, const BodyDefini
   }
 }
 
-void require_limits(InputCheck& check, const MotionLimits& promise, BodyId body,
+void require_limits(InputCheck& check, const MotionLimits& motion, BodyId body,
                     const WorldDefinition& world) {
-  require_size(check, {"acceleration_limit", body}, promise.acceleration_limit, limits::largest_acceleration);
-  require_size(check, {"position_error", body}, promise.position_error, coordinate_limit(world));
-  require_size(check, {"velocity_error", body}, promise.velocity_error, limits::largest_speed);
-  check.within({"planned_acceleration", body}, promise.planned_acceleration, limits::largest_acceleration);
-  require_plane(check, {"planned_acceleration", body}, promise.planned_acceleration, world);
+  require_size(check, {"acceleration_limit", body}, motion.acceleration_limit, limits::largest_acceleration);
+  require_size(check, {"position_error", body}, motion.position_error, coordinate_limit(world));
+  require_size(check, {"velocity_error", body}, motion.velocity_error, limits::largest_speed);
+  check.within({"planned_acceleration", body}, motion.planned_acceleration, limits::largest_acceleration);
+  require_plane(check, {"planned_acceleration", body}, motion.planned_acceleration, world);
 }
 
 void require_state(InputCheck& check, const State& state, const BodyDefinition& definition, BodyId body,
@@ -167,7 +166,7 @@ Result<void> check_world(const WorldDefinition& definition) {
       .require(dimensions == 3 || !definition.periodic.z, ErrorCode::out_of_range, {"periodic"},
                "must be false on z in two dimensions", on);
   // The box must be large enough for a body of radius 0.
-  if (!check.error()) require_room(check, "box", {.radius = 0.0}, no_body, definition);
+  if (!check.error()) require_fit(check, "box", {.radius = 0.0}, no_body, definition);
   return check.result();
 }
 
@@ -176,7 +175,7 @@ Result<void> check_body(const BodyDefinition& body, const WorldDefinition& world
   require_radius(check, body.radius, no_body, world);
   require_limits(check, motion_limits_of(body), no_body, world);
   require_state(check, {body.position, body.velocity}, body, no_body, world);
-  require_room(check, "radius", body, no_body, world);
+  require_fit(check, "radius", body, no_body, world);
   return check.result();
 }
 
@@ -193,7 +192,7 @@ Result<void> check_radius(const BodyDefinition& changed, BodyId body, const Worl
                           std::string_view call) {
   InputCheck check(call);
   require_radius(check, changed.radius, body, world);
-  require_room(check, "radius", changed, body, world);
+  require_fit(check, "radius", changed, body, world);
   return check.result();
 }
 
@@ -201,7 +200,7 @@ Result<void> check_limits(const BodyDefinition& changed, BodyId body, const Worl
                           std::string_view call) {
   InputCheck check(call);
   require_limits(check, motion_limits_of(changed), body, world);
-  require_room(check, "position_error", changed, body, world);
+  require_fit(check, "position_error", changed, body, world);
   return check.result();
 }
 
@@ -227,7 +226,7 @@ Result<void> check_reach(double reach, const BodyDefinition& body, BodyId id, st
   InputCheck check(call);
   BodyDefinition grown = body;
   grown.radius += reach;
-  require_room(check, argument, grown, id, world);
+  require_fit(check, argument, grown, id, world);
   return check.result();
 }
 

@@ -5,7 +5,6 @@
 #include <string>
 #include <string_view>
 
-#include "engine/call_state.hpp"
 #include "input/input_check.hpp"
 #include "kinesphere/world.hpp"
 

@@ -10,7 +10,7 @@ namespace kinesphere {
 
 class WindowChoice {
  public:
-  WindowChoice(const WorldState& tables, double time) : state_(tables), time_(time) {}
+  WindowChoice(const WorldState& state, double time) : state_(state), time_(time) {}
 
   /// Returns the rung of the window from now on that suits the speed of the body.
   int rung_for(std::uint32_t number, const SpeedBound& speed_bound) const {

@@ -29,7 +29,7 @@ class FreeWindows {
 
 }  // namespace
 
-MotionStatistics WindowStart::survey(std::span<const std::uint32_t> numbers) const {
+MotionStatistics WindowStart::measure(std::span<const std::uint32_t> numbers) const {
   MotionStatistics statistics;
   for (const std::uint32_t number : numbers) {
     const BoundAt moved(bodies()[number].bound, time());
@@ -44,11 +44,11 @@ void WindowStart::choose_policy(const MotionStatistics& statistics) {
 }
 
 Result<void> WindowStart::refresh(std::span<const std::uint32_t> ending) {
-  const WindowChoice pacing(state_, time());
+  const WindowChoice choice(state_, time());
   std::vector<std::uint8_t> is_asked(ending.size());
   lease_.parallel_for(ending.size(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
     for (std::size_t k = from; k < to; ++k)
-      is_asked[k] = !bodies()[ending[k]].dirty && pacing.needs_report(ending[k]) ? 1 : 0;
+      is_asked[k] = !bodies()[ending[k]].dirty && choice.needs_report(ending[k]) ? 1 : 0;
   });
   std::vector<std::uint32_t> asked;
   for (std::size_t k = 0; k < ending.size(); ++k)
@@ -59,30 +59,30 @@ Result<void> WindowStart::refresh(std::span<const std::uint32_t> ending) {
 
 std::vector<BroadPhase::Starter> WindowStart::choose_windows(std::span<const std::uint32_t> numbers,
                                                              std::span<const int> held,
-                                                             WindowPolicy::Sample& round) {
+                                                             WindowPolicy::Sample& sample) {
   const double now = time();
-  const WindowChoice pacing(state_, now);
+  const WindowChoice choice(state_, now);
   std::vector<BroadPhase::Starter> starters(numbers.size());
-  const std::size_t parts = (numbers.size() + bodies_at_once - 1) / bodies_at_once;
-  std::vector<WindowPolicy::Sample> rounds(parts, round);
-  lease_.parallel_for(parts, 1, [&](std::size_t from, std::size_t to, std::size_t) {
+  const std::size_t chunks = (numbers.size() + bodies_at_once - 1) / bodies_at_once;
+  std::vector<WindowPolicy::Sample> samples(chunks, sample);
+  lease_.parallel_for(chunks, 1, [&](std::size_t from, std::size_t to, std::size_t) {
     FreeWindows free(held, now);
-    for (std::size_t part = from; part < to; ++part) {
-      const std::size_t end = std::min((part + 1) * bodies_at_once, numbers.size());
-      for (std::size_t k = part * bodies_at_once; k < end; ++k) {
+    for (std::size_t chunk = from; chunk < to; ++chunk) {
+      const std::size_t end = std::min((chunk + 1) * bodies_at_once, numbers.size());
+      for (std::size_t k = chunk * bodies_at_once; k < end; ++k) {
         const std::uint32_t number = numbers[k];
         const InflatedBound bound = margin_for(bodies(), number, BoundAt(bodies()[number].bound, now));
         const SpeedBound speed_bound = speed_bound_of(bound.moved);
-        const Window& window = free.of(pacing.rung_for(number, speed_bound));
+        const Window& window = free.of(choice.rung_for(number, speed_bound));
         starters[k] = {number, 0, window};
         if (window.end == now) continue;
         if (bodies().space().repeats()) bodies().wrap_to_primary(number, now, window.end - now);
         starters[k].size_class = SizeClasses::size_class_of(bound, window);
-        rounds[part].note(speed_bound, 2.0 * (bound.moved.radius + bound.margin), window.rung);
+        samples[chunk].note(speed_bound, 2.0 * (bound.moved.radius + bound.margin), window.rung);
       }
     }
   });
-  for (const WindowPolicy::Sample& one : rounds) round += one;
+  for (const WindowPolicy::Sample& one : samples) sample += one;
   std::erase_if(starters, [&](const BroadPhase::Starter& starter) {
     if (starter.window.end > now) return false;
     main_.dirty().add(bodies(), starter.number);
@@ -136,10 +136,10 @@ void WindowStart::find_links_and_walls(std::span<const BroadPhase::Starter> star
     return !state_.contacts.partners_of(number).empty() || !state_.contacts.overlaps_of(number).empty();
   };
   // Only linked bodies are marked, so that the records of most bodies are not accessed.
-  const auto mark = [&](bool settled) {
+  const auto mark = [&](bool visited) {
     lease_.parallel_for(starters.size(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
       for (const BroadPhase::Starter& starter : starters.subspan(from, to - from))
-        if (is_linked(starter.number)) bodies()[starter.number].visited = settled;
+        if (is_linked(starter.number)) bodies()[starter.number].visited = visited;
     });
   };
   mark(true);

@@ -20,11 +20,11 @@ constexpr bool are_many(std::size_t arrived, std::size_t all) { return arrived >
 class WindowStart {
  public:
   /// `found`, by worker, is passed only to reuse its memory.
-  WindowStart(WorldState& tables, EventProcessor& main, PoolLease& shift, std::vector<SearchResults>& found)
-      : state_(tables), main_(main), lease_(shift), found_(found) {}
+  WindowStart(WorldState& state, EventProcessor& main, PoolLease& lease, std::vector<SearchResults>& found)
+      : state_(state), main_(main), lease_(lease), found_(found) {}
 
   /// Returns the motion statistics of bodies that have no window yet.
-  MotionStatistics survey(std::span<const std::uint32_t> numbers) const;
+  MotionStatistics measure(std::span<const std::uint32_t> numbers) const;
   /// Chooses the window policy. Most bodies travel about a quarter of their spacing in the first main window.
   void choose_policy(const MotionStatistics& statistics);
 

@@ -100,15 +100,15 @@ void World::WorldEditor::set_radius(BodyId id, double radius) {
   state_.bodies[id.index].radius = radius;
 }
 
-void World::WorldEditor::set_motion_limits(BodyId id, const MotionLimits& promise) {
+void World::WorldEditor::set_motion_limits(BodyId id, const MotionLimits& limits) {
   Body& body = state_.bodies[id.index];
   if (body.is_sleeping()) sleeping().wake(id.index);
-  const BodyDefinition changed = with_motion_limits(bodies().definition_of(id.index), promise);
+  const BodyDefinition changed = with_motion_limits(bodies().definition_of(id.index), limits);
   if (body.enabled) replace(id.index, bound_with(bodies(), id.index, changed, time()));
-  body.position_error = promise.position_error;
-  if (!body.enabled || !body.fresh(time())) state_.bodies.change_of(id.index).limits = promise;
+  body.position_error = limits.position_error;
+  if (!body.enabled || !body.fresh(time())) state_.bodies.change_of(id.index).limits = limits;
   state_.contacts.set_largest_acceleration(id.index,
-                                           promise.acceleration_limit + norm(promise.planned_acceleration));
+                                           limits.acceleration_limit + norm(limits.planned_acceleration));
 }
 
 void World::WorldEditor::disable(BodyId id) {

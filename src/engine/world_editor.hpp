@@ -18,7 +18,7 @@ namespace kinesphere {
 /// (world/preconditions.hpp).
 class World::WorldEditor {
  public:
-  WorldEditor(WorldState& tables, EventProcessor& main) : state_(tables), main_(main) {}
+  WorldEditor(WorldState& state, EventProcessor& main) : state_(state), main_(main) {}
 
   void reserve(std::size_t bodies);
   BodyId add(const BodyDefinition& definition);
@@ -27,7 +27,7 @@ class World::WorldEditor {
   void set_velocity(BodyId id, const Vec3& velocity) { main_.set_velocity(id.index, velocity); }
   void teleport(BodyId id, const State& state);
   void set_radius(BodyId id, double radius);
-  void set_motion_limits(BodyId id, const MotionLimits& promise);
+  void set_motion_limits(BodyId id, const MotionLimits& limits);
   void disable(BodyId id);
   void enable(BodyId id, const State& state);
   void sleep(BodyId id) { sleeping().sleep(id.index); }

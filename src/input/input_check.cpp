@@ -1,7 +1,5 @@
 #include "input/input_check.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <utility>

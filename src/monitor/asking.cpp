@@ -1,10 +1,9 @@
 // Rechecks of certificates that fail now, and report requests through a Poll.
-#include <algorithm>
 #include <array>
 #include <span>
 
-#include "engine/scoped_flag.hpp"
 #include "monitor/engine.hpp"
+#include "number/scope_guard.hpp"
 
 namespace kinesphere {
 
@@ -39,14 +38,7 @@ Result<void> Monitor::Engine::recheck(const Poll* poll) {
 Result<void> Monitor::Engine::ask_about(const PairCertificate& pair, const Poll& poll) {
   const auto [a, b] = std::pair(pair.first, pair.second);
   // Puts the certificate back into the queue if the poll fails or throws.
-  struct UnansweredGuard {
-    CertificateQueue& agenda;
-    const PairCertificate& pair;
-    bool answered = false;
-    ~UnansweredGuard() {
-      if (!answered) agenda.add(pair);
-    }
-  } unanswered{queue_, pair};
+  ScopeGuard requeue([&] { queue_.add(pair); });
   const std::array<std::uint32_t, 2> both = is_less_certain(a, b) ? std::array{a, b} : std::array{b, a};
   for (const std::uint32_t number : both) {
     if (is_stale(pair) || is_decided(a, b)) break;
@@ -54,7 +46,7 @@ Result<void> Monitor::Engine::ask_about(const PairCertificate& pair, const Poll&
     if (Result<void> asked = ask(std::span(&number, 1), poll, Placing::now); !asked) return asked;
   }
   for (const std::uint32_t number : both) decide_pairs_not_due(number);
-  unanswered.answered = true;
+  requeue.dismiss();
   return {};
 }
 
@@ -65,7 +57,8 @@ Result<void> Monitor::Engine::ask(std::span<const std::uint32_t> numbers, const 
   for (const std::uint32_t number : numbers) ids.push_back(tracks_[number].id);
   std::vector<std::optional<TrackReport>> reports(ids.size());
   {
-    const ScopedFlag asking(asking_);
+    asking_ = true;
+    const ScopeGuard answered([&] { asking_ = false; });
     poll(ids, time_, reports);
   }
   counters_.polls += ids.size();

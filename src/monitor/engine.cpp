@@ -1,8 +1,6 @@
 // Clock of a monitor: starts of windows, and the event loop over certificates.
 #include "monitor/engine.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <tuple>
 
 #include "number/powers.hpp"
@@ -14,15 +12,15 @@ Space space_of(const MonitorDefinition& definition) {
   return Space(WorldDefinition{.dimensions = definition.dimensions});
 }
 
-std::vector<TrackClass> promises_of(const MonitorDefinition& definition) {
-  std::vector<TrackClass> promises = definition.classes;
+std::vector<TrackClass> classes_of(const MonitorDefinition& definition) {
+  std::vector<TrackClass> classes = definition.classes;
   if (definition.dimensions == 2)
-    for (TrackClass& promise : promises) {
-      promise.acceleration_limit = promise.acceleration_limit.flat();
-      promise.planned_acceleration.z = 0.0;
-      promise.largest_speed = promise.largest_speed.flat();
+    for (TrackClass& track_class : classes) {
+      track_class.acceleration_limit = track_class.acceleration_limit.flat();
+      track_class.planned_acceleration.z = 0.0;
+      track_class.largest_speed = track_class.largest_speed.flat();
     }
-  return promises;
+  return classes;
 }
 
 auto order_of(const MonitorEvent& event) {
@@ -33,7 +31,7 @@ auto order_of(const MonitorEvent& event) {
 
 Monitor::Engine::Engine(const MonitorDefinition& definition)
     : definition_(definition),
-      promises_(promises_of(definition)),
+      classes_(classes_of(definition)),
       separations_(definition),
       rung_(exponent_of(definition.window)),
       time_(definition.start_time.value_or(0.0)),

@@ -10,7 +10,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "broadphase/certificate_queue.hpp"
@@ -20,7 +19,6 @@
 #include "monitor/separation_forecast.hpp"
 #include "monitor/separation_table.hpp"
 #include "monitor/track_table.hpp"
-#include "parallel/thread_pool.hpp"
 
 namespace kinesphere {
 
@@ -122,7 +120,7 @@ class Monitor::Engine {
   double resolution() const { return std::max(definition_.time_resolution, std::abs(time_) * 0x1p-50); }
 
   MonitorDefinition definition_;
-  std::vector<TrackClass> promises_;  ///< Limits of the classes; without z in two dimensions.
+  std::vector<TrackClass> classes_;  ///< Limits of the classes; without z in two dimensions.
   SeparationTable separations_;
   int rung_;  ///< Rung of windows while reports arrive.
   double time_;

@@ -9,34 +9,29 @@
 
 namespace kinesphere {
 
-template <Some<TrackClass> Self, class Archive>
-void serialize(Self& self, Archive& archive) {
+void serialize(Some<TrackClass> auto& self, auto& archive) {
   auto& [acceleration_limit, planned_acceleration, largest_speed] = self;
   archive(acceleration_limit, planned_acceleration, largest_speed);
 }
 
-template <Some<SeparationRule> Self, class Archive>
-void serialize(Self& self, Archive& archive) {
+void serialize(Some<SeparationRule> auto& self, auto& archive) {
   auto& [first_class, second_class, levels] = self;
   archive(first_class, second_class, levels);
 }
 
-template <Some<Shard> Self, class Archive>
-void serialize(Self& self, Archive& archive) {
+void serialize(Some<Shard> auto& self, auto& archive) {
   auto& [of, first, count] = self;
   archive(of, first, count);
 }
 
-template <Some<MonitorDefinition> Self, class Archive>
-void serialize(Self& self, Archive& archive) {
+void serialize(Some<MonitorDefinition> auto& self, auto& archive) {
   auto& [dimensions, start_time, classes, separations, tolerance, time_resolution, window, stale_after,
          drop_after, share] = self;
   archive(dimensions, start_time, classes, separations, tolerance, time_resolution, window, stale_after,
           drop_after, share);
 }
 
-template <Some<MonitorCounters> Self, class Archive>
-void serialize(Self& self, Archive& archive) {
+void serialize(Some<MonitorCounters> auto& self, auto& archive) {
   auto& [reports, late, repeated, contradictions, polls, windows, searches, near_pairs, looks] = self;
   archive(reports, late, repeated, contradictions, polls, windows, searches, near_pairs, looks);
 }
@@ -47,8 +42,7 @@ struct SavedRecord {
   std::uint32_t second = 0;
   PairRecord record{};
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
+  static void serialize(auto& self, auto& archive) {
     auto& [first, second, record] = self;
     archive(first, second, record);
   }

@@ -62,9 +62,8 @@ Result<void> Monitor::check_idle(const char* call) const {
     return Error{ErrorCode::moved_from, "monitor", no_body,
                  std::string(call) + ": the monitor has been moved from"};
   if (engine_->is_asking())
-    return Error{
-        ErrorCode::probe_in_progress, "monitor", no_body,
-        std::string(call) + ": the monitor is asking for reports, and cannot be changed by whom it asks"};
+    return Error{ErrorCode::probe_in_progress, "monitor", no_body,
+                 std::string(call) + ": a poll must not change the monitor that called it"};
   return {};
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -17,8 +16,7 @@ struct LevelState {
   double since = -infinity;
   double until = -infinity;  ///< A certain verdict holds until this time, whatever is reported.
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
+  static void serialize(auto& self, auto& archive) {
     auto& [verdict, since, until] = self;
     archive(verdict, since, until);
   }
@@ -43,8 +41,7 @@ struct PairRecord {
     });
   }
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
+  static void serialize(auto& self, auto& archive) {
     auto& [version, levels] = self;
     archive(version, levels);
   }

@@ -24,18 +24,19 @@ struct PlansBeyondClass {
 
   /// Returns the summary of a report's plan; empty if it has none or the plan is within the limits of the
   /// class.
-  static PlansBeyondClass of(const TrackReport& report, const TrackClass& promise) {
+  static PlansBeyondClass of(const TrackReport& report, const TrackClass& track_class) {
     if (!report.plan) return {};
-    const Vec3 turn = report.plan->acceleration - promise.planned_acceleration;
+    const Vec3 turn = report.plan->acceleration - track_class.planned_acceleration;
     const ErrorBound limit = (lengths_of(turn) + report.plan->acceleration_limit) * (1.0 + rounding::margin);
-    if (turn == Vec3{} && is_within(report.plan->acceleration_limit, promise.acceleration_limit)) return {};
-    if (is_within(limit, promise.acceleration_limit)) return {};
-    return {largest(limit, promise.acceleration_limit), report.plan->valid_until};
+    if (turn == Vec3{} && is_within(report.plan->acceleration_limit, track_class.acceleration_limit))
+      return {};
+    if (is_within(limit, track_class.acceleration_limit)) return {};
+    return {largest(limit, track_class.acceleration_limit), report.plan->valid_until};
   }
 
   /// Returns the largest difference from the class's planned acceleration at any time from `time` on.
-  const ErrorBound& limit_from(double time, const TrackClass& promise) const {
-    return time < end ? limit : promise.acceleration_limit;
+  const ErrorBound& limit_from(double time, const TrackClass& track_class) const {
+    return time < end ? limit : track_class.acceleration_limit;
   }
   /// Returns true if these plans allow every acceleration that `other` allows, at every time.
   bool include(const PlansBeyondClass& other) const {
@@ -45,8 +46,7 @@ struct PlansBeyondClass {
     return {largest(a.limit, b.limit), std::max(a.end, b.end)};
   }
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
+  static void serialize(auto& self, auto& archive) {
     auto& [limit, end] = self;
     archive(limit, end);
   }

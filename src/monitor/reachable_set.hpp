@@ -51,8 +51,7 @@ struct ReachableSet {
     return {time, position, velocity, acceleration, radius.total(), speed.total(), growth.total()};
   }
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
+  static void serialize(auto& self, auto& archive) {
     auto& [time, end, position, velocity, acceleration, radius, speed, growth] = self;
     archive(time, end, position, velocity, acceleration, radius, speed, growth);
   }

@@ -51,9 +51,9 @@ Result<void> Monitor::Engine::check(TrackId id, const TrackReport& report, const
                   subject("plan valid_until"), "must be later than the timestamp", report.plan->valid_until);
   }
   if (check.error()) return *check.error();
-  const TrackClass& promise = promises_[report.track_class];
+  const TrackClass& track_class = classes_[report.track_class];
   check.require(
-      std::isfinite(promise.largest_speed.total()) || (std::isfinite(report.velocity_error.total())),
+      std::isfinite(track_class.largest_speed.total()) || (std::isfinite(report.velocity_error.total())),
       ErrorCode::out_of_range, subject("velocity_error"),
       "must be finite where the class has no largest speed", report.velocity_error.total());
   if (const auto number = tracks_.find(id))
@@ -66,7 +66,7 @@ Result<void> Monitor::Engine::check(TrackId id, const TrackReport& report, const
 /// Applies a checked report to its track. The caller decides the track's open pairs afterwards, once all
 /// reports that arrive together are applied.
 void Monitor::Engine::take(TrackId id, const TrackReport& report, Placing placing) {
-  const TrackClass& promise = promises_[report.track_class];
+  const TrackClass& track_class = classes_[report.track_class];
   const auto known = tracks_.find(id);
   const std::uint32_t number = known ? *known : tracks_.add(id, report.track_class);
   KnownTrack& track = tracks_[number];
@@ -81,7 +81,7 @@ void Monitor::Engine::take(TrackId id, const TrackReport& report, Placing placin
       flat.plan->acceleration_limit = flat.plan->acceleration_limit.flat();
     }
   }
-  const TrackEstimate::Learned learned = track.estimate.update(flat, promise, time_, power_of_two(rung_));
+  const TrackEstimate::Learned learned = track.estimate.update(flat, track_class, time_, power_of_two(rung_));
   quiet_windows_ = 0;
   if (learned.outcome == TrackEstimate::Outcome::repeated) {
     ++counters_.repeated;

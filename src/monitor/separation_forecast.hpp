@@ -1,8 +1,6 @@
 // The verdict about two tracks and a separation, and the time until which it holds.
 #pragma once
 
-#include <utility>
-
 #include "monitor/reachable_set.hpp"
 #include "monitor/track_estimate.hpp"
 

@@ -23,9 +23,9 @@ constexpr Envelope monitor_envelope{{'K', 'i', 'n', 'M', 'o', 'n', '\r', '\n'},
 
 /// Returns true for an unused track number: its entry is as TrackTable::remove() leaves it.
 bool is_blank(const KnownTrack& track) {
-  const auto& [id, track_class, present, silent, life, placed, expected, knowledge, open] = track;
-  return id == 0 && track_class == 0 && !present && !silent && life == 0 && placed == 0 && expected == 0 &&
-         knowledge.hypotheses().empty() && open.empty();
+  const auto& [id, track_class, present, stale, life, placed, expected, estimate, open] = track;
+  return id == 0 && track_class == 0 && !present && !stale && life == 0 && placed == 0 && expected == 0 &&
+         estimate.hypotheses().empty() && open.empty();
 }
 
 }  // namespace
@@ -133,22 +133,23 @@ const char* Monitor::Engine::first_invalid_part() const {
     }
   }
   if (partners != 2 * pair_records_.size()) return "pairs";
-  bool sound = true;
+  bool valid = true;
   pair_records_.for_each([&](std::uint32_t a, std::uint32_t b, const PairRecord& record) {
-    sound = sound && a < b && is_present(a) && is_present(b) &&
+    valid = valid && a < b && is_present(a) && is_present(b) &&
             record.version <= pair_records_.last_version() &&
             record.levels.size() == levels_of(a, b).size() &&
             std::all_of(record.levels.begin(), record.levels.end(), [](const LevelState& state) {
               return state.verdict <= Verdict::within && !std::isnan(state.since) && !std::isnan(state.until);
             });
   });
-  if (!sound) return "pairs";
+  if (!valid) return "pairs";
   const auto is_pair = [&](const PairCertificate& pair) {
     return pair.failure_time < infinity && is_present(pair.first) &&
-           (pair.second == PairCertificate::walls || (pair.first < pair.second && is_present(pair.second))) &&
+           (pair.kind() == PairCertificate::Kind::with_walls ||
+            (pair.first < pair.second && is_present(pair.second))) &&
            !is_stale(pair);
   };
-  if (!std::all_of(read_pairs_.begin(), read_pairs_.end(), is_pair)) return "agenda";
+  if (!std::all_of(read_pairs_.begin(), read_pairs_.end(), is_pair)) return "certificates";
   const auto is_event = [this](const MonitorEvent& event) {
     return event.time == time_ && event.kind <= MonitorEventKind::dropped &&
            event.verdict <= Verdict::within && event.before <= Verdict::within;

@@ -16,17 +16,18 @@ constexpr std::size_t most_hypotheses = TrackEstimate::slots - 1;
 /// Returns the report with its timestamp error converted into errors of the state at the timestamp. If the
 /// timestamp may be wrong, the plan in force may be so too: accelerations differ from the class's planned
 /// acceleration by at most what `plans` allow.
-TrackReport with_exact_timestamp(TrackReport report, const TrackClass& promise,
+TrackReport with_exact_timestamp(TrackReport report, const TrackClass& track_class,
                                  const PlansBeyondClass& plans) {
   const double error = report.timestamp_error;
   if (error == 0.0) return report;
   const ErrorBound speed =
-      least(lengths_of(report.state.velocity) + report.velocity_error, promise.largest_speed);
+      least(lengths_of(report.state.velocity) + report.velocity_error, track_class.largest_speed);
   const ErrorBound turn =
-      plans.limit_from(report.timestamp - error, promise) + lengths_of(promise.planned_acceleration);
+      plans.limit_from(report.timestamp - error, track_class) + lengths_of(track_class.planned_acceleration);
   // Largest distance travelled within the timestamp error, limited by acceleration and by the largest speed.
-  const ErrorBound way = least((speed + turn * (0.5 * error)) * error, promise.largest_speed * error);
-  report.position_error = report.position_error + way * (1.0 + rounding::margin);
+  const ErrorBound distance =
+      least((speed + turn * (0.5 * error)) * error, track_class.largest_speed * error);
+  report.position_error = report.position_error + distance * (1.0 + rounding::margin);
   report.velocity_error = report.velocity_error + turn * (error * (1.0 + rounding::margin));
   report.timestamp_error = 0.0;
   return report;
@@ -46,11 +47,11 @@ ReachableSet motion_of(const TrackReport& report, const Vec3& planned, const Err
 }
 
 /// Returns the reachable set that follows from the class's largest speed alone.
-ReachableSet range_of(const TrackReport& report, const TrackClass& promise) {
+ReachableSet range_of(const TrackReport& report, const TrackClass& track_class) {
   return {.time = report.timestamp,
           .position = report.state.position,
           .radius = report.position_error,
-          .speed = promise.largest_speed};
+          .speed = track_class.largest_speed};
 }
 
 /// Adds a margin for the rounding of later computations with the set.
@@ -63,64 +64,65 @@ void widen(ReachableSet& set) {
 /// largest speed. At that time the track is within the radius of `motion`, and from then on the radius grows
 /// at the largest speed. Returns nothing if that time is after the end of `motion` or after
 /// limits::largest_time.
-std::optional<ReachableSet> range_after(const ReachableSet& motion, double after, const TrackClass& promise) {
+std::optional<ReachableSet> range_after(const ReachableSet& motion, double after,
+                                        const TrackClass& track_class) {
   const double begin = motion.time + after;
   if (!(after > 0.0 && begin < motion.end && begin <= limits::largest_time)) return std::nullopt;
   const ReachableSet then = motion.moved_to(begin);
   return ReachableSet{
-      .time = begin, .position = then.position, .radius = then.radius, .speed = promise.largest_speed};
+      .time = begin, .position = then.position, .radius = then.radius, .speed = track_class.largest_speed};
 }
 
 /// Returns the reachable sets of a report from `now` on that follow from the accelerations allowed by the
 /// class and by plans. The first one is the tightest.
-std::vector<ReachableSet> motions_of(const TrackReport& report, const TrackClass& promise,
+std::vector<ReachableSet> motions_of(const TrackReport& report, const TrackClass& track_class,
                                      const PlansBeyondClass& plans, double now) {
   std::vector<ReachableSet> motions;
   if (!is_finite(report.velocity_error)) return motions;
-  const bool has_limit = is_finite(promise.acceleration_limit);
+  const bool has_limit = is_finite(track_class.acceleration_limit);
   // Appends the continuation of a set from `time` on, where the acceleration limit changes. No monitor
   // reaches times after limits::largest_time, where lengths would overflow.
-  const auto go_on = [&](const ReachableSet& motion, double time) {
+  const auto continue_from = [&](const ReachableSet& motion, double time) {
     if (!(time <= limits::largest_time)) return;
-    ReachableSet rest = motion.moved_to(time);
-    rest.acceleration = promise.planned_acceleration;
-    rest.growth = plans.limit_from(time, promise);
-    rest.end = infinity;
-    motions.push_back(rest);
+    ReachableSet later = motion.moved_to(time);
+    later.acceleration = track_class.planned_acceleration;
+    later.growth = plans.limit_from(time, track_class);
+    later.end = infinity;
+    motions.push_back(later);
   };
   if (report.plan && now < report.plan->valid_until) {
     ReachableSet planned = motion_of(report, report.plan->acceleration, report.plan->acceleration_limit);
     planned.end = report.plan->valid_until;
     motions.push_back(planned);
-    if (has_limit) go_on(planned, planned.end);
+    if (has_limit) continue_from(planned, planned.end);
   }
   if (!has_limit) return motions;
   const ReachableSet motion =
-      motion_of(report, promise.planned_acceleration, plans.limit_from(report.timestamp, promise));
+      motion_of(report, track_class.planned_acceleration, plans.limit_from(report.timestamp, track_class));
   if (report.timestamp > now) {
     ReachableSet back = motion;
-    back.growth = plans.limit_from(now, promise);
+    back.growth = plans.limit_from(now, track_class);
     motions.push_back(back.moved_to(now));
   }
   motions.push_back(motion);
-  if (report.timestamp < plans.end) go_on(motion, plans.end);
+  if (report.timestamp < plans.end) continue_from(motion, plans.end);
   return motions;
 }
 
-std::vector<ReachableSet> reachable_sets_of(const TrackReport& report, const TrackClass& promise,
+std::vector<ReachableSet> reachable_sets_of(const TrackReport& report, const TrackClass& track_class,
                                             const PlansBeyondClass& plans, double now) {
-  std::vector<ReachableSet> sets = motions_of(report, promise, plans, now);
-  if (is_finite(promise.largest_speed)) {
+  std::vector<ReachableSet> sets = motions_of(report, track_class, plans, now);
+  if (is_finite(track_class.largest_speed)) {
     if (!sets.empty()) {
       // The largest speed is reached sooner when the track accelerates along its velocity than when it turns
       // back.
       const ReachableSet motion = sets.front();
-      const double fastest = promise.largest_speed.total();
+      const double fastest = track_class.largest_speed.total();
       const double limit = motion.growth.total();
       for (const double speed : {fastest - norm(motion.velocity), fastest})
-        if (const auto range = range_after(motion, speed / limit, promise)) sets.push_back(*range);
+        if (const auto range = range_after(motion, speed / limit, track_class)) sets.push_back(*range);
     }
-    const ReachableSet range = range_of(report, promise);
+    const ReachableSet range = range_of(report, track_class);
     if (report.timestamp > now) sets.push_back(range.moved_to(now));
     sets.push_back(range);
   }
@@ -128,54 +130,56 @@ std::vector<ReachableSet> reachable_sets_of(const TrackReport& report, const Tra
   return sets;
 }
 
-double beyond(const Vec3& way, const ErrorBound& limit, double size) {
+double beyond(const Vec3& offset, const ErrorBound& limit, double size) {
   const double margin = rounding::margin * size;
-  const double flat = std::hypot(way.x, way.y) - limit.horizontal();
-  const double upright = std::abs(way.z) - limit.vertical();
-  const double all = norm(way) - limit.total();
+  const double flat = std::hypot(offset.x, offset.y) - limit.horizontal();
+  const double upright = std::abs(offset.z) - limit.vertical();
+  const double all = norm(offset) - limit.total();
   return std::max({0.0, flat - margin, upright - margin, all - margin});
 }
 
 /// Returns the excess of `report` over what the state of an earlier or later report leaves possible. `own`:
 /// the report's plan, if it exceeds the limits of the class.
 Excess excess_of(const TrackReport& report, const PlansBeyondClass& own, const Hypothesis& believed,
-                 const TrackClass& promise) {
-  const double way = report.timestamp - believed.timestamp;
-  const double s = std::abs(way);
+                 const TrackClass& track_class) {
+  const double elapsed = report.timestamp - believed.timestamp;
+  const double s = std::abs(elapsed);
   const ReachableSet& from = believed.motion;
   // A report's plan is in force from its timestamp on, so it applies between the two if the report is the
   // older one.
-  const PlansBeyondClass plans = way < 0.0 ? joined(believed.plans, own) : believed.plans;
-  const ErrorBound& limit = plans.limit_from(std::min(report.timestamp, believed.timestamp), promise);
+  const PlansBeyondClass plans = elapsed < 0.0 ? joined(believed.plans, own) : believed.plans;
+  const ErrorBound& limit = plans.limit_from(std::min(report.timestamp, believed.timestamp), track_class);
   Excess excess;
   const double size = norm_one(report.state.position) + norm_one(from.position) +
                       (norm_one(from.velocity) + norm_one(from.acceleration) * s) * s;
   const ErrorBound both = report.position_error + from.radius;
   if (is_finite(from.speed) && is_finite(limit)) {
-    const Vec3 centre = from.position + (from.velocity + promise.planned_acceleration * (0.5 * way)) * way;
+    const Vec3 centre =
+        from.position + (from.velocity + track_class.planned_acceleration * (0.5 * elapsed)) * elapsed;
     const ErrorBound reach = both + (from.speed + limit * (0.5 * s)) * s;
     excess.position = beyond(report.state.position - centre, reach, size);
     if (is_finite(report.velocity_error)) {
-      const Vec3 velocity = from.velocity + promise.planned_acceleration * way;
+      const Vec3 velocity = from.velocity + track_class.planned_acceleration * elapsed;
       const ErrorBound turn = report.velocity_error + from.speed + limit * s;
       excess.velocity =
           beyond(report.state.velocity - velocity, turn,
                  norm_one(report.state.velocity) + norm_one(from.velocity) + norm_one(from.acceleration) * s);
     }
   }
-  if (is_finite(promise.largest_speed))
+  if (is_finite(track_class.largest_speed))
     excess.position = std::max(excess.position, beyond(report.state.position - from.position,
-                                                       both + promise.largest_speed * s, size));
+                                                       both + track_class.largest_speed * s, size));
   return excess;
 }
 
-Hypothesis hypothesis_of(const TrackReport& report, const TrackClass& promise, const PlansBeyondClass& plans,
-                         double now) {
-  Hypothesis hypothesis{.timestamp = report.timestamp,
-                        .motion = motion_of(report, promise.planned_acceleration, promise.acceleration_limit),
-                        .state = report.state,
-                        .plans = plans,
-                        .sets = reachable_sets_of(report, promise, plans, now)};
+Hypothesis hypothesis_of(const TrackReport& report, const TrackClass& track_class,
+                         const PlansBeyondClass& plans, double now) {
+  Hypothesis hypothesis{
+      .timestamp = report.timestamp,
+      .motion = motion_of(report, track_class.planned_acceleration, track_class.acceleration_limit),
+      .state = report.state,
+      .plans = plans,
+      .sets = reachable_sets_of(report, track_class, plans, now)};
   hypothesis.latest_sets = hypothesis.sets.size();
   return hypothesis;
 }
@@ -229,31 +233,33 @@ bool is_valid(const ReachableSet& set) {
 /// Checks a restored hypothesis. A set of the latest report has to hold from `now` on without end, so that
 /// tightest() finds a set even after a later report has replaced all others.
 bool is_valid(const Hypothesis& hypothesis, double now) {
-  const auto& [stamp, slot, motion, state, plans, claims, latest_claims] = hypothesis;
+  const auto& [timestamp, slot, motion, state, plans, sets, latest_sets] = hypothesis;
   // Velocity errors and acceleration limits of a report may be infinite.
   ReachableSet limited = motion;
   for (ErrorBound* error : {&limited.speed, &limited.growth})
     if (is_within(*error, infinity)) *error = 0.0;
-  if (!is_time(stamp) || !is_valid(limited) || !is_within(state.position, most_length) ||
+  if (!is_time(timestamp) || !is_valid(limited) || !is_within(state.position, most_length) ||
       !is_within(state.velocity, most_speed) || std::isnan(plans.end) || !is_within(plans.limit, infinity) ||
-      latest_claims > claims.size())
+      latest_sets > sets.size())
     return false;
-  const auto latest_end = claims.begin() + static_cast<std::ptrdiff_t>(latest_claims);
+  const auto latest_end = sets.begin() + static_cast<std::ptrdiff_t>(latest_sets);
   const auto holds = [now](const ReachableSet& set) { return set.time <= now && set.end == infinity; };
-  return std::all_of(claims.begin(), claims.end(), [](const ReachableSet& set) { return is_valid(set); }) &&
-         std::any_of(claims.begin(), latest_end, holds);
+  return std::all_of(sets.begin(), sets.end(), [](const ReachableSet& set) { return is_valid(set); }) &&
+         std::any_of(sets.begin(), latest_end, holds);
 }
 
 }  // namespace
 
-TrackEstimate::Learned TrackEstimate::update(const TrackReport& report, const TrackClass& promise, double now,
-                                             double ahead) {
+TrackEstimate::Learned TrackEstimate::update(const TrackReport& report, const TrackClass& track_class,
+                                             double now, double ahead) {
   Learned learned;
-  const PlansBeyondClass own = PlansBeyondClass::of(report, promise);
+  const PlansBeyondClass own = PlansBeyondClass::of(report, track_class);
   PlansBeyondClass all = own;
   for (const Hypothesis& believed : hypotheses_) all = joined(all, believed.plans);
-  const TrackReport exact = with_exact_timestamp(report, promise, all);
-  const auto next = [&](const PlansBeyondClass& plans) { return hypothesis_of(exact, promise, plans, now); };
+  const TrackReport exact = with_exact_timestamp(report, track_class, all);
+  const auto next = [&](const PlansBeyondClass& plans) {
+    return hypothesis_of(exact, track_class, plans, now);
+  };
   if (hypotheses_.empty()) {
     hypotheses_.push_back(next(all));
     return learned;
@@ -268,7 +274,7 @@ TrackEstimate::Learned TrackEstimate::update(const TrackReport& report, const Tr
       learned = {.outcome = Outcome::repeated};
       return learned;
     }
-    const Excess excess = excess_of(exact, own, believed, promise);
+    const Excess excess = excess_of(exact, own, believed, track_class);
     if (!excess.any()) agreeing.push_back(k);
     if (excess.position + excess.velocity < learned.excess.position + learned.excess.velocity)
       learned.excess = excess;
@@ -291,7 +297,8 @@ TrackEstimate::Learned TrackEstimate::update(const TrackReport& report, const Tr
     const Hypothesis& believed = hypotheses_[agreeing.front()];
     Hypothesis only = next(all);
     if (agreeing.size() == 1 && exact.timestamp < believed.timestamp)
-      only = joined(hypothesis_of(report_of(believed), promise, all, now), std::move(only), now, now + ahead);
+      only = joined(hypothesis_of(report_of(believed), track_class, all, now), std::move(only), now,
+                    now + ahead);
     only.slot = free_slot();
     hypotheses_ = {std::move(only)};
     return learned;

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,10 +26,9 @@ struct Hypothesis {
   std::vector<ReachableSet> sets;
   std::size_t latest_sets = 0;
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
-    auto& [stamp, slot, motion, state, plans, claims, latest_claims] = self;
-    archive(stamp, slot, motion, state, plans, claims, latest_claims);
+  static void serialize(auto& self, auto& archive) {
+    auto& [timestamp, slot, motion, state, plans, sets, latest_sets] = self;
+    archive(timestamp, slot, motion, state, plans, sets, latest_sets);
   }
 };
 
@@ -64,9 +62,9 @@ class TrackEstimate {
     bool ends_certainty = false;
   };
 
-  /// Applies a report that arrives at time `now`, of a track with the limits `promise`. `ahead` is the
+  /// Applies a report that arrives at time `now`, of a track with the limits `track_class`. `ahead` is the
   /// duration for which the reachable sets should be tight (time).
-  Learned update(const TrackReport& report, const TrackClass& promise, double now, double ahead);
+  Learned update(const TrackReport& report, const TrackClass& track_class, double now, double ahead);
 
   std::span<const Hypothesis> hypotheses() const { return hypotheses_; }
   /// Returns the timestamp of the latest report.
@@ -90,8 +88,7 @@ class TrackEstimate {
   /// Returns the earliest end of all reachable sets.
   double first_end() const;
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
+  static void serialize(auto& self, auto& archive) {
     auto& [hypotheses] = self;
     archive(hypotheses);
   }

@@ -26,10 +26,9 @@ struct KnownTrack {
   TrackEstimate estimate{};
   std::vector<std::uint32_t> open;  ///< Numbers of the tracks with which this one has a PairRecord.
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
-    auto& [id, track_class, present, silent, life, placed, expected, knowledge, open] = self;
-    archive(id, track_class, present, silent, life, placed, expected, knowledge, open);
+  static void serialize(auto& self, auto& archive) {
+    auto& [id, track_class, present, stale, life, placed, expected, estimate, open] = self;
+    archive(id, track_class, present, stale, life, placed, expected, estimate, open);
   }
 };
 
@@ -74,8 +73,7 @@ class TrackTable {
     return ids;
   }
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
+  static void serialize(auto& self, auto& archive) {
     auto& [tracks, free, last_life, numbers] = self;
     archive(tracks, free, last_life);
   }

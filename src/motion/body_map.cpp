@@ -105,7 +105,7 @@ Result<void> BodyMap::report_violations(World& world, const FrameMotion& frames)
   }
   for (const FrameViolation& turn : frames.violations()) {
     if (ids[turn.body] == no_body) continue;
-    if (auto told = world.set_velocity(ids[turn.body], turn.velocity); !told) return told;
+    if (auto changed = world.set_velocity(ids[turn.body], turn.velocity); !changed) return changed;
   }
   return {};
 }

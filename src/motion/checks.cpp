@@ -35,7 +35,7 @@ std::optional<Error> wrong_state(std::string_view call, BodyId body, const State
       .error();
 }
 
-std::optional<Error> wrong_departure(std::string_view call, BodyId body, const MotionOrigin& origin) {
+std::optional<Error> wrong_origin(std::string_view call, BodyId body, const MotionOrigin& origin) {
   return InputCheck(call)
       .finite({"origin", body, "time"}, origin.time)
       .finite({"origin", body, "position"}, origin.state.position)

@@ -26,7 +26,7 @@ std::optional<Error> wrong_time(std::string_view call, BodyId body, std::string_
                                 const KnownTimes& known);
 std::optional<Error> wrong_state(std::string_view call, BodyId body, const State& state);
 /// Returns not_finite for an origin with a component that is not finite.
-std::optional<Error> wrong_departure(std::string_view call, BodyId body, const MotionOrigin& origin);
+std::optional<Error> wrong_origin(std::string_view call, BodyId body, const MotionOrigin& origin);
 /// Returns the error of a change that this kind of motion does not support.
 Error cannot_change(std::string_view call, const Motion& motion, std::uint32_t body, std::string_view what);
 /// Throws the error of an invalid query of a body at a time. Precondition: the body or the time is invalid.

@@ -1,8 +1,6 @@
 // FrameMotion: interpolation between the last two frames of a game.
 #include "kinesphere/motion/frame_motion.hpp"
 
-#include <cmath>
-#include <limits>
 #include <utility>
 
 #include "input/input_check.hpp"
@@ -23,7 +21,7 @@ void check_vectors(InputCheck& check, std::string_view argument, std::span<const
 }  // namespace
 
 Result<FrameMotion> FrameMotion::create(FrameMotionDefinition definition) {
-  InputCheck check("Frames::create");
+  InputCheck check("FrameMotion::create");
   check.finite({"start_time"}, definition.start_time)
       .positive({"interval"}, definition.interval)
       .not_negative({"position_error"}, definition.position_error)
@@ -123,7 +121,7 @@ const FrameMotion::Chord& FrameMotion::known_chord(std::uint32_t body, double t,
 }
 
 BodyDefinition FrameMotion::definition(std::uint32_t body, double t) const {
-  const Chord& chord = known_chord(body, t, "Frames::definition", "t");
+  const Chord& chord = known_chord(body, t, "FrameMotion::definition", "t");
   return {.acceleration_limit = limits_[body],
           .position_error = position_error_,
           .velocity_error = limits_[body] * interval_ + 2.0 * position_error_ / interval_,
@@ -137,11 +135,11 @@ Segment FrameMotion::Chord::segment(double end) const {
 }
 
 State FrameMotion::state(std::uint32_t body, double t) const {
-  return known_chord(body, t, "Frames::state", "t").segment(t).state_at(t);
+  return known_chord(body, t, "FrameMotion::state", "t").segment(t).state_at(t);
 }
 
 Trajectory FrameMotion::trajectory(std::uint32_t body, double begin, double end) const {
-  constexpr std::string_view call = "Frames::trajectory";
+  constexpr std::string_view call = "FrameMotion::trajectory";
   known_chord(body, begin, call, "begin");
   const Chord& chord = known_chord(body, end, call, "end");
   if (end < begin) refuse_order(call, body, begin, end);
@@ -157,7 +155,7 @@ Result<void> FrameMotion::check_change(std::string_view call, std::uint32_t body
 
 /// Restarts the body's chord at time t. A body that continues as pushed ends exactly at the pushed position,
 /// not at a rounded one.
-void FrameMotion::turn(std::uint32_t body, double t, const State& state) {
+void FrameMotion::restart_chord(std::uint32_t body, double t, const State& state) {
   chords_[body] = {t, state.position, state.velocity};
   const bool as_pushed = latest_frame_ > 0 && t == previous_time() &&
                          state.velocity == (pushed_[body] - state.position) / interval_;
@@ -165,19 +163,19 @@ void FrameMotion::turn(std::uint32_t body, double t, const State& state) {
 }
 
 Result<void> FrameMotion::set_velocity(std::uint32_t body, double t, const Vec3& velocity) {
-  constexpr std::string_view call = "Frames::set_velocity";
+  constexpr std::string_view call = "FrameMotion::set_velocity";
   if (auto valid = check_change(call, body, t); !valid) return valid;
   InputCheck check(call);
   if (check.finite({"velocity", {body, 0}}, velocity).error()) return check.result();
-  turn(body, t, {state(body, t).position, velocity});
+  restart_chord(body, t, {state(body, t).position, velocity});
   return {};
 }
 
 Result<void> FrameMotion::teleport(std::uint32_t body, double t, const State& state) {
-  constexpr std::string_view call = "Frames::teleport";
+  constexpr std::string_view call = "FrameMotion::teleport";
   if (auto valid = check_change(call, body, t); !valid) return valid;
   if (const auto error = wrong_state(call, {body, 0}, state)) return *error;
-  turn(body, t, state);
+  restart_chord(body, t, state);
   return {};
 }
 
@@ -190,22 +188,22 @@ MotionOrigin FrameMotion::origin(std::uint32_t body) const {
 Result<void> FrameMotion::set_origin(std::uint32_t body, const MotionOrigin& origin) {
   constexpr std::string_view call = "FrameMotion::set_origin";
   if (const auto error = wrong_body(call, *this, body)) return *error;
-  if (const auto error = wrong_departure(call, {body, 0}, origin)) return *error;
+  if (const auto error = wrong_origin(call, {body, 0}, origin)) return *error;
   if (const auto error = wrong_time(call, {body, 0}, "origin", origin.time, {previous_time(), latest_time()}))
     return *error;
-  turn(body, origin.time, origin.state);
+  restart_chord(body, origin.time, origin.state);
   return {};
 }
 
 Result<void> FrameMotion::remove(std::uint32_t body) {
-  if (const auto error = wrong_body("Frames::remove", *this, body)) return *error;
+  if (const auto error = wrong_body("FrameMotion::remove", *this, body)) return *error;
   chords_[body].begin = infinity;
   free_.push_back(body);
   return {};
 }
 
 Result<std::uint32_t> FrameMotion::add(double t, const State& state, double acceleration_limit) {
-  constexpr std::string_view call = "Frames::add";
+  constexpr std::string_view call = "FrameMotion::add";
   if (const auto error = wrong_time(call, no_body, "t", t, {previous_time(), latest_time()})) return *error;
   if (const auto error = wrong_state(call, no_body, state)) return *error;
   InputCheck check(call);
@@ -221,7 +219,7 @@ Result<std::uint32_t> FrameMotion::add(double t, const State& state, double acce
     free_.pop_back();
   }
   limits_[body] = acceleration_limit;
-  turn(body, t, state);
+  restart_chord(body, t, state);
   return body;
 }
 

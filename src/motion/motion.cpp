@@ -1,8 +1,6 @@
 // Motion: defaults that refuse unsupported changes, and a probe that rejects bodies of another motion.
 #include "kinesphere/motion/motion.hpp"
 
-#include <string>
-
 #include "input/input_check.hpp"
 #include "motion/checks.hpp"
 

@@ -24,14 +24,14 @@ constexpr double farthest = 0x1p50;
 PiecewiseAcceleration::PiecewiseAcceleration(const std::vector<State>& start, double start_time,
                                              double interval)
     : interval_(interval) {
-  courses_.reserve(start.size());
-  for (const State& state : start) courses_.push_back({start_time, state, no_piece});
+  paths_.reserve(start.size());
+  for (const State& state : start) paths_.push_back({start_time, state, no_piece});
 }
 
 double PiecewiseAcceleration::latest_time() const { return farthest * interval_; }
 
 bool PiecewiseAcceleration::contains(std::uint32_t body) const {
-  return body < size() && courses_[body].since < infinity;
+  return body < size() && paths_[body].since < infinity;
 }
 
 State PiecewiseAcceleration::state(std::uint32_t body, double t) const {
@@ -75,20 +75,20 @@ Result<void> PiecewiseAcceleration::teleport(std::uint32_t body, double t, const
 
 MotionOrigin PiecewiseAcceleration::origin(std::uint32_t body) const {
   if (const auto error = wrong_body("origin", *this, body)) detail::bad_result(*error);
-  return {courses_[body].since, courses_[body].state};
+  return {paths_[body].since, paths_[body].state};
 }
 
 Result<void> PiecewiseAcceleration::set_origin(std::uint32_t body, const MotionOrigin& origin) {
   constexpr std::string_view call = "set_origin";
   if (const auto error = wrong_body(call, *this, body)) return *error;
-  if (const auto error = wrong_departure(call, {body, 0}, origin)) return *error;
+  if (const auto error = wrong_origin(call, {body, 0}, origin)) return *error;
   restart(body, origin.time, origin.state);
   return {};
 }
 
 Result<void> PiecewiseAcceleration::remove(std::uint32_t body) {
   if (const auto error = wrong_body("remove", *this, body)) return *error;
-  courses_[body] = {infinity, {}, no_piece};
+  paths_[body] = {infinity, {}, no_piece};
   free_.push_back(body);
   return {};
 }
@@ -102,7 +102,7 @@ Result<std::uint32_t> PiecewiseAcceleration::add_body(std::string_view call, dou
   if (const auto error = wrong_state(call, no_body, state)) return *error;
   auto body = static_cast<std::uint32_t>(size());
   if (free_.empty()) {
-    courses_.emplace_back();
+    paths_.emplace_back();
   } else {
     body = free_.back();
     free_.pop_back();
@@ -112,7 +112,7 @@ Result<std::uint32_t> PiecewiseAcceleration::add_body(std::string_view call, dou
 }
 
 void PiecewiseAcceleration::restart(std::uint32_t body, double t, const State& state) {
-  courses_[body] = {t, state, no_piece};
+  paths_[body] = {t, state, no_piece};
 }
 
 BodyDefinition PiecewiseAcceleration::definition_with(std::uint32_t body, double t, double acceleration_limit,
@@ -134,17 +134,17 @@ BodyDefinition PiecewiseAcceleration::definition_with(std::uint32_t body, double
 const Segment& PiecewiseAcceleration::known_piece_at(std::uint32_t body, double t, std::string_view call,
                                                      std::string_view argument) const {
   const double latest = latest_time();
-  if (body >= size() || !(t >= courses_[body].since && t < infinity && t <= latest)) [[unlikely]]
-    refuse_question(call, *this, body, argument, t, {body < size() ? courses_[body].since : t, latest});
+  if (body >= size() || !(t >= paths_[body].since && t < infinity && t <= latest)) [[unlikely]]
+    refuse_question(call, *this, body, argument, t, {body < size() ? paths_[body].since : t, latest});
   return piece_at(body, t);
 }
 
 const Segment& PiecewiseAcceleration::piece_at(std::uint32_t body, double t) const {
-  Course& course = courses_[body];
-  assert(std::isfinite(t) && t >= course.since);
-  if (t < course.piece.begin) course.piece = piece_from(body, course.since, course.state);
-  while (course.piece.end <= t) course.piece = piece_after(body, course.piece);
-  return course.piece;
+  Path& path = paths_[body];
+  assert(std::isfinite(t) && t >= path.since);
+  if (t < path.piece.begin) path.piece = piece_from(body, path.since, path.state);
+  while (path.piece.end <= t) path.piece = piece_after(body, path.piece);
+  return path.piece;
 }
 
 Segment PiecewiseAcceleration::piece_from(std::uint32_t body, double t, const State& state) const {

@@ -11,7 +11,7 @@
 namespace kinesphere {
 
 Result<SteeredMotion> SteeredMotion::create(SteeredMotionDefinition definition) {
-  const auto check = InputCheck("Steered::create")
+  const auto check = InputCheck("SteeredMotion::create")
                          .start(definition.start, definition.start_time)
                          .acceleration_limits(definition.acceleration_limits, definition.start.size());
   if (check.error()) return *check.error();

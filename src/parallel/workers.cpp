@@ -47,7 +47,7 @@ class Threads final : public ThreadPool {
       items_ = nullptr;
     }
     const auto all_have_stopped = [this] { return working_ == 0; };
-    look_out(all_have_stopped);
+    spin_until(all_have_stopped);
     std::unique_lock lock(mutex_);
     done_.wait(lock, all_have_stopped);
   }
@@ -56,7 +56,7 @@ class Threads final : public ThreadPool {
   void live(std::size_t worker) {
     std::uint64_t last_round = 0;
     for (;;) {
-      look_out([&] { return leaving_ || round_ != last_round; });
+      spin_until([&] { return leaving_ || round_ != last_round; });
       std::unique_lock lock(mutex_);
       ++asleep_;
       wake_.wait(lock, [&] { return leaving_ || (items_ != nullptr && round_ != last_round); });
@@ -75,9 +75,9 @@ class Threads final : public ThreadPool {
   /// Returns when the condition is true, or after a short time. Polling notices the condition sooner than a
   /// sleeping thread would.
   template <class Comes>
-  static void look_out(Comes comes) {
-    constexpr int looks = 100;
-    for (int look = 0; look < looks && !comes(); ++look) std::this_thread::yield();
+  static void spin_until(Comes comes) {
+    constexpr int most_tries = 100;
+    for (int tries = 0; tries < most_tries && !comes(); ++tries) std::this_thread::yield();
   }
 
   void dismiss() {

@@ -29,21 +29,22 @@ Bound World::Engine::Answers::guarded(std::uint32_t number) const {
   return bound;
 }
 
-bool World::Engine::Answers::settled(std::uint32_t a, std::uint32_t b) const {
+bool World::Engine::Answers::is_certified(std::uint32_t a, std::uint32_t b) const {
   return !body(a).dirty && !body(b).dirty && !open_.contains(std::minmax(a, b));
 }
 
 /// Returns a time before which no contact of the pair begins, as the engine does not recheck the pair
 /// earlier. Returns the present time if the pair has no valid certificate.
-double World::Engine::Answers::recorded(std::uint32_t a, std::uint32_t b, const CertificateTimes& hot) const {
-  if (!settled(a, b)) return now_;
-  return std::max(std::min(hot.of(a, b), engine_.main().certifier().earliest_window_end(a, b)), now_);
+double World::Engine::Answers::recorded(std::uint32_t a, std::uint32_t b,
+                                        const CertificateTimes& times) const {
+  if (!is_certified(a, b)) return now_;
+  return std::max(std::min(times.of(a, b), engine_.main().certifier().earliest_window_end(a, b)), now_);
 }
 
-double World::Engine::Answers::recorded_of_walls(std::uint32_t number, const CertificateTimes& hot) const {
-  if (!settled(number, number)) return now_;
+double World::Engine::Answers::recorded_of_walls(std::uint32_t number, const CertificateTimes& times) const {
+  if (!is_certified(number, number)) return now_;
   return std::max(now_,
-                  std::min(hot.of(number, PairCertificate::walls), engine_.broad_phase().end_of(number)));
+                  std::min(times.of(number, PairCertificate::walls), engine_.broad_phase().end_of(number)));
 }
 
 void World::Engine::Answers::consider_touching(std::uint32_t number, ContactBoundary& first) const {
@@ -56,10 +57,10 @@ void World::Engine::Answers::consider_touching(std::uint32_t number, ContactBoun
       first = {now_, number, std::nullopt, wall, true};
 }
 
-void World::Engine::Answers::consider_walls(std::uint32_t number, const CertificateTimes& hot,
+void World::Engine::Answers::consider_walls(std::uint32_t number, const CertificateTimes& times,
                                             ContactBoundary& first) const {
   if (!engine_.bodies().walls() || !body(number).present() || body(number).is_static()) return;
-  const double known = recorded_of_walls(number, hot);
+  const double known = recorded_of_walls(number, times);
   if (known >= first.time) return;
   const Bound bound = guarded(number);
   for (const Wall wall : walls) {
@@ -111,10 +112,10 @@ double World::Engine::Answers::meeting(const CollisionShape& extent_of_a,
   return std::max(first, now_);
 }
 
-void World::Engine::Answers::consider(std::uint32_t a, std::uint32_t b, const CertificateTimes& hot,
+void World::Engine::Answers::consider(std::uint32_t a, std::uint32_t b, const CertificateTimes& times,
                                       ContactBoundary& first) const {
   if (!body(a).present() || !body(b).present() || !engine_.bodies().may_touch(a, b)) return;
-  const double known = recorded(a, b, hot);
+  const double known = recorded(a, b, times);
   if (known >= first.time) return;
   const Bound bound_of_a = guarded(a);
   const Bound bound_of_b = guarded(b);
@@ -134,13 +135,13 @@ ContactBoundary World::Engine::Answers::of_body(std::uint32_t number) const {
   ContactBoundary first;
   consider_touching(number, first);
   if (first.touching) return first;
-  const CertificateTimes hot(engine_.certificates(number));
-  consider_walls(number, hot, first);
+  const CertificateTimes times(engine_.certificates(number));
+  consider_walls(number, times, first);
   // Pairs with certificates come first: their early times make most of the others cheap to dismiss.
-  for (const PairCertificate& pair : hot.pairs())
-    if (pair.has_second()) consider(number, pair.first == number ? pair.second : pair.first, hot, first);
+  for (const PairCertificate& pair : times.pairs())
+    if (pair.has_second()) consider(number, pair.first == number ? pair.second : pair.first, times, first);
   for (std::uint32_t other = 0; other < engine_.bodies().numbers(); ++other)
-    if (other != number && body(other).present()) consider(number, other, hot, first);
+    if (other != number && body(other).present()) consider(number, other, times, first);
   return first;
 }
 
@@ -153,14 +154,14 @@ ContactBoundary World::Engine::Answers::of_world() const {
   if (first.touching) return first;
   // Any pair gives an upper limit for the answer. Pairs with certificates and neighbouring numbers give a
   // good one.
-  const CertificateTimes hot(engine_.certificates());
-  for (const PairCertificate& pair : hot.pairs())
-    if (pair.has_second()) consider(pair.first, pair.second, hot, first);
+  const CertificateTimes times(engine_.certificates());
+  for (const PairCertificate& pair : times.pairs())
+    if (pair.has_second()) consider(pair.first, pair.second, times, first);
   for (std::size_t k = 0; k < present.size(); ++k) {
-    consider_walls(present[k], hot, first);
-    if (k > 0) consider(present[k - 1], present[k], hot, first);
+    consider_walls(present[k], times, first);
+    if (k > 0) consider(present[k - 1], present[k], times, first);
   }
-  consider_all_within(present, hot, first);
+  consider_all_within(present, times, first);
   return first;
 }
 
@@ -177,7 +178,8 @@ InflatedBound World::Engine::Answers::until_horizon(std::uint32_t number, double
 
 /// Searches for pairs whose bounds may come to the same place before first.time. No other pair can lower it.
 void World::Engine::Answers::consider_all_within(const std::vector<std::uint32_t>& numbers,
-                                                 const CertificateTimes& hot, ContactBoundary& first) const {
+                                                 const CertificateTimes& times,
+                                                 ContactBoundary& first) const {
   if (first.time <= now_) return;
   const double horizon = first.time;
   BroadPhase windows(engine_.bodies().space());
@@ -198,10 +200,10 @@ void World::Engine::Answers::consider_all_within(const std::vector<std::uint32_t
   windows.start(starters, now_, bound_of, alone);
   NeighbourSearch search;
   for (const auto& [a, b] : search.near_started(windows, 0, windows.started(), now_, bound_of))
-    consider(a, b, hot, first);
+    consider(a, b, times, first);
   for (const std::uint32_t number : anywhere)
     for (const std::uint32_t other : numbers)
-      if (other != number) consider(number, other, hot, first);
+      if (other != number) consider(number, other, times, first);
 }
 
 DistanceLimits World::Engine::Answers::distance(std::uint32_t a, std::uint32_t b, double time) const {
@@ -275,11 +277,11 @@ ContactBoundary World::Engine::Answers::approach_of_body(std::uint32_t number, d
   return first;
 }
 
-std::vector<std::uint32_t> World::Engine::Answers::concerned(const ContactBoundary& onset) {
+std::vector<std::uint32_t> World::Engine::Answers::concerned(const ContactBoundary& boundary) {
   std::vector<std::uint32_t> numbers;
-  if (!onset.exists() || onset.touching) return numbers;
-  numbers.push_back(onset.body);
-  if (onset.partner) numbers.push_back(*onset.partner);
+  if (!boundary.exists() || boundary.touching) return numbers;
+  numbers.push_back(boundary.body);
+  if (boundary.partner) numbers.push_back(*boundary.partner);
   return numbers;
 }
 

@@ -62,21 +62,22 @@ class World::Engine::Answers {
   }
 
  private:
-  static std::vector<std::uint32_t> concerned(const ContactBoundary& onset);
+  static std::vector<std::uint32_t> concerned(const ContactBoundary& boundary);
   const Body& body(std::uint32_t number) const { return engine_.bodies()[number]; }
   Bound present(std::uint32_t number) const;
   Bound guarded(std::uint32_t number) const;
   double meeting(const CollisionShape& extent_of_a, const CollisionShape& extent_of_b) const;
-  bool settled(std::uint32_t a, std::uint32_t b) const;
-  double recorded(std::uint32_t a, std::uint32_t b, const CertificateTimes& hot) const;
-  double recorded_of_walls(std::uint32_t number, const CertificateTimes& hot) const;
+  bool is_certified(std::uint32_t a, std::uint32_t b) const;
+  double recorded(std::uint32_t a, std::uint32_t b, const CertificateTimes& times) const;
+  double recorded_of_walls(std::uint32_t number, const CertificateTimes& times) const;
   void consider_touching(std::uint32_t number, ContactBoundary& first) const;
-  void consider_walls(std::uint32_t number, const CertificateTimes& hot, ContactBoundary& first) const;
-  void consider(std::uint32_t a, std::uint32_t b, const CertificateTimes& hot, ContactBoundary& first) const;
+  void consider_walls(std::uint32_t number, const CertificateTimes& times, ContactBoundary& first) const;
+  void consider(std::uint32_t a, std::uint32_t b, const CertificateTimes& times,
+                ContactBoundary& first) const;
   void consider_approach(std::uint32_t a, std::uint32_t b, double distance, ContactBoundary& first) const;
   void consider_approach_to_walls(std::uint32_t number, double distance, ContactBoundary& first) const;
   InflatedBound until_horizon(std::uint32_t number, double horizon) const;
-  void consider_all_within(const std::vector<std::uint32_t>& numbers, const CertificateTimes& hot,
+  void consider_all_within(const std::vector<std::uint32_t>& numbers, const CertificateTimes& times,
                            ContactBoundary& first) const;
 
   const Engine& engine_;

@@ -132,7 +132,7 @@ class World::Engine::Audit {
 
   void check_walls(std::uint32_t number) {
     const Body& b = body(number);
-    if (!engine_.bodies().walls() || b.is_static() || !settled(number, number) ||
+    if (!engine_.bodies().walls() || b.is_static() || !is_certified(number, number) ||
         engine_.contacts().walls_of(number) != 0 || !exact(b))
       return;
     // Bouncing bodies within the tolerance follow the contact rule instead, as in checkable().
@@ -160,7 +160,7 @@ class World::Engine::Audit {
       return find("filter", pair(a, b) + " touch though they may not");
     check_overlaps(a, b);
     check_overlaps(b, a);
-    if (!engine_.bodies().may_meet(a, b) || !settled(a, b)) return;
+    if (!engine_.bodies().may_meet(a, b) || !is_certified(a, b)) return;
     engine_.main().certifier().for_each_threshold(
         a, b, [&](const Threshold& threshold) { check_threshold(a, b, threshold); });
   }
@@ -199,16 +199,16 @@ class World::Engine::Audit {
     const ContactRule& rule = engine_.contacts().rule_of(threshold);
     const PlainGap::Limits limits = gap.of_bodies(now_);
     const double margin = slack_of_gaps() + gap.uncertainty(now_);
-    const bool end_untold =
+    const bool end_missing =
         threshold.within && limits.lower > threshold.distance + rule.release_gap() + margin;
-    const bool begin_untold =
+    const bool begin_missing =
         !threshold.within && limits.upper < threshold.distance - rule.tolerance() - margin;
-    if (!end_untold && !begin_untold) return;
+    if (!end_missing && !begin_missing) return;
     const std::string distance = threshold.sensed ? " of " + std::to_string(threshold.distance) : "";
     find(threshold.sensed ? "sensor" : "contact",
-         pair(a, b) + (end_untold ? " are apart, and no end" : " are too near, and no begin") + distance +
+         pair(a, b) + (end_missing ? " are apart, and no end" : " are too near, and no begin") + distance +
              " has been told: their gap is at " +
-             (end_untold ? "least " + text_of(limits.lower) : "most " + text_of(limits.upper)));
+             (end_missing ? "least " + text_of(limits.lower) : "most " + text_of(limits.upper)));
   }
 
   /// Slack for gaps (length): a quarter of the tolerance, well below what the contact rule distinguishes, and
@@ -283,7 +283,7 @@ class World::Engine::Audit {
 
   /// True if the engine must hold a valid certificate of the pair now. A pair of a body with itself stands
   /// for its walls.
-  bool settled(std::uint32_t a, std::uint32_t b) const {
+  bool is_certified(std::uint32_t a, std::uint32_t b) const {
     const auto concerns = [=](const Event& event) {
       return event.first.index == a && (a == b ? event.wall != Wall::none : event.second.index == b);
     };

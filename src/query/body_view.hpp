@@ -3,7 +3,6 @@
 
 #include <cstdint>
 
-#include "engine/body_bounds.hpp"
 #include "kinesphere/world.hpp"
 
 namespace kinesphere {

@@ -29,19 +29,19 @@ inline CertainSphere certain_sphere_of(const Body& body, double now) {
 inline Bound present_bound(const Body& body, const Change* change, double now) {
   const Bound& last = body.bound;
   if (!change) return last;
-  const MotionLimits& promise = change->limits;
-  const bool as_promised = last.growth_speed == promise.velocity_error &&
-                           last.growth_acceleration == promise.acceleration_limit &&
-                           last.planned_acceleration == promise.planned_acceleration;
-  if (as_promised && !change->velocity) return last;
-  const CertainSphere place = certain_sphere_of(body, now);
+  const MotionLimits& limits = change->limits;
+  const bool is_unchanged = last.growth_speed == limits.velocity_error &&
+                            last.growth_acceleration == limits.acceleration_limit &&
+                            last.planned_acceleration == limits.planned_acceleration;
+  if (is_unchanged && !change->velocity) return last;
+  const CertainSphere sphere = certain_sphere_of(body, now);
   Bound bound{.time = now,
-              .position = place.centre,
+              .position = sphere.centre,
               .velocity = change->velocity.value_or(last.velocity_at(now)),
-              .planned_acceleration = promise.planned_acceleration,
-              .radius = place.outer,
-              .growth_speed = promise.velocity_error,
-              .growth_acceleration = promise.acceleration_limit};
+              .planned_acceleration = limits.planned_acceleration,
+              .radius = sphere.outer,
+              .growth_speed = limits.velocity_error,
+              .growth_acceleration = limits.acceleration_limit};
   if (!change->velocity) {
     const double s = now - last.time;
     const double speed =

@@ -2,8 +2,6 @@
 // everything is computed in long double, where that has more digits.
 #pragma once
 
-#include <array>
-
 #include "engine/collision_shape.hpp"
 #include "kinesphere/bound.hpp"
 #include "kinesphere/shape.hpp"

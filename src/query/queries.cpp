@@ -43,13 +43,13 @@ GapLimits limits_of(const Box& region, const Shape& shape) {
   });
 }
 
-RayLimits touch_of(const SweptRay& way, const Shape& shape) {
-  const Bound sphere{.position = way.origin, .velocity = way.direction, .radius = way.radius};
+RayLimits touch_of(const SweptRay& ray, const Shape& shape) {
+  const Bound sphere{.position = ray.origin, .velocity = ray.direction, .radius = ray.radius};
   return visit_shapes({sphere}, {sphere, true, &shape}, [&](const Bound&, const auto& solid) -> RayLimits {
     if constexpr (std::is_same_v<std::remove_cvref_t<decltype(solid)>, Bound>) {
       return {0.0, infinity};
     } else {
-      return first_touch(sphere, solid, way.length);
+      return first_touch(sphere, solid, ray.length);
     }
   });
 }
@@ -72,16 +72,16 @@ struct Passage {
 
 /// Intersects a ray with a ball; nullopt if it misses. `wrong` widens the result on either side (narrows it
 /// if negative).
-std::optional<Passage> passage(const SweptRay& way, const Vec3& centre, double radius, double wrong) {
+std::optional<Passage> passage(const SweptRay& ray, const Vec3& centre, double radius, double wrong) {
   if (!(radius >= 0.0)) return std::nullopt;
-  const Vec3 offset = centre - way.origin;
-  const double along = dot(offset, way.direction);
-  const double across = norm(offset - way.direction * along);
+  const Vec3 offset = centre - ray.origin;
+  const double along = dot(offset, ray.direction);
+  const double across = norm(offset - ray.direction * along);
   const double square = (radius - across) * (radius + across);
   if (!(square >= 0.0)) return std::nullopt;
   const double half = std::sqrt(square);
   const Passage found{std::max(0.0, along - half - wrong), along + half + wrong};
-  if (found.leave < 0.0 || found.enter > way.length) return std::nullopt;
+  if (found.leave < 0.0 || found.enter > ray.length) return std::nullopt;
   return found;
 }
 
@@ -216,10 +216,10 @@ std::vector<NearestHit> World::Engine::Queries::nearest(const Vec3& point, std::
 
 /// Intersects the ray with a body, in those of its images that come near this piece of the ray. Returns the
 /// earliest limits over these images, or nullopt if none can be hit.
-std::optional<CastHit> World::Engine::Queries::hit(const SweptRay& way, const Box& piece,
+std::optional<CastHit> World::Engine::Queries::hit(const SweptRay& ray, const Box& piece,
                                                    std::uint32_t number) const {
   if (const Shape* shape = collision_shape_of(engine_.bodies(), number).shape) {
-    const RayLimits touch = touch_of(way, *shape);
+    const RayLimits touch = touch_of(ray, *shape);
     if (touch.lower == infinity) return std::nullopt;
     return CastHit{engine_.bodies().id_of(number), Certainty::possibly, touch.lower, touch.upper};
   }
@@ -228,10 +228,10 @@ std::optional<CastHit> World::Engine::Queries::hit(const SweptRay& way, const Bo
   engine_.bodies().space().for_each_shift(
       box_around(at.centre, at.centre, at.outer), piece, [&](const Vec3& shift) {
         const Vec3 centre = at.centre + shift;
-        const double wrong = part_lost * (norm_one(way.origin) + norm_one(centre) + at.outer + way.radius);
-        const auto may = passage(way, centre, at.outer + way.radius + wrong, wrong);
+        const double wrong = part_lost * (norm_one(ray.origin) + norm_one(centre) + at.outer + ray.radius);
+        const auto may = passage(ray, centre, at.outer + ray.radius + wrong, wrong);
         if (!may) return;
-        const auto must = passage(way, centre, at.inner + way.radius - wrong, -wrong);
+        const auto must = passage(ray, centre, at.inner + ray.radius - wrong, -wrong);
         const CastHit image{engine_.bodies().id_of(number), Certainty::possibly, may->enter,
                             must ? must->enter : infinity};
         if (!first) first = image;
@@ -241,20 +241,20 @@ std::optional<CastHit> World::Engine::Queries::hit(const SweptRay& way, const Bo
   return first;
 }
 
-std::vector<CastHit> World::Engine::Queries::cast(const SweptRay& way) const {
+std::vector<CastHit> World::Engine::Queries::cast(const SweptRay& ray) const {
   std::vector<CastHit> hits;
   double sure = infinity;  // something is certainly hit within this distance
-  const double piece = std::max({way.length / most_pieces, 2.0 * way.radius, finest_length()});
+  const double piece = std::max({ray.length / most_pieces, 2.0 * ray.radius, finest_length()});
   std::vector<std::uint32_t> seen;
-  for (int k = 0; k < most_pieces && k * piece <= std::min(way.length, sure); ++k) {
-    const double end = k + 1 == most_pieces ? way.length : std::min(way.length, (k + 1) * piece);
+  for (int k = 0; k < most_pieces && k * piece <= std::min(ray.length, sure); ++k) {
+    const double end = k + 1 == most_pieces ? ray.length : std::min(ray.length, (k + 1) * piece);
     const Box box =
-        box_around(way.origin + way.direction * (k * piece), way.origin + way.direction * end, way.radius);
+        box_around(ray.origin + ray.direction * (k * piece), ray.origin + ray.direction * end, ray.radius);
     std::vector<std::uint32_t> fresh;
     const std::vector<std::uint32_t> here = engine_.bodies_in(box);
     std::set_difference(here.begin(), here.end(), seen.begin(), seen.end(), std::back_inserter(fresh));
     for (const std::uint32_t number : fresh) {
-      const std::optional<CastHit> found = hit(way, box, number);
+      const std::optional<CastHit> found = hit(ray, box, number);
       if (!found) continue;
       hits.push_back(*found);
       sure = std::min(sure, found->upper);

@@ -24,7 +24,7 @@ class World::Engine::Queries {
   std::vector<OverlapHit> overlapping(const Vec3& centre, double radius) const;
   std::vector<OverlapHit> overlapping(const Box& region) const;
   std::vector<NearestHit> nearest(const Vec3& point, std::size_t count) const;
-  std::vector<CastHit> cast(const SweptRay& way) const;
+  std::vector<CastHit> cast(const SweptRay& ray) const;
 
  private:
   double finest_length() const;
@@ -34,7 +34,7 @@ class World::Engine::Queries {
   /// region.
   template <class Distance, class ShapeGap>
   std::vector<OverlapHit> overlapping(const Box& box, Distance distance_to, ShapeGap gap_to) const;
-  std::optional<CastHit> hit(const SweptRay& way, const Box& piece, std::uint32_t number) const;
+  std::optional<CastHit> hit(const SweptRay& ray, const Box& piece, std::uint32_t number) const;
   std::vector<std::uint32_t> around(const Vec3& point, std::size_t count) const;
   std::vector<NearestHit> distances(const std::vector<std::uint32_t>& numbers, const Vec3& point) const;
 

@@ -74,16 +74,16 @@ GapLimits gap_limits(const Box& region, const Box& shape) {
 GapLimits gap_limits(const Box& region, const Triangle& shape) {
   const std::array<Vec3, 3> sides{shape.b - shape.a, shape.c - shape.b, shape.a - shape.c};
   double gap = -infinity;
-  const auto look_along = [&](const Vec3& direction) {
+  const auto try_direction = [&](const Vec3& direction) {
     const double length = norm(direction);
     if (length > 0x1p-500) gap = std::max(gap, gap_along(region, shape, direction / length));
   };
-  look_along(TriangleFrame(shape).normal());
+  try_direction(TriangleFrame(shape).normal());
   for (int axis = 0; axis < 3; ++axis) {
     Vec3 unit;
     unit[axis] = 1.0;
-    look_along(unit);
-    for (const Vec3& side : sides) look_along(cross(unit, side));
+    try_direction(unit);
+    for (const Vec3& side : sides) try_direction(cross(unit, side));
   }
   const double thick = thickness(shape);
   const double wrong = margin * (size_of(region) + norm_one(shape.a) + norm_one(shape.b) + norm_one(shape.c));

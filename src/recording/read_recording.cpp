@@ -1,7 +1,5 @@
 // Reading of recordings: validation of the bytes, and the events and states for a viewer.
 #include <algorithm>
-#include <cmath>
-#include <string>
 
 #include "recording/format.hpp"
 #include "recording/step.hpp"

@@ -1,8 +1,6 @@
 // Recorder: records the steps of a world as they happen.
 #pragma once
 
-#include <utility>
-
 #include "recording/step.hpp"
 
 namespace kinesphere {

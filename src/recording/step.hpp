@@ -17,8 +17,7 @@
 
 namespace kinesphere {
 
-template <Some<ProbedState> Self, class Archive>
-void serialize(Self& self, Archive& archive) {
+void serialize(Some<ProbedState> auto& self, auto& archive) {
   auto& [time, body, state] = self;
   archive(time, body, state);
 }
@@ -34,8 +33,7 @@ struct New {
     const auto added = (world.*call)(body);
     return added ? Result<void>() : Result<void>(added.error());
   }
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
+  static void serialize(auto& self, auto& archive) {
     auto& [definition] = self;
     archive(definition);
   }
@@ -49,8 +47,7 @@ struct Plain {
   BodyId body{};
 
   Result<void> repeat(World& world) const { return (world.*call)(body); }
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
+  static void serialize(auto& self, auto& archive) {
     auto& [id] = self;
     archive(id);
   }
@@ -69,8 +66,7 @@ struct With {
   Argument argument{};
 
   Result<void> repeat(World& world) const { return (world.*call)(subject, argument); }
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
+  static void serialize(auto& self, auto& archive) {
     auto& [changed, value] = self;
     archive(changed, value);
   }
@@ -91,8 +87,7 @@ using SetUserData = With<BodyId, std::uint64_t, std::uint64_t, &World::set_user_
 struct SetPairFilter {
   bool given = false;
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
+  static void serialize(auto& self, auto& archive) {
     auto& [is_given] = self;
     archive(is_given);
   }
@@ -103,8 +98,7 @@ struct Answer {
   ProbedState report{};
   bool last = false;  ///< Last answer of its probe call.
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
+  static void serialize(auto& self, auto& archive) {
     auto& [reported, is_last] = self;
     archive(reported, is_last);
   }
@@ -118,8 +112,7 @@ struct Asking {
   std::optional<Event> event{};
   std::uint64_t hash = 0;  ///< StepHash of all outcomes so far.
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
+  static void serialize(auto& self, auto& archive) {
     auto& [advance_until, all_answers, has_failed, outcome, running_hash] = self;
     archive(advance_until, all_answers, has_failed, outcome, running_hash);
   }
@@ -130,8 +123,7 @@ struct End {
   double time = 0.0;
   std::uint64_t checksum = 0;  ///< Checksum of the world's snapshot.
 
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
+  static void serialize(auto& self, auto& archive) {
     auto& [end_time, sum] = self;
     archive(end_time, sum);
   }

@@ -1,8 +1,6 @@
 // Periodic images of points and boxes.
 #include "space/space.hpp"
 
-#include <algorithm>
-
 namespace kinesphere {
 namespace {
 

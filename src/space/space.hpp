@@ -49,7 +49,7 @@ class Space {
   }
   /// Returns the shift that shift_to_nearest() returns, by comparisons only. Precondition: the points lie in
   /// the primary box, or hardly outside.
-  Vec3 shift_between_homes(const Vec3& from, const Vec3& to) const {
+  Vec3 shift_between_images(const Vec3& from, const Vec3& to) const {
     const auto shift = [](double way, double period) {
       if (way > 0.5 * period) return -period;
       return way < -0.5 * period ? period : 0.0;

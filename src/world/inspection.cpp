@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 
-#include "archive/fields.hpp"
 #include "archive/heap_counter.hpp"
 #include "engine/engine.hpp"
 #include "recording/recorder.hpp"
@@ -57,8 +56,8 @@ std::vector<Certificate> World::certificates() const {
   const Engine& engine = this->engine("certificates");
   std::vector<Certificate> all;
   for (const PairCertificate& pair : engine.certificates()) {
-    if (pair.second == PairCertificate::window_end) continue;
-    const BodyId other = pair.second == PairCertificate::walls ? no_body : engine.bodies().id_of(pair.second);
+    if (pair.kind() == PairCertificate::Kind::window_end) continue;
+    const BodyId other = pair.has_second() ? engine.bodies().id_of(pair.second) : no_body;
     const auto [first, second] = std::minmax({engine.bodies().id_of(pair.first), other});
     all.push_back({first, second, pair.failure_time});
   }

@@ -23,11 +23,11 @@ Result<void> World::Preconditions::idle() const {
   return valid ? check_idle(world_.activity(), call_) : valid;
 }
 
-Result<void> World::Preconditions::all_told() const {
+Result<void> World::Preconditions::all_delivered() const {
   auto valid = idle();
-  if (!valid || !world_.untold_ || world_.untold_->empty()) return valid;
+  if (!valid || !world_.undelivered_ || world_.undelivered_->empty()) return valid;
   return Error{ErrorCode::run_in_progress, "world", no_body,
-               std::string(call_) + ": the world must have told all events of an interrupted run first," +
+               std::string(call_) + ": all events of an interrupted run must have been delivered first," +
                    " in another run or by advance"};
 }
 
@@ -93,7 +93,7 @@ Result<void> World::Preconditions::is_enabled(BodyId body, bool enabled) const {
 Result<void> World::Preconditions::is_moving(BodyId body) const {
   if (!engine_->bodies().table()[body.index].is_static()) return {};
   return error_about(ErrorCode::static_body, body,
-                     "body must be one that can move, but " + text_of(body) + " is fixed");
+                     "body must be one that can move, but " + text_of(body) + " is static");
 }
 
 Result<void> World::Preconditions::pair(BodyId first, BodyId second) const {
@@ -104,16 +104,16 @@ Result<void> World::Preconditions::pair(BodyId first, BodyId second) const {
                std::string(call_) + ": second must be another body than first, but is " + text_of(second)};
 }
 
-Result<void> World::Preconditions::room(const BodyDefinition& body, BodyId id) const {
+Result<void> World::Preconditions::no_overlap(const BodyDefinition& body, BodyId id) const {
   if (definition().allow_overlap) return {};
   const auto other = engine_->overlaps().of_body(id, {bound_now(body, engine_->time())}, body);
   return other ? Result<void>(overlap_error(call_, *other, text_of(*other))) : Result<void>();
 }
 
-Result<void> World::Preconditions::static_room(const StaticDefinition& fixed, BodyId id) const {
+Result<void> World::Preconditions::no_static_overlap(const StaticDefinition& added, BodyId id) const {
   if (definition().allow_overlap) return {};
-  const Bound bound = bound_now(body_of(fixed), engine_->time());
-  const auto other = engine_->overlaps().of_body(id, collision_shape_of(bound, fixed.shape), body_of(fixed));
+  const Bound bound = bound_now(body_of(added), engine_->time());
+  const auto other = engine_->overlaps().of_body(id, collision_shape_of(bound, added.shape), body_of(added));
   return other ? Result<void>(overlap_error(call_, *other, text_of(*other), "shape")) : Result<void>();
 }
 
@@ -122,7 +122,7 @@ Result<void> World::Preconditions::moved(BodyId id, const State& state) const {
   if (auto valid = check_state(state, moved, id, definition(), call_); !valid) return valid;
   moved.position = state.position;
   moved.velocity = state.velocity;
-  return room(moved, id);
+  return no_overlap(moved, id);
 }
 
 Result<void> World::Preconditions::growth(const BodyDefinition& changed, BodyId id,
@@ -151,16 +151,16 @@ Result<void> World::Preconditions::reach(const BodyDefinition& changed, BodyId i
 Result<void> World::Preconditions::new_body(const BodyDefinition& body, BodyId id) const {
   auto valid = check_body(body, definition(), call_);
   if (valid) valid = reach(body, no_body, "sensor_class");
-  return valid ? room(body, id) : valid;
+  return valid ? no_overlap(body, id) : valid;
 }
 
-Result<StaticDefinition> World::Preconditions::new_static(const StaticDefinition& fixed, BodyId id) const {
-  auto valid = check_shape(fixed.shape, definition(), call_);
-  if (valid) valid = reach(body_of(fixed), no_body, "shape");
+Result<StaticDefinition> World::Preconditions::new_static(const StaticDefinition& added, BodyId id) const {
+  auto valid = check_shape(added.shape, definition(), call_);
+  if (valid) valid = reach(body_of(added), no_body, "shape");
   if (!valid) return valid.error();
-  StaticDefinition accepted = fixed;
-  accepted.shape = normalized(fixed.shape, engine_->definition());
-  if (auto space = static_room(accepted, id); !space) return space.error();
+  StaticDefinition accepted = added;
+  accepted.shape = normalized(added.shape, engine_->definition());
+  if (auto space = no_static_overlap(accepted, id); !space) return space.error();
   return accepted;
 }
 

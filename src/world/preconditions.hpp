@@ -2,7 +2,6 @@
 // in its arguments, and the space that the change needs.
 #pragma once
 
-#include <optional>
 #include <string_view>
 
 #include "engine/engine.hpp"
@@ -24,7 +23,7 @@ class World::Preconditions {
   Result<void> idle() const;
   /// The world is idle, and every event of an interrupted run() has been delivered
   /// (ErrorCode::run_in_progress).
-  Result<void> all_told() const;
+  Result<void> all_delivered() const;
   /// The world is idle, and `probe` is not empty (ErrorCode::null_probe).
   Result<void> may_ask(const Probe& probe) const;
 
@@ -51,8 +50,8 @@ class World::Preconditions {
   // Space. `id` is the id that the body has, or will have once added.
 
   /// If overlaps are forbidden, the body overlaps no other body at its position.
-  Result<void> room(const BodyDefinition& body, BodyId id) const;
-  Result<void> static_room(const StaticDefinition& fixed, BodyId id) const;
+  Result<void> no_overlap(const BodyDefinition& body, BodyId id) const;
+  Result<void> no_static_overlap(const StaticDefinition& added, BodyId id) const;
   /// The body may be put into this state at the present time.
   Result<void> moved(BodyId id, const State& state) const;
   /// The body may grow at its present position: reach() holds, and if overlaps are forbidden, it overlaps
@@ -64,7 +63,7 @@ class World::Preconditions {
   Result<void> new_body(const BodyDefinition& body, BodyId id) const;
   /// The definition is valid for adding a static body. Returns it with its shape normalized, as the world
   /// stores it.
-  Result<StaticDefinition> new_static(const StaticDefinition& fixed, BodyId id) const;
+  Result<StaticDefinition> new_static(const StaticDefinition& added, BodyId id) const;
 
  private:
   const WorldDefinition& definition() const { return engine_->definition(); }

@@ -12,7 +12,7 @@
 namespace kinesphere {
 
 /// Events that the engine has delivered, but that run() has not completely processed.
-struct World::UntoldEvents {
+struct World::UndeliveredEvents {
   std::deque<Event> events{};         ///< responses applied, not yet delivered to the sink; in order
   std::optional<Event> unanswered{};  ///< response not applied; comes after `events`
 
@@ -35,15 +35,13 @@ class World::Run final : private ResponseHandler {
   Result<void> go();
 
  private:
-  class UnansweredGuard;
-
-  /// Does some work, and appends the resulting events to the untold ones. Returns true when the world has
-  /// reached the end of the run. Precondition: all earlier events in untold_->events have been delivered to
-  /// the sink.
+  /// Does some work, and appends the resulting events to undelivered_->events. Returns true when the world
+  /// has reached the end of the run. Precondition: all earlier events in undelivered_->events have been
+  /// delivered to the sink.
   Result<bool> work();
-  Result<bool> phase();
+  Result<bool> step_batch();
   Result<bool> step();
-  void tell();
+  void deliver();
 
   Result<std::optional<Event>> next();
   Result<void> answer_one(const Event& event);
@@ -54,8 +52,8 @@ class World::Run final : private ResponseHandler {
   MotionOrigin origin(BodyId body) override { return source_->origin(body); }
   void set_origin(BodyId body, const MotionOrigin& origin) override { source_->set_origin(body, origin); }
   Result<void> check(const Event& event, const Response& answer) const;
-  Result<void> check_kick(const Event& event, BodyId body, const std::optional<Vec3>& velocity,
-                          std::string_view argument) const;
+  Result<void> check_velocity_change(const Event& event, BodyId body, const std::optional<Vec3>& velocity,
+                                     std::string_view argument) const;
 
   World& world_;
   double until_;

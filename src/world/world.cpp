@@ -27,7 +27,7 @@ World& World::operator=(World&& other) noexcept {
   other.require_idle("moved from");
   engine_ = std::move(other.engine_);
   recorder_ = std::move(other.recorder_);
-  untold_ = std::move(other.untold_);
+  undelivered_ = std::move(other.undelivered_);
   timings_ = other.timings_;
   profiling_ = other.profiling_;
   return *this;
@@ -150,7 +150,8 @@ Result<void> World::enable(BodyId body, const State& state) {
   auto valid = Preconditions(*this, "enable").enabled(body, false);
   if (valid) {
     valid = engine_->bodies().table()[body.index].is_static()
-                ? Preconditions(*this, "enable").static_room(static_definition(engine_->bodies(), body), body)
+                ? Preconditions(*this, "enable")
+                      .no_static_overlap(static_definition(engine_->bodies(), body), body)
                 : Preconditions(*this, "enable").moved(body, state);
   }
   if (valid) changing(step::Enable{body, state}).enable(body, state);
@@ -264,7 +265,7 @@ Result<std::optional<Event>> World::advance(double until, Probe probe) {
   auto valid = Preconditions(*this, "advance").may_ask(probe);
   if (valid) valid = check_time(until, engine_->time());
   if (!valid) return valid.error();
-  if (untold_ && !untold_->empty()) return untold_->take();
+  if (undelivered_ && !undelivered_->empty()) return undelivered_->take();
   return engine_advance(until, probe);
 }
 
@@ -316,7 +317,8 @@ bool World::recording() const {
 }
 
 Result<std::vector<std::byte>> World::save() const {
-  if (auto all_told = Preconditions(*this, "save").all_told(); !all_told) return all_told.error();
+  if (auto all_delivered = Preconditions(*this, "save").all_delivered(); !all_delivered)
+    return all_delivered.error();
   return engine_->save();
 }
 
@@ -329,13 +331,13 @@ Result<World> World::restore(std::span<const std::byte> snapshot, PairFilter pai
 Result<World> World::clone() const {
   if (auto idle = Preconditions(*this, "clone").idle(); !idle) return idle.error();
   World copy(std::make_unique<Engine>(*engine_));
-  if (untold_) copy.untold_ = std::make_unique<UntoldEvents>(*untold_);
+  if (undelivered_) copy.undelivered_ = std::make_unique<UndeliveredEvents>(*undelivered_);
   return copy;
 }
 
 Result<void> World::start_recording() {
-  auto all_told = Preconditions(*this, "start_recording").all_told();
-  if (!all_told) return all_told;
+  auto all_delivered = Preconditions(*this, "start_recording").all_delivered();
+  if (!all_delivered) return all_delivered;
   if (recorder_)
     return Error{ErrorCode::recording, "world", no_body,
                  "start_recording: the world is being recorded already"};
@@ -344,7 +346,8 @@ Result<void> World::start_recording() {
 }
 
 Result<std::vector<std::byte>> World::stop_recording() {
-  if (auto all_told = Preconditions(*this, "stop_recording").all_told(); !all_told) return all_told.error();
+  if (auto all_delivered = Preconditions(*this, "stop_recording").all_delivered(); !all_delivered)
+    return all_delivered.error();
   if (!recorder_)
     return Error{ErrorCode::not_recording, "world", no_body,
                  "stop_recording: the world is not being recorded"};

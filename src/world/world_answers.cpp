@@ -32,9 +32,9 @@ Result<SafeTime> safe_time(const Result<ProbedAnswer>& refined) {
 template <class Earliest, class Engine>
 Result<Earliest> earliest(const Engine* engine, const Result<ProbedAnswer>& refined) {
   if (!refined) return refined.error();
-  const ContactBoundary& onset = refined->boundary;
-  const BodyId partner = onset.partner ? engine->bodies().id_of(*onset.partner) : no_body;
-  return Earliest{onset.time, partner, onset.wall, onset.touching, refined->probed};
+  const ContactBoundary& boundary = refined->boundary;
+  const BodyId partner = boundary.partner ? engine->bodies().id_of(*boundary.partner) : no_body;
+  return Earliest{boundary.time, partner, boundary.wall, boundary.touching, refined->probed};
 }
 
 Result<void> check_distance(double distance, const WorldDefinition& world, std::string_view call) {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "engine/engine.hpp"
-#include "engine/scoped_flag.hpp"
 #include "engine/validation.hpp"
+#include "number/scope_guard.hpp"
 #include "world/changing.hpp"
 #include "world/preconditions.hpp"
 
@@ -28,29 +28,12 @@ Result<void> check_given(bool given, std::string_view argument) {
 
 }  // namespace
 
-std::optional<Event> World::UntoldEvents::take() {
+std::optional<Event> World::UndeliveredEvents::take() {
   if (events.empty()) return std::exchange(unanswered, std::nullopt);
   std::optional<Event> first = events.front();
   events.pop_front();
   return first;
 }
-
-/// Puts an event back into UntoldEvents unless its response was applied, including when the callback throws.
-class World::Run::UnansweredGuard {
- public:
-  UnansweredGuard(UntoldEvents& backlog, const Event& event) : backlog_(backlog), event_(event) {}
-  UnansweredGuard(const UnansweredGuard&) = delete;
-  UnansweredGuard& operator=(const UnansweredGuard&) = delete;
-  ~UnansweredGuard() {
-    if (!answered_) backlog_.unanswered = event_;
-  }
-  void is_answered() { answered_ = true; }
-
- private:
-  UntoldEvents& backlog_;
-  const Event& event_;
-  bool answered_ = false;
-};
 
 Result<void> World::run(double until, MotionSource& source, const ResponseFn& respond, const EventFn& sink,
                         Workers* workers) {
@@ -79,38 +62,40 @@ Result<void> World::Run::go() {
     return Error{ErrorCode::workers_busy, "workers", no_body,
                  "run: workers must not be at work in another run, but are"};
   }
-  if (!world_.untold_) world_.untold_ = std::make_unique<UntoldEvents>();
-  const ScopedFlag running(world_.running_);
-  tell();
+  if (!world_.undelivered_) world_.undelivered_ = std::make_unique<UndeliveredEvents>();
+  world_.running_ = true;
+  const ScopeGuard stop([&] { world_.running_ = false; });
+  deliver();
   for (;;) {
     const auto done = work();
     if (!done) return done.error();
-    tell();
+    deliver();
     if (*done) return {};
   }
 }
 
-void World::Run::tell() {
-  std::deque<Event>& untold = world_.untold_->events;
-  while (!untold.empty()) {
-    const Event event = untold.front();
-    untold.pop_front();
+void World::Run::deliver() {
+  std::deque<Event>& events = world_.undelivered_->events;
+  while (!events.empty()) {
+    const Event event = events.front();
+    events.pop_front();
     on_event_(event);
   }
 }
 
 Result<bool> World::Run::work() {
   // Recording and profiling require events to be processed one at a time.
-  const bool alone = lease_.count() == 1 || world_.recorder_ || world_.profiling_ || !world_.untold_->empty();
+  const bool alone =
+      lease_.count() == 1 || world_.recorder_ || world_.profiling_ || !world_.undelivered_->empty();
   if (alone || world_.engine_->epoch_end() == one_by_one_) return step();
-  return phase();
+  return step_batch();
 }
 
 /// Processes many events at once if possible, otherwise one.
-Result<bool> World::Run::phase() {
+Result<bool> World::Run::step_batch() {
   Engine& engine = world_.changeable();
   if (!runner_) runner_.emplace(engine.runner(lease_, probe_, respond_ != nullptr ? this : nullptr));
-  const auto done = engine.run_epoch(until_, probe_, lease_, *runner_, world_.untold_->events);
+  const auto done = engine.run_epoch(until_, probe_, lease_, *runner_, world_.undelivered_->events);
   if (!done) return renamed(done.error());
   if (*done) return engine.time() == until_ && !engine.is_due();
   one_by_one_ = engine.epoch_end();
@@ -119,21 +104,22 @@ Result<bool> World::Run::phase() {
 
 /// Processes one event.
 Result<bool> World::Run::step() {
-  UntoldEvents& backlog = *world_.untold_;
+  UndeliveredEvents& undelivered = *world_.undelivered_;
   const auto event = next();
   if (!event) return renamed(event.error());
   if (!*event) return true;
   if (respond_ != nullptr) {
-    UnansweredGuard unanswered(backlog, **event);
+    // Keeps the event unless its response is applied, also if the callback throws.
+    ScopeGuard keep([&] { undelivered.unanswered = *event; });
     if (auto answered = answer_one(**event); !answered) return answered.error();
-    unanswered.is_answered();
+    keep.dismiss();
   }
-  backlog.events.push_back(**event);
+  undelivered.events.push_back(**event);
   return false;
 }
 
 Result<std::optional<Event>> World::Run::next() {
-  if (auto event = world_.untold_->take()) return event;
+  if (auto event = world_.undelivered_->take()) return event;
   return world_.engine_advance(until_, probe_);
 }
 
@@ -156,12 +142,14 @@ Result<Response> World::Run::respond(const Event& event) {
 }
 
 Result<void> World::Run::check(const Event& event, const Response& answer) const {
-  auto valid = check_kick(event, event.first, answer.first_velocity, "first_velocity");
-  return valid ? check_kick(event, event.second, answer.second_velocity, "second_velocity") : valid;
+  auto valid = check_velocity_change(event, event.first, answer.first_velocity, "first_velocity");
+  return valid ? check_velocity_change(event, event.second, answer.second_velocity, "second_velocity")
+               : valid;
 }
 
-Result<void> World::Run::check_kick(const Event& event, BodyId body, const std::optional<Vec3>& velocity,
-                                    std::string_view argument) const {
+Result<void> World::Run::check_velocity_change(const Event& event, BodyId body,
+                                               const std::optional<Vec3>& velocity,
+                                               std::string_view argument) const {
   if (!velocity) return {};
   const auto check_for = [&](std::string_view call) {
     auto valid = Preconditions(world_, call).can_turn(body);

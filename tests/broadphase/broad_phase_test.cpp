@@ -464,7 +464,7 @@ TEST(BroadPhase, SearchesLookAtFewOfMany) {
       for (const InflatedBound& bound : bounds)
         layer.spheres.add_search(layer.query(bound, 0.0, 1.0), searches);
     std::size_t looked_at = 0;
-    for (const auto& run : searches.runs) looked_at += run.end - run.begin;
+    for (const auto& run : searches.ranges) looked_at += run.end - run.begin;
     EXPECT_LT(looked_at, std::size_t{many} * many / 10) << mixed;
     EXPECT_LT(found, std::size_t{many} * 20) << mixed;
     EXPECT_GT(found, 100u) << mixed;

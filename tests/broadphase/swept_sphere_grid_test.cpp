@@ -262,7 +262,7 @@ class Mirrored {
 
   std::size_t looked_at_last() const {
     std::size_t all = 0;
-    for (const kinesphere::SlotRange& run : searches_.runs) all += run.end - run.begin;
+    for (const kinesphere::SlotRange& run : searches_.ranges) all += run.end - run.begin;
     return all;
   }
   static bool includes(const std::set<std::uint32_t>& all, const std::set<std::uint32_t>& some) {
@@ -422,7 +422,7 @@ TEST(SweptSphereGrid, LooksAtFewOfMany) {
     for (std::uint32_t place = 0; place < mirrored.layer.table().slots(); ++place)
       mirrored.layer.add_search({mirrored.layer.table().swept_sphere_at(place), 0.0f, 1.0f}, searches);
     std::size_t all = 0;
-    for (const kinesphere::SlotRange& run : searches.runs) all += run.end - run.begin;
+    for (const kinesphere::SlotRange& run : searches.ranges) all += run.end - run.begin;
     return static_cast<double>(all) / (double{bodies} * bodies);
   };
   EXPECT_LT(looked_at(0, ball({}, 0.4)), 0.05);
@@ -467,7 +467,7 @@ TEST(SweptSphereGrid, IsEmptyAfterClear) {
   EXPECT_TRUE(layer.is_valid());
   SweptSphereSearches searches;
   layer.add_search({{}, 0.0f, 1.0f}, searches);
-  EXPECT_TRUE(searches.runs.empty());
+  EXPECT_TRUE(searches.ranges.empty());
   PoolLease alone;
   layer.sort(alone, [](std::uint32_t, std::uint32_t) { FAIL(); });
   EXPECT_TRUE(layer.is_valid());

@@ -19,7 +19,7 @@ TEST(SweptSphereTable, KeepsPlacesWhileBodiesComeAndGo) {
   EXPECT_EQ(table.free_slots(), 1u);
   EXPECT_EQ(table.number_at(1), 11u);
   EXPECT_EQ(table.swept_sphere_at(1), capsule(7.0f));
-  EXPECT_EQ(table.number_at(3), SweptSphereTable::nobody);
+  EXPECT_EQ(table.number_at(3), SweptSphereTable::free_slot);
   EXPECT_EQ(table.swept_sphere_at(4), capsule(4.0f));
   EXPECT_TRUE(table.is_valid());
   const UnsortedSweptSpheres all = table.all();
@@ -53,7 +53,7 @@ TEST(SweptSphereTable, HolesAreNearNobody) {
   table.remove(0);
   SweptSphereSearches searches;
   searches.queries.push_back({capsule(1.0f), 0.0f, 1.0f});
-  searches.runs.push_back({0, table.slots()});
+  searches.ranges.push_back({0, table.slots()});
   searches.make(table.columns());
   std::vector<std::uint32_t> found;
   searches.for_each_found([&](std::uint32_t, std::uint32_t place) { found.push_back(place); });

@@ -146,7 +146,7 @@ class FrameMotion final : public Motion {
   const Chord& known_chord(std::uint32_t body, double t, std::string_view call,
                            std::string_view argument) const;
   Result<void> check_change(std::string_view call, std::uint32_t body, double t) const;
-  void turn(std::uint32_t body, double t, const State& state);
+  void restart_chord(std::uint32_t body, double t, const State& state);
   std::optional<FrameViolation> violation(std::uint32_t body, const Vec3& position) const;
 
   std::vector<Chord> chords_;

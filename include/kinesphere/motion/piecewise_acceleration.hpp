@@ -24,7 +24,7 @@ namespace kinesphere {
 
 class PiecewiseAcceleration : public Motion {
  public:
-  std::size_t size() const final { return courses_.size(); }
+  std::size_t size() const final { return paths_.size(); }
   bool contains(std::uint32_t body) const final;
   /// Returns the state at time t. Also throws BadResult for times beyond 2^50 intervals. Cost: O(1) if t
   /// has not decreased since the last call; otherwise, and after read_body(), one step for every interval
@@ -64,7 +64,7 @@ class PiecewiseAcceleration : public Motion {
   /// Discards the history: from t on the body continues from `state`.
   void restart(std::uint32_t body, double t, const State& state);
   /// Returns the time when the body was last changed or restarted. Needs a body that exists.
-  double last_change(std::uint32_t body) const { return courses_[body].since; }
+  double last_change(std::uint32_t body) const { return paths_[body].since; }
   /// Returns a definition with these motion limits, the state at t, and zero errors.
   BodyDefinition definition_with(std::uint32_t body, double t, double acceleration_limit,
                                  const Vec3& planned_acceleration = {}) const;
@@ -75,7 +75,7 @@ class PiecewiseAcceleration : public Motion {
  private:
   /// History of one body. All results are computed piece by piece from the last change on, so they do not
   /// depend on which piece is cached.
-  struct Course {
+  struct Path {
     double since;  ///< time of the last change; infinite once the body has been removed
     State state;   ///< state at that time
     Segment piece;
@@ -93,7 +93,7 @@ class PiecewiseAcceleration : public Motion {
   Result<void> check_change(std::string_view call, std::uint32_t body, double t) const;
 
   double interval_;
-  mutable std::vector<Course> courses_;
+  mutable std::vector<Path> paths_;
   std::vector<std::uint32_t> free_;  ///< numbers of removed bodies
 };
 
