@@ -498,7 +498,7 @@ class KickedBodies {
             .velocity = speed * random_.point_in_ball(),
             .radius = log_uniform(random_, number % 5 == 0 ? 1 : -4, number % 5 == 0 ? 2 : -2)};
   }
-  void kick(const Kick& update) {
+  void velocity_change(const Kick& update) {
     bounds_[update.number] = update.bound;
     windows_.enter(update.number, roomy(update.number, update.time), update.time,
                    window(update.number, update.time));
@@ -554,9 +554,9 @@ TEST(BroadPhase, StartAlikeInWhateverOrderBodiesWereKicked) {
     const double begin = 0.125 * (window - 1), end = 0.125 * window;
     // The updates of each body are in order of time; the bodies are in any order.
     std::vector<std::vector<KickedBodies::Kick>> updates;
-    const std::size_t kicked = window % 3 == 0 ? 300 : 30;
+    const std::size_t redirected = window % 3 == 0 ? 300 : 30;
     for (std::uint32_t number = 0; number < KickedBodies::count; ++number) {
-      if (random.bits() % KickedBodies::count >= kicked) continue;
+      if (random.bits() % KickedBodies::count >= redirected) continue;
       std::vector<KickedBodies::Kick>& own = updates.emplace_back();
       double time = begin;
       for (std::uint64_t k = random.bits() % 3; k < 3; ++k) {
@@ -565,9 +565,9 @@ TEST(BroadPhase, StartAlikeInWhateverOrderBodiesWereKicked) {
       }
     }
     for (const auto& own : updates)
-      for (const auto& update : own) forward.kick(update);
+      for (const auto& update : own) forward.velocity_change(update);
     for (std::size_t k = updates.size(); k-- > 0;) {
-      for (const auto& update : updates[k]) backward.kick(update);
+      for (const auto& update : updates[k]) backward.velocity_change(update);
       if (k % 7 == 0) backward.tidy();
     }
     for (const auto& own : updates) {

@@ -60,7 +60,7 @@ class Mirrored {
   CertificateQueue agenda;
   std::vector<std::uint32_t> stamps = std::vector<std::uint32_t>(bodies);
 
-  bool is_void(const PairCertificate& pair) const {
+  bool is_stale(const PairCertificate& pair) const {
     return pair.first_revision != stamps[pair.first] ||
            (pair.second != PairCertificate::walls && pair.second_revision != stamps[pair.second]);
   }
@@ -84,17 +84,17 @@ class Mirrored {
     EXPECT_TRUE(pairs.empty());
   }
   void open() {
-    agenda.open([this](const PairCertificate& pair) { return is_void(pair); });
+    agenda.open([this](const PairCertificate& pair) { return is_stale(pair); });
   }
   /// Takes the first certificate that is not stale from both; returns whether they are equal.
   testing::AssertionResult same_next() {
     for (;;) {
       open();
       if (agenda.next_time() == infinity && agenda.size() == 0) break;
-      if (!is_void(agenda.first())) break;
+      if (!is_stale(agenda.first())) break;
       agenda.drop_first();
     }
-    std::erase_if(plain_, [this](const PairCertificate& pair) { return is_void(pair); });
+    std::erase_if(plain_, [this](const PairCertificate& pair) { return is_stale(pair); });
     const auto expected = std::min_element(plain_.begin(), plain_.end(), comes_before);
     if (agenda.size() == 0) {
       if (expected == plain_.end()) return testing::AssertionSuccess();
@@ -116,12 +116,12 @@ class Mirrored {
     std::size_t count = 0;
     agenda.for_each([&](const PairCertificate& pair) {
       ++count;
-      if (!is_void(pair)) there.push_back(pair);
+      if (!is_stale(pair)) there.push_back(pair);
     });
     if (count != agenda.size()) return testing::AssertionFailure() << count << " of " << agenda.size();
     std::vector<PairCertificate> expected;
     for (const PairCertificate& pair : plain_)
-      if (!is_void(pair)) expected.push_back(pair);
+      if (!is_stale(pair)) expected.push_back(pair);
     const auto by_key = [](const PairCertificate& a, const PairCertificate& b) { return key(a) < key(b); };
     std::sort(there.begin(), there.end(), by_key);
     std::sort(expected.begin(), expected.end(), by_key);
@@ -189,7 +189,7 @@ INSTANTIATE_TEST_SUITE_P(CertificateQueue, QueueOrder, testing::ValuesIn(all_tim
 std::vector<PairCertificate> pairs_that_hold(const Mirrored& mirrored) {
   std::vector<PairCertificate> pairs;
   mirrored.agenda.for_each([&](const PairCertificate& pair) {
-    if (!mirrored.is_void(pair)) pairs.push_back(pair);
+    if (!mirrored.is_stale(pair)) pairs.push_back(pair);
   });
   return pairs;
 }
@@ -223,14 +223,14 @@ TEST(CertificateQueue, ForgetsVoidPairsOfASliceWhenItBegins) {
   for (int k = 0; k < 10000; ++k) pairs.push_back({.failure_time = random.uniform()});
   queue.add_all(pairs);
   std::size_t asked = 0;
-  const auto is_void = [&](const PairCertificate&) {
+  const auto is_stale = [&](const PairCertificate&) {
     ++asked;
     return true;
   };
-  queue.open(is_void);
+  queue.open(is_stale);
   while (queue.size() > 0) {
     queue.drop_first();
-    queue.open(is_void);
+    queue.open(is_stale);
   }
   EXPECT_GT(asked, 9900u) << "few were in the first slice";
   EXPECT_EQ(queue.next_time(), infinity);

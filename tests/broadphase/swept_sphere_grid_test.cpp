@@ -159,13 +159,13 @@ class Mirrored {
     bodies_.erase(number);
   }
   void sort() {
-    std::set<std::uint32_t> told;
+    std::set<std::uint32_t> reported;
     PoolLease alone;
     layer.sort(alone, [&](std::uint32_t number, std::uint32_t place) {
-      EXPECT_TRUE(told.insert(number).second);
+      EXPECT_TRUE(reported.insert(number).second);
       bodies_.at(number).place = place;
     });
-    EXPECT_EQ(told.size(), bodies_.size());
+    EXPECT_EQ(reported.size(), bodies_.size());
     EXPECT_EQ(layer.table().slots(), bodies_.size());
     EXPECT_FALSE(layer.is_untidy());
   }

@@ -39,8 +39,8 @@ WindowPolicy chosen(double way = 1.0, const SpeedBound& typical = everyday, int 
 struct Round {
   std::vector<SpeedBound> paces;
   double width = usual_width;
-  std::uint64_t near = 0;  ///< pairs that their searches find
-  RenewalCounts kicks;     ///< until their windows end
+  std::uint64_t near = 0;          ///< pairs that their searches find
+  RenewalCounts velocity_changes;  ///< until their windows end
 };
 
 WindowPolicy::Sample round_of(const WindowPolicy& window_policy, bool most,
@@ -56,7 +56,7 @@ void start_main(WindowPolicy& window_policy, double& now, const Round& round) {
   window_policy.start_main(now, {});
   window_policy.finish_start(round_of(window_policy, true, round.paces, round.width), round.near, many);
   now += length_of(main_tier(window_policy));
-  window_policy.start_main(now, round.kicks);
+  window_policy.start_main(now, round.velocity_changes);
 }
 
 /// Starts a minority of the bodies.
@@ -118,7 +118,8 @@ TEST(WindowPolicy, ShorterWhereSearchesCostMost) {
     WindowPolicy window_policy = chosen(1.0, everyday, dimensions);
     double now = 0.0;
     const int before = window_policy.rung_for(everyday);
-    start_main(window_policy, now, {.paces = bodies(100), .near = countless_pairs, .kicks = countless});
+    start_main(window_policy, now,
+               {.paces = bodies(100), .near = countless_pairs, .velocity_changes = countless});
     EXPECT_LT(window_policy.rung_for(everyday), before);
     EXPECT_GE(window_policy.rung_for(everyday), before - 6);
     EXPECT_EQ(std::log2(window_policy.typical_way()), window_policy.rung_for(everyday) - before);
@@ -163,7 +164,8 @@ TEST(WindowPolicy, PairsOfKicksCostAsThoseOfStarts) {
       double now = 0.0;
       const int before = main_tier(window_policy);
       const RenewalCounts updates{.bodies = 2, .near = of_kicks};
-      start_main(window_policy, now, {.paces = bodies(100), .near = near - of_kicks, .kicks = updates});
+      start_main(window_policy, now,
+                 {.paces = bodies(100), .near = near - of_kicks, .velocity_changes = updates});
       // Starts cost 15,600, half as long 31,200; a pair costs 3,100, half as long 550.
       EXPECT_EQ(main_tier(window_policy) < before, near == 18) << of_kicks;
     }
@@ -205,7 +207,7 @@ TEST(WindowPolicy, StaysWhereNothingIsMuchCheaper) {
     const double larger = 0.5 + window_policy.typical_way();
     const auto near = static_cast<std::uint64_t>(20 * larger * larger * larger);
     start_main(window_policy, now,
-               {.paces = bodies(100), .width = 0.5, .near = near, .kicks = {.bodies = 50}});
+               {.paces = bodies(100), .width = 0.5, .near = near, .velocity_changes = {.bodies = 50}});
     if (main_tier(window_policy) != before) ++changes;
   }
   EXPECT_LE(changes, 12);
@@ -217,7 +219,7 @@ TEST(WindowPolicy, WithoutStartsNothingIsKnown) {
   WindowPolicy window_policy = chosen();
   double now = 0.0;
   const int before = main_tier(window_policy);
-  start_main(window_policy, now, {.near = countless_pairs, .kicks = countless});
+  start_main(window_policy, now, {.near = countless_pairs, .velocity_changes = countless});
   EXPECT_EQ(main_tier(window_policy), before);
 }
 
@@ -281,7 +283,7 @@ TEST(WindowPolicy, GrowsBackBesideSlowBodies) {
       WindowPolicy window_policy = chosen();
       double now = 0.0;
       const int before = window_policy.rung_for(everyday);
-      start_main(window_policy, now, {.paces = paces, .kicks = countless});
+      start_main(window_policy, now, {.paces = paces, .velocity_changes = countless});
       ASSERT_LT(window_policy.rung_for(everyday), before);
       for (int round = 0; round < 20; ++round) start_main(window_policy, now, {.paces = paces});
       EXPECT_GT(window_policy.rung_for(everyday), before + 10);
@@ -422,8 +424,8 @@ TEST(WindowPolicy, StaysPossibleWhateverTheNumbers) {
     return counts[random.bits() % 4];
   };
   const auto updates = [&] {
-    const std::uint64_t kicked = count();
-    return RenewalCounts{kicked, count()};
+    const std::uint64_t redirected = count();
+    return RenewalCounts{redirected, count()};
   };
   for (int k = 0; k < 20000; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", case " << k);

@@ -33,11 +33,11 @@ std::unique_ptr<Motion> empty_motion(const Scene& scene) {
 }
 
 /// Runs to a time; returns the parts that all ranks save there, on all ranks.
-std::vector<Part> parts_at(const Setting& setting, double time, std::vector<OrderedEvent>& told) {
+std::vector<Part> parts_at(const Setting& setting, double time, std::vector<OrderedEvent>& reported) {
   const std::unique_ptr<Motion> motion = setting.scene.motion->clone();
   DistributedWorld world = spread(setting, *motion);
   const ResponseFn respond = [&](const Event& event) { return setting.answer(event); };
-  world.run(time, respond, [&](const OrderedEvent& event) { told.push_back(event); }).value();
+  world.run(time, respond, [&](const OrderedEvent& event) { reported.push_back(event); }).value();
   Communicator communicator;
   return communicator.gather(world.save().value());
 }
@@ -58,16 +58,16 @@ TEST(DistributedCheckpoints, GoOnAsIfNothingHadBeen) {
     const RunOutcome one = alone(setting);
     Random random(5);
     for (int trial = 0; trial < 3; ++trial) {
-      std::vector<OrderedEvent> told;
+      std::vector<OrderedEvent> reported;
       const double time = random.uniform(0.0, setting.scene.end_time);
-      const std::vector<Part> parts = parts_at(setting, time, told);
+      const std::vector<Part> parts = parts_at(setting, time, reported);
       const std::unique_ptr<Motion> motion = empty_motion(setting.scene);
       auto world = DistributedWorld::restore(share_of(parts, trial), *motion);
       ASSERT_TRUE(world) << world.error().message;
       EXPECT_EQ(world->time(), time);
       // Ranks have other bodies now: only the merged events can be compared.
       const RunOutcome rest = finish(setting, *world);
-      std::vector<Event> events = merged(told);
+      std::vector<Event> events = merged(reported);
       events.insert(events.end(), rest.events.begin(), rest.events.end());
       expect_same(one, {events, rest.counters, rest.hash});
     }
@@ -78,8 +78,8 @@ TEST(DistributedCheckpoints, GoOnAsIfNothingHadBeen) {
 TEST(DistributedCheckpoints, MayBeOfAnotherNumberOfRanks) {
   const Setting setting{.scene = scene_of("paper1", 250)};
   const RunOutcome one = alone(setting);
-  std::vector<OrderedEvent> told;
-  std::vector<Part> parts = parts_at(setting, 0.5, told);
+  std::vector<OrderedEvent> reported;
+  std::vector<Part> parts = parts_at(setting, 0.5, reported);
   // One rank holds all bodies.
   const std::unique_ptr<Motion> motion = empty_motion(setting.scene);
   auto world = DistributedWorld::restore(share_of(parts, 0), *motion);
@@ -106,8 +106,8 @@ TEST(DistributedCheckpoints, OfAWorldThatHasNotBegun) {
 
 TEST(DistributedCheckpoints, AreRefusedUnlessTheyAreWhole) {
   const Setting setting{.scene = scene_of("paper1", 60)};
-  std::vector<OrderedEvent> told;
-  const std::vector<Part> parts = parts_at(setting, 0.3, told);
+  std::vector<OrderedEvent> reported;
+  const std::vector<Part> parts = parts_at(setting, 0.3, reported);
   const auto refused = [&](std::vector<Part> here, const std::string& why) {
     const std::unique_ptr<Motion> motion = empty_motion(setting.scene);
     const auto world = DistributedWorld::restore(here, *motion);

@@ -17,30 +17,30 @@ Error error_of(int rank) {
 
 TEST(ErrorConsensus, TellsTheFirstErrorOfAll) {
   Communicator communicator;
-  ErrorConsensus agreement(communicator);
+  ErrorConsensus consensus(communicator);
   const int last = communicator.ranks() - 1;
-  EXPECT_TRUE(agreement.first_error({}));
+  EXPECT_TRUE(consensus.first_error({}));
   // All ranks but the first have an error, or only the last one.
   const bool fails = communicator.rank() > 0 || last == 0;
   const auto agreed =
-      agreement.first_error(fails ? Result<void>(error_of(communicator.rank())) : Result<void>());
+      consensus.first_error(fails ? Result<void>(error_of(communicator.rank())) : Result<void>());
   const std::string first = std::to_string(last == 0 ? 0 : 1);
   ASSERT_FALSE(agreed);
   EXPECT_EQ(agreed.error().code, ErrorCode::not_finite);
   EXPECT_EQ(agreed.error().argument, "velocity");
   EXPECT_EQ(agreed.error().body, (BodyId{7, 0, 0}));
   EXPECT_EQ(agreed.error().message, "rank " + first + ": says " + first);
-  EXPECT_TRUE(agreement.check("run")) << "the world goes on";
+  EXPECT_TRUE(consensus.check("run")) << "the world goes on";
 }
 
 TEST(ErrorConsensus, EndsAfterAnError) {
   Communicator communicator;
-  ErrorConsensus agreement(communicator);
-  EXPECT_TRUE(agreement.agree({}));
-  EXPECT_TRUE(agreement.check("run"));
+  ErrorConsensus consensus(communicator);
+  EXPECT_TRUE(consensus.agree({}));
+  EXPECT_TRUE(consensus.check("run"));
   const bool fails = communicator.rank() == communicator.ranks() - 1;
-  EXPECT_FALSE(agreement.agree(fails ? Result<void>(error_of(0)) : Result<void>()));
-  const auto refused = agreement.check("run");
+  EXPECT_FALSE(consensus.agree(fails ? Result<void>(error_of(0)) : Result<void>()));
+  const auto refused = consensus.check("run");
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::rank_failed);
   EXPECT_EQ(refused.error().message.rfind("run: ", 0), 0u);
@@ -48,25 +48,25 @@ TEST(ErrorConsensus, EndsAfterAnError) {
 
 TEST(ErrorConsensus, NotesTheFirstErrorForLater) {
   Communicator communicator;
-  ErrorConsensus agreement(communicator);
-  EXPECT_TRUE(agreement.agree_on_noted());
+  ErrorConsensus consensus(communicator);
+  EXPECT_TRUE(consensus.agree_on_noted());
   if (communicator.rank() == communicator.ranks() - 1) {
-    agreement.note(error_of(1));
-    agreement.note(error_of(2));
-    EXPECT_TRUE(agreement.has_noted());
+    consensus.note(error_of(1));
+    consensus.note(error_of(2));
+    EXPECT_TRUE(consensus.has_noted());
   } else {
-    EXPECT_FALSE(agreement.has_noted());
+    EXPECT_FALSE(consensus.has_noted());
   }
-  const auto agreed = agreement.agree_on_noted();
+  const auto agreed = consensus.agree_on_noted();
   ASSERT_FALSE(agreed);
   EXPECT_NE(agreed.error().message.find("says 1"), std::string::npos) << agreed.error().message;
 }
 
 TEST(UniqueNames, AreComparedOnAllRanks) {
   Communicator communicator;
-  ErrorConsensus agreement(communicator);
+  ErrorConsensus consensus(communicator);
   UniqueNames names;
-  const auto check = [&] { return agreement.first_error(names.check(communicator)); };
+  const auto check = [&] { return consensus.first_error(names.check(communicator)); };
   const auto rank = static_cast<std::uint32_t>(communicator.rank());
   const auto ranks = static_cast<std::uint32_t>(communicator.ranks());
   for (std::uint32_t k = 0; k < 20; ++k) names.add(100 * rank + k);

@@ -13,7 +13,7 @@ namespace {
 
 /// The state of one rank, without the others.
 struct Rank {
-  explicit Rank(int rank) : local({}, rank), transit(motion, local) {}
+  explicit Rank(int rank) : local({}, rank), migration(motion, local) {}
 
   std::uint32_t add(std::uint32_t name, const State& state) {
     const std::uint32_t number = local.bodies().add({.radius = 0.5}, name);
@@ -31,7 +31,9 @@ struct Rank {
                                        .second = local.bodies().id_of(b)},
                                       true);
   }
-  void install(std::vector<BodyMessage> messages) { beginning = transit.install(messages, nullptr).value(); }
+  void install(std::vector<BodyMessage> messages) {
+    beginning = migration.install(messages, nullptr).value();
+  }
   /// Returns the names of the touching bodies that are known here.
   std::vector<std::uint32_t> partners_of(std::uint32_t name) const {
     std::vector<std::uint32_t> names;
@@ -42,7 +44,7 @@ struct Rank {
 
   Ballistic motion = Ballistic::create({}).value();
   RankState local;
-  Migration transit;
+  Migration migration;
   InitialWork beginning;
 };
 
@@ -51,7 +53,7 @@ TEST(Migration, BringsABodyAndItsMotion) {
   Rank other(1);
   const State state{{1, 2, 3}, {4, 5, 6}};
   const std::uint32_t number = one.add(70, state);
-  other.install({one.transit.pack(number)});
+  other.install({one.migration.pack(number)});
   const auto found = other.local.directory.find(70);
   ASSERT_TRUE(found);
   EXPECT_FALSE(other.local.directory.is_own(*found));
@@ -66,19 +68,19 @@ TEST(Migration, KeepsLinksToBodiesThatAreNotThereYet) {
   const std::uint32_t a = one.add(70, {});
   const std::uint32_t b = one.add(60, {{1, 0, 0}, {}});
   one.touch(a, b);
-  other.install({one.transit.pack(a)});
+  other.install({one.migration.pack(a)});
   EXPECT_TRUE(other.partners_of(70).empty());
-  EXPECT_EQ(other.transit.pack(*other.local.directory.find(70)).contacts.partners.all().size(), 1u)
+  EXPECT_EQ(other.migration.pack(*other.local.directory.find(70)).contacts.partners.all().size(), 1u)
       << "a copy of a copy has the link, too";
-  other.install({one.transit.pack(b)});
+  other.install({one.migration.pack(b)});
   EXPECT_EQ(other.partners_of(70), std::vector<std::uint32_t>{60});
   EXPECT_EQ(other.partners_of(60), std::vector<std::uint32_t>{70});
-  EXPECT_EQ(other.transit.pack(*other.local.directory.find(70)).contacts.partners.all().size(), 1u)
+  EXPECT_EQ(other.migration.pack(*other.local.directory.find(70)).contacts.partners.all().size(), 1u)
       << "the link dangles no longer";
-  other.transit.drop(*other.local.directory.find(70));
+  other.migration.drop(*other.local.directory.find(70));
   EXPECT_FALSE(other.local.directory.find(70));
   EXPECT_TRUE(other.partners_of(60).empty());
-  other.install({one.transit.pack(a)});
+  other.install({one.migration.pack(a)});
   EXPECT_EQ(other.partners_of(60), std::vector<std::uint32_t>{70});
 }
 
@@ -89,8 +91,8 @@ TEST(Migration, BringsHotPairsOfKnownBodiesOnce) {
   const PairCertifier certifier = one.local.main.certifier();
   one.local.main.queue().add(certifier.certificate(1.5, numbers[0], numbers[1]));
   one.local.main.queue().add(certifier.certificate(2.5, numbers[0], numbers[2]));
-  std::vector<BodyMessage> messages{one.transit.pack(numbers[0]), one.transit.pack(numbers[1])};
-  one.transit.add_due(messages, std::span(numbers).first(2), nullptr);
+  std::vector<BodyMessage> messages{one.migration.pack(numbers[0]), one.migration.pack(numbers[1])};
+  one.migration.add_due(messages, std::span(numbers).first(2), nullptr);
   EXPECT_EQ(messages[0].due.size(), 2u);
   EXPECT_EQ(messages[1].due.size(), 1u);
   other.install(messages);
@@ -103,10 +105,10 @@ TEST(Migration, RenewedCopyKeepsHotPairsUnlessTheyAreVoid) {
   Rank one(0);
   Rank other(1);
   const std::uint32_t a = one.add(70, {});
-  other.install({one.transit.pack(a), one.transit.pack(one.add(60, {}))});
+  other.install({one.migration.pack(a), one.migration.pack(one.add(60, {}))});
   const PairCertificate pair = other.local.main.certifier().certificate(1.5, *other.local.directory.find(70),
                                                                         *other.local.directory.find(60));
-  BodyMessage renewed = one.transit.pack(a);
+  BodyMessage renewed = one.migration.pack(a);
   renewed.body.revision = 30;  // revisions are a rank's own
   other.install({renewed});
   EXPECT_FALSE(other.local.main.certifier().is_stale(pair));
@@ -122,18 +124,18 @@ TEST(Migration, KeepsLoosePairs) {
   Rank other(1);
   const std::vector<std::uint32_t> numbers{one.add(70, {}), one.add(60, {})};
   one.local.main.queue().add(one.local.main.certifier().certificate(1.5, numbers[0], numbers[1]));
-  std::vector<BodyMessage> messages{one.transit.pack(numbers[0])};
-  one.transit.add_due(messages, std::span(numbers).first(1), nullptr);
-  other.transit.keep_loose_pairs();
+  std::vector<BodyMessage> messages{one.migration.pack(numbers[0])};
+  one.migration.add_due(messages, std::span(numbers).first(1), nullptr);
+  other.migration.keep_loose_pairs();
   other.install(messages);
   const std::vector<std::uint32_t> there{*other.local.directory.find(70)};
-  std::vector<BodyMessage> onward{other.transit.pack(there[0])};
-  other.transit.add_due(onward, there, nullptr);
+  std::vector<BodyMessage> onward{other.migration.pack(there[0])};
+  other.migration.add_due(onward, there, nullptr);
   ASSERT_EQ(onward[0].due.size(), 1u);
   EXPECT_EQ(onward[0].due[0].other, 60u);
-  other.transit.forget_loose_pairs();
+  other.migration.forget_loose_pairs();
   onward[0].due.clear();
-  other.transit.add_due(onward, there, nullptr);
+  other.migration.add_due(onward, there, nullptr);
   EXPECT_TRUE(onward[0].due.empty());
 }
 

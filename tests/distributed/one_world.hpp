@@ -123,13 +123,13 @@ inline std::vector<Event> merged(const std::vector<OrderedEvent>& here) {
 
 /// Runs to the end of the scene; the result begins with the events in `told`.
 inline RunOutcome finish(const Setting& setting, DistributedWorld& world,
-                         std::vector<OrderedEvent> told = {}) {
+                         std::vector<OrderedEvent> reported = {}) {
   Workers workers = Workers::create(setting.threads).value();
   const auto sink = [&](const OrderedEvent& event) {
-    if (!told.empty()) {
-      EXPECT_TRUE(told.back() < event);
+    if (!reported.empty()) {
+      EXPECT_TRUE(reported.back() < event);
     }
-    told.push_back(event);
+    reported.push_back(event);
   };
   const ResponseFn respond = [&](const Event& event) { return setting.answer(event); };
   const double begin = world.time();
@@ -143,7 +143,7 @@ inline RunOutcome finish(const Setting& setting, DistributedWorld& world,
   }
   EXPECT_EQ(world.time(), setting.scene.end_time);
   EXPECT_EQ(world.size(), setting.scene.bodies.size());
-  return {merged(told), world.counters(), world.hash().value()};
+  return {merged(reported), world.counters(), world.hash().value()};
 }
 
 inline RunOutcome spread_out(const Setting& setting) {

@@ -52,13 +52,13 @@ struct Kicked {
         groups.push_back(group);
       }
     }
-    for (std::size_t k = 0; k < all.size(); ++k) kicks.push_back({groups[k], &all[k]});
+    for (std::size_t k = 0; k < all.size(); ++k) velocity_changes.push_back({groups[k], &all[k]});
   }
 
   WorldState tables;
   std::vector<SweptSphereUpdate> all;
   std::vector<std::uint32_t> groups;
-  std::vector<ClusterUpdate> kicks;
+  std::vector<ClusterUpdate> velocity_changes;
 };
 
 /// True if the bounds touch somewhere before this time.
@@ -85,20 +85,22 @@ TEST(Conflicts, AreThoseOfEachPairAlone) {
   for (std::uint64_t part = 0; part < 12; ++part) {
     SCOPED_TRACE(part);
     Random random = Random::at(seed, part, 0);
-    const Kicked kicked(random);
-    const auto size = static_cast<std::uint32_t>(kicked.kicks.size());
+    const Kicked redirected(random);
+    const auto size = static_cast<std::uint32_t>(redirected.velocity_changes.size());
     const auto fresh = static_cast<std::uint32_t>((part % 3 == 0 ? 1.0 : random.uniform()) * size);
     PoolLease alone;
-    const Meetings found = by_pair(find_conflicts(kicked.tables, kicked.kicks, fresh, begin, alone));
+    const Meetings found =
+        by_pair(find_conflicts(redirected.tables, redirected.velocity_changes, fresh, begin, alone));
     {
       PoolLease shift(&workers);
-      ASSERT_EQ(by_pair(find_conflicts(kicked.tables, kicked.kicks, fresh, begin, shift)), found);
+      ASSERT_EQ(by_pair(find_conflicts(redirected.tables, redirected.velocity_changes, fresh, begin, shift)),
+                found);
     }
     for (std::uint32_t b = 0; b < size; ++b) {
       for (std::uint32_t a = 0; a < std::min(b, fresh); ++a) {
-        const ClusterUpdate two[] = {kicked.kicks[a], kicked.kicks[b]};
-        const std::vector<Conflict> meeting = find_conflicts(kicked.tables, two, 2, begin, alone);
-        if (kicked.groups[a] == kicked.groups[b]) {
+        const ClusterUpdate two[] = {redirected.velocity_changes[a], redirected.velocity_changes[b]};
+        const std::vector<Conflict> meeting = find_conflicts(redirected.tables, two, 2, begin, alone);
+        if (redirected.groups[a] == redirected.groups[b]) {
           ASSERT_TRUE(meeting.empty());
         } else if (may_meet_before(infinity, *two[0].update, *two[1].update)) {
           ASSERT_FALSE(meeting.empty()) << a << ' ' << b;
@@ -112,9 +114,10 @@ TEST(Conflicts, AreThoseOfEachPairAlone) {
       const auto& [a, b] = pair;
       const auto& [until, is_void] = meeting;
       ASSERT_TRUE(a < fresh || b < fresh);
-      ASSERT_TRUE(until == Conflict::unknown || !may_meet_before(until, kicked.all[a], kicked.all[b]));
+      ASSERT_TRUE(until == Conflict::unknown ||
+                  !may_meet_before(until, redirected.all[a], redirected.all[b]));
       const auto [earlier, later] = std::minmax(
-          kicked.all[a], kicked.all[b],
+          redirected.all[a], redirected.all[b],
           [](const SweptSphereUpdate& one, const SweptSphereUpdate& other) { return one.time < other.time; });
       ASSERT_EQ(is_void, earlier.first_change.invalidated < later.time);
       // The time is unknown if the earlier body was reported in between, and not needed if that body was

@@ -52,16 +52,16 @@ TEST(MonitorShare, SharesTellTogetherWhatOneTells) {
   const std::vector<MonitorEvent> all = watch({});
   EXPECT_GT(all.size(), 1000u);
   for (const std::uint64_t of : {2u, 5u, 64u}) {
-    std::size_t told = 0;
+    std::size_t reported = 0;
     for (std::uint64_t share = 0; share < of; ++share) {
       std::vector<MonitorEvent> expected;
       std::copy_if(all.begin(), all.end(), std::back_inserter(expected),
                    [&](const MonitorEvent& event) { return event.first % of == share; });
       const Shard one{.of = of, .first = share};
       EXPECT_EQ(watch(one), expected) << share << " of " << of;
-      told += expected.size();
+      reported += expected.size();
     }
-    EXPECT_EQ(told, all.size());
+    EXPECT_EQ(reported, all.size());
   }
   // Shares that are watched together.
   const Shard several{.of = 8, .first = 3, .count = 4};

@@ -184,9 +184,9 @@ TEST_P(EveryMotion, ClonesGoTheirOwnWay) {
     const auto clone = motion.clone();
     const State before = motion.state(0, end);
     EXPECT_EQ(clone->state(0, end), before);
-    const bool kicked{clone->set_velocity(0, 4.0, {-50, 0, 0})};
+    const bool redirected{clone->set_velocity(0, 4.0, {-50, 0, 0})};
     EXPECT_EQ(motion.state(0, end), before);
-    EXPECT_EQ(clone->state(0, end) == before, !kicked);
+    EXPECT_EQ(clone->state(0, end) == before, !redirected);
   });
 }
 
@@ -325,19 +325,19 @@ TEST_P(EveryMotion, GoesBackToAnEarlierDepartureToTheLastBit) {
     const double kicked_at = random.uniform(2.0, 10.0);
     motion.set_velocity(1, kicked_at, {1, 2, 3}).value();
     EXPECT_NE(motion.state(1, 15.0), before->state(1, 15.0));
-    const auto kicked = motion.clone();
+    const auto redirected = motion.clone();
     motion.set_origin(1, origin).value();
     for (const double time : {15.0, 2.0, kicked_at, 9.0})
       EXPECT_EQ(motion.state(1, time), before->state(1, time)) << time;
-    motion.set_origin(1, kicked->origin(1)).value();
-    EXPECT_EQ(motion.state(1, 15.0), kicked->state(1, 15.0));
+    motion.set_origin(1, redirected->origin(1)).value();
+    EXPECT_EQ(motion.state(1, 15.0), redirected->state(1, 15.0));
 
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(motion.set_origin(1, {nan, {}}).error().code, ErrorCode::not_finite);
     EXPECT_EQ(motion.set_origin(1, {2.0, {{}, {0, nan, 0}}}).error().argument, "origin");
     EXPECT_EQ(motion.set_origin(bodies, origin).error().code, ErrorCode::unknown_body);
     EXPECT_EQ(refusal([&] { (void)motion.origin(bodies); })->code, ErrorCode::unknown_body);
-    EXPECT_EQ(motion.state(1, 15.0), kicked->state(1, 15.0));
+    EXPECT_EQ(motion.state(1, 15.0), redirected->state(1, 15.0));
     motion.remove(1).value();
     EXPECT_EQ(motion.set_origin(1, origin).error().code, ErrorCode::stale_body);
     EXPECT_EQ(refusal([&] { (void)motion.origin(1); })->code, ErrorCode::stale_body);

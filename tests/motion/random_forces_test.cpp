@@ -89,9 +89,9 @@ TEST(RandomForces, NoIntervalIsSkippedOrRepeatedByRounding) {
       ASSERT_EQ(whole[k].begin, static_cast<double>(k) * interval);
       const double just_before = std::nextafter(whole[k].end, 0.0);
       ASSERT_TRUE(motion.set_velocity(0, just_before, {}));
-      const Trajectory kicked = motion.trajectory(0, just_before, whole[k].end);
-      ASSERT_EQ(kicked.front().end, whole[k].end);
-      ASSERT_EQ(kicked.front().acceleration, whole[k].acceleration);
+      const Trajectory redirected = motion.trajectory(0, just_before, whole[k].end);
+      ASSERT_EQ(redirected.front().end, whole[k].end);
+      ASSERT_EQ(redirected.front().acceleration, whole[k].acceleration);
     }
   }
 }

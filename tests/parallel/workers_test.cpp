@@ -219,21 +219,21 @@ TEST(Workers, WorkForOneRunAtATime) {
   };
   World world = world_of(), inner = world_of();
   Workers workers = Workers::create(2).value(), others = Workers::create(1).value();
-  int told = 0;
+  int reported = 0;
   const auto silent = [](const Event&) {};
   const auto sink = [&](const Event&) {
-    ++told;
+    ++reported;
     expect_error(inner.run(20.0, motion.probe(), silent, &workers), ErrorCode::workers_busy, "workers",
                  "run:");
     EXPECT_TRUE(inner.run(inner.time() + 1.0, motion.probe(), silent, &others));
   };
   world.run(20.0, motion.probe(), sink, &workers).value();
-  EXPECT_EQ(told, 2);
+  EXPECT_EQ(reported, 2);
   inner
       .run(
-          20.0, motion.probe(), [&](const Event&) { ++told; }, &workers)
+          20.0, motion.probe(), [&](const Event&) { ++reported; }, &workers)
       .value();
-  EXPECT_EQ(told, 4);
+  EXPECT_EQ(reported, 4);
 
   const Workers taken = std::move(workers);
   EXPECT_EQ(workers.count(), 0);  // NOLINT(bugprone-use-after-move): that is what is tested.

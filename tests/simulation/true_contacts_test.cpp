@@ -91,16 +91,16 @@ TEST(TrueContacts, are_those_of_the_oracle) {
     const TrueMotion motion(scene);
     const Spans spans = spans_by_pair(motion);
     for_each_pair(motion, [&](std::uint32_t a, std::uint32_t b) {
-      const auto told = oracle.find({a, b});
+      const auto reported = oracle.find({a, b});
       const auto true_ones = motion.contacts(motion.pair(a, b), a, b, found(spans, {a, b}));
-      ASSERT_EQ(true_ones.size(), told == oracle.end() ? 0 : told->second.size()) << a << " " << b;
+      ASSERT_EQ(true_ones.size(), reported == oracle.end() ? 0 : reported->second.size()) << a << " " << b;
       for (std::size_t k = 0; k < true_ones.size(); ++k) {
         // A grazing gap hardly changes: rounding at the start of a search shifts where it is found.
-        EXPECT_NEAR(true_ones[k].begin, told->second[k].begin, 1e-6) << a << " " << b;
-        if (true_ones[k].end == infinity || told->second[k].end == infinity)
-          EXPECT_EQ(true_ones[k].end, told->second[k].end) << a << " " << b;
+        EXPECT_NEAR(true_ones[k].begin, reported->second[k].begin, 1e-6) << a << " " << b;
+        if (true_ones[k].end == infinity || reported->second[k].end == infinity)
+          EXPECT_EQ(true_ones[k].end, reported->second[k].end) << a << " " << b;
         else
-          EXPECT_NEAR(true_ones[k].end, told->second[k].end, 1e-6) << a << " " << b;
+          EXPECT_NEAR(true_ones[k].end, reported->second[k].end, 1e-6) << a << " " << b;
       }
     });
   });

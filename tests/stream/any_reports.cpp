@@ -69,7 +69,7 @@ struct FiledPlan {
   double from, until;
   TrackReport::Plan plan;
   bool is_beyond;  ///< beyond the limits of the class
-  bool told = false;
+  bool reported = false;
 };
 
 struct Truth {
@@ -224,8 +224,8 @@ class Sky {
   void tell_plans_that_begin(double until) {
     for (std::size_t track = 0; track < truths_.size(); ++track)
       for (FiledPlan& filed : truths_[track].plans) {
-        if (filed.told || filed.from > until) continue;
-        filed.told = true;
+        if (filed.reported || filed.from > until) continue;
+        filed.reported = true;
         // Only a class without accelerations works without velocities.
         TrackReport report = report_of(track, filed.from);
         report.plan = filed.plan;
@@ -339,13 +339,13 @@ class Sky {
           const bool within_is_wrong =
               !is_within(levels[level], way, definition_.tolerance * (1.0L + 1e-12L));
           const auto at = told_.find({a, b, level});
-          const Verdict told = at == told_.end() ? Verdict::apart : at->second;
-          hold("told", told, apart_is_wrong, within_is_wrong, a, b, time);
+          const Verdict reported = at == told_.end() ? Verdict::apart : at->second;
+          hold("reported", reported, apart_is_wrong, within_is_wrong, a, b, time);
           const auto answer = monitor_->answer(a, b, level);
           if (!answer) return fail("answer: " + answer.error().message);
-          if (answer->verdict != told)
-            fail("answer " + std::string(name_of(answer->verdict)) + " after " + std::string(name_of(told)) +
-                 " was told");
+          if (answer->verdict != reported)
+            fail("answer " + std::string(name_of(answer->verdict)) + " after " +
+                 std::string(name_of(reported)) + " was reported");
           if (!(answer->until >= time)) fail("an answer ends before now");
           const bool is_space = levels[level].shape == Separation::Shape::ellipsoid &&
                                 levels[level].horizontal == levels[level].vertical;

@@ -161,7 +161,7 @@ void Player::remove_all(const Operation& operation) {
 void Player::set_velocity(BodyId id, const Vec3& velocity) {
   accepted(waking(island_if_resting(id), [&](World& world) { return world.set_velocity(id, velocity); }));
   truth_.move(id, {truth_.state(id).position, velocity});
-  told_.kicked(id);
+  told_.redirected(id);
   changed();
 }
 

@@ -99,11 +99,11 @@ class Crowd {
     while (const auto event = world_.advance(until, probe()).value()) {
       if (!bounces || event->kind != EventKind::contact_begin) continue;
       const Bounce after = bounce(*event, 1.0, 1.0, 0.9);
-      kick(event->first, after.first_velocity);
-      kick(event->second, after.second_velocity);
+      velocity_change(event->first, after.first_velocity);
+      velocity_change(event->second, after.second_velocity);
     }
   }
-  void kick(BodyId id, const Vec3& velocity) {
+  void velocity_change(BodyId id, const Vec3& velocity) {
     const Vec3 place = place_of(id, world_.time());
     if (world_.set_velocity(id, velocity)) keep(id, {place, velocity});
   }
@@ -111,7 +111,7 @@ class Crowd {
   void disturb() {
     for (const BodyId id : world_.bodies()) {
       const auto what = id.index % 8;
-      if (what == 1) kick(id, {1, 1, 0});
+      if (what == 1) velocity_change(id, {1, 1, 0});
       if (what == 2 && world_.sleep(id)) keep(id, {place_of(id, world_.time()), {}});
       if (what == 3) (void)world_.disable(id);
       if (what == 4) (void)world_.set_motion_limits(id, {.acceleration_limit = 2.0});

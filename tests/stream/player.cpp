@@ -83,7 +83,7 @@ void Player::check_all() const {
   if (const auto finding = world_.audit())
     throw Disagreement("audit: " + finding->where + ": " + finding->what);
   const std::vector<BodyId> ids = truth_.ids();
-  require(world_.time() == truth_.time(), "the time is not what it was told to be");
+  require(world_.time() == truth_.time(), "the time is not the one that was requested");
   require(world_.size() == ids.size() && world_.bodies() == ids, "other bodies than were added");
   for (const BodyId id : ids) check_body(id);
   for (const BodyId id : removed_) require(!world_.contains(id), "a removed body is still there");
@@ -155,14 +155,14 @@ std::optional<Event> Player::next_event(double until) {
     hear(**result);
   } else {
     told_.settle_ends();
-    require(woken_.empty(), "nobody is told that a body has woken");
+    require(woken_.empty(), "no event reports that a body woke");
     require(world_.time() == until, "no event, and yet the time is not what was asked for");
   }
   return *result;
 }
 
 void Player::move_on() {
-  require(woken_.empty() || world_.time() == truth_.time(), "nobody is told in time that a body has woken");
+  require(woken_.empty() || world_.time() == truth_.time(), "no event reports in time that a body woke");
   told_.move_on_to(world_.time());
 }
 

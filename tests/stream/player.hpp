@@ -11,7 +11,7 @@
 #include "kinesphere/workers.hpp"
 #include "simulation/scene/scene.hpp"
 #include "stream/operation.hpp"
-#include "stream/told_contacts.hpp"
+#include "stream/reported_contacts.hpp"
 
 namespace kinesphere::stream {
 
@@ -137,7 +137,7 @@ class Player {
 
   WorldKind kind_;
   Truth truth_;
-  ToldContacts told_;
+  ReportedContacts told_;
   World world_;
   std::optional<World> twin_;                      ///< must behave like the world
   bool twin_saves_the_same_ = false;               ///< to the last byte

@@ -81,7 +81,7 @@ void Player::check_woken(const EventProcessor& island) {
 }
 
 void Player::hear_woken(const Event& event) {
-  require(woken_.erase(event.first) == 1, "a body is told to be awake that did not rest");
+  require(woken_.erase(event.first) == 1, "an event reports as woken a body that did not sleep");
   require(event.second == no_body && event.wall == Wall::none, "a body is woken with another");
   require(event.first_state.velocity == Vec3{}, "a body that wakes moves");
   changed();
@@ -103,7 +103,7 @@ void Player::rest(BodyId id) {
   require(world_.body(id).value().sleeping, "a body does not rest");
   if (rested) return;
   truth_.rest(id);
-  told_.kicked(id);
+  told_.redirected(id);
   changed();
 }
 

@@ -175,7 +175,7 @@ class Run {
       require(refers_to_nobody || done.error().code == ErrorCode::not_finite,
               "a run is refused for a wrong reason");
     } catch (const Failed&) {
-      require(fault_ != Fault::nowhere, "a failure is told twice");
+      require(fault_ != Fault::nowhere, "a failure is reported twice");
     }
     check_failure();
     fault_ = Fault::nowhere;
@@ -209,7 +209,7 @@ class Run {
     return answer;
   }
   void tell(const Event& event) {
-    require(event.time <= world_.time(), "an event is told before its time");
+    require(event.time <= world_.time(), "an event is reported before its time");
     require(told_ < expected_.size(), "a run tells more than a loop");
     require(same_in_all(event, expected_[told_]), "a run tells something else than a loop");
     ++told_;
@@ -229,7 +229,7 @@ class Run {
     require(fault_ != Fault::sink || told_ == place_ + 1, "a run goes on when the sink has failed");
     require(!at_event || told_ == place_, "a run fails at another event than the callback");
     require(told_ == 0 || expected_[told_ - 1].time <= expected_[place_].time,
-            "events are told that come after a failure");
+            "events are reported that come after a failure");
     if (const auto finding = world_.audit())
       throw Disagreement("audit of a run that failed: " + finding->where + ": " + finding->what);
   }

@@ -45,7 +45,7 @@ void Player::check_touching(const World& world, BodyId id, const Vec3& place) co
     if (other == id || !truth_.is_present(other) || !truth_.may_touch(id, body, other)) continue;
     require(truth_.distance(other, place) - body.radius >= deep ||
                 std::find(touching.begin(), touching.end(), other) != touching.end(),
-            "a sprint ends in a body untold");
+            "a sprint ends with an unreported body");
   }
 }
 

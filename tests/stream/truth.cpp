@@ -152,7 +152,7 @@ bool Truth::senses(BodyId a, BodyId b, double distance) const {
          std::find(sensor.distances.begin(), sensor.distances.end(), distance) != sensor.distances.end();
 }
 
-bool Truth::may_be_told(const Contact& contact) const {
+bool Truth::may_be_reported(const Contact& contact) const {
   if (!is_present(contact.first)) return false;
   if (contact.wall != Wall::none) return !at(contact.first).fixed;
   const auto& [a, b, wall, sensed] = contact;

@@ -97,7 +97,7 @@ class Truth {
   void haunt(BodyId id);
   std::array<Sensor, sensor_classes> sensors{};
   /// Returns true if events may report this contact.
-  bool may_be_told(const Contact& contact) const;
+  bool may_be_reported(const Contact& contact) const;
   /// Returns true if a body with this definition touches the other when they meet.
   bool may_touch(BodyId a, const BodyDefinition& definition_of_a, BodyId b) const;
 

@@ -25,7 +25,7 @@ struct BouncingWorld {
   std::vector<double> masses{};  ///< indexed by body; others are static
   EventHash hash{};
   std::uint64_t order = 0;  ///< hash of events that depends on their order
-  std::size_t told = 0;
+  std::size_t reported = 0;
   double last = -std::numeric_limits<double>::infinity();  ///< the time of the last event
 
   BouncingWorld(OfMotion moved_by, World empty, double bounciness)
@@ -56,7 +56,7 @@ struct BouncingWorld {
     EventHash one;
     one.add(event);
     order = 31 * order + one.value();
-    ++told;
+    ++reported;
     EXPECT_GE(event.time, last);
     last = event.time;
   }
@@ -86,7 +86,7 @@ struct BouncingWorld {
 /// Expects equal events, from equal numbers of reports and rechecks.
 template <class OfMotion>
 void expect_same_course(const BouncingWorld<OfMotion>& found, const BouncingWorld<OfMotion>& expected) {
-  EXPECT_EQ(found.told, expected.told);
+  EXPECT_EQ(found.reported, expected.reported);
   EXPECT_EQ(found.hash.value(), expected.hash.value());
   EXPECT_EQ(found.order, expected.order);
   EXPECT_EQ(found.world.counters().probes, expected.world.counters().probes);

@@ -76,8 +76,8 @@ TEST(ClustersOfRows, AreLeftToALoopWhereTheyRunAgainAndAgain) {
   looped.loop(2.0);
   const std::size_t asked = run.run_by(2, 2.0);
   expect_same_course(run, looped);
-  EXPECT_GT(run.told, 48u * 50u);
-  EXPECT_LT(asked, 4 * run.told);
+  EXPECT_GT(run.reported, 48u * 50u);
+  EXPECT_LT(asked, 4 * run.reported);
 }
 
 /// Most clusters are unrelated to the rows.
@@ -91,7 +91,7 @@ TEST(ClustersOfRows, ForgetWhatTheyHaveDoneInVain) {
       EXPECT_TRUE(is_clean(run.world)) << until;
     }
     expect_same_course(run, looped);
-    EXPECT_GT(asked, 3 * run.told) << "they did run again and again";
+    EXPECT_GT(asked, 3 * run.reported) << "they did run again and again";
   }
 }
 

@@ -58,7 +58,9 @@ class Meeting : public Playground {
         speed(0.99995 * longest_way(place) / window_length(place)),
         goer(add({.radius = half_width, .position = {place.lower + start, 0, 0}, .velocity = {speed, 0, 0}})),
         waiter(add({.radius = half_width, .position = {place.lower + 7, 900, 0}, .velocity = {-1, 0, 0}})) {
-    distort = [this](BodyId, double, State& told) { told.position.x = place.wrapped(told.position.x); };
+    distort = [this](BodyId, double, State& reported) {
+      reported.position.x = place.wrapped(reported.position.x);
+    };
   }
 
   /// Runs until the swept sphere of the first body is nearly half a period wide, and then until it lasts for

@@ -57,7 +57,7 @@ class TwoBalls final : public MotionSource {
     };
     auto result = world.run(until, *this, respond, [this](const Event& event) {
       turning = false;
-      told.push_back(event);
+      reported.push_back(event);
     });
     turning = false;
     return result;
@@ -65,7 +65,7 @@ class TwoBalls final : public MotionSource {
 
   World world = World::create({.dimensions = 2, .contacts = ContactMode::impacts}).value();
   std::vector<MotionOrigin> departures;
-  std::vector<Event> told;
+  std::vector<Event> reported;
   std::uint32_t glitches = no_body.index;  ///< this body, while an answer turns it
   std::optional<State> bad;                ///< or nothing is written
   bool turning = false;
@@ -83,12 +83,12 @@ TEST(GlitchingSource, IsRefusedWhileAnAnswerTurnsABody) {
                    balls.world.bodies()[body]);
       // No body has a new origin, and no event was delivered.
       for (const MotionOrigin& origin : balls.departures) EXPECT_EQ(origin.time, 0.0);
-      EXPECT_TRUE(balls.told.empty());
+      EXPECT_TRUE(balls.reported.empty());
       EXPECT_TRUE(is_clean(balls.world));
       balls.glitches = no_body.index;
       EXPECT_TRUE(balls.run(10.0));
-      ASSERT_EQ(balls.told.size(), 1u);
-      EXPECT_EQ(balls.told[0].kind, EventKind::contact_begin);
+      ASSERT_EQ(balls.reported.size(), 1u);
+      EXPECT_EQ(balls.reported[0].kind, EventKind::contact_begin);
       EXPECT_NEAR(balls.departures[0].state.position.x, 1.5, 1e-6);
       EXPECT_NEAR(balls.departures[1].state.position.x, 3.5, 1e-6);
     }
@@ -144,7 +144,7 @@ class Glitching final : public MotionSource {
 TEST(GlitchingSource, ChangesNothingThatIsTold) {
   Bouncing expected;
   expected.loop(3.0);
-  EXPECT_GT(expected.told, 1000u);
+  EXPECT_GT(expected.reported, 1000u);
   for (const int threads : {1, 2, 3}) {
     for (const std::uint64_t period : {61u, 1009u}) {
       Bouncing found;
@@ -161,7 +161,7 @@ TEST(GlitchingSource, ChangesNothingThatIsTold) {
             << run.error().message;
       }
       EXPECT_GT(errors, threads == 1 ? 5 : -1) << period;
-      EXPECT_EQ(found.told, expected.told) << threads << " threads, period " << period;
+      EXPECT_EQ(found.reported, expected.reported) << threads << " threads, period " << period;
       EXPECT_EQ(found.hash.value(), expected.hash.value());
       EXPECT_TRUE(is_clean(found.world));
     }

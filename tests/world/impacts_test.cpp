@@ -128,13 +128,13 @@ TEST(Impacts, SecondEventOfAnInstantKnowsOfTheKickAtTheFirst) {
   const BodyId a = p.add({.radius = 1, .velocity = {4, 0, 0}});
   p.add({.radius = 1, .position = {10, 1, 0}});
   p.add({.radius = 1, .position = {10, -1, 0}});
-  std::size_t told = 0;
+  std::size_t reported = 0;
   p.run(20.0, [&](const Event& event) {
-    ++told;
+    ++reported;
     p.set_velocity(a, {-4, 0, 0});
     EXPECT_GT(event.approach_speed, 0.0);
   });
-  EXPECT_EQ(told, 1u);
+  EXPECT_EQ(reported, 1u);
 }
 
 struct RestCase {

@@ -127,12 +127,12 @@ TEST(Certificates, OfWallsAreTrueOfTheTruth) {
 
 TEST(Certificates, OfBodiesThatAreKickedAreGone) {
   BusyCrowd crowd;
-  const auto kicked = [](BodyId id) { return id != no_body && id.index % 3 == 0; };
+  const auto redirected = [](BodyId id) { return id != no_body && id.index % 3 == 0; };
   for (const BodyId id : crowd.world.bodies())
-    if (kicked(id)) crowd.set_velocity(id, {1, 1, 1});
+    if (redirected(id)) crowd.set_velocity(id, {1, 1, 1});
   ASSERT_FALSE(crowd.world.certificates().empty());
   for (const Certificate& certificate : crowd.world.certificates())
-    EXPECT_FALSE(kicked(certificate.first) || kicked(certificate.second));
+    EXPECT_FALSE(redirected(certificate.first) || redirected(certificate.second));
 }
 
 TEST(Timings, AreOffAtFirstAndThenTellProbesFromTheRest) {

@@ -256,8 +256,8 @@ TEST(Limits, WhereTimesAreTooCoarseForTheBodiesTimeGoesOn) {
                     .start_time = start});
       const double speed = repeats ? 1.0 : 2.0 / step;
       if (repeats)
-        p.distort = [](BodyId, double, State& told) {
-          told.position.x -= 20.0 * std::floor((told.position.x + 10.0) / 20.0);
+        p.distort = [](BodyId, double, State& reported) {
+          reported.position.x -= 20.0 * std::floor((reported.position.x + 10.0) / 20.0);
         };
       p.add({.radius = 1.0, .position = {-5, 0, 0}, .velocity = {speed, 0, 0}});
       p.add({.radius = 1.0, .position = {5, 0, 0}, .velocity = {-speed, 0, 0}});

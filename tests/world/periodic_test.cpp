@@ -26,11 +26,11 @@ void expect_same(const PeriodicWorld& p, BodyId a, BodyId b, const std::vector<O
   std::size_t next = 0;
   for (const Overlap& overlap : overlaps) {
     while (next < begins.size() && begins[next].time < overlap.begin - 1e-3) ++next;
-    const bool told = next < begins.size() && begins[next].time <= overlap.begin + 1e-9;
+    const bool reported = next < begins.size() && begins[next].time <= overlap.begin + 1e-9;
     if (is_clear(overlap)) {
-      EXPECT_TRUE(told) << a << " and " << b << " overlap from " << overlap.begin << " unseen";
+      EXPECT_TRUE(reported) << a << " and " << b << " overlap from " << overlap.begin << " unseen";
     }
-    if (told) ++next;
+    if (reported) ++next;
   }
   for (const Event& begin : begins) EXPECT_LE(p.true_gap(a, b, begin.time), eps) << begin;
   const auto clear = static_cast<std::size_t>(std::count_if(overlaps.begin(), overlaps.end(), is_clear));
@@ -417,7 +417,7 @@ TEST(PeriodicBox, NothingIsMissedWithErrorsAndAccelerations) {
   }
   p.kind.reports = Reports::any_image;
   p.distort = [&](BodyId, double, State& state) {
-    state.position = p.told(state.position + 0.999 * noise * p.random.point_in_ball());
+    state.position = p.reported(state.position + 0.999 * noise * p.random.point_in_ball());
     state.velocity += 0.999 * noise * p.random.point_in_ball();
   };
   std::set<std::pair<BodyId, BodyId>> touching;

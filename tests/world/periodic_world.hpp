@@ -50,7 +50,7 @@ class PeriodicWorld : public Playground {
       : Playground(definition_of(its_kind, more)), kind(its_kind), random(its_kind.seed) {
     for (int axis = 0; axis < 3; ++axis)
       if (kind.periodic[axis]) period[axis] = kind.box.upper[axis] - kind.box.lower[axis];
-    distort = [this](BodyId, double, State& state) { state.position = told(state.position); };
+    distort = [this](BodyId, double, State& state) { state.position = reported(state.position); };
     const PeriodicCrowd& crowd = kind.crowd;
     for (std::size_t k = 0; k < crowd.bodies; ++k) {
       double radius = crowd.least_radius + (crowd.largest_radius - crowd.least_radius) * random.uniform();
@@ -84,7 +84,7 @@ class PeriodicWorld : public Playground {
   }
 
   /// Returns a position in the form of the reports.
-  Vec3 told(Vec3 position) {
+  Vec3 reported(Vec3 position) {
     for (int axis = 0; axis < 3; ++axis) {
       if (period[axis] == 0.0 || kind.reports == Reports::unwrapped) continue;
       position[axis] -= std::floor((position[axis] - kind.box.lower[axis]) / period[axis]) * period[axis];

@@ -50,7 +50,7 @@ struct Bouncing : BouncingWorld<RandomForces> {
 };
 
 void expect_same_end(const Bouncing& found, const Bouncing& expected) {
-  EXPECT_EQ(found.told, expected.told);
+  EXPECT_EQ(found.reported, expected.reported);
   EXPECT_EQ(found.hash.value(), expected.hash.value());
   EXPECT_EQ(found.world.save().value(), expected.world.save().value());
 }
@@ -67,7 +67,7 @@ TEST(Run, DoesWhatALoopDoesToTheLastBit) {
   EXPECT_GT(run.world.counters().count(EventKind::contact_begin), 100u);
   EXPECT_GT(run.world.counters().count(EventKind::wall_begin), 100u);
   EXPECT_GT(run.world.counters().count(EventKind::sensor_enter), 10u);
-  EXPECT_EQ(run.told, looped.told);
+  EXPECT_EQ(run.reported, looped.reported);
   EXPECT_EQ(run.hash.value(), looped.hash.value());
   EXPECT_TRUE(is_clean(run.world));
 
@@ -89,7 +89,7 @@ TEST(Run, NeedsNoMoverWhereNobodyAnswers) {
   Bouncing looped, run;
   while (const auto event = looped.world.advance(end, looped.motion.probe()).value()) looped.tell(*event);
   run.world.run(end, run.motion.probe(), [&](const Event& event) { run.tell(event); }).value();
-  EXPECT_GT(run.told, 20u);
+  EXPECT_GT(run.reported, 20u);
   expect_same_end(run, looped);
 }
 
@@ -97,7 +97,7 @@ TEST(Run, TimesWhatItDoes) {
   Bouncing run;
   run.world.set_profiling(true).value();
   run.run().value();
-  EXPECT_EQ(run.world.timings().advances, run.told + 1);
+  EXPECT_EQ(run.world.timings().advances, run.reported + 1);
   EXPECT_GT(run.world.timings().probes, 0.0);
 }
 
@@ -209,7 +209,7 @@ void expect_no_trace(const std::function<void(Bouncing&, Guarded&, Fuse&, std::f
     }
     EXPECT_TRUE(fuse.has_blown());
     EXPECT_EQ(interruptions, 1u);
-    EXPECT_EQ(run.told, expected.told);
+    EXPECT_EQ(run.reported, expected.reported);
     EXPECT_EQ(run.hash.value(), expected.hash.value());
     // A probe that throws has been counted.
     if (!probes_again) {
@@ -385,7 +385,7 @@ void expect_refused(EventKind kind, const std::function<Response(const Event&)>&
                of_second ? at->second : at->first);
   EXPECT_EQ(b.world.time(), at->time);
   b.run().value();
-  EXPECT_EQ(b.told, expected.told);
+  EXPECT_EQ(b.reported, expected.reported);
   EXPECT_EQ(b.hash.value(), expected.hash.value());
 }
 

@@ -347,9 +347,9 @@ class SensingCrowd : public testing::TestWithParam<std::uint64_t> {
       }
     }
     ASSERT_EQ(within.size(), expected_at_most) << "within a distance that nobody senses";
-    std::size_t told = 0;
-    for (const BodyId id : alive) told += p.world.sensor_overlaps(id).value().size();
-    ASSERT_EQ(told, 2 * within.size());
+    std::size_t reported = 0;
+    for (const BodyId id : alive) reported += p.world.sensor_overlaps(id).value().size();
+    ASSERT_EQ(reported, 2 * within.size());
   }
 
   Playground p;

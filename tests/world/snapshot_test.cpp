@@ -46,7 +46,7 @@ class Crowd {
     }
   }
 
-  const std::vector<Event>& told() const { return told_; }
+  const std::vector<Event>& reported() const { return told_; }
   const std::vector<std::pair<BodyId, double>>& asked() const { return asked_; }
   std::uint64_t hash() const { return playground_.hash.value(); }
   World& world() { return playground_.world; }
@@ -86,7 +86,7 @@ class Crowd {
 
 void expect_same(Crowd& found, Crowd& expected) {
   EXPECT_EQ(found.hash(), expected.hash());
-  EXPECT_EQ(found.told().size(), expected.told().size());
+  EXPECT_EQ(found.reported().size(), expected.reported().size());
   EXPECT_EQ(found.asked(), expected.asked());
   // Counters and everything else are equal.
   EXPECT_EQ(found.world().save().value(), expected.world().save().value());

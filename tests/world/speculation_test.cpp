@@ -78,7 +78,7 @@ class SpeculativeRunner : public ::testing::TestWithParam<Kind> {};
 TEST_P(SpeculativeRunner, AreAsOneLoop) {
   Hall looped(GetParam());
   looped.loop(looped.kind.end);
-  EXPECT_GT(looped.told, 300u);
+  EXPECT_GT(looped.reported, 300u);
   for (const int threads : {1, 2, 3, 8}) {
     SCOPED_TRACE(threads);
     Workers workers = Workers::create(threads).value();
@@ -158,7 +158,7 @@ TEST(ClustersThatFail, LeaveAWorldThatGoesOnAsIfNothingHadHappened) {
     fails_from = next;
   }
   EXPECT_TRUE(run.world.run(kind.end, source, respond, sink, &workers));
-  EXPECT_EQ(run.told, looped.told);
+  EXPECT_EQ(run.reported, looped.reported);
   EXPECT_EQ(run.hash.value(), looped.hash.value());
   EXPECT_TRUE(is_clean(run.world));
 }
@@ -185,7 +185,7 @@ TEST(ClustersThatFail, GoOnWhenTheyFailNoMore) {
     EXPECT_EQ(result.error().code, ErrorCode::not_finite);
     ASSERT_LT(++refused, 100);
   }
-  EXPECT_EQ(run.told, looped.told);
+  EXPECT_EQ(run.reported, looped.reported);
   EXPECT_EQ(run.hash.value(), looped.hash.value());
 }
 

@@ -90,7 +90,7 @@ TEST(SensorEvent, TellsWhichOfTheTwoSensesAtWhichDistance) {
   p.world.set_sensor(2, {.distances = {2, 8}}).value();
   p.add({.radius = 1, .sensor_class = 1, .user_data = 100});
   p.add({.radius = 1, .position = {-60, 0, 0}, .velocity = {10, 0, 0}, .sensor_class = 2, .user_data = 200});
-  std::map<double, std::vector<Senses>> told;
+  std::map<double, std::vector<Senses>> reported;
   for (const Event& event : p.run(40.0)) {
     EXPECT_EQ(event.first_user_data, 100u);
     EXPECT_EQ(event.second_user_data, 200u);
@@ -101,7 +101,7 @@ TEST(SensorEvent, TellsWhichOfTheTwoSensesAtWhichDistance) {
       EXPECT_EQ(event.sensor_user_data() + event.visitor_user_data(), 0u);
       continue;
     }
-    told[event.distance].push_back(event.senses);
+    reported[event.distance].push_back(event.senses);
     EXPECT_EQ(event.sensor(), event.senses == Senses::second ? event.second : event.first);
     EXPECT_EQ(event.visitor(), event.senses == Senses::second ? event.first : event.second);
     EXPECT_EQ(event.sensor_user_data(), event.senses == Senses::second ? 200u : 100u);
@@ -109,7 +109,7 @@ TEST(SensorEvent, TellsWhichOfTheTwoSensesAtWhichDistance) {
   const std::map<double, std::vector<Senses>> expected{{8, {Senses::second, Senses::second}},
                                                        {5, {Senses::first, Senses::first}},
                                                        {2, {Senses::both, Senses::both}}};
-  EXPECT_EQ(told, expected);
+  EXPECT_EQ(reported, expected);
 }
 
 /// The sensors may have changed in between; the events of one overlap can still be matched.

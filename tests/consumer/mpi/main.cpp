@@ -17,8 +17,8 @@ int main(int argc, char** argv) {
     world.add(k, body, k).value();
   }
   double first = -1.0;
-  const auto sink = [&](const OrderedEvent& told) {
-    if (first < 0.0) first = told.event.time;
+  const auto sink = [&](const OrderedEvent& reported) {
+    if (first < 0.0) first = reported.event.time;
   };
   world.run(5.0, sink).value();
   if (std::abs(first - 4.0) > 1e-5) {

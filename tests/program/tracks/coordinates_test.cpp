@@ -114,9 +114,9 @@ TEST_F(ProjectionTest, ThePlaneSaysHowWrongItIs) {
     for (const Vec3& step : {Vec3{1e-3, 0, 0}, Vec3{0, 1e-3, 0}, Vec3{1e-3, 1e-3, 0}}) {
       const auto there = project(std::vector<Vec3>{point}, false, ProjectionChoice::plane);
       const double truth = norm(there->local(point + step) - there->local(point));
-      const double told = norm(plane->local(point + step) - plane->local(point));
-      longest = std::max(longest, told / truth);
-      shortest = std::min(shortest, told / truth);
+      const double reported = norm(plane->local(point + step) - plane->local(point));
+      longest = std::max(longest, reported / truth);
+      shortest = std::min(shortest, reported / truth);
     }
   }
   EXPECT_GT(longest, 1.0001);

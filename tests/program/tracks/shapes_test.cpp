@@ -110,9 +110,9 @@ Told dates(Original& original) {
   const auto date = [](const Row& row) {
     const std::int64_t seconds = row.milliseconds / 1000 + 23 * 3600 + 59 * 60;
     const bool east = row.milliseconds % 3 == 0;
-    const std::int64_t told = east ? seconds + 2 * 3600 : seconds;
-    return fmt::format("2024-02-{}{}{:02}:{:02}:{:02}.{:03}{}", 28 + told / 86400, east ? ' ' : 'T',
-                       told % 86400 / 3600, told % 3600 / 60, told % 60, row.milliseconds % 1000,
+    const std::int64_t reported = east ? seconds + 2 * 3600 : seconds;
+    return fmt::format("2024-02-{}{}{:02}:{:02}:{:02}.{:03}{}", 28 + reported / 86400, east ? ' ' : 'T',
+                       reported % 86400 / 3600, reported % 3600 / 60, reported % 60, row.milliseconds % 1000,
                        east ? "+02:00" : "Z");
   };
   return {{{"t.csv", table(original, "agent,BaseDateTime,x,y", date)}}, {}};
@@ -126,12 +126,12 @@ Told unix_seconds(Original& original) {
 }
 
 Told unix_milliseconds(Original& original) {
-  Told told{
+  Told reported{
       {{"t.csv", table(original, "object,t,x,y",
                        [](const Row& row) { return fmt::format("{}", 1700000000000 + row.milliseconds); })}},
       {}};
-  told.options.hints.time_unit = "ms";
-  return told;
+  reported.options.hints.time_unit = "ms";
+  return reported;
 }
 
 /// 9 decimals: rounding errors up to 1e-9, the distance of two doubles there.
@@ -142,9 +142,9 @@ Told utm(Original& original) {
                         row.position.y + 5400000);
     text += original.has_z() ? fmt::format(",{}\n", row.position.z) : "\n";
   }
-  Told told{{{"t.csv", text}}, {}};
-  told.options.hints.from = "utm:33N";
-  return told;
+  Told reported{{{"t.csv", text}}, {}};
+  reported.options.hints.from = "utm:33N";
+  return reported;
 }
 
 /// On the ground of the Earth, or in space above it. 14 decimals of a degree are 1e-9 m.
@@ -190,9 +190,9 @@ Told duplicates(Original& original, DuplicatePolicy policy) {
     if (k > 0 && k % 7 == 0) text += lines[k] + '\n';
     if (k > 0 && k % 100 == 0) text += lines[k - 50] + '\n';
   }
-  Told told{{{"t.csv", text}}, {}};
-  told.options.duplicates = policy;
-  return told;
+  Told reported{{{"t.csv", text}}, {}};
+  reported.options.duplicates = policy;
+  return reported;
 }
 
 Told first_duplicates(Original& original) { return duplicates(original, DuplicatePolicy::first); }
@@ -213,9 +213,9 @@ Told missing(Original& original) {
                           original.has_z() ? ",1\n" : "\n");
     if (k % 11 == 0) text += fmt::format("{},,1,1{}", id, original.has_z() ? ",1\n" : "\n");
   }
-  Told told{{{"t.csv", text}}, {}};
-  told.options.missing = MissingPolicy::skip;
-  return told;
+  Told reported{{{"t.csv", text}}, {}};
+  reported.options.missing = MissingPolicy::skip;
+  return reported;
 }
 
 Told shuffled(Original& original) {
@@ -265,13 +265,13 @@ struct Counterpart {
 };
 
 /// Finds bodies by id and order in time among the tracks of the id.
-std::vector<Counterpart> counterparts(const Recording& told, const Recording& original) {
+std::vector<Counterpart> counterparts(const Recording& reported, const Recording& original) {
   std::map<std::string, std::vector<std::uint32_t>> bodies;
   for (std::uint32_t body = 0; body < original.tracks.size(); ++body)
     bodies[original.tracks[body].id].push_back(body);
   std::map<std::string, std::size_t> next;
   std::vector<Counterpart> result;
-  for (const RecordedTrack& track : told.tracks) {
+  for (const RecordedTrack& track : reported.tracks) {
     const std::uint32_t body = bodies.at(track.id).at(next[track.id]++);
     const RecordedTrack& same = original.tracks[body];
     EXPECT_EQ(track.samples.size(), same.samples.size()) << track.id;
@@ -302,8 +302,8 @@ TEST_P(Shapes, HaveTheSameApproaches) {
     for (const TrackSample& sample : track.samples)
       original.rows.push_back({track.id, std::llround(1000 * sample.time), sample.position});
   }
-  Told told = shape.tell(original);
-  const Recording read = parse_tracks(std::move(told.files), told.options);
+  Told reported = shape.tell(original);
+  const Recording read = parse_tracks(std::move(reported.files), reported.options);
   ASSERT_EQ(read.tracks.size(), original.recording.tracks.size());
   const std::vector<Counterpart> same = counterparts(read, original.recording);
 

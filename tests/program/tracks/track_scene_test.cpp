@@ -28,16 +28,16 @@ TEST(TrackScene, LinesGoStraightFromSampleToSample) {
   ASSERT_EQ(motion.turns().size(), 2u);
   EXPECT_EQ(motion.turns()[0].velocity, (Vec3{0, 1, 0}));
   // A turn counts from its report on, which has its very time.
-  LinearTracks told = motion;
-  EXPECT_EQ(told.state(0, 1.0).velocity, (Vec3{1, 0, 0}));
-  EXPECT_TRUE(told.set_velocity(0, 1.0, {0, 1, 0}));
-  EXPECT_EQ(told.state(0, 1.0).velocity, (Vec3{0, 1, 0}));
-  EXPECT_EQ(told.state(0, 2.0).velocity, (Vec3{0, 1, 0}));
-  EXPECT_EQ(told.set_velocity(0, 1.5, {0, 1, 0}).error().code, ErrorCode::unsupported);
-  EXPECT_EQ(told.set_velocity(0, 2.0, {0, 1, 0}).error().code, ErrorCode::unsupported);
-  EXPECT_EQ(told.set_velocity(7, 2.0, {0, 1, 0}).error().code, ErrorCode::unknown_body);
-  EXPECT_THROW(told.state(1, 0.0), BadResult);
-  EXPECT_THROW(told.trajectory(0, 2.0, 1.0), BadResult);
+  LinearTracks reported = motion;
+  EXPECT_EQ(reported.state(0, 1.0).velocity, (Vec3{1, 0, 0}));
+  EXPECT_TRUE(reported.set_velocity(0, 1.0, {0, 1, 0}));
+  EXPECT_EQ(reported.state(0, 1.0).velocity, (Vec3{0, 1, 0}));
+  EXPECT_EQ(reported.state(0, 2.0).velocity, (Vec3{0, 1, 0}));
+  EXPECT_EQ(reported.set_velocity(0, 1.5, {0, 1, 0}).error().code, ErrorCode::unsupported);
+  EXPECT_EQ(reported.set_velocity(0, 2.0, {0, 1, 0}).error().code, ErrorCode::unsupported);
+  EXPECT_EQ(reported.set_velocity(7, 2.0, {0, 1, 0}).error().code, ErrorCode::unknown_body);
+  EXPECT_THROW(reported.state(1, 0.0), BadResult);
+  EXPECT_THROW(reported.trajectory(0, 2.0, 1.0), BadResult);
   const Trajectory lines = motion.trajectory(0, -1.0, 5.0);
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_EQ(lines.front().state_at(-1.0).position, (Vec3{-1, 0, 0}));

@@ -218,10 +218,10 @@ TEST_F(WatchNats, OfAFileThatIsReadAgainAndAgainEachIsToldOnce) {
 
 /// Alerts of one stream are independent of those of another.
 TEST_F(WatchNats, OtherStreamsHaveOtherAlerts) {
-  const std::string told = options + " --share 1-8/8 --alerts " + broker_->url("alerts");
+  const std::string reported = options + " --share 1-8/8 --alerts " + broker_->url("alerts");
   const auto tell = [&](const std::string& arguments, const std::string& before = "") {
     const std::size_t already = broker_->messages_in("ALERTS");
-    EXPECT_EQ(run("watch " + arguments + told, before).exit_code, 0);
+    EXPECT_EQ(run("watch " + arguments + reported, before).exit_code, 0);
     return broker_->messages_in("ALERTS") - already;
   };
   EXPECT_EQ(tell(path("s.jsonl")), count_);

@@ -164,7 +164,7 @@ TEST_F(WatchProgram, TellsWhatAMonitorTells) {
     monitor.report(id, report).value();
     go_on(monitor.time());
   }
-  std::vector<std::string> told;
+  std::vector<std::string> reported;
   for (const Json& line :
        alerts(write("s.jsonl", text.str()) +
               " --separation sphere:12 --separation sphere:6 --acceleration 1 --position-error 0.25 "
@@ -177,12 +177,12 @@ TEST_F(WatchProgram, TellsWhatAMonitorTells) {
               line["before"].get<std::string>();
     else
       each += line["track"].get<std::string>();
-    told.push_back(each);
+    reported.push_back(each);
   }
   // Alerts of one instant are in the order of the tracks' numbers, which differ here.
   std::sort(expected.begin(), expected.end());
-  std::sort(told.begin(), told.end());
-  EXPECT_EQ(told, expected);
+  std::sort(reported.begin(), reported.end());
+  EXPECT_EQ(reported, expected);
   EXPECT_GT(expected.size(), 50u);
   EXPECT_EQ(summary_["tracks"], monitor.size()) << "those that left are forgotten";
   for (const char* kind : {"contradiction", "resolved", "silent", "left", "verdict"})

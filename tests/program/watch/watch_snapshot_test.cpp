@@ -208,7 +208,7 @@ TEST_F(WatchRestart, LeavesAlertsAsTheyAreWhenItRefuses) {
   // Other alerts than those of the snapshot's run.
   ASSERT_EQ(run("watch --quiet " + stream + options + kept_in + alerts).exit_code, 0);
   std::string changed = read_text(path("alerts"));
-  const std::string told = changed;
+  const std::string reported = changed;
   changed[changed.size() - 5] = '#';
   write("alerts", changed);
   expect_wrong_input("watch " + stream + options + kept_in + alerts, {path("alerts"), "are others"});
@@ -218,12 +218,12 @@ TEST_F(WatchRestart, LeavesAlertsAsTheyAreWhenItRefuses) {
                      {"--alerts", path("other"), "something else"});
   EXPECT_EQ(read_text(path("other")), "precious\n");
   // A renamed file is recognised, and another file is begun.
-  write("alerts", told);
+  write("alerts", reported);
   ASSERT_EQ(std::system(("cp '" + path("alerts") + "' '" + path("copy") + "'").c_str()), 0);
   for (const std::string& name : {path("./alerts"), path("copy")})
     EXPECT_EQ(run("watch --quiet " + stream + options + kept_in + " --alerts '" + name + "'").exit_code, 0);
-  EXPECT_TRUE(read_text(path("alerts")) == told);
-  EXPECT_TRUE(read_text(path("copy")) == told);
+  EXPECT_TRUE(read_text(path("alerts")) == reported);
+  EXPECT_TRUE(read_text(path("copy")) == reported);
   EXPECT_EQ(run("watch --quiet " + stream + options + kept_in + " --alerts '" + path("new") + "'").exit_code,
             0);
   EXPECT_EQ(read_text(path("new")), "");
@@ -251,22 +251,22 @@ TEST_F(WatchRestart, KeepsWhatWasToldOfAPipe) {
   LiveWatch killed(arguments, path("err"));
   std::istringstream lines(text.substr(0, middle));
   for (std::string line; std::getline(lines, line);) killed.write(line + "\n");
-  std::string told;
-  const auto count = [&] { return std::count(told.begin(), told.end(), '\n'); };
-  for (int k = 0; k < 500 && (count() < 100 || told != read_text(path("alerts"))); ++k) {
-    told = read_text(path("alerts"));
+  std::string reported;
+  const auto count = [&] { return std::count(reported.begin(), reported.end(), '\n'); };
+  for (int k = 0; k < 500 && (count() < 100 || reported != read_text(path("alerts"))); ++k) {
+    reported = read_text(path("alerts"));
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
   killed.signal(SIGKILL);
   killed.wait();
   EXPECT_GT(count(), 100);
   // The run was interrupted during a write.
-  write("alerts", told + "{\"event\": \"ver");
+  write("alerts", reported + "{\"event\": \"ver");
   const ProgramRun later = run("watch " + arguments, "cat '" + write("rest", text.substr(middle)) + "' | ");
   EXPECT_EQ(later.exit_code, 0) << later.err;
   const std::string all = read_text(path("alerts"));
-  EXPECT_EQ(all.substr(0, told.size()), told);
-  EXPECT_GT(all.size(), told.size() + 1000);
+  EXPECT_EQ(all.substr(0, reported.size()), reported);
+  EXPECT_GT(all.size(), reported.size() + 1000);
   std::istringstream alerts(all);
   for (std::string line; std::getline(alerts, line);) EXPECT_TRUE(Json::accept(line)) << line;
 }

@@ -76,7 +76,7 @@ TEST_P(FlightsOverTheEarth, AreToldOfWithCertainty) {
       .radius = place.radius,
       .source = "test"};
   std::map<std::tuple<std::string, std::string, int>, std::string> verdicts;
-  std::map<std::string, int> told;
+  std::map<std::string, int> reported;
   Random random(11);
   std::vector<Flight> flights(30);
   for (Flight& flight : flights) {
@@ -105,7 +105,7 @@ TEST_P(FlightsOverTheEarth, AreToldOfWithCertainty) {
     const double truth = distance_between(flight("first"), flight("second")), gone = 2 * 300.0 * tick;
     EXPECT_LE(alert["distance"][0], truth + gone) << line;
     EXPECT_GE(alert["distance"][1], truth - gone) << line;
-    ++told[verdict];
+    ++reported[verdict];
   });
 
   struct Waiting {
@@ -179,8 +179,8 @@ TEST_P(FlightsOverTheEarth, AreToldOfWithCertainty) {
   }
   EXPECT_EQ(watcher.counts().outside, 0u);
   EXPECT_EQ(watcher.counts().malformed, 0u);
-  EXPECT_GT(told["within"], 20);
-  EXPECT_GT(told["apart"], 20);
+  EXPECT_GT(reported["within"], 20);
+  EXPECT_GT(reported["apart"], 20);
   EXPECT_GT(decided, 0.9 * checked);
 }
 

@@ -1,5 +1,5 @@
 // Compares events with the truth.
-#include "stream/told_contacts.hpp"
+#include "stream/reported_contacts.hpp"
 
 #include <algorithm>
 
@@ -38,18 +38,18 @@ bool is_end(const Event& event) {
 
 }  // namespace
 
-ToldContacts::ToldContacts(const WorldDefinition& definition, Truth& truth)
+ReportedContacts::ReportedContacts(const WorldDefinition& definition, Truth& truth)
     : rule_(definition),
       truth_(truth),
       rounding_(1e-12 + (definition.box ? 0x1p-50 * norm_one(definition.box->lower) : 0.0)),
       slack_(1e-3 * rule_.tolerance() + rounding_),
       space_(definition) {}
 
-ToldContacts::Told& ToldContacts::told(const Contact& contact) {
-  return const_cast<Told&>(std::as_const(*this).told(contact));
+ReportedContacts::Told& ReportedContacts::reported(const Contact& contact) {
+  return const_cast<Told&>(std::as_const(*this).reported(contact));
 }
 
-const ToldContacts::Told& ToldContacts::told(const Contact& contact) const {
+const ReportedContacts::Told& ReportedContacts::reported(const Contact& contact) const {
   const std::uint32_t first = contact.first.index;
   if (contact.wall != Wall::none) return walls_[first][static_cast<std::size_t>(contact.wall) - 1];
   if (!contact.sensed) return pairs_(first, contact.second.index);
@@ -60,7 +60,7 @@ const ToldContacts::Told& ToldContacts::told(const Contact& contact) const {
 
 /// Calls `action` for every possible contact of the body, ignoring filters and disabled partners.
 template <class Action>
-void ToldContacts::for_each(BodyId id, Action action) const {
+void ReportedContacts::for_each(BodyId id, Action action) const {
   for (const TrueBody& other : truth_.bodies()) {
     if (!other.alive || other.id == id) continue;
     Contact contact = id.index < other.id.index ? Contact{id, other.id} : Contact{other.id, id};
@@ -76,7 +76,7 @@ void ToldContacts::for_each(BodyId id, Action action) const {
 
 // Changes.
 
-Event ToldContacts::end_now(const World& world, const Contact& contact) const {
+Event ReportedContacts::end_now(const World& world, const Contact& contact) const {
   const double now = truth_.time();
   const auto sphere = [&](BodyId body) {
     const Bound bound = world.body(body).value().bound;
@@ -93,7 +93,7 @@ Event ToldContacts::end_now(const World& world, const Contact& contact) const {
   return end;
 }
 
-GapLimits ToldContacts::limits(const World& world, const Contact& contact) const {
+GapLimits ReportedContacts::limits(const World& world, const Contact& contact) const {
   const Bound bound = world.body(contact.first).value().bound;
   if (contact.wall != Wall::none)
     return gap_limits(bound, half_space(*truth_.definition().box, contact.wall), truth_.time());
@@ -105,19 +105,19 @@ GapLimits ToldContacts::limits(const World& world, const Contact& contact) const
   return truth_.limits(extent(contact.first, bound), extent(contact.second, other));
 }
 
-std::vector<Before> ToldContacts::before(const World& world, BodyId id) const {
+std::vector<Before> ReportedContacts::before(const World& world, BodyId id) const {
   std::vector<Before> found;
   for_each(id, [&](const Contact& contact) {
-    if (!told(contact).touching) return;
+    if (!reported(contact).touching) return;
     found.push_back(
         {contact, end_now(world, contact), truth_.gap(contact) >= rule_.separation_distance() - slack_});
   });
   return found;
 }
 
-void ToldContacts::expect_end(const Before& before, bool certain) {
+void ReportedContacts::expect_end(const Before& before, bool certain) {
   if (impacts(before.contact)) {
-    if (certain) told(before.contact) = {};
+    if (certain) reported(before.contact) = {};
     return;
   }
   auto end =
@@ -128,51 +128,51 @@ void ToldContacts::expect_end(const Before& before, bool certain) {
   end->certain = certain;
 }
 
-void ToldContacts::gone(const std::vector<Before>& before) {
+void ReportedContacts::gone(const std::vector<Before>& before) {
   for (const Before& contact : before) expect_end(contact, true);
 }
 
-void ToldContacts::replaced(const World& world, BodyId id, const std::vector<Before>& before) {
+void ReportedContacts::replaced(const World& world, BodyId id, const std::vector<Before>& before) {
   for (const Before& b : before) {
     const bool certain =
         limits(world, b.contact).lower >= b.contact.sensed.value_or(0.0) + rule_.separation_distance();
     if (certain || b.is_over) expect_end(b, certain);
-    if (truth_.gap(b.contact) >= rule_.separation_distance() - slack_) told(b.contact).opened = true;
+    if (truth_.gap(b.contact) >= rule_.separation_distance() - slack_) reported(b.contact).opened = true;
   }
   for_each(id, [this](const Contact& contact) { look_again(contact); });
 }
 
-void ToldContacts::refiltered(BodyId id, const std::vector<Before>& before) {
+void ReportedContacts::refiltered(BodyId id, const std::vector<Before>& before) {
   for (const Before& contact : before)
-    if (!truth_.may_be_told(contact.contact)) expect_end(contact, true);
+    if (!truth_.may_be_reported(contact.contact)) expect_end(contact, true);
   for_each(id, [this](const Contact& contact) { look_again(contact); });
 }
 
-void ToldContacts::kicked(BodyId id) {
+void ReportedContacts::redirected(BodyId id) {
   if (!rule_.impacts_only()) return;
   for_each(id, [this](const Contact& contact) {
     if (!impacts(contact)) return;
-    told(contact).touching = false;
+    reported(contact).touching = false;
     look_again(contact);
   });
 }
 
-void ToldContacts::appeared(BodyId id) {
+void ReportedContacts::appeared(BodyId id) {
   const auto count = static_cast<std::uint32_t>(truth_.bodies().size());
   pairs_.resize(count);
   for (PairTable<Told>& pairs : sensed_) pairs.resize(count);
   walls_.resize(truth_.bodies().size());
   // A reused index may have a pending end, but is in no contact.
   for_each(id, [this](const Contact& contact) {
-    told(contact) = {};
+    reported(contact) = {};
     look_again(contact);
   });
 }
 
 /// Resets the state of a contact: bouncing bodies may overlap deeply, as long as they separate.
-void ToldContacts::look_again(const Contact& contact) {
-  Told& state = told(contact);
-  if (!impacts(contact) || state.touching || !truth_.may_be_told(contact)) return;
+void ReportedContacts::look_again(const Contact& contact) {
+  Told& state = reported(contact);
+  if (!impacts(contact) || state.touching || !truth_.may_be_reported(contact)) return;
   state.due = true;
   // The Zeno guard may use an eighth of the tolerance more.
   state.floor = std::min(0.0, truth_.gap(contact) - 0.125 * rule_.tolerance() + rule_.tolerance());
@@ -180,7 +180,7 @@ void ToldContacts::look_again(const Contact& contact) {
 
 // Events.
 
-void ToldContacts::hear(const Event& event) {
+void ReportedContacts::hear(const Event& event) {
   const Contact contact = contact_of(event);
   if (is_end(event) && take_end(event, contact)) return;
   settle_ends();
@@ -196,10 +196,10 @@ void ToldContacts::hear(const Event& event) {
     case EventKind::zeno_guard:
       if (!impacts(contact)) fail("a Zeno guard, though contacts last", contact, event.gap);
       if (event.gap > rule_.tolerance()) fail("a Zeno guard outside the tolerance", contact, event.gap);
-      if (truth_.may_be_told(contact)) {
-        told(contact).floor =
-            std::min(told(contact).floor, event.gap - 0.125 * rule_.tolerance() + rule_.tolerance());
-        told(contact).guarded = truth_.time();
+      if (truth_.may_be_reported(contact)) {
+        reported(contact).floor =
+            std::min(reported(contact).floor, event.gap - 0.125 * rule_.tolerance() + rule_.tolerance());
+        reported(contact).guarded = truth_.time();
       }
       return;
     default:
@@ -208,7 +208,7 @@ void ToldContacts::hear(const Event& event) {
 }
 
 /// Returns true if the event is an end that a change caused.
-bool ToldContacts::take_end(const Event& event, const Contact& contact) {
+bool ReportedContacts::take_end(const Event& event, const Contact& contact) {
   const auto end =
       std::find_if(ends_.begin(), ends_.end(), [&](const End& e) { return e.contact == contact; });
   if (end == ends_.end()) return false;
@@ -219,18 +219,18 @@ bool ToldContacts::take_end(const Event& event, const Contact& contact) {
   for (const End& other : ends_)
     if (other.certain && delivered_before(other.candidates.front(), event))
       fail("an end by a change comes too late", other.contact, other.candidates.front().gap);
-  told(contact).touching = false;
+  reported(contact).touching = false;
   ends_.erase(end);
   return true;
 }
 
-void ToldContacts::settle_ends() {
+void ReportedContacts::settle_ends() {
   for (const End& end : ends_)
-    if (end.certain) fail("its end by a change is not told", end.contact, end.candidates.front().gap);
+    if (end.certain) fail("its end by a change is not reported", end.contact, end.candidates.front().gap);
   ends_.clear();
 }
 
-bool ToldContacts::comes_within(BodyId id, double part) const {
+bool ReportedContacts::comes_within(BodyId id, double part) const {
   const TrueBody& body = truth_.at(id);
   if (body.fixed) return false;
   const double acceleration = body.definition.acceleration_limit + norm(body.definition.planned_acceleration);
@@ -238,14 +238,14 @@ bool ToldContacts::comes_within(BodyId id, double part) const {
 }
 
 /// In periodic space a state may be reported in another image, and rounded.
-bool ToldContacts::same_state(const State& told, BodyId id) const {
+bool ReportedContacts::same_state(const State& reported, BodyId id) const {
   const State truth = truth_.state(id);
-  if (!space_.repeats()) return told == truth;
-  const Vec3 shift = truth_.shift_to_nearest(told.position, truth.position);
-  return told.velocity == truth.velocity && norm(told.position + shift - truth.position) <= rounding_;
+  if (!space_.repeats()) return reported == truth;
+  const Vec3 shift = truth_.shift_to_nearest(reported.position, truth.position);
+  return reported.velocity == truth.velocity && norm(reported.position + shift - truth.position) <= rounding_;
 }
 
-bool ToldContacts::same(const Event& a, const Event& b) const {
+bool ReportedContacts::same(const Event& a, const Event& b) const {
   EventHash first, second;
   first.add(a);
   second.add(b);
@@ -260,8 +260,8 @@ bool ToldContacts::same(const Event& a, const Event& b) const {
          (a.wall != Wall::none || norm(way - other) <= rounding_);
 }
 
-void ToldContacts::begin(const Event& event, const Contact& contact) {
-  if (!truth_.may_be_told(contact)) fail("a begin of bodies that may not touch", contact, event.gap);
+void ReportedContacts::begin(const Event& event, const Contact& contact) {
+  if (!truth_.may_be_reported(contact)) fail("a begin of bodies that may not touch", contact, event.gap);
   const double gap = truth_.gap(contact);
   const double told_gap = event.gap - event.distance;
   if (std::abs(gap - told_gap) > slack_) fail("a begin with a wrong gap", contact, event.gap);
@@ -284,27 +284,27 @@ void ToldContacts::begin(const Event& event, const Contact& contact) {
     truth_.at(contact.first).last_contact = truth_.time();
     if (pair) truth_.at(contact.second).last_contact = truth_.time();
   }
-  Told& state = told(contact);
+  Told& state = reported(contact);
   const bool impact = impacts(contact);
   if (impact && event.approach_speed <= 0.0) fail("an impact that does not approach", contact, gap);
-  if (state.touching && !(impact && state.opened)) fail("a begin told twice", contact, gap);
+  if (state.touching && !(impact && state.opened)) fail("a begin is reported twice", contact, gap);
   state = {.touching = true, .guarded = state.guarded};
 }
 
-void ToldContacts::end(const Event& event, const Contact& contact) {
+void ReportedContacts::end(const Event& event, const Contact& contact) {
   if (impacts(contact)) fail("an end in a world of impacts", contact, event.gap);
-  if (!truth_.may_be_told(contact)) fail("an end of bodies that may not touch", contact, event.gap);
-  if (!told(contact).touching) fail("an end without a begin", contact, event.gap);
+  if (!truth_.may_be_reported(contact)) fail("an end of bodies that may not touch", contact, event.gap);
+  if (!reported(contact).touching) fail("an end without a begin", contact, event.gap);
   const double gap = truth_.gap(contact);
   const double told_gap = event.gap - event.distance;
   if (std::abs(gap - told_gap) > slack_) fail("an end with a wrong gap", contact, event.gap);
   if (std::abs(truth_.exact_gap(contact) - told_gap) > slack_)
     fail("an end with another gap than the exact one", contact, event.gap);
   if (told_gap < rule_.separation_distance()) fail("an end before the bodies are apart", contact, gap);
-  told(contact).touching = false;
+  reported(contact).touching = false;
 }
 
-void ToldContacts::check_account(const World& world, BodyId id) const {
+void ReportedContacts::check_account(const World& world, BodyId id) const {
   const std::vector<BodyId> touching = world.touching(id).value();
   const std::vector<SensorOverlap> sensed = world.sensor_overlaps(id).value();
   std::size_t contacts = 0;
@@ -319,8 +319,8 @@ void ToldContacts::check_account(const World& world, BodyId id) const {
     const auto end =
         std::find_if(ends_.begin(), ends_.end(), [&](const End& e) { return e.contact == contact; });
     if (end != ends_.end() && !end->certain) return;
-    if (listed != (told(contact).touching && end == ends_.end()))
-      fail("the account differs from what was told", contact, 0.0);
+    if (listed != (reported(contact).touching && end == ends_.end()))
+      fail("the account differs from what was reported", contact, 0.0);
   });
   if (sensed.size() != overlaps || (!rule_.impacts_only() && touching.size() != contacts))
     throw Disagreement("touching() or sensed() names a body twice, or one that is gone");
@@ -328,7 +328,7 @@ void ToldContacts::check_account(const World& world, BodyId id) const {
 
 // Between events.
 
-void ToldContacts::move_on_to(double time) {
+void ReportedContacts::move_on_to(double time) {
   if (time > truth_.time()) {
     settle_ends();
     const std::vector<Ball> ways = ways_until(time);
@@ -337,7 +337,7 @@ void ToldContacts::move_on_to(double time) {
       for (const TrueBody& other : truth_.bodies()) {
         if (other.id.index >= body.id.index) break;
         const Contact contact{other.id, body.id};
-        if (other.present() && (any_told(contact) || may_meet(ways[other.id.index], ways[body.id.index])))
+        if (other.present() && (any_reported(contact) || may_meet(ways[other.id.index], ways[body.id.index])))
           check_pair(contact, time);
       }
       if (body.fixed) continue;
@@ -348,7 +348,7 @@ void ToldContacts::move_on_to(double time) {
 }
 
 /// Returns for each body, by index, a ball that it does not leave until `time`.
-std::vector<Ball> ToldContacts::ways_until(double time) const {
+std::vector<Ball> ReportedContacts::ways_until(double time) const {
   const double s = time - truth_.time();
   std::vector<Ball> ways(truth_.bodies().size());
   for (const TrueBody& body : truth_.bodies()) {
@@ -365,13 +365,13 @@ std::vector<Ball> ToldContacts::ways_until(double time) const {
 }
 
 /// Returns true if the bodies may touch, sense each other, or be near enough for a contact to go on.
-bool ToldContacts::may_meet(const Ball& a, const Ball& b) const {
+bool ReportedContacts::may_meet(const Ball& a, const Ball& b) const {
   const Vec3 way = b.centre + truth_.shift_to_nearest(b.centre, a.centre) - a.centre;
   const double near = sensor_distances.back() + rule_.release_gap() + slack_;
   return norm(way) <= a.radius + b.radius + near;
 }
 
-bool ToldContacts::any_told(const Contact& contact) const {
+bool ReportedContacts::any_reported(const Contact& contact) const {
   const std::uint32_t first = contact.first.index;
   const std::uint32_t second = contact.second.index;
   return pairs_(first, second) != Told{} ||
@@ -379,24 +379,24 @@ bool ToldContacts::any_told(const Contact& contact) const {
                      [=](const PairTable<Told>& pairs) { return pairs(first, second) != Told{}; });
 }
 
-void ToldContacts::check_pair(Contact contact, double until) {
-  if (truth_.may_be_told(contact)) check_contact(contact, until);
+void ReportedContacts::check_pair(Contact contact, double until) {
+  if (truth_.may_be_reported(contact)) check_contact(contact, until);
   for (const double distance : sensor_distances) {
     contact.sensed = distance;
-    if (truth_.may_be_told(contact)) check_contact(contact, until);
+    if (truth_.may_be_reported(contact)) check_contact(contact, until);
   }
 }
 
 /// Returns the first time after `from` at which the gap certainly passes a level.
-std::optional<double> ToldContacts::reaches(const Contact& contact, LevelCrossing overlap, double level,
-                                            double from, double until) const {
+std::optional<double> ReportedContacts::reaches(const Contact& contact, LevelCrossing overlap, double level,
+                                                double from, double until) const {
   const double beyond = overlap == LevelCrossing::falls_to ? level - slack_ : level + slack_;
   if (!truth_.may_reach(contact, overlap, beyond, until)) return std::nullopt;
   return truth_.first_time(contact, overlap, beyond, from, until);
 }
 
-void ToldContacts::check_contact(const Contact& contact, double until) {
-  Told& state = told(contact);
+void ReportedContacts::check_contact(const Contact& contact, double until) {
+  Told& state = reported(contact);
   const double now = truth_.time();
   if (impacts(contact)) return check_impacts(contact, state, until);
   if (state.touching) {
@@ -407,7 +407,7 @@ void ToldContacts::check_contact(const Contact& contact, double until) {
   }
 }
 
-void ToldContacts::check_impacts(const Contact& contact, Told& state, double until) {
+void ReportedContacts::check_impacts(const Contact& contact, Told& state, double until) {
   double from = truth_.time();
   if (state.touching) {
     state.opened = state.opened || truth_.opens_before(contact, until);
@@ -432,7 +432,7 @@ void ToldContacts::check_impacts(const Contact& contact, Told& state, double unt
   check_free(contact, state, from, until);
 }
 
-void ToldContacts::check_free(const Contact& contact, Told& state, double from, double until) const {
+void ReportedContacts::check_free(const Contact& contact, Told& state, double from, double until) const {
   const double floor = state.floor - rule_.tolerance();
   if (const auto time = reaches(contact, LevelCrossing::falls_to, floor, from, until))
     fail("they touch untold at " + std::to_string(*time), contact, truth_.gap(contact));

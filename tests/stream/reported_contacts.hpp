@@ -22,9 +22,9 @@ struct Before {
   bool is_over;  ///< the true gap is at the separation distance, so an end may be pending
 };
 
-class ToldContacts {
+class ReportedContacts {
  public:
-  ToldContacts(const WorldDefinition& definition, Truth& truth);
+  ReportedContacts(const WorldDefinition& definition, Truth& truth);
 
   /// Moves the truth on. Precondition: no event comes before `time`.
   void move_on_to(double time);
@@ -40,8 +40,8 @@ class ToldContacts {
   /// The body was teleported, or has another radius or other limits.
   void replaced(const World& world, BodyId id, const std::vector<Before>& before);
   void refiltered(BodyId id, const std::vector<Before>& before);
-  void kicked(BodyId id);
-  void teleported(BodyId id) { kicked(id); }
+  void redirected(BodyId id);
+  void teleported(BodyId id) { redirected(id); }
   void appeared(BodyId id);
 
   /// Far below the tolerance, above rounding.
@@ -75,9 +75,9 @@ class ToldContacts {
   Event end_now(const World& world, const Contact& contact) const;
   GapLimits limits(const World& world, const Contact& contact) const;
   bool same(const Event& a, const Event& b) const;
-  bool same_state(const State& told, BodyId id) const;
-  Told& told(const Contact& contact);
-  const Told& told(const Contact& contact) const;
+  bool same_state(const State& reported, BodyId id) const;
+  Told& reported(const Contact& contact);
+  const Told& reported(const Contact& contact) const;
   template <class Action>
   void for_each(BodyId id, Action action) const;
   void expect_end(const Before& before, bool certain);
@@ -88,7 +88,7 @@ class ToldContacts {
   bool comes_within(BodyId id, double part) const;
   std::vector<Ball> ways_until(double time) const;
   bool may_meet(const Ball& a, const Ball& b) const;
-  bool any_told(const Contact& contact) const;
+  bool any_reported(const Contact& contact) const;
   void check_pair(Contact contact, double until);
   void check_contact(const Contact& contact, double until);
   void check_impacts(const Contact& contact, Told& state, double until);
