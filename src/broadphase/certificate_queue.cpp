@@ -1,6 +1,7 @@
 #include "broadphase/certificate_queue.hpp"
 
 #include <cassert>
+#include <tuple>
 #include <utility>
 
 namespace kinesphere {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "archive/archive.hpp"
+#include "archive/fields.hpp"
 
 namespace kinesphere {
 

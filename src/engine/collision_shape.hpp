@@ -11,7 +11,7 @@ namespace kinesphere {
 /// Volume of a body. A static ball is represented by a bound that stands still.
 struct CollisionShape {
   const Bound& bound;
-  bool fixed = false;
+  bool is_static = false;
   const Shape* shape =
       nullptr;  ///< shape of a static body that is not a ball; `bound` then is one point of it
 };

@@ -22,16 +22,16 @@ std::optional<Wall> Overlaps::of_wall(const Bound& bound) const {
   return std::nullopt;
 }
 
-std::optional<BodyId> Overlaps::of_body(BodyId id, const CollisionShape& extent,
+std::optional<BodyId> Overlaps::of_body(BodyId id, const CollisionShape& shape,
                                         const BodyDefinition& definition) const {
   std::optional<BodyId> found;
-  const Box box = box_now(bodies_, extent, now_);
+  const Box box = box_now(bodies_, shape, now_);
   NeighbourSearch search;
   for (const std::uint32_t other : search.in_box(windows_, box, now_)) {
     const Body& body = bodies_[other];
     const bool certain =
-        other != id.index && !(extent.fixed && body.is_static()) &&
-        certainly_overlap(bodies_, now_, extent, collision_shape_of(bodies_, other)) &&
+        other != id.index && !(shape.is_static && body.is_static()) &&
+        certainly_overlap(bodies_, now_, shape, collision_shape_of(bodies_, other)) &&
         bodies_.filters.may_touch(id, definition, bodies_.id_of(other), bodies_.definition_of(other));
     if (certain && (!found || other < found->index)) found = bodies_.id_of(other);
   }

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "broadphase/neighbour_search.hpp"
 #include "engine/body_bounds.hpp"
 
 namespace kinesphere {
@@ -18,7 +19,7 @@ class Overlaps {
 
   /// Returns the first other body, in the order of id indices, that certainly overlaps body `id` with this
   /// shape and definition and may touch it. Cost: one search.
-  std::optional<BodyId> of_body(BodyId id, const CollisionShape& extent,
+  std::optional<BodyId> of_body(BodyId id, const CollisionShape& shape,
                                 const BodyDefinition& definition) const;
   std::optional<Wall> of_wall(const Bound& bound) const;
   /// Returns the first new body that certainly overlaps an earlier new body and may touch it. The result is a

@@ -5,6 +5,7 @@
 
 #include "input/input_check.hpp"
 #include "kinesphere/limits.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 

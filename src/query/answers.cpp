@@ -187,10 +187,10 @@ void World::Engine::Answers::consider_all_within(const std::vector<std::uint32_t
   std::vector<std::uint32_t> anywhere;
   const auto bound_of = [&](std::uint32_t number) { return until_horizon(number, horizon); };
   for (const std::uint32_t number : numbers) {
-    const bool fixed = body(number).is_static();
-    if (fixed || (horizon < infinity &&
-                  engine_.bodies().space().is_narrow(swept_box(guarded(number), now_, horizon)))) {
-      const Window window = fixed ? Window::endless() : Window{0, horizon};
+    const bool is_static = body(number).is_static();
+    if (is_static || (horizon < infinity &&
+                      engine_.bodies().space().is_narrow(swept_box(guarded(number), now_, horizon)))) {
+      const Window window = is_static ? Window::endless() : Window{0, horizon};
       starters.push_back({number, SizeClasses::size_class_of(bound_of(number), window), window});
     } else {
       anywhere.push_back(number);

@@ -127,7 +127,7 @@ class World::Engine::Audit {
     const Box shape = box_of_static(engine_.bodies(), number);
     for (int axis = 0; axis < 3; ++axis)
       if (!(box.lower[axis] <= shape.lower[axis] && shape.upper[axis] <= box.upper[axis]) || end != infinity)
-        return find("registration", name(number) + " is fixed but not registered where its shape is");
+        return find("registration", name(number) + " is static but not registered where its shape is");
   }
 
   void check_walls(std::uint32_t number) {

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "broadphase/broad_phase.hpp"
+#include "engine/bodies.hpp"
 #include "kinesphere/world.hpp"
 
 namespace kinesphere {

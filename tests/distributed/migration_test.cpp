@@ -112,7 +112,7 @@ TEST(Migration, RenewedCopyKeepsHotPairsUnlessTheyAreVoid) {
   renewed.body.revision = 30;  // revisions are a rank's own
   other.install({renewed});
   EXPECT_FALSE(other.local.main.certifier().is_stale(pair));
-  renewed.is_void = true;
+  renewed.is_stale = true;
   other.install({renewed});
   EXPECT_TRUE(other.local.main.certifier().is_stale(pair));
 }
