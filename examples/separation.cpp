@@ -7,7 +7,7 @@
 using namespace kinesphere;
 
 int main() {
-  // In metres and seconds. Aircraft turn with at most 0.5 g, and keep 1000 m apart or 100 m in height.
+  // Units: metres and seconds. Aircraft turn with at most 0.5 g, and keep 1000 m apart or 100 m in height.
   Monitor sky = Monitor::create({.classes = {{.acceleration_limit = 5.0, .largest_speed = 80.0}},
                                  .separations = {{0, 0, {Separation::cylinder(1000.0, 100.0)}}},
                                  .stale_after = 10.0})

@@ -11,7 +11,7 @@ set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 theorems=$(sed -nE 's/^Theorem ([a-z_0-9]+).*/\1/p' proof/*.v | sort)
-# In a mark, what has a slash is a test, and all else a theorem.
+# A mark with a slash is a test, any other a theorem.
 sed 's/⟨/\n⟨/g; s/⟩/\n/g' docs/guarantee.md | grep '^⟨' | grep -oE '`[^`]*`' | tr -d '`' | sort -u | while IFS= read -r name; do
   if [[ $name == */* ]] && [[ -f tests/$name.cpp ]] || grep -qxF -- "$name" <<<"$theorems"; then continue; fi
   echo "docs/guarantee.md: no theorem, and no test, is named $name" >&2

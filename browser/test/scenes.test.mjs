@@ -17,7 +17,7 @@ function run(scene, respond = scene) {
   const motion = scene.motion();
   world.addMotion(motion, scene.radii);
   const hash = new EventHash();
-  // In parts, which must make no difference.
+  // Runs in parts, which must make no difference.
   for (let part = 1; part <= 7; ++part) hash.add(world.run((scene.endTime * part) / 7, { motion, respond }));
   return { world, hash: hash.value };
 }

@@ -30,7 +30,7 @@ class Asked {
   Probe probe();
   /// Null for a Python function.
   MotionSource* mover() { return mover_.get(); }
-  /// For the other callbacks of this call.
+  /// Returns the interruptions for the other callbacks of this call.
   Interruptions& interruptions() { return interruptions_; }
 
  private:

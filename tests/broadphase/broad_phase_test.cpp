@@ -286,7 +286,7 @@ class Playground {
     ASSERT_EQ(windows_.started(), started.size());
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> pairs;
     const auto bound_of = [this](std::uint32_t body) { return roomy(body); };
-    // In two parts, as with two threads.
+    // Starts the bodies in two parts, like two threads.
     const std::size_t part = started.size() / 3;
     for (const auto& [from, to] : {std::pair(std::size_t{0}, part), std::pair(part, started.size())}) {
       for (const auto& [number, other] : search_.near_started(windows_, from, to, now_, bound_of)) {

@@ -18,7 +18,7 @@ constexpr std::uint64_t seed = 4912;
 constexpr double begin = 1.0;
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
-/// By pair: the time until which the two do not meet, and whether the earlier update was stale.
+/// Maps a pair to the time until which the two do not meet, and whether the earlier update was stale.
 using Meetings = std::map<Pair, std::pair<double, bool>>;
 
 Meetings by_pair(const std::vector<Conflict>& meetings) {

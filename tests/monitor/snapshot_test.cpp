@@ -194,7 +194,7 @@ TEST(MonitorSnapshot, RefusesWindowsThatEndApart) {
                                      .separations = {{0, 0, {Separation::sphere(2.0)}}}})
                         .value();
   monitor.report(1, {.timestamp = 5.0}).value();
-  // In a grid level of larger swept spheres.
+  // The track is in a grid level of larger swept spheres.
   monitor.report(2, {.timestamp = 5.0, .state = {{900, 0, 0}, {}}, .position_error = 300.0}).value();
   const Bytes snapshot = monitor.save();
   const auto places = places_of(snapshot, end);

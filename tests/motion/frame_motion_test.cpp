@@ -231,7 +231,7 @@ TEST(Frames, KeepTheirPromiseWithSinglePrecision) {
       for (int axis = 0; axis < 3; ++axis)
         position[axis] = static_cast<float>(position[axis] + 1000.0) - 1000.0;
     }
-    const double half_unit = std::sqrt(3.0) * 0x1p-15;  // of numbers from 512 to 1024, on every axis
+    const double half_unit = std::sqrt(3.0) * 0x1p-15;  // unit of numbers from 512 to 1024, on every axis
     expect_promise_across_frames(game, 0.01, 1.0 / 60, half_unit, random);
   }
 }

@@ -317,7 +317,7 @@ void Player::run(const Operation& operation) {
   }
   std::swap(world_, world);
   if (!twin_ && operation.byte(6) % 2 == 0) twin_ = std::move(world);
-  // It has equal pairs in another order.
+  // The twin has equal pairs in another order.
   twin_saves_the_same_ = false;
 }
 

@@ -21,7 +21,7 @@ export interface SceneSettings {
   contactTolerance?: number;
 }
 
-/** In the order of scene_create in browser/module/scene.cpp. */
+/** Names of the settings, in the order of scene_create in browser/module/scene.cpp. */
 const sceneSettings: readonly (keyof SceneSettings)[] = [
   "bodies", "seed", "seconds", "packing", "radiusMin", "radiusMax", "speedMin", "speedMax", "limitMin",
   "limitMax", "restitution", "contactTolerance",

@@ -12,9 +12,9 @@ export interface Palette {
   missed: Color;
   held: Color;
   zone: Color;
-  /** From the smallest to the largest. */
+  /** Colours from the smallest to the largest. */
   sizes: readonly Color[];
-  /** From now to long ago, or from soon to far off. */
+  /** Colours from now to long ago, or from soon to far off. */
   times: readonly Color[];
   light: number;
 }

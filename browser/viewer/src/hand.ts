@@ -14,7 +14,7 @@ export class Hand {
   private readonly ray = new Raycaster();
   private readonly pointer = new Vector2();
   private readonly plane = new Plane();
-  /** From the place of the pointer on the plane to the middle of the sphere. */
+  /** Vector from the place of the pointer on the plane to the centre of the sphere. */
   private readonly offset = new Vector3();
   private pointerId = -1;
 

@@ -6,7 +6,7 @@ import type { Shown } from "./shown.ts";
 export interface Times {
   engine: number;
   drawing: number;
-  /** From one picture to the next. */
+  /** Time from one picture to the next. */
   frame: number;
 }
 

@@ -44,7 +44,7 @@ export class Simulation implements Shown {
   readonly periodic: readonly boolean[];
   private readonly setup: Setup;
   private now: Moment;
-  /** In order of time. */
+  /** Snapshots in order of time. */
   private snapshots: Moment[] = [];
   private rate = new RecentRate();
 

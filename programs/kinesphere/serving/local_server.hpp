@@ -23,7 +23,8 @@ class LocalServer {
   LocalServer(const LocalServer&) = delete;
   LocalServer& operator=(const LocalServer&) = delete;
 
-  // To be called before start(). An address is a path, such as "/state.json".
+  // Precondition of serve() and serve_folder(): start() has not been called. An address is a path, such as
+  // "/state.json".
 
   /// Serves `content`, which is not copied and must outlive the server.
   void serve(const std::string& address, const std::string& type, const std::string& content);

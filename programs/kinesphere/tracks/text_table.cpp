@@ -15,7 +15,7 @@ namespace {
 
 /// Returns the separator of the first row of `text`.
 char separator_of(std::string_view text) {
-  std::string outside;  // of quotes
+  std::string outside;  // the text outside quotes
   bool quoted = false;
   for (char c : text) {
     if (c == '"') quoted = !quoted;

@@ -52,7 +52,7 @@ struct CsvKeyName {
   std::array<std::string_view, 4> others{};  ///< other names in headers, in lower case letters and digits
 };
 
-/// In the order of CsvKey.
+/// Names of the keys, in the order of CsvKey.
 constexpr std::array<CsvKeyName, csv_key_count> csv_keys{{{"id", CsvUnit::none, {"hex", "track_id"}},
                                                           {"time", CsvUnit::time, {"stamp"}},
                                                           {"arrival", CsvUnit::time, {"received"}},

@@ -1,4 +1,4 @@
-// From the command line to what a watch goes by.
+// Turns the command line into the settings of a watch.
 #pragma once
 
 #include "watch.hpp"

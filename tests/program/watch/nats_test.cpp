@@ -1,5 +1,5 @@
-// `kinesphere watch` on a server of NATS: several that watch one stream tell each alert once, whoever is
-// killed, the server as well.
+// `kinesphere watch` on a server of NATS: several watches of one stream send each alert once, also if any of
+// them or the server is killed.
 #ifdef KINESPHERE_WITH_NATS
 
 #include <array>

@@ -73,7 +73,7 @@ TEST_F(WatchProgram, TellsOfAnEncounter) {
     EXPECT_EQ(lines[k]["separation"], "sphere:30");
     EXPECT_EQ(lines[k]["since"], k > 0 ? lines[k - 1]["time"] : Json());
   }
-  // They are 30 m apart from 8.5 to 11.5.
+  // The two are 30 m apart from 8.5 to 11.5.
   EXPECT_LT(lines[0]["time"], 8.5);
   EXPECT_GT(lines[1]["time"], 8.5);
   EXPECT_LT(lines[2]["time"], 11.5);

@@ -132,7 +132,7 @@ TEST_F(WatchRestart, TakesTracksAlongToAnotherStream) {
                               "' --summary '" + path("sum") + "' ";
   ASSERT_EQ(run("watch " + first + options).exit_code, 0);
   const Json before = summary("sum");
-  // With other columns.
+  // The second run gets other columns.
   const std::string second =
       write("second.csv", "time,id,x,y,z,vx,vy,vz\n18.001,t3,1,2,0,0,0,0\n18.002,t3,1,2,0,0,0,0\n");
   const ProgramRun result = run("watch " + second + options);

@@ -42,7 +42,7 @@ export class EarthPlane {
     const phi = this.latitude * radian;
     const distance = Math.hypot(x, y);
     if (distance === 0) return [this.longitude, this.latitude];
-    // On a sphere first.
+    // The first approximation is on a sphere.
     const arc = Math.min(distance / this.normal, Math.PI);
     const [cos, sin] = [Math.cos(arc), Math.sin(arc)];
     let latitude = Math.asin(Math.max(-1, Math.min(1, cos * Math.sin(phi) + (y / distance) * sin * Math.cos(phi)))) / radian;
