@@ -1,4 +1,4 @@
-// Section 3.2: is the cell size that the cost model picks a good one, and are its rates true?
+// Section 3.2: quality of the cell size that the cost model chooses, and accuracy of its rates.
 #include "research/bench/measurement.hpp"
 #include "research/bench/sections.hpp"
 #include "research/rivals/event_driven/cost_model.hpp"
@@ -6,7 +6,8 @@
 namespace kinesphere::program {
 namespace {
 
-/// A chosen edge counts as good when no other one tried is cheaper by more than this.
+/// Factor of cost within which a chosen edge counts as good, compared with the other edges tried. Smaller
+/// factors would count noise of the model, larger ones hide bad choices.
 constexpr double good_enough = 1.25;
 
 CostModel model_of(const Scene& scene) {
@@ -23,7 +24,7 @@ CostModel model_of(const Scene& scene) {
 
 struct Case {
   std::uint32_t bodies;
-  double speed;  ///< factor
+  double speed;  ///< factor of the paper's speeds
 };
 
 struct Tables {

@@ -15,7 +15,7 @@
 namespace kinesphere::program {
 namespace {
 
-/// The spans of the truth are exact to about this part of the distance.
+/// Relative error of the spans of the truth: they are exact to about this part of the distance.
 constexpr double rounding = 1e-9;
 constexpr double tolerance = 1e-3;
 

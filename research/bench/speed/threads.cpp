@@ -15,7 +15,8 @@ namespace {
 
 struct TimedSimulation {
   SimulationResult result;
-  double seconds = 0.0;  ///< from when all bodies are in, before their first windows start, to the end
+  double seconds =
+      0.0;  ///< from the time at which all bodies are in, before their first windows start, to the end
 };
 
 TimedSimulation time_simulation(const Scene& scene, Workers* workers) {
@@ -23,7 +24,7 @@ TimedSimulation time_simulation(const Scene& scene, Workers* workers) {
   TimedSimulation timed;
   Clock::time_point begin;
   SimulationObserver observer;
-  // Once before the bodies are added, and once before the detector goes on with them.
+  // The second call is the one between the adding of the bodies and the run.
   int calls = 0;
   observer.between_events = [&](const Detector&) {
     if (++calls == 2) begin = Clock::now();
