@@ -13,11 +13,11 @@ constexpr double good_enough = 1.25;
 CostModel model_of(const Scene& scene) {
   std::vector<MovingSphere> spheres;
   for (std::uint32_t body = 0; body < scene.bodies.size(); ++body) {
-    const BodyDefinition promise = scene.motion->definition(body, scene.world.start_time);
-    spheres.push_back({.radius = scene.bodies[body].radius + promise.position_error,
-                       .speed = norm(promise.velocity),
-                       .growth_speed = promise.velocity_error,
-                       .limit = promise.acceleration_limit});
+    const BodyDefinition definition = scene.motion->definition(body, scene.world.start_time);
+    spheres.push_back({.radius = scene.bodies[body].radius + definition.position_error,
+                       .speed = norm(definition.velocity),
+                       .growth_speed = definition.velocity_error,
+                       .limit = definition.acceleration_limit});
   }
   return {spheres, *scene.world.box, true};
 }

@@ -41,7 +41,7 @@ class Contest {
     for (const double rate : entry_.rates)
       for (const SphereTest test : {SphereTest::at_steps, SphereTest::swept}) run_steps(rate, test);
     if (world_.row.turns.empty()) take_turns({});
-    settle(world_);
+    summarize(world_);
     rows_.insert(rows_.begin(), world_.row);
     return std::move(rows_);
   }
@@ -107,7 +107,7 @@ class Contest {
       }
     }
     for (Contestant& contestant : contestants) {
-      settle(contestant);
+      summarize(contestant);
       rows_.push_back(std::move(contestant.row));
     }
   }
@@ -129,7 +129,7 @@ class Contest {
     return cost / runs;
   }
 
-  void settle(Contestant& contestant) const {
+  void summarize(Contestant& contestant) const {
     std::vector<double> costs;
     for (const Turn& turn : contestant.row.turns) costs.push_back(turn.own);
     contestant.row.detection = median(std::move(costs));

@@ -124,12 +124,12 @@ std::uint64_t sampled_floor(const Scene& scene, const Flight& flight, std::uint3
   const auto state = [&](std::uint32_t number, double time) {
     return segment_at(flight.paths[number], time).state_at(time);
   };
-  BodyDefinition promise = scene.motion->definition(body, 0.0);
-  promise.radius = scene.bodies[body].radius;
+  BodyDefinition definition = scene.motion->definition(body, 0.0);
+  definition.radius = scene.bodies[body].radius;
   std::vector<double> stops;
   for (const FlightContact& contact : flight.contacts)
     if (contact.first == body || contact.second == body) stops.push_back(contact.begin);
-  Bound bound = bound_of(promise, state(body, 0.0), 0.0);
+  Bound bound = bound_of(definition, state(body, 0.0), 0.0);
   std::uint64_t probes = 0;
   std::size_t next_stop = 0;
   for (double time = 0.0; time < scene.end_time; time += step) {
@@ -143,7 +143,7 @@ std::uint64_t sampled_floor(const Scene& scene, const Flight& flight, std::uint3
     }
     if (!stopped && !reached) continue;
     ++probes;
-    bound = bound_of(promise, state(body, time), time);
+    bound = bound_of(definition, state(body, time), time);
   }
   return probes;
 }

@@ -19,9 +19,9 @@ class Jumping final : public Motion {
 
   std::size_t size() const override { return 2; }
   BodyDefinition definition(std::uint32_t body, double t) const override {
-    BodyDefinition promise = rest_.definition(body, t);
-    promise.acceleration_limit = 8.0;
-    return promise;
+    BodyDefinition changed = rest_.definition(body, t);
+    changed.acceleration_limit = 8.0;
+    return changed;
   }
   State state(std::uint32_t body, double t) const override {
     State state = rest_.state(body, t);

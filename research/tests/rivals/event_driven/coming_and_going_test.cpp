@@ -65,13 +65,13 @@ class Twins {
     const auto finding = detector_->audit();
     ASSERT_FALSE(finding) << finding->where << ": " << finding->what << " at time " << time_;
     // Within the contact tolerance the order of contacts may differ.
-    const auto settled = [](std::vector<Event> events) {
+    const auto in_order = [](std::vector<Event> events) {
       std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
         return std::tie(a.first, a.second, a.wall, a.time) < std::tie(b.first, b.second, b.wall, b.time);
       });
       return events;
     };
-    compare(settled(found), settled(expected));
+    compare(in_order(found), in_order(expected));
   }
 
   std::size_t events() const { return events_; }

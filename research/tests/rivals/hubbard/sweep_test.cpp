@@ -44,9 +44,9 @@ std::map<Pair, double> crossings_of_all_pairs(const Sweep& sweep, std::uint32_t 
 void expect_crossings(Sweep& sweep, std::map<Pair, double> expected, double error) {
   double last = 0.0;
   while (sweep.next_time() < std::numeric_limits<double>::infinity()) {
-    const double announced = sweep.next_time();
+    const double due = sweep.next_time();
     const Sweep::Crossing overlap = sweep.step();
-    ASSERT_EQ(overlap.time, announced);
+    ASSERT_EQ(overlap.time, due);
     ASSERT_GE(overlap.time, last);
     last = overlap.time;
     const auto found = expected.find({overlap.below, overlap.above});
