@@ -17,6 +17,7 @@
 
 namespace kinesphere {
 
+/// Base class of detectors that keep time-varying bounds.
 class BoundDetector : public Detector {
  public:
   Result<void> add(std::uint32_t number, const BodyDefinition& definition) override;

@@ -30,8 +30,7 @@ struct SpeedRow {
   double moves = 0.0;                ///< probes, or steps, in a body-second
   std::optional<double> to_floor{};  ///< ratio of probes to the probe floor
   std::optional<double> contacts{};  ///< contacts in a body-second
-  std::optional<double>
-      missed{};  ///< part of the contacts that count (SpeedScene) in the scene without bounces
+  std::optional<double> missed{};    ///< part of the contacts that count (SpeedScene), without bounces
   std::optional<double> bytes{};     ///< memory for each body
   std::optional<double> building{};  ///< seconds until all bodies are in
   std::uint64_t hash = 0;            ///< hash of what was found

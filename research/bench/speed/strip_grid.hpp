@@ -44,8 +44,7 @@ class StripGrid {
 
   StripSettings settings_;
   StripLayout layout_{};
-  float margin_ =
-      0.0f;  ///< larger than the rounding of a sphere's place relative to the edge of a cell (length)
+  float margin_ = 0.0f;                 ///< larger than rounding of a place relative to a cell (length)
   std::vector<std::uint32_t> cell_of_;  ///< by body
   std::vector<std::uint32_t> starts_;   ///< starts of the cells in the arrays below, and the end of the last
   std::vector<float> x_, y_, z_, radius_;

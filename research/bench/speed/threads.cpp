@@ -15,8 +15,7 @@ namespace {
 
 struct TimedSimulation {
   SimulationResult result;
-  double seconds =
-      0.0;  ///< from the time at which all bodies are in, before their first windows start, to the end
+  double seconds = 0.0;  ///< from the first window starts, with all bodies in, to the end
 };
 
 TimedSimulation time_simulation(const Scene& scene, Workers* workers) {
