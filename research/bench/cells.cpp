@@ -1,4 +1,4 @@
-// Section 3.2: is the cell size that the cost model picks a good one, and are its rates true?
+// Section 3.2: quality of the cell size that the cost model chooses, and accuracy of its rates.
 #include "research/bench/measurement.hpp"
 #include "research/bench/sections.hpp"
 #include "research/rivals/event_driven/cost_model.hpp"
@@ -6,24 +6,25 @@
 namespace kinesphere::program {
 namespace {
 
-/// A chosen edge counts as good when no other one tried is cheaper by more than this.
+/// Factor of cost within which a chosen edge counts as good, compared with the other edges tried. Smaller
+/// factors would count noise of the model, larger ones hide bad choices.
 constexpr double good_enough = 1.25;
 
 CostModel model_of(const Scene& scene) {
   std::vector<MovingSphere> spheres;
   for (std::uint32_t body = 0; body < scene.bodies.size(); ++body) {
-    const BodyDefinition promise = scene.motion->definition(body, scene.world.start_time);
-    spheres.push_back({.radius = scene.bodies[body].radius + promise.position_error,
-                       .speed = norm(promise.velocity),
-                       .growth_speed = promise.velocity_error,
-                       .limit = promise.acceleration_limit});
+    const BodyDefinition definition = scene.motion->definition(body, scene.world.start_time);
+    spheres.push_back({.radius = scene.bodies[body].radius + definition.position_error,
+                       .speed = norm(definition.velocity),
+                       .growth_speed = definition.velocity_error,
+                       .limit = definition.acceleration_limit});
   }
   return {spheres, *scene.world.box, true};
 }
 
 struct Case {
   std::uint32_t bodies;
-  double speed;  ///< factor
+  double speed;  ///< factor of the paper's speeds
 };
 
 struct Tables {

@@ -1,4 +1,4 @@
-// Section 4.3: particles in a velocity field; how long they take, and the pictures of figures 7 and 8.
+// Section 4.3: particles in a velocity field; the time they take, and the pictures of figures 7 and 8.
 #include <fmt/format.h>
 
 #include <algorithm>

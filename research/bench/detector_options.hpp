@@ -1,4 +1,4 @@
-// The options with which a detector is chosen and told what it needs to know.
+// The options that choose a detector and set its parameters.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -15,12 +15,12 @@ struct DetectorOptions {
   std::optional<double> cell_edge;
   bool no_trimming = false;
 
-  /// The detector, named after itself and its step if it has one. Throws ProgramError for options that do not
-  /// fit the detector.
+  /// Returns the detector, named after itself and its step if it has one. Throws ProgramError for options
+  /// that do not fit the detector.
   NamedDetector chosen() const;
 };
 
-/// `options` must live until the command line has been parsed.
+/// Adds the options to a command. `options` must live until the command line has been parsed.
 void add_detector_options(CLI::App& command, DetectorOptions& options);
 
 }  // namespace kinesphere::program

@@ -1,4 +1,4 @@
-// The detectors that are compared, by the names they have in the tables.
+// The detectors that are compared, by their names in the tables.
 #include "research/bench/detectors.hpp"
 
 #include "program_error.hpp"

@@ -1,4 +1,4 @@
-// The detectors that are compared, by the names they have in the tables.
+// The detectors that are compared, by their names in the tables.
 #pragma once
 
 #include "named_detector.hpp"
@@ -11,7 +11,7 @@ NamedDetector hubbard_engine();
 NamedDetector hayward_engine();
 NamedDetector fixed_step_engine(double step);
 NamedDetector world_engine();
-/// The default engine with a sensor of this distance on every body.
+/// Returns the default engine with a sensor of this distance (length) on every body.
 NamedDetector alarm_engine(double distance);
 
 }  // namespace kinesphere::program

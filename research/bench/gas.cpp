@@ -17,10 +17,11 @@ namespace {
 
 struct GasSettings {
   std::uint32_t bodies;
-  double contacts;  ///< measured at each packing, about
+  double contacts;  ///< approximate number measured at each packing
 };
 
-/// A fifth of the run is for the gas to forget its start: at least 100 collisions of each sphere.
+/// A fifth of the run lets the gas forget its start: at least 100 collisions of each sphere. Shorter
+/// equilibration biases the result, longer measurement narrows its error.
 constexpr GasBlocks blocks{.equilibration = 10, .measured = 40};
 
 const GasSettings& gas_settings(Effort effort) {
@@ -30,7 +31,7 @@ const GasSettings& gas_settings(Effort effort) {
   return chosen(effort, quick, usual, full);
 }
 
-/// Percent.
+/// Packings (percent).
 constexpr int packings[] = {5, 10, 15, 20, 25, 30, 35, 40, 45, 49};
 
 std::vector<std::string> names() {
@@ -39,7 +40,7 @@ std::vector<std::string> names() {
   return names;
 }
 
-/// As long as it takes for that many contacts.
+/// Makes a gas that runs long enough for the contacts of the settings.
 Scene make_gas(double packing, const GasSettings& settings) {
   SceneParameters gas = find_scene("periodic_gas").parameters;
   gas.bodies = settings.bodies;
@@ -50,7 +51,7 @@ Scene make_gas(double packing, const GasSettings& settings) {
   return require(make_scene(gas));
 }
 
-/// Of an estimate from what theory has, and its standard error.
+/// Deviation of an estimate from theory, and its standard error.
 struct Deviation {
   Deviation(const Estimate& estimate, double theory)
       : percent(100.0 * (estimate.value / theory - 1.0)),
@@ -74,7 +75,7 @@ const std::vector<std::string> columns{"packing",
                                        "momentum_change",
                                        "contacts_per_cpu_second"};
 
-/// Returns the larger of the two deviations, in percent.
+/// Adds a row and returns the larger of its two deviations, in percent.
 double add_row(ResultTable& table, int percent, const GasSettings& settings) {
   const double packing = 0.01 * percent;
   const Scene scene = make_gas(packing, settings);

@@ -1,4 +1,4 @@
-// `kinesphere bench gas`: collision rate and pressure of hard spheres, against theory.
+// `kinesphere-bench gas`: collision rate and pressure of hard spheres, compared with theory.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -7,9 +7,9 @@
 
 namespace kinesphere::program {
 
-/// `options` must live until the command line has been parsed.
+/// Adds the command. `options` must live until the command line has been parsed.
 CLI::App* add_bench_gas_command(CLI::App& bench, BenchOptions& options);
-/// Returns the exit code. Throws ProgramError.
+/// Runs the benchmark and returns the exit code. Throws ProgramError.
 int bench_gas(const BenchOptions& options);
 
 }  // namespace kinesphere::program

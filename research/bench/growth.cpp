@@ -1,4 +1,4 @@
-// How the cost of an event grows with the number of spheres, at constant density.
+// Growth of the cost of an event with the number of spheres, at constant density.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace kinesphere::program {
 namespace {
 
-/// 1000 k^3 spheres in a box k times as long as the paper's.
+/// Returns 1000 k^3 spheres in a box k times as long as the paper's.
 SceneParameters scaled_experiment(std::uint32_t k, double seconds) {
   SceneParameters parameters = first_experiment(1000 * k * k * k, seconds);
   parameters.box.upper *= k;
@@ -20,8 +20,8 @@ SceneParameters scaled_experiment(std::uint32_t k, double seconds) {
 
 struct Cost {
   std::uint64_t events = 0;
-  double nanoseconds = 0.0;  ///< of each
-  double pair_tests = 0.0;   ///< of each
+  double nanoseconds = 0.0;  ///< for each event
+  double pair_tests = 0.0;   ///< for each event
 };
 
 Cost cost_of(const Series& series, const std::vector<std::uint64_t DetectorCounters::*>& kinds) {

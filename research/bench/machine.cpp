@@ -1,4 +1,4 @@
-// Where the figures of a benchmark come from: machine, compiler, version, date.
+// Description of the machine of a benchmark: hardware, compiler, version, date.
 #include "research/bench/machine.hpp"
 
 #include <fmt/chrono.h>
@@ -14,7 +14,7 @@
 namespace kinesphere::program {
 namespace {
 
-/// What stands after the colon in the first line of a /proc file that begins with `label`.
+/// Returns the text after the colon in the first line of a /proc file that begins with `label`.
 std::string field_of(const char* file, const std::string& label) {
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {

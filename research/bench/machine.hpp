@@ -1,11 +1,11 @@
-// Where the figures of a benchmark come from: machine, compiler, version, date.
+// Description of the machine of a benchmark: hardware, compiler, version, date.
 #pragma once
 
 #include <string>
 
 namespace kinesphere::program {
 
-/// Labelled lines. What the system does not tell is given as unknown.
+/// Returns labelled lines. Facts that the system does not provide are given as unknown.
 std::string machine_description();
 
 }  // namespace kinesphere::program

@@ -18,7 +18,7 @@ Run run_once(const NamedDetector& detector, const Scene& scene) {
   Run run;
   const double begin = cpu_seconds();
   std::optional<double> start;
-  // Snapshots are taken at the start, when all bodies are in, and at the end, before anything is taken down.
+  // Counters and times are read at the start, when all bodies are in, and at the end, before destruction.
   SimulationObserver observer;
   observer.frame_interval = scene.end_time - scene.world.start_time;
   observer.on_frame = [&](const Detector& watching, const Motion&, double) {

@@ -15,7 +15,7 @@
 namespace kinesphere::program {
 namespace {
 
-/// The spans of the truth are exact to about this part of the distance.
+/// Relative error of the spans of the truth: they are exact to about this part of the distance.
 constexpr double rounding = 1e-9;
 constexpr double tolerance = 1e-3;
 
@@ -116,9 +116,9 @@ int bench_monitoring(const MonitoringOptions& options) {
       throw ProgramError(
           fmt::format("--polling must be at most --distance, {}, but is {}", options.distance, at_most));
   const RecordedSky sky = sky_of(options);
-  const TrackClass promise = sky.promise();
+  const TrackClass track_class = sky.promise();
   fmt::print("{} tracks, {:.6g} s in all; accelerations up to {:.4g}, speeds up to {:.4g}\n\n", sky.size(),
-             sky.track_time(), promise.acceleration_limit.total(), promise.largest_speed.total());
+             sky.track_time(), track_class.acceleration_limit.total(), track_class.largest_speed.total());
   if (options.seeds > 0) {
     ResultTable table({"seed", "reports", "wrong_time", "undecided_share", "approaches", "missed_or_late",
                        "alarms", "false_alarms", "straight_missed", "straight_late", "straight_alarms",

@@ -1,5 +1,5 @@
-// `kinesphere bench monitoring`: what is certain about recorded tracks from few, late and noisy reports,
-// beside alarms that take everybody to go straight on; and how few reports keep every pair decided.
+// `kinesphere-bench monitoring`: certain statements about recorded tracks from few, late and noisy reports,
+// beside alarms that extrapolate in straight lines; and the number of reports that keep every pair decided.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -23,9 +23,9 @@ struct MonitoringOptions {
   std::vector<double> polling_tolerances;
 };
 
-/// `options` must live until the command line has been parsed.
+/// Adds the command. `options` must live until the command line has been parsed.
 CLI::App* add_bench_monitoring_command(CLI::App& bench, MonitoringOptions& options);
-/// Returns the exit code. Throws ProgramError.
+/// Runs the benchmark and returns the exit code. Throws ProgramError.
 int bench_monitoring(const MonitoringOptions& options);
 
 }  // namespace kinesphere::program

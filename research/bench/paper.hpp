@@ -1,4 +1,4 @@
-// `kinesphere bench paper`: the evaluation of the paper, repeated on this machine.
+// `kinesphere-bench paper`: the evaluation of the paper, repeated on this machine.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -7,9 +7,9 @@
 
 namespace kinesphere::program {
 
-/// `options` must live until the command line has been parsed.
+/// Adds the command. `options` must live until the command line has been parsed.
 CLI::App* add_bench_paper_command(CLI::App& bench, BenchOptions& options);
-/// Returns the exit code. Throws ProgramError.
+/// Runs the benchmark and returns the exit code. Throws ProgramError.
 int bench_paper(const BenchOptions& options);
 
 }  // namespace kinesphere::program

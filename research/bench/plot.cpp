@@ -10,7 +10,7 @@
 namespace kinesphere::program {
 namespace {
 
-/// As one word of a shell command.
+/// Quotes a text as one word of a shell command.
 std::string quoted(const std::string& text) {
   std::string word = "'";
   for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);

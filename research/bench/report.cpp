@@ -1,4 +1,4 @@
-// What a section of the benchmark writes: on the terminal and into the folder of results.
+// Output of a section of the benchmark: on the terminal and into the folder of results.
 #include "research/bench/report.hpp"
 
 #include <fmt/format.h>

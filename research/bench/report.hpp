@@ -1,4 +1,4 @@
-// What a section of the benchmark writes: on the terminal and into the folder of results.
+// Output of a section of the benchmark: on the terminal and into the folder of results.
 #pragma once
 
 #include <string>
@@ -11,19 +11,19 @@ namespace kinesphere::program {
 
 class Report {
  public:
-  /// Makes the folder if need be. Throws ProgramError, as do all others here.
+  /// Makes the folder if it does not exist. Throws ProgramError, like all other functions of this class.
   explicit Report(std::string folder);
 
   bool draws() const { return draws_; }
 
   void heading(std::string_view title) const;
-  /// A paragraph for the reader, broken into lines.
+  /// Prints a paragraph, broken into lines.
   void note(std::string_view text) const;
-  /// Printed, and saved as NAME.csv.
+  /// Prints the table and saves it as NAME.csv.
   void table(const std::string& name, const ResultTable& table) const;
-  /// Saved alone.
+  /// Saves the table without printing it.
   void save(const std::string& name, const ResultTable& table) const;
-  /// Saved as a script, and with its table if one is given; drawn where gnuplot is installed.
+  /// Saves the plot as a script, and its table if one is given; draws it if gnuplot is installed.
   void plot(const Plot& plot) const;
   void plot(const SpherePlot& plot, const ResultTable& spheres) const;
   void file(const std::string& name, std::string_view text) const;

@@ -10,15 +10,15 @@ namespace kinesphere::program {
 
 class ResultTable {
  public:
-  /// Columns by their names in the CSV file; on the terminal underscores are blanks.
+  /// `columns` has the names in the CSV file; on the terminal underscores become blanks.
   explicit ResultTable(std::vector<std::string> columns) : columns_(std::move(columns)) {}
 
-  /// One cell for each column.
+  /// Adds a row. Precondition: there is one cell for each column.
   void row(std::vector<Cell> cells);
 
-  /// Numbers with four digits and on the right, text on the left.
+  /// Returns the table with numbers of four digits on the right and text on the left.
   std::string text() const;
-  /// Throws ProgramError.
+  /// Saves the table as a CSV file. Throws ProgramError.
   void save(const std::string& path) const;
 
  private:

@@ -8,8 +8,8 @@
 
 namespace kinesphere::program {
 
-/// Columns x, y, z (km) and vx, vy, vz (km/s) at one time, one line for each satellite; others are passed
-/// over. The file may be gzipped. Throws ProgramError naming file and line.
+/// Reads columns x, y, z (km) and vx, vy, vz (km/s) at one time, one line for each satellite. Other columns
+/// are skipped. The file may be gzipped. Throws ProgramError with file and line.
 std::vector<State> read_satellites(const std::string& path);
 
 }  // namespace kinesphere::program

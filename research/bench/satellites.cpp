@@ -23,9 +23,9 @@ namespace kinesphere::program {
 namespace {
 
 constexpr double day = 86400.0;
-/// What cascade's authors published (docs/satellites.md), in milliseconds for an object and day.
+/// Cost that cascade's authors published (docs/satellites.md), in milliseconds for an object and day.
 constexpr double cascade_cost = 115e3 / 19700;
-/// Told apart, beyond the tolerance, from what is within it (km).
+/// Distance beyond the tolerance at which a pair counts as apart, not within (km).
 constexpr double doubt = 1e-4;
 
 CLI::Validator positive_number() {
@@ -36,10 +36,10 @@ CLI::Validator positive_number() {
   return CLI::Validator(problem, "", "number > 0");
 }
 
-/// What one way of looking has cost and found.
+/// Cost and findings of one detector of approaches.
 struct Look {
   std::string name;
-  std::vector<double> seconds;  ///< CPU time, of each repetition
+  std::vector<double> seconds;  ///< CPU time of each repetition
   std::vector<SatelliteApproach> approaches;
 };
 
@@ -159,7 +159,7 @@ int bench_satellites(const SatelliteOptions& options) {
   report.note("What the monitor did, for a satellite and day (undecided: in all, of all pairs):");
   report.table("monitor", counts);
 
-  // The monitor is to be right at all times, not only to have met each approach.
+  // The monitor must be right at all times, so it is not enough that it met each approach.
   std::uint64_t uncovered = not_inside(truth, watch.approaches).size();
   for (std::size_t k = 2; k < looks.size(); ++k)
     uncovered += not_inside(looks[k].approaches, watch.approaches, options.steps[k - 2]).size();

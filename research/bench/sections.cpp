@@ -1,4 +1,4 @@
-// The list of sections.
+// The list of sections of `kinesphere-bench paper`.
 #include "research/bench/sections.hpp"
 
 namespace kinesphere::program {

@@ -1,4 +1,4 @@
-// The sections of `kinesphere bench paper`, each about one claim of the paper.
+// The sections of `kinesphere-bench paper`, each about one claim of the paper.
 #pragma once
 
 #include <span>
@@ -18,12 +18,12 @@ void bench_trimming(const Report& report, const BenchSettings& settings);
 void bench_cells(const Report& report, const BenchSettings& settings);
 
 struct Section {
-  std::string_view name;  ///< for --only
+  std::string_view name;  ///< name for --only
   std::string_view title;
   void (*run)(const Report& report, const BenchSettings& settings);
 };
 
-/// All of them, in the order of the paper.
+/// Returns all sections, in the order of the paper.
 std::span<const Section> bench_sections();
 
 }  // namespace kinesphere::program

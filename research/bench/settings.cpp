@@ -1,4 +1,4 @@
-// How much the benchmark does: every number of it that no option gives.
+// The extent of the benchmark: every number of it that no option gives.
 #include "research/bench/settings.hpp"
 
 namespace kinesphere::program {

@@ -1,4 +1,4 @@
-// How much the benchmark does: every number of it that no option gives.
+// The extent of the benchmark: every number of it that no option gives.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ enum class Effort {
   full,   ///< an hour or more: the paper's own lengths and repetitions
 };
 
-/// The one of three that belongs to an effort.
+/// Returns the settings that belong to an effort.
 template <class Settings>
 const Settings& chosen(Effort effort, const Settings& quick, const Settings& usual, const Settings& full) {
   switch (effort) {
@@ -27,7 +27,7 @@ const Settings& chosen(Effort effort, const Settings& quick, const Settings& usu
   return usual;
 }
 
-/// n bodies, simulated for so many seconds from so many seeds (1, 2, ...).
+/// A number of bodies, simulated for a number of seconds from each of the seeds 1, 2, ... `seeds`.
 struct Trial {
   std::uint32_t bodies;
   double seconds;
@@ -36,32 +36,32 @@ struct Trial {
 
 struct BenchSettings {
   std::string_view name;
-  int repetitions;  ///< of every run; medians are shown
+  int repetitions;  ///< repetitions of every run; medians are shown
 
-  std::vector<std::uint32_t> figure_bodies;  ///< figures 5 and 6
+  std::vector<std::uint32_t> figure_bodies;  ///< for figures 5 and 6
   double figure_seconds;
 
   std::vector<Trial> table1;
-  double miss_seconds;  ///< how long fixed steps are held against the oracle
+  double miss_seconds;  ///< time for which fixed steps are compared with the oracle
 
-  std::uint32_t circulation_bodies;  ///< section 4.3
+  std::uint32_t circulation_bodies;  ///< for section 4.3
   double circulation_seconds;
-  double snapshot_time;      ///< of figure 7 (b) and (c)
-  double sequence_interval;  ///< between the pictures of figure 8
+  double snapshot_time;      ///< time of figure 7 (b) and (c)
+  double sequence_interval;  ///< time between the pictures of figure 8
 
   std::vector<std::uint32_t> growth_scales;  ///< k: 1000 k^3 bodies in a box of edge 200 k
   double growth_seconds;
-  std::uint32_t growth_bodies;  ///< small scenes are run from several seeds, to have as many in all
+  std::uint32_t growth_bodies;  ///< total of bodies; small scenes are run from several seeds to reach it
 
-  std::vector<Trial> trimming;  ///< section 3.3
+  std::vector<Trial> trimming;  ///< for section 3.3
 
-  std::vector<std::uint32_t> cell_bodies;  ///< densities of the cost model's test
+  std::vector<std::uint32_t> cell_bodies;  ///< densities in the test of the cost model
   std::vector<double> cell_speeds;         ///< factors of the paper's speeds
   std::vector<double> cell_factors;        ///< cell edges tried, as factors of the model's choice
   double cell_body_seconds;
 };
 
-/// Fixed steps as a game would take them, and longer ones (time).
+/// Time steps: one as a game would take it, and a longer one (time).
 constexpr double game_step = 1.0 / 60.0;
 constexpr double long_step = 0.1;
 

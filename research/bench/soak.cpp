@@ -51,7 +51,7 @@ CLI::App* add_bench_soak_command(CLI::App& bench, SoakOptions& options) {
 
 namespace {
 
-/// One line in so many is cut off.
+/// Lines of output for each line that is cut off; fewer would test the reader more and the monitor less.
 constexpr std::uint64_t lines_between_malformed = 1000;
 
 int write_reports(const SoakSettings& settings) {
@@ -66,7 +66,7 @@ int write_reports(const SoakSettings& settings) {
         R"("velocity_error":{},"stamp_error":{}}})",
         track, report.timestamp, time, position.x, position.y, position.z, velocity.x, velocity.y, velocity.z,
         report.position_error.total(), report.velocity_error.total(), report.timestamp_error);
-    // In place of nothing: the report itself comes next.
+    // The cut-off line is an extra one: the whole report follows it.
     if (k % lines_between_malformed == lines_between_malformed / 2) {
       ++malformed;
       write_output(line.substr(0, line.size() / 2) + "\n");
@@ -86,7 +86,7 @@ Verdict verdict_named(const std::string& name) {
   throw ProgramError(fmt::format("expected a verdict, but got '{}'", name));
 }
 
-/// Of a track of the soak, which are numbered from 0.
+/// Returns the track of a name. Tracks of the soak are numbered from 0.
 TrackId track_named(const std::string& name, std::uint64_t tracks) {
   TrackId id = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), id);
@@ -96,7 +96,8 @@ TrackId track_named(const std::string& name, std::uint64_t tracks) {
   return id;
 }
 
-/// Nothing of an alert that is no verdict. `end` is when the last report has come in.
+/// Returns the verdict of an alert; nothing for an alert of another kind. `end` is the time of the last
+/// report. Throws ProgramError.
 std::optional<MonitorEvent> verdict_of(const std::string& line, const SoakSettings& settings, double end) {
   const nlohmann::json alert = nlohmann::json::parse(line);
   if (alert.at("event") != "verdict") return std::nullopt;
@@ -116,12 +117,12 @@ std::optional<MonitorEvent> verdict_of(const std::string& line, const SoakSettin
 
 struct ReadAlerts {
   std::uint64_t lines = 0;
-  /// In order of time. In the file only those of one pair need to be: several watches that share the pairs
+  /// Sorted by time. In the file, only the lines of one pair have to be: several watches that share the pairs
   /// write between each other's lines.
   std::vector<MonitorEvent> verdicts;
 };
 
-/// Throws ProgramError naming a line that is no alert of the soak.
+/// Reads the alerts. Throws ProgramError with the number of a line that is no alert of the soak.
 ReadAlerts read_alerts(const std::string& path, const SoakSettings& settings, double end) {
   std::ifstream file(path);
   if (!file) throw ProgramError(path + " cannot be read");

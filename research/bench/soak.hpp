@@ -1,4 +1,4 @@
-// `kinesphere bench soak`: a monitor that is fed faulty reports for long, against the truth.
+// `kinesphere-bench soak`: a long run of a monitor on faulty reports, compared with the truth.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -10,13 +10,13 @@ namespace kinesphere::program {
 
 struct SoakOptions {
   SoakSettings settings;
-  bool write = false;  ///< the reports, for `kinesphere watch`
-  std::string alerts;  ///< what it told of them
+  bool write = false;  ///< write the reports, for `kinesphere watch`
+  std::string alerts;  ///< file with the alerts of `kinesphere watch` on these reports
 };
 
-/// `options` must live until the command line has been parsed.
+/// Adds the command. `options` must live until the command line has been parsed.
 CLI::App* add_bench_soak_command(CLI::App& bench, SoakOptions& options);
-/// Returns the exit code, which tells whether anything was missed or wrong. Throws ProgramError.
+/// Runs the soak and returns the exit code, which says if anything was missed or wrong. Throws ProgramError.
 int bench_soak(const SoakOptions& options);
 
 }  // namespace kinesphere::program

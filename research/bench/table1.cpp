@@ -12,7 +12,7 @@
 namespace kinesphere::program {
 namespace {
 
-/// Contacts of one kind, and how many of them steps overlook.
+/// Contacts of one kind, and the number of them that steps overlook.
 struct Misses {
   std::uint64_t contacts = 0;
   std::uint64_t with_game_steps = 0;
@@ -29,7 +29,8 @@ struct MissesByKind {
   Misses bodies, walls;
 };
 
-/// What steps overlook of the truth, where nobody bounces: with bounces there is no common truth for long.
+/// Counts the contacts that steps overlook in scenes without bounces: with bounces there is no common truth
+/// for long.
 MissesByKind count_misses(SceneParameters parameters, std::uint64_t seeds) {
   parameters.response = SceneResponse::pass_through;
   MissesByKind misses;

@@ -26,12 +26,12 @@ constexpr std::uint32_t harbour_count = 40;
 constexpr double coast_length = 900'000.0;
 constexpr double coast_depth = 40'000.0;
 constexpr double berth_width = 30.0, pier_distance = 60.0;
-constexpr double receiver_noise = 1.5;    ///< of a position (length)
-constexpr double still_interval = 210.0;  ///< between two reports of a vessel that lies still
-constexpr double moving_interval = 74.0;  ///< of one that moves
-constexpr double lost_part = 0.04;        ///< of all reports
+constexpr double receiver_noise = 1.5;    ///< largest error of a reported coordinate (length)
+constexpr double still_interval = 210.0;  ///< time between two reports of a vessel that lies still
+constexpr double moving_interval = 74.0;  ///< time between two reports of a vessel that moves
+constexpr double lost_part = 0.04;        ///< part of all reports
 
-/// On the plane that touches the earth in the middle of the coast.
+/// A place on the plane that touches the earth in the middle of the coast.
 struct Place {
   double x = 0.0, y = 0.0;
 };
@@ -41,16 +41,16 @@ Place operator-(Place a, Place b) { return {a.x - b.x, a.y - b.y}; }
 Place operator*(double f, Place p) { return {f * p.x, f * p.y}; }
 double length(Place p) { return std::sqrt(p.x * p.x + p.y * p.y); }
 
-/// Without functions that differ from machine to machine.
+/// Returns the place on the earth, by functions that give the same bits on every machine.
 Vec3 on_earth(Place p) {
   const double scale = earth_radius / std::sqrt(earth_radius * earth_radius + p.x * p.x + p.y * p.y);
   const auto rounded = [](double metres) { return std::round(100.0 * metres) / 100.0; };
-  // The coast lies at 45 degrees North.
+  // The coast is at 45 degrees North.
   const double up = std::sqrt(0.5) * scale;
   return {rounded(up * (earth_radius - p.y)), rounded(scale * p.x), rounded(up * (earth_radius + p.y))};
 }
 
-/// From -1 to 1 and back while `phase` goes from a whole number to the next, slower at both ends.
+/// Goes from -1 to 1 and back while `phase` goes from a whole number to the next, slower at each end.
 double swing(double phase) {
   const double part = phase - std::floor(phase);
   const double there_and_back = part < 0.5 ? 4.0 * part - 1.0 : 3.0 - 4.0 * part;
@@ -63,13 +63,13 @@ Place any_direction(Random& random) {
   return norm > 0.0 ? (1.0 / norm) * Place{unit.x, unit.y} : Place{1.0, 0.0};
 }
 
-/// Goes from one end to the other and back, and swings across that way.
+/// A course from one end to the other and back, with a swing across that way.
 struct Course {
   Place middle{}, half_way{}, half_swing{};
   double period = 1.0, swing_period = 1.0;
   double phase = 0.0, swing_phase = 0.0;
-  double interval = moving_interval;  ///< between two reports
-  Place elsewhere{};                  ///< where another vessel reports under the same id, every other time
+  double interval = moving_interval;  ///< time between two reports
+  Place elsewhere{};  ///< place of another vessel that reports under this id, every other time
   bool shared = false;
 
   Place at(double t) const {
@@ -107,13 +107,13 @@ class Coast {
   }
 
  private:
-  /// The k-th one is chosen about as often as 1 / (k + 1): the largest has a quarter of all vessels.
+  /// Chooses harbour k about as often as 1 / (k + 1): the largest has a quarter of all vessels.
   static std::uint32_t busy_harbour(Random& random) {
     const double u = random.uniform();
     return static_cast<std::uint32_t>(harbour_count * u * u * u);
   }
 
-  /// Rows of berths along piers, in the order of arrival.
+  /// Returns the next berth of the harbour, in rows along piers.
   Course moored(std::uint32_t harbour) {
     constexpr std::uint32_t row = 20;
     const std::uint32_t berth = berths_[harbour]++;
@@ -134,7 +134,7 @@ class Coast {
             .interval = still_interval};
   }
 
-  /// Past the piers, between two landings.
+  /// Returns a course past the piers, between two landings.
   Course ferry(std::uint32_t harbour, Random& random) {
     const Place from = harbours_[harbour] + random.uniform(0.0, 700.0) * any_direction(random);
     return sailing(from, from + random.uniform(500.0, 8000.0) * any_direction(random),
@@ -165,7 +165,7 @@ class Coast {
 
   const VesselParameters& p_;
   std::vector<Place> harbours_;
-  std::vector<std::uint32_t> berths_;  ///< that are taken, by harbour
+  std::vector<std::uint32_t> berths_;  ///< by harbour: berths taken
 };
 
 Track reports(const Course& course, double seconds, Random random) {

@@ -127,15 +127,15 @@ Result<void> check(const Scene& scene, const GasBlocks& blocks) {
     const SceneBody& body = scene.bodies[number];
     const BodyId id{number, 0};
     const double start = scene.world.start_time;
-    const BodyDefinition promise = scene.motion->definition(number, start);
+    const BodyDefinition definition = scene.motion->definition(number, start);
     check
         .require(body.radius == scene.bodies.front().radius && body.radius > 0.0, ErrorCode::unsupported,
                  {"radius", id}, "must be the same for all and larger than 0", body.radius)
         .require(body.appears <= start && body.vanishes > scene.end_time, ErrorCode::unsupported,
                  {"appears", id}, "and vanishes must leave it there all the time", body.appears)
-        .require(promise.acceleration_limit == 0.0 && promise.planned_acceleration == Vec3{},
+        .require(definition.acceleration_limit == 0.0 && definition.planned_acceleration == Vec3{},
                  ErrorCode::unsupported, {"acceleration_limit", id}, "and plan must be 0",
-                 promise.acceleration_limit);
+                 definition.acceleration_limit);
   }
   return check.result();
 }

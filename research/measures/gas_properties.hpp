@@ -19,16 +19,17 @@ double hard_sphere_compressibility(double packing);
 /// both partners.
 double hard_sphere_collision_rate(double packing);
 
+/// A measured mean with its standard error.
 struct Estimate {
   double value = 0.0;
   double standard_error = 0.0;  ///< from the scatter between blocks, taken as independent
 };
 
+/// Properties of a gas, measured in a run.
 struct GasProperties {
   double packing = 0.0;
-  Estimate collision_rate;  ///< comparable with hard_sphere_collision_rate()
-  Estimate
-      compressibility;  ///< comparable with hard_sphere_compressibility(); from the virial of the collisions
+  Estimate collision_rate;     ///< as hard_sphere_collision_rate()
+  Estimate compressibility;    ///< as hard_sphere_compressibility(), from the virial of collisions
   std::uint64_t contacts = 0;  ///< number of contacts measured
   double energy_change = 0.0;  ///< largest change since the start, as a part of the energy
   /// Largest change of the total momentum since the start, in units of N m sqrt(kT / m).

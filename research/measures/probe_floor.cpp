@@ -54,9 +54,9 @@ class FloorCount {
     bodies_.resize(scene.bodies.size());
     for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
       Body& body = bodies_[number];
-      body.promise = scene.motion->definition(number, start);
-      body.promise.radius = scene.bodies[number].radius;
-      body.bound = bound_of(body.promise, state(number, start), start);
+      body.definition = scene.motion->definition(number, start);
+      body.definition.radius = scene.bodies[number].radius;
+      body.bound = bound_of(body.definition, state(number, start), start);
     }
     for (const FlightContact& contact : flight.contacts) {
       note(contact.first, contact);
@@ -85,7 +85,7 @@ class FloorCount {
 
  private:
   struct Body {
-    BodyDefinition promise;
+    BodyDefinition definition;
     Bound bound;                ///< bound since the last counted probe
     std::vector<double> stops;  ///< times of contact begins and ends, at which the body is probed anyway
     std::size_t next_stop = 0;
@@ -113,7 +113,7 @@ class FloorCount {
     for (const Body& body : bodies_) {
       all = united(all, {body.bound.position, body.bound.position});
       speed += norm(body.bound.velocity);
-      acceleration += body.promise.acceleration_limit + norm(body.promise.planned_acceleration);
+      acceleration += body.definition.acceleration_limit + norm(body.definition.planned_acceleration);
     }
     const auto count = static_cast<double>(bodies_.size());
     const Vec3 size = all.upper - all.lower;
@@ -142,7 +142,7 @@ class FloorCount {
     for (const Segment* piece = &segment_at(path, begin); piece != path.data() + path.size(); ++piece) {
       const bool last = piece->end >= end || piece + 1 == path.data() + path.size();
       const double to = last ? end : piece->end;
-      if (!visit(true_sphere(*piece, bodies_[number].promise.radius), std::max(begin, piece->begin), to))
+      if (!visit(true_sphere(*piece, bodies_[number].definition.radius), std::max(begin, piece->begin), to))
         return;
       if (last) return;
     }
@@ -162,7 +162,7 @@ class FloorCount {
         next = until;
       }
       ++body.probes;
-      body.bound = bound_of(body.promise, state(number, next), next);
+      body.bound = bound_of(body.definition, state(number, next), next);
       now = next;
     }
   }
@@ -170,7 +170,7 @@ class FloorCount {
   /// Returns the least time between probes (time), for gaps that rounding has used up. The bound grows by far
   /// less than the tolerance in it.
   double shortest_interval(const Body& body) const {
-    const double limit = body.promise.acceleration_limit;
+    const double limit = body.definition.acceleration_limit;
     return limit > 0.0 ? std::sqrt(tolerance_ / limit) / 64.0 : infinity;
   }
 
@@ -220,17 +220,17 @@ Result<void> check(const Scene& scene, const Flight& flight) {
   for (std::uint32_t number = 0; number < scene.bodies.size(); ++number) {
     const BodyId id{number, 0};
     const SceneBody& body = scene.bodies[number];
-    const BodyDefinition promise = scene.motion->definition(number, scene.world.start_time);
+    const BodyDefinition definition = scene.motion->definition(number, scene.world.start_time);
     const double start = scene.world.start_time;
     check
         .require(body.appears <= start, ErrorCode::unsupported, {"appears", id},
                  "must not lie after the start,", start, body.appears)
         .require(body.vanishes > scene.end_time, ErrorCode::unsupported, {"vanishes", id},
                  "must lie after the end,", scene.end_time, body.vanishes)
-        .require(promise.position_error == 0.0, ErrorCode::unsupported, {"position_error", id}, "must be 0",
-                 promise.position_error)
-        .require(promise.velocity_error == 0.0, ErrorCode::unsupported, {"velocity_error", id}, "must be 0",
-                 promise.velocity_error);
+        .require(definition.position_error == 0.0, ErrorCode::unsupported, {"position_error", id},
+                 "must be 0", definition.position_error)
+        .require(definition.velocity_error == 0.0, ErrorCode::unsupported, {"velocity_error", id},
+                 "must be 0", definition.velocity_error);
     for (const Segment& piece : flight.paths[number])
       check.require(piece.jerk == Vec3{}, ErrorCode::unsupported, {"jerk", id}, "must be 0", piece.jerk);
     if (check.error()) break;

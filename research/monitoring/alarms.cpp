@@ -71,7 +71,7 @@ Correctness correctness_of(const VerdictHistory& history, const RecordedSky& sky
                            const std::map<TrackPair, std::vector<Span>>& clearly,
                            const std::map<TrackPair, std::vector<Span>>& loosely) {
   Correctness correctness;
-  static const std::vector<VerdictChange> nothing_told;
+  static const std::vector<VerdictChange> no_changes;
   for (TrackId first = 0; first < sky.size(); ++first)
     for (TrackId second = first + 1; second < sky.size(); ++second) {
       const TrackPair pair{first, second};
@@ -80,7 +80,7 @@ Correctness correctness_of(const VerdictHistory& history, const RecordedSky& sky
       correctness.pair_time += there.end - there.begin;
       for (const Span& span : of(clearly, pair)) correctness.within_time += overlap(span, there);
       const auto at = history.find(pair);
-      for_each_verdict(at == history.end() ? nothing_told : at->second, there,
+      for_each_verdict(at == history.end() ? no_changes : at->second, there,
                        [&](const Span& span, Verdict verdict) {
                          if (verdict == Verdict::undecided)
                            correctness.undecided_time += span.end - span.begin;

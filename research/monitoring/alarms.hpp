@@ -45,6 +45,7 @@ Alarms alarms_of(const VerdictHistory& history, const RecordedSky& sky);
 Alarms straight_on_alarms(const RecordedSky& sky, const std::vector<Delivery>& deliveries, double distance,
                           double look_ahead, double step);
 
+/// Comparison of alarms with the true approaches.
 struct AlarmScore {
   std::size_t approaches = 0;    ///< true approaches
   std::size_t missed = 0;        ///< approaches without a warning before their end
@@ -52,6 +53,7 @@ struct AlarmScore {
   std::size_t alarms = 0;        ///< warnings; those at most `look_ahead` apart count as one
   std::size_t false_alarms = 0;  ///< alarms without an approach in them, or within `look_ahead` after them
 };
+/// Compares alarms with the true spans in which pairs are within the distance.
 AlarmScore score_of(const Alarms& alarms, const std::map<TrackPair, std::vector<Span>>& truth,
                     double look_ahead);
 

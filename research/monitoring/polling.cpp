@@ -86,7 +86,7 @@ Polling poll_everybody(const RecordedSky& sky, const PollingSettings& settings, 
 }
 
 std::uint64_t polling_floor(const RecordedSky& sky, const PollingSettings& settings, double step) {
-  const TrackClass promise = sky.promise();
+  const TrackClass track_class = sky.promise();
   const Component distance{.limit = settings.distance};
   std::uint64_t asked = 0;
   std::map<TrackId, TrackEstimate> there;
@@ -95,7 +95,7 @@ std::uint64_t polling_floor(const RecordedSky& sky, const PollingSettings& setti
   const auto ask = [&](TrackId track, double time) {
     ++asked;
     TrackEstimate& estimate = there[track] = {};
-    estimate.update(sky.report(track, time), promise, time, settings.window);
+    estimate.update(sky.report(track, time), track_class, time, settings.window);
   };
   for (double time = changes.front().time; change != changes.end(); time += step) {
     for (; change != changes.end() && change->time <= time; ++change) {
@@ -107,7 +107,7 @@ std::uint64_t polling_floor(const RecordedSky& sky, const PollingSettings& setti
     std::vector<std::pair<TrackId, TrackEstimate>> truth;
     for (const auto& [track, knowledge] : there) {
       truth.emplace_back(track, TrackEstimate{});
-      truth.back().second.update(sky.report(track, time), promise, time, settings.window);
+      truth.back().second.update(sky.report(track, time), track_class, time, settings.window);
     }
     for (const auto& one : there) {
       const TrackId track = one.first;

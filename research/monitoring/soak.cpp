@@ -30,20 +30,20 @@ Soak soak(const SoakSettings& settings, const std::function<void(std::uint64_t)>
                                      .drop_after = 1000.0 * settings.faults.interval})
                         .value();
   Soak result;
-  std::vector<MonitorEvent> told;
+  std::vector<MonitorEvent> reported;
   constexpr std::uint64_t at_once = 1024;
   std::vector<Delivery> deliveries(at_once);
   for (std::uint64_t taken = 0; taken < settings.reports; taken += at_once) {
     for (Delivery& delivery : deliveries) delivery = reports.next();
     const Clock::time_point begin = Clock::now();
     for (const Delivery& delivery : deliveries) {
-      for (const MonitorEvent& event : monitor.events(delivery.time)) told.push_back(event);
+      for (const MonitorEvent& event : monitor.events(delivery.time)) reported.push_back(event);
       monitor.report(delivery.track, delivery.report).value();
     }
-    for (const MonitorEvent& event : monitor.events(monitor.time())) told.push_back(event);
+    for (const MonitorEvent& event : monitor.events(monitor.time())) reported.push_back(event);
     result.monitor_seconds += std::chrono::duration<double>(Clock::now() - begin).count();
-    check.compare(monitor.time(), told);
-    told.clear();
+    check.compare(monitor.time(), reported);
+    reported.clear();
     if (result.memory_early == 0 && 4 * taken >= settings.reports) result.memory_early = largest_memory();
     if (progress && taken % (64 * at_once) == 0) progress(taken);
   }

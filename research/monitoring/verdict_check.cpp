@@ -28,19 +28,19 @@ VerdictCheck::VerdictCheck(const FaultySettings& settings, const RandomForces& m
   }
 }
 
-void VerdictCheck::compare(double until, std::span<const MonitorEvent> told) {
-  auto next = told.begin();
-  const auto take_told = [&](double time) {
-    for (; next != told.end() && next->time <= time; ++next) take(*next);
+void VerdictCheck::compare(double until, std::span<const MonitorEvent> reported) {
+  auto next = reported.begin();
+  const auto take_reported = [&](double time) {
+    for (; next != reported.end() && next->time <= time; ++next) take(*next);
   };
   const auto probe = [this](std::span<const BodyId> ids, double time, std::span<State> states) {
     for (std::size_t k = 0; k < ids.size(); ++k) states[k] = motion_->state(ids[k].index, time);
   };
   for (const Event& event : world_.events(until, probe)) {
-    take_told(event.time);
+    take_reported(event.time);
     take(event);
   }
-  take_told(until);
+  take_reported(until);
 }
 
 /// Counts an approach, as missed if the pair is not reported yet. A pair has to stay reported until it has

@@ -20,9 +20,9 @@ class VerdictCheck {
   /// tracks have reported.
   VerdictCheck(const FaultySettings& settings, const RandomForces& motion, double distance, double tolerance);
 
-  /// Compares the truth with the reported events up to a time. `told` is sorted by time, and later calls
+  /// Compares the truth with the reported events up to a time. `reported` is sorted by time, and later calls
   /// continue earlier ones.
-  void compare(double until, std::span<const MonitorEvent> told);
+  void compare(double until, std::span<const MonitorEvent> reported);
 
   std::uint64_t approaches = 0;      ///< true approaches
   std::uint64_t missed = 0;          ///< approaches that were reported as apart at some time while near

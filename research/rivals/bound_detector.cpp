@@ -14,7 +14,7 @@ Result<void> BoundDetector::add(std::uint32_t number, const BodyDefinition& defi
           .bound = bound_of(definition, {definition.position, definition.velocity}, time_),
           .present = true,
           .new_course = true};
-  book_.add(number, body.largest_acceleration());
+  contacts_.add(number, body.largest_acceleration());
   new_courses_.push_back(number);
   bodies_added_ = true;
   return {};
@@ -22,7 +22,7 @@ Result<void> BoundDetector::add(std::uint32_t number, const BodyDefinition& defi
 
 Result<void> BoundDetector::remove(std::uint32_t number) {
   instant_.remove_body(
-      book_, number, time_, [this](std::uint32_t body) { return sphere(body); }, definition_.box);
+      contacts_, number, time_, [this](std::uint32_t body) { return sphere(body); }, definition_.box);
   std::erase(new_courses_, number);
   bodies_[number] = Body{};
   on_removed(number);
@@ -35,7 +35,7 @@ Result<void> BoundDetector::set_velocity(std::uint32_t number, const Vec3& veloc
   if (!fresh(number)) probe(number);
   body.bound.velocity = velocity;
   body.kicked_to.reset();
-  if (definition_.contacts == ContactMode::impacts) book_.release_all(number);
+  if (definition_.contacts == ContactMode::impacts) contacts_.release_all(number);
   begin_new_course(number);
   return {};
 }
@@ -49,7 +49,7 @@ Result<std::optional<Event>> BoundDetector::advance(double until) {
   for (;;) {
     if (error_) return *error_;
     if (std::optional<Event> event = deliver()) return event;
-    settle();
+    predict_changes();
     handle_all_due();
     if (error_ || !instant_.pending().empty()) continue;
     if (next_time() > until) {
@@ -72,7 +72,7 @@ void BoundDetector::move_on_to(double time) {
 
 std::optional<Event> BoundDetector::deliver() {
   std::optional<Event> event = instant_.pop(
-      book_, [this](BodyId id) { return bodies_[id.index].present; },
+      contacts_, [this](BodyId id) { return bodies_[id.index].present; },
       [this](std::uint32_t number) { return sphere(number); }, definition_.box);
   if (!event) return event;
   ++counters_.events[static_cast<std::size_t>(event->kind)];
@@ -81,7 +81,7 @@ std::optional<Event> BoundDetector::deliver() {
 }
 
 /// Starts the new courses and predicts the contacts that changed at this instant.
-void BoundDetector::settle() {
+void BoundDetector::predict_changes() {
   if (bodies_added_) prepare();
   bodies_added_ = false;
   while (!new_courses_.empty()) {
@@ -128,46 +128,46 @@ double BoundDetector::pair_outlook(std::uint32_t a, std::uint32_t b, double hori
   ++counters_.certificates;
   const Body& first = bodies_[a];
   const Body& second = bodies_[b];
-  const ContactPredictor<Bound> predictor(rule(), {.within = book_.touch(a, b)}, first.bound, second.bound,
-                                          time_, {horizon, horizon});
+  const ContactPredictor<Bound> predictor(rule(), {.within = contacts_.touch(a, b)}, first.bound,
+                                          second.bound, time_, {horizon, horizon});
   if (!fresh(a) || !fresh(b)) return predictor.until_reports();
   const RelativeLimits sum{first.definition.velocity_error + second.definition.velocity_error,
                            first.largest_acceleration() + second.largest_acceleration()};
-  return judge(predictor, contact_event(EventKind::zeno_guard, time_, sphere(a), sphere(b)), sum);
+  return decide(predictor, contact_event(EventKind::zeno_guard, time_, sphere(a), sphere(b)), sum);
 }
 
 double BoundDetector::wall_outlook(std::uint32_t number, double horizon) {
   if (!definition_.box) return infinity;
   const Body& body = bodies_[number];
-  const double time = book_.walls_of(number) != 0
+  const double time = contacts_.walls_of(number) != 0
                           ? time_
                           : until_reports_of_walls(rule(), body.bound, *definition_.box, time_, horizon);
   if (time > time_ || !fresh(number)) return time;
   double first = infinity;
   for (const Wall wall : walls) {
     const HalfSpace inside = half_space(*definition_.box, wall);
-    const ContactPredictor<HalfSpace> predictor(rule(), {.within = book_.touches_wall(number, wall)},
+    const ContactPredictor<HalfSpace> predictor(rule(), {.within = contacts_.touches_wall(number, wall)},
                                                 body.bound, inside, time_, {horizon, horizon});
     const Event current = wall_event(EventKind::zeno_guard, time_, sphere(number), *definition_.box, wall);
     first = std::min(
-        first, judge(predictor, current, {body.definition.velocity_error, body.largest_acceleration()}));
+        first, decide(predictor, current, {body.definition.velocity_error, body.largest_acceleration()}));
   }
   return first;
 }
 
 /// Applies the contact rule to fresh reports.
 template <class Partner>
-double BoundDetector::judge(const ContactPredictor<Partner>& predictor, Event current,
-                            const RelativeLimits& promise) {
-  ContactDecision verdict = predictor.decide(current, promise);
-  if (verdict.change == ContactRule::Change::begin && book_.is_jammed(current))
-    verdict = predictor.defer(current, promise);
+double BoundDetector::decide(const ContactPredictor<Partner>& predictor, Event current,
+                             const RelativeLimits& limits) {
+  ContactDecision verdict = predictor.decide(current, limits);
+  if (verdict.change == ContactRule::Change::begin && contacts_.is_jammed(current))
+    verdict = predictor.defer(current, limits);
   if (verdict.is_event()) {
     current.kind = kind_of(verdict.change, false, current.wall);
     instant_.queue(current);
     return infinity;
   }
-  if (verdict.change == ContactRule::Change::release) book_.set_touching(current, false);
+  if (verdict.change == ContactRule::Change::release) contacts_.set_touching(current, false);
   if (verdict.zeno_step) ++counters_.zeno_steps;
   if (verdict.breaks_tolerance) instant_.queue(current);
   return verdict.next_check;

@@ -17,6 +17,7 @@
 
 namespace kinesphere {
 
+/// Base class of detectors that keep time-varying bounds.
 class BoundDetector : public Detector {
  public:
   Result<void> add(std::uint32_t number, const BodyDefinition& definition) override;
@@ -43,7 +44,7 @@ class BoundDetector : public Detector {
   BoundDetector(const WorldDefinition& definition, const Motion& motion)
       : definition_(definition),
         motion_(motion),
-        book_(definition),
+        contacts_(definition),
         time_(definition.start_time),
         bodies_(motion.size()) {}
 
@@ -75,11 +76,13 @@ class BoundDetector : public Detector {
   /// returns from then on; until then the bound is the predicted one.
   void probe(std::uint32_t number);
   /// Returns true if the two are in contact.
-  bool touch(std::uint32_t a, std::uint32_t b) const { return book_.touch(a, b); }
+  bool touch(std::uint32_t a, std::uint32_t b) const { return contacts_.touch(a, b); }
   /// Returns the partners in contact with the body.
-  std::span<const std::uint32_t> touching(std::uint32_t number) const { return book_.partners_of(number); }
+  std::span<const std::uint32_t> touching(std::uint32_t number) const {
+    return contacts_.partners_of(number);
+  }
   const WorldDefinition& definition() const { return definition_; }
-  const ContactRule& rule() const { return book_.rule(); }
+  const ContactRule& rule() const { return contacts_.rule(); }
 
   /// Returns the next time at which the pair has to be rechecked, from the present bounds: the contact cannot
   /// change before. Returns time() if the two have to be probed first. If both are fresh, the contact rule
@@ -96,15 +99,15 @@ class BoundDetector : public Detector {
   void move_on_to(double time);
   Sphere sphere(std::uint32_t number) const;
   std::optional<Event> deliver();
-  void settle();
+  void predict_changes();
   void handle_all_due();
   void begin_new_course(std::uint32_t number);
   template <class Partner>
-  double judge(const ContactPredictor<Partner>& predictor, Event current, const RelativeLimits& promise);
+  double decide(const ContactPredictor<Partner>& predictor, Event current, const RelativeLimits& limits);
 
   WorldDefinition definition_;
   const Motion& motion_;
-  ContactGraph book_;
+  ContactGraph contacts_;
   PendingEvents instant_;
   double time_;
   std::vector<Body> bodies_;

@@ -17,6 +17,7 @@ struct DetectorSettings {
   PaperOptions paper{};
 };
 
+/// A detector with its name and properties.
 struct DetectorEntry {
   std::string_view name;
   std::string_view description;  ///< one line

@@ -19,7 +19,7 @@ class FixedStep final : public Detector {
  public:
   FixedStep(const WorldDefinition& definition, const Motion& motion, double step, FixedStepSearch search)
       : definition_(definition),
-        book_(definition),
+        contacts_(definition),
         motion_(motion),
         step_(step),
         search_(search),
@@ -36,13 +36,13 @@ class FixedStep final : public Detector {
                        .radius = definition.radius + definition.position_error,
                        .state = {definition.position, definition.velocity},
                        .seen = time_};
-    book_.add(number, definition.acceleration_limit + norm(definition.planned_acceleration));
+    contacts_.add(number, definition.acceleration_limit + norm(definition.planned_acceleration));
     return {};
   }
 
   Result<void> remove(std::uint32_t number) override {
     instant_.remove_body(
-        book_, number, time_, [this](std::uint32_t body) { return sphere(body); }, definition_.box);
+        contacts_, number, time_, [this](std::uint32_t body) { return sphere(body); }, definition_.box);
     bodies_[number].present = false;
     if (search_ == FixedStepSearch::grid) grid_.remove(number);
     return {};
@@ -50,7 +50,7 @@ class FixedStep final : public Detector {
 
   Result<void> set_velocity(std::uint32_t number, const Vec3& velocity) override {
     bodies_[number].state.velocity = velocity;
-    if (book_.rule().impacts_only()) book_.release_all(number);
+    if (contacts_.rule().impacts_only()) contacts_.release_all(number);
     return {};
   }
 
@@ -98,7 +98,7 @@ class FixedStep final : public Detector {
 
   std::optional<Event> deliver() {
     std::optional<Event> event = instant_.pop(
-        book_, [this](BodyId id) { return bodies_[id.index].present; },
+        contacts_, [this](BodyId id) { return bodies_[id.index].present; },
         [this](std::uint32_t number) { return sphere(number); }, definition_.box);
     instant_.changed().clear();
     if (!event) return event;
@@ -125,12 +125,12 @@ class FixedStep final : public Detector {
     for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
       if (!bodies_[number].present) continue;
       // Partners that have parted far may no longer be found by the search.
-      const auto touched = book_.partners_of(number);
+      const auto touched = contacts_.partners_of(number);
       const std::vector<std::uint32_t> partners(touched.begin(), touched.end());
       for (const std::uint32_t partner : partners)
         if (partner < number) look_at_pair(partner, number, true);
       for_each_neighbour(number, [&](std::uint32_t other) {
-        if (other < number && !book_.touch(other, number)) look_at_pair(other, number, false);
+        if (other < number && !contacts_.touch(other, number)) look_at_pair(other, number, false);
       });
       if (definition_.box)
         for (const Wall wall : walls) look_at_wall(number, wall);
@@ -149,7 +149,7 @@ class FixedStep final : public Detector {
   }
 
   Box box_of(const Body& body) const {
-    const double reach = body.radius + book_.rule().release_gap();
+    const double reach = body.radius + contacts_.rule().release_gap();
     const Vec3 half{reach, reach, reach};
     return {body.state.position - half, body.state.position + half};
   }
@@ -164,19 +164,19 @@ class FixedStep final : public Detector {
 
   void look_at_wall(std::uint32_t number, Wall wall) {
     const Event event = wall_event(EventKind::wall_begin, time_, sphere(number), *definition_.box, wall);
-    judge(event, book_.touches_wall(number, wall), approach_error(event, infinity));
+    judge(event, contacts_.touches_wall(number, wall), approach_error(event, infinity));
   }
 
   void judge(Event event, bool touching, double error) {
-    const auto change = book_.rule().decide(touching, event.gap, event.approach_speed, error);
+    const auto change = contacts_.rule().decide(touching, event.gap, event.approach_speed, error);
     if (change == ContactRule::Change::none) return;
-    if (change == ContactRule::Change::release) return book_.set_touching(event, false);
+    if (change == ContactRule::Change::release) return contacts_.set_touching(event, false);
     event.kind = kind_of(change, false, event.wall);
     instant_.queue(event);
   }
 
   WorldDefinition definition_;
-  ContactGraph book_;
+  ContactGraph contacts_;
   PendingEvents instant_;
   const Motion& motion_;
   double step_;

@@ -14,6 +14,7 @@
 
 namespace kinesphere {
 
+/// Options of the paper's algorithm.
 struct PaperOptions {
   /// Edge of the finest cells (length), 0 < cell_edge <= 1e200; at least 1024 contact tolerances are used. 0:
   /// the cost model chooses, and again whenever the number of bodies has doubled. A body crosses about speed

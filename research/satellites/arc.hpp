@@ -23,6 +23,7 @@ Vec3 gravity_at(const Vec3& position);
 /// Returns an upper bound on gravity at this distance from the earth's centre, and farther out (km / s^2).
 double largest_gravity(double distance);
 
+/// A part of a satellite's path, from middle() - half_length to middle() + half_length.
 class Arc {
  public:
   /// Time from the middle of the arc to each of its ends (s).
@@ -53,8 +54,7 @@ class Arc {
 
  private:
   double middle_ = 0.0;
-  std::array<Vec3, order + 1>
-      terms_{};  ///< coefficients of the position, by powers of the time from the middle
+  std::array<Vec3, order + 1> terms_{};  ///< of the position, in powers of time - middle
   double largest_acceleration_ = 0.0;
   double largest_jerk_ = 0.0;
   double nearest_ = 0.0;

@@ -14,6 +14,7 @@ struct SatelliteApproach {
   friend bool operator==(const SatelliteApproach&, const SatelliteApproach&) = default;
 };
 
+/// Sorts approaches by pair and begin.
 void sort_by_pair(std::vector<SatelliteApproach>& approaches);
 
 /// Returns those of `approaches` that are at any time not inside one of `others`. Precondition: the two lists

@@ -129,8 +129,7 @@ class Shells {
 
   std::vector<const Arc*> arcs_;
   std::vector<std::uint32_t> order_;
-  std::vector<std::size_t>
-      last_;  ///< by place: end of the places with satellites that are not entirely above this one
+  std::vector<std::size_t> last_;  ///< by place: end of the places not entirely above it
   std::array<std::vector<float>, 6> columns_;
   float limit_ = 0.0f;
 };

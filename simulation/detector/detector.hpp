@@ -27,12 +27,15 @@ class Detector {
  public:
   virtual ~Detector() = default;
 
+  /// Returns the name in messages and tables of results.
   virtual std::string_view name() const = 0;
   /// Adds body number `body` at time(). `definition` has the state of the body at that time.
   virtual Result<void> add(std::uint32_t body, const BodyDefinition& definition) = 0;
+  /// Removes the body at time(). Ends of its contacts are events that advance() still returns.
   virtual Result<void> remove(std::uint32_t body) = 0;
   /// Gives the body this velocity from time() on. Precondition: the caller has set it in the motion already.
   virtual Result<void> set_velocity(std::uint32_t body, const Vec3& velocity) = 0;
+  /// Advances to the next event, or to time `until` without one, and returns the event.
   virtual Result<std::optional<Event>> advance(double until) = 0;
   /// Runs to time `until` as World::run does: `respond` and `sink` are called as there, with events as
   /// advance() returns them. New velocities are set in `motion`, which moves the bodies. Errors: unsupported,

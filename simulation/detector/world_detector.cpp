@@ -9,11 +9,11 @@
 namespace kinesphere {
 namespace {
 
-/// NumberedMover moves the bodies of a world by their numbers in a motion.
-class NumberedMover final : public MotionSource {
+/// NumberedMotionSource moves the bodies of a world by their numbers in a motion.
+class NumberedMotionSource final : public MotionSource {
  public:
   /// `numbers` maps the index of an id to the number of the body. It must outlive the mover.
-  NumberedMover(Motion& motion, const std::vector<std::uint32_t>& numbers)
+  NumberedMotionSource(Motion& motion, const std::vector<std::uint32_t>& numbers)
       : motion_(motion), numbers_(numbers) {}
 
   void states(std::span<const BodyId> ids, double time, std::span<State> states) override {
@@ -69,19 +69,19 @@ class WorldDetector final : public Detector {
 
   Result<void> run(double until, Motion& motion, const ResponseFn& respond, const EventFn& sink,
                    Workers& workers) override {
-    NumberedMover source(motion, numbers_);
-    const auto told = [this](const Event& event) {
+    NumberedMotionSource source(motion, numbers_);
+    const auto with_numbers = [this](const Event& event) {
       return numbered(event, [this](BodyId id) { return number_of(id); });
     };
     const auto answer = [&](const Event& event) {
-      const Event as_told = told(event);
-      Response answered = respond(as_told);
-      if (as_told.first.index != number_of(event.first))
+      const Event event_with_numbers = with_numbers(event);
+      Response answered = respond(event_with_numbers);
+      if (event_with_numbers.first.index != number_of(event.first))
         std::swap(answered.first_velocity, answered.second_velocity);
       return answered;
     };
     auto gone = world_.run(
-        until, source, answer, [&](const Event& event) { sink(told(event)); }, &workers);
+        until, source, answer, [&](const Event& event) { sink(with_numbers(event)); }, &workers);
     if (gone) departed_.clear();
     return gone;
   }

@@ -8,6 +8,7 @@
 
 namespace kinesphere {
 
+/// A box in single precision, which contains the box that it was made from.
 struct FloatBox {
   std::array<float, 3> lower;
   std::array<float, 3> upper;

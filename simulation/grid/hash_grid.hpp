@@ -61,8 +61,8 @@ class HashGrid {
     StepBox low_bits() const;
     /// Returns true if no side is longer than half the range in which a StepBox can be compared.
     bool is_narrow() const;
-    /// Returns the part of the box that lies in the cell. Boxes that begin in the cell overlap this part
-    /// exactly if they overlap the whole box.
+    /// Returns the box, clamped below to the begin and above to the end of the cell. Boxes that begin in the
+    /// cell overlap the result exactly if they overlap this box.
     Steps seen_from(const CellIndex& cell) const;
     static std::int32_t cell_on(std::int64_t step) { return static_cast<std::int32_t>(step >> cell_bits); }
   };

@@ -55,13 +55,13 @@ class Comparison {
     // Finding the spans takes about half of the time.
     const auto spans_progress = [&](double part) { on_progress(0.5 * part); };
     const Spans all = near_spans(motion_.bodies(), 0.0, on_progress ? spans_progress : ComparisonProgress());
-    const auto tell = [&](std::size_t k) {
+    const auto report_progress = [&](std::size_t k) {
       if (on_progress) on_progress(0.5 + 0.5 * static_cast<double>(k) / static_cast<double>(all.size()));
     };
     if (scene_.world.box) compare_walls(found);
     auto next = found.begin();
     for (std::size_t k = 0; k < all.size();) {
-      tell(k);
+      report_progress(k);
       const Key key{all[k].first, all[k].second, Wall::none};
       Spans spans;
       for (; k < all.size() && Key{all[k].first, all[k].second, Wall::none} == key; ++k)

@@ -13,6 +13,7 @@
 
 namespace kinesphere {
 
+/// Counts of begins and ends, by how the contacts of a detector agree with the truth.
 struct ContactComparison {
   /// Begins and ends that detector and oracle report, with the true gap within the contact rule at the
   /// detector's time.

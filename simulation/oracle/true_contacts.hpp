@@ -13,6 +13,7 @@
 
 namespace kinesphere {
 
+/// Begin and end of a contact.
 struct ContactInterval {
   double begin = 0.0;
   double end = infinity;  ///< infinite if the contact lasts beyond the end of the scene

@@ -12,6 +12,7 @@
 
 namespace kinesphere {
 
+/// A contact of two bodies, or of a body and a wall, in a run.
 struct FlightContact {
   std::uint32_t first;
   std::uint32_t second;  ///< equals `first` for a wall
@@ -20,6 +21,7 @@ struct FlightContact {
   double end;  ///< equals `begin` in ContactMode::impacts; infinite if the contact has not ended
 };
 
+/// The paths, the contacts and the result of a run.
 struct Flight {
   std::vector<Trajectory> paths;        ///< by body, from the start of the scene to its end
   std::vector<FlightContact> contacts;  ///< sorted by begin

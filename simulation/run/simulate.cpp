@@ -91,12 +91,12 @@ class Simulation {
       auto event = detector_.advance(time);
       if (!event) return event.error();
       if (!*event) return {};
-      tell(**event);
+      report(**event);
       const Response answered = scene_answer(scene_, **event);
       const Event& at = **event;
-      auto kicked = set_velocity(at.first, at.time, answered.first_velocity);
-      if (kicked) kicked = set_velocity(at.second, at.time, answered.second_velocity);
-      if (!kicked) return kicked;
+      auto changed = set_velocity(at.first, at.time, answered.first_velocity);
+      if (changed) changed = set_velocity(at.second, at.time, answered.second_velocity);
+      if (!changed) return changed;
     }
   }
 
@@ -105,7 +105,7 @@ class Simulation {
     return detector_.run(
         time, motion_, [this](const Event& event) { return scene_answer(scene_, event); },
         [this](const Event& event) {
-          tell(event);
+          report(event);
           if (observer_.between_events) observer_.between_events(detector_);
         },
         *workers_);
@@ -113,7 +113,7 @@ class Simulation {
     return named(thrown.error());
   }
 
-  void tell(const Event& event) {
+  void report(const Event& event) {
     hash_.add(event);
     if (observer_.on_event) observer_.on_event(event);
   }

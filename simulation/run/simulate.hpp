@@ -29,6 +29,7 @@ struct SimulationObserver {
   std::function<Result<void>(Detector&)> at_end;
 };
 
+/// Result of simulate().
 struct SimulationResult {
   DetectorCounters counters;
   double simulated_time = 0.0;

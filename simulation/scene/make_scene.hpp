@@ -17,10 +17,9 @@ struct SceneParameters {
   enum class MotionKind { random_forces, velocity_field, ballistic } motion = MotionKind::random_forces;
   std::uint32_t bodies = 1000;
   double radius_min = 0.1, radius_max = 10.0;
-  double speed_min = 4.3301270189221932,
-         speed_max = 43.301270189221931;      ///< velocity: 2.5 sqrt 3 to 25 sqrt 3
-  double limit_min = 10.0, limit_max = 20.0;  ///< acceleration limit
-  Vec3 gravity{};                             ///< planned acceleration
+  double speed_min = 4.3301270189221932, speed_max = 43.301270189221931;  ///< 2.5 sqrt 3, 25 sqrt 3
+  double limit_min = 10.0, limit_max = 20.0;                              ///< acceleration limit
+  Vec3 gravity{};                                                         ///< planned acceleration
   Box box{{0, 0, 0}, {200, 200, 200}};
   /// Part of the box that the bodies fill, in [0, 1). If positive, the box is scaled from its lower corner
   /// until they do; 0 leaves the box as it is. Up to about 0.55 spheres of one size find room.

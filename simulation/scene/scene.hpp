@@ -14,11 +14,13 @@
 
 namespace kinesphere {
 
+/// Response of the bodies of a scene to contacts.
 enum class SceneResponse {
   pass_through,  ///< bodies do not react: the contacts are a fixed truth
   bounce,        ///< bodies bounce off each other and off the walls; mass is radius^3
 };
 
+/// Radius (length) of a body, and the times at which it appears and vanishes. The motion has its states.
 struct SceneBody {
   double radius = 1.0;
   double appears = 0.0;                                       ///< time at which the body is added
@@ -33,13 +35,14 @@ struct SceneTurn {
   Vec3 velocity;
 };
 
+/// A scene: a world, bodies with their motion, and their response to contacts. It runs from world.start_time
+/// to end_time.
 struct Scene {
   std::string name;
   WorldDefinition world;
   std::vector<SceneBody> bodies;  ///< by their number in the motion
   std::unique_ptr<const Motion> motion;
-  std::vector<SceneTurn>
-      turns;  ///< in any order; turns of bodies that are not there at that time are skipped
+  std::vector<SceneTurn> turns;  ///< in any order; turns of absent bodies are skipped
   SceneResponse response = SceneResponse::pass_through;
   double restitution = 1.0;
   double resting_speed = 0.0;  ///< if positive, bodies settle() with this speed instead of just bounce()

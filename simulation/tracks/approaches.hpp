@@ -17,6 +17,7 @@ struct ClosestApproach {
   double relative_speed = 0.0;
 };
 
+/// A span of time in which two tracks are close.
 struct Approach {
   std::uint32_t first = 0, second = 0;  ///< numbers of the tracks
   double begin = 0.0, end = 0.0;

@@ -39,7 +39,7 @@ class BulletKernel final : public StepKernel {
     }
   }
 
-  /// A node of a tree, a proxy and the pairs; Bullet does not tell more.
+  /// The sum of a node of a tree, a proxy and the pairs; Bullet reports no more.
   std::size_t bytes() const override {
     auto* const pairs = const_cast<btDbvtBroadphase&>(tree_).getOverlappingPairCache();
     return radii_.size() * (2 * sizeof(btDbvtNode) + sizeof(btDbvtProxy)) +

@@ -1,4 +1,4 @@
-// Bullet's broad phase as a fixed-step detector, where Bullet is installed.
+// Bullet's broad phase as a fixed-step detector, if Bullet is installed.
 #pragma once
 
 #include <memory>
@@ -9,8 +9,8 @@
 
 namespace kinesphere::program {
 
-/// Bullet's btDbvtBroadphase; `margin` (length) widens the boxes in its trees, the default is Bullet's own.
-/// Nothing when this program was built without Bullet.
+/// Makes Bullet's btDbvtBroadphase. `margin` (length) widens the boxes in its trees; the default is Bullet's
+/// own. Returns nullptr if this program was built without Bullet.
 std::unique_ptr<StepKernel> make_bullet_kernel(std::vector<float> radii,
                                                std::optional<float> margin = std::nullopt);
 

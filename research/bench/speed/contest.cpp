@@ -18,7 +18,8 @@
 namespace kinesphere::program {
 namespace {
 
-/// Who takes longer than this (seconds) for a turn has one only against each group of rivals.
+/// CPU time (seconds) beyond which a detector takes only one turn against each group of rivals. Higher values
+/// give slow detectors better medians and take longer.
 constexpr double slow = 2.0;
 
 class Contest {
@@ -30,7 +31,7 @@ class Contest {
         world_(default_engine(entry.alarm > 0.0 ? alarm_engine(entry.alarm) : world_engine())) {
     if (!has_rivals() && !entry.floor) return;
     passing_ = entry.make(SceneResponse::pass_through);
-    // Who looks at steps alone need not know an alarm from a contact.
+    // A detector with fixed steps sees alarms as contacts of larger bodies.
     for (SceneBody& body : passing_.bodies) body.radius += 0.5 * entry.alarm;
     if (has_rivals()) truth_ = counted(count_contacts(passing_, world_engine().make));
     if (entry.floor) count_floor();
@@ -40,7 +41,7 @@ class Contest {
     for (const double rate : entry_.rates)
       for (const SphereTest test : {SphereTest::at_steps, SphereTest::swept}) run_steps(rate, test);
     if (world_.row.turns.empty()) take_turns({});
-    settle(world_);
+    summarize(world_);
     rows_.insert(rows_.begin(), world_.row);
     return std::move(rows_);
   }
@@ -59,7 +60,7 @@ class Contest {
   };
 
   bool has_rivals() const { return !entry_.rates.empty(); }
-  /// What fixed steps are timed on.
+  /// Returns the scene that fixed steps are timed on.
   const Scene& stepped() const { return entry_.response == SceneResponse::bounce ? scene_ : passing_; }
 
   ContactCounts counted(ContactCounts counts) const {
@@ -94,7 +95,7 @@ class Contest {
     if (floor > 0.0) floor_ = floor / flight.result.body_time;
   }
 
-  /// A group of rivals, each in turn, and the default engine before them.
+  /// Lets a group of rivals take turns, the default engine before them.
   void take_turns(std::vector<Contestant> contestants) {
     for (int turn = 0; turn < settings_.repetitions; ++turn) {
       if (turn > 0 && world_.is_slow && !contestants.empty()) break;
@@ -106,12 +107,12 @@ class Contest {
       }
     }
     for (Contestant& contestant : contestants) {
-      settle(contestant);
+      summarize(contestant);
       rows_.push_back(std::move(contestant.row));
     }
   }
 
-  /// Seconds for a body-second. Runs that are over too soon to be timed are repeated.
+  /// Runs a detector once, or repeatedly if it is too fast to be timed. Returns seconds for a body-second.
   double take_turn(Contestant& contestant) const {
     const double begin = cpu_seconds();
     double cost = 0.0;
@@ -128,7 +129,7 @@ class Contest {
     return cost / runs;
   }
 
-  void settle(Contestant& contestant) const {
+  void summarize(Contestant& contestant) const {
     std::vector<double> costs;
     for (const Turn& turn : contestant.row.turns) costs.push_back(turn.own);
     contestant.row.detection = median(std::move(costs));
@@ -177,7 +178,8 @@ class Contest {
     return {std::move(row), run};
   }
 
-  /// Where all pass through; nothing when that would take too long.
+  /// Returns the contacts that fixed steps see in the scene in which all bodies pass through; nothing if that
+  /// would take too long.
   std::optional<ContactCounts> seen_at_steps(double rate, SphereTest test) const {
     const double steps = std::ceil(rate * duration());
     if (steps * static_cast<double>(scene_.bodies.size()) > static_cast<double>(settings_.most_looked))
@@ -195,8 +197,8 @@ class Contest {
   const SpeedSettings& settings_;
   Scene scene_;
   Contestant world_;
-  Scene passing_;                ///< the same, where nobody bounces, and contacts are alarms if there are any
-  ContactCounts truth_;          ///< its contacts that count
+  Scene passing_;                ///< the scene without bounces, with alarms, if there are any, as contacts
+  ContactCounts truth_;          ///< contacts of passing_ that count
   std::optional<double> floor_;  ///< probes in a body-second
   std::vector<SpeedRow> rows_;
 };

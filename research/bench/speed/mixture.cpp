@@ -31,11 +31,11 @@ Scene empty_scene(SceneResponse response, double seconds) {
 constexpr double people_radius_min = 0.2, people_radius_max = 0.3;
 constexpr double walking_speed = 1.4;
 constexpr double walking_limit = 2.0;
-constexpr double walking_interval = 0.5;  ///< between two looks
-constexpr double response_time = 0.5;     ///< to the wanted velocity
+constexpr double walking_interval = 0.5;  ///< time between two changes of acceleration
+constexpr double response_time = 0.5;     ///< time to reach the wanted velocity
 constexpr std::int64_t mind_intervals = 8;
 
-/// Everyone turns towards a velocity that he wants for some seconds.
+/// Walkers turn each body towards a wanted velocity, which it keeps for some seconds.
 class Walkers final : public PiecewiseAcceleration {
  public:
   Walkers(const std::vector<State>& start, std::uint64_t seed)
@@ -55,7 +55,7 @@ class Walkers final : public PiecewiseAcceleration {
 
  private:
   Vec3 acceleration(std::uint32_t body, std::int64_t k, const State& state) const override {
-    // Everyone changes his mind at a time of his own.
+    // The bodies change their wanted velocity at different times.
     const std::int64_t mind = (k + static_cast<std::int64_t>(body % mind_intervals)) / mind_intervals;
     const Vec3 wanted = (wanted_velocity(seed_, body, mind) - state.velocity) / response_time;
     const double length = norm(wanted);
@@ -66,7 +66,7 @@ class Walkers final : public PiecewiseAcceleration {
   std::uint64_t seed_;
 };
 
-/// Centres in a plane, each in a square of its own, so that nobody overlaps.
+/// Returns a centre in the plane, in the body's own square, so that bodies do not overlap.
 Vec3 place_in_square(std::uint32_t body, std::uint32_t squares, double edge, Random& random) {
   const double room = edge - 2.0 * people_radius_max;
   const auto column = static_cast<double>(body % squares);
@@ -125,7 +125,7 @@ Scene make_crowd(const CrowdParameters& p, SceneResponse response) {
 Scene make_gas(const GasParameters& p, SceneResponse response) {
   constexpr double radius = 0.5;
   constexpr double volume = 3.14159265358979 / 6.0;
-  constexpr double gap = 0.03;  // else half of them collide at once
+  constexpr double gap = 0.03;  // at less, half of the bodies collide at once
   Scene scene = empty_scene(response, p.seconds);
   const double edge = std::cbrt(volume * p.bodies / p.filled);
   scene.world.box = Box{{0, 0, 0}, {edge, edge, edge}};

@@ -1,10 +1,10 @@
-// Loops compiled for several instruction sets, of which the best that the processor has is taken at run time.
+// Loops compiled for several instruction sets. The best set of the processor is chosen at run time.
 //
 //   KINESPHERE_INLINE void add_generic(float* a, const float* b, int n) { ... }
 //   KINESPHERE_VERSIONS(add, (float* a, const float* b, int n), (a, b, n))
 //   ... add(a, b, n);
 //
-// For the benchmark alone: the library is the same on every processor.
+// Only the benchmark uses this: the library runs one code on all processors.
 #pragma once
 
 #define KINESPHERE_INLINE [[gnu::always_inline]] inline

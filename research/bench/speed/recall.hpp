@@ -1,4 +1,4 @@
-// Which contacts fixed steps see.
+// Contacts that fixed steps see.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace kinesphere::program {
 
-/// In a scene in which all pass through each other. A pair that touches in one step and not in the one before
-/// is a contact.
+/// Counts the contacts in a scene in which all bodies pass through each other. A pair that touches in one
+/// step and not in the step before is a contact.
 ContactCounts contacts_at_steps(const Scene& scene, double step, std::size_t steps, SphereTest test);
 
 }  // namespace kinesphere::program

@@ -129,7 +129,7 @@ int bench_speed(const SpeedOptions& options) {
       add_row(all, scene, row, rows.front());
     }
     print("{}\n", table.text());
-    report.save("speed", all);  // as far as it is known: the rest may take long
+    report.save("speed", all);  // results so far; the rest may take long
   }
   save_verdicts(report, scenes, results);
   return exit_fine;

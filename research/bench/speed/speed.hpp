@@ -1,4 +1,4 @@
-// `kinesphere bench speed`: what it costs to miss nothing, against what it costs to look now and then.
+// `kinesphere-bench speed`: the cost of missing nothing, compared with the cost of looking now and then.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -9,12 +9,12 @@
 namespace kinesphere::program {
 
 struct SpeedOptions : BenchOptions {
-  std::optional<int> threads;  ///< compare these with one instead of rivals
+  std::optional<int> threads;  ///< compare this many threads with one, instead of rivals
 };
 
-/// `options` must live until the command line has been parsed.
+/// Adds the command. `options` must live until the command line has been parsed.
 CLI::App* add_bench_speed_command(CLI::App& bench, SpeedOptions& options);
-/// Returns the exit code. Throws ProgramError.
+/// Runs the benchmark and returns the exit code. Throws ProgramError.
 int bench_speed(const SpeedOptions& options);
 
 }  // namespace kinesphere::program

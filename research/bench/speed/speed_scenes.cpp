@@ -16,7 +16,7 @@ namespace {
 
 const std::vector<double> game_rates{60.0, 240.0, 1000.0};
 
-/// Scenes of parameters, smaller and shorter as the settings say.
+/// SceneList makes scenes, smaller and shorter as the settings say.
 class SceneList {
  public:
   explicit SceneList(const SpeedSettings& settings) : settings_(settings) {}
@@ -27,8 +27,8 @@ class SceneList {
     extremes();
     gases();
     SceneParameters pile = find_scene("pile").parameters;
-    pile.seconds = 3.0;  // all lie, and jostle
-    // Where all pass through they fall out of the box: nothing is left to be missed.
+    pile.seconds = 3.0;  // the spheres lie in a heap and jostle
+    // Without bounces the spheres fall out of the box, so no contact can be counted as missed.
     add({.name = "pile", .rates = game_rates, .first_counted = pile.bodies, .floor = true}, pile);
     const auto too_large = [this](const SpeedScene& scene) { return scene.bodies > settings_.most_bodies; };
     scenes_.erase(std::remove_if(scenes_.begin(), scenes_.end(), too_large), scenes_.end());
@@ -41,7 +41,7 @@ class SceneList {
   std::uint32_t fewer(std::uint32_t bodies) const { return std::max(bodies / settings_.divide, 10u); }
   double shorter(double seconds) const { return seconds * settings_.shorten; }
 
-  /// As dense with `bodies` as the parameters are with theirs.
+  /// Returns the parameters with `bodies` bodies in a box scaled to the original density.
   static SceneParameters with_box(SceneParameters parameters, std::uint32_t bodies) {
     const double scale = std::cbrt(static_cast<double>(bodies) / parameters.bodies);
     parameters.box.upper = parameters.box.lower + (parameters.box.upper - parameters.box.lower) * scale;
@@ -66,7 +66,7 @@ class SceneList {
       add({.name = fmt::format("paper1-{}", bodies), .rates = game_rates, .trees = true, .floor = true},
           first_experiment(bodies, 2.0));
     }
-    // All of the same length, as the small ones heat up.
+    // All last equally long, as the small ones heat up.
     for (const std::uint32_t bodies : {1000u, 10'000u, 100'000u, 1'000'000u}) {
       add({.name = fmt::format("dense-{}", bodies),
            .rates = bodies > 100'000 ? std::vector{60.0} : game_rates,
@@ -123,7 +123,7 @@ class SceneList {
             {.box = {{0, 0, 0}, {edge, edge, edge}},
              .kinds = {{boulders, 1.0, 3.0, 0.0, 1.0, 0.5}, {10, 0.01, 0.05, 1000.0, 1000.0, 1.0}},
              .seconds = shorter(0.25)});
-    // Each kind twice as large as the one before, and half as many: 1 to 1024.
+    // Each kind is twice as large as the one before, and half as many: sizes 1 to 1024.
     MixtureParameters sizes{.box = {{0, 0, 0}, {100, 100, 100}}, .kinds = {}, .seconds = shorter(2.0)};
     for (std::uint32_t k = 0; k <= 10; ++k) {
       const double radius = 0.01 * static_cast<double>(1u << k);
@@ -137,11 +137,11 @@ class SceneList {
             sizes);
   }
 
-  /// Fixed steps have no way around a space that repeats.
+  /// Adds gases, without rivals: fixed steps do not support periodic space.
   void gases() {
     for (const std::uint32_t bodies : {4'000u, 108'000u}) {
       for (const int percent : {25, 49}) {
-        // Fewer would not fit between walls at the start.
+        // Fewer spheres would not fit between walls at the start.
         const GasParameters gas{.bodies = std::max(fewer(bodies), 1000u),
                                 .filled = 0.01 * percent,
                                 .seconds = shorter(bodies > 4'000 ? 0.2 : 3.0)};

@@ -1,4 +1,4 @@
-// The scenes of `kinesphere bench speed`.
+// The scenes of `kinesphere-bench speed`.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,15 @@ namespace kinesphere::program {
 struct SpeedScene {
   std::string name;  ///< without blanks; for --only
   std::uint32_t bodies;
-  SceneResponse response;  ///< of the runs that are timed; missed contacts are counted where all pass through
+  SceneResponse response;  ///< of the runs that are timed; missed contacts are counted without bounces
   std::function<Scene(SceneResponse)> make;
   std::vector<double> rates;  ///< of fixed steps, per unit of time
-  /// Positive: every body has a sensor of this distance, and what is looked for are alarms. Nobody bounces.
+  /// If positive, every body has a sensor of this distance (length), detectors look for alarms, and no body
+  /// bounces.
   double alarm = 0.0;
-  /// Missed contacts are counted where the second body has this number or a higher one.
+  /// Missed contacts are counted if the second body has this number or a higher one.
   std::uint32_t first_counted = 0;
-  bool trees = false;  ///< compare with Bullet's
+  bool trees = false;  ///< compare with Bullet's trees
   bool floor = false;  ///< count the probe floor
 };
 

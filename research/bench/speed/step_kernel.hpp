@@ -1,4 +1,4 @@
-// What hand-tuned fixed-step detectors are given, and what they answer.
+// Interface of hand-tuned fixed-step detectors.
 #pragma once
 
 #include <cstddef>
@@ -22,20 +22,20 @@ struct SpherePair {
 };
 
 enum class SphereTest {
-  at_steps,  ///< spheres touch when they overlap at a step: what happens in between is not seen
-  swept,     ///< spheres touch when they overlap anywhere on their straight ways from one step to the next
+  at_steps,  ///< spheres touch if they overlap at a step; contacts in between are not seen
+  swept,     ///< spheres touch if they overlap anywhere on their straight ways from one step to the next
 };
 
-/// A detector for fixed steps, and nothing else: others move the spheres and answer contacts.
+/// A detector for fixed steps, and nothing else: its caller moves the spheres and answers contacts.
 class StepKernel {
  public:
   virtual ~StepKernel() = default;
 
   virtual std::string name() const = 0;
   /// Appends the pairs that touch in the step from `before` to `now`, each once, in any order. `before` is
-  /// the `now` of the last call, and equal to `now` in the first.
+  /// the `now` of the last call; in the first call it equals `now`.
   virtual void look(const Frame& before, const Frame& now, std::vector<SpherePair>& touching) = 0;
-  /// What it takes (bytes).
+  /// Returns the memory of the detector (bytes).
   virtual std::size_t bytes() const = 0;
 };
 

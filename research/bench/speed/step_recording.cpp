@@ -25,7 +25,7 @@ std::vector<State> states_at(const Motion& motion, std::size_t bodies, double ti
   return states;
 }
 
-/// Bodies in the order of strips, two mean distances wide.
+/// Returns the bodies in the order of strips, two mean distances wide.
 std::vector<std::uint32_t> along_strips(const std::vector<State>& states) {
   std::vector<std::uint32_t> order(states.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -84,7 +84,7 @@ class StepRecorder {
   void answer(std::size_t step) {
     touching_.clear();
     kernel_->look(recording_.frame(step - 1), recording_.frame(step), touching_);
-    // The order of answers matters, and kernels promise none.
+    // The order of answers matters, and kernels guarantee none.
     std::sort(touching_.begin(), touching_.end(), [](const SpherePair& a, const SpherePair& b) {
       return std::tuple(std::min(a.first, a.second), std::max(a.first, a.second)) <
              std::tuple(std::min(b.first, b.second), std::max(b.first, b.second));
@@ -106,7 +106,7 @@ class StepRecorder {
     const double time = time_of(step);
     Sphere a = sphere(first, time), b = sphere(second, time);
     if (recording_.test == SphereTest::swept) {
-      // Where they first touched decides in which direction they bounce.
+      // The direction of a bounce is that of the first touch.
       const double fraction = first_touch(pair);
       a.state.position = position_between(step, pair.first, fraction);
       b.state.position = position_between(step, pair.second, fraction);
@@ -130,7 +130,7 @@ class StepRecorder {
     return place(recording_.frame(step - 1)) * (1.0 - fraction) + place(recording_.frame(step)) * fraction;
   }
 
-  /// The fraction of the last step after which the pair first touched.
+  /// Returns the fraction of the last step after which the pair first touched.
   double first_touch(const SpherePair& pair) const {
     const std::size_t step = recording_.steps();
     const Vec3 begin = position_between(step, pair.second, 0.0) - position_between(step, pair.first, 0.0);

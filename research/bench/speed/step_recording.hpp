@@ -1,5 +1,5 @@
-// A scene moved in fixed steps, as it looks at each of them. Detectors are then timed on what is recorded, so
-// that the motion does not count.
+// The recording of a scene moved in fixed steps. Detectors are timed on recorded frames, so that the motion
+// does not count.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,11 @@
 namespace kinesphere::program {
 
 struct StepRecording {
-  double step;               ///< (time)
-  SphereTest test;           ///< how contacts were found that were answered
-  std::vector<float> radii;  ///< by body, which are numbered along strips of space, as a tuned program does
+  double step;               ///< time
+  SphereTest test;           ///< the test by which answered contacts were found
+  std::vector<float> radii;  ///< by body; bodies are numbered along strips of space, as in a tuned program
   std::vector<std::vector<float>> x, y, z;  ///< by step, by body; the first is the start
-  std::uint64_t contacts = 0;               ///< of bodies and walls that came nearer to each other
+  std::uint64_t contacts = 0;               ///< contacts of bodies and walls that were approaching
   std::optional<Box> box{};
 
   std::size_t steps() const { return x.size() - 1; }
@@ -28,13 +28,13 @@ struct StepRecording {
   double body_time() const { return step * static_cast<double>(steps()) * static_cast<double>(radii.size()); }
 };
 
-/// Called for each pair, or body and wall (then `second` is the body again), that touches in a step, with
-/// numbers of bodies as in the scene.
+/// Called for each pair that touches in a step, with numbers of bodies as in the scene. For a wall, `second`
+/// equals `first`.
 using TouchObserver =
     std::function<void(std::size_t step_number, std::uint32_t first, std::uint32_t second, Wall wall)>;
 
-/// Contacts that come nearer are answered at the step as the scene says. Frames are kept unless there is an
-/// observer. Throws ProgramError.
+/// Records a scene. Contacts of approaching bodies are answered at the step as the scene says. Frames are
+/// kept only without an observer. Throws ProgramError.
 StepRecording record_steps(const Scene& scene, double step, std::size_t steps, SphereTest test,
                            const TouchObserver& observer = {});
 

@@ -10,10 +10,11 @@
 namespace kinesphere::program {
 namespace {
 
-/// Spheres that are tested together. Arrays have as many more at their end, which are near nobody.
+/// Spheres that are tested together. Arrays have this many extra spheres at their end, which are near no
+/// other.
 constexpr std::uint32_t strip_lanes = 8;
 
-/// More cells than this for each sphere would cost more to clear than they save.
+/// Most cells for each sphere; more would cost more to clear than they save.
 constexpr double most_cells_each = 2.0;
 
 struct Strips {
@@ -29,7 +30,7 @@ struct Strips {
   bool forward;
 };
 
-/// Those of the spheres from j on that have a bit are near sphere i.
+/// Appends the spheres from j on with a set bit in `hits`, which are near sphere i.
 [[gnu::noinline]] void note_near(const Strips& strips, std::uint32_t i, std::uint32_t j, std::uint32_t end,
                                  std::uint32_t hits, std::vector<SpherePair>& near) {
   for (; hits != 0 && j < end; hits >>= 1, ++j) {
@@ -46,12 +47,12 @@ KINESPHERE_INLINE int cell_along(const StripLayout& layout, std::size_t axis, fl
   return static_cast<int>(cell < 0.0f ? 0.0f : cell > last ? last : cell);
 }
 
-/// Notes the spheres of [begin, end) that are near sphere i and belong to it.
+/// Appends the spheres of [begin, end) that are near sphere i and are found from it.
 KINESPHERE_INLINE void find_in_range(const Strips& strips, std::uint32_t i, std::uint32_t begin,
                                      std::uint32_t end, std::vector<SpherePair>& near) {
   const float at_x = strips.x[i], at_y = strips.y[i], at_z = strips.z[i], radius = strips.radius[i];
   for (std::uint32_t j = begin; j < end; j += strip_lanes) {
-    std::uint32_t hits = 0;  // bit by bit
+    std::uint32_t hits = 0;  // one bit for each lane
     for (std::uint32_t lane = 0; lane < strip_lanes; ++lane) {
       const float x = strips.x[j + lane] - at_x;
       const float y = strips.y[j + lane] - at_y;
@@ -65,7 +66,7 @@ KINESPHERE_INLINE void find_in_range(const Strips& strips, std::uint32_t i, std:
   }
 }
 
-/// Where the cells of a strip begin, and the next strip.
+/// Returns the starts of the cells of a strip, which end with the start of the next strip.
 KINESPHERE_INLINE const std::uint32_t* strip_at(const Strips& strips, int y, int z) {
   const int first_cell = (z * strips.layout.cells[1] + y) * strips.layout.cells[0];
   return strips.starts + first_cell;
@@ -126,7 +127,8 @@ KINESPHERE_INLINE void range_of_generic(const float* values, std::size_t size, R
 }
 KINESPHERE_VERSIONS(range_of, (const float* values, std::size_t size, Range& range), (values, size, range))
 
-/// The cell that each sphere lies in. Only at the upper end can one lie outside.
+/// Computes the cell of each sphere. Rounding can put a sphere outside only at the upper end, so only that
+/// end is clamped.
 KINESPHERE_INLINE void number_cells_generic(const Frame& centres, const StripLayout& layout, std::size_t size,
                                             std::uint32_t* cell_of) {
   const int last_x = layout.cells[0] - 1, last_y = layout.cells[1] - 1, last_z = layout.cells[2] - 1;
@@ -183,7 +185,7 @@ void StripGrid::sort(const Frame& centres, const std::vector<float>& radii) {
     array->resize(size + strip_lanes, std::numeric_limits<float>::max());
   radius_.resize(size + strip_lanes, 0.0f);
   body_.resize(size);
-  // Backwards, so that each cell's start ends up where its first sphere is.
+  // The loop runs backwards, so that each cell's start ends up at its first sphere.
   for (std::size_t at = size; at-- > 0;) {
     const std::uint32_t place = --starts_[cell_of_[at]];
     x_[place] = centres.x[at];

@@ -15,7 +15,7 @@ namespace {
 
 struct TimedSimulation {
   SimulationResult result;
-  double seconds = 0.0;  ///< from when all bodies are in, before their first windows start, to the end
+  double seconds = 0.0;  ///< from the first window starts, with all bodies in, to the end
 };
 
 TimedSimulation time_simulation(const Scene& scene, Workers* workers) {
@@ -23,7 +23,7 @@ TimedSimulation time_simulation(const Scene& scene, Workers* workers) {
   TimedSimulation timed;
   Clock::time_point begin;
   SimulationObserver observer;
-  // Once before the bodies are added, and once before the detector goes on with them.
+  // The second call is the one between the adding of the bodies and the run.
   int calls = 0;
   observer.between_events = [&](const Detector&) {
     if (++calls == 2) begin = Clock::now();

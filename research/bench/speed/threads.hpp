@@ -1,4 +1,4 @@
-// What several threads gain: whole simulations, motion and response included, by World::run and by a loop.
+// Gain of several threads: whole simulations, motion and response included, by World::run and by a loop.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 
 namespace kinesphere::program {
 
-/// What the same simulation took in ways that took turns (seconds of real time).
+/// Real time of one simulation in three ways, which took turns (seconds).
 struct ThreadsTurn {
   double loop;  ///< an advance() for each event
-  double one;   ///< by World::run, one thread
-  double many;  ///< with all threads
+  double one;   ///< World::run with one thread
+  double many;  ///< World::run with all threads
 };
 
 struct ThreadsRow {
@@ -23,16 +23,16 @@ struct ThreadsRow {
   int threads;
   std::vector<ThreadsTurn> turns;
   std::uint64_t events;
-  std::uint64_t hash;  ///< the same in all ways
+  std::uint64_t hash;  ///< equal in all ways
 
-  double one_to_loop() const;  ///< time; the median of the turns
+  double one_to_loop() const;  ///< quotient of times; the median of the turns
   double one_to_many() const;
 };
 
-/// Throws ProgramError, also when not all find the same.
+/// Runs the scene in the three ways. Throws ProgramError, also if their hashes differ.
 ThreadsRow compare_threads(const SpeedScene& entry, int threads, const SpeedSettings& settings);
 
-/// Of goal 6.
+/// Returns the verdicts on goal 6.
 std::vector<Verdict> verdicts_of_threads(const std::vector<ThreadsRow>& rows);
 
 }  // namespace kinesphere::program

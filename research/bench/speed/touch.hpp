@@ -9,7 +9,7 @@
 
 namespace kinesphere::program {
 
-/// Whether the centres are nearer than `reach`.
+/// Returns true if the centres are nearer than `reach`.
 inline bool touch_at(const Frame& now, float reach, std::uint32_t a, std::uint32_t b) {
   const float x = now.x[a] - now.x[b];
   const float y = now.y[a] - now.y[b];
@@ -17,7 +17,7 @@ inline bool touch_at(const Frame& now, float reach, std::uint32_t a, std::uint32
   return x * x + y * y + z * z < reach * reach;
 }
 
-/// Whether they are anywhere on the straight ways from `before` to `now`.
+/// Returns true if the centres are nearer than `reach` anywhere on the straight ways from `before` to `now`.
 inline bool touch_between(const Frame& before, const Frame& now, float reach, std::uint32_t a,
                           std::uint32_t b) {
   const float x = before.x[a] - before.x[b];
@@ -26,7 +26,7 @@ inline bool touch_between(const Frame& before, const Frame& now, float reach, st
   const float u = now.x[a] - now.x[b] - x;
   const float v = now.y[a] - now.y[b] - y;
   const float w = now.z[a] - now.z[b] - z;
-  // Nearest at the fraction s of the step.
+  // The centres are nearest at the fraction s of the step.
   const float length_squared = u * u + v * v + w * w;
   const float closing = -(x * u + y * v + z * w);
   const float s = closing <= 0.0f ? 0.0f : closing >= length_squared ? 1.0f : closing / length_squared;

@@ -15,7 +15,7 @@ Error not_changeable() {
   return {ErrorCode::unsupported, "body", no_body, "set_velocity: a transcript cannot be changed"};
 }
 
-/// Passes every question on to a motion, and writes the answer down.
+/// WrittenMotion passes every call on to a motion and records the answer.
 class WrittenMotion final : public Motion {
  public:
   WrittenMotion(const Motion& motion, std::vector<State>& answers) : motion_(motion), answers_(answers) {}
@@ -39,14 +39,14 @@ class WrittenMotion final : public Motion {
   std::vector<State>& answers_;
 };
 
-/// Whoever asks should not wait for what was written down: the time would count as its own.
+/// Prefetches recorded data: a detector's time must not include cache misses of the transcript.
 template <class T>
 [[gnu::always_inline]] inline void fetch_ahead(const std::vector<T>& written, std::size_t now) {
   constexpr std::size_t ahead = 8;
   if (now + ahead < written.size()) __builtin_prefetch(&written[now + ahead]);
 }
 
-/// Gives the answers again, in the same order, to whatever is asked.
+/// PlayedMotion returns the recorded answers in their order, whatever the arguments.
 class PlayedMotion final : public Motion {
  public:
   explicit PlayedMotion(const Transcript& transcript) : transcript_(transcript) {}
@@ -68,7 +68,7 @@ class PlayedMotion final : public Motion {
   mutable std::size_t next_ = 0;
 };
 
-/// A detector whose bodies and kicks are written down.
+/// WrittenDetector records the bodies and velocity changes of a detector.
 class WrittenDetector final : public Detector {
  public:
   WrittenDetector(std::unique_ptr<WrittenMotion> motion, std::unique_ptr<Detector> detector,
@@ -103,7 +103,7 @@ class WrittenDetector final : public Detector {
   Transcript& transcript_;
 };
 
-/// Goes on to `until`, and kicks after each event as it was done before.
+/// Player runs a detector to a time and repeats the recorded velocity changes after each event.
 class Player {
  public:
   Player(const Transcript& transcript, Detector& detector) : transcript_(transcript), detector_(detector) {}

@@ -1,6 +1,6 @@
-// The run of a scene under an event-driven detector, written down once and then played to it again and again:
-// what its probes answered and how bodies were kicked are read off, so that neither the motion nor the
-// response count.
+// The transcript of a run of a scene under an event-driven detector. It is recorded once and then played to
+// the detector repeatedly: answers of probes and velocity changes are read off, so that neither the motion
+// nor the response counts.
 #pragma once
 
 #include <cstdint>
@@ -22,20 +22,20 @@ struct Transcript {
 
   WorldDefinition world;
   double end_time;
-  std::vector<BodyDefinition> bodies;  ///< as they are added
-  std::vector<State> answers;          ///< of all probes, in order
+  std::vector<BodyDefinition> bodies;  ///< in the order in which they are added
+  std::vector<State> answers;          ///< answers of all probes, in order
   std::vector<Kick> kicks;
-  std::vector<std::uint32_t> kicks_after;  ///< how many follow each event
+  std::vector<std::uint32_t> kicks_after;  ///< by event: number of velocity changes after it
   SimulationResult result;
-  /// Without those at the start.
+  /// Probes without those at the start.
   std::uint64_t probes = 0;
 
   double body_time() const { return result.body_time; }
-  /// Of bodies and walls, and alarms.
+  /// Returns the number of contacts of bodies and walls, and of alarms.
   std::uint64_t contacts() const;
 };
 
-/// Throws ProgramError.
+/// Records a run. Throws ProgramError.
 Transcript write_down(const Scene& scene, const DetectorMaker& make);
 
 /// CPU time in seconds.
@@ -44,7 +44,7 @@ struct Playing {
   double detecting;  ///< from there to the end
 };
 
-/// Throws ProgramError when the detector does not do again what it did.
+/// Plays a transcript. Throws ProgramError if the detector does not repeat its run.
 Playing play(const Transcript& transcript, const DetectorMaker& make);
 
 }  // namespace kinesphere::program

@@ -15,7 +15,7 @@ std::string text_of(const StripSettings& settings) {
                      settings.order == StripOrder::forward ? "" : " larger first");
 }
 
-/// Adds those of the pairs that touch.
+/// Appends the pairs that touch.
 template <class Touch>
 void sift(const std::vector<SpherePair>& pairs, std::vector<SpherePair>& touching, Touch touch) {
   for (const SpherePair& pair : pairs)
@@ -48,7 +48,7 @@ class GridKernel final : public StepKernel {
   }
 
  private:
-  /// Spheres around all places that each sphere passes in the step.
+  /// Computes spheres around all places that each sphere passes in the step.
   void surround_ways(const Frame& before, const Frame& now) {
     const std::size_t size = radii_.size();
     for (auto* const array : {&middle_x_, &middle_y_, &middle_z_, &wide_radii_}) array->resize(size);
@@ -68,7 +68,7 @@ class GridKernel final : public StepKernel {
   StripGrid grid_;
   SphereTest test_;
   std::vector<SpherePair> near_;
-  std::vector<float> middle_x_, middle_y_, middle_z_, wide_radii_;  ///< of ways
+  std::vector<float> middle_x_, middle_y_, middle_z_, wide_radii_;  ///< spheres around the ways
 };
 
 class VerletKernel final : public StepKernel {

@@ -1,4 +1,4 @@
-// The fixed-step detectors that are to be beaten: structure of arrays, sorted strips, Verlet lists.
+// The fixed-step detectors to be beaten: structure of arrays, sorted strips, Verlet lists.
 #pragma once
 
 #include "research/bench/speed/step_kernel.hpp"
@@ -7,10 +7,10 @@
 
 namespace kinesphere::program {
 
-/// Sorts all spheres anew at each step.
+/// Makes a detector that sorts all spheres at each step.
 std::unique_ptr<StepKernel> make_grid_kernel(std::vector<float> radii, const StripSettings& settings,
                                              SphereTest test);
-/// Keeps a list of the pairs that are near.
+/// Makes a detector that keeps a list of the pairs that are near.
 std::unique_ptr<StepKernel> make_verlet_kernel(std::vector<float> radii, const VerletSettings& settings,
                                                SphereTest test);
 

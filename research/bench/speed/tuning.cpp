@@ -11,14 +11,15 @@
 namespace kinesphere::program {
 namespace {
 
-/// Edges of strips and skins that are tried, as parts of the mean distance of spheres.
+/// Edges of strips and skins that are tried, as parts of the mean distance of spheres. More candidates find
+/// faster settings and take longer.
 constexpr double row_edges[] = {0.8, 1.25, 2.0, 3.2};
 constexpr double skin_parts[] = {0.003, 0.01, 0.03, 0.1, 0.2, 0.4};
-constexpr float steps_ahead[] = {0.0f, 5.0f, 10.0f, 20.0f, 40.0f};  ///< VerletSettings::steps
+constexpr float steps_ahead[] = {0.0f, 5.0f, 10.0f, 20.0f, 40.0f};  ///< values of VerletSettings::steps
 constexpr double bullet_margins[] = {0.003, 0.01, 0.03, 0.1, 0.2};
-constexpr double column_part = 0.2;  ///< of the edge of a row
+constexpr double column_part = 0.2;  ///< column edge, as a part of the row edge
 
-/// Steps of a trial: enough for a few rebuilds of a list.
+/// Steps of a trial: at least this many, enough for a few rebuilds of a list.
 constexpr std::size_t least_trial = 40;
 constexpr std::size_t trial_part = 4;
 
@@ -34,7 +35,7 @@ double mean_distance_in(const StepRecording& recording) {
   return mean_distance(states);
 }
 
-/// How far spheres go in a step, on average.
+/// Returns the mean way of a sphere in a step (length).
 double mean_move_in(const StepRecording& recording) {
   const Frame start = recording.frame(0), next = recording.frame(1);
   double moved = 0.0;
@@ -46,7 +47,7 @@ double mean_move_in(const StepRecording& recording) {
   return moved / static_cast<double>(recording.radii.size());
 }
 
-/// Any of these may be asked to make a kernel again.
+/// Tries kernels and keeps the maker of the fastest.
 struct Candidates {
   const StepRecording& recording;
   std::size_t steps;
@@ -132,7 +133,7 @@ KernelMaker tuned_kernel(const StepRecording& recording) {
   }
   for (const double part : skin_parts) {
     for (const float ahead : steps_ahead) {
-      // Lists of skins that reach beyond the next neighbours are long, and no use.
+      // Skins that reach beyond the next neighbours make lists too long to be the fastest.
       if (part * distance + static_cast<double>(ahead) * move > distance) continue;
       const VerletSettings settings{best, static_cast<float>(part * distance), ahead};
       candidates.try_out([=, &radii] { return make_verlet_kernel(radii, settings, test); });

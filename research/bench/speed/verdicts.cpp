@@ -8,7 +8,8 @@
 namespace kinesphere::program {
 namespace {
 
-/// A move, a probe or a step, that costs as much as this (seconds) makes fewer of them worth more work.
+/// Cost of a move, that is a probe or a step (seconds), in goals where few moves count more than little other
+/// work.
 constexpr double dear_move = 1e-6;
 
 std::string text_of(const SpeedRow& row) {

@@ -1,4 +1,4 @@
-// What the default engine is to reach against its rivals, and whether it does.
+// Goals of the default engine against its rivals, and verdicts on them.
 #pragma once
 
 #include <string>
@@ -13,21 +13,21 @@ struct Verdict {
   std::string goal;    ///< its number in docs/performance.md
   std::string figure;  ///< what is measured
   std::string scene;
-  std::string against;  ///< a rival and its settings; empty where there is none
-  bool at_most;         ///< measured <= limit is wanted, measured >= limit otherwise
+  std::string against;  ///< a rival and its settings; empty if there is none
+  bool at_most;         ///< true: measured <= limit is wanted; false: measured >= limit
   double limit;
   double measured;
 
   bool met() const { return at_most ? measured <= limit : measured >= limit; }
 };
 
-/// Of all goals whose scenes and rivals are among the results.
+/// Returns the verdicts on all goals with scenes and rivals among the results.
 std::vector<Verdict> verdicts(const SpeedResults& results);
 
-/// A line for each.
+/// Returns a table with a row for each verdict.
 ResultTable table_of(const std::vector<Verdict>& verdicts);
 
-/// The verdicts, and for each scene the slowest fixed steps that miss nothing.
+/// Saves the verdicts, and for each scene the slowest fixed steps that miss nothing.
 void save_verdicts(const Report& report, const std::vector<SpeedScene>& scenes, const SpeedResults& results);
 
 }  // namespace kinesphere::program

@@ -46,7 +46,7 @@ bool VerletList::serves(const Frame& now) const {
   return !any_has_left;
 }
 
-/// The list is made for `now`. It must also serve the way that has led there.
+/// Rebuilds the list for `now`. The list also holds the pairs that touch on the way from `before`.
 void VerletList::rebuild(const Frame& before, const Frame& now, const std::vector<float>& radii) {
   const std::size_t size = radii.size();
   x_.assign(now.x, now.x + size);

@@ -1,5 +1,5 @@
-// Verlet lists: pairs that are nearer than the skins of both are listed, and the list serves until a sphere
-// has left its skin.
+// Verlet lists: pairs nearer than the skins of the two spheres are listed, and the list is valid until a
+// sphere has left its skin.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,8 @@ namespace kinesphere::program {
 
 struct VerletSettings {
   StripSettings grid;
-  /// How far each sphere may move from its place in the list: so far, and so many steps as long as the last.
+  /// Way that each sphere may move from its place in the list: `skin` (length) and `steps` steps as long as
+  /// the last.
   float skin;
   float steps;
 };
@@ -32,8 +33,8 @@ class VerletList {
 
   StripGrid grid_;
   VerletSettings settings_;
-  std::vector<float> x_, y_, z_;      ///< places that the list was made for
-  std::vector<float> skins_squared_;  ///< around them
+  std::vector<float> x_, y_, z_;      ///< places for which the list was made
+  std::vector<float> skins_squared_;  ///< by body: squared ways allowed from these places
   std::vector<float> wide_radii_;
   std::vector<SpherePair> pairs_;
 };

@@ -1,4 +1,4 @@
-// Which spheres reach over a wall of the box?
+// Search for spheres that reach over a wall of the box.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace kinesphere::program {
 
-/// Appends the bodies that do, in order.
+/// Appends the bodies that reach over a wall, in order.
 void find_at_walls(const Frame& now, const std::vector<float>& radii, const Box& box,
                    std::vector<std::uint32_t>& found);
 

@@ -66,9 +66,7 @@ struct CostModel::Cycle {
 /// Averages over what a search finds.
 struct CostModel::Neighbours {
   double cells = 0.0, new_cells = 0.0;  ///< cells searched: all of the body; those of a layer that it enters
-  double pairs = 0.0,
-         new_pairs =
-             0.0;  ///< pairs with bodies in these cells; pairs with bodies that were not neighbours before
+  double pairs = 0.0, new_pairs = 0.0;  ///< pairs in these cells; pairs that were no neighbours before
   double visits = 0.0, new_visits = 0.0;  ///< bodies visited, once for each shared cell
 };
 

@@ -36,8 +36,7 @@ class EventDrivenDetector : public BoundDetector {
     double cell_edge;  ///< edge of the finest grid (length); 0: the cost model chooses once the first bodies
                        ///< are there
     bool trimming;     ///< leave out late candidates (section 3.3)
-    MeetingTime
-        meeting_time;  ///< for bounds farther apart than the contact tolerance; null: as pair_outlook()
+    MeetingTime meeting_time;  ///< beyond the contact tolerance; null: as pair_outlook()
   };
 
   EventDrivenDetector(const WorldDefinition& definition, const Motion& motion, const Options& options)

@@ -29,6 +29,7 @@ struct Candidate {
   }
 };
 
+/// The tree of candidate events, with lists of the candidates of each body.
 class EventTree {
  public:
   /// Makes room for bodies with numbers below `bodies`.

@@ -239,9 +239,9 @@ std::optional<AuditFinding> HubbardDetector::audit() const {
   if (const auto fault = sweep_.fault()) return AuditFinding{"sweep", *fault};
   if (rebuild_due_) return std::nullopt;
   for (std::uint32_t number = 0; number < size(); ++number) {
-    const BodyDefinition& promise = body(number).definition;
+    const BodyDefinition& body_definition = body(number).definition;
     // A noisy report may lie outside the earlier bound, though the body does not.
-    const bool exact = promise.position_error == 0.0 && promise.velocity_error == 0.0;
+    const bool exact = body_definition.position_error == 0.0 && body_definition.velocity_error == 0.0;
     if (!sweep_.contains(number) || !body(number).present || !exact) continue;
     const Box inner = swept_box(body(number).bound, time(), time());
     const Box outer = sweep_.cross_section(number, time() - start_);

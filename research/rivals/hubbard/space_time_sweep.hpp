@@ -20,6 +20,7 @@
 
 namespace kinesphere {
 
+/// The sweep over time through the space-time bounds of all bodies.
 class SpaceTimeSweep {
  public:
   /// A meeting of two bodies' bounds; of a body and a wall if a == b.

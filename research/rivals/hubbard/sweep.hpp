@@ -35,6 +35,7 @@ struct Line {
   double at(double s) const { return start + speed * s; }
 };
 
+/// The sweep through the lines of one plane.
 class Sweep {
  public:
   /// Two lines that change places: `below` was the lower one before.

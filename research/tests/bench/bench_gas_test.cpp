@@ -1,4 +1,4 @@
-// `kinesphere-bench gas`, with tiny sizes: every packing has its row.
+// `kinesphere-bench gas` with tiny sizes: every packing has its row.
 #include "program/support.hpp"
 #include "research/tests/bench/bench_table.hpp"
 
@@ -22,7 +22,7 @@ TEST_F(BenchGasTest, EveryPackingHasItsRow) {
     ASSERT_EQ(table[row + 1].size(), table[0].size());
     const auto number = [&](const char* column) { return std::stod(csv_cell(table, row, column)); };
     SCOPED_TRACE(number("packing"));
-    // So few spheres and collisions tell theory only roughly.
+    // With so few spheres and collisions the measurement agrees with theory only roughly.
     EXPECT_NEAR(number("contacts"), 2000.0, 400.0);
     EXPECT_NEAR(number("Z") / number("Z_theory"), 1.0, 0.2);
     EXPECT_NEAR(number("Z_off"), 100.0 * (number("Z") / number("Z_theory") - 1.0), 1e-6);

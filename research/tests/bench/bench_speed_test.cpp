@@ -1,5 +1,5 @@
-// `kinesphere-bench speed`, with tiny sizes: every scene leaves its rows, and all rivals at a rate have found
-// the same.
+// `kinesphere-bench speed` with tiny sizes: every scene leaves its rows, and all rivals at a rate have found
+// equal contacts.
 #include <map>
 #include <set>
 #include <sstream>

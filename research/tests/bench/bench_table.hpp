@@ -1,4 +1,4 @@
-// Tables that a benchmark has written.
+// Reads tables that a benchmark has written.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace kinesphere::program {
 
-/// Fields by row, the headings first.
+/// Returns the fields by row, the headings first.
 inline std::vector<std::vector<std::string>> csv_rows(const std::string& csv) {
   std::vector<std::vector<std::string>> rows;
   std::istringstream stream(csv);
@@ -21,7 +21,7 @@ inline std::vector<std::vector<std::string>> csv_rows(const std::string& csv) {
   return rows;
 }
 
-/// Row 0 is the first below the headings.
+/// Returns a field; row 0 is the first below the headings.
 inline std::string csv_cell(const std::vector<std::vector<std::string>>& table, std::size_t row,
                             const std::string& column) {
   const auto at = std::find(table[0].begin(), table[0].end(), column);

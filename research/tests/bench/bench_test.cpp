@@ -1,4 +1,4 @@
-// `kinesphere-bench paper`, with tiny sizes: every section leaves its tables, scripts and pictures.
+// `kinesphere-bench paper` with tiny sizes: every section leaves its tables, scripts and pictures.
 #include <set>
 
 #include "program/support.hpp"
@@ -28,8 +28,8 @@ class BenchTest : public ProgramTest {
     return found;
   }
 
-  /// A table with as many rows, rectangular; empty cells only where nothing was published or nothing
-  /// happened.
+  /// Returns a table after checking that it is rectangular and has `rows` rows. Cells may be empty only where
+  /// nothing was published or nothing happened.
   std::vector<Row> table(const std::string& name, std::size_t rows) const {
     std::vector<Row> found = csv_rows(read(name));
     EXPECT_EQ(found.size(), rows + 1) << name;

@@ -1,4 +1,4 @@
-// Monitors on recorded tracks: what is told to be certain is held against the exact truth.
+// Monitors on recorded tracks: certain verdicts are compared with the exact truth.
 #include <gtest/gtest.h>
 
 #include "program/support.hpp"
@@ -20,7 +20,7 @@ struct RecordedSet {
   friend std::ostream& operator<<(std::ostream& out, const RecordedSet& set) { return out << set.name; }
 };
 
-/// Empty where there is none.
+/// Returns the sky of a recording; empty if the recording is not installed.
 std::vector<RecordedSky> sky_of(const std::string& name, const std::string& format) {
   const std::string file = recording(name);
   if (file.empty()) return {};
@@ -118,7 +118,7 @@ TEST(MonitorSoak, MissesNothingWhateverGoesWrong) {
 
 class WatchSoak : public ProgramTest {
  protected:
-  /// `kinesphere watch`, fed by the shell text `before`.
+  /// Runs `kinesphere watch`, fed by the shell text `before`.
   ProgramRun watch(const std::string& arguments, const std::string& before) const {
     return run_shell(before + "'" KINESPHERE_WATCHING_PROGRAM "' watch --format jsonl --quiet " + arguments);
   }
@@ -136,7 +136,7 @@ TEST_F(WatchSoak, TheProgramMissesNothingEither) {
   EXPECT_NE(compared.out.find("approaches"), std::string::npos) << compared.out;
 }
 
-/// As those of several watches that share the pairs: in order for each pair, and not among them.
+/// The alerts are as from several watches that share the pairs: in order for each pair, and not among pairs.
 TEST_F(WatchSoak, AlertsMayComeInAnyOrderOfPairs) {
   const std::string soak = "soak --reports 20000 --tracks 200 --width 2500 --seed 5";
   const std::string write_to = "'" KINESPHERE_PROGRAM "' " + soak + " --write 2>/dev/null | ";
@@ -149,7 +149,7 @@ TEST_F(WatchSoak, AlertsMayComeInAnyOrderOfPairs) {
   EXPECT_EQ(in_order.exit_code, 0) << in_order.out << in_order.err;
   EXPECT_EQ(in_order.out.find("warnings        0"), std::string::npos) << in_order.out;
   EXPECT_EQ(run(soak + " --alerts '" + write("several", several) + "'").out, in_order.out);
-  // It does find what is missing.
+  // The comparison does find what is missing.
   const std::string half = watch(question + " --share 1/2", write_to).out;
   EXPECT_EQ(run(soak + " --alerts '" + write("half", half) + "'").exit_code, exit_disagreement);
 }

@@ -24,7 +24,7 @@ TEST(Satellites, TheMonitorTellsOfAllApproachesAndOfNothingElse) {
   EXPECT_TRUE(not_within(motion, watch.approaches, distance + 1e-3 + 1e-4).empty());
   EXPECT_EQ(watch.undecided_time, 0.0);
   EXPECT_EQ(watch.counters.contradictions, 0u);
-  // Steps see little of what passes at 10 km/s, but nothing that the monitor does not.
+  // Steps see little of what passes at 10 km/s, but nothing that the monitor does not see.
   const auto stepped = step_satellites(motion, until, distance, 10.0);
   EXPECT_TRUE(not_inside(stepped, watch.approaches, 10.0).empty());
   EXPECT_GT(not_met(truth, stepped).size(), truth.size() / 2);

@@ -1,4 +1,4 @@
-// Hand-tuned fixed-step detectors, and those of others, against all pairs.
+// Hand-tuned fixed-step detectors, and Bullet's, against all pairs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,12 +22,12 @@ namespace {
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-/// Spheres that fly about between walls: nobody minds overlaps.
+/// Swarm moves spheres between walls. They may overlap.
 class Swarm {
  public:
   Swarm(std::size_t size, float largest_radius, double speed, std::uint64_t seed) : random_(seed) {
     for (std::size_t at = 0; at < size; ++at) {
-      // Every tenth has the largest radius: equal ones must not be lost.
+      // Every tenth sphere has the largest radius: pairs of equal ones must not be lost.
       const double part = at % 10 == 0 ? 1.0 : random_.uniform(0.02, 1.0);
       radii.push_back(largest_radius * static_cast<float>(part));
       positions_.push_back(50.0 * random_.point_in_ball());

@@ -1,4 +1,4 @@
-// Runs that are written down and played again.
+// Transcripts: runs that are recorded and played again.
 #include "research/bench/speed/transcript.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What `kinesphere-bench speed` makes of its results, with results made up.
+// Verdicts of `kinesphere-bench speed`, on made-up results.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace kinesphere::program::verdicts_test {
 namespace {
 
-/// Took as long in each of three turns; the default engine took a millisecond.
+/// Returns a row that took equally long in each of three turns; the default engine took a millisecond.
 SpeedRow row(const std::string& detector, std::optional<double> rate, double detection, double moves,
              std::optional<double> missed = std::nullopt) {
   return {.detector = detector,
@@ -80,7 +80,7 @@ TEST(Verdicts, AgainstTheSlowestSweptStepsThatMissNothing) {
   // At 1 us for a step or probe: 0.4 + 0.015 ms to 1 + 0.001 ms.
   EXPECT_DOUBLE_EQ(found[1].measured, 0.415 / 1.001);
   EXPECT_FALSE(found[1].met());
-  // None is safe: nothing to be compared with.
+  // No fixed steps are safe, so there is nothing to compare with.
   for (SpeedRow& one : results["anything"]) one.missed = 0.25;
   EXPECT_TRUE(verdicts(results).empty());
 }

@@ -1,4 +1,4 @@
-// A gas of hard spheres has the collision rate and the pressure that theory knows.
+// A gas of hard spheres has the collision rate and the pressure of theory.
 #include "research/measures/gas_properties.hpp"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ TEST(HardSphereTheory, BeginsWithTheVirialsOfADiluteGas) {
   EXPECT_EQ(hard_sphere_collision_rate(0.0), 0.0);
 }
 
-/// hardsphere_Z_and_collision_rate.csv of the project's data, to its six decimals.
+/// The reference is hardsphere_Z_and_collision_rate.csv of the project's data, to its six decimals.
 TEST(HardSphereTheory, IsThatOfTheReference) {
   struct Row {
     double packing, compressibility, rate;
@@ -71,9 +71,9 @@ TEST(HardSphereTheory, IsThatOfTheWholeReferenceTable) {
 
 class Gas : public testing::TestWithParam<double> {};
 
-/// A fifth of the contacts, 80 collisions of each sphere, are for the gas to forget its start. The standard
-/// error is then about 0.2 % (that of a count, 1 / sqrt(320,000), is 0.18 %); the finite size shifts by
-/// 1 / N = 0.05 %.
+/// A fifth of the contacts, 80 collisions of each sphere, let the gas forget its start. The standard error is
+/// then about 0.2 % (that of a count, 1 / sqrt(320,000), is 0.18 %); the finite size shifts results by 1 / N
+/// = 0.05 %.
 TEST_P(Gas, HasTheRateAndThePressureOfTheory) {
   const double packing = GetParam();
   const GasBlocks blocks{.equilibration = 10, .measured = 40};
@@ -99,9 +99,9 @@ TEST_P(Gas, HasTheRateAndThePressureOfTheory) {
 
 INSTANTIATE_TEST_SUITE_P(Packings, Gas, testing::Values(0.05, 0.25, 0.49));
 
-/// Two spheres that meet head on for ever: the virial is known.
+/// Two spheres meet head on for ever, so the virial is known.
 TEST(GasProperties, OfTwoSpheresAreCountedByHand) {
-  // They meet at 1.5 and, the other way round the box, at 5.5 and 9.5.
+  // The spheres meet at 1.5 and, across the periodic box, at 5.5 and 9.5.
   Scene scene;
   scene.world = {.box = Box{{0, 0, 0}, {10, 10, 10}},
                  .periodic = {true, true, true},
@@ -114,19 +114,19 @@ TEST(GasProperties, OfTwoSpheresAreCountedByHand) {
   scene.end_time = 8.0;
   const GasBlocks blocks{.equilibration = 2, .measured = 6};
   const GasProperties found = measure_gas(scene, make_world_detector, blocks).value();
-  // The sum of m v^2 is 2 = 3 (N - 1) kT, the exchanged momentum 2, and 6 the time that is measured.
+  // The sum of m v^2 is 2 = 3 (N - 1) kT, the exchanged momentum is 2, and the measured time is 6.
   const double temperature = 2.0 / 3.0;
   EXPECT_EQ(found.contacts, 1u);
   EXPECT_NEAR(found.packing, 3.14159265358979 / 3000.0, 1e-12);
   EXPECT_NEAR(found.compressibility.value, 1.0 + 2.0 / (3.0 * 2.0 * temperature * 6.0), 1e-8);
   EXPECT_NEAR(found.collision_rate.value, 2.0 / (2.0 * 6.0) / std::sqrt(temperature), 1e-8);
-  // One block has it all: the standard error is as large as the mean.
+  // One block has all contacts, so the standard error is as large as the mean.
   EXPECT_NEAR(found.collision_rate.standard_error, found.collision_rate.value, 1e-8);
   EXPECT_NEAR(found.energy_change, 0.0, 1e-15);
   EXPECT_EQ(found.result.counters.count(EventKind::contact_begin), 2u);
 }
 
-/// In units of its own diameter and temperature the same gas has the same properties.
+/// In units of its own diameter and temperature a scaled gas has the properties of the original.
 TEST(GasProperties, DoNotDependOnUnits) {
   SceneParameters gas = small_gas();
   const GasProperties one = measure_gas(make_scene(gas).value(), make_world_detector).value();
@@ -155,7 +155,7 @@ TEST(GasProperties, KnowNoCommonMotion) {
   };
   const GasProperties still = measured({});
   const GasProperties windy = measured({0.5, -0.25, 0});
-  // The same few contacts, which chaos has not yet had time to change.
+  // The contacts are few and early, before chaos changes them.
   EXPECT_EQ(windy.contacts, still.contacts);
   EXPECT_NEAR(windy.compressibility.value, still.compressibility.value, 1e-3);
   EXPECT_NEAR(windy.collision_rate.value, still.collision_rate.value, 1e-9);

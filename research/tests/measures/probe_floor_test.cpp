@@ -1,4 +1,4 @@
-// The probe floor: worked out by hand where it can be, and below what every detector asks.
+// The probe floor: worked out by hand where possible, and at most the probes of every detector.
 #include "research/measures/probe_floor.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@
 namespace kinesphere::probe_floor_test {
 namespace {
 
-/// Bodies of radius 1 that fly straight on, though their limit would let them do otherwise.
+/// Returns bodies of radius 1 that fly straight on, though their acceleration limit would allow turns.
 Scene straight(std::vector<State> states, double limit, double seconds) {
   Scene scene;
   const std::vector<double> limits(states.size(), limit);
@@ -52,15 +52,15 @@ TEST(ProbeFloor, NobodyNearNeedsNoProbe) {
   EXPECT_EQ(floor_of(straight({{{0, 0, 0}, {1, 0, 0}}, {{1000, 0, 0}, {-1, 0, 0}}}, 10.0, 5.0)).total(), 0u);
 }
 
-/// How often one of two bodies is asked that come nearer at `speed`, until they touch: each time when
-/// gap + eps = speed s + limit s^2 / 2.
+/// Returns the probes of one of two bodies that approach at `speed` until they touch: one each time that gap
+/// + eps = speed s + limit s^2 / 2.
 std::uint64_t probes_of_an_approach(double gap, double speed, double limit, double tolerance) {
   std::uint64_t probes = 0;
   for (;; ++probes) {
     const double margin = gap + tolerance;
     const double interval = 2.0 * margin / (speed + std::sqrt(speed * speed + 2.0 * limit * margin));
     gap -= speed * interval;
-    if (gap <= 0.5 * tolerance) return probes + 1;  // the last is that of the contact
+    if (gap <= 0.5 * tolerance) return probes + 1;  // the last probe is that of the contact
   }
 }
 
@@ -73,7 +73,8 @@ TEST(ProbeFloor, HeadOnApproachByHand) {
     const ProbeFloor floor = probe_floor(scene, flight).value();
     const auto expected =
         static_cast<double>(probes_of_an_approach(gap, 5.0, 8.0, scene.world.contact_tolerance));
-    // The contact is told somewhere within the tolerance, which may or may not save the last probe before it.
+    // The contact is reported somewhere within the tolerance, which may or may not save the last probe before
+    // it.
     EXPECT_NEAR(static_cast<double>(floor.probes[0]), expected, 1.0) << gap;
     EXPECT_EQ(floor.probes[0], floor.probes[1]) << "both have the same limit";
   }
@@ -91,7 +92,7 @@ TEST(ProbeFloor, GrowsWithTheLimit) {
 }
 
 TEST(ProbeFloor, SideBySideByHand) {
-  // A gap of 0.5 that nobody uses up: each is asked every sqrt(2 (gap + eps) / A).
+  // The gap stays at 0.5: each body is probed every sqrt(2 (gap + eps) / A).
   const Scene scene = straight({{{0, 0, 0}, {3, 0, 0}}, {{0, 2.5, 0}, {3, 0, 0}}}, 4.0, 10.0);
   const double interval = std::sqrt(2.0 * (0.5 + scene.world.contact_tolerance) / 4.0);
   const auto expected = static_cast<std::uint64_t>(std::floor(10.0 / interval));
@@ -118,17 +119,17 @@ TEST(ProbeFloor, BallisticBodiesAreAskedAtTheirContactsAlone) {
   for (std::size_t body = 0; body < times.size(); ++body) EXPECT_EQ(floor.probes[body], times[body].size());
 }
 
-/// The same count by looking at fixed times, so close that nobody gets through the tolerance in between.
+/// Counts probes by testing fixed times, too close to each other for a body to pass the tolerance in between.
 std::uint64_t sampled_floor(const Scene& scene, const Flight& flight, std::uint32_t body, double step) {
   const auto state = [&](std::uint32_t number, double time) {
     return segment_at(flight.paths[number], time).state_at(time);
   };
-  BodyDefinition promise = scene.motion->definition(body, 0.0);
-  promise.radius = scene.bodies[body].radius;
+  BodyDefinition definition = scene.motion->definition(body, 0.0);
+  definition.radius = scene.bodies[body].radius;
   std::vector<double> stops;
   for (const FlightContact& contact : flight.contacts)
     if (contact.first == body || contact.second == body) stops.push_back(contact.begin);
-  Bound bound = bound_of(promise, state(body, 0.0), 0.0);
+  Bound bound = bound_of(definition, state(body, 0.0), 0.0);
   std::uint64_t probes = 0;
   std::size_t next_stop = 0;
   for (double time = 0.0; time < scene.end_time; time += step) {
@@ -142,7 +143,7 @@ std::uint64_t sampled_floor(const Scene& scene, const Flight& flight, std::uint3
     }
     if (!stopped && !reached) continue;
     ++probes;
-    bound = bound_of(promise, state(body, time), time);
+    bound = bound_of(definition, state(body, time), time);
   }
   return probes;
 }

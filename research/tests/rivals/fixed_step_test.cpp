@@ -1,4 +1,4 @@
-// A detector at fixed steps comes close to the oracle, or misses.
+// A detector at fixed steps comes close to the oracle, or misses contacts.
 #include <gtest/gtest.h>
 
 #include <algorithm>

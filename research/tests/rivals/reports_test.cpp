@@ -1,5 +1,4 @@
-// Reports that are not what was promised, and reports that are no reports, to every detector that asks for
-// them.
+// Reports outside their bounds, and invalid reports, to every detector that probes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +11,7 @@
 namespace kinesphere::reports_test {
 namespace {
 
-/// Two bodies far apart, at rest; the first jumps, or answers nonsense, from time 1 on.
+/// Two bodies far apart, at rest; the first jumps, or has invalid states, from time 1 on.
 class Jumping final : public Motion {
  public:
   explicit Jumping(const Vec3& jump)
@@ -20,9 +19,9 @@ class Jumping final : public Motion {
 
   std::size_t size() const override { return 2; }
   BodyDefinition definition(std::uint32_t body, double t) const override {
-    BodyDefinition promise = rest_.definition(body, t);
-    promise.acceleration_limit = 8.0;
-    return promise;
+    BodyDefinition changed = rest_.definition(body, t);
+    changed.acceleration_limit = 8.0;
+    return changed;
   }
   State state(std::uint32_t body, double t) const override {
     State state = rest_.state(body, t);

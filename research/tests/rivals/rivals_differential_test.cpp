@@ -1,5 +1,4 @@
-// The algorithms of other papers on differential scenes, one of each family: it shows that they are what they
-// should be.
+// The algorithms of other papers on differential scenes, one of each family: they are implemented correctly.
 #include <gtest/gtest.h>
 
 #include <algorithm>

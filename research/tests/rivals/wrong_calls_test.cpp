@@ -1,4 +1,4 @@
-// Every detector, called wrongly: an error that names the culprit, and nothing has changed.
+// Wrong calls of every detector return an error that names the argument, and change nothing.
 #include <gtest/gtest.h>
 
 #include <algorithm>

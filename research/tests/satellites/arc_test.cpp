@@ -1,4 +1,4 @@
-// Satellites' paths, and what is said of them: the limits that a monitor relies on.
+// Paths of satellites and their bounds, on which a monitor relies.
 #include "research/satellites/arc.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 namespace kinesphere::arc_test {
 namespace {
 
-/// On ellipses with perigees from 200 km up, of eccentricities up to 0.8.
+/// Returns states on ellipses with perigees from 200 km up and eccentricities up to 0.8.
 std::vector<State> random_satellites(std::size_t count, std::uint64_t seed) {
   Random random(seed);
   std::vector<State> states;
@@ -31,7 +31,7 @@ std::vector<State> random_satellites(std::size_t count, std::uint64_t seed) {
   return states;
 }
 
-/// The classical Runge-Kutta method, in steps of a second.
+/// Integrates by the classical Runge-Kutta method, in steps of a second.
 State integrated(State state, double seconds) {
   const auto change = [](const State& at) { return State{at.velocity, gravity_at(at.position)}; };
   const auto moved = [](const State& from, const State& rate, double time) {
@@ -51,7 +51,7 @@ TEST(SatelliteMotion, SolvesNewtonsEquation) {
     SatelliteMotion motion = SatelliteMotion::create({start}).value();
     const State expected = integrated(start, 6000.0);
     const State state = motion.arc(0, 6000.0).state_at(6000.0);
-    // Seams of 47 arcs, each of less than 1e-6 km, and what Runge-Kutta does.
+    // The tolerance covers the seams of 47 arcs, each of less than 1e-6 km, and the error of Runge-Kutta.
     EXPECT_LT(norm(state.position - expected.position), 1e-3);
     EXPECT_LT(norm(state.velocity - expected.velocity), 1e-6);
   }

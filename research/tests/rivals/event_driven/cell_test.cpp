@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::uint64_t seed = 3101;
 
-/// The bits of the three indices taking turns, the most significant first and sign bits flipped.
+/// Returns the bits of the three indices interleaved, the most significant first and sign bits flipped.
 std::vector<bool> interleaved(const Cell& cell) {
   std::vector<bool> bits;
   for (int bit = 63; bit >= 0; --bit)
@@ -48,7 +48,7 @@ TEST(CellOrder, is_that_of_interleaved_bits) {
     const int bits = 1 + static_cast<int>(random.bits() % 44);
     const Cell a = random_cell(random, 3, bits);
     Cell b = random_cell(random, 3, bits);
-    // Also pairs that differ little.
+    // The test includes pairs that differ little.
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (random.bits() % 2 == 0) b.index[axis] = a.index[axis] + (random.bits() % 3 == 0 ? 1 : 0);
     ASSERT_EQ(a < b, interleaved(a) < interleaved(b)) << "seed " << seed << ", case " << k;
@@ -63,7 +63,7 @@ TEST(CellOrder, goes_by_level_first) {
 
 RC_GTEST_PROP(CellOrder, keeps_the_subcells_of_a_cell_together,
               (std::int8_t x, std::int8_t y, std::int8_t z)) {
-  // All cells of a block of 2 x 2 x 2 cells and their surroundings, 4 x 4 x 4 subcells each.
+  // Compares all cells of a block of 2 x 2 x 2 cells and their surroundings, 4 x 4 x 4 subcells each.
   const auto parent_of = [](const Cell& cell) {
     return Cell{2, {cell.index[0] >> 2, cell.index[1] >> 2, cell.index[2] >> 2}};
   };
@@ -90,7 +90,7 @@ TEST(CellRange, visits_each_cell_once) {
   EXPECT_FALSE(range.contains({1, {0, 3, 0}}));
 }
 
-/// Against the finest cells that both are made of.
+/// The reference compares the finest cells that make up the two.
 TEST(Intersect, is_to_have_a_finest_cell_in_common) {
   const auto finest = [](const CellRange& range) {
     CellRange fine{0, range.first, range.last};

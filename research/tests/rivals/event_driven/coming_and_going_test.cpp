@@ -1,5 +1,5 @@
-// Bodies that come, go and are kicked at any time: what the event-driven detectors report is what the world
-// reports of the same motion.
+// Bodies that come, go and change velocity at any time: event-driven detectors report what the world reports
+// of that motion.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ std::vector<State> random_start(Random& random) {
   return start;
 }
 
-/// One of the detectors under test and the world, told the same.
+/// Twins makes equal calls to a detector under test and to the world.
 class Twins {
  public:
   Twins(const DetectorMaker& make, std::unique_ptr<Motion> motion, const WorldDefinition& definition)
@@ -42,7 +42,7 @@ class Twins {
     if (!present_[body]) {
       BodyDefinition definition = motion_->definition(body, time_);
       definition.radius = random.uniform() < 0.2 ? 0.0 : random.uniform(0.1, 2.0);
-      // Refused when it is outside the box.
+      // The world refuses a body outside the box.
       if (!world_->add(body, definition)) return;
       detector_->add(body, definition).value();
       present_[body] = true;
@@ -64,14 +64,14 @@ class Twins {
     const std::vector<Event> expected = events_until(*world_);
     const auto finding = detector_->audit();
     ASSERT_FALSE(finding) << finding->where << ": " << finding->what << " at time " << time_;
-    // Within the contact tolerance each may see a contact before or after another one.
-    const auto settled = [](std::vector<Event> events) {
+    // Within the contact tolerance the order of contacts may differ.
+    const auto in_order = [](std::vector<Event> events) {
       std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
         return std::tie(a.first, a.second, a.wall, a.time) < std::tie(b.first, b.second, b.wall, b.time);
       });
       return events;
     };
-    compare(settled(found), settled(expected));
+    compare(in_order(found), in_order(expected));
   }
 
   std::size_t events() const { return events_; }

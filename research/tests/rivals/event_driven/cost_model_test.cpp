@@ -1,4 +1,4 @@
-// The cost model: against what can be worked out by hand, and against the detector itself.
+// The cost model: compared with results worked out by hand, and with the detector itself.
 #include "research/rivals/event_driven/cost_model.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace {
 
 const Box box{{0, 0, 0}, {200, 200, 200}};
 
-/// The same edge in other units of length and time; exact for powers of two.
+/// Returns the spheres in other units of length and time; exact for powers of two.
 std::vector<MovingSphere> scaled(std::vector<MovingSphere> spheres, double length, double time) {
   for (MovingSphere& sphere : spheres) {
     sphere.radius *= length;
@@ -48,7 +48,7 @@ CostModel model_of(const std::vector<MovingSphere>& spheres, const Box& extent =
 TEST(CostModel, counts_crossings_of_points_that_fly_straight) {
   // A point crosses |v_x| + |v_y| + |v_z| over the edge planes a second; each component is v/2 on average.
   const std::vector<MovingSphere> points(1, {.speed = 12.0});
-  // Of the planes 10 apart, 19 are inside of the box, and those on its walls count half.
+  // Planes are 10 apart: 19 are inside of the box, and the two on its walls count half.
   const ExpectedRates rates = model_of(points, box, false).expected_rates(10.0);
   EXPECT_NEAR(rates.entering, 3.0 * 6.0 * 20.0 / 200.0, 1e-9);
   EXPECT_NEAR(rates.leaving, rates.entering, 1e-9);
@@ -65,8 +65,7 @@ TEST(CostModel, resets_a_body_at_rest_as_eq_8_says) {
   EXPECT_NEAR(model_of(uncertain, box, false).expected_rates(10.0).resetting, 3.0 / 4.0, 1e-9);
 }
 
-/// Spheres in a dilute gas, where nothing grows, meet as in kinetic theory; and are looked at a few times
-/// more.
+/// Spheres in a dilute gas without growth meet as in kinetic theory, and are rechecked a few times more.
 TEST(CostModel, counts_collisions_as_kinetic_theory_does) {
   constexpr double bodies = 1000.0, radius = 0.1, speed = 10.0;
   const std::vector<MovingSphere> spheres(static_cast<std::size_t>(bodies),
@@ -158,7 +157,7 @@ TEST(CostModel, has_an_answer_for_unusual_bodies) {
       }
 }
 
-/// A scene as in the paper, and what became of it with cells of some edge.
+/// A scene as in the paper, and the counters of its run with cells of some edge.
 class CostModelOfScene : public testing::TestWithParam<std::uint32_t> {
  protected:
   CostModelOfScene() : scene_(make_scene({.bodies = GetParam(), .seconds = 1.0}).value()) {}
@@ -201,7 +200,7 @@ TEST_P(CostModelOfScene, expects_what_happens) {
   }
 }
 
-/// By operations counted, not timed: the same on every machine.
+/// Cost is counted in operations, not timed, so it is equal on every machine.
 TEST_P(CostModelOfScene, chooses_cells_that_are_within_a_quarter_of_the_best) {
   const auto cost = [this](double edge) {
     const DetectorCounters counters = run(edge);

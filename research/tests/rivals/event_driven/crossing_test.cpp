@@ -1,5 +1,5 @@
-// Bounds and planes, against the same quadratics in higher precision: entering is never late, leaving never
-// early, and neither is far from the truth.
+// Bounds and planes, compared with the quadratics in higher precision: entering is never late, leaving is
+// never early, and each is close to the truth.
 #include "research/rivals/event_driven/crossing.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ struct Case {
   double from;
   double plane;
 
-  /// Distance of the surface from the plane, negative beyond it.
+  /// Returns the distance of the surface from the plane, negative beyond it.
   long double room(long double t) const {
     const long double sign = upper ? 1.0L : -1.0L;
     const long double s = t - static_cast<long double>(bound.time);
@@ -39,7 +39,7 @@ std::ostream& operator<<(std::ostream& out, const Case& c) {
              << c.plane;
 }
 
-/// Some start on the plane but for a little.
+/// Some cases start close to the plane.
 Case random_case(std::uint64_t k) {
   Random random = Random::at(seed, k, 0);
   const auto maybe = [&](double largest) {

@@ -1,5 +1,5 @@
-// The paper's algorithm and its ballistic ancestor: cells and candidates are as they should be at every stop,
-// and the contacts are those that other detectors find.
+// The paper's algorithm and the ballistic one: cells and candidates are right at every stop, and contacts are
+// those of other detectors.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,7 +30,7 @@ struct Outcome {
   std::vector<Event> events;
 };
 
-/// Audits at every `audit_every`-th stop, which rebuilds everything.
+/// Runs a scene and audits at every `audit_every`-th stop, which rebuilds everything.
 Outcome outcome_of(const Scene& scene, const DetectorMaker& make, int audit_every = 0) {
   Outcome run;
   int stops = 0;
@@ -57,7 +57,8 @@ Scene scene_of(const char* name, std::uint32_t bodies, double seconds, std::uint
   return {};
 }
 
-/// How many events of two runs agree in what they say, and in their times but for the contact tolerance.
+/// Returns the number of leading events of two runs that are equal but for their times, which differ by at
+/// most 1e-5.
 std::size_t common_events(const Outcome& a, const Outcome& b) {
   std::size_t same = 0;
   while (same < std::min(a.events.size(), b.events.size())) {
@@ -83,7 +84,7 @@ TEST_P(PaperDetector, keeps_cells_and_candidates_as_they_should_be) {
 
 TEST_P(PaperDetector, finds_the_same_contacts_with_and_without_trimming) {
   const Scene scene = scene_of(GetParam(), 150, 2.0);
-  // Small cells, so that bounds outgrow them.
+  // Cells are small, so that bounds outgrow them.
   const Outcome trimmed = outcome_of(scene, paper({.cell_edge = 5.0, .trimming = true}));
   const Outcome full = outcome_of(scene, paper({.cell_edge = 5.0, .trimming = false}), 50);
   EXPECT_EQ(trimmed.result.contact_hash, full.result.contact_hash);
@@ -113,7 +114,7 @@ TEST(PaperDetectorTrimming, spares_most_of_the_candidates_where_bounds_grow_fast
   EXPECT_LT(2 * trimmed.event_removals, full.event_removals);
 }
 
-/// Every figure follows from the course of one sphere.
+/// All counts follow from the course of one sphere.
 TEST(PaperDetectorEvents, are_those_of_a_lonely_sphere) {
   RandomForcesDefinition lonely;
   lonely.start = {{{5.0, 5.0, 5.0}, {10.0, 0.0, 0.0}}};
@@ -124,7 +125,7 @@ TEST(PaperDetectorEvents, are_those_of_a_lonely_sphere) {
   body.radius = 1.0;
   ASSERT_TRUE(detector->add(0, body));
   ASSERT_FALSE(detector->advance(4.2).value());
-  // Its bound grows from diameter 2 to 10 in 4 s, and it goes some 40 in this time.
+  // The bound grows from diameter 2 to 10 in 4 s, and the sphere moves by some 40 in this time.
   EXPECT_EQ(detector->counters().resetting, 1u);
   EXPECT_EQ(detector->counters().probes, 1u);
   EXPECT_GE(detector->counters().entering, 4u);
@@ -164,7 +165,7 @@ TEST_P(BallisticDetector, begins_like_the_world_and_goes_on_with_as_many_contact
 INSTANTIATE_TEST_SUITE_P(Scenes, BallisticDetector, testing::Values("gas", "rain"),
                          [](const auto& scene) { return std::string(scene.param); });
 
-/// A meeting is exact, so each is a contact but for those that graze.
+/// A ballistic meeting is exact, so each is a contact but for those that graze.
 TEST(BallisticDetectorEvents, are_contacts) {
   const Outcome run = outcome_of(scene_of("gas", 200, 4.0), make_ballistic_detector);
   const DetectorCounters& counters = run.result.counters;
@@ -233,8 +234,8 @@ TEST(EventDriven, follows_a_contact_beyond_shared_cells) {
   }
 }
 
-/// So many that they share the outermost cells, or move so fast that crossings crowd.
-/// Cells that suit the first body alone would hold the whole crowd.
+/// The bodies that come later are so many that they share the outermost cells, or move so fast that crossings
+/// crowd. Cells that suit the first body alone would hold the whole crowd.
 TEST(EventDriven, suits_a_crowd_that_comes_later) {
   Scene scene = scene_of("paper1", 600, 0.5);
   const auto together = outcome_of(scene, paper(), 500).result.counters;

@@ -1,4 +1,4 @@
-// The event tree beside a plain list of candidates that is told the same.
+// The event tree, compared with a plain list of candidates that gets equal calls.
 #include "research/rivals/event_driven/event_tree.hpp"
 
 #include <gtest/gtest.h>
@@ -72,7 +72,7 @@ class MirroredTree {
   std::size_t largest_ = 0;
 };
 
-/// A few times only, so that many are equal.
+/// Returns a candidate with one of a few times, so that many are equal.
 Candidate random_candidate(Random& random) {
   const auto kind = static_cast<CandidateKind>(random.bits() % 4);
   const auto first = static_cast<std::uint32_t>(random.bits() % bodies);

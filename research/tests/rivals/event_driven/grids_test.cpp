@@ -1,4 +1,4 @@
-// Every coordinate lies in exactly one cell of each level, and in the same one seen from every level.
+// Every coordinate lies in exactly one cell of each level, consistently between levels.
 #include "research/rivals/event_driven/grids.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t seed = 3102;
 
-/// Anything from tiny to endless, often on a plane of the grid or next to one.
+/// Returns anything from tiny to infinite, often on a plane of the grid or next to one.
 double random_coordinate(Random& random, const Grids& grids) {
   const int level = static_cast<int>(random.bits() % (Grids::coarsest_level + 1));
   const auto index = static_cast<std::int64_t>(random.bits() >> (20 + random.bits() % 43));

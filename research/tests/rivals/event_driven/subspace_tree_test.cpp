@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t seed = 3103;
 
-/// Up to eight cells near the origin, or anywhere, on one of a few levels.
+/// Returns up to eight cells near the origin, or anywhere, on one of a few levels.
 CellRange random_cells(Random& random) {
   const bool far = random.bits() % 4 == 0;
   CellRange range{static_cast<int>(random.bits() % 6) * (far ? 8 : 1), {}, {}};
@@ -48,7 +48,7 @@ class MirroredTree {
     tree_.for_each_neighbour(query, [&](std::uint32_t body) { visited.push_back(body); });
     std::vector<std::uint32_t> expected;
     for (const auto& [body, cells] : bodies_) {
-      // Once for each of its cells that intersects one of the query.
+      // A body counts once for each of its cells that intersects one of the query.
       cells.for_each_cell([&, number = body](const Cell& cell) {
         if (intersect({cell.level, cell.index, cell.index}, query)) expected.push_back(number);
       });
@@ -60,7 +60,7 @@ class MirroredTree {
     ASSERT_EQ(visited, expected);
   }
 
-  /// No cell is empty, and all of them together hold what was put in.
+  /// Checks that no cell is empty, and that all cells together hold what was inserted.
   void expect_no_empty_cells() const {
     std::size_t entries = 0;
     for (const auto& [cell, bodies] : tree_.cells()) {

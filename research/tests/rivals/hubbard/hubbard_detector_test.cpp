@@ -1,5 +1,5 @@
-// What is particular to Hubbard's detector: when it builds its space-time bounds anew, and that time goes on
-// where they overlap from the start. That it finds the right contacts is tested with all other detectors.
+// Properties of Hubbard's detector alone: the times at which it rebuilds space-time bounds, and progress of
+// time where they overlap from the start. Tests of all detectors cover its contacts.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -12,7 +12,7 @@
 namespace kinesphere::hubbard_detector_test {
 namespace {
 
-/// Spheres of radius 1 that promise an acceleration, and move straight on.
+/// Spheres of radius 1 with an acceleration limit that move straight on.
 class Flight {
  public:
   Flight(std::vector<State> start, double limit, const WorldDefinition& definition = {})
@@ -24,7 +24,7 @@ class Flight {
       detector_->add(number, motion_.definition(number, 0.0)).value();
   }
 
-  /// Goes on to a time or to the next event.
+  /// Advances to a time or to the next event.
   std::optional<Event> advance(double until) {
     const auto event = detector_->advance(until).value();
     EXPECT_EQ(detector_->audit().has_value(), false);
@@ -48,7 +48,7 @@ TEST(HubbardDetector, probes_all_bodies_at_each_rebuild) {
   EXPECT_FALSE(flight.advance(50.0));
   const DetectorCounters counters = flight.counters();
   EXPECT_GT(counters.rebuilds, 5u);
-  // The first one has the states that the bodies were added with.
+  // The first rebuild uses the states with which the bodies were added.
   EXPECT_EQ(counters.probes, 3 * (counters.rebuilds - 1));
 }
 
@@ -85,8 +85,8 @@ TEST(HubbardDetector, finds_the_time_of_a_head_on_contact) {
   EXPECT_FALSE(flight.advance(10.0));
 }
 
-/// The pair that has met, or the body and the wall, is left to the narrow phase: else the gap would only
-/// shrink by a factor from interval to interval.
+/// The narrow phase has the pair that has met, or the body and the wall; else the gap would only shrink by a
+/// factor from interval to interval.
 TEST(HubbardDetector, an_approach_takes_few_rebuilds) {
   Flight pair({{{0, 0, 0}, {0.01, 0, 0}}, {{2.1, 0, 0}, {-0.01, 0, 0}}}, 3.0);
   EXPECT_TRUE(pair.advance(10.0));
@@ -96,7 +96,7 @@ TEST(HubbardDetector, an_approach_takes_few_rebuilds) {
   EXPECT_LT(wall.counters().rebuilds, 60u);
 }
 
-/// Their cubes overlap for a second, the spheres stay apart.
+/// The cubes of the two overlap for a second, the spheres stay apart.
 TEST(HubbardDetector, time_goes_on_while_two_pass_corner_to_corner) {
   for (const double limit : {0.0, 1.0}) {
     Flight flight({{{0, 0, 0}, {1, 0, 0}}, {{6, 1.9, 1.9}, {-1, 0, 0}}}, limit);
@@ -120,7 +120,7 @@ TEST(HubbardDetector, time_goes_on_while_bodies_rest_against_each_other_and_a_wa
 
 TEST(HubbardDetector, time_goes_on_along_a_wall_and_in_a_corner) {
   const WorldDefinition definition{.box = Box{{0, 0, 0}, {10, 10, 10}}};
-  // At distances from the walls around the tolerance, where a bound reaches the wall before long.
+  // The distances from the walls are around the tolerance, where a bound reaches the wall before long.
   for (const double gap : {2e-6, 1e-5, 1e-3}) {
     Flight flight({{{1 + gap, 5, 5}, {0, 1, 0}}, {{9 - gap, 9 - gap, 9 - gap}, {}}}, 0.1, definition);
     EXPECT_FALSE(flight.advance(3.0)) << gap;

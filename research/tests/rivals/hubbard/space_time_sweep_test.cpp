@@ -1,4 +1,4 @@
-// Three sweeps in step against all pairs of space-time bounds.
+// Three sweeps in step, compared with all pairs of space-time bounds.
 #include "research/rivals/hubbard/space_time_sweep.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ struct Times {
   double first, last;
 };
 
-/// When start + speed s >= 0, for s in `within`.
+/// Returns the times s of `within` at which the difference of the two lines, start + speed s, is >= 0.
 Times positive(const Line& upper, const Line& lower, Times within) {
   const double gap = upper.start - lower.start;
   const double opening = upper.speed - lower.speed;
@@ -42,7 +42,7 @@ Times overlap_of(const Hypertrapezoid& a, const Hypertrapezoid& b, double durati
   return times;
 }
 
-/// Bodies under test, and their space-time bounds as handed to the sweep.
+/// Bodies under test, and their space-time bounds as set in the sweep.
 class Crowd {
  public:
   explicit Crowd(std::uint64_t seed) : random_(Random::at(1995, 4, seed)), sweep_(box, 0.0) {
@@ -91,7 +91,7 @@ class Crowd {
     return meetings;
   }
 
-  /// Times at which a face passes a wall outward.
+  /// Returns the times at which a face passes a wall outward.
   std::vector<Meeting> wall_meetings() const {
     std::vector<Meeting> meetings;
     const auto add = [&](std::uint32_t body, double gap, double closing) {
@@ -139,7 +139,7 @@ void expect_same(const std::vector<Meeting>& found, const std::vector<Meeting>& 
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t k = 0; k < found.size(); ++k) {
     EXPECT_NEAR(found[k].time, expected[k].time, 1e-9);
-    // Bounds are widened, so that nothing is late.
+    // Bounds are widened, so no meeting is late.
     EXPECT_LT(found[k].time, expected[k].time);
     EXPECT_EQ(found[k].a, expected[k].a);
     EXPECT_EQ(found[k].b, expected[k].b);
@@ -183,7 +183,7 @@ TEST(SpaceTimeSweep, faces_that_meet_on_all_axes_at_once_count) {
                    0.0);
   };
   for (std::uint32_t body = 0; body < 8; ++body) sweep.insert(body);
-  // All faces of four pairs meet at the same times on the same lines.
+  // All faces of four pairs meet at equal times on equal lines.
   for (std::uint32_t body = 0; body < 8; ++body)
     sweep.set(body, body % 2 == 0 ? cube(-2.0, 1.0) : cube(2.0, -1.0));
   sweep.begin(4.0);

@@ -1,4 +1,4 @@
-// The sweep through one plane against all pairs of lines, with and without ties.
+// The sweep through one plane, compared with all pairs of lines, with and without ties.
 #include "research/rivals/hubbard/sweep.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,8 @@ using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
 constexpr auto ignore = [](std::uint32_t, std::uint32_t) {};
 
-/// Few values, so that lines coincide, are parallel and cross in the same points. Products are exact.
+/// Returns a line with one of few values, so that lines coincide, are parallel and cross in common points.
+/// Products are exact.
 Line degenerate_line(Random& random) {
   const auto whole = [&random] { return static_cast<double>(random.bits() % 7) - 3.0; };
   return {whole(), whole()};
@@ -26,7 +27,7 @@ Line degenerate_line(Random& random) {
 
 Line random_line(Random& random) { return {random.uniform(-10.0, 10.0), random.uniform(-5.0, 5.0)}; }
 
-/// Crossings during [0, duration] of lines that are sorted at time 0, by (below, above).
+/// Returns the crossings during [0, duration] of lines that are sorted at time 0, by (below, above).
 std::map<Pair, double> crossings_of_all_pairs(const Sweep& sweep, std::uint32_t count, double duration) {
   std::map<Pair, double> overlaps;
   for (std::uint32_t a = 0; a < count; ++a)
@@ -39,13 +40,13 @@ std::map<Pair, double> crossings_of_all_pairs(const Sweep& sweep, std::uint32_t 
   return overlaps;
 }
 
-/// Sweeps to the end and holds every crossing against `expected`.
+/// Sweeps to the end and compares every crossing with `expected`.
 void expect_crossings(Sweep& sweep, std::map<Pair, double> expected, double error) {
   double last = 0.0;
   while (sweep.next_time() < std::numeric_limits<double>::infinity()) {
-    const double announced = sweep.next_time();
+    const double due = sweep.next_time();
     const Sweep::Crossing overlap = sweep.step();
-    ASSERT_EQ(overlap.time, announced);
+    ASSERT_EQ(overlap.time, due);
     ASSERT_GE(overlap.time, last);
     last = overlap.time;
     const auto found = expected.find({overlap.below, overlap.above});
@@ -75,7 +76,7 @@ TEST_P(SweepAgainstAllPairs, finds_every_crossing_once) {
   }
 }
 
-/// Lines are changed between sweeps, which may have been left half-way, and some go and come.
+/// Lines are changed between sweeps, which may stop half-way, and some lines are added and erased.
 TEST_P(SweepAgainstAllPairs, starts_anew_from_any_order) {
   Random random(96);
   const std::uint32_t count = 24;
@@ -142,7 +143,7 @@ TEST(Sweep, coincident_and_parallel_lines_do_not_cross) {
   EXPECT_EQ(sweep.next_time(), std::numeric_limits<double>::infinity());
 }
 
-/// The error of the order stays within what is promised where many lines of very different sizes nearly
+/// The error of the order stays within order_error(), also where many lines of very different sizes nearly
 /// coincide.
 TEST(Sweep, order_is_right_up_to_the_promised_error) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
