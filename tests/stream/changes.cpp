@@ -56,7 +56,7 @@ Vec3 Player::inside(Vec3 position, double radius) const {
 bool Player::has_room(BodyId id, const CollisionShape& extent, const BodyDefinition& body) const {
   if (truth_.definition().allow_overlap) return true;
   for (const TrueBody& other : truth_.bodies()) {
-    if (!other.present() || other.id == id || (extent.fixed && other.fixed)) continue;
+    if (!other.present() || other.id == id || (extent.is_static && other.fixed)) continue;
     if (!truth_.may_touch(id, body, other.id)) continue;
     const Bound bound = world_.body(other.id).value().bound;
     const GapLimits gap = truth_.limits(extent, {bound, other.fixed, other.shape ? &*other.shape : nullptr});

@@ -227,7 +227,7 @@ GapLimits Truth::limits(const CollisionShape& a, const CollisionShape& b) const 
   Bound nearest = b.bound;
   nearest.position += shift_to_nearest(b.bound.centre_at(time_), a.bound.centre_at(time_));
   return visit_shapes(
-      a, CollisionShape{nearest, b.fixed, b.shape},
+      a, CollisionShape{nearest, b.is_static, b.shape},
       [this](const Bound& bound, const auto& partner) { return gap_limits(bound, partner, time_); });
 }
 
