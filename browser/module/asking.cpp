@@ -125,7 +125,7 @@ KINESPHERE_EXPORT(world_run)
 bool world_run(World* world, double until, MotionHandle* handle, Responding responding, const double* masses,
                std::size_t mass_count, double restitution, double resting_speed, const Scene* scene) {
   // JavaScript functions may use answer() meanwhile.
-  std::vector<double> told;
+  std::vector<double> reported;
   MotionByIndex mover(*handle->motion);
   const auto answered = [&](const Event& event) -> Response {
     switch (responding) {
@@ -142,11 +142,11 @@ bool world_run(World* world, double until, MotionHandle* handle, Responding resp
   };
   const auto respond = [&](const Event& event) { return mover.possible(answered(event)); };
   const auto sink = [&](const Event& event) {
-    told.resize(told.size() + event_numbers);
-    put(event, told.data() + told.size() - event_numbers);
+    reported.resize(reported.size() + event_numbers);
+    put(event, reported.data() + reported.size() - event_numbers);
   };
   const auto done = world->run(until, mover, respond, sink);
-  answer() = std::move(told);
+  answer() = std::move(reported);
   if (!done && mover.refused()) return fail(*mover.refused());
   return is_good(done);
 }

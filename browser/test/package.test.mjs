@@ -5,7 +5,7 @@ import { test } from "node:test";
 import { kinesphere } from "./package_under_test.mjs";
 
 const {
-  Ballistic, bounce, EventHash, Frames, KinesphereError, load, RandomForces, RecordedTracks, Replay, Scene, Steered, version,
+  Ballistic, bounce, EventHash, FrameMotion, KinesphereError, load, RandomForces, RecordedTracks, Replay, Scene, SteeredMotion, version,
   World,
 } = kinesphere;
 
@@ -81,7 +81,7 @@ test("a function answers for bodies in typed arrays", () => {
   assert.equal(world.time, 7.5);
 });
 
-test("a broken promise is told with its size", () => {
+test("a broken promise is reported with its size", () => {
   const world = new World();
   world.addAll({ positions: [0, 0, 0, 10, 0, 0], velocities: [1, 0, 0, 0, 0, 0] });
   const probe = (ids, time, states) =>
@@ -237,7 +237,7 @@ test("certificates say until when nothing happens", () => {
 });
 
 test("ships are steered, and bodies added later", () => {
-  const motion = new Steered({ positions: [0, 0, 0] }, { accelerationLimits: 5 });
+  const motion = new SteeredMotion({ positions: [0, 0, 0] }, { accelerationLimits: 5 });
   const world = new World();
   world.addMotion(motion);
   motion.steer(0, 0, [5, 0, 0]);
@@ -254,7 +254,7 @@ test("a game hands over its frames, and answers contacts between them", () => {
   const dt = 1 / 60;
   const positions = Float64Array.of(50, 50, 30, 50, 50, 33);
   const velocities = Float64Array.of(0, 0, 90, 0, 0, 0);
-  const frames = new Frames({ positions, velocities }, { accelerationLimits: 10 });
+  const frames = new FrameMotion({ positions, velocities }, { accelerationLimits: 10 });
   const world = new World({ box, contacts: "impacts" });
   world.addMotion(frames, 1);
   let contacts = 0;
@@ -317,13 +317,13 @@ test("a motion that does not know the time says so, and the world goes on", () =
   later.setVelocity(first, 50, [1, 0, 0]);
   refuses(() => world.run(20, { motion: later }), "out_of_range", "motion", first);
   refuses(() => world.advance(20, later), "out_of_range", "motion", first);
-  const frames = new Frames({ positions: [20, 50, 50, 30, 50, 50], velocities: [1, 0, 0, -1, 0, 0] }, { accelerationLimits: 0 });
+  const frames = new FrameMotion({ positions: [20, 50, 50, 30, 50, 50], velocities: [1, 0, 0, -1, 0, 0] }, { accelerationLimits: 0 });
   assert.throws(() => world.advance(20, frames), /Motion: body \d is known from time 0 to 0, but is asked for at/);
   assert.equal(world.advance(20, motion).kind, "contact_begin");
 });
 
 test("a copy of a motion can do what the motion can", () => {
-  const motion = new Steered({ positions: [0, 0, 0] }, { accelerationLimits: 5 });
+  const motion = new SteeredMotion({ positions: [0, 0, 0] }, { accelerationLimits: 5 });
   const copy = motion.clone();
   copy.steer(0, 0, [1, 0, 0]);
   assert.equal(copy.state(0, 2).position[0], 2);

@@ -65,12 +65,12 @@ test("a recording of the native program replays here", () => {
     const file = join(folder, "recording");
     const hash = program("run", "paper1", "--bodies", "200", "--seconds", "2", "--hash-only", "--record", file);
     const replay = new Replay(readFileSync(file));
-    const told = new EventHash();
+    const reported = new EventHash();
     while (!replay.finished) {
       const event = replay.advance();
-      if (event !== null) told.add(event);
+      if (event !== null) reported.add(event);
     }
-    assert.equal(told.value, hash);
+    assert.equal(reported.value, hash);
     assert.equal(replay.step, replay.stepCount);
     assert.equal(replay.world.size, 200);
   });

@@ -124,19 +124,20 @@ py::object run(WorldHandle& handle, double until, const py::object& motion, cons
   }
   Threads shared(threads);
   const auto note = [&](const Event& event) {
-    handle.told.push_back(record_of(event));
+    handle.undelivered.push_back(record_of(event));
     asked.interruptions().look();
   };
-  const auto tell = [&](const Event& event) { asked.interruptions().call([&] { sink(event); }); };
-  const EventFn told = sink.is_none() ? EventFn(note) : EventFn(tell);
+  const auto deliver = [&](const Event& event) { asked.interruptions().call([&] { sink(event); }); };
+  const EventFn receive = sink.is_none() ? EventFn(note) : EventFn(deliver);
   const Result<void> done = without_gil(handle, [&] {
-    if (!responding) return handle.world.run(until, asked.probe(), told, shared.workers());
+    if (!responding) return handle.world.run(until, asked.probe(), receive, shared.workers());
     return handle.world.run(
-        until, *asked.mover(), [&](const Event& event) { return responding(event); }, told, shared.workers());
+        until, *asked.mover(), [&](const Event& event) { return responding(event); }, receive,
+        shared.workers());
   });
   require(done);
-  const py::object table = table_of(handle.told);
-  handle.told = {};
+  const py::object table = table_of(handle.undelivered);
+  handle.undelivered = {};
   return table;
 }
 

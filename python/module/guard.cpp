@@ -6,24 +6,24 @@
 
 namespace kinesphere::python {
 
-InUse::Turn InUse::take(std::string_view call, std::string_view what) {
+InUse::Use InUse::take(std::string_view call, std::string_view what) {
   if (depth_ > 0 && owner_ != std::this_thread::get_id()) {
     throw_state_error("in_use", what,
                       std::string(call) + ": " + std::string(what) +
                           " must be used by one thread at a time, but is in use by another");
   }
   owner_ = std::this_thread::get_id();
-  return Turn(*this);
+  return Use(*this);
 }
 
-InUse::Turn InUse::take_alone(std::string_view call, std::string_view what) {
+InUse::Use InUse::take_alone(std::string_view call, std::string_view what) {
   if (depth_ > 0) {
     throw_state_error("in_use", what,
                       std::string(call) + ": " + std::string(what) +
                           " must not be at work, but a run or query asks it now");
   }
   owner_ = std::this_thread::get_id();
-  return Turn(*this);
+  return Use(*this);
 }
 
 void Interruptions::look() {

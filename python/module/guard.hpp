@@ -19,12 +19,12 @@ namespace py = pybind11;
 class InUse {
  public:
   /// Marks the object as used by this thread until destruction.
-  class Turn {
+  class Use {
    public:
-    explicit Turn(InUse& use) : use_(&use) { ++use_->depth_; }
-    Turn(Turn&& other) noexcept : use_(std::exchange(other.use_, nullptr)) {}
-    Turn& operator=(Turn&&) = delete;
-    ~Turn() {
+    explicit Use(InUse& use) : use_(&use) { ++use_->depth_; }
+    Use(Use&& other) noexcept : use_(std::exchange(other.use_, nullptr)) {}
+    Use& operator=(Use&&) = delete;
+    ~Use() {
       if (use_ != nullptr) --use_->depth_;
     }
 
@@ -34,9 +34,9 @@ class InUse {
 
   /// For an object that its own callbacks may use again; the callbacks know what is allowed. Throws
   /// kinesphere.StateError (code "in_use") in another thread.
-  [[nodiscard]] Turn take(std::string_view call, std::string_view what);
+  [[nodiscard]] Use take(std::string_view call, std::string_view what);
   /// For an object that no other call may use meanwhile.
-  [[nodiscard]] Turn take_alone(std::string_view call, std::string_view what);
+  [[nodiscard]] Use take_alone(std::string_view call, std::string_view what);
 
  private:
   int depth_ = 0;

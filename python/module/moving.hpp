@@ -43,7 +43,7 @@ class Asked {
   bool plane_;
   py::object given_;
   std::unique_ptr<MotionSource> mover_;
-  std::vector<InUse::Turn> turns_;
+  std::vector<InUse::Use> turns_;
   Interruptions interruptions_;
 };
 

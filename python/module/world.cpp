@@ -65,7 +65,7 @@ std::shared_ptr<WorldHandle> clone(WorldHandle& handle) {
       std::make_shared<WorldHandle>(without_gil(handle, [&] { return handle.world.clone(); }).value());
   copy->fixed = handle.fixed;
   copy->filter_trouble = handle.filter_trouble;
-  copy->told = handle.told;
+  copy->undelivered = handle.undelivered;
   return copy;
 }
 
@@ -80,9 +80,10 @@ py::tuple pickled(const py::object& self) {
     throw py::type_error(
         "pickle: a world with a pair filter cannot be pickled, as the filter is code; use save() and "
         "World.restore(snapshot, pair_filter)");
-  if (!handle.told.empty())
-    throw_state_error("run_in_progress", "world",
-                      "pickle: world must have told its events, but a run was interrupted; run it on first");
+  if (!handle.undelivered.empty())
+    throw_state_error(
+        "run_in_progress", "world",
+        "pickle: world must have delivered its events, but a run was interrupted; run it on first");
   return py::make_tuple(package_attribute("kinesphere.recordings", "restored"), py::make_tuple(save(handle)));
 }
 

@@ -32,12 +32,12 @@ struct WorldHandle {
   /// All static bodies ever added, including removed ones.
   std::unordered_set<std::uint64_t> fixed{};
   /// Events that an interrupted run has delivered.
-  std::vector<EventRecord> told{};
+  std::vector<EventRecord> undelivered{};
   /// Set while there is a pair filter.
   std::shared_ptr<FilterTrouble> filter_trouble{};
 
   bool is_plane() const { return world.definition().dimensions == 2; }
-  InUse::Turn take(std::string_view call) { return in_use.take(call, "world"); }
+  InUse::Use take(std::string_view call) { return in_use.take(call, "world"); }
 };
 
 /// Ends a call that may have used the pair filter: raises the filter's exception.

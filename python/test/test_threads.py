@@ -216,8 +216,8 @@ try:
     world.run(1e6, motion, scene, threads=THREADS)
 except KeyboardInterrupt:
     spent = time.monotonic() - start
-    told = world.run(world.time, motion, scene)
-    print("interrupted", spent < 5.0, len(told) > 0, world.audit() is None if len(world) < 10 else True)
+    events = world.run(world.time, motion, scene)
+    print("interrupted", spent < 5.0, len(events) > 0, world.audit() is None if len(world) < 10 else True)
 """
 
 

@@ -13,8 +13,8 @@ from kinesphere import EventKind
 
 def test_ten_lines() -> None:
     world, motion = pair()
-    told = [(event.kind, event.first, event.second) for event in world.events(10.0, motion)]
-    assert told == [(EventKind.contact_begin, 0, 1), (EventKind.contact_end, 0, 1)]
+    events = [(event.kind, event.first, event.second) for event in world.events(10.0, motion)]
+    assert events == [(EventKind.contact_begin, 0, 1), (EventKind.contact_end, 0, 1)]
     assert world.time == 10.0
 
 

@@ -24,10 +24,10 @@ struct BodyMark {
 
 inline constexpr BodyMark ballistic_mark{1, "Ballistic"};
 inline constexpr BodyMark random_forces_mark{2, "RandomForces"};
-inline constexpr BodyMark steered_mark{3, "Steered"};
+inline constexpr BodyMark steered_mark{3, "SteeredMotion"};
 inline constexpr BodyMark velocity_field_mark{4, "VelocityField"};
 inline constexpr BodyMark piecewise_motion_mark{5, "PiecewiseMotion or RecordedTracks"};
-inline constexpr BodyMark frames_mark{6, "Frames"};
+inline constexpr BodyMark frames_mark{6, "FrameMotion"};
 
 template <class... Fields>
 void append_body(std::vector<std::byte>& bytes, const BodyMark& mark, const Fields&... fields) {

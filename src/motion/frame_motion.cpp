@@ -236,7 +236,7 @@ Result<std::uint32_t> FrameMotion::read_body(std::span<const std::byte>& bytes) 
   double limit = 0.0;
   const auto rest = take_body(bytes, frames_mark, frame, last, latest, pushed, limit);
   if (!rest) return rest.error();
-  InputCheck check("Frames");
+  InputCheck check("FrameMotion");
   check
       .require(frame == latest_frame_, ErrorCode::out_of_range, {"frame"}, "must be the latest one here,",
                latest_frame_, frame)

@@ -67,7 +67,7 @@ Result<std::uint32_t> SteeredMotion::read_body(std::span<const std::byte>& bytes
   Vec3 acceleration;
   const auto rest = take_body(bytes, steered_mark, last, limit, acceleration);
   if (!rest) return rest.error();
-  InputCheck check("Steered");
+  InputCheck check("SteeredMotion");
   check.finite({"acceleration"}, acceleration)
       .require(norm(acceleration) <= limit, ErrorCode::out_of_range, {"acceleration"},
                "must not be longer than", limit, acceleration);

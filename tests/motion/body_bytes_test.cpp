@@ -449,12 +449,12 @@ TEST(WrittenBodies, AreRefusedWithTheReason) {
   EXPECT_EQ(refusal(steered_body({2, 9, 12})),
             "read_body: bytes must hold a whole body, but end before it does");
   EXPECT_EQ(refusal(steered_body({2, 9, 12}, 1)),
-            "read_body: bytes must begin with 3, the mark of a body of Steered, but begin with 1");
+            "read_body: bytes must begin with 3, the mark of a body of SteeredMotion, but begin with 1");
   const std::string start = "read_body: bytes hold no body of this motion: ";
   EXPECT_EQ(refusal(steered_body({2, 9, nan, 15, 4, 5, 6, 9, 0, 0, 0})),
             start + "add: state, position, must be finite, but is (9, nan, 15)");
   EXPECT_EQ(refusal(steered_body({2, 9, 12, 15, 4, 5, 6, 9, 0, 0, -10})),
-            start + "Steered: acceleration must not be longer than 9, but is (0, 0, -10)");
+            start + "SteeredMotion: acceleration must not be longer than 9, but is (0, 0, -10)");
   EXPECT_EQ(refusal(steered_body({2, 9, 12, 15, 4, 5, 6, nan, 0, 0, 0})).substr(0, start.size()), start);
 }
 

@@ -173,7 +173,7 @@ Outcome watch(std::uint64_t seed, bool tell) {
   bodies.add_all(world, frames, {.radius = game.radius}).value();
 
   Outcome outcome;
-  std::map<Pair, std::vector<double>> told;  // begins
+  std::map<Pair, std::vector<double>> begins_of;
   struct Touch {
     double begin, deepest;
   };
@@ -186,7 +186,7 @@ Outcome watch(std::uint64_t seed, bool tell) {
     while (const auto event = world.advance(frames.latest_time(), bodies.probe()).value()) {
       if (event->kind == EventKind::bound_violation) ++outcome.breaches;
       if (event->kind == EventKind::contact_begin)
-        told[{event->first.index, event->second.index}].push_back(event->time);
+        begins_of[{event->first.index, event->second.index}].push_back(event->time);
     }
     for (std::uint32_t a = 0; a < game.balls; ++a)
       for (std::uint32_t b = a + 1; b < game.balls; ++b) {
@@ -203,7 +203,7 @@ Outcome watch(std::uint64_t seed, bool tell) {
           if (touch.deepest < deep_enough) continue;
           ++outcome.approaches;
           // Reported at a gap of at most the tolerance, never after the contact.
-          const std::vector<double>& begins = told[{a, b}];
+          const std::vector<double>& begins = begins_of[{a, b}];
           const bool in_time = std::any_of(begins.begin(), begins.end(), [&](double time) {
             return time <= touch.begin + 1e-9 && time > touch.begin - 0.1;
           });
@@ -218,14 +218,14 @@ TEST(FrameViolations, LoseNoContactWhenTheWorldIsToldOfThem) {
   std::uint64_t approaches = 0, lost_untold = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    const Outcome told = watch(seed, true);
-    EXPECT_EQ(told.lost, 0u);
-    EXPECT_EQ(told.breaches, 0u);
-    const Outcome untold = watch(seed, false);
-    EXPECT_EQ(told.approaches, untold.approaches);
-    EXPECT_GT(untold.breaches, 0u);
-    approaches += told.approaches;
-    lost_untold += untold.lost;
+    const Outcome with_reports = watch(seed, true);
+    EXPECT_EQ(with_reports.lost, 0u);
+    EXPECT_EQ(with_reports.breaches, 0u);
+    const Outcome without_reports = watch(seed, false);
+    EXPECT_EQ(with_reports.approaches, without_reports.approaches);
+    EXPECT_GT(without_reports.breaches, 0u);
+    approaches += with_reports.approaches;
+    lost_untold += without_reports.lost;
   }
   EXPECT_GT(approaches, 1000u);
   EXPECT_GT(lost_untold, 0u) << "otherwise this test shows nothing";

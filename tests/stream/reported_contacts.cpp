@@ -45,11 +45,11 @@ ReportedContacts::ReportedContacts(const WorldDefinition& definition, Truth& tru
       slack_(1e-3 * rule_.tolerance() + rounding_),
       space_(definition) {}
 
-ReportedContacts::Told& ReportedContacts::reported(const Contact& contact) {
-  return const_cast<Told&>(std::as_const(*this).reported(contact));
+ReportedContacts::ReportedState& ReportedContacts::reported(const Contact& contact) {
+  return const_cast<ReportedState&>(std::as_const(*this).reported(contact));
 }
 
-const ReportedContacts::Told& ReportedContacts::reported(const Contact& contact) const {
+const ReportedContacts::ReportedState& ReportedContacts::reported(const Contact& contact) const {
   const std::uint32_t first = contact.first.index;
   if (contact.wall != Wall::none) return walls_[first][static_cast<std::size_t>(contact.wall) - 1];
   if (!contact.sensed) return pairs_(first, contact.second.index);
@@ -160,7 +160,7 @@ void ReportedContacts::redirected(BodyId id) {
 void ReportedContacts::appeared(BodyId id) {
   const auto count = static_cast<std::uint32_t>(truth_.bodies().size());
   pairs_.resize(count);
-  for (PairTable<Told>& pairs : sensed_) pairs.resize(count);
+  for (PairTable<ReportedState>& pairs : sensed_) pairs.resize(count);
   walls_.resize(truth_.bodies().size());
   // A reused index may have a pending end, but is in no contact.
   for_each(id, [this](const Contact& contact) {
@@ -171,7 +171,7 @@ void ReportedContacts::appeared(BodyId id) {
 
 /// Resets the state of a contact: bouncing bodies may overlap deeply, as long as they separate.
 void ReportedContacts::look_again(const Contact& contact) {
-  Told& state = reported(contact);
+  ReportedState& state = reported(contact);
   if (!impacts(contact) || state.touching || !truth_.may_be_reported(contact)) return;
   state.due = true;
   // The Zeno guard may use an eighth of the tolerance more.
@@ -284,7 +284,7 @@ void ReportedContacts::begin(const Event& event, const Contact& contact) {
     truth_.at(contact.first).last_contact = truth_.time();
     if (pair) truth_.at(contact.second).last_contact = truth_.time();
   }
-  Told& state = reported(contact);
+  ReportedState& state = reported(contact);
   const bool impact = impacts(contact);
   if (impact && event.approach_speed <= 0.0) fail("an impact that does not approach", contact, gap);
   if (state.touching && !(impact && state.opened)) fail("a begin is reported twice", contact, gap);
@@ -374,9 +374,10 @@ bool ReportedContacts::may_meet(const Ball& a, const Ball& b) const {
 bool ReportedContacts::any_reported(const Contact& contact) const {
   const std::uint32_t first = contact.first.index;
   const std::uint32_t second = contact.second.index;
-  return pairs_(first, second) != Told{} ||
-         std::any_of(sensed_.begin(), sensed_.end(),
-                     [=](const PairTable<Told>& pairs) { return pairs(first, second) != Told{}; });
+  return pairs_(first, second) != ReportedState{} ||
+         std::any_of(sensed_.begin(), sensed_.end(), [=](const PairTable<ReportedState>& pairs) {
+           return pairs(first, second) != ReportedState{};
+         });
 }
 
 void ReportedContacts::check_pair(Contact contact, double until) {
@@ -396,7 +397,7 @@ std::optional<double> ReportedContacts::reaches(const Contact& contact, LevelCro
 }
 
 void ReportedContacts::check_contact(const Contact& contact, double until) {
-  Told& state = reported(contact);
+  ReportedState& state = reported(contact);
   const double now = truth_.time();
   if (impacts(contact)) return check_impacts(contact, state, until);
   if (state.touching) {
@@ -407,7 +408,7 @@ void ReportedContacts::check_contact(const Contact& contact, double until) {
   }
 }
 
-void ReportedContacts::check_impacts(const Contact& contact, Told& state, double until) {
+void ReportedContacts::check_impacts(const Contact& contact, ReportedState& state, double until) {
   double from = truth_.time();
   if (state.touching) {
     state.opened = state.opened || truth_.opens_before(contact, until);
@@ -419,7 +420,7 @@ void ReportedContacts::check_impacts(const Contact& contact, Told& state, double
   const double gap = truth_.gap(contact);
   const bool may_wait = state.guarded == truth_.time();
   if (state.due && !may_wait && gap < -rule_.tolerance() - slack_ && truth_.approach_speed(contact) > 1e-9)
-    fail("their approach is not told", contact, gap);
+    fail("their approach is not reported", contact, gap);
   state.due = false;
   if (state.floor < 0.0) {
     // After a gap this wide the next approach counts again.
@@ -432,7 +433,8 @@ void ReportedContacts::check_impacts(const Contact& contact, Told& state, double
   check_free(contact, state, from, until);
 }
 
-void ReportedContacts::check_free(const Contact& contact, Told& state, double from, double until) const {
+void ReportedContacts::check_free(const Contact& contact, ReportedState& state, double from,
+                                  double until) const {
   const double floor = state.floor - rule_.tolerance();
   if (const auto time = reaches(contact, LevelCrossing::falls_to, floor, from, until))
     fail("they touch untold at " + std::to_string(*time), contact, truth_.gap(contact));

@@ -51,7 +51,7 @@ class ReportedContacts {
   void check_account(const World& world, BodyId id) const;
 
  private:
-  struct Told {
+  struct ReportedState {
     bool touching = false;  ///< impacts: a begin was reported, and the bodies have not certainly parted since
     // In ContactMode::impacts only.
     bool opened = false;  ///< since the begin the gap may have opened for a while
@@ -61,7 +61,7 @@ class ReportedContacts {
     /// delays again is not reported either.
     double guarded = -std::numeric_limits<double>::infinity();
 
-    friend bool operator==(const Told&, const Told&) = default;
+    friend bool operator==(const ReportedState&, const ReportedState&) = default;
   };
   /// An end that a change has caused, not yet delivered.
   struct End {
@@ -76,8 +76,8 @@ class ReportedContacts {
   GapLimits limits(const World& world, const Contact& contact) const;
   bool same(const Event& a, const Event& b) const;
   bool same_state(const State& reported, BodyId id) const;
-  Told& reported(const Contact& contact);
-  const Told& reported(const Contact& contact) const;
+  ReportedState& reported(const Contact& contact);
+  const ReportedState& reported(const Contact& contact) const;
   template <class Action>
   void for_each(BodyId id, Action action) const;
   void expect_end(const Before& before, bool certain);
@@ -91,8 +91,8 @@ class ReportedContacts {
   bool any_reported(const Contact& contact) const;
   void check_pair(Contact contact, double until);
   void check_contact(const Contact& contact, double until);
-  void check_impacts(const Contact& contact, Told& state, double until);
-  void check_free(const Contact& contact, Told& state, double from, double until) const;
+  void check_impacts(const Contact& contact, ReportedState& state, double until);
+  void check_free(const Contact& contact, ReportedState& state, double from, double until) const;
   std::optional<double> reaches(const Contact& contact, LevelCrossing overlap, double level, double from,
                                 double until) const;
   void look_again(const Contact& contact);
@@ -102,9 +102,9 @@ class ReportedContacts {
   double rounding_;  ///< rounding error of a position or a gap
   double slack_;
   Space space_;
-  PairTable<Told> pairs_;
-  std::array<PairTable<Told>, sensor_distances.size()> sensed_;
-  std::vector<std::array<Told, wall_count>> walls_;
+  PairTable<ReportedState> pairs_;
+  std::array<PairTable<ReportedState>, sensor_distances.size()> sensed_;
+  std::vector<std::array<ReportedState, wall_count>> walls_;
   std::vector<End> ends_;
 };
 

@@ -75,7 +75,7 @@ TEST(EventRange, AllowsChangesBetweenEvents) {
     kinds.push_back(event.kind);
     if (event.kind == EventKind::contact_begin) passage.world.remove(event.second).value();
   }
-  EXPECT_EQ(kinds.size(), 6u) << "what is removed is told as well";
+  EXPECT_EQ(kinds.size(), 6u) << "an event of a removed body is reported as well";
   EXPECT_EQ(passage.world.size(), 1u);
 }
 

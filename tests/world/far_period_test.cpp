@@ -99,7 +99,7 @@ class Meeting : public Playground {
     if (ahead < 0.0) ahead += place.period;
     const double contact = world.time() + (ahead - 2.0 * half_width) / (speed + thrown);
     const auto begins = of_kind(run(world.time() + left + 1.0), EventKind::contact_begin);
-    ASSERT_FALSE(begins.empty()) << "never told";
+    ASSERT_FALSE(begins.empty()) << "never reported";
     EXPECT_LE(begins[0].time, contact + eps);
     EXPECT_GE(begins[0].gap, -eps);
     EXPECT_LE(begins[0].gap, eps);

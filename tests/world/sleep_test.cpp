@@ -30,7 +30,7 @@ class Rested : public Playground {
   bool resting(BodyId id) const { return world.body(id).value().sleeping; }
 };
 
-std::set<BodyId> woken(const std::vector<Event>& events) {
+std::set<BodyId> woke(const std::vector<Event>& events) {
   std::set<BodyId> ids;
   for (const Event& event : of_kind(events, EventKind::woke)) ids.insert(event.first);
   return ids;
@@ -78,7 +78,7 @@ TEST_P(Modes, FifteenBallsAtRestAreNotProbedAndDoNotWake) {
   for (const BodyId id : balls) EXPECT_FALSE(p.resting(id));
   p.set_velocity(thrown, {0, 0, 5});
   for (int k = 0; k < 15; ++k) events.push_back(p.advance(2e6).value());
-  EXPECT_EQ(woken(events), std::set<BodyId>(balls.begin(), balls.end()));
+  EXPECT_EQ(woke(events), std::set<BodyId>(balls.begin(), balls.end()));
   EXPECT_EQ(p.world.counters().count(EventKind::woke), 15u);
   EXPECT_TRUE(is_clean(p.world));
 }
@@ -95,7 +95,7 @@ TEST_P(Modes, AHitWakesItsIslandAndNoOther) {
     if (event.kind == EventKind::contact_begin && event.approach_speed > 0.5)
       p.set_velocity({10, 0}, {0, 1, 0});
   });
-  EXPECT_EQ(woken(events), std::set<BodyId>(hit.begin(), hit.end()));
+  EXPECT_EQ(woke(events), std::set<BodyId>(hit.begin(), hit.end()));
   for (const BodyId id : other) EXPECT_TRUE(p.resting(id));
   EXPECT_TRUE(is_clean(p.world));
 }
@@ -111,7 +111,7 @@ TEST_P(Modes, EachChangeWakesTheIsland) {
     change(p, balls[1]);
     std::set<BodyId> expected(balls.begin(), balls.end());
     if (!tells_of_itself) expected.erase(balls[1]);
-    EXPECT_EQ(woken(p.run(1.0)), expected);
+    EXPECT_EQ(woke(p.run(1.0)), expected);
     EXPECT_TRUE(is_clean(p.world));
     const BodyDefinition now = p.world.body(balls[3]).value().definition;
     EXPECT_EQ(now.acceleration_limit, limit);
@@ -148,7 +148,7 @@ TEST(Sleep, EndsWhenABodyThatIsAwakeLeavesAContact) {
   RestedUponOneThatIsAwake p;
   p.set_velocity(p.below, {0, 0, -1});
   const auto events = p.run(2.0);
-  EXPECT_EQ(woken(events), std::set<BodyId>{p.above});
+  EXPECT_EQ(woke(events), std::set<BodyId>{p.above});
   EXPECT_EQ(of_kind(events, EventKind::contact_end).size(), 1u);
 }
 
@@ -253,7 +253,7 @@ class RandomScene {
       ASSERT_TRUE(event) << event.error().message;
     }
   }
-  int woken() const { return woken_; }
+  int woke() const { return woken_; }
   int rests() const { return rests_; }
 
  private:
@@ -365,17 +365,17 @@ class RandomScene {
 };
 
 TEST(Sleep, InAThousandScenesIsWhatTheExactGapsTell) {
-  int woken = 0;
+  int woke = 0;
   int rests = 0;
   for (std::uint64_t seed = 0; seed < 1000 && !HasFailure(); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     RandomScene scene(seed);
     scene.go();
-    woken += scene.woken();
+    woke += scene.woke();
     rests += scene.rests();
   }
   EXPECT_GT(rests, 10000) << "too little happens";
-  EXPECT_GT(woken, 5000) << "too little happens";
+  EXPECT_GT(woke, 5000) << "too little happens";
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 export { type ErrorCode, KinesphereError, load, type LoadOptions, usesSimd, version } from "./module.js";
 export { type BodyId, Event, EventHash, type EventKind, eventKinds, Events, type State, type Vec3, type Wall } from "./event.js";
 export {
-  Ballistic, type BallisticOptions, Frames, type FramesOptions, type FrameViolation, type LimitedMotion, Motion,
-  type MotionDefinition, type PerBody, RandomForces, type RandomForcesOptions, RecordedTracks, type States, Steered,
+  Ballistic, type BallisticOptions, FrameMotion, type FrameMotionOptions, type FrameViolation, type LimitedMotion, Motion,
+  type MotionDefinition, type PerBody, RandomForces, type RandomForcesOptions, RecordedTracks, type States, SteeredMotion,
   type Track,
 } from "./motion.js";
 export { bounce, type Bounce, type BounceOptions } from "./response.js";

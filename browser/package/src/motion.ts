@@ -211,12 +211,12 @@ export class RandomForces extends Motion {
 }
 
 /** Bodies steered by hand: each keeps its acceleration, at first zero, until it is steered again. */
-export class Steered extends Motion {
+export class SteeredMotion extends Motion {
   constructor(start: States, options: LimitedMotion);
   /** @internal */
   constructor(made: Made);
   constructor(start: States | Made, options?: LimitedMotion) {
-    super(start instanceof Made ? start : limited("motion_steered", "Steered", start, options!));
+    super(start instanceof Made ? start : limited("motion_steered", "SteeredMotion", start, options!));
   }
   /** Sets the acceleration from `time` on, within the body's limit. Needs no call of the world. */
   steer(body: number, time: number, acceleration: Vec3): void {
@@ -227,7 +227,7 @@ export class Steered extends Motion {
   }
 }
 
-export interface FramesOptions extends LimitedMotion {
+export interface FrameMotionOptions extends LimitedMotion {
   /** > 0 (time): from one frame to the next; by default 1 / 60. */
   interval?: number;
   /** >= 0 (length): the largest error of the game's positions. */
@@ -249,7 +249,7 @@ export interface FrameViolation {
  * The motion of a game that moves its bodies in fixed steps: straight lines between its last two frames, so the world
  * is one frame late.
  *
- *     const frames = new Frames({ positions, velocities }, { accelerationLimits: 10 });
+ *     const frames = new FrameMotion({ positions, velocities }, { accelerationLimits: 10 });
  *     world.addMotion(frames, radii);
  *     // each frame, after the game has moved its bodies:
  *     frames.push(positions);
@@ -259,13 +259,13 @@ export interface FrameViolation {
  * To change a velocity at an event, call frames.setVelocity(body, event.time, velocity) and
  * world.setVelocity(body, velocity).
  */
-export class Frames extends Motion {
-  constructor(start: States, options: FramesOptions);
+export class FrameMotion extends Motion {
+  constructor(start: States, options: FrameMotionOptions);
   /** @internal */
   constructor(made: Made);
-  constructor(start: States | Made, options?: FramesOptions) {
+  constructor(start: States | Made, options?: FrameMotionOptions) {
     super(start instanceof Made ? start
-      : limited("motion_frames", "Frames", start, options!, options!.interval ?? 1 / 60, options!.positionError ?? 0));
+      : limited("motion_frames", "FrameMotion", start, options!, options!.interval ?? 1 / 60, options!.positionError ?? 0));
   }
   /** Adds the next frame: three numbers for each body. */
   push(positions: ArrayLike<number>): void {

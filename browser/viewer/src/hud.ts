@@ -21,9 +21,9 @@ export class Hud {
   private readonly messageText = document.querySelector<HTMLElement>("#message-text")!;
   private readonly numbers = new Numbers(document.querySelector<HTMLElement>("#numbers")!);
   private readonly time = this.numbers.row("time", "Simulated seconds");
-  private readonly contacts = this.numbers.row("contacts", "Contacts of two bodies, each told at its exact time");
+  private readonly contacts = this.numbers.row("contacts", "Contacts of two bodies, each reported at its exact time");
   private readonly missed = this.numbers.row("missed by 60 Hz", "Contacts that a loop which looks 60 times per second would not see");
-  private readonly crossings = this.numbers.row("crossings", "Flights through the zone, each told");
+  private readonly crossings = this.numbers.row("crossings", "Flights through the zone, each reported");
   private readonly alarms = this.numbers.row("alarms", "Pairs that may have been too near to each other; none comes late");
   private readonly probes = this.numbers.row("states asked", "Per second of simulated time; a loop asks every body 60 times");
   private readonly engine = this.numbers.row("engine", "Time of the library for one picture");

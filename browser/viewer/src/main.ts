@@ -10,7 +10,7 @@ import { Recording } from "./recording.ts";
 import type { TrackTable } from "./scenes/crowd.ts";
 import { sceneAbout, scenes } from "./scenes/list.ts";
 import { type Colouring, firstSettings } from "./settings.ts";
-import type { Shown, Told } from "./shown.ts";
+import type { Shown, ReportedEvent } from "./shown.ts";
 import { Simulation } from "./simulation.ts";
 import { Stage } from "./stage.ts";
 import { applyTheme, calmQuery, darkQuery, type Theme } from "./theme.ts";
@@ -43,7 +43,7 @@ const overlays = new Overlays(stage.scene);
 let palette: Palette = dark;
 let shown: Shown;
 let sizePlaces: Float64Array = new Float64Array(0);
-let told: Told[] = [];
+let reported: ReportedEvent[] = [];
 const times: Times = { engine: 0, drawing: 0, frame: 0 };
 const hand = new Hand(stage, () => (shown instanceof Simulation && shown.canBePushed ? shown : null));
 /** The tracks that the server was given. */
@@ -54,7 +54,7 @@ function show(next: Shown): void {
   shown?.free();
   shown = next;
   sizePlaces = placesOfSizes(shown.radii());
-  told = [];
+  reported = [];
   stage.show(shown);
   overlays.show(shown);
   hud.show(shown);
@@ -103,10 +103,10 @@ function setPlaying(playing: boolean): void {
 }
 
 /** Runs a call of the engine; an error is shown, and stops the play. */
-function attempt(action: () => Told[] | void): void {
+function attempt(action: () => ReportedEvent[] | void): void {
   const start = performance.now();
   try {
-    told.push(...(action() ?? []));
+    reported.push(...(action() ?? []));
   } catch (error) {
     setPlaying(false);
     sayError(error);
@@ -225,8 +225,8 @@ function draw(seconds: number): void {
   const radii = shown.radii();
   // Bodies may be added and removed in a recording.
   if (sizePlaces.length !== radii.length) sizePlaces = placesOfSizes(radii);
-  overlays.tell(told, shown, stage.extent.radius);
-  told = [];
+  overlays.add(reported, shown, stage.extent.radius);
+  reported = [];
   const { clientHeight } = stage.canvas;
   const pixels = (clientHeight * Math.min(devicePixelRatio, 2)) / (2 * Math.tan((stage.camera.fov * Math.PI) / 360));
   overlays.update(shown, views, positions, settings, seconds, calmQuery.matches, pixels);

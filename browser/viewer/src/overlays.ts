@@ -6,7 +6,7 @@ import {
 } from "three";
 import { along, type Palette, placeOfDuration } from "./colours.ts";
 import type { Settings } from "./settings.ts";
-import { shiftInto, type Shown, type Told, wrapInto } from "./shown.ts";
+import { shiftInto, type Shown, type ReportedEvent, wrapInto } from "./shown.ts";
 import { Spheres } from "./spheres.ts";
 
 const sparkCount = 512;
@@ -154,8 +154,8 @@ export class Overlays {
   }
 
   /** Adds sparks at contacts. */
-  tell(told: readonly Told[], shown: Shown, extent: number): void {
-    for (const { event, missed } of told) {
+  add(reported: readonly ReportedEvent[], shown: Shown, extent: number): void {
+    for (const { event, missed } of reported) {
       if (shown.alarms !== null && event.kind === "sensor_enter") {
         if (event.distance === shown.alarms.alarm) this.spark(event.point, this.palette!.missed, 0.8, extent / 16);
       } else if (event.kind === "sensor_enter") {

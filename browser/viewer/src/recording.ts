@@ -1,7 +1,7 @@
 // A recording for display: bodies are drawn at the centres of their bounds, since nothing else is recorded.
 import { type BodyView, type Box, EventHash, Replay, type WorldView } from "kinesphere";
 import { isMissedByLoop } from "./missed.ts";
-import { emptyTally, RecentRate, type Shown, type Tally, type Told, wrapInto } from "./shown.ts";
+import { emptyTally, RecentRate, type Shown, type Tally, type ReportedEvent, wrapInto } from "./shown.ts";
 
 export class Recording implements Shown {
   readonly about = "A recording, gone through again. Bodies are drawn in the middle of their bounds. R leads back to the scene.";
@@ -53,18 +53,18 @@ export class Recording implements Shown {
     return this.replay.world.bodyViews().filter((view) => !view.isStatic);
   }
 
-  run(until: number, deadline = Infinity): Told[] {
-    const told: Told[] = [];
-    while (!this.replay.finished && this.replay.world.time < until && performance.now() <= deadline) this.step(told);
+  run(until: number, deadline = Infinity): ReportedEvent[] {
+    const reported: ReportedEvent[] = [];
+    while (!this.replay.finished && this.replay.world.time < until && performance.now() <= deadline) this.step(reported);
     this.shownTime = Math.min(until, this.replay.world.time);
-    return told;
+    return reported;
   }
 
-  nextEvent(): Told[] {
-    const told: Told[] = [];
-    while (!this.replay.finished && told.length === 0) this.step(told);
+  nextEvent(): ReportedEvent[] {
+    const reported: ReportedEvent[] = [];
+    while (!this.replay.finished && reported.length === 0) this.step(reported);
     this.shownTime = this.replay.world.time;
-    return told;
+    return reported;
   }
 
   /** Goes back by a replay from the start. */
@@ -83,7 +83,7 @@ export class Recording implements Shown {
     this.replay.free();
   }
 
-  private step(told: Told[]): void {
+  private step(reported: ReportedEvent[]): void {
     const event = this.replay.advance();
     const { world } = this.replay;
     this.rate.add(world.time, world.counters.probes);
@@ -100,6 +100,6 @@ export class Recording implements Shown {
     } else if (event.kind === "bound_violation") {
       this.counts.violations += 1;
     }
-    told.push({ event, missed });
+    reported.push({ event, missed });
   }
 }

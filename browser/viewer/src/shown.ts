@@ -3,7 +3,7 @@ import type { BodyId, BodyView, Box, Event, WorldView } from "kinesphere";
 import type { AlarmDistances } from "./scenes/live_scene.ts";
 
 /** An event, and whether a loop of 60 Hz would miss it. */
-export interface Told {
+export interface ReportedEvent {
   event: Event;
   missed: boolean;
 }
@@ -62,9 +62,9 @@ export interface Shown {
   /** Returns the moving bodies as the world knows them, in the order of positions(). */
   views(): BodyView[];
   /** Advances to `until`, or as far as `deadline`, a time of performance.now(), allows. */
-  run(until: number, deadline?: number): Told[];
+  run(until: number, deadline?: number): ReportedEvent[];
   /** Advances to the next event, and returns all events of its time. */
-  nextEvent(): Told[];
+  nextEvent(): ReportedEvent[];
   /** Goes back, as far as the history reaches. */
   back(seconds: number): void;
   free(): void;

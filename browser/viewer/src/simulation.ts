@@ -4,7 +4,7 @@ import { isMissedByLoop, loopLooksWithin } from "./missed.ts";
 import type { TrackTable } from "./scenes/crowd.ts";
 import { sceneAbout, setUp } from "./scenes/list.ts";
 import type { AlarmDistances, LiveScene, SceneChoice, Setup } from "./scenes/live_scene.ts";
-import { emptyTally, type NearPair, RecentRate, type Shown, type Tally, type Told, wrapInto } from "./shown.ts";
+import { emptyTally, type NearPair, RecentRate, type Shown, type Tally, type ReportedEvent, wrapInto } from "./shown.ts";
 
 /** Simulated time between two snapshots. */
 const snapshotInterval = 0.25;
@@ -91,27 +91,27 @@ export class Simulation implements Shown {
     return this.zone === null ? views : views.filter((view) => !view.isStatic);
   }
 
-  run(until: number, deadline = Infinity): Told[] {
-    const told: Told[] = [];
+  run(until: number, deadline = Infinity): ReportedEvent[] {
+    const reported: ReportedEvent[] = [];
     const last = Math.min(until, this.endTime);
     const slice = Math.max((last - this.time) / 8, 1e-4);
     while (this.time < last) {
       const nextSnapshot = this.snapshots.at(-1)!.scene.world.time + snapshotInterval;
       const end = Math.min(last, nextSnapshot, deadline === Infinity ? Infinity : this.time + slice);
-      this.goTo(end, told);
+      this.goTo(end, reported);
       if (end >= nextSnapshot) this.keepSnapshot();
       if (performance.now() > deadline) break;
     }
-    return told;
+    return reported;
   }
 
-  nextEvent(): Told[] {
+  nextEvent(): ReportedEvent[] {
     const time = this.timeOfNextEvent();
     if (time === null) return [];
     if (time > this.time) return this.run(time);
-    const told: Told[] = [];
-    this.goTo(time, told);
-    return told;
+    const reported: ReportedEvent[] = [];
+    this.goTo(time, reported);
+    return reported;
   }
 
   back(seconds: number): void {
@@ -133,10 +133,10 @@ export class Simulation implements Shown {
     this.snapshots = [];
   }
 
-  private goTo(time: number, told: Told[]): void {
+  private goTo(time: number, reported: ReportedEvent[]): void {
     this.now.scene.run(time, (event) => {
       this.now.hash.add(event);
-      told.push({ event, missed: this.count(event) });
+      reported.push({ event, missed: this.count(event) });
     });
     this.rate.add(this.time, this.view.counters.probes);
   }

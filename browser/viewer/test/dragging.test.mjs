@@ -24,7 +24,7 @@ function drag(settings) {
     const radii = simulation.radii();
     const from = { x: canvas.clientWidth / 2, y: canvas.clientHeight / 2 };
     const to = { ...from };
-    const result = { deepest: 0, told: 0, contacts: 0, held: 0, way: 0, violations: 0, findings: [] };
+    const result = { deepest: 0, reported: 0, contacts: 0, held: 0, way: 0, violations: 0, findings: [] };
     const body = hand.body;
     const start = simulation.time;
     let before = simulation.positions().slice(3 * body, 3 * body + 3);
@@ -39,7 +39,7 @@ function drag(settings) {
       canvas.dispatchEvent(new PointerEvent("pointermove", { pointerId, clientX: from.x, clientY: from.y }));
       hand.pull(1);
       for (const { event } of simulation.run(start + (picture + 1) / 60)) {
-        result.told += 1;
+        result.reported += 1;
         if (event.kind === "contact_begin" && (event.first === body || event.second === body)) result.contacts += 1;
         if (event.kind === "bound_violation") result.violations += 1;
       }
@@ -96,7 +96,7 @@ for (const [scene, seconds, bodies, seed] of [["paper1", 60, 300, 1], ["gas", 10
 }
 
 test("a broken promise is shown", async () => {
-  const told = await page.evaluate(() => {
+  const reported = await page.evaluate(() => {
     const viewer = window.kinesphereViewer;
     Object.assign(viewer.settings, { scene: "paper1", bodies: 50, seed: 1 });
     viewer.restart();
@@ -108,8 +108,8 @@ test("a broken promise is shown", async () => {
     motion.setVelocity(7, simulation.time, [900, 0, 0]);
     return simulation.run(simulation.time + 5).filter(({ event }) => event.kind === "bound_violation").length;
   });
-  assert.ok(told > 0);
+  assert.ok(reported > 0);
   const shown = () => page.textContent('#numbers [data-name="broken promises"] dd');
   await page.waitForFunction(() => document.querySelector('#numbers [data-name="broken promises"]').classList.contains("bad"));
-  assert.equal(await shown(), String(told));
+  assert.equal(await shown(), String(reported));
 });

@@ -19,8 +19,8 @@ class Watch {
   constructor(...options) {
     this.process = spawn(process.env.KINESPHERE_PROGRAM, ["watch", "--format", "jsonl", "--quiet", ...(options.includes("--serve") ? [] : ["--serve", "0"]), ...options],
                          { stdio: ["pipe", "ignore", "pipe"] });
-    this.address = new Promise((told) => createInterface(this.process.stderr).once("line",
-      (line) => told(/http:\S+/.exec(line)[0])));
+    this.address = new Promise((resolve) => createInterface(this.process.stderr).once("line",
+      (line) => resolve(/http:\S+/.exec(line)[0])));
   }
   report(...reports) {
     for (const report of reports) this.process.stdin.write(`${JSON.stringify(report)}\n`);
@@ -97,7 +97,7 @@ describe("a stream with x and y", () => {
     assert.equal(await page.textContent("#about"), "standard input");
   });
 
-  test("pairs and needs are told in words", async () => {
+  test("pairs and needs are reported in words", async () => {
     const [within, undecided, ...others] = await texts(page, "#pairs li");
     assert.deepEqual(others, []);
     assert.match(within, /within.*sphere:30 · 1\d[.]?\d* to 2\d/s);
@@ -180,7 +180,7 @@ describe("a stream with x and y", () => {
     assert.equal(await number(page, "time"), "10.0 s");
   });
 
-  test("nothing was complained of, and the end of the stream is told", async () => {
+  test("nothing was complained of, and the end of the stream is reported", async () => {
     assert.deepEqual(complaints, []);
     assert.equal(await page.isHidden("#lost"), true);
     assert.equal(await watch.end(), 0);

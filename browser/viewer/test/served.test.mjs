@@ -19,7 +19,7 @@ async function viewed(options, action) {
   const server = spawn(program, ["view", "--no-browser", "--folder", process.env.KINESPHERE_VIEWER, ...options],
                        { stdio: ["ignore", "pipe", "inherit"] });
   try {
-    const address = await new Promise((told) => createInterface(server.stdout).once("line", told));
+    const address = await new Promise((resolve) => createInterface(server.stdout).once("line", resolve));
     await action(await inBrowser.open(address));
   } finally {
     const gone = new Promise((done) => server.once("exit", done));
@@ -41,9 +41,9 @@ test("a table of positions", async () => {
   writeFileSync(file, `id,t,x,y\n${rows.join("\n")}\n`);
   await viewed([file], async (page) => {
     await page.waitForFunction(() => document.querySelector("#title").textContent === "two.csv");
-    const told = await page.evaluate(() =>
+    const reported = await page.evaluate(() =>
       window.kinesphereViewer.simulation.run(Infinity).map(({ event }) => event.kind));
-    assert.deepEqual(told, ["contact_begin", "contact_end"]);
+    assert.deepEqual(reported, ["contact_begin", "contact_end"]);
   });
 });
 
@@ -53,12 +53,12 @@ test("a world's recording", async () => {
   const hash = execFileSync(program, ["run", "gas", "--bodies", "50", "--seconds", "2", "--hash-only"], { encoding: "utf8" }).trim();
   await viewed([file], async (page) => {
     await page.waitForFunction(() => document.querySelector("#title").textContent === "world.rec");
-    const told = await page.evaluate(() => {
+    const reported = await page.evaluate(() => {
       const { simulation } = window.kinesphereViewer;
       simulation.run(Infinity);
       return simulation.hash;
     });
-    assert.equal(told, hash);
+    assert.equal(reported, hash);
   });
 });
 

@@ -208,14 +208,14 @@ test("drones are warned before they touch, and alarms are undone by going back",
   await page.keyboard.press("Space");
   const seen = await page.evaluate(() => {
     const { simulation } = window.kinesphereViewer;
-    const told = simulation.run(20).map(({ event }) => event);
+    const reported = simulation.run(20).map(({ event }) => event);
     const before = { ...simulation.tally, near: [...simulation.near].length, hash: simulation.hash };
     simulation.back(5);
     const between = { ...simulation.tally };
     simulation.run(20);
     const warned = new Set();
     let early = true;
-    for (const { kind, first, second, distance } of told) {
+    for (const { kind, first, second, distance } of reported) {
       if (kind === "sensor_enter" && distance === 20) warned.add(`${first} ${second}`);
       if (kind === "contact_begin" || distance === 6) early &&= warned.has(`${first} ${second}`);
     }
@@ -260,12 +260,12 @@ test("tracks that are served are shown: people come, pass each other and go", as
     setPlaying(false);
     simulation.back(100);
     const counts = [simulation.bodyCount];
-    const told = [];
+    const reported = [];
     for (const time of [11.5, 13.5, Infinity]) {
-      told.push(...simulation.run(time).map(({ event }) => [event.kind, event.time]));
+      reported.push(...simulation.run(time).map(({ event }) => [event.kind, event.time]));
       counts.push(simulation.bodyCount);
     }
-    return { counts, told, time: simulation.time, end: simulation.endTime, canBePushed: simulation.canBePushed };
+    return { counts, reported, time: simulation.time, end: simulation.endTime, canBePushed: simulation.canBePushed };
   });
   assert.deepEqual(seen.counts, [1, 2, 1, 0]);
   assert.equal(seen.end, 14);
@@ -273,8 +273,8 @@ test("tracks that are served are shown: people come, pass each other and go", as
   assert.equal(seen.canBePushed, false);
   // The two pass at 12 s, 0.2 m aside, with 2 m/s: nearer than 0.5 m while |2 t| < sqrt(0.25 - 0.04).
   const half = Math.sqrt(0.21) / 2;
-  assert.deepEqual(seen.told.map(([kind]) => kind), ["contact_begin", "contact_end"]);
-  assert.ok(Math.abs(seen.told[0][1] - (12 - half)) < 1e-4 && Math.abs(seen.told[1][1] - (12 + half)) < 1e-4, `${seen.told}`);
+  assert.deepEqual(seen.reported.map(([kind]) => kind), ["contact_begin", "contact_end"]);
+  assert.ok(Math.abs(seen.reported[0][1] - (12 - half)) < 1e-4 && Math.abs(seen.reported[1][1] - (12 + half)) < 1e-4, `${seen.reported}`);
 });
 
 test("the page has complained of nothing, and asked nobody else", () => {

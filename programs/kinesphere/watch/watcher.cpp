@@ -24,9 +24,9 @@ ErrorBound spread_of(double flat, const std::optional<double>& upright) {
 
 }  // namespace
 
-Watcher::Watcher(WatchSettings settings, Tell tell)
+Watcher::Watcher(WatchSettings settings, AlertFn alert)
     : settings_(std::move(settings)),
-      tell_(std::move(tell)),
+      alert_(std::move(alert)),
       clock_(settings_.clock == WatchSettings::Clock::stamps ? StreamClock::Source::stamps
                                                              : StreamClock::Source::arrivals,
              settings_.leap),
@@ -199,7 +199,7 @@ void Watcher::advance(double until) {
   for (;;) {
     const auto event = require(monitor_->advance(until));
     if (!event) return;
-    tell(*event);
+    report(*event);
     drop_crowd();
   }
 }
@@ -218,16 +218,16 @@ void Watcher::drop_crowd() {
   }
 }
 
-void Watcher::tell(const MonitorEvent& event) {
+void Watcher::report(const MonitorEvent& event) {
   // A watch of another share reports this track.
-  const bool is_told = settings_.share.contains(event.first);
-  if (is_told) count_and_tell(event);
+  const bool is_reported = settings_.share.contains(event.first);
+  if (is_reported) count_and_report(event);
   if (event.kind != MonitorEventKind::dropped) return;
   names_.remove(event.first);
   dropped_.erase(event.first);
 }
 
-void Watcher::count_and_tell(const MonitorEvent& event) {
+void Watcher::count_and_report(const MonitorEvent& event) {
   ++counts_.alerts;
   ++counts_.events[static_cast<std::size_t>(event.kind)];
   if (event.kind == MonitorEventKind::verdict) {
@@ -236,7 +236,7 @@ void Watcher::count_and_tell(const MonitorEvent& event) {
        : event.verdict == Verdict::undecided ? turns.undecided
                                              : turns.within);
   }
-  tell_(event.first % settings_.share.of, alert_line(context(), event, dropped_.contains(event.first)));
+  alert_(event.first % settings_.share.of, alert_line(context(), event, dropped_.contains(event.first)));
 }
 
 AlertContext Watcher::context() const {

@@ -24,9 +24,9 @@ namespace kinesphere::program {
 class Watcher final : public ReportSink {
  public:
   /// Receives alerts, as lines with their ends and in order of time, with the share of each.
-  using Tell = std::function<void(std::uint64_t share, std::string_view alert)>;
+  using AlertFn = std::function<void(std::uint64_t share, std::string_view alert)>;
 
-  Watcher(WatchSettings settings, Tell tell);
+  Watcher(WatchSettings settings, AlertFn alert);
 
   // Functions for formats. They throw ProgramError naming an option that has to be given.
   void take(const SourceReport& report) override;
@@ -95,11 +95,11 @@ class Watcher final : public ReportSink {
   bool has_room() const;
   /// Removes the tracks in most open pairs if there are too many open pairs, until half of the limit is left.
   void drop_crowd();
-  void tell(const MonitorEvent& event);
-  void count_and_tell(const MonitorEvent& event);
+  void report(const MonitorEvent& event);
+  void count_and_report(const MonitorEvent& event);
 
   WatchSettings settings_;
-  Tell tell_;
+  AlertFn alert_;
   StreamClock clock_;
   bool clock_is_chosen_;
   std::vector<HeldReport> held_;

@@ -53,12 +53,12 @@ struct Original {
 };
 
 /// A converted recording: its files, and the options to read them.
-struct Told {
+struct WrittenTracks {
   std::vector<NamedText> files;
   TrackOptions options;
 };
 
-using Teller = std::function<Told(Original&)>;
+using TracksWriter = std::function<WrittenTracks(Original&)>;
 
 std::string header_of(const Original& original, std::string header) {
   return header + (original.has_z() ? ",z\n" : "\n");
@@ -91,10 +91,10 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-Told plain(Original& original) { return {{{"t.csv", plain_table(original)}}, {}}; }
+WrittenTracks plain(Original& original) { return {{{"t.csv", plain_table(original)}}, {}}; }
 
 /// Every field quoted, an extra name with quotes, separators and line ends, CRLF, a byte order mark.
-Told quoted(Original& original) {
+WrittenTracks quoted(Original& original) {
   std::string text = "\xEF\xBB\xBF\"Name; \"\"of it\"\"\";\"TRACK_ID\";\"Time\";\"X\";\"Y\"";
   text += original.has_z() ? ";\"Z\"\r\n" : "\r\n";
   for (const Row& row : original.rows) {
@@ -106,7 +106,7 @@ Told quoted(Original& original) {
 }
 
 /// Dates from the last minute before a leap day on, in two zones.
-Told dates(Original& original) {
+WrittenTracks dates(Original& original) {
   const auto date = [](const Row& row) {
     const std::int64_t seconds = row.milliseconds / 1000 + 23 * 3600 + 59 * 60;
     const bool east = row.milliseconds % 3 == 0;
@@ -118,15 +118,15 @@ Told dates(Original& original) {
   return {{{"t.csv", table(original, "agent,BaseDateTime,x,y", date)}}, {}};
 }
 
-Told unix_seconds(Original& original) {
+WrittenTracks unix_seconds(Original& original) {
   const auto time = [](const Row& row) {
     return fmt::format("{}.{:03}", 1700000000 + row.milliseconds / 1000, row.milliseconds % 1000);
   };
   return {{{"t.csv", table(original, "MMSI,Timestamp,x,y", time)}}, {}};
 }
 
-Told unix_milliseconds(Original& original) {
-  Told reported{
+WrittenTracks unix_milliseconds(Original& original) {
+  WrittenTracks reported{
       {{"t.csv", table(original, "object,t,x,y",
                        [](const Row& row) { return fmt::format("{}", 1700000000000 + row.milliseconds); })}},
       {}};
@@ -135,20 +135,20 @@ Told unix_milliseconds(Original& original) {
 }
 
 /// 9 decimals: rounding errors up to 1e-9, the distance of two doubles there.
-Told utm(Original& original) {
+WrittenTracks utm(Original& original) {
   std::string text = header_of(original, "ped,time,Easting,Northing");
   for (const Row& row : original.rows) {
     text += fmt::format("{},{},{:.9f},{:.9f}", row.id, in_seconds(row), row.position.x + 500000,
                         row.position.y + 5400000);
     text += original.has_z() ? fmt::format(",{}\n", row.position.z) : "\n";
   }
-  Told reported{{{"t.csv", text}}, {}};
+  WrittenTracks reported{{{"t.csv", text}}, {}};
   reported.options.hints.from = "utm:33N";
   return reported;
 }
 
 /// On the ground of the Earth, or in space above it. 14 decimals of a degree are 1e-9 m.
-Told longitudes_and_latitudes(Original& original) {
+WrittenTracks longitudes_and_latitudes(Original& original) {
   const Vec3 somewhere{11.5, 54.25, 0};
   const auto projection = project(std::span(&somewhere, 1), original.has_z(), ProjectionChoice::automatic);
   std::string text = original.has_z() ? "id,time,LAT,LON,Altitude\n" : "id,time,LAT,LON\n";
@@ -161,7 +161,7 @@ Told longitudes_and_latitudes(Original& original) {
 }
 
 /// Each id loses 4 samples of 40: its track ends before them and another begins after them.
-Told gaps(Original& original) {
+WrittenTracks gaps(Original& original) {
   std::map<std::string, std::size_t> count;
   std::erase_if(original.rows, [&](const Row& row) { return count[row.id]++ % 40 >= 36; });
   Recording& recording = original.recording;
@@ -182,7 +182,7 @@ Told gaps(Original& original) {
   return plain(original);
 }
 
-Told duplicates(Original& original, DuplicatePolicy policy) {
+WrittenTracks duplicates(Original& original, DuplicatePolicy policy) {
   std::vector<std::string> lines = lines_of(plain_table(original));
   std::string text;
   for (std::size_t k = 0; k < lines.size(); ++k) {
@@ -190,17 +190,17 @@ Told duplicates(Original& original, DuplicatePolicy policy) {
     if (k > 0 && k % 7 == 0) text += lines[k] + '\n';
     if (k > 0 && k % 100 == 0) text += lines[k - 50] + '\n';
   }
-  Told reported{{{"t.csv", text}}, {}};
+  WrittenTracks reported{{{"t.csv", text}}, {}};
   reported.options.duplicates = policy;
   return reported;
 }
 
-Told first_duplicates(Original& original) { return duplicates(original, DuplicatePolicy::first); }
+WrittenTracks first_duplicates(Original& original) { return duplicates(original, DuplicatePolicy::first); }
 /// Equal positions: the mean of two of them is exact, of three up to rounding.
-Told mean_duplicates(Original& original) { return duplicates(original, DuplicatePolicy::mean); }
+WrittenTracks mean_duplicates(Original& original) { return duplicates(original, DuplicatePolicy::mean); }
 
 /// Rows without a position between rows with one, and rows without a time.
-Told missing(Original& original) {
+WrittenTracks missing(Original& original) {
   std::string text = header_of(original, "id,time,x,y");
   const char* const ways[] = {"NaN,1", "1,", "null,NA"};
   std::size_t k = 0;
@@ -213,12 +213,12 @@ Told missing(Original& original) {
                           original.has_z() ? ",1\n" : "\n");
     if (k % 11 == 0) text += fmt::format("{},,1,1{}", id, original.has_z() ? ",1\n" : "\n");
   }
-  Told reported{{{"t.csv", text}}, {}};
+  WrittenTracks reported{{{"t.csv", text}}, {}};
   reported.options.missing = MissingPolicy::skip;
   return reported;
 }
 
-Told shuffled(Original& original) {
+WrittenTracks shuffled(Original& original) {
   Random random(seed);
   for (std::size_t k = original.rows.size(); k > 1; --k)
     std::swap(original.rows[k - 1],
@@ -227,7 +227,7 @@ Told shuffled(Original& original) {
 }
 
 /// Half of the rows are in one file, the others alternate between two.
-Told several_files(Original& original) {
+WrittenTracks several_files(Original& original) {
   const std::string header = header_of(original, "id,time,x,y");
   std::string texts[3] = {header, header, header};
   std::size_t k = 0;
@@ -239,7 +239,7 @@ Told several_files(Original& original) {
 
 struct Shape {
   const char* name;
-  Told (*tell)(Original&);
+  WrittenTracks (*write)(Original&);
 };
 
 constexpr Shape shapes[] = {
@@ -302,7 +302,7 @@ TEST_P(Shapes, HaveTheSameApproaches) {
     for (const TrackSample& sample : track.samples)
       original.rows.push_back({track.id, std::llround(1000 * sample.time), sample.position});
   }
-  Told reported = shape.tell(original);
+  WrittenTracks reported = shape.write(original);
   const Recording read = parse_tracks(std::move(reported.files), reported.options);
   ASSERT_EQ(read.tracks.size(), original.recording.tracks.size());
   const std::vector<Counterpart> same = counterparts(read, original.recording);

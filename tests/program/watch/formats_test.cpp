@@ -15,7 +15,7 @@ namespace kinesphere::program::formats_test {
 namespace {
 
 /// Stores everything that it receives.
-class Kept final : public ReportSink {
+class CollectedReports final : public ReportSink {
  public:
   struct Report {
     std::string id;
@@ -36,8 +36,8 @@ class Kept final : public ReportSink {
 };
 
 /// Reads all records of a text.
-Kept read_all(StreamFormat name, std::string_view text, const FormatChoices& choices = {}) {
-  Kept kept;
+CollectedReports read_all(StreamFormat name, std::string_view text, const FormatChoices& choices = {}) {
+  CollectedReports kept;
   kept.format = make_format(name, choices);
   RecordCutter cutter(records_of(name));
   cutter.feed(text);
@@ -73,7 +73,7 @@ constexpr std::string_view aircraft = R"({ "now" : 1700000000.5,
 )";
 
 TEST(ReadsbFormat, SaysWhereAircraftAreAndHowFarOff) {
-  const Kept kept = read_all(StreamFormat::readsb, aircraft);
+  const CollectedReports kept = read_all(StreamFormat::readsb, aircraft);
   ASSERT_EQ(kept.reports.size(), 2u);
   const auto& [id, report] = kept.reports[0];
   EXPECT_EQ(id, "4ca1fa");
@@ -103,7 +103,7 @@ TEST(ReadsbFormat, DeclaresAsItIsTold) {
   choices.containment = 4.0;
   choices.position_bound = FormatChoices::PositionBound::accuracy;
   choices.altitude = FormatChoices::Altitude::geometric;
-  const Kept kept = read_all(StreamFormat::readsb, aircraft, choices);
+  const CollectedReports kept = read_all(StreamFormat::readsb, aircraft, choices);
   const SourceReport& report = kept.reports[0].report;
   EXPECT_DOUBLE_EQ(report.position_error->bound, 120.0);
   EXPECT_DOUBLE_EQ(report.position.z, 35600 * foot);
@@ -117,7 +117,7 @@ TEST(ReadsbFormat, TakesNoPositionsOfOthersUnlessTheirErrorIsSaid) {
 {"hex":"c","type":"tisb_icao","alt_baro":1000,"lat":51.0,"lon":0.0,"seen_pos":1,"nac_p":8,"tisb":["lat"]},
 {"hex":"d","type":"adsr_icao","alt_baro":1000,"lat":51.0,"lon":0.0,"seen_pos":1,"nac_p":8,"mlat":[],"tisb":[]},
 {"hex":"e","type":"adsb_icao","alt_baro":1000,"lat":51.0,"lon":0.0,"seen_pos":1,"rc":75,"sil":0,"nac_p":8}]})";
-  const Kept kept = read_all(StreamFormat::readsb, text);
+  const CollectedReports kept = read_all(StreamFormat::readsb, text);
   ASSERT_EQ(kept.reports.size(), 2u);
   EXPECT_EQ(kept.reports[0].id, "d");
   EXPECT_EQ(kept.reports[1].id, "e");
@@ -125,7 +125,7 @@ TEST(ReadsbFormat, TakesNoPositionsOfOthersUnlessTheirErrorIsSaid) {
   EXPECT_EQ(kept.passed, std::vector(3, Passed::no_bound));
   FormatChoices choices;
   choices.position_error_is_said = true;
-  const Kept all = read_all(StreamFormat::readsb, text, choices);
+  const CollectedReports all = read_all(StreamFormat::readsb, text, choices);
   ASSERT_EQ(all.reports.size(), 5u);
   EXPECT_FALSE(all.reports[2].report.position_error) << "that of the option";
 }
@@ -135,7 +135,7 @@ TEST(ReadsbFormat, RefusesWhatIsNoAircraftJson) {
        {R"({"aircraft": []})", R"({"now": "noon", "aircraft": []})", R"({"now": 1})",
         R"({"now": 1, "aircraft": 3})", R"({"now": 1, "aircraft": [3]})",
         R"({"now": 1, "aircraft": [{"hex": "a",]})", "3", R"({"now": 1, "aircraft": [)"}) {
-    const Kept kept = read_all(StreamFormat::readsb, text);
+    const CollectedReports kept = read_all(StreamFormat::readsb, text);
     ASSERT_EQ(kept.refused.size(), 1u) << text;
     EXPECT_TRUE(kept.refused[0].starts_with("1: expected ")) << kept.refused[0];
     EXPECT_TRUE(kept.reports.empty());
@@ -143,7 +143,7 @@ TEST(ReadsbFormat, RefusesWhatIsNoAircraftJson) {
 }
 
 TEST(OpenskyFormat, ReadsStateVectors) {
-  const Kept kept = read_all(StreamFormat::opensky, R"({"time":1458564121,"states":[
+  const CollectedReports kept = read_all(StreamFormat::opensky, R"({"time":1458564121,"states":[
     ["ab1644","UAL421  ","United States",1458564120,1458564120,-81.1264,35.4021,11277.6,false,240.5,180.0,-1.5,null,11500.2,"1712",false,0],
     ["ac96b8","","United States",null,1458564000,null,null,null,true,0,0,null,null,null,null,false,0],
     ["ad0002","","X",1458564119,1458564120,-81,35,1000,false,10,0,null,null,null,null,false,2],
@@ -172,7 +172,7 @@ TEST(SbsFormat, PutsPositionsAndVelocitiesTogether) {
     return "MSG," + std::to_string(type) + ",1,1,4CA1FA,1," + day + seconds + "," + day + seconds + rest +
            "\r\n";
   };
-  const Kept kept = read_all(
+  const CollectedReports kept = read_all(
       StreamFormat::sbs,
       message(3, "00.000", ",,35000,,,51.5,-0.5,,,0,0,0,0") + message(1, "00.100", ",RYR1,,,,,,,,,,,") +
           message(4, "00.500", ",,,450,90,,,-600,,,,,") +
@@ -199,7 +199,7 @@ TEST(SbsFormat, PutsPositionsAndVelocitiesTogether) {
 }
 
 TEST(SbsFormat, TakesVelocitiesOfPositionMessages) {
-  const Kept kept = read_all(
+  const CollectedReports kept = read_all(
       StreamFormat::sbs,
       "MSG,3, 0,  0,4006B3,      "
       "0,2009/06/19,06:15:05.984,2009/06/19,06:20:05.984,,18225,390,090,51.4870,-1.9225,-2400,4244,0,0,0,0\n"
@@ -210,7 +210,7 @@ TEST(SbsFormat, TakesVelocitiesOfPositionMessages) {
 }
 
 TEST(AisFormat, ReadsMarinecadastre) {
-  const Kept kept =
+  const CollectedReports kept =
       read_all(StreamFormat::ais,
                "MMSI,BaseDateTime,LAT,LON,SOG,COG,Heading,VesselName,IMO,CallSign,VesselType,Status,Length,"
                "Width,Draft,Cargo,TransceiverClass\n"
@@ -229,18 +229,19 @@ TEST(AisFormat, ReadsMarinecadastre) {
   EXPECT_EQ(kept.refused[0], "5: expected a time (column 2), but got '2023-02-30T00:00:03'");
   EXPECT_EQ(kept.refused[1], "6: expected 6 columns or more, but got 3");
   // The form of the file since 2025.
-  const Kept later = read_all(StreamFormat::ais,
-                              "mmsi,base_date_time,longitude,latitude,sog,cog,heading\n"
-                              "367390380,2025-01-01 00:00:01,-90.01,29.94672,10.0,90.0,511\n");
+  const CollectedReports later = read_all(StreamFormat::ais,
+                                          "mmsi,base_date_time,longitude,latitude,sog,cog,heading\n"
+                                          "367390380,2025-01-01 00:00:01,-90.01,29.94672,10.0,90.0,511\n");
   ASSERT_EQ(later.reports.size(), 1u);
   expect_near(later.reports[0].report.position, {-90.01, 29.94672, 0.0});
 }
 
 TEST(CsvFormat, FindsColumnsByTheirUsualNames) {
-  const Kept kept = read_all(StreamFormat::csv,
-                             "# a comment\nid;time;x;y;z;vx;vy;vz;position_error;velocity_error\n"
-                             "ann;1.5;1;2;3;0.1;0.2;0.3;0.5;0.01\n\"b;ob\";2;1;2;;;;;;\nann;3;1;east;3;0;0;0;"
-                             ";\nann;4;1;1;1;0;0;0;-1;\n");
+  const CollectedReports kept =
+      read_all(StreamFormat::csv,
+               "# a comment\nid;time;x;y;z;vx;vy;vz;position_error;velocity_error\n"
+               "ann;1.5;1;2;3;0.1;0.2;0.3;0.5;0.01\n\"b;ob\";2;1;2;;;;;;\nann;3;1;east;3;0;0;0;"
+               ";\nann;4;1;1;1;0;0;0;-1;\n");
   ASSERT_EQ(kept.reports.size(), 2u);
   const SourceReport& report = kept.reports[0].report;
   expect_near(report.position, {1, 2, 3});
@@ -259,7 +260,7 @@ TEST(CsvFormat, FindsColumnsByTheirUsualNames) {
 TEST(CsvFormat, TakesAMapOfColumnsWithUnits) {
   FormatChoices choices;
   choices.columns = "id=1,time=ms:ms,lat=3,lon=4,alt=height:ft,speed=6:kt,course=7";
-  const Kept kept =
+  const CollectedReports kept =
       read_all(StreamFormat::csv, "who,ms,a,b,height,v,dir\nx,1500,50,8,1000,100,180\n", choices);
   ASSERT_EQ(kept.reports.size(), 1u);
   const SourceReport& report = kept.reports[0].report;
@@ -292,7 +293,7 @@ TEST(CsvFormat, RefusesWrongMaps) {
 }
 
 TEST(JsonLinesFormat, ReadsTheLibrarysOwnNames) {
-  const Kept kept = read_all(
+  const CollectedReports kept = read_all(
       StreamFormat::jsonl,
       R"({"id": "d1", "stamp": 12.5, "position": [1, 2, 3], "velocity": [4, 5, 6], "position_error": [3, 1], "velocity_error": 0.5, "stamp_error": 0.1, "arrival": 13})"
       "\n"

@@ -24,13 +24,13 @@ class Crowd implements LiveScene {
   constructor(readonly world: World, private readonly motion: RecordedTracks, private readonly changes: readonly Change[],
               private next: number) {}
 
-  run(until: number, tell: (event: Event) => void): void {
+  run(until: number, deliver: (event: Event) => void): void {
     for (let change = this.changes[this.next]; change !== undefined && change.time <= until; change = this.changes[this.next]) {
-      this.goTo(change.time, tell);
+      this.goTo(change.time, deliver);
       this.change(change);
       this.next += 1;
     }
-    this.goTo(until, tell);
+    this.goTo(until, deliver);
   }
   get presentCount(): number {
     return this.world.bodyViews().filter(({ enabled }) => enabled).length;
@@ -48,9 +48,9 @@ class Crowd implements LiveScene {
     this.motion.free();
   }
 
-  private goTo(time: number, tell: (event: Event) => void): void {
+  private goTo(time: number, deliver: (event: Event) => void): void {
     this.world.run(time, { motion: this.motion }, (events) => {
-      for (const event of events) tell(event);
+      for (const event of events) deliver(event);
     });
   }
   private change({ time, body, comes }: Change): void {
@@ -97,7 +97,7 @@ export function crowd({ bodies }: SceneChoice, table: TrackTable): Setup {
   }
   changes.sort((a, b) => a.time - b.time);
   const distance = `${Number((2 * radius).toPrecision(2))}${table.unit === null ? "" : ` ${table.unit}`}`;
-  const about = `As it was recorded. Two that come within ${distance} of each other are told.`;
+  const about = `As it was recorded. Two that come within ${distance} of each other are reported.`;
   return {
     title: table.name, about,
     scene: new Crowd(world, motion, changes, 0), radii: new Float64Array(tracks.length).fill(radius), region, endTime,

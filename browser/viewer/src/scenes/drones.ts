@@ -1,5 +1,5 @@
 // Drones that fly from place to place and report with errors. A drone in a warning climbs or sinks.
-import { type BodyId, type Box, type Event, Steered, type Vec3, World } from "kinesphere";
+import { type BodyId, type Box, type Event, SteeredMotion, type Vec3, World } from "kinesphere";
 import type { AlarmDistances, LiveScene, SceneChoice, Setup } from "./live_scene.ts";
 import { randomNumbers } from "./random_numbers.ts";
 
@@ -24,15 +24,15 @@ interface Plan {
 }
 
 class Airspace implements LiveScene {
-  constructor(readonly world: World, private readonly motion: Steered, private readonly plans: Plan[],
+  constructor(readonly world: World, private readonly motion: SteeredMotion, private readonly plans: Plan[],
               private readonly air: Box, private readonly seed: number, private nextTick: number) {}
 
-  run(until: number, tell: (event: Event) => void): void {
+  run(until: number, deliver: (event: Event) => void): void {
     while (this.world.time < until) {
       if (this.world.time >= this.nextTick) this.steerAll();
       for (const event of this.world.events(Math.min(until, this.nextTick), this.report)) {
         if (event.kind === "sensor_enter" && event.distance === alarms.warning) this.evade(event);
-        tell(event);
+        deliver(event);
       }
     }
   }
@@ -114,7 +114,7 @@ export function drones({ bodies, seed }: SceneChoice): Setup {
     positions.set([40 * (column + 0.5), 40 * (row + 0.5), 30 + 40 * random()], 3 * drone);
     plans.push({ target: randomPlace(air, random), places: 0, side: 0, evadesUntil: -Infinity });
   }
-  const motion = new Steered({ positions }, { accelerationLimits: agility });
+  const motion = new SteeredMotion({ positions }, { accelerationLimits: agility });
   const world = new World({ contactTolerance: 1e-3, separationDistance: 5 * positionError });
   world.setSensor(sensorClass, [alarms.warning, alarms.alarm]);
   const { accelerationLimit } = motion.definition(0, 0);

@@ -1,6 +1,6 @@
 // A game at 60 frames a second. It moves its balls as games do, v += g dt, x += v dt, and hands each frame over;
 // contacts come with their exact times between the last two frames, and are answered there.
-import { type BodyId, bounce, type Box, type Event, Frames, type Vec3, World } from "kinesphere";
+import { type BodyId, bounce, type Box, type Event, FrameMotion, type Vec3, World } from "kinesphere";
 import type { LiveScene, SceneChoice, Setup } from "./live_scene.ts";
 import { randomNumbers } from "./random_numbers.ts";
 
@@ -11,14 +11,14 @@ const fastest = 60;
 
 class GameLoop implements LiveScene {
   /** `velocities` are the game's own, three numbers for each ball. Its positions are those of the latest frame. */
-  constructor(readonly world: World, private readonly frames: Frames, private readonly velocities: Float64Array) {}
+  constructor(readonly world: World, private readonly frames: FrameMotion, private readonly velocities: Float64Array) {}
 
-  run(until: number, tell: (event: Event) => void): void {
+  run(until: number, deliver: (event: Event) => void): void {
     while (this.world.time < until) {
       if (this.world.time >= this.frames.latestTime) this.moveBalls();
       for (const event of this.world.events(Math.min(until, this.frames.latestTime), this.frames)) {
         this.answer(event);
-        tell(event);
+        deliver(event);
       }
     }
   }
@@ -69,7 +69,7 @@ export function game({ bodies, seed }: SceneChoice): Setup {
       velocities[3 * k + axis] = fastest * (2 * random() - 1) / Math.sqrt(3);
     }
   }
-  const frames = new Frames({ positions, velocities }, { accelerationLimits: 1.01 * gravity, interval });
+  const frames = new FrameMotion({ positions, velocities }, { accelerationLimits: 1.01 * gravity, interval });
   const world = new World({ box: room, contactTolerance: 1e-4, contacts: "impacts", zenoInterval: 1e-4 });
   const radii = new Float64Array(bodies).fill(radius);
   world.addMotion(frames, radii);

@@ -27,13 +27,13 @@ export const scenes: readonly SceneAbout[] = [
   { name: "rain", title: "Rain", bodies: 500, speed: 1, about: "Drops fall, and bounce off the floor." },
   { name: "pile", title: "Pile", bodies: 300, speed: 1, about: "Spheres fall on a heap, and lose speed in each contact." },
   { name: "bullets", title: "Bullets through a thin zone", bodies: 120, speed: 0.1,
-    about: "The zone is 0.05 thick. A loop of 60 Hz overlooks most flights through it; here each is told." },
+    about: "The zone is 0.05 thick. A loop of 60 Hz overlooks most flights through it; here each is reported." },
   { name: "drones", title: "Drones with alarms", bodies: 60, speed: 2,
     about: "They report where they are with errors of a metre. Two that may be within 20 m are warned, and climb or sink; at 6 m there is an alarm." },
   { name: "game", title: "A game loop", bodies: 200, speed: 0.25,
     about: "A game moves its balls 60 times a second, up to a unit each time, and hands each frame over. None passes through another." },
   { name: "crowd", title: "A recorded crowd", bodies: 10_000, speed: 1,
-    about: "People as they were recorded. Two that come within half a metre are told." },
+    about: "People as they were recorded. Two that come within half a metre are reported." },
 ];
 
 export function sceneAbout(name: string): SceneAbout {

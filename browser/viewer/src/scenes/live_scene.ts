@@ -3,8 +3,8 @@ import type { BodyId, Box, Event, Motion, RunOptions, Vec3, World } from "kinesp
 
 export interface LiveScene {
   readonly world: World;
-  /** Advances to `until`, and passes the events to `tell`, in order, including those before an error. */
-  run(until: number, tell: (event: Event) => void): void;
+  /** Advances to `until`, and passes the events to `deliver`, in order, including those before an error. */
+  run(until: number, deliver: (event: Event) => void): void;
   /** Number of present bodies, if bodies are added and removed. */
   readonly presentCount?: number;
   /** Returns true positions and velocities of bodies: six numbers for each, NaN for absent ones. */
@@ -51,9 +51,9 @@ export class MovedScene implements LiveScene {
   constructor(readonly world: World, private readonly motion: Motion,
               private readonly respond: NonNullable<RunOptions["respond"]>) {}
 
-  run(until: number, tell: (event: Event) => void): void {
+  run(until: number, deliver: (event: Event) => void): void {
     this.world.run(until, { motion: this.motion, respond: this.respond }, (events) => {
-      for (const event of events) tell(event);
+      for (const event of events) deliver(event);
     });
   }
   states(): Float64Array {

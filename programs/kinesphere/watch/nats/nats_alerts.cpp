@@ -15,30 +15,30 @@
 namespace kinesphere::program {
 namespace {
 
-constexpr const char* told_header = "Kinesphere-Told";
+constexpr const char* position_header = "Kinesphere-Told";
 
 /// The origin of an alert: the place in the stream of reports, and its number among the alerts of its share
 /// there.
-struct Told {
+struct AlertPosition {
   std::uint64_t position = 0;
   std::uint64_t number = 0;
 
-  friend auto operator<=>(const Told&, const Told&) = default;
+  friend auto operator<=>(const AlertPosition&, const AlertPosition&) = default;
 };
 
-std::string text_of(const Told& told, const std::string& origin) {
-  return fmt::format("{} {} {}", told.position, told.number, origin);
+std::string text_of(const AlertPosition& of, const std::string& origin) {
+  return fmt::format("{} {} {}", of.position, of.number, origin);
 }
 
 /// A message of another origin is no evidence of earlier alerts of this one.
-Told told_by(natsMsg* message, const std::string& origin) {
+AlertPosition position_of(natsMsg* message, const std::string& origin) {
   const char* text = nullptr;
-  if (natsMsgHeader_Get(message, told_header, &text) != NATS_OK) return {};
-  Told told;
+  if (natsMsgHeader_Get(message, position_header, &text) != NATS_OK) return {};
+  AlertPosition found;
   const char* const end = text + std::char_traits<char>::length(text);
-  auto after = std::from_chars(text, end, told.position);
-  if (after.ptr != end) after = std::from_chars(after.ptr + 1, end, told.number);
-  return std::string_view(after.ptr, end) == " " + origin ? told : Told{};
+  auto after = std::from_chars(text, end, found.position);
+  if (after.ptr != end) after = std::from_chars(after.ptr + 1, end, found.number);
+  return std::string_view(after.ptr, end) == " " + origin ? found : AlertPosition{};
 }
 
 class NatsAlerts final : public AlertOutput {
@@ -62,10 +62,10 @@ class NatsAlerts final : public AlertOutput {
   void flush(std::uint64_t position) override {
     for (const Waiting& alert : waiting_) {
       Share& share = share_of(alert.share);
-      share.next =
-          share.next.position == position ? Told{position, share.next.number + 1} : Told{position, 1};
+      share.next = share.next.position == position ? AlertPosition{position, share.next.number + 1}
+                                                   : AlertPosition{position, 1};
       if (stream_)
-        tell_once(share, alert.line);
+        send_once(share, alert.line);
       else
         send(share.subject, alert.line);
     }
@@ -81,8 +81,8 @@ class NatsAlerts final : public AlertOutput {
   };
   struct Share {
     std::string subject;
-    Told next{};                      ///< origin of the alert being sent
-    Told last{};                      ///< origin of the last alert, from any sender
+    AlertPosition next{};             ///< origin of the alert being sent
+    AlertPosition last{};             ///< origin of the last alert, from any sender
     std::uint64_t last_sequence = 0;  ///< its number in the stream of alerts
   };
 
@@ -103,7 +103,7 @@ class NatsAlerts final : public AlertOutput {
                                               share.subject.c_str(), nullptr, nullptr);
       const NatsMessage message(got);
       if (status == NATS_OK) {
-        share.last = told_by(got, origin_);
+        share.last = position_of(got, origin_);
         share.last_sequence = natsMsg_GetSequence(got);
         return;
       }
@@ -118,10 +118,10 @@ class NatsAlerts final : public AlertOutput {
 
   /// Publishes an alert if the share's last message is still the expected one; so the server accepts it from
   /// one sender only.
-  void tell_once(Share& share, const std::string& line) {
+  void send_once(Share& share, const std::string& line) {
     while (share.last < share.next) {
       NatsMessage message = message_of(share.subject, line);
-      natsMsgHeader_Set(message.get(), told_header, text_of(share.next, origin_).c_str());
+      natsMsgHeader_Set(message.get(), position_header, text_of(share.next, origin_).c_str());
       natsMsgHeader_Set(message.get(), "Nats-Expected-Last-Subject-Sequence",
                         fmt::to_string(share.last_sequence).c_str());
       jsPubAck* got = nullptr;

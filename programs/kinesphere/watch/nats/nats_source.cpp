@@ -143,9 +143,9 @@ class NatsStreamSource final : public ReportSource {
     if (taken_ == static_cast<std::size_t>(fetched_.Count)) fetch();
     if (!subscription_ || taken_ == static_cast<std::size_t>(fetched_.Count)) return false;
     natsMsg* const message = fetched_.Msgs[taken_++];
-    jsMsgMetaData* told = nullptr;
-    const natsStatus status = natsMsg_GetMetaData(&told, message);
-    const std::unique_ptr<jsMsgMetaData, NatsDelete<jsMsgMetaData_Destroy>> meta(told);
+    jsMsgMetaData* raw = nullptr;
+    const natsStatus status = natsMsg_GetMetaData(&raw, message);
+    const std::unique_ptr<jsMsgMetaData, NatsDelete<jsMsgMetaData_Destroy>> meta(raw);
     // Messages of a consumer are numbered: a gap is a message lost on the way.
     if (status != NATS_OK || meta->Sequence.Consumer != ++delivered_ || meta->Sequence.Stream <= position_) {
       drop();
