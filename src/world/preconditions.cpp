@@ -27,7 +27,7 @@ Result<void> World::Preconditions::all_delivered() const {
   auto valid = idle();
   if (!valid || !world_.undelivered_ || world_.undelivered_->empty()) return valid;
   return Error{ErrorCode::run_in_progress, "world", no_body,
-               std::string(call_) + ": all events of an interrupted run must have been delivered first," +
+               std::string(call_) + ": world must have delivered all events of an interrupted run first," +
                    " in another run or by advance"};
 }
 
