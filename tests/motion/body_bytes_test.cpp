@@ -465,9 +465,10 @@ TEST(WrittenBodies, OfAFrameAreReadInThatFrame) {
   const Bytes bytes = bytes_of(*motions.here, 0);
   there.push({}).value();
   std::span<const std::byte> rest = bytes;
-  EXPECT_EQ(there.read_body(rest).error().message,
-            "read_body: bytes hold no body of this motion: Frames: frame must be the latest one here, 1, but "
-            "is 0");
+  EXPECT_EQ(
+      there.read_body(rest).error().message,
+      "read_body: bytes hold no body of this motion: FrameMotion: frame must be the latest one here, 1, but "
+      "is 0");
 }
 
 /// The forces depend on the name under which a body began, wherever it is: also if another body has its
