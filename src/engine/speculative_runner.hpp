@@ -147,7 +147,7 @@ class SpeculativeRunner {
   bool execute_found();
   void checkpoint(const Cluster& cluster);
   void rollback(Cluster& cluster);
-  void restore_origin(const UndoEntry& turn);
+  void restore_origin(const UndoEntry& entry);
   void add_member(Cluster& cluster, std::uint32_t number);
   void merge(Cluster& one, Cluster& other);
   bool merge_conflicts();

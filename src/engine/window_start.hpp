@@ -34,7 +34,7 @@ class WindowStart {
   /// Returns windows for bodies that have none, of rungs other than `held` (Window::free_at). A body for
   /// which there is no window is omitted and marked dirty.
   std::vector<BroadPhase::Starter> choose_windows(std::span<const std::uint32_t> numbers,
-                                                  std::span<const int> held, WindowPolicy::Sample& round);
+                                                  std::span<const int> held, WindowPolicy::Sample& sample);
   /// Registers swept spheres, and certifies all pairs that may change before the earlier window end. Returns
   /// the number of near pairs. If `others` is given, by number, pairs whose first body is marked there are
   /// not counted.
