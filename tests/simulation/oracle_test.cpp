@@ -66,22 +66,7 @@ TEST(Oracle, AgreesWithTheWorldOnBodiesThatComeAndGo) {
 
 TEST(Lifetimes, EveryDetectorEndsTheContactsOfTheVanished) {
   for (const DetectorMaker& make : {DetectorMaker(make_world_detector), DetectorMaker(make_oracle)}) {
-    Scene scene;
-    scene.motion = std::make_unique<Ballistic>(
-        Ballistic::create({.start = {{{0, 0, 0}, {}}, {{1, 0, 0}, {}}, {{0, 1, 0}, {}}}}).value());
-    scene.bodies = {{.radius = 1, .appears = 1, .vanishes = 2}, {.radius = 1}, {.radius = 1, .appears = 1.5}};
-    scene.end_time = 4.0;
-    const auto events = events_of(scene, make);
-    // 1-2 touch to the end; 0 touches both while it is there.
-    ASSERT_EQ(events.size(), 5u) << events;
-    EXPECT_EQ(events[0].kind, EventKind::contact_begin);
-    EXPECT_NEAR(events[0].time, 1.0, 0.011);
-    EXPECT_EQ(events[3].kind, EventKind::contact_end);
-    EXPECT_EQ(events[4].kind, EventKind::contact_end);
-    EXPECT_EQ(events[3].first.index, 0u);
-    EXPECT_EQ(events[3].second.index, 1u);
-    EXPECT_EQ(events[4].second.index, 2u);
-    EXPECT_EQ(events[4].time, 2.0);
+    expect_ends_of_contacts_of_the_vanished(make);
   }
 }
 
@@ -112,20 +97,7 @@ TEST(WorldDetector, NumbersStayTheirsThroughReuseOfIndices) {
 
 TEST(AllDetectors, HeadOnBounceOnceAndGoOn) {
   for (const DetectorMaker& make : {DetectorMaker(make_world_detector), DetectorMaker(make_oracle)}) {
-    Scene scene;
-    scene.world.contacts = ContactMode::impacts;
-    scene.world.box = Box{{-10, -10, -10}, {10, 10, 10}};
-    scene.response = SceneResponse::bounce;
-    scene.motion = std::make_unique<Ballistic>(
-        Ballistic::create({.start = {{{-5, 0, 0}, {2, 0, 0}}, {{5, 0, 0}, {-2, 0, 0}}}}).value());
-    scene.bodies = {{.radius = 1}, {.radius = 1}};
-    scene.end_time = 9.9;  // together at 2, at the walls at 6, together at 10
-    const auto events = events_of(scene, make);
-    ASSERT_EQ(events.size(), 3u) << events;
-    EXPECT_NEAR(events[0].time, 2.0, 2e-3);
-    EXPECT_EQ(events[1].wall, Wall::x_lower);
-    EXPECT_EQ(events[2].wall, Wall::x_upper);
-    EXPECT_NEAR(events[2].time, 6.0, 5e-3);
+    expect_one_head_on_bounce(make);
   }
 }
 

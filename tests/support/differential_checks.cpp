@@ -7,24 +7,10 @@
 #include "simulation/oracle/comparison.hpp"
 #include "simulation/oracle/gap_course.hpp"
 #include "simulation/run/flight.hpp"
-#include "simulation/run/simulate.hpp"
+#include "support/detector_runs.hpp"
 
 namespace kinesphere::scene_tests {
 namespace {
-
-std::vector<Event> audited_events(const Scene& scene, const DetectorMaker& make) {
-  std::vector<Event> events;
-  std::uint64_t stops = 0;
-  SimulationObserver observer;
-  observer.on_event = [&](const Event& event) { events.push_back(event); };
-  observer.between_events = [&](const Detector& detector) {
-    if (++stops % 7 != 0) return;
-    const auto finding = detector.audit();
-    ASSERT_FALSE(finding) << finding->where << ": " << finding->what << " at time " << detector.time();
-  };
-  EXPECT_TRUE(simulate(scene, make, observer));
-  return events;
-}
 
 /// Returns the first time at which the gap is deeper than the tolerance, after it was first not negative.
 std::optional<double> first_overlap(const GapCourse& gap, const Scene& scene) {
@@ -38,7 +24,7 @@ std::optional<double> first_overlap(const GapCourse& gap, const Scene& scene) {
 }  // namespace
 
 void expect_agreement_with_oracle(const Scene& scene, const DetectorMaker& make) {
-  const std::vector<Event> events = audited_events(scene, make);
+  const std::vector<Event> events = events_of(scene, make, 1000000, 7);
   for (const Event& event : events) ASSERT_NE(event.kind, EventKind::bound_violation) << scene.name;
   const ContactComparison comparison = compare_with_oracle(scene, events).value();
   EXPECT_TRUE(comparison.agrees()) << scene.name << ": " << comparison.late << " late, " << comparison.missed

@@ -80,5 +80,9 @@ TEST(FixedStep, RefusesAStepThatIsNone) {
   }
 }
 
+TEST(FixedStep, EndsTheContactsOfTheVanished) { expect_ends_of_contacts_of_the_vanished(fixed_step(0.01)); }
+
+TEST(FixedStep, HeadOnBouncesOnceAndGoesOn) { expect_one_head_on_bounce(fixed_step(1e-3)); }
+
 }  // namespace
 }  // namespace kinesphere::fixed_step_test
