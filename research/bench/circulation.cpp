@@ -77,12 +77,12 @@ void bench_circulation(const Report& report, const BenchSettings& settings) {
                      "s_per_second_high", "ratio", "published_s", "speedup", "contacts",
                      "probes_per_body_second", "hash"});
   for (const auto& [name, one] : {std::pair("paper", &series[0]), std::pair("world", &series[1])}) {
-    const double spent = one->per_simulated_second();
+    const Spread spent = one->spread();
     const bool comparable = one == &series[0] && settings.circulation_bodies == 1000;
     table.row({std::string(name), std::uint64_t{settings.circulation_bodies}, settings.circulation_seconds,
-               std::uint64_t{1}, spent, one->spread().low, one->spread().high, ratio(*one, series[0]).median,
+               std::uint64_t{1}, spent.median, spent.low, spent.high, ratio(*one, series[0]).median,
                comparable ? Cell(published_circulation) : Cell(),
-               comparable ? Cell(published_circulation / spent) : Cell(), one->contacts(),
+               comparable ? Cell(published_circulation / spent.median) : Cell(), one->contacts(),
                static_cast<double>(one->result().counters.probes) / one->result().body_time, one->hash()});
   }
   report.table("circulation", table);

@@ -35,6 +35,13 @@ Run run_once(const NamedDetector& detector, const Scene& scene) {
   return run;
 }
 
+template <class Value>
+std::vector<double> values_of(const std::vector<Run>& runs, Value Run::*value) {
+  std::vector<double> values(runs.size());
+  std::ranges::transform(runs, values.begin(), value);
+  return values;
+}
+
 SceneParameters built_in(std::string_view name, std::uint32_t bodies, double seconds) {
   SceneParameters parameters = find_scene(std::string(name)).parameters;
   parameters.bodies = bodies;
@@ -56,18 +63,9 @@ Spread spread(std::vector<double> values) {
   return {median(values), values[quarter], values[values.size() - 1 - quarter]};
 }
 
-Spread Series::spread() const {
-  std::vector<double> values(runs.size());
-  std::transform(runs.begin(), runs.end(), values.begin(),
-                 [](const Run& run) { return run.per_simulated_second(); });
-  return program::spread(std::move(values));
-}
+Spread Series::spread() const { return program::spread(values_of(runs, &Run::per_simulated_second)); }
 
-double Series::preparing() const {
-  std::vector<double> values(runs.size());
-  std::transform(runs.begin(), runs.end(), values.begin(), [](const Run& run) { return run.preparing; });
-  return median(std::move(values));
-}
+double Series::preparing() const { return median(values_of(runs, &Run::preparing)); }
 
 std::uint64_t Series::contacts() const {
   const Counters& counters = result().counters;

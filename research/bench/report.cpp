@@ -57,15 +57,16 @@ void Report::save(const std::string& name, const ResultTable& table) const {
   table.save(fmt::format("{}/{}.csv", folder_, name));
 }
 
-void Report::plot(const Plot& plot) const {
-  file(plot.name + ".gp", gnuplot_script(plot));
-  if (draws_) run_gnuplot(folder_, plot.name);
+void Report::run_script(const std::string& name, std::string_view script) const {
+  file(name + ".gp", script);
+  if (draws_) run_gnuplot(folder_, name);
 }
+
+void Report::plot(const Plot& plot) const { run_script(plot.name, gnuplot_script(plot)); }
 
 void Report::plot(const SpherePlot& plot, const ResultTable& spheres) const {
   save(plot.name, spheres);
-  file(plot.name + ".gp", gnuplot_script(plot));
-  if (draws_) run_gnuplot(folder_, plot.name);
+  run_script(plot.name, gnuplot_script(plot));
 }
 
 void Report::file(const std::string& name, std::string_view text) const {

@@ -29,6 +29,9 @@ class Report {
   void file(const std::string& name, std::string_view text) const;
 
  private:
+  /// Saves NAME.gp, and draws it where gnuplot is installed.
+  void run_script(const std::string& name, std::string_view script) const;
+
   std::string folder_;
   bool draws_;
 };

@@ -61,14 +61,15 @@ void bench_table1(const Report& report, const BenchSettings& settings) {
         seeded_scenes(parameters, trial.seeds), 1);
     const Series &paper = series[0], &hubbard = series[1], &world = series[2], &hayward = series[3],
                  &steps = series[4];
+    const Spread to_paper = ratio(hubbard, paper);
     const auto published = published_times(trial.bodies);
     const auto cell = [&](double PublishedTimes::*value) {
       return published ? Cell((*published).*value) : Cell();
     };
     ours.row({std::uint64_t{trial.bodies}, trial.seconds, trial.seeds, paper.per_simulated_second(),
-              hubbard.per_simulated_second(), ratio(hubbard, paper).median, ratio(hubbard, paper).low,
-              ratio(hubbard, paper).high, cell(&PublishedTimes::proposed), cell(&PublishedTimes::hubbard),
-              cell(&PublishedTimes::ratio), paper.contacts(), paper.hash(), hubbard.hash()});
+              hubbard.per_simulated_second(), to_paper.median, to_paper.low, to_paper.high,
+              cell(&PublishedTimes::proposed), cell(&PublishedTimes::hubbard), cell(&PublishedTimes::ratio),
+              paper.contacts(), paper.hash(), hubbard.hash()});
     const Spread spent = world.spread(), to_world = ratio(paper, world);
     others.row({std::uint64_t{trial.bodies}, trial.seconds, trial.seeds, 1e3 * paper.per_simulated_second(),
                 1e3 * spent.median, 1e3 * spent.low, 1e3 * spent.high, to_world.median, to_world.low,
