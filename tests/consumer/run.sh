@@ -90,7 +90,7 @@ for package in CLI11 fmt nlohmann_json ZLIB GTest rapidcheck MPI Zoltan; do miss
 cmake -S "$source/../.." -B "$work/plain" -DCMAKE_CXX_COMPILER="$compiler" "${missing[@]}" -G Ninja >"$work/configure.log"
 targets=$(cmake --build "$work/plain" --target help)
 grep -o 'libkinesphere[^:]*' <<<"$targets" | head -n 1
-if grep -E 'kinesphere_program|kinesphere_lab|kinesphere_mpi|example_|test_|scene_hash' <<<"$targets"; then
+if grep -E 'kinesphere_program|kinesphere_simulation|kinesphere_mpi|example_|test_|scene_hash' <<<"$targets"; then
   echo "consumer: more than the library is built without options" >&2
   exit 1
 fi
