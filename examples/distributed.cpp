@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
   Ballistic motion = Ballistic::create({.start = states}).value();
 
   const WorldDefinition definition{.box = Box{{0, 0, 0}, {side, side, side}},
-                                   .contacts = ContactMode::impacts};
+                                   .contacts = ContactEvents::impacts};
   DistributedWorld world = DistributedWorld::create(definition, motion).value();
   for (std::uint32_t k = first; k < last; ++k) {
     BodyDefinition body = motion.definition(k - first, 0.0);

@@ -35,7 +35,7 @@ int main() {
                            .interval = dt})
           .value();
   World world =
-      World::create({.box = room, .contact_tolerance = 1e-3, .contacts = ContactMode::impacts}).value();
+      World::create({.box = room, .contact_tolerance = 1e-3, .contacts = ContactEvents::impacts}).value();
   for (std::uint32_t k = 0; k < frames.size(); ++k) {
     BodyDefinition ball = frames.definition(k, 0.0);
     ball.radius = radius;

@@ -30,7 +30,7 @@ int main() {
   Ballistic spheres = Ballistic::create({.start = start}).value();
   World world = World::create({.box = Box{{0, 0, 0}, {length, length, length}},
                                .periodic = {true, true, true},
-                               .contacts = ContactMode::impacts})
+                               .contacts = ContactEvents::impacts})
                     .value();
   for (std::uint32_t k = 0; k < spheres.size(); ++k) {
     BodyDefinition sphere = spheres.definition(k, 0.0);

@@ -30,7 +30,7 @@ int main() {
   World table = World::create({.box = Box{{0, 0, 0}, {2.54, 1.27, 0}},
                                .dimensions = 2,
                                .contact_tolerance = 1e-7,
-                               .contacts = ContactMode::impacts})
+                               .contacts = ContactEvents::impacts})
                     .value();
   std::vector<RollingBall> balls;
   const auto place = [&](double x, double y, const Vec3& velocity) {

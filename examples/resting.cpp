@@ -10,7 +10,7 @@
 using namespace kinesphere;
 
 int main() {
-  World world = World::create({.contacts = ContactMode::impacts}).value();
+  World world = World::create({.contacts = ContactEvents::impacts}).value();
   std::vector<State> state;
   std::vector<double> since;
   std::vector<BodyId> still;

@@ -37,7 +37,7 @@ int main() {
     flight.start.push_back(
         {{2.0 * (k % 10), 2.0 * (k / 10 % 10), 2.0 * (k / 100 % 10)}, {1.0 - k % 3, 0, 0}});
   Ballistic motion = Ballistic::create(flight).value();
-  World world = World::create({.contacts = ContactMode::impacts}).value();
+  World world = World::create({.contacts = ContactEvents::impacts}).value();
   for (std::uint32_t k = 0; k < motion.size(); ++k) {
     BodyDefinition ball = motion.definition(k, 0.0);
     ball.radius = 0.5;

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "kinesphere/body_id.hpp"
+#include "kinesphere/contact_events.hpp"
 #include "kinesphere/filter.hpp"
 #include "kinesphere/sensor.hpp"
 #include "kinesphere/vec3.hpp"
@@ -41,6 +43,8 @@ struct BodyDefinition {
   /// False for a trigger zone: it has no contacts with other bodies and only senses and is sensed. Walls
   /// stop it.
   bool solid = true;
+  /// Which contact events it asks for; if not given, WorldDefinition::contacts.
+  std::optional<ContactEvents> contacts{};
   /// Class whose sensor distances apply to this body: World::set_sensor().
   SensorClass sensor_class = 0;
   /// Stored for the caller; the world does not interpret it.

@@ -13,17 +13,20 @@ enum class EventKind : std::uint8_t {
   /// A probed state contradicts the motion limits of its body. The world continues from the new report;
   /// certificates since the previous report may have been wrong.
   bound_violation,
-  /// Two bodies begin to touch: their gap has shrunk to at most the contact tolerance.
+  /// Two bodies begin to touch: their gap has shrunk to at most the contact tolerance. Or two bodies that
+  /// have not separated since approach again (Event::already_touching): an approach is reported once, and
+  /// anew after the velocities of the two have parted them. A response that parts the two at each begin
+  /// therefore never lets them pass through each other.
   contact_begin,
   /// Two touching bodies separate: their gap has grown to the separation distance.
   contact_end,
-  /// A body begins to touch a wall of the box.
+  /// A body begins to touch a wall of the box, or approaches it again, as for contact_begin.
   wall_begin,
   /// A body that touched a wall separates from it.
   wall_end,
-  /// The Zeno guard advanced time by its least step, because time would otherwise have stopped at a contact
-  /// deep within its tolerance. During this step the pair may come to overlap by more than the contact
-  /// tolerance.
+  /// The Zeno guard advances time by its least step, because time would otherwise stop at a contact deep
+  /// within its tolerance. From now on the two may overlap by more than the contact tolerance. Reported once
+  /// for each contact; after further jams (Event::jammed) the two are let through until they have separated.
   zeno_guard,
   /// The gap of two bodies has shrunk to a sensor distance (to at most that distance plus the contact
   /// tolerance).
@@ -68,8 +71,14 @@ struct Event {
   bool repeated = false;
   /// True if each of the two bodies has already had 64 contacts at this very instant, for example a body
   /// stuck between walls. A response that returns any speed would continue for ever. After 256 contacts the
-  /// Zeno guard advances time by its least step.
+  /// Zeno guard advances time by its least step. A pair that has been jammed so 8 times since it began to
+  /// touch, or deep within the tolerance, is let through until it has separated, which EventKind::zeno_guard
+  /// reports.
   bool jammed = false;
+  /// contact_begin, wall_begin: true if the two have been in touch since an earlier begin, without an end in
+  /// between (never with ContactEvents::impacts). To count contacts, count the begins for which it is
+  /// false.
+  bool already_touching = false;
   /// sensor_enter: the body or bodies that sense. A sensor_leave repeats the value of its sensor_enter,
   /// even if sensors and classes have changed since.
   Senses senses = Senses::neither;

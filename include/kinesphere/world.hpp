@@ -157,7 +157,7 @@ class World {
   Result<Shape> shape_of(BodyId body) const;
 
   /// Removes a body. Its contacts end: the next advance reports their ends, with the body's state
-  /// extrapolated from its last report (ContactMode::impacts reports no ends). Errors: probe_in_progress.
+  /// extrapolated from its last report (ContactEvents::impacts reports no ends). Errors: probe_in_progress.
   /// Cost: O(1 + contacts).
   Result<void> remove(BodyId body);
   /// Removes all bodies or, on an error, none. Errors: as remove(), naming the body; a body that is listed
@@ -179,7 +179,7 @@ class World {
   // is false, each change also searches here, and refuses what add() refuses. Errors of all:
   // probe_in_progress, and those of add() for the values that they set.
 
-  /// Puts the body into another state from the current time on. In ContactMode::impacts the body's next
+  /// Puts the body into another state from the current time on. In ContactEvents::impacts the body's next
   /// approach to any partner is a new contact, as after set_velocity(). Errors: disabled_body, static_body.
   Result<void> teleport(BodyId body, const State& state);
   /// Sets the radius (length) from the current time on. Errors: static_body.
@@ -204,7 +204,7 @@ class World {
   ///   - the waking, removal, disabling, teleport or change of radius of a body in contact with it, one
   ///     whose gap to it is at most the separation distance plus the tolerance. A whole island therefore
   ///     wakes together.
-  /// ContactMode::impacts has no contact_end: a body that sleeps upon an awake body does not wake when that
+  /// ContactEvents::impacts has no contact_end: a body that sleeps upon an awake body does not wake when that
   /// body leaves. A call for a sleeping body changes nothing. Errors: disabled_body, static_body.
   Result<void> sleep(BodyId body);
   /// Wakes the body and its island. A call for an awake body changes nothing. Errors: disabled_body,

@@ -4,19 +4,10 @@
 #include <limits>
 #include <optional>
 
+#include "kinesphere/contact_events.hpp"
 #include "kinesphere/vec3.hpp"
 
 namespace kinesphere {
-
-/// Which contact events a world reports.
-enum class ContactMode {
-  /// Reports a begin and an end for each contact.
-  begin_and_end,
-  /// For bouncing bodies: reports a begin whenever two bodies touch and approach, and no ends. After
-  /// set_velocity() has made the two separate, their next approach is a new contact, however small the gap
-  /// was in between.
-  impacts,
-};
 
 /// A subset of the three axes.
 struct Axes {
@@ -49,7 +40,8 @@ struct WorldDefinition {
   /// Default (NaN): 4 eps. With position errors e0, choose it larger than the sum of 2 e0 of the two
   /// bodies; otherwise noise ends and begins contacts.
   double separation_distance = std::numeric_limits<double>::quiet_NaN();
-  ContactMode contacts = ContactMode::begin_and_end;
+  /// Which contact events bodies ask for that do not say it themselves (BodyDefinition::contacts).
+  ContactEvents contacts = ContactEvents::all;
   /// If false, add() refuses a body that certainly overlaps another body or a wall.
   bool allow_overlap = true;
   /// >= 0 (time): a contact is marked Event::repeated if it follows the previous contact of the same body

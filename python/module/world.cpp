@@ -31,9 +31,9 @@ std::string text_of(const Axes& axes) {
   return std::string(axes.x ? "x" : "") + (axes.y ? "y" : "") + (axes.z ? "z" : "");
 }
 
-ContactMode contact_mode_of(const std::string& name) {
-  if (name == "begin_and_end") return ContactMode::begin_and_end;
-  if (name == "impacts") return ContactMode::impacts;
+ContactEvents contact_mode_of(const std::string& name) {
+  if (name == "begin_and_end") return ContactEvents::begin_and_end;
+  if (name == "impacts") return ContactEvents::impacts;
   refuse({"World", "contacts"}, "must be \"begin_and_end\" or \"impacts\"", "is \"" + name + "\"");
 }
 
@@ -98,7 +98,7 @@ py::dict arguments_of(const WorldDefinition& definition) {
   arguments["separation_distance"] = std::isnan(definition.separation_distance)
                                          ? py::none()
                                          : py::object(py::float_(definition.separation_distance));
-  arguments["contacts"] = definition.contacts == ContactMode::impacts ? "impacts" : "begin_and_end";
+  arguments["contacts"] = definition.contacts == ContactEvents::impacts ? "impacts" : "begin_and_end";
   arguments["allow_overlap"] = definition.allow_overlap;
   arguments["zeno_interval"] = definition.zeno_interval;
   arguments["start_time"] = definition.start_time;

@@ -35,7 +35,7 @@ Result<void> BoundDetector::set_velocity(std::uint32_t number, const Vec3& veloc
   if (!fresh(number)) probe(number);
   body.bound.velocity = velocity;
   body.kicked_to.reset();
-  if (definition_.contacts == ContactMode::impacts) contacts_.release_all(number);
+  contacts_.change_reported(number, ApproachState::watched);
   begin_new_course(number);
   return {};
 }
@@ -101,7 +101,8 @@ void BoundDetector::predict_changes() {
 
 Sphere BoundDetector::sphere(std::uint32_t number) const {
   const Bound& bound = bodies_[number].bound;
-  return {{number, 0}, bound.radius, {bound.centre_at(time_), bound.velocity_at(time_)}};
+  return {{number, 0}, bound.radius,         {bound.centre_at(time_), bound.velocity_at(time_)},
+          nullptr,     0, definition_.contacts};
 }
 
 State BoundDetector::report(std::uint32_t number) {
@@ -128,8 +129,9 @@ double BoundDetector::pair_outlook(std::uint32_t a, std::uint32_t b, double hori
   ++counters_.certificates;
   const Body& first = bodies_[a];
   const Body& second = bodies_[b];
-  const ContactPredictor<Bound> predictor(rule(), {.within = contacts_.touch(a, b)}, first.bound,
-                                          second.bound, time_, {horizon, horizon});
+  const Threshold threshold = contacts_.contact_threshold(a, b, definition_.contacts);
+  const ContactPredictor<Bound> predictor(rule(), threshold, first.bound, second.bound, time_,
+                                          {horizon, horizon});
   if (!fresh(a) || !fresh(b)) return predictor.until_reports();
   const RelativeLimits sum{first.definition.velocity_error + second.definition.velocity_error,
                            first.largest_acceleration() + second.largest_acceleration()};
@@ -146,8 +148,9 @@ double BoundDetector::wall_outlook(std::uint32_t number, double horizon) {
   double first = infinity;
   for (const Wall wall : walls) {
     const HalfSpace inside = half_space(*definition_.box, wall);
-    const ContactPredictor<HalfSpace> predictor(rule(), {.within = contacts_.touches_wall(number, wall)},
-                                                body.bound, inside, time_, {horizon, horizon});
+    const Threshold threshold = contacts_.wall_threshold(number, wall, definition_.contacts);
+    const ContactPredictor<HalfSpace> predictor(rule(), threshold, body.bound, inside, time_,
+                                                {horizon, horizon});
     const Event current = wall_event(EventKind::zeno_guard, time_, sphere(number), *definition_.box, wall);
     first = std::min(
         first, decide(predictor, current, {body.definition.velocity_error, body.largest_acceleration()}));

@@ -78,7 +78,7 @@ class BoundDetector : public Detector {
   /// Returns true if the two are in contact.
   bool touch(std::uint32_t a, std::uint32_t b) const { return contacts_.touch(a, b); }
   /// Returns the partners in contact with the body.
-  std::span<const std::uint32_t> touching(std::uint32_t number) const {
+  std::span<const ContactRecord> touching(std::uint32_t number) const {
     return contacts_.partners_of(number);
   }
   const WorldDefinition& definition() const { return definition_; }

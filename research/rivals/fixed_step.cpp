@@ -50,7 +50,7 @@ class FixedStep final : public Detector {
 
   Result<void> set_velocity(std::uint32_t number, const Vec3& velocity) override {
     bodies_[number].state.velocity = velocity;
-    if (contacts_.rule().impacts_only()) contacts_.release_all(number);
+    contacts_.change_reported(number, ApproachState::watched);
     return {};
   }
 
@@ -88,7 +88,7 @@ class FixedStep final : public Detector {
   };
 
   Sphere sphere(std::uint32_t number) const {
-    return {{number, 0}, bodies_[number].radius, bodies_[number].state};
+    return {{number, 0}, bodies_[number].radius, bodies_[number].state, nullptr, 0, definition_.contacts};
   }
 
   void move_on_to(double time) {
@@ -126,11 +126,11 @@ class FixedStep final : public Detector {
       if (!bodies_[number].present) continue;
       // Partners that have parted far may no longer be found by the search.
       const auto touched = contacts_.partners_of(number);
-      const std::vector<std::uint32_t> partners(touched.begin(), touched.end());
-      for (const std::uint32_t partner : partners)
-        if (partner < number) look_at_pair(partner, number, true);
+      const std::vector<ContactRecord> partners(touched.begin(), touched.end());
+      for (const auto& [partner, state] : partners)
+        if (partner < number) look_at_pair(partner, number);
       for_each_neighbour(number, [&](std::uint32_t other) {
-        if (other < number && !contacts_.touch(other, number)) look_at_pair(other, number, false);
+        if (other < number && !contacts_.touch(other, number)) look_at_pair(other, number);
       });
       if (definition_.box)
         for (const Wall wall : walls) look_at_wall(number, wall);
@@ -154,21 +154,22 @@ class FixedStep final : public Detector {
     return {body.state.position - half, body.state.position + half};
   }
 
-  void look_at_pair(std::uint32_t a, std::uint32_t b, bool touching) {
+  void look_at_pair(std::uint32_t a, std::uint32_t b) {
     ++counters_.certificates;
     const Sphere first = sphere(a);
     const Sphere second = sphere(b);
     const Event event = contact_event(EventKind::contact_begin, time_, first, second);
-    judge(event, touching, approach_error(event, first, second));
+    judge(event, approach_error(event, first, second));
   }
 
   void look_at_wall(std::uint32_t number, Wall wall) {
     const Event event = wall_event(EventKind::wall_begin, time_, sphere(number), *definition_.box, wall);
-    judge(event, contacts_.touches_wall(number, wall), approach_error(event, infinity));
+    judge(event, approach_error(event, infinity));
   }
 
-  void judge(Event event, bool touching, double error) {
-    const auto change = contacts_.rule().decide(touching, event.gap, event.approach_speed, error);
+  void judge(Event event, double error) {
+    const Threshold threshold = contacts_.threshold_of(event, definition_.contacts);
+    const auto change = contacts_.rule().decide(threshold, event.gap, event.approach_speed, error);
     if (change == ContactRule::Change::none) return;
     if (change == ContactRule::Change::release) return contacts_.set_touching(event, false);
     event.kind = kind_of(change, false, event.wall);

@@ -240,7 +240,7 @@ class Comparison {
 
 Result<ContactComparison> compare_with_oracle(const Scene& scene, const std::vector<Event>& events,
                                               const ComparisonProgress& on_progress) {
-  if (scene.response != SceneResponse::pass_through || scene.world.contacts != ContactMode::begin_and_end) {
+  if (scene.response != SceneResponse::pass_through || scene.world.contacts != ContactEvents::begin_and_end) {
     return Error{ErrorCode::unsupported, "scene", no_body,
                  "compare_with_oracle: scene must pass through and report begins and ends"};
   }

@@ -46,7 +46,7 @@ class Oracle final : public Detector {
 
   Result<void> remove(std::uint32_t number) override {
     for (const Key& key : contacts_of(number)) {
-      if (at(key).touching && !rule_.impacts_only()) departures_.push_back(event_of(key));
+      if (at(key).touching && !impacts()) departures_.push_back(event_of(key));
       replace(key, Contact{});
     }
     bodies_[number].active = false;
@@ -56,7 +56,7 @@ class Oracle final : public Detector {
   }
 
   Result<void> set_velocity(std::uint32_t number, const Vec3&) override {
-    forget(number, rule_.impacts_only());
+    forget(number, impacts());
     return {};
   }
 
@@ -86,6 +86,8 @@ class Oracle final : public Detector {
   }
 
  private:
+  bool impacts() const { return !wants_ends(definition_.contacts); }
+
   struct Body {
     bool active = false;
     double radius = 0.0;
@@ -206,14 +208,14 @@ class Oracle final : public Detector {
     contact.searched_until = until;
     if (contact.touching) {
       const auto end = gap.first_time(LevelCrossing::rises_to, rule_.separation_distance(), from, until);
-      if (!rule_.impacts_only() || !end) {
+      if (!impacts() || !end) {
         contact.change = end.value_or(infinity);
         return contact;
       }
       contact.touching = false;
       from = *end;
     }
-    contact.change = rule_.impacts_only() && from == time_
+    contact.change = impacts() && from == time_
                          ? next_impact(key, gap)
                          : gap.first_time(LevelCrossing::falls_to, 0.0, from, until).value_or(infinity);
     return contact;

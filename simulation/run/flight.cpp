@@ -55,7 +55,7 @@ class FlightRecorder {
     const std::uint32_t first = event.first.index;
     const std::uint32_t second = wall ? first : event.second.index;
     if (event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin) {
-      const bool ends = scene_.world.contacts == ContactMode::begin_and_end;
+      const bool ends = wants_ends(scene_.world.contacts);
       open_[{first, second, event.wall}] = flight_.contacts.size();
       flight_.contacts.push_back({.first = first,
                                   .second = second,

@@ -18,7 +18,7 @@ struct FlightContact {
   std::uint32_t second;  ///< equals `first` for a wall
   Wall wall = Wall::none;
   double begin;
-  double end;  ///< equals `begin` in ContactMode::impacts; infinite if the contact has not ended
+  double end;  ///< equals `begin` with ContactEvents::impacts; infinite if the contact has not ended
 };
 
 /// The paths, the contacts and the result of a run.

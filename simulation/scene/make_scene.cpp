@@ -134,7 +134,7 @@ Result<Scene> make_scene(const SceneParameters& parameters) {
   scene.world.contact_tolerance = p.contact_tolerance;
   scene.world.zeno_interval = p.zeno_interval;
   scene.world.contacts =
-      p.response == SceneResponse::bounce ? ContactMode::impacts : ContactMode::begin_and_end;
+      p.response == SceneResponse::bounce ? ContactEvents::impacts : ContactEvents::begin_and_end;
 
   const auto centres =
       place_spheres(radii, p.box, 4.0 * p.contact_tolerance, Random::at(p.seed, placement_stream, 0).bits());

@@ -63,9 +63,9 @@ void serialize(Some<Sensor> auto& self, auto& archive) {
 
 void serialize(Some<BodyDefinition> auto& self, auto& archive) {
   auto& [radius, acceleration_limit, planned_acceleration, position_error, velocity_error, position, velocity,
-         filter, solid, sensor_class, user_data] = self;
+         filter, solid, contacts, sensor_class, user_data] = self;
   archive(radius, acceleration_limit, planned_acceleration, position_error, velocity_error, position,
-          velocity, filter, solid, sensor_class, user_data);
+          velocity, filter, solid, contacts, sensor_class, user_data);
 }
 
 void serialize(Some<MotionLimits> auto& self, auto& archive) {
@@ -99,10 +99,10 @@ void serialize(Some<StaticDefinition> auto& self, auto& archive) {
 }
 
 void serialize(Some<Event> auto& self, auto& archive) {
-  auto& [kind, time, first, second, wall, repeated, jammed, senses, first_state, second_state, point, normal,
+  auto& [kind, time, first, second, wall, repeated, jammed, already_touching, senses, first_state, second_state, point, normal,
          gap, approach_speed, position_excess, velocity_excess, distance, first_user_data, second_user_data] =
       self;
-  archive(kind, time, first, second, wall, repeated, jammed, senses, first_state, second_state, point, normal,
+  archive(kind, time, first, second, wall, repeated, jammed, already_touching, senses, first_state, second_state, point, normal,
           gap, approach_speed, position_excess, velocity_excess, distance, first_user_data, second_user_data);
 }
 

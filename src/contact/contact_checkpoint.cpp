@@ -1,15 +1,21 @@
 #include "contact/contact_checkpoint.hpp"
 
 #include <algorithm>
+#include <span>
 
 namespace kinesphere {
 namespace {
 
-/// Returns the elements of `from` that `in` does not contain. Cost: O(|from| * |in|).
-template <class List, class Other>
-auto missing(const List& from, const Other& in) {
-  auto found = std::vector(from.begin(), from.end());
-  std::erase_if(found, [&](const auto& one) { return std::find(in.begin(), in.end(), one) != in.end(); });
+bool is_of_same_link(const ContactRecord& a, const ContactRecord& b) { return a.partner == b.partner; }
+bool is_of_same_link(const OverlapRecord& a, const OverlapRecord& b) { return a == b; }
+
+/// Returns the links of `from` that `in` does not contain. Cost: O(|from| * |in|).
+template <class Record>
+std::vector<Record> missing(std::span<const Record> from, std::span<const Record> in) {
+  std::vector<Record> found(from.begin(), from.end());
+  std::erase_if(found, [&](const Record& one) {
+    return std::any_of(in.begin(), in.end(), [&](const Record& other) { return is_of_same_link(one, other); });
+  });
   return found;
 }
 
@@ -36,13 +42,14 @@ void ContactCheckpoint::restore_alone(ContactGraph& graph, std::uint32_t body) c
 
 void ContactCheckpoint::update_static(ContactGraph& graph, std::uint32_t body) const {
   const auto is_static = [&graph](std::uint32_t other) { return graph.flags_[other].is_static; };
-  for (const std::uint32_t gone : missing(partners.all(), graph.partners_of(body)))
-    if (is_static(gone)) graph.partners_[gone].erase(body);
-  for (const std::uint32_t come : missing(graph.partners_of(body), partners.all()))
-    if (is_static(come)) graph.partners_[come].add(body);
-  for (const OverlapRecord& gone : missing(overlaps, graph.overlaps_of(body)))
+  for (const ContactRecord& gone : missing(partners.all(), graph.partners_of(body)))
+    if (is_static(gone.partner)) graph.partners_[gone.partner].erase(body);
+  for (const ContactRecord& come : missing(graph.partners_of(body), partners.all()))
+    if (is_static(come.partner)) graph.partners_[come.partner].set({body});
+  const OverlapRecords::List before(overlaps);
+  for (const OverlapRecord& gone : missing(before, graph.overlaps_of(body)))
     if (is_static(gone.partner)) graph.overlaps_.erase(gone.partner, {body, gone.distance, gone.senses});
-  for (const OverlapRecord& come : missing(graph.overlaps_of(body), overlaps))
+  for (const OverlapRecord& come : missing(graph.overlaps_of(body), before))
     if (is_static(come.partner)) graph.overlaps_.add(come.partner, {body, come.distance, come.senses});
 }
 

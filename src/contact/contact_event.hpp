@@ -21,7 +21,13 @@ struct Sphere {
   /// Shape of a static body that is not a ball (then `radius` is ignored), otherwise nullptr.
   const Shape* shape = nullptr;
   std::uint64_t user_data = 0;
+  ContactEvents wanted = ContactEvents::all;
 };
+
+/// Returns the contact events that a pair reports; for a wall, `second` is the body again.
+inline ContactEvents wanted_of(const Sphere& first, const Sphere& second) {
+  return first.wanted | second.wanted;
+}
 
 /// Event::first becomes the body with the smaller id, in whichever order the two are passed.
 Event contact_event(EventKind kind, double time, const Sphere& a, const Sphere& b);

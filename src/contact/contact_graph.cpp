@@ -13,60 +13,109 @@ void ContactGraph::add(std::uint32_t body, double largest_acceleration) {
   overlaps_.clear(body);
 }
 
-bool ContactGraph::touch(std::uint32_t a, std::uint32_t b) const {
+/// Returns the state of a contact, or nullptr if the two do not touch. The list of a static body has no states.
+const ContactState* ContactGraph::contact_of(std::uint32_t a, std::uint32_t b) const {
   if (flags_[a].is_static) std::swap(a, b);
-  const auto partners = partners_of(a);
-  return std::find(partners.begin(), partners.end(), b) != partners.end();
+  return a < partners_.size() ? partners_[a].find(b) : nullptr;
+}
+
+ContactState ContactGraph::wall_state(std::uint32_t body, Wall wall) const {
+  const Flags& flags = flags_[body];
+  const unsigned index = static_cast<unsigned>(wall) - 1u;
+  return {.approach = static_cast<ApproachState>((flags.wall_approaches >> (2u * index)) & 3u),
+          .jams = flags.wall_jams,
+          .guard_reported = (flags.wall_guards & wall_bit(wall)) != 0};
+}
+
+void ContactGraph::set_wall_state(std::uint32_t body, Wall wall, bool touching, const ContactState& state) {
+  Flags& flags = flags_[body];
+  const unsigned shift = 2u * (static_cast<unsigned>(wall) - 1u);
+  const auto with_bit = [wall](std::uint8_t set, bool on) {
+    return static_cast<std::uint8_t>(on ? set | wall_bit(wall) : set & ~wall_bit(wall));
+  };
+  flags.walls = with_bit(flags.walls, touching);
+  flags.wall_guards = with_bit(flags.wall_guards, state.guard_reported);
+  flags.wall_jams = flags.walls == 0 ? std::uint8_t{0} : state.jams;
+  flags.wall_approaches = static_cast<std::uint16_t>((flags.wall_approaches & ~(3u << shift)) |
+                                                     (static_cast<unsigned>(state.approach) << shift));
 }
 
 void ContactGraph::set_touching(const Event& contact, bool touching) {
   const std::uint32_t a = number_of(contact.first);
+  if (contact.wall != Wall::none)
+    return set_wall_state(a, contact.wall, touching, touching ? wall_state(a, contact.wall) : ContactState{});
   const std::uint32_t b = number_of(contact.second);
-  if (contact.wall != Wall::none) {
-    std::uint8_t& set = flags_[a].walls;
-    const std::uint8_t bit = wall_bit(contact.wall);
-    set = static_cast<std::uint8_t>(touching ? set | bit : set & ~bit);
+  if (is_of_sensor(contact.kind)) {
+    set_overlap(a, b, contact, touching);
+    set_overlap(b, a, contact, touching);
   } else {
-    set_half(a, b, contact, touching);
-    set_half(b, a, contact, touching);
+    const ContactState* const known = contact_of(a, b);
+    const ContactState state = known ? *known : ContactState{};
+    set_half(a, b, touching ? &state : nullptr);
+    set_half(b, a, touching ? &state : nullptr);
   }
 }
 
-/// Adds or removes `partner` in the list of `body` only. Lists of static bodies stay unchanged while
-/// statics_deferred_.
-void ContactGraph::set_half(std::uint32_t body, std::uint32_t partner, const Event& contact, bool touching) {
-  if (statics_deferred_ && flags_[body].is_static) return;
-  if (is_of_sensor(contact.kind)) {
-    const OverlapRecord overlap{partner, contact.distance, contact.senses};
-    if (touching) {
-      overlaps_.add(body, overlap);
-    } else {
-      overlaps_.erase(body, overlap);
-    }
-  } else if (touching) {
+void ContactGraph::set_state(const Event& contact, const ContactState& state) {
+  const std::uint32_t a = number_of(contact.first);
+  if (contact.wall != Wall::none) return set_wall_state(a, contact.wall, true, state);
+  const std::uint32_t b = number_of(contact.second);
+  set_half(a, b, &state);
+  set_half(b, a, &state);
+}
+
+/// Sets the state of `partner` in the list of `body` only; nullptr removes it. Lists of static bodies stay
+/// unchanged while statics_deferred_, and have no states.
+void ContactGraph::set_half(std::uint32_t body, std::uint32_t partner, const ContactState* state) {
+  const bool is_static = flags_[body].is_static;
+  if (statics_deferred_ && is_static) return;
+  if (state != nullptr) {
     if (body >= partners_.size()) partners_.resize(body + std::size_t{1});
-    partners_[body].add(partner);
+    partners_[body].set({partner, is_static ? ContactState{} : *state});
   } else if (body < partners_.size()) {
     partners_[body].erase(partner);
   }
 }
 
-void ContactGraph::release_all(std::uint32_t body) {
-  flags_[body].walls = 0;
-  if (body >= partners_.size()) return;
-  for (const std::uint32_t partner : partners_of(body))
-    if (!(statics_deferred_ && flags_[partner].is_static)) partners_[partner].erase(body);
-  partners_[body].clear();
+/// Adds or removes an overlap in the list of `body` only. Lists of static bodies stay unchanged while
+/// statics_deferred_.
+void ContactGraph::set_overlap(std::uint32_t body, std::uint32_t partner, const Event& overlap, bool within) {
+  if (statics_deferred_ && flags_[body].is_static) return;
+  const OverlapRecord record{partner, overlap.distance, overlap.senses};
+  if (within) {
+    overlaps_.add(body, record);
+  } else {
+    overlaps_.erase(body, record);
+  }
 }
 
-void ContactGraph::set_links(std::uint32_t body, std::span<const std::uint32_t> partners,
+void ContactGraph::change_reported(std::uint32_t body, ApproachState approach) {
+  const auto change = [approach](ContactState& state) {
+    if (state.approach == ApproachState::reported || state.approach == ApproachState::turned) state.approach = approach;
+  };
+  if (flags_[body].walls != 0) {
+    for (const Wall wall : walls) {
+      if (!touches_wall(body, wall)) continue;
+      ContactState state = wall_state(body, wall);
+      change(state);
+      set_wall_state(body, wall, true, state);
+    }
+  }
+  if (body >= partners_.size() || flags_[body].is_static) return;
+  for (ContactRecord& record : partners_[body].all()) {
+    change(record.state);
+    set_half(record.partner, body, &record.state);
+  }
+}
+
+void ContactGraph::set_links(std::uint32_t body, std::span<const ContactRecord> partners,
                              std::vector<OverlapRecord> overlaps) {
   if (partners_.size() < flags_.size()) partners_.resize(flags_.size());
-  for (const std::uint32_t before : partners_[body].all()) partners_[before].erase(body);
+  for (const ContactRecord& before : partners_[body].all()) partners_[before.partner].erase(body);
   partners_[body].clear();
-  for (const std::uint32_t partner : partners) {
-    partners_[body].add(partner);
-    partners_[partner].add(body);
+  for (const auto& [partner, state] : partners) {
+    set_half(body, partner, &state);
+    set_half(partner, body, &state);
   }
   if (overlaps.empty() && overlaps_.of(body).empty()) return;
   overlaps_.make_lists(flags_.size());
@@ -107,24 +156,41 @@ void ContactGraph::note_contact(Event& begin) {
   begin.jammed = jammed;
 }
 
+bool ContactGraph::note_jam(const Event& current, const Threshold& threshold, bool is_deep) {
+  // The first jams may end by themselves: a long chain of touching bodies takes more contacts at an instant
+  // than one body may have.
+  constexpr std::uint8_t most_jams = 8;
+  ContactState state = threshold.within ? threshold.state : ContactState{};
+  if (state.jams < most_jams) ++state.jams;
+  const bool is_last = is_deep || state.jams == most_jams;
+  state.approach = is_last ? ApproachState::ignored : ApproachState::watched;
+  state.guard_reported = state.guard_reported || is_last;
+  set_state(current, state);
+  return !is_last;
+}
+
 bool ContactGraph::contacts_are_valid(const std::optional<Box>& box) const {
   // Pseudo-distance that marks a contact among the sensor overlaps.
   constexpr double contact = -1.0;
-  std::vector<std::tuple<std::uint32_t, std::uint32_t, double, Senses>> there;
-  std::vector<std::tuple<std::uint32_t, std::uint32_t, double, Senses>> back;
+  using Link = std::tuple<std::uint32_t, std::uint32_t, double, Senses, ApproachState, std::uint8_t, bool>;
+  std::vector<Link> there;
+  std::vector<Link> back;
   for (std::uint32_t body = 0; body < flags_.size(); ++body) {
     std::uint8_t standing = 0;
     for (const Wall wall : walls)
       if (box && stands(*box, wall)) standing = static_cast<std::uint8_t>(standing | wall_bit(wall));
     if ((flags_[body].walls & ~standing) != 0) return false;
-    for (const std::uint32_t partner : partners_of(body)) {
-      there.emplace_back(body, partner, contact, Senses::neither);
-      back.emplace_back(partner, body, contact, Senses::neither);
+    for (const auto& [partner, state] : partners_of(body)) {
+      if (!state.is_valid() || partner >= flags_.size()) return false;
+      const bool has_state = !flags_[body].is_static && !flags_[partner].is_static;
+      const auto [approach, jams, guard_reported] = has_state ? state : ContactState{};
+      there.emplace_back(body, partner, contact, Senses::neither, approach, jams, guard_reported);
+      back.emplace_back(partner, body, contact, Senses::neither, approach, jams, guard_reported);
     }
     for (const OverlapRecord& overlap : overlaps_of(body)) {
       if (!(overlap.distance >= 0.0) || !(overlap.senses <= Senses::both)) return false;
-      there.emplace_back(body, overlap.partner, overlap.distance, overlap.senses);
-      back.emplace_back(overlap.partner, body, overlap.distance, overlap.senses);
+      there.emplace_back(body, overlap.partner, overlap.distance, overlap.senses, ApproachState{}, 0, false);
+      back.emplace_back(overlap.partner, body, overlap.distance, overlap.senses, ApproachState{}, 0, false);
     }
   }
   const auto impossible = [](const auto& pair) { return std::get<0>(pair) == std::get<1>(pair); };

@@ -20,14 +20,9 @@ namespace kinesphere {
 
 class ContactGraph {
  public:
-  explicit ContactGraph(const WorldDefinition& definition)
-      : rule_(definition), sensor_rule_(rule_.with_ends()), space_(definition) {}
+  explicit ContactGraph(const WorldDefinition& definition) : rule_(definition), space_(definition) {}
 
-  /// Rule for contacts; rule_of() selects the one for sensor distances where needed.
   const ContactRule& rule() const { return rule_; }
-  const ContactRule& rule_of(const Threshold& threshold) const {
-    return threshold.sensed ? sensor_rule_ : rule_;
-  }
   const Space& space() const { return space_; }
 
   /// Switches number_of() to the tags of ids (BodyTable): body numbers are read from BodyId::world from now
@@ -50,12 +45,28 @@ class ContactGraph {
 
   // Existing contacts and overlaps.
 
-  bool touch(std::uint32_t a, std::uint32_t b) const;
+  bool touch(std::uint32_t a, std::uint32_t b) const { return contact_of(a, b) != nullptr; }
   bool touches_wall(std::uint32_t body, Wall wall) const { return (walls_of(body) & wall_bit(wall)) != 0; }
   /// Returns the partners of a body in the order in which the contacts began. The list of a static body has
-  /// no defined order after concurrent execution. Invalidated when a contact of the body begins or ends.
-  std::span<const std::uint32_t> partners_of(std::uint32_t body) const {
-    return body < partners_.size() ? partners_[body].all() : std::span<const std::uint32_t>();
+  /// no defined order after concurrent execution, and says nothing of states. Invalidated when a contact of the
+  /// body begins, ends or changes.
+  std::span<const ContactRecord> partners_of(std::uint32_t body) const {
+    return body < partners_.size() ? partners_[body].all() : std::span<const ContactRecord>();
+  }
+  /// Returns the threshold of a contact between two bodies that ask for these events.
+  Threshold contact_threshold(std::uint32_t a, std::uint32_t b, ContactEvents wanted) const {
+    const ContactState* const state = contact_of(a, b);
+    return {.within = state != nullptr, .wanted = wanted, .state = state ? *state : ContactState{}};
+  }
+  /// Does the above for a body and a wall.
+  Threshold wall_threshold(std::uint32_t body, Wall wall, ContactEvents wanted) const {
+    return {.within = touches_wall(body, wall), .wanted = wanted, .state = wall_state(body, wall)};
+  }
+  /// Returns the threshold of the contact that the event names.
+  Threshold threshold_of(const Event& contact, ContactEvents wanted) const {
+    const std::uint32_t first = number_of(contact.first);
+    return contact.wall == Wall::none ? contact_threshold(first, number_of(contact.second), wanted)
+                                      : wall_threshold(first, contact.wall, wanted);
   }
   /// Returns a set of wall_bit() values.
   std::uint8_t walls_of(std::uint32_t body) const { return flags_[body].walls; }
@@ -70,7 +81,11 @@ class ContactGraph {
   /// Begins or ends the contact or overlap that the event names, between two bodies or a body and a wall. No
   /// event is queued.
   void set_touching(const Event& contact, bool touching);
-  void release_all(std::uint32_t body);
+  /// Sets the state of the contact that the event names. The contact begins if it does not exist.
+  void set_state(const Event& contact, const ContactState& state);
+  /// Gives all reported approaches of a body another state: `turned` after another velocity, `watched` if the
+  /// caller has moved the body elsewhere.
+  void change_reported(std::uint32_t body, ApproachState approach);
 
   // Begins of contacts.
 
@@ -79,10 +94,14 @@ class ContactGraph {
   bool is_jammed(const Event& current) const;
   /// Marks the begin of a contact as repeated or jammed, and counts it for later marks.
   void note_contact(Event& begin);
+  /// Counts a jam of the contact. Returns false if it was the last one: from then on the two are let through
+  /// until they have separated. `is_deep`: they may overlap by more than the tolerance before they are checked
+  /// again.
+  bool note_jam(const Event& current, const Threshold& threshold, bool is_deep);
 
   /// Replaces all contacts and overlaps of a body that has arrived from elsewhere. The lists of its former
   /// and new partners are updated too.
-  void set_links(std::uint32_t body, std::span<const std::uint32_t> partners,
+  void set_links(std::uint32_t body, std::span<const ContactRecord> partners,
                  std::vector<OverlapRecord> overlaps);
 
   // Between the next two calls, several threads may change the contacts of different bodies concurrently.
@@ -93,7 +112,7 @@ class ContactGraph {
 
   /// Serializes everything except the rules and the space, which follow from the world's definition.
   static void serialize(auto& self, auto& archive) {
-    auto& [rule, sensor_rule, space, recent, flags, partners, overlaps, wait, in_tags] = self;
+    auto& [rule, space, recent, flags, partners, overlaps, wait, in_tags] = self;
     archive(recent, flags, partners, overlaps);
   }
   /// Validates a graph that was read from bytes, for a world of `bodies` bodies: contacts must be mutual,
@@ -105,21 +124,27 @@ class ContactGraph {
 
   /// Per-body data other than lists.
   struct Flags {
-    std::uint8_t walls = 0;
+    std::uint8_t walls = 0;  ///< walls in touch
     bool is_static = false;
+    std::uint8_t wall_guards = 0;        ///< walls with ContactState::guard_reported
+    std::uint8_t wall_jams = 0;          ///< ContactState::jams, of all walls together
+    std::uint16_t wall_approaches = 0;   ///< two bits for each wall: ApproachState
 
     static void serialize(auto& self, auto& archive) {
-      auto& [touched_walls, is_static] = self;
-      archive(touched_walls, is_static);
+      auto& [touched_walls, is_static, wall_guards, wall_jams, wall_approaches] = self;
+      archive(touched_walls, is_static, wall_guards, wall_jams, wall_approaches);
     }
   };
 
-  void set_half(std::uint32_t body, std::uint32_t partner, const Event& contact, bool touching);
+  const ContactState* contact_of(std::uint32_t a, std::uint32_t b) const;
+  ContactState wall_state(std::uint32_t body, Wall wall) const;
+  void set_wall_state(std::uint32_t body, Wall wall, bool touching, const ContactState& state);
+  void set_half(std::uint32_t body, std::uint32_t partner, const ContactState* state);
+  void set_overlap(std::uint32_t body, std::uint32_t partner, const Event& overlap, bool within);
   bool contacts_are_valid(const std::optional<Box>& box) const;
   std::span<const std::uint32_t> counting(const Event& contact, std::array<std::uint32_t, 2>& buffer) const;
 
   ContactRule rule_;
-  ContactRule sensor_rule_;
   Space space_;
   ContactRate rate_;
   std::vector<Flags> flags_;

@@ -27,11 +27,15 @@ EventKind kind_of(ContactRule::Change change, bool sensed, Wall wall) {
 
 template <class Partner>
 double ContactPredictor<Partner>::until_reports() const {
-  const double time = threshold_.within ? separation(rule_.release_gap()) : meeting(0.0);
+  const bool has_turned = threshold_.within && threshold_.state.approach == ApproachState::turned;
+  if (has_turned && wants_approaches(threshold_.wanted)) return now_;
+  const bool may_begin = !threshold_.within || threshold_.is_watched();
+  double time = may_begin ? meeting(0.0) : infinity;
+  if (threshold_.within && time > now_) time = std::min(time, separation(rule_.release_gap()));
   if (time == infinity || time <= now_) return time;
   const GapLimits gap = gap_limits(bound_, partner_, now_);
-  const bool far = threshold_.within ? gap.upper < rule_.separation_distance() + threshold_.distance
-                                     : gap.lower > rule_.tolerance() + threshold_.distance;
+  const bool far = (!may_begin || gap.lower > rule_.tolerance() + threshold_.distance) &&
+                   (!threshold_.within || gap.upper < rule_.separation_distance() + threshold_.distance);
   return far ? time : now_;
 }
 
@@ -40,10 +44,18 @@ ContactDecision ContactPredictor<Partner>::decide(const Event& current, const Re
   ContactDecision decision;
   const double beyond = current.gap - threshold_.distance;
   const double error = approach_error(current, arm(current.gap));
-  decision.change = rule_.decide(threshold_.within, beyond, current.approach_speed, error);
+  decision.change = rule_.decide(threshold_, beyond, current.approach_speed, error);
   if (decision.is_event()) return decision;
-  if (threshold_.within && decision.change != ContactRule::Change::release) {
-    decision.next_check = std::max(separation(rule_.release_gap()), just_after(now_));
+  const bool stays = threshold_.within && decision.change != ContactRule::Change::release;
+  const double apart = stays ? separation(rule_.release_gap()) : infinity;
+  decision.approach = threshold_.state.approach;
+  if (stays && decision.approach == ApproachState::turned)
+    decision.approach = rule_.is_approach(beyond, current.approach_speed, error) ||
+                                !wants_approaches(threshold_.wanted)
+                            ? ApproachState::reported
+                            : ApproachState::watched;
+  if (stays && decision.approach != ApproachState::watched) {
+    decision.next_check = std::max(apart, just_after(now_));
     return decision;
   }
   // A certificate cannot guard a gap that is closer to the present gap than the certificate's own rounding
@@ -65,7 +77,7 @@ ContactDecision ContactPredictor<Partner>::decide(const Event& current, const Re
     // the time.
     if (surfaces <= horizons_.meeting) time = std::min(time, surfaces);
   }
-  decision.next_check = std::max(time, just_after(now_));
+  decision.next_check = std::max(std::min(time, apart), just_after(now_));
   return decision;
 }
 
@@ -75,6 +87,7 @@ ContactDecision ContactPredictor<Partner>::defer(const Event& current, const Rel
   const double speed = limits.speed_error + std::max(current.approach_speed, 0.0);
   const double next_time = now_ + rule_.least_step(beyond, speed, limits.acceleration);
   return {.next_check = std::max(next_time, just_after(now_)),
+          .approach = ApproachState::watched,
           .zeno_step = true,
           .breaks_tolerance = rule_.step_breaks_tolerance(beyond)};
 }

@@ -1,6 +1,7 @@
 // How long the state of a contact is certain not to change: from present bounds, and from fresh reports.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 
 #include "contact/contact_rule.hpp"
@@ -9,6 +10,9 @@
 #include "kinesphere/shape.hpp"
 
 namespace kinesphere {
+
+/// Returns the smallest double greater than `time`; infinity and NaN are returned unchanged.
+double just_after(double time);
 
 /// Limits on how far the two bodies of a contact can deviate from their predicted relative motion.
 struct RelativeLimits {
@@ -28,20 +32,14 @@ struct ContactDecision {
   ContactRule::Change change = ContactRule::Change::none;
   /// Otherwise, the threshold cannot be crossed before this time.
   double next_check = 0.0;
+  /// What the next approach means from now on, if the two stay in touch.
+  ApproachState approach = ApproachState::reported;
   /// `zeno_step`: the Zeno guard has postponed next_check. `breaks_tolerance`: the gap may leave the
   /// tolerance until then, which the caller must be notified of.
   bool zeno_step = false;
   bool breaks_tolerance = false;
 
   bool is_event() const { return change == ContactRule::Change::begin || change == ContactRule::Change::end; }
-};
-
-/// A change to predict between a body and its partner: leaving (`within`) or entering a gap of `distance`
-/// (length). Distance 0 is contact unless `sensed`.
-struct Threshold {
-  bool within;
-  double distance = 0.0;
-  bool sensed = false;
 };
 
 /// Returns the kind of event for a begin or an end of a sensor overlap, or of a contact with a body or with
@@ -69,6 +67,9 @@ class ContactPredictor {
   /// Defers the begin of a jammed contact: the Zeno guard lets the gap shrink, by at most its limit, before
   /// the next check.
   ContactDecision defer(const Event& current, const RelativeLimits& limits) const;
+
+  /// Returns a time after `now` before which the two do not separate.
+  double until_separated() const { return std::max(separation(rule_.release_gap()), just_after(now_)); }
 
  private:
   double meeting(double gap) const {
@@ -102,8 +103,5 @@ Box walls_in_reach(const ContactRule& rule, const Bound& bound, const Box& box, 
 /// none of them.
 double until_reports_of_walls(const ContactRule& rule, const Bound& bound, const Box& box, double now,
                               double until);
-
-/// Returns the smallest double greater than `time`; infinity and NaN are returned unchanged.
-double just_after(double time);
 
 }  // namespace kinesphere

@@ -9,20 +9,19 @@ ContactRule::ContactRule(const WorldDefinition& definition)
     : tolerance_(definition.contact_tolerance),
       separation_distance_(std::isnan(definition.separation_distance) ? 4.0 * definition.contact_tolerance
                                                                       : definition.separation_distance),
-      zeno_interval_(definition.zeno_interval),
-      impacts_only_(definition.contacts == ContactMode::impacts) {}
+      zeno_interval_(definition.zeno_interval) {}
 
-ContactRule::Change ContactRule::decide(bool touching, double gap, double approach_speed,
+ContactRule::Change ContactRule::decide(const Threshold& threshold, double gap, double approach_speed,
                                         double approach_error) const {
-  if (!touching) {
-    if (gap > tolerance_) return Change::none;
-    return impacts_only_ && !approach(gap, approach_speed, approach_error) ? Change::none : Change::begin;
-  }
-  if (impacts_only_) {
-    const bool parts = gap >= separation_distance_ || !approach(gap, approach_speed, approach_error);
-    return parts ? Change::release : Change::none;
-  }
-  return gap >= separation_distance_ ? Change::end : Change::none;
+  const bool ends = wants_ends(threshold.wanted);
+  const bool approaches = is_approach(gap, approach_speed, approach_error);
+  if (!threshold.within) return gap <= tolerance_ && (ends || approaches) ? Change::begin : Change::none;
+  if (gap >= separation_distance_) return ends ? Change::end : Change::release;
+  if (threshold.is_watched() && gap <= tolerance_ && approaches) return Change::begin;
+  const bool may_pass = threshold.state.approach == ApproachState::reported ||
+                        threshold.state.approach == ApproachState::ignored ||
+                        (threshold.state.approach == ApproachState::turned && approaches);
+  return may_pass || ends || threshold.state.has_history() ? Change::none : Change::release;
 }
 
 double ContactRule::guarded_gap(double gap) const {

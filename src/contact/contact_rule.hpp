@@ -1,9 +1,25 @@
 // Decides when a contact begins and ends from gap and approach speed. No other code makes this decision.
 #pragma once
 
+#include "contact/contact_state.hpp"
+#include "kinesphere/contact_events.hpp"
 #include "kinesphere/world_definition.hpp"
 
 namespace kinesphere {
+
+/// A change to predict between a body and its partner: leaving (`within`) or entering a gap of `distance`
+/// (length). Distance 0 is contact unless `sensed`.
+struct Threshold {
+  bool within;
+  double distance = 0.0;
+  bool sensed = false;
+  ContactEvents wanted = ContactEvents::begin_and_end;
+  /// State of the contact, if `within`. A sensor overlap has the state of a contact that was reported.
+  ContactState state{.approach = ApproachState::reported};
+
+  /// True if an approach within the threshold would be an event.
+  bool is_watched() const { return within && state.approach == ApproachState::watched; }
+};
 
 /// The lengths and times behind the guarantee, resolved from a WorldDefinition. A "pair" is two bodies, or a
 /// body and a wall, with fresh reports.
@@ -11,12 +27,19 @@ class ContactRule {
  public:
   explicit ContactRule(const WorldDefinition& definition);
 
-  /// `release` is an end without an event: two bouncing bodies that have parted or no longer approach.
+  /// `release` is an end without an event: two bodies that ask for no ends have separated, or no longer
+  /// approach.
   enum class Change { none, begin, end, release };
-  /// Decides the change of a pair. `gap` is a length, speeds are length / time. `approach_error` bounds the
-  /// rounding error of the approach speed (approach_error() in contact_event.hpp): for impacts, an approach
-  /// that rounding alone could produce does not count, unless step_breaks_tolerance(gap).
-  Change decide(bool touching, double gap, double approach_speed, double approach_error = 0.0) const;
+  /// Decides the change of a pair. `gap` is a length from the threshold's distance, speeds are length / time.
+  /// `approach_error` bounds the rounding error of the approach speed (approach_error() in
+  /// contact_event.hpp).
+  Change decide(const Threshold& threshold, double gap, double approach_speed,
+                double approach_error = 0.0) const;
+  /// True if the two approach. An approach that rounding alone could produce does not count, unless
+  /// step_breaks_tolerance(gap).
+  bool is_approach(double gap, double approach_speed, double approach_error) const {
+    return approach_speed > (step_breaks_tolerance(gap) ? 0.0 : approach_error);
+  }
 
   /// Contact tolerance (length).
   double tolerance() const { return tolerance_; }
@@ -26,16 +49,6 @@ class ContactRule {
 
   /// Gap that a touching pair cannot exceed before its certificate fails (length).
   double release_gap() const { return separation_distance_ + tolerance_; }
-
-  bool impacts_only() const { return impacts_only_; }
-
-  /// Returns the rule for sensor distances, where gaps are measured from the distance and every begin has an
-  /// end.
-  ContactRule with_ends() const {
-    ContactRule rule = *this;
-    rule.impacts_only_ = false;
-    return rule;
-  }
 
   /// Returns the gap that the certificate of a separate pair must guard: 0 outside the tolerance. Bouncing
   /// bodies that part within the tolerance may come back to half the tolerance inside or, if already nearly
@@ -64,14 +77,9 @@ class ContactRule {
   double zeno_interval(double acceleration) const;
 
  private:
-  bool approach(double gap, double approach_speed, double approach_error) const {
-    return approach_speed > (step_breaks_tolerance(gap) ? 0.0 : approach_error);
-  }
-
   double tolerance_;
   double separation_distance_;
   double zeno_interval_;
-  bool impacts_only_;
 };
 
 }  // namespace kinesphere

@@ -15,10 +15,10 @@ void describe_now(Event& event, const Sphere& first, const Sphere& second, const
   }
 }
 
-bool still_begins(const ContactGraph& graph, const Event& now, const Sphere& first, const Sphere& second) {
-  const ContactRule& rule = graph.rule_of({.within = false, .sensed = is_of_sensor(now.kind)});
-  return rule.decide(false, now.gap - now.distance, now.approach_speed, approach_error(now, first, second)) ==
-         ContactRule::Change::begin;
+/// Returns the threshold that the event crosses. A sensor overlap that may be entered does not exist yet.
+Threshold threshold_of(const ContactGraph& graph, const Event& event, ContactEvents wanted) {
+  return is_of_sensor(event.kind) ? Threshold{.within = false, .sensed = true}
+                                  : graph.threshold_of(event, wanted);
 }
 
 }  // namespace
@@ -31,11 +31,41 @@ Senses PendingEvents::senses_at_enter(const ContactGraph& graph, const Event& le
   return Senses::neither;
 }
 
-void PendingEvents::end(ContactGraph& graph, const Event& contact) {
+void PendingEvents::end(ContactGraph& graph, const Event& contact, ContactEvents wanted) {
   graph.set_touching(contact, false);
   // The end may also be pending because the contact ended by itself; it is dropped there.
   pending_.erase(contact);
-  if (is_of_sensor(contact.kind) || !graph.rule().impacts_only()) ended_.insert(contact);
+  if (is_of_sensor(contact.kind) || wants_ends(wanted)) ended_.insert(contact);
+}
+
+void PendingEvents::forget_delivered(const ContactGraph& graph, std::uint32_t body) {
+  if (!delivered_) return;
+  const auto is_body = [&](BodyId id) { return id != no_body && graph.number_of(id) == body; };
+  if (is_body(delivered_->first) || is_body(delivered_->second)) delivered_.reset();
+}
+
+void PendingEvents::note_response(ContactGraph& graph, const Sphere& first, const Sphere& second,
+                                  const std::optional<Box>& box) {
+  const Event reported = *delivered_;
+  delivered_.reset();
+  const bool is_pair = reported.second != no_body;
+  if (first.state.velocity == reported.first_state.velocity &&
+      (!is_pair || second.state.velocity == reported.second_state.velocity))
+    return;
+  const ContactEvents wanted = wanted_of(first, second);
+  const Threshold threshold = graph.threshold_of(reported, wanted);
+  if (!threshold.within || threshold.state.approach == ApproachState::ignored) return;
+  Event now = reported;
+  describe_now(now, first, second, graph.space(), box);
+  ContactState state = threshold.state;
+  const double error = approach_error(now, first, second);
+  const bool approaches = graph.rule().is_approach(now.gap, now.approach_speed, error);
+  state.approach = approaches ? ApproachState::reported : ApproachState::watched;
+  if (state.approach == ApproachState::watched && !wants_ends(wanted) && !state.has_history()) {
+    graph.set_touching(reported, false);
+  } else {
+    graph.set_state(reported, state);
+  }
 }
 
 void PendingEvents::queue(const Event& event) {
@@ -52,9 +82,28 @@ bool PendingEvents::take_effect(ContactGraph& graph, Event& event, const Sphere&
   if (event.kind == EventKind::zeno_guard || event.kind == EventKind::bound_violation) return true;
   const bool begins_now = begins(event.kind);
   describe_now(event, first, second, graph.space(), box);
-  if (begins_now && !still_begins(graph, event, first, second)) return false;
-  if (begins_now && !is_of_sensor(event.kind)) graph.note_contact(event);
-  graph.set_touching(event, begins_now);
+  if (!begins_now) {
+    graph.set_touching(event, false);
+  } else {
+    const ContactEvents wanted = wanted_of(first, second);
+    const Threshold threshold = threshold_of(graph, event, wanted);
+    const double error = approach_error(event, first, second);
+    if (graph.rule().decide(threshold, event.gap - event.distance, event.approach_speed, error) !=
+        ContactRule::Change::begin)
+      return false;
+    if (threshold.sensed) {
+      graph.set_touching(event, true);
+    } else {
+      event.already_touching = threshold.within && wants_ends(wanted);
+      graph.note_contact(event);
+      ContactState state = threshold.within ? threshold.state : ContactState{};
+      const bool approaches = graph.rule().is_approach(event.gap, event.approach_speed, error);
+      const bool is_watched = wants_approaches(wanted) && !approaches;
+      state.approach = is_watched ? ApproachState::watched : ApproachState::reported;
+      graph.set_state(event, state);
+      delivered_ = event;
+    }
+  }
   changed_.emplace_back(graph.number_of(first.id), graph.number_of(second.id));
   return true;
 }
@@ -89,7 +138,9 @@ bool PendingEvents::is_valid(std::size_t bodies, double time, const std::optiona
   return pending_.is_valid() && pending_.all_of(event_is_valid) &&
          std::all_of(ended_.begin(), ended_.end(), event_is_valid) &&
          std::all_of(delivered_guards_.begin(), delivered_guards_.end(), event_is_valid) &&
-         std::all_of(changed_.begin(), changed_.end(), change_is_valid);
+         std::all_of(changed_.begin(), changed_.end(), change_is_valid) &&
+         (!delivered_ || (event_is_valid(*delivered_) && (delivered_->kind == EventKind::contact_begin ||
+                                                          delivered_->kind == EventKind::wall_begin)));
 }
 
 }  // namespace kinesphere

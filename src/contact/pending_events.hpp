@@ -21,6 +21,7 @@ class PendingEvents {
     ended_.clear();
     delivered_guards_.clear();
     changed_.clear();
+    delivered_.reset();
   }
   /// Starts a new time: delivered Zeno guards may be queued again.
   void start() { delivered_guards_.clear(); }
@@ -45,8 +46,13 @@ class PendingEvents {
   template <class SphereNow, class Ends>
   void end_contacts(ContactGraph& graph, std::uint32_t body, double time, SphereNow sphere,
                     const std::optional<Box>& box, Ends ends) {
-    for (const Event& event : ends_of(graph, body, time, sphere, box))
-      if (ends(event)) end(graph, event);
+    forget_delivered(graph, body);
+    for (const Event& event : ends_of(graph, body, time, sphere, box)) {
+      if (!ends(event)) continue;
+      const Sphere first = sphere(graph.number_of(event.first));
+      end(graph, event,
+          event.second == no_body ? first.wanted : wanted_of(first, sphere(graph.number_of(event.second))));
+    }
   }
   /// Ends all contacts and overlaps of a body that is about to be removed.
   template <class SphereNow>
@@ -62,6 +68,7 @@ class PendingEvents {
   template <class IsThere, class SphereNow, class SensesIn>
   std::optional<Event> pop(ContactGraph& graph, IsThere is_there, SphereNow sphere, SensesIn senses_in,
                            const std::optional<Box>& box) {
+    note_response(graph, sphere, box);
     std::optional<Event> event;
     if (!ended_.empty()) {
       event = ended_.extract(ended_.begin()).value();
@@ -92,14 +99,28 @@ class PendingEvents {
         graph, is_there, sphere, [](const Event&) { return Senses::neither; }, box);
   }
 
+  /// Takes note of the response to the last delivered begin: if the two still approach with the velocities that
+  /// the response gave them, they are let through until that changes; otherwise their next approach is an
+  /// event. pop() does this before it delivers another event. Call it before velocities change for another
+  /// reason, and before bodies are recertified.
+  template <class SphereNow>
+  void note_response(ContactGraph& graph, SphereNow sphere, const std::optional<Box>& box) {
+    if (!delivered_) return;
+    const Sphere first = sphere(graph.number_of(delivered_->first));
+    const bool is_pair = delivered_->second != no_body;
+    note_response(graph, first, is_pair ? sphere(graph.number_of(delivered_->second)) : first, box);
+  }
+  /// Drops the last delivered begin if it is one of this body, which the caller changes in another way.
+  void forget_delivered(const ContactGraph& graph, std::uint32_t body);
+
   /// Pairs whose contact a delivered event has changed, so that their certificates are void. A pair of a body
   /// with itself stands for its walls. The caller takes them out.
   std::vector<std::pair<std::uint32_t, std::uint32_t>>& changed() { return changed_; }
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>& changed() const { return changed_; }
 
   static void serialize(auto& self, auto& archive) {
-    auto& [pending, ended, zeno_guards, changed] = self;
-    archive(pending, ended, zeno_guards, changed);
+    auto& [pending, ended, zeno_guards, changed, delivered] = self;
+    archive(pending, ended, zeno_guards, changed, delivered);
   }
   /// Validates events read from bytes, for a world of `bodies` bodies at `time`: true if every event could be
   /// queued now. `box` holds the existing walls; `is_known(id)` is true if an id was ever given out.
@@ -116,8 +137,8 @@ class PendingEvents {
       return contact_event(kind, time, sphere(body), sphere(partner), graph.space());
     };
     std::vector<Event> found;
-    for (const std::uint32_t partner : graph.partners_of(body))
-      found.push_back(end_with(EventKind::contact_end, partner));
+    for (const ContactRecord& contact : graph.partners_of(body))
+      found.push_back(end_with(EventKind::contact_end, contact.partner));
     for (const Wall wall : walls)
       if (graph.touches_wall(body, wall))
         found.push_back(wall_event(EventKind::wall_end, time, sphere(body), *box, wall));
@@ -129,7 +150,9 @@ class PendingEvents {
     return found;
   }
   static Senses senses_at_enter(const ContactGraph& graph, const Event& leave);
-  void end(ContactGraph& graph, const Event& contact);
+  void end(ContactGraph& graph, const Event& contact, ContactEvents wanted);
+  void note_response(ContactGraph& graph, const Sphere& first, const Sphere& second,
+                     const std::optional<Box>& box);
   bool take_effect(ContactGraph& graph, Event& event, const Sphere& first, const Sphere& second,
                    const std::optional<Box>& box);
 
@@ -137,6 +160,7 @@ class PendingEvents {
   std::set<Event, DeliveredBefore> ended_;  ///< ended by the caller's changes; also bodies that have woken
   std::set<Event, DeliveredBefore> delivered_guards_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> changed_;
+  std::optional<Event> delivered_;  ///< the last begin delivered, until the response to it is noted
 };
 
 }  // namespace kinesphere

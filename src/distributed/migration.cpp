@@ -28,10 +28,11 @@ BodyMessage Migration::pack(std::uint32_t number) const {
   // Replace numbers by names.
   PartnerList partners;
   std::vector<OverlapRecord>& overlaps = message.contacts.overlaps;
-  for (const std::uint32_t partner : message.contacts.partners.all()) partners.add(rank_.name_of(partner));
+  for (const auto& [partner, state] : std::as_const(message).contacts.partners.all())
+    partners.set({rank_.name_of(partner), state});
   for (OverlapRecord& overlap : overlaps) overlap.partner = rank_.name_of(overlap.partner);
   if (const PendingLinks::Links* links = pending_links_.of(message.name)) {
-    for (const std::uint32_t partner : links->partners) partners.add(partner);
+    for (const ContactRecord& partner : links->partners) partners.set(partner);
     overlaps.insert(overlaps.end(), links->overlaps.begin(), links->overlaps.end());
   }
   message.contacts.partners = std::move(partners);
@@ -205,15 +206,15 @@ Result<std::uint32_t> Migration::install(BodyMessage& message) {
 
 /// Sets the body's links in the contact graph, and moves pending links between it and bodies held here there.
 void Migration::link(const BodyMessage& message) {
-  std::vector<std::uint32_t> partners;
+  std::vector<ContactRecord> partners;
   std::vector<OverlapRecord> overlaps;
   PendingLinks::Links missing;
-  for (const std::uint32_t name : message.contacts.partners.all()) {
+  for (const auto& [name, state] : message.contacts.partners.all()) {
     if (const auto partner = rank_.directory.find(name)) {
-      partners.push_back(*partner);
+      partners.push_back({*partner, state});
       pending_links_.remove(name, message.name);
     } else {
-      missing.partners.push_back(name);
+      missing.partners.push_back({name, state});
     }
   }
   for (const OverlapRecord& overlap : message.contacts.overlaps) {
@@ -247,8 +248,8 @@ Result<std::vector<BodyMessage>> Migration::exchange(Communicator& communicator,
 
 void Migration::drop(std::uint32_t number) {
   const std::uint32_t name = rank_.name_of(number);
-  for (const std::uint32_t partner : rank_.state.contacts.partners_of(number))
-    pending_links_.add_partner(rank_.name_of(partner), name);
+  for (const auto& [partner, state] : rank_.state.contacts.partners_of(number))
+    pending_links_.add_partner(rank_.name_of(partner), {name, state});
   for (const OverlapRecord& overlap : rank_.state.contacts.overlaps_of(number))
     pending_links_.add_overlap(rank_.name_of(overlap.partner), {name, overlap.distance, overlap.senses});
   rank_.state.contacts.set_links(number, {}, {});

@@ -20,7 +20,7 @@ void PendingLinks::set(std::uint32_t name, Links links) {
 void PendingLinks::remove(std::uint32_t name, std::uint32_t partner) {
   const auto found = links_.find(name);
   if (found == links_.end()) return;
-  std::erase(found->second.partners, partner);
+  std::erase_if(found->second.partners, [=](const ContactRecord& one) { return one.partner == partner; });
   std::erase_if(found->second.overlaps, [&](const OverlapRecord& c) { return c.partner == partner; });
   if (found->second.empty()) links_.erase(found);
 }

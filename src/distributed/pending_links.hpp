@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "contact/contact_state.hpp"
 #include "contact/overlap_records.hpp"
 
 namespace kinesphere {
@@ -15,7 +16,7 @@ class PendingLinks {
  public:
   /// Pending links of one body.
   struct Links {
-    std::vector<std::uint32_t> partners{};  ///< bodies in contact, by name
+    std::vector<ContactRecord> partners{};  ///< bodies in contact, by name
     std::vector<OverlapRecord> overlaps{};  ///< sensor overlaps
 
     bool empty() const { return partners.empty() && overlaps.empty(); }
@@ -26,7 +27,9 @@ class PendingLinks {
   const Links* of(std::uint32_t name) const;
   /// Replaces the pending links of the body.
   void set(std::uint32_t name, Links links);
-  void add_partner(std::uint32_t name, std::uint32_t partner) { links_[name].partners.push_back(partner); }
+  void add_partner(std::uint32_t name, const ContactRecord& partner) {
+    links_[name].partners.push_back(partner);
+  }
   void add_overlap(std::uint32_t name, const OverlapRecord& overlap) {
     links_[name].overlaps.push_back(overlap);
   }

@@ -23,6 +23,7 @@ std::uint32_t Bodies::describe(std::uint32_t number, const BodyDefinition& defin
   Body& body = table_[number];
   body.radius = definition.radius;
   body.position_error = definition.position_error;
+  body.contact_events = definition.contacts.value_or(definition_.contacts);
   body.sensor_class = definition.sensor_class;
   body.user_data = definition.user_data;
   filters.keep(number, definition.filter);
@@ -55,6 +56,7 @@ BodyDefinition Bodies::definition_of(std::uint32_t number) const {
                             .velocity = bound.velocity,
                             .filter = filters.of(number),
                             .solid = body.solid,
+                            .contacts = body.contact_events,
                             .sensor_class = body.sensor_class,
                             .user_data = body.user_data};
   if (const Change* change = changes.find(body)) {

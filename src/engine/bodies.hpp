@@ -66,6 +66,11 @@ class Bodies {
     return table_[a].solid && table_[b].solid && may_meet(a, b);
   }
 
+  /// Returns the contact events that a pair reports; for a body and its walls, `b` is the body again.
+  ContactEvents wanted_of(std::uint32_t a, std::uint32_t b) const {
+    return table_[a].contact_events | table_[b].contact_events;
+  }
+
   /// Resets the image count of the body; call when the caller sets its position.
   void count_images_anew(std::uint32_t number) {
     if (space_.repeats()) images[number].image = {};

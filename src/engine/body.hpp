@@ -28,6 +28,7 @@ struct Body {
   bool relocated = false;
   // Fields of BodyDefinition.
   bool solid = true;
+  ContactEvents contact_events = ContactEvents::all;  ///< 0 for a static body, which asks for nothing
   SensorClass sensor_class = 0;
   std::uint32_t shape_number = none;   ///< index of the shape of a static body
   std::uint32_t change_number = none;  ///< index of the pending change
@@ -57,10 +58,10 @@ struct Body {
   double largest_acceleration() const { return bound.growth_acceleration + norm(bound.planned_acceleration); }
 
   static void serialize(auto& self, auto& archive) {
-    auto& [bound, revision, alive, enabled, dirty, visited, relocated, solid, sensor_class, shape_number,
-           change_number, generation, sleep_number, radius, position_error, user_data] = self;
-    archive(bound, revision, alive, enabled, dirty, visited, relocated, solid, sensor_class, shape_number,
-            change_number, generation, sleep_number, radius, position_error, user_data);
+    auto& [bound, revision, alive, enabled, dirty, visited, relocated, solid, contact_events, sensor_class,
+           shape_number, change_number, generation, sleep_number, radius, position_error, user_data] = self;
+    archive(bound, revision, alive, enabled, dirty, visited, relocated, solid, contact_events, sensor_class,
+            shape_number, change_number, generation, sleep_number, radius, position_error, user_data);
   }
 };
 static_assert(sizeof(Body) <= 168);

@@ -10,6 +10,7 @@ World::Engine::Engine(const Engine& other) : state_(other.state_), main_(other.m
 
 Result<std::optional<Event>> World::Engine::advance(double until, const Probe& probe) {
   main_.reports().ask(probe, "advance");
+  main_.note_response();
   PoolLease alone;
   for (;;) {
     if (main_.is_gathering()) {
@@ -32,6 +33,7 @@ Result<std::optional<Event>> World::Engine::advance(double until, const Probe& p
 Result<bool> World::Engine::run_epoch(double until, const Probe& probe, PoolLease& lease,
                                       SpeculativeRunner& runner, std::deque<Event>& events) {
   main_.reports().ask(probe, "advance");
+  main_.note_response();
   if (main_.is_gathering() || !main_.events().is_quiet()) return false;
   if (main_.epoch_end() <= time()) {
     if (auto started = start_windows(lease, false); !started) return started.error();

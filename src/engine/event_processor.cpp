@@ -102,11 +102,17 @@ void EventProcessor::set_velocity(std::uint32_t number, const Vec3& velocity) {
     note_linked_conflicts(number);
     if (!log_->conflicts.empty()) return;
   }
-  if (bodies().definition().contacts == ContactMode::impacts) contacts().release_all(number);
+  contacts().change_reported(number, ApproachState::turned);
   invalidate(number);
 }
 
+void EventProcessor::note_response() {
+  events_.note_response(
+      contacts(), [this](std::uint32_t number) { return sphere(number); }, bodies().walls());
+}
+
 void EventProcessor::recertify_changed() {
+  note_response();
   auto& changed = events_.changed();
   while (!changed.empty()) {
     const auto [a, b] = changed.back();

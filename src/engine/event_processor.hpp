@@ -95,6 +95,8 @@ class alignas(128) EventProcessor {
   Result<void> recertify();
   /// Returns the next event of this instant, or nullopt if there is none.
   std::optional<Event> pop();
+  /// Takes note of the response to the last event. Call it before windows start.
+  void note_response();
 
   /// Discards the initial work, which clusters have taken over.
   void discard_initial_work() {
@@ -170,6 +172,9 @@ class alignas(128) EventProcessor {
   template <class Partner>
   std::optional<double> decide(const ContactPredictor<Partner>& predictor, const Threshold& threshold,
                                Event current, const RelativeLimits& limits);
+  template <class Partner>
+  double defer(const ContactPredictor<Partner>& predictor, const Threshold& threshold, const Event& current,
+               const RelativeLimits& limits);
   Result<void> probe_staler(std::uint32_t a, std::uint32_t b);
   Sphere sphere(std::uint32_t number) const { return sphere_at(bodies(), time_, number); }
   Event contact(EventKind kind, std::uint32_t a, std::uint32_t b) const;

@@ -62,7 +62,7 @@ double PairCertifier::unchanged_until_by_thresholds(std::uint32_t a, std::uint32
   if (!bodies().may_meet(a, b)) return first;
   visit_pair(bodies(), a, b, [&](const Bound& bound, const auto& other) {
     for_each_threshold(a, b, [&](const Threshold& threshold) {
-      const ContactPredictor predictor(contacts().rule_of(threshold), threshold, bound, other, time_,
+      const ContactPredictor predictor(contacts().rule(), threshold, bound, other, time_,
                                        {end, end});
       first = std::min(first, predictor.until_reports());
     });
@@ -98,7 +98,7 @@ void PairCertifier::certify_linked(std::uint32_t number, SearchResults& found) c
     if (until < earliest_window_end(number, other))
       found.certificates.push_back(certificate(until, number, other));
   };
-  for (const std::uint32_t partner : contacts().partners_of(number)) add(partner);
+  for (const ContactRecord& contact : contacts().partners_of(number)) add(contact.partner);
   const auto crossed = contacts().overlaps_of(number);
   for (std::size_t k = 0; k < crossed.size(); ++k) {
     const std::uint32_t other = crossed[k].partner;

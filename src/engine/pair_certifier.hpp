@@ -141,13 +141,15 @@ class PairCertifier {
 
 template <class Visit>
 void PairCertifier::for_each_threshold(std::uint32_t a, std::uint32_t b, Visit visit) const {
-  if (bodies()[a].solid && bodies()[b].solid) visit(Threshold{.within = contacts().touch(a, b)});
+  if (bodies()[a].solid && bodies()[b].solid)
+    visit(contacts().contact_threshold(a, b, bodies().wanted_of(a, b)));
   if (!bodies().sensors.any()) return;
   const OverlapRecords::List crossed = contacts().overlaps_of(a, b);
   if (const auto next =
           bodies().sensors.next_inward(sensing_of(bodies(), a), sensing_of(bodies(), b), crossed))
-    visit(Threshold{false, *next, true});
-  if (!crossed.empty()) visit(Threshold{true, crossed.back().distance, true});
+    visit(Threshold{.within = false, .distance = *next, .sensed = true});
+  if (!crossed.empty())
+    visit(Threshold{.within = true, .distance = crossed.back().distance, .sensed = true});
 }
 
 }  // namespace kinesphere

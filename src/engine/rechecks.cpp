@@ -64,7 +64,7 @@ std::optional<double> EventProcessor::decide_pair(std::uint32_t a, std::uint32_t
   visit_pair(bodies(), a, b, [&](const Bound& bound, const auto& partner) {
     certifier.for_each_threshold(a, b, [&](const Threshold& threshold) {
       ++work_.counters.certificates;
-      const ContactPredictor predictor(contacts().rule_of(threshold), threshold, bound, partner, time_,
+      const ContactPredictor predictor(contacts().rule(), threshold, bound, partner, time_,
                                        {end, end});
       const auto known = decide(predictor, threshold, contact(EventKind::zeno_guard, a, b), sum);
       next = next && known ? std::optional(std::min(*next, *known)) : std::nullopt;
@@ -81,7 +81,7 @@ std::optional<double> EventProcessor::decide(const ContactPredictor<Partner>& pr
                                              const RelativeLimits& limits) {
   ContactDecision decision = predictor.decide(current, limits);
   if (decision.change == ContactRule::Change::begin && !threshold.sensed && contacts().is_jammed(current))
-    decision = predictor.defer(current, limits);
+    return defer(predictor, threshold, current, limits);
   if (decision.is_event()) {
     current.kind = kind_of(decision.change, threshold.sensed, current.wall);
     current.distance = threshold.distance;
@@ -90,8 +90,27 @@ std::optional<double> EventProcessor::decide(const ContactPredictor<Partner>& pr
   }
   if (decision.change == ContactRule::Change::release) contacts().set_touching(current, false);
   if (decision.zeno_step) ++work_.counters.zeno_steps;
-  if (decision.breaks_tolerance) events_.queue(current);
+  if (threshold.sensed) return decision.next_check;
+  const bool stays = threshold.within && decision.change != ContactRule::Change::release;
+  ContactState state = stays ? threshold.state : ContactState{};
+  if (stays) state.approach = decision.approach;
+  if (decision.breaks_tolerance && !state.guard_reported) {
+    events_.queue(current);
+    state.guard_reported = true;
+  }
+  if (stays ? state != threshold.state : state.guard_reported) contacts().set_state(current, state);
   return decision.next_check;
+}
+
+/// Defers the begin of a jammed contact by a least step or, after too many jams, until the two have separated.
+template <class Partner>
+double EventProcessor::defer(const ContactPredictor<Partner>& predictor, const Threshold& threshold,
+                             const Event& current, const RelativeLimits& limits) {
+  const ContactDecision decision = predictor.defer(current, limits);
+  ++work_.counters.zeno_steps;
+  if (contacts().note_jam(current, threshold, decision.breaks_tolerance)) return decision.next_check;
+  events_.queue(current);
+  return predictor.until_separated();
 }
 
 /// Rechecks the certificate of a body and the walls.
@@ -127,7 +146,7 @@ std::optional<double> EventProcessor::decide_walls(std::uint32_t number) {
     const bool touches = contacts().touches_wall(number, wall);
     if (!touches && !stands(near, wall)) continue;
     const HalfSpace inside = half_space(*bodies().walls(), wall);
-    const Threshold threshold{.within = touches};
+    const Threshold threshold = contacts().wall_threshold(number, wall, body.contact_events);
     const ContactPredictor<HalfSpace> predictor(contacts().rule(), threshold, body.bound, inside, time_,
                                                 {end, end});
     const auto next = decide(predictor, threshold, wall_contact(EventKind::zeno_guard, number, wall), limits);

@@ -13,7 +13,7 @@ void Sleeping::sleep(std::uint32_t number) {
   if (!known) bodies().change_of(number).velocity = Vec3{};
   bodies().sleep_records.add(body, {number, limits});
   if (known) body.stand_still();
-  if (bodies().definition().contacts == ContactMode::impacts) state_.contacts.release_all(number);
+  state_.contacts.change_reported(number, ApproachState::turned);
   processor_.invalidate(number);
 }
 

@@ -23,7 +23,7 @@ namespace {
 
 /// Raise the version if the fields change, or if the engine would continue differently from the same fields.
 constexpr Envelope world_envelope{{'K', 'i', 'n', 'e', 's', 'p', '\r', '\n'},
-                                  16,
+                                  17,
                                   "world",
                                   "World::restore",
                                   "snapshot",
@@ -65,9 +65,7 @@ Result<std::unique_ptr<World::Engine>> World::Engine::restore(std::span<const st
   ByteReader reader(*content);
   WorldDefinition definition;
   reader(definition);
-  const bool known_mode =
-      definition.contacts == ContactMode::begin_and_end || definition.contacts == ContactMode::impacts;
-  if (reader.failed() || !known_mode || !check_world(definition))
+  if (reader.failed() || !check_world(definition))
     return refusal("must hold a world that can be, but its definition is impossible");
   auto engine = std::make_unique<Engine>(definition);
   serialize(*engine, reader);
@@ -150,7 +148,9 @@ bool World::Engine::static_contacts_are_valid() const {
     if (!is_static(number)) continue;
     const auto partners = contacts().partners_of(number);
     const auto overlaps = contacts().overlaps_of(number);
-    if (contacts().walls_of(number) != 0 || std::any_of(partners.begin(), partners.end(), is_static) ||
+    if (contacts().walls_of(number) != 0 ||
+        std::any_of(partners.begin(), partners.end(),
+                    [&](const ContactRecord& contact) { return is_static(contact.partner); }) ||
         std::any_of(overlaps.begin(), overlaps.end(),
                     [&](const OverlapRecord& c) { return is_static(c.partner); }))
       return false;

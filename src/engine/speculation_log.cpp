@@ -24,7 +24,7 @@ void EventProcessor::note_linked_conflicts(std::uint32_t number) {
   const auto set = [this](std::uint32_t other) {
     if (!log_->is_own(other) && !bodies()[other].is_static()) log_->conflicts.add(other);
   };
-  for (const std::uint32_t other : contacts().partners_of(number)) set(other);
+  for (const ContactRecord& contact : contacts().partners_of(number)) set(contact.partner);
   for (const OverlapRecord& overlap : contacts().overlaps_of(number)) set(overlap.partner);
 }
 

@@ -23,6 +23,7 @@ BodyDefinition body_of(const StaticDefinition& definition) {
           .position = std::visit([](const auto& solid) { return anchor_of(solid); }, definition.shape),
           .filter = definition.filter,
           .solid = definition.solid,
+          .contacts = ContactEvents{},
           .sensor_class = definition.sensor_class,
           .user_data = definition.user_data};
 }

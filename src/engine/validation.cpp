@@ -106,6 +106,11 @@ void require_shape(InputCheck& check, const Triangle& triangle, const WorldDefin
                 least_thickness, thick);
 }
 
+void require_contact_events(InputCheck& check, ContactEvents contacts) {
+  check.require(contacts >= ContactEvents::impacts && contacts <= ContactEvents::all, ErrorCode::out_of_range,
+                {"contacts"}, "must be impacts, begin_and_end or all", static_cast<double>(contacts));
+}
+
 }  // namespace
 
 InputCheck& require_length(InputCheck& check, std::string_view argument, double length,
@@ -138,6 +143,7 @@ Result<void> check_world(const WorldDefinition& definition) {
       .finite({"start_time"}, definition.start_time)
       .require(std::abs(definition.start_time) <= limits::largest_time, ErrorCode::out_of_range,
                {"start_time"}, "must lie within +-", limits::largest_time, definition.start_time);
+  require_contact_events(check, definition.contacts);
   if (!std::isnan(definition.separation_distance)) {
     check.finite({"separation_distance"}, definition.separation_distance)
         .require(definition.separation_distance > definition.contact_tolerance, ErrorCode::out_of_range,
@@ -176,6 +182,7 @@ Result<void> check_body(const BodyDefinition& body, const WorldDefinition& world
   require_limits(check, motion_limits_of(body), no_body, world);
   require_state(check, {body.position, body.velocity}, body, no_body, world);
   require_fit(check, "radius", body, no_body, world);
+  if (body.contacts) require_contact_events(check, *body.contacts);
   return check.result();
 }
 

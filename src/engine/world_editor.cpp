@@ -86,7 +86,7 @@ void World::WorldEditor::replace(std::uint32_t number, const Bound& bound) {
 
 void World::WorldEditor::teleport(BodyId id, const State& state) {
   sleeping().wake(id.index);
-  if (bodies().definition().contacts == ContactMode::impacts) state_.contacts.release_all(id.index);
+  state_.contacts.change_reported(id.index, ApproachState::watched);
   state_.bodies.count_images_anew(id.index);
   replace(id.index, bound_of(bodies().definition_of(id.index), state, time()));
   state_.bodies.forget_change(id.index);

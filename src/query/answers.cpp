@@ -51,7 +51,7 @@ void World::Engine::Answers::consider_touching(std::uint32_t number, ContactBoun
   if (first.touching) return;
   const auto partners = engine_.contacts().partners_of(number);
   if (!partners.empty())
-    first = {now_, number, *std::min_element(partners.begin(), partners.end()), Wall::none, true};
+    first = {now_, number, std::ranges::min(partners, {}, &ContactRecord::partner).partner, Wall::none, true};
   for (const Wall wall : walls)
     if (!first.touching && engine_.contacts().touches_wall(number, wall))
       first = {now_, number, std::nullopt, wall, true};

@@ -135,12 +135,13 @@ class World::Engine::Audit {
     if (!engine_.bodies().walls() || b.is_static() || !is_certified(number, number) ||
         engine_.contacts().walls_of(number) != 0 || !exact(b))
       return;
-    // Bouncing bodies within the tolerance follow the contact rule instead, as in checkable().
-    if (impacts() && until_reports_of_walls(engine_.contacts().rule(), b.bound, *engine_.bodies().walls(),
+    // Bodies without ends follow the contact rule within the tolerance instead, as in checkable().
+    const bool has_ends = wants_ends(b.contact_events);
+    if (!has_ends && until_reports_of_walls(engine_.contacts().rule(), b.bound, *engine_.bodies().walls(),
                                             now_, infinity) <= now_)
       return;
     const double end = engine_.broad_phase().end_of(number);
-    const double within = impacts() ? engine_.definition().contact_tolerance : 0.0;
+    const double within = has_ends ? 0.0 : engine_.definition().contact_tolerance;
     const Vec3 margin = Vec3{1.0, 1.0, 1.0} * within;
     const Box box{engine_.bodies().walls()->lower - margin, engine_.bodies().walls()->upper + margin};
     const double reached = earliest_exit(b.bound, box, now_, end);
@@ -161,8 +162,15 @@ class World::Engine::Audit {
     check_overlaps(a, b);
     check_overlaps(b, a);
     if (!engine_.bodies().may_meet(a, b) || !is_certified(a, b)) return;
-    engine_.main().certifier().for_each_threshold(
-        a, b, [&](const Threshold& threshold) { check_threshold(a, b, threshold); });
+    engine_.main().certifier().for_each_threshold(a, b, [&](const Threshold& threshold) {
+      check_threshold(a, b, threshold);
+      if (threshold.is_watched()) check_threshold(a, b, next_approach(threshold));
+    });
+  }
+
+  /// Returns the threshold that two bodies in touch cross when they approach again.
+  static Threshold next_approach(const Threshold& threshold) {
+    return {.within = false, .wanted = ContactEvents::impacts, .state = threshold.state};
   }
 
   void check_overlaps(std::uint32_t a, std::uint32_t b) {
@@ -196,7 +204,7 @@ class World::Engine::Audit {
   /// Checks the contact state that the delivered events imply against the state that the bounds imply,
   /// wherever within its bound each body is.
   void check_state(std::uint32_t a, std::uint32_t b, const Threshold& threshold, const PlainGap& gap) {
-    const ContactRule& rule = engine_.contacts().rule_of(threshold);
+    const ContactRule& rule = engine_.contacts().rule();
     const PlainGap::Limits limits = gap.of_bodies(now_);
     const double margin = slack_of_gaps() + gap.uncertainty(now_);
     const bool end_missing =
@@ -239,10 +247,10 @@ class World::Engine::Audit {
   /// to bound the cost.
   std::optional<double> certain_change(std::uint32_t a, std::uint32_t b, const Threshold& threshold,
                                        const PlainGap& gap, double recorded) const {
-    const ContactRule& rule = engine_.contacts().rule_of(threshold);
-    const double level = threshold.distance + (threshold.within      ? rule.release_gap()
-                                               : rule.impacts_only() ? -rule.tolerance()
-                                                                     : 0.0);
+    const ContactRule& rule = engine_.contacts().rule();
+    const double level = threshold.distance + (threshold.within               ? rule.release_gap()
+                                               : wants_ends(threshold.wanted) ? 0.0
+                                                                              : -rule.tolerance());
     const double computed = earliest_change(a, b, threshold, level);
     const bool doubtful = recorded > computed;
     double end = recorded;
@@ -271,12 +279,12 @@ class World::Engine::Audit {
     });
   }
 
-  /// True if the bare distance determines the state of the threshold. Bouncing bodies within the tolerance
-  /// follow the contact rule instead.
+  /// True if the bare distance determines the state of the threshold. Within the tolerance, an approach of
+  /// bodies without ends, or in touch, follows the contact rule instead.
   bool checkable(std::uint32_t a, std::uint32_t b, const Threshold& threshold) const {
     if (!exact(body(a)) || !exact(body(b))) return false;
-    const ContactRule& rule = engine_.contacts().rule_of(threshold);
-    return !rule.impacts_only() || gap_at(engine_.bodies(), now_, collision_shape_of(engine_.bodies(), a),
+    const ContactRule& rule = engine_.contacts().rule();
+    return threshold.within || wants_ends(threshold.wanted) || gap_at(engine_.bodies(), now_, collision_shape_of(engine_.bodies(), a),
                                           collision_shape_of(engine_.bodies(), b))
                                            .lower > rule.tolerance();
   }
@@ -293,7 +301,6 @@ class World::Engine::Audit {
            engine_.main().events().pending().none_of(concerns);
   }
 
-  bool impacts() const { return engine_.definition().contacts == ContactMode::impacts; }
   std::string pair(std::uint32_t a, std::uint32_t b) const { return name(a) + " and " + name(b); }
 
   const Engine& engine_;

@@ -362,8 +362,8 @@ Result<BodyView> World::body(BodyId id) const {
 Result<std::vector<BodyId>> World::touching(BodyId body) const {
   if (auto valid = Preconditions(*this, "touching").known(body); !valid) return valid.error();
   std::vector<BodyId> partners;
-  for (const std::uint32_t partner : engine_->contacts().partners_of(body.index))
-    partners.push_back(engine_->bodies().id_of(partner));
+  for (const ContactRecord& contact : engine_->contacts().partners_of(body.index))
+    partners.push_back(engine_->bodies().id_of(contact.partner));
   return partners;
 }
 

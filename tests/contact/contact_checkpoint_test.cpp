@@ -27,8 +27,9 @@ class ContactCheckpointTest : public ::testing::Test {
     return checkpoint;
   }
   std::vector<std::uint32_t> partners_of(std::uint32_t body) const {
-    const auto all = book.partners_of(body);
-    return {all.begin(), all.end()};
+    std::vector<std::uint32_t> partners;
+    for (const ContactRecord& contact : book.partners_of(body)) partners.push_back(contact.partner);
+    return partners;
   }
 
   WorldDefinition definition;

@@ -13,7 +13,7 @@ class ContactGraphTest : public ::testing::Test {
     for (std::uint32_t body = 0; body < 3; ++body) book.add(body, 0.0);
   }
 
-  Sphere sphere(std::uint32_t body) const { return {{body, 0}, 1.0, {{2.0 * body, 0, 0}, velocities[body]}}; }
+  Sphere sphere(std::uint32_t body) const { return {{body, 0}, 1.0, {{2.0 * body, 0, 0}, velocities[body]}, nullptr, 0, wanted}; }
 
   Event begin(std::uint32_t a, std::uint32_t b) const {
     return contact_event(EventKind::contact_begin, 5.0, sphere(a), sphere(b));
@@ -25,7 +25,8 @@ class ContactGraphTest : public ::testing::Test {
         [this](std::uint32_t body) { return sphere(body); }, Box{{-1, -9, -9}, {9, 9, 9}});
   }
 
-  WorldDefinition definition{.contacts = ContactMode::impacts, .zeno_interval = 1.0};
+  ContactEvents wanted = ContactEvents::impacts;
+  WorldDefinition definition{.zeno_interval = 1.0};
   ContactGraph book{definition};
   PendingEvents instant;
   Vec3 velocities[3] = {{1, 0, 0}, {0, 0, 0}, {-1, 0, 0}};
@@ -87,18 +88,59 @@ TEST_F(ContactGraphTest, TellsAZenoGuardOncePerInstant) {
   EXPECT_TRUE(deliver());
 }
 
-TEST_F(ContactGraphTest, ReleasesBodiesAndWalls) {
+TEST_F(ContactGraphTest, ResponseThatPartsTheTwoMakesTheirNextApproachAnEvent) {
+  for (const ContactEvents events : {ContactEvents::impacts, ContactEvents::begin_and_end, ContactEvents::all}) {
+    wanted = events;
+    velocities[0] = {1, 0, 0};
+    instant.queue(begin(0, 1));
+    EXPECT_FALSE(deliver()->already_touching);
+    velocities[0] = {-1, 0, 0};
+    EXPECT_FALSE(deliver()) << "takes note of the response";
+    velocities[0] = {2, 0, 0};
+    instant.queue(begin(0, 1));
+    const auto again = deliver();
+    ASSERT_TRUE(again);
+    EXPECT_EQ(again->approach_speed, 2.0);
+    EXPECT_EQ(again->already_touching, wants_ends(events));
+    book.set_touching(begin(0, 1), false);
+  }
+}
+
+TEST_F(ContactGraphTest, ResponseThatDoesNotPartTheTwoLetsThemThrough) {
+  instant.queue(begin(0, 1));
+  EXPECT_TRUE(deliver());
+  velocities[0] = {0.5, 0, 0};
+  book.change_reported(0, ApproachState::turned);
+  instant.queue(begin(0, 1));
+  EXPECT_FALSE(deliver());
+  EXPECT_EQ(book.contact_threshold(0, 1, wanted).state.approach, ApproachState::reported);
+}
+
+TEST_F(ContactGraphTest, TurnsReportedApproachesOfABodyAndItsWalls) {
   velocities[0] = {-1, 0, 0};
   velocities[1] = {-2, 0, 0};
   instant.queue(wall_event(EventKind::wall_begin, 5.0, sphere(0), {{-1, -9, -9}, {9, 9, 9}}, Wall::x_lower));
   instant.queue(begin(0, 1));
   while (deliver()) {
   }
-  EXPECT_TRUE(book.touches_wall(0, Wall::x_lower));
-  EXPECT_TRUE(book.touch(1, 0));
-  book.release_all(0);
-  EXPECT_EQ(book.walls_of(0), 0);
-  EXPECT_FALSE(book.touch(0, 1) || book.touch(1, 0));
+  EXPECT_EQ(book.wall_threshold(0, Wall::x_lower, wanted).state.approach, ApproachState::reported);
+  book.change_reported(0, ApproachState::turned);
+  EXPECT_EQ(book.wall_threshold(0, Wall::x_lower, wanted).state.approach, ApproachState::turned);
+  EXPECT_EQ(book.contact_threshold(0, 1, wanted).state.approach, ApproachState::turned);
+  EXPECT_EQ(book.contact_threshold(1, 0, wanted).state.approach, ApproachState::turned);
+  EXPECT_TRUE(book.is_valid(3, Box{{-1, -9, -9}, {9, 9, 9}}));
+}
+
+TEST_F(ContactGraphTest, LetsAPairThroughAfterTooManyJams) {
+  const Event event = begin(0, 1);
+  for (int jam = 1; jam < 8; ++jam) {
+    EXPECT_TRUE(book.note_jam(event, book.threshold_of(event, wanted), false)) << jam;
+    EXPECT_EQ(book.threshold_of(event, wanted).state.approach, ApproachState::watched);
+  }
+  EXPECT_FALSE(book.note_jam(event, book.threshold_of(event, wanted), false));
+  EXPECT_EQ(book.threshold_of(event, wanted).state.approach, ApproachState::ignored);
+  const Event other = begin(1, 2);
+  EXPECT_FALSE(book.note_jam(other, book.threshold_of(other, wanted), true)) << "deep";
 }
 
 }  // namespace

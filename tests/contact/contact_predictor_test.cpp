@@ -44,7 +44,7 @@ TEST(ContactPredictor, GuardsTheDistanceOfAPairOutsideTheTolerance) {
       const Pair pair(tolerance + steps * step, 2.0, x);
       const Event now = pair.now();
       if (!(now.gap > tolerance)) continue;
-      const ContactDecision verdict = pair.judge(ContactRule(pair.world).with_ends());
+      const ContactDecision verdict = pair.judge(ContactRule(pair.world));
       EXPECT_EQ(verdict.change, ContactRule::Change::none);
       EXPECT_LE(verdict.next_check, 1.0001 * now.gap / 2.0) << "at " << x << ", " << steps << " steps out";
     }
@@ -53,7 +53,7 @@ TEST(ContactPredictor, GuardsTheDistanceOfAPairOutsideTheTolerance) {
 
 TEST(ContactPredictor, BeginsWithinTheTolerance) {
   const Pair pair(0.999 * tolerance, 2.0, 0.0);
-  EXPECT_EQ(pair.judge(ContactRule(pair.world).with_ends()).change, ContactRule::Change::begin);
+  EXPECT_EQ(pair.judge(ContactRule(pair.world)).change, ContactRule::Change::begin);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "archive/archive.hpp"
@@ -14,7 +15,11 @@ namespace {
 
 using Numbers = std::vector<std::uint32_t>;
 
-Numbers content(const PartnerList& list) { return {list.all().begin(), list.all().end()}; }
+Numbers content(const PartnerList& list) {
+  Numbers numbers;
+  for (const ContactRecord& contact : list.all()) numbers.push_back(contact.partner);
+  return numbers;
+}
 
 /// A partner list and a plain list with equal content.
 struct Mirrored {
@@ -30,8 +35,8 @@ struct Mirrored {
       list.erase(value);
       std::erase(plain, value);
     } else {
-      list.add(value);
-      plain.push_back(value);
+      list.set({value});
+      if (std::find(plain.begin(), plain.end(), value) == plain.end()) plain.push_back(value);
     }
   }
 };
@@ -55,24 +60,33 @@ TEST(PartnerList, IsCopiedMovedAndReadBack) {
     const PartnerList moved = std::move(copy);
     ASSERT_EQ(content(moved), pair.plain);
     copy = moved;
-    copy.add(77);
+    copy.set({77});
     ASSERT_EQ(content(moved), pair.plain) << "a copy is independent";
     ByteWriter writer;
     writer(pair.list);
     PartnerList read;
-    read.add(5);
+    read.set({5});
     ByteReader reader(writer.bytes());
     reader(read);
     ASSERT_EQ(content(read), pair.plain);
   }
 }
 
+TEST(PartnerList, KeepsOneStateForEachPartner) {
+  PartnerList list;
+  list.set({4});
+  list.set({4, {.approach = ApproachState::reported, .jams = 2}});
+  ASSERT_EQ(list.all().size(), 1u);
+  EXPECT_EQ(list.find(4)->jams, 2);
+  EXPECT_EQ(list.find(5), nullptr);
+}
+
 TEST(PartnerList, NeedsMemoryForMoreThanTwo) {
   PartnerList list;
-  list.add(1);
-  list.add(2);
+  list.set({1});
+  list.set({2});
   EXPECT_EQ(heap_bytes(list), 0u);
-  list.add(3);
+  list.set({3});
   EXPECT_GT(heap_bytes(list), 0u);
 }
 

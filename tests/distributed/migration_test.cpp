@@ -37,8 +37,8 @@ struct Rank {
   /// Returns the names of the touching bodies that are known here.
   std::vector<std::uint32_t> partners_of(std::uint32_t name) const {
     std::vector<std::uint32_t> names;
-    for (const std::uint32_t number : local.state.contacts.partners_of(*local.directory.find(name)))
-      names.push_back(local.name_of(number));
+    for (const ContactRecord& contact : local.state.contacts.partners_of(*local.directory.find(name)))
+      names.push_back(local.name_of(contact.partner));
     return names;
   }
 

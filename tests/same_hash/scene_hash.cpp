@@ -49,7 +49,7 @@ Bodies drawn() {
 
 World world_of(const Bodies& bodies, const RandomForces& motion) {
   World world =
-      World::create({.box = Box{{0, 0, 0}, {edge, edge, edge}}, .contacts = ContactMode::impacts}).value();
+      World::create({.box = Box{{0, 0, 0}, {edge, edge, edge}}, .contacts = ContactEvents::impacts}).value();
   world.set_sensor(0, {.distances = {0.5, 2.0}}).value();
   for (std::uint32_t body = 0; body < motion.size(); ++body) {
     BodyDefinition definition = motion.definition(body, 0.0);

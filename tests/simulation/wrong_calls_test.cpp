@@ -119,7 +119,7 @@ TEST(WrongScene, ThatBouncesIsNotCompared) {
   scene.response = SceneResponse::bounce;
   expect_error(compare_with_oracle(scene, {}), ErrorCode::unsupported, "scene", "compare_with_oracle:");
   scene = meeting();
-  scene.world.contacts = ContactMode::impacts;
+  scene.world.contacts = ContactEvents::impacts;
   expect_error(compare_with_oracle(scene, {}), ErrorCode::unsupported, "scene", "compare_with_oracle:");
   expect_error(verify(scene, make_world_detector), ErrorCode::unsupported, "scene", "compare_with_oracle:");
 }

@@ -149,7 +149,7 @@ std::vector<Original> make_originals() {
   const Box box{{0, 0, 0}, {8, 8, 8}};
   const std::vector<WorldDefinition> definitions{
       {.allow_overlap = true},
-      {.box = box, .contacts = ContactMode::impacts, .start_time = 1e9},
+      {.box = box, .contacts = ContactEvents::impacts, .start_time = 1e9},
       {.box = box, .periodic = {true, true, true}, .allow_overlap = true},
       {.box = box, .periodic = {true, false, false}, .dimensions = 2, .separation_distance = 1e-3},
   };

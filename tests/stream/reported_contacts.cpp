@@ -149,7 +149,16 @@ void ReportedContacts::refiltered(BodyId id, const std::vector<Before>& before) 
 }
 
 void ReportedContacts::redirected(BodyId id) {
-  if (!rule_.impacts_only()) return;
+  for_each(id, [this](const Contact& contact) {
+    if (!impacts(contact)) return;
+    ReportedState& state = reported(contact);
+    // The world may look before the next change of the same instant, or not: another begin is possible.
+    state.turned = state.opened = state.touching;
+    look_again(contact);
+  });
+}
+
+void ReportedContacts::teleported(BodyId id) {
   for_each(id, [this](const Contact& contact) {
     if (!impacts(contact)) return;
     reported(contact).touching = false;
@@ -199,7 +208,8 @@ void ReportedContacts::hear(const Event& event) {
       if (truth_.may_be_reported(contact)) {
         reported(contact).floor =
             std::min(reported(contact).floor, event.gap - 0.125 * rule_.tolerance() + rule_.tolerance());
-        reported(contact).guarded = truth_.time();
+        // The guard tells once that the two may come to overlap until they have separated.
+        reported(contact).touching = reported(contact).opened = true;
       }
       return;
     default:
@@ -288,7 +298,7 @@ void ReportedContacts::begin(const Event& event, const Contact& contact) {
   const bool impact = impacts(contact);
   if (impact && event.approach_speed <= 0.0) fail("an impact that does not approach", contact, gap);
   if (state.touching && !(impact && state.opened)) fail("a begin is reported twice", contact, gap);
-  state = {.touching = true, .guarded = state.guarded};
+  state = {.touching = true};
 }
 
 void ReportedContacts::end(const Event& event, const Contact& contact) {
@@ -322,7 +332,7 @@ void ReportedContacts::check_account(const World& world, BodyId id) const {
     if (listed != (reported(contact).touching && end == ends_.end()))
       fail("the account differs from what was reported", contact, 0.0);
   });
-  if (sensed.size() != overlaps || (!rule_.impacts_only() && touching.size() != contacts))
+  if (sensed.size() != overlaps || (wants_ends(truth_.definition().contacts) && touching.size() != contacts))
     throw Disagreement("touching() or sensed() names a body twice, or one that is gone");
 }
 
@@ -410,6 +420,10 @@ void ReportedContacts::check_contact(const Contact& contact, double until) {
 
 void ReportedContacts::check_impacts(const Contact& contact, ReportedState& state, double until) {
   double from = truth_.time();
+  if (std::exchange(state.turned, false) && truth_.approach_speed(contact) <= 0.0) {
+    state.touching = false;
+    look_again(contact);
+  }
   if (state.touching) {
     state.opened = state.opened || truth_.opens_before(contact, until);
     const auto parted = reaches(contact, LevelCrossing::rises_to, rule_.release_gap(), from, until);
@@ -418,8 +432,7 @@ void ReportedContacts::check_impacts(const Contact& contact, ReportedState& stat
     from = *parted;
   }
   const double gap = truth_.gap(contact);
-  const bool may_wait = state.guarded == truth_.time();
-  if (state.due && !may_wait && gap < -rule_.tolerance() - slack_ && truth_.approach_speed(contact) > 1e-9)
+  if (state.due && gap < -rule_.tolerance() - slack_ && truth_.approach_speed(contact) > 1e-9)
     fail("their approach is not reported", contact, gap);
   state.due = false;
   if (state.floor < 0.0) {

@@ -41,7 +41,7 @@ class ReportedContacts {
   void replaced(const World& world, BodyId id, const std::vector<Before>& before);
   void refiltered(BodyId id, const std::vector<Before>& before);
   void redirected(BodyId id);
-  void teleported(BodyId id) { redirected(id); }
+  void teleported(BodyId id);
   void appeared(BodyId id);
 
   /// Far below the tolerance, above rounding.
@@ -53,13 +53,11 @@ class ReportedContacts {
  private:
   struct ReportedState {
     bool touching = false;  ///< impacts: a begin was reported, and the bodies have not certainly parted since
-    // In ContactMode::impacts only.
+    // In ContactEvents::impacts only.
     bool opened = false;  ///< since the begin the gap may have opened for a while
+    bool turned = false;  ///< touching, and one of the two has got another velocity at this instant
     bool due = false;     ///< an approach now must be reported before time moves on
     double floor = 0.0;   ///< no lower gap may come unreported; 0 stands for minus the tolerance
-    /// Time of the last Zeno guard event. There is only one at an instant, so an approach that the guard
-    /// delays again is not reported either.
-    double guarded = -std::numeric_limits<double>::infinity();
 
     friend bool operator==(const ReportedState&, const ReportedState&) = default;
   };
@@ -71,7 +69,9 @@ class ReportedContacts {
   };
 
   /// True if ends are not reported, and each approach is.
-  bool impacts(const Contact& contact) const { return rule_.impacts_only() && !contact.sensed; }
+  bool impacts(const Contact& contact) const {
+    return !wants_ends(truth_.definition().contacts) && !contact.sensed;
+  }
   Event end_now(const World& world, const Contact& contact) const;
   GapLimits limits(const World& world, const Contact& contact) const;
   bool same(const Event& a, const Event& b) const;

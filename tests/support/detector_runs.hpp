@@ -89,7 +89,7 @@ inline void expect_ends_of_contacts_of_the_vanished(const DetectorMaker& make) {
 /// Expects two balls that meet head on to bounce once, and then off the walls.
 inline void expect_one_head_on_bounce(const DetectorMaker& make) {
   Scene scene;
-  scene.world.contacts = ContactMode::impacts;
+  scene.world.contacts = ContactEvents::impacts;
   scene.world.box = Box{{-10, -10, -10}, {10, 10, 10}};
   scene.response = SceneResponse::bounce;
   scene.motion = std::make_unique<Ballistic>(

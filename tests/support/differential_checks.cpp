@@ -36,7 +36,7 @@ void expect_agreement_with_oracle(const Scene& scene, const DetectorMaker& make)
 
 void expect_no_overlaps(Scene scene, const DetectorMaker& make) {
   scene.response = SceneResponse::bounce;
-  scene.world.contacts = ContactMode::impacts;
+  scene.world.contacts = ContactEvents::impacts;
   const Flight flight = record_flight(scene, make).value();
   ASSERT_EQ(flight.result.counters.count(EventKind::zeno_guard), 0u);
   for (std::uint32_t a = 0; a < scene.bodies.size(); ++a) {

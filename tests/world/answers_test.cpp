@@ -128,7 +128,7 @@ TEST_P(Answers, AreNeverLaterThanWhatHappens) {
       if (stop % 8 == 0) {
         ASSERT_NO_FATAL_FAILURE(compare_with_all_pairs());
       }
-      if (GetParam().mode == ContactMode::impacts && begins(*event)) {
+      if (GetParam().mode == ContactEvents::impacts && begins(*event)) {
         crowd.bounce(*event);
         claims.clear();
         ASSERT_NO_FATAL_FAILURE(ask());
@@ -244,7 +244,7 @@ TEST(AnswersWithProbe, TellOfABrokenPromise) {
 /// Queries without a probe must not influence later results.
 TEST(AnswersWithoutProbe, ChangeNothing) {
   const auto hash = [](bool ask) {
-    Crowd crowd({ContactMode::begin_and_end, true, 0.0, 40, 9});
+    Crowd crowd({ContactEvents::begin_and_end, true, 0.0, 40, 9});
     for (int stop = 1; stop <= 20; ++stop) {
       while (crowd.advance(-1.0 + 0.05 * stop)) {
         if (!ask) continue;

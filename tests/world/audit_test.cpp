@@ -29,7 +29,7 @@ TEST(Audit, TakesACertificateForWhatItIsThoughALaterOneIsShorter) {
 TEST(Audit, IsCleanAmongBoxesAndTriangles) {
   for (std::uint64_t seed = 0; seed < 6000; ++seed) {
     Random random(seed);
-    Playground p({.contacts = seed % 3 == 0 ? ContactMode::impacts : ContactMode::begin_and_end});
+    Playground p({.contacts = seed % 3 == 0 ? ContactEvents::impacts : ContactEvents::begin_and_end});
     const Vec3 at = random.point_in_ball();
     const Vec3 size{random.uniform(), random.uniform(), random.uniform()};
     Shape shape = Box{at, at + size};

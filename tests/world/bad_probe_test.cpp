@@ -34,7 +34,7 @@ void populate(Playground& p) {
 
 struct Kind {
   const char* name;
-  ContactMode mode;
+  ContactEvents mode;
   bool bounces;
 };
 
@@ -106,9 +106,9 @@ TEST_P(BadProbe, RepeatingTheCallGivesTheSameEvents) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, BadProbe,
-                         testing::Values(Kind{"BeginAndEnd", ContactMode::begin_and_end, true},
-                                         Kind{"PassThrough", ContactMode::begin_and_end, false},
-                                         Kind{"Impacts", ContactMode::impacts, true}),
+                         testing::Values(Kind{"BeginAndEnd", ContactEvents::begin_and_end, true},
+                                         Kind{"PassThrough", ContactEvents::begin_and_end, false},
+                                         Kind{"Impacts", ContactEvents::impacts, true}),
                          [](const auto& kind) { return kind.param.name; });
 
 TEST(BadAnswer, NamesTheBodyTheTimeAndWhy) {

@@ -55,8 +55,8 @@ class Chaos {
     WorldDefinition definition;
     definition.dimensions = random_.bits() % 4 == 0 ? 2 : 3;
     definition.contact_tolerance = 1e-6 * length_;
-    definition.contacts = random_.bits() % 2 == 0 ? ContactMode::impacts : ContactMode::begin_and_end;
-    if (definition.contacts == ContactMode::begin_and_end && random_.bits() % 2 == 0)
+    definition.contacts = random_.bits() % 2 == 0 ? ContactEvents::impacts : ContactEvents::begin_and_end;
+    if (definition.contacts == ContactEvents::begin_and_end && random_.bits() % 2 == 0)
       definition.separation_distance = 1e-3 * length_;
     const double start = power_of_ten(scales.least_start, scales.largest_start);
     if (start > 1e-2)

@@ -21,7 +21,7 @@ namespace {
 struct Rows : BouncingWorld<Ballistic> {
   Rows(int rows, int length, int pairs)
       : BouncingWorld(Ballistic::create({.start = start(rows, length, pairs)}).value(),
-                      World::create({.contacts = ContactMode::impacts}).value(), 1.0) {
+                      World::create({.contacts = ContactEvents::impacts}).value(), 1.0) {
     const auto add_one = [this](double mass) {
       BodyDefinition body = next();
       body.radius = 0.5;

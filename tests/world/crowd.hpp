@@ -8,7 +8,7 @@
 namespace kinesphere {
 
 struct CrowdKind {
-  ContactMode mode;
+  ContactEvents mode;
   bool walls;
   double noise;  ///< largest position and velocity error
   std::size_t bodies;
@@ -16,7 +16,7 @@ struct CrowdKind {
 };
 
 inline std::ostream& operator<<(std::ostream& out, const CrowdKind& kind) {
-  return out << (kind.mode == ContactMode::impacts ? "impacts" : "begin_and_end")
+  return out << (kind.mode == ContactEvents::impacts ? "impacts" : "begin_and_end")
              << (kind.walls ? ", walls" : "") << ", noise " << kind.noise << ", " << kind.bodies
              << " bodies, seed " << kind.seed;
 }
@@ -77,7 +77,7 @@ class Crowd : public Playground {
   /// In a mode that repeats begins, the bodies have to separate.
   void bounce(const Event& event) {
     const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
-    if (world.definition().contacts != ContactMode::impacts || !begins) return;
+    if (world.definition().contacts != ContactEvents::impacts || !begins) return;
     const Vec3 change = event.normal * event.approach_speed;
     set_velocity(event.first, state(event.first).velocity - change);
     if (event.second != no_body) set_velocity(event.second, state(event.second).velocity + change);
@@ -98,7 +98,7 @@ class Crowd : public Playground {
 };
 
 inline auto crowd_kinds() {
-  using enum ContactMode;
+  using enum ContactEvents;
   return testing::Values(CrowdKind{begin_and_end, true, 0.0, 40, 1},
                          CrowdKind{begin_and_end, false, 0.0, 40, 12},
                          CrowdKind{begin_and_end, true, 1e-3, 40, 13}, CrowdKind{impacts, true, 0.0, 40, 4},

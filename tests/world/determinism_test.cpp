@@ -25,23 +25,23 @@ std::vector<std::pair<BodyDefinition, Vec3>> crowd() {
   return bodies;
 }
 
-WorldDefinition definition(ContactMode mode) {
+WorldDefinition definition(ContactEvents mode) {
   return {.box = Box{{0, 0, 0}, {10, 10, 10}}, .contacts = mode};
 }
 
-void answer(Playground& p, const Event& event, ContactMode mode) {
-  if (mode == ContactMode::begin_and_end || event.approach_speed <= 0) return;
+void answer(Playground& p, const Event& event, ContactEvents mode) {
+  if (mode == ContactEvents::begin_and_end || event.approach_speed <= 0) return;
   const Bounce after = bounce(event, 1.0, 1.0, 1.0);
   p.set_velocity(event.first, after.first_velocity);
   if (event.second != no_body) p.set_velocity(event.second, after.second_velocity);
 }
 
-class Determinism : public testing::TestWithParam<ContactMode> {};
+class Determinism : public testing::TestWithParam<ContactEvents> {};
 
 INSTANTIATE_TEST_SUITE_P(Modes, Determinism,
-                         testing::Values(ContactMode::begin_and_end, ContactMode::impacts));
+                         testing::Values(ContactEvents::begin_and_end, ContactEvents::impacts));
 
-std::vector<Event> run_in_steps(ContactMode mode, int steps, bool move = false) {
+std::vector<Event> run_in_steps(ContactEvents mode, int steps, bool move = false) {
   Playground p(definition(mode));
   for (const auto& [body, acceleration] : crowd()) p.add(body, acceleration);
   std::vector<Event> events;
@@ -85,7 +85,7 @@ TEST_P(Determinism, AgainInStepsAndMoved) {
 
 TEST(OrderOfAdding, ChangesNoContact) {
   const auto contacts = [](bool backwards) {
-    Playground p(definition(ContactMode::begin_and_end));
+    Playground p(definition(ContactEvents::begin_and_end));
     auto bodies = crowd();
     if (backwards) std::reverse(bodies.begin(), bodies.end());
     for (const auto& [body, acceleration] : bodies) p.add(body, acceleration);

@@ -62,7 +62,7 @@ class RandomCrowd {
   WorldDefinition definition() {
     WorldDefinition world{.box = Box{{0, 0, 0}, {4, 4, 4}}};
     const auto choice = random_.bits();
-    if (choice % 2 == 0) world.contacts = ContactMode::impacts;
+    if (choice % 2 == 0) world.contacts = ContactEvents::impacts;
     if (choice / 2 % 2 == 0) world.periodic = {true, choice / 4 % 2 == 0, choice / 8 % 2 == 0};
     if (choice / 16 % 8 == 0) world.contact_tolerance = 1e-3;
     return world;

@@ -100,7 +100,7 @@ TEST(Filter, DoesNotConcernWalls) {
 }
 
 TEST(Filter, EndsImpactsSilently) {
-  Playground p({.contacts = ContactMode::impacts});
+  Playground p({.contacts = ContactEvents::impacts});
   const BodyId a = p.add({.radius = 1, .velocity = {1, 0, 0}});
   p.add({.radius = 1, .position = {2, 0, 0}});
   EXPECT_EQ(p.run(0.5).size(), 1u);

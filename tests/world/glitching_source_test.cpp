@@ -63,7 +63,7 @@ class TwoBalls final : public MotionSource {
     return result;
   }
 
-  World world = World::create({.dimensions = 2, .contacts = ContactMode::impacts}).value();
+  World world = World::create({.dimensions = 2, .contacts = ContactEvents::impacts}).value();
   std::vector<MotionOrigin> departures;
   std::vector<Event> reported;
   std::uint32_t glitches = no_body.index;  ///< this body, while an answer turns it

@@ -9,7 +9,7 @@
 namespace kinesphere::impacts_test {
 namespace {
 
-constexpr WorldDefinition impacts{.contacts = ContactMode::impacts};
+constexpr WorldDefinition impacts{.contacts = ContactEvents::impacts};
 
 void bounce_off(Playground& p, const Event& event, double restitution = 1.0, double first_mass = 1.0,
                 double second_mass = 1.0) {

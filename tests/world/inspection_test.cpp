@@ -15,7 +15,7 @@ namespace kinesphere::inspection_test {
 namespace {
 
 struct BusyCrowd : Crowd {
-  BusyCrowd() : Crowd({ContactMode::begin_and_end, true, 0.0, 200, 3}) { run(0.0); }
+  BusyCrowd() : Crowd({ContactEvents::begin_and_end, true, 0.0, 200, 3}) { run(0.0); }
 };
 
 TEST(Memory, GrowsWithTheBodiesAndBelongsToParts) {

@@ -340,7 +340,7 @@ TEST(PeriodicBox, PositionsFromTheCallerMayBeInAnyImage) {
 TEST(PeriodicBox, HoldsThroughEveryKindOfChange) {
   for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
     SCOPED_TRACE(seed);
-    const auto mode = seed % 2 == 0 ? ContactMode::impacts : ContactMode::begin_and_end;
+    const auto mode = seed % 2 == 0 ? ContactEvents::impacts : ContactEvents::begin_and_end;
     PeriodicWorld p({.name = "changes",
                      .box = {{0, 0, 0}, {6, 6, 6}},
                      .crowd = {25, 0.05, 0.5, 4},
@@ -353,7 +353,7 @@ TEST(PeriodicBox, HoldsThroughEveryKindOfChange) {
       const auto events = p.run(0.05 * step, [&](const Event& event) {
         // Ends that a change caused have the states before it.
         if (event.kind != EventKind::contact_end) p.check_event(event);
-        if (event.kind == EventKind::contact_begin && mode == ContactMode::impacts) {
+        if (event.kind == EventKind::contact_begin && mode == ContactEvents::impacts) {
           const Vec3 change = event.normal * event.approach_speed;
           p.set_velocity(event.first, p.state(event.first).velocity - change);
           p.set_velocity(event.second, p.state(event.second).velocity + change);
@@ -363,7 +363,7 @@ TEST(PeriodicBox, HoldsThroughEveryKindOfChange) {
           EXPECT_EQ(touching.erase({event.first, event.second}), 1u) << event;
         }
       });
-      if (mode == ContactMode::begin_and_end)
+      if (mode == ContactEvents::begin_and_end)
         for (const BodyId a : p.world.bodies())
           for (const BodyId b : p.world.bodies()) {
             if (!(a < b)) continue;
@@ -441,7 +441,7 @@ TEST(PeriodicBox, NothingIsMissedWithErrorsAndAccelerations) {
 
 TEST(PeriodicBox, AGasConservesMomentumAndEnergy) {
   PeriodicWorld p({.name = "gas", .box = {{0, 0, 0}, {8, 8, 8}}, .reports = Reports::wrapped},
-                  {.contacts = ContactMode::impacts, .allow_overlap = false});
+                  {.contacts = ContactEvents::impacts, .allow_overlap = false});
   while (p.ids.size() < 120) {
     const BodyDefinition body{
         .radius = 0.5, .position = p.any_point(), .velocity = 3.0 * p.random.point_in_ball()};

@@ -50,7 +50,7 @@ std::size_t most_impacts(std::uint64_t trials, Trial impacts_in) {
 TEST(PhantomImpacts, OfTwoBallsThatSlidePastEachOther) {
   const std::size_t most = most_impacts(2000, [](std::uint64_t trial) {
     Random random(trial);
-    Surroundings p({.contact_tolerance = eps, .contacts = ContactMode::impacts});
+    Surroundings p({.contact_tolerance = eps, .contacts = ContactEvents::impacts});
     const Vec3 n = random.unit_vector();
     const Vec3 v = random.point_in_ball();
     p.add(ball({}, v), Vec3{});
@@ -64,7 +64,7 @@ TEST(PhantomImpacts, OfTwoBallsThatSlidePastEachOther) {
 TEST(PhantomImpacts, OfTwoBallsAnywhere) {
   const std::size_t most = most_impacts(2000, [](std::uint64_t trial) {
     Random random = Random::at(seed, trial, 0);
-    Surroundings p({.contact_tolerance = eps, .contacts = ContactMode::impacts});
+    Surroundings p({.contact_tolerance = eps, .contacts = ContactEvents::impacts});
     const Vec3 n = random.unit_vector();
     const Vec3 v = std::pow(10.0, random.uniform(-3.0, 4.0)) * random.point_in_ball();
     const Vec3 place = std::pow(10.0, random.uniform(-2.0, 5.0)) * random.point_in_ball();
@@ -83,7 +83,7 @@ TEST(PhantomImpacts, OfTwoBallsWhereSpaceRepeats) {
     Surroundings p({.box = Box{{0, 0, 0}, {20, 20, 20}},
                     .periodic = {true, true, true},
                     .contact_tolerance = eps,
-                    .contacts = ContactMode::impacts});
+                    .contacts = ContactEvents::impacts});
     const Vec3 n = random.unit_vector();
     const Vec3 v = random.point_in_ball();
     // The bodies lie on both sides of the border of the box.
@@ -99,7 +99,7 @@ TEST(PhantomImpacts, OfABallAtAWall) {
   const std::size_t most = most_impacts(1000, [](std::uint64_t trial) {
     Random random = Random::at(seed, trial, 2);
     Surroundings p(
-        {.box = Box{{0, 0, 0}, {20, 20, 20}}, .contact_tolerance = eps, .contacts = ContactMode::impacts});
+        {.box = Box{{0, 0, 0}, {20, 20, 20}}, .contact_tolerance = eps, .contacts = ContactEvents::impacts});
     // The typical error after a bounce at a wall and a turn elsewhere.
     const double rounding = random.uniform(-1e-15, 1e-15);
     p.add(ball({1.0, 10, 10}, {rounding, random.uniform(0.5, 2.0), random.uniform(-1.0, 1.0)}), Vec3{});
@@ -111,7 +111,7 @@ TEST(PhantomImpacts, OfABallAtAWall) {
 TEST(PhantomImpacts, OfABallAtAFixedShape) {
   const std::size_t most = most_impacts(4000, [](std::uint64_t trial) {
     Random random = Random::at(seed, trial, 3);
-    Surroundings p({.contact_tolerance = eps, .contacts = ContactMode::impacts});
+    Surroundings p({.contact_tolerance = eps, .contacts = ContactEvents::impacts});
     const Vec3 n = random.unit_vector();
     const Vec3 aside = sideways(random, n, 3.0);
     const Vec3 other = cross(n, aside);
@@ -140,7 +140,7 @@ TEST(PhantomImpacts, OfABallAtAFixedShape) {
 /// Ever slower approaches, down to the rounding error.
 TEST(PhantomImpacts, RealSlowApproachesAreTold) {
   for (double approach = 1e-3; approach > 1e-13; approach *= 0.1) {
-    Surroundings p({.contact_tolerance = eps, .contacts = ContactMode::impacts});
+    Surroundings p({.contact_tolerance = eps, .contacts = ContactEvents::impacts});
     p.add({.radius = 1, .position = {0, 0, 0}, .velocity = {approach, 0.5, 0}}, Vec3{});
     p.add({.radius = 1, .position = {2, 0, 0}, .velocity = {0, 0.5, 0}}, Vec3{});
     const auto event = p.advance(1.0 + 4 * eps / approach);
@@ -159,7 +159,7 @@ TEST(PhantomImpacts, ApproachesThatDoNotEndAreToldInTime) {
                   .periodic = {false, true, false},
                   .dimensions = 2,
                   .contact_tolerance = fine,
-                  .contacts = ContactMode::impacts});
+                  .contacts = ContactEvents::impacts});
   const BodyId id = p.add({.radius = 1, .position = {1, 50, 0}, .velocity = {-approach, 1000, 0}}, Vec3{});
   // In the box, and more exact than a product of doubles, which would violate the limits.
   p.distort = [](BodyId, double time, State& state) {

@@ -33,7 +33,7 @@ class Discs : public Playground {
 };
 
 /// The walls of the third axis are out of reach.
-WorldDefinition definition(int dimensions, ContactMode mode = ContactMode::begin_and_end) {
+WorldDefinition definition(int dimensions, ContactEvents mode = ContactEvents::begin_and_end) {
   return {.box = Box{{0, 0, -50}, {10, 10, 50}},
           .dimensions = dimensions,
           .contact_tolerance = eps,
@@ -79,7 +79,7 @@ TEST(Plane, BouncingDiscsStayApart) {
   Playground p({.box = Box{{0, 0, 7}, {10, 10, -3}},
                 .dimensions = 2,
                 .contact_tolerance = eps,
-                .contacts = ContactMode::impacts,
+                .contacts = ContactEvents::impacts,
                 .allow_overlap = false});
   Random random(5);
   std::vector<BodyId> ids;

@@ -19,7 +19,7 @@ void add_noise(Playground& p) {
   };
 }
 
-class Noise : public testing::TestWithParam<std::tuple<double, double, ContactMode>> {};
+class Noise : public testing::TestWithParam<std::tuple<double, double, ContactEvents>> {};
 
 TEST_P(Noise, HidesNoTrueContactAndIsNoViolation) {
   const auto [e0, e1, mode] = GetParam();
@@ -48,10 +48,10 @@ TEST_P(Noise, HidesNoTrueContactAndIsNoViolation) {
       if (event.kind == EventKind::contact_begin) touching.insert({event.first, event.second}), ++begins;
       if (event.kind == EventKind::contact_end) touching.erase({event.first, event.second});
     });
-    if (mode == ContactMode::impacts) touching.clear();
+    if (mode == ContactEvents::impacts) touching.clear();
     for (std::size_t a = 0; a < ids.size(); ++a)
       for (std::size_t b = a + 1; b < ids.size(); ++b)
-        if (mode == ContactMode::begin_and_end && !touching.contains({ids[a], ids[b]})) {
+        if (mode == ContactEvents::begin_and_end && !touching.contains({ids[a], ids[b]})) {
           ASSERT_GE(p.gap(ids[a], ids[b]), -eps) << ids[a] << " " << ids[b];
         }
     for (const BodyId id : ids) {
@@ -69,11 +69,11 @@ TEST_P(Noise, HidesNoTrueContactAndIsNoViolation) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Errors, Noise,
-                         testing::Values(std::tuple(0.01, 0.0, ContactMode::begin_and_end),
-                                         std::tuple(0.0, 0.1, ContactMode::begin_and_end),
-                                         std::tuple(0.02, 0.2, ContactMode::begin_and_end),
-                                         std::tuple(0.1, 0.5, ContactMode::begin_and_end),
-                                         std::tuple(0.002, 0.01, ContactMode::impacts)));
+                         testing::Values(std::tuple(0.01, 0.0, ContactEvents::begin_and_end),
+                                         std::tuple(0.0, 0.1, ContactEvents::begin_and_end),
+                                         std::tuple(0.02, 0.2, ContactEvents::begin_and_end),
+                                         std::tuple(0.1, 0.5, ContactEvents::begin_and_end),
+                                         std::tuple(0.002, 0.01, ContactEvents::impacts)));
 
 /// A body violates its limits while another waits for it.
 struct Breach {

@@ -186,7 +186,7 @@ TEST_P(Queries, AgreeWithBruteForce) {
     for (int k = 0; k < 4; ++k) crowd.change();
   }
   EXPECT_GT(certain, 100u);
-  if (GetParam().bodies > 20 && GetParam().mode == ContactMode::begin_and_end) {
+  if (GetParam().bodies > 20 && GetParam().mode == ContactEvents::begin_and_end) {
     EXPECT_GT(doubtful, 0u);
   }
   if (GetParam().noise == 0.0) {

@@ -13,12 +13,12 @@ constexpr double eps = 1e-5;
 constexpr double size = 8.0;
 
 struct Kind {
-  ContactMode mode;
+  ContactEvents mode;
   std::uint64_t seed;
 };
 
 std::ostream& operator<<(std::ostream& out, const Kind& kind) {
-  return out << (kind.mode == ContactMode::impacts ? "impacts" : "begin_and_end") << ", seed " << kind.seed;
+  return out << (kind.mode == ContactEvents::impacts ? "impacts" : "begin_and_end") << ", seed " << kind.seed;
 }
 
 class RandomSurroundings : public testing::TestWithParam<Kind> {
@@ -115,7 +115,7 @@ class RandomSurroundings : public testing::TestWithParam<Kind> {
   }
 
   void note(const Event& event) {
-    if (GetParam().mode == ContactMode::impacts) return;
+    if (GetParam().mode == ContactEvents::impacts) return;
     const auto pair = std::pair(event.first, event.second);
     if (event.kind == EventKind::contact_begin) {
       EXPECT_TRUE(touching.insert(pair).second) << event;
@@ -148,7 +148,7 @@ class RandomSurroundings : public testing::TestWithParam<Kind> {
         const auto limits = p.world.distance_limits(ball, shape, p.world.time()).value();
         ASSERT_LE(limits.lower, gap + 1e-12);
         ASSERT_GE(limits.upper, gap - 1e-12);
-        if (GetParam().mode == ContactMode::impacts) continue;
+        if (GetParam().mode == ContactEvents::impacts) continue;
         const double wrong = rounding(p.fixed.at(shape));
         ASSERT_TRUE(gap >= -eps - wrong || touch) << ball << " is unreported in " << shape << " by " << gap;
         ASSERT_TRUE(gap <= 5 * eps + wrong || !touch)
@@ -174,11 +174,11 @@ TEST_P(RandomSurroundings, NothingIsMissed) {
       if (event.kind == EventKind::contact_begin) {
         ++begins;
         const bool of_one = event.first == balls[0] || event.second == balls[0];
-        if (GetParam().mode == ContactMode::begin_and_end) {
+        if (GetParam().mode == ContactEvents::begin_and_end) {
           EXPECT_GE(event.time, quiet);
           EXPECT_TRUE(!of_one || event.time >= quiet_of_one);
         }
-        if (GetParam().mode == ContactMode::impacts) p.bounce(event);
+        if (GetParam().mode == ContactEvents::impacts) p.bounce(event);
       }
     });
     ASSERT_TRUE(is_clean(p.world));
@@ -192,11 +192,11 @@ TEST_P(RandomSurroundings, NothingIsMissed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, RandomSurroundings,
-                         testing::Values(Kind{ContactMode::begin_and_end, 1},
-                                         Kind{ContactMode::begin_and_end, 2},
-                                         Kind{ContactMode::begin_and_end, 3},
-                                         Kind{ContactMode::begin_and_end, 4}, Kind{ContactMode::impacts, 5},
-                                         Kind{ContactMode::impacts, 6}));
+                         testing::Values(Kind{ContactEvents::begin_and_end, 1},
+                                         Kind{ContactEvents::begin_and_end, 2},
+                                         Kind{ContactEvents::begin_and_end, 3},
+                                         Kind{ContactEvents::begin_and_end, 4}, Kind{ContactEvents::impacts, 5},
+                                         Kind{ContactEvents::impacts, 6}));
 
 }  // namespace
 }  // namespace kinesphere::random_surroundings_test

@@ -286,7 +286,7 @@ TEST(BadRecording, SaysWhatIsWrong) {
 }
 
 TEST(BadRecording, SealedNonsenseIsRefusedOrDivergesOrIsHarmless) {
-  Bustle bustle({ContactMode::begin_and_end, true, 0.0, 8, 11});
+  Bustle bustle({ContactEvents::begin_and_end, true, 0.0, 8, 11});
   bustle.world.start_recording().value();
   bustle.go(0.5);
   const Bytes bytes = bustle.world.stop_recording().value();

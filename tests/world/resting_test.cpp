@@ -18,7 +18,7 @@ struct Heap : Playground {
   Heap(const Box& box, double tolerance, double restitution_, double hop_speed = 0.0)
       : Playground({.box = box,
                     .contact_tolerance = tolerance,
-                    .contacts = ContactMode::impacts,
+                    .contacts = ContactEvents::impacts,
                     .zeno_interval = 2.0 * hop_speed / g}),
         restitution(restitution_),
         resting_speed(std::max(hop_speed, least_resting_speed(tolerance, g))) {}
@@ -176,7 +176,7 @@ TEST(Sleeping, HeldByTheCallerIsOneLastingContact) {
 /// nowhere.
 struct Jam : Playground {
   explicit Jam(double width)
-      : Playground({.box = Box{{-10, -10, 0}, {10, 10, width}}, .contacts = ContactMode::impacts}),
+      : Playground({.box = Box{{-10, -10, 0}, {10, 10, width}}, .contacts = ContactEvents::impacts}),
         ball(add({.radius = 1, .position = {0, 0, 0.5 * width}, .velocity = {1, 0, 1}})) {}
   BodyId ball;
 };
@@ -220,7 +220,7 @@ TEST(Jammed, AnswersThatGoOnAreStoppedByTheZenoGuard) {
 
 /// Many bodies that arrive at one instant are not a jam.
 TEST(Jammed, IsNotWhatManyHitAtOnce) {
-  Playground p({.contacts = ContactMode::impacts});
+  Playground p({.contacts = ContactEvents::impacts});
   const BodyId target = p.add({.radius = 10});
   Random random(1);
   for (int k = 0; k < 100; ++k) {

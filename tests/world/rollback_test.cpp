@@ -70,7 +70,7 @@ class Game {
   }
 
   World world_ =
-      World::create({.box = Box{{0, 0, 0}, {21, 21, 21}}, .contacts = ContactMode::impacts}).value();
+      World::create({.box = Box{{0, 0, 0}, {21, 21, 21}}, .contacts = ContactEvents::impacts}).value();
   std::vector<SeparationForecast> courses_;
   EventHash hash_;
   int frames_ = 0;

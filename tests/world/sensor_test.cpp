@@ -54,7 +54,7 @@ TEST(Sensor, WarnsThenAlarmsThenTouchesAndBackAgain) {
 }
 
 TEST(Sensor, WithoutEndsOfContactsStillHasEndsOfItsOwn) {
-  Playground p({.contacts = ContactMode::impacts});
+  Playground p({.contacts = ContactEvents::impacts});
   p.world.set_sensor(0, {.distances = {3}}).value();
   p.add({.radius = 1});
   p.add({.radius = 1, .position = {-50, 0, 0}, .velocity = {10, 0, 0}});
@@ -244,7 +244,7 @@ class SensingCrowd : public testing::TestWithParam<std::uint64_t> {
 
   SensingCrowd()
       : p({.box = Box{{0, 0, 0}, {size, size, size}},
-           .contacts = GetParam() % 2 == 0 ? ContactMode::impacts : ContactMode::begin_and_end}),
+           .contacts = GetParam() % 2 == 0 ? ContactEvents::impacts : ContactEvents::begin_and_end}),
         random(GetParam()) {}
 
   Vec3 anywhere() { return {size * random.uniform(), size * random.uniform(), size * random.uniform()}; }

@@ -43,8 +43,8 @@ std::vector<BodyId> row(Rested& p, int count, const Vec3& first) {
   return ids;
 }
 
-class Modes : public testing::TestWithParam<ContactMode> {};
-INSTANTIATE_TEST_SUITE_P(Rest, Modes, testing::Values(ContactMode::begin_and_end, ContactMode::impacts));
+class Modes : public testing::TestWithParam<ContactEvents> {};
+INSTANTIATE_TEST_SUITE_P(Rest, Modes, testing::Values(ContactEvents::begin_and_end, ContactEvents::impacts));
 
 TEST_P(Modes, FifteenBallsAtRestAreNotProbedAndDoNotWake) {
   Rested p({.contacts = GetParam()});
@@ -259,7 +259,7 @@ class RandomScene {
  private:
   WorldDefinition definition() {
     WorldDefinition world{.box = Box{{0, 0, 0}, {4, 4, 4}}};
-    if (random_.bits() % 2 == 0) world.contacts = ContactMode::impacts;
+    if (random_.bits() % 2 == 0) world.contacts = ContactEvents::impacts;
     if (random_.bits() % 4 == 0) world.periodic = {true, true, false};
     return world;
   }
@@ -352,7 +352,7 @@ class RandomScene {
         const auto touching = p_.world.touching(a).value();
         const bool touch = std::find(touching.begin(), touching.end(), b) != touching.end();
         const double gap = this->gap(a, b);
-        if (p_.world.definition().contacts == ContactMode::impacts) continue;
+        if (p_.world.definition().contacts == ContactEvents::impacts) continue;
         EXPECT_TRUE(touch || gap >= -1.1e-6) << a << " " << b << " overlap untold: " << gap;
         EXPECT_TRUE(!touch || gap <= 5.1e-6) << a << " " << b << " are apart untold: " << gap;
       }

@@ -19,7 +19,7 @@ enum class Answer { pass_through, bounce };
 /// A crowd with additions and removals, with all queries and all events.
 class Crowd {
  public:
-  Crowd(ContactMode mode, Answer answer, int count, bool walls = true)
+  Crowd(ContactEvents mode, Answer answer, int count, bool walls = true)
       : playground_(
             {.box = walls ? std::optional(Box{{0, 0, 0}, {8, 8, 8}}) : std::nullopt, .contacts = mode}),
         answer_(answer) {
@@ -92,13 +92,13 @@ void expect_same(Crowd& found, Crowd& expected) {
   EXPECT_EQ(found.world().save().value(), expected.world().save().value());
 }
 
-class Snapshot : public testing::TestWithParam<std::tuple<ContactMode, Answer>> {
+class Snapshot : public testing::TestWithParam<std::tuple<ContactEvents, Answer>> {
  protected:
   Crowd crowd(int count = 60) const { return {std::get<0>(GetParam()), std::get<1>(GetParam()), count}; }
 };
 
 INSTANTIATE_TEST_SUITE_P(Modes, Snapshot,
-                         testing::Combine(testing::Values(ContactMode::begin_and_end, ContactMode::impacts),
+                         testing::Combine(testing::Values(ContactEvents::begin_and_end, ContactEvents::impacts),
                                           testing::Values(Answer::pass_through, Answer::bounce)));
 
 TEST_P(Snapshot, RestoredAtAHundredMomentsGoesOnTheSame) {
@@ -202,7 +202,7 @@ TEST(SnapshotOfAWorld, MayHoldBodiesThatAreVeryFarFromEachOther) {
 TEST(SnapshotOfAWorld, GoesOnTheSameWithThePairFilterThatItHad) {
   const auto odd_pairs = [](BodyId a, BodyId b) { return (a.index + b.index) % 2 == 1; };
   const auto finish = [&](bool restore) {
-    Crowd crowd(ContactMode::begin_and_end, Answer::pass_through, 60);
+    Crowd crowd(ContactEvents::begin_and_end, Answer::pass_through, 60);
     crowd.world().set_pair_filter(odd_pairs).value();
     crowd.go(1.0, [](const World&) {});
     if (restore) crowd.world() = World::restore(crowd.world().save().value(), odd_pairs).value();
@@ -214,7 +214,7 @@ TEST(SnapshotOfAWorld, GoesOnTheSameWithThePairFilterThatItHad) {
 
 TEST(SnapshotOfAWorld, AfterABadAnswerGoesOnTheSame) {
   const auto finish = [](bool restore) {
-    Crowd crowd(ContactMode::begin_and_end, Answer::pass_through, 40);
+    Crowd crowd(ContactEvents::begin_and_end, Answer::pass_through, 40);
     for (int k = 1; k < 20; ++k) {
       int asked = 0;
       const auto fails = [&](std::span<const BodyId> ids, double time, std::span<State> states) {
@@ -238,7 +238,7 @@ TEST(SnapshotOfAWorld, AfterABadAnswerGoesOnTheSame) {
 
 /// Returns a snapshot in mid-contact, between two events of one instant, with unprocessed velocity changes
 /// and additions.
-Bytes rich_snapshot(ContactMode mode, const Axes& periodic = {}) {
+Bytes rich_snapshot(ContactEvents mode, const Axes& periodic = {}) {
   Playground p({.box = Box{{0, 0, 0}, {10, 10, 10}}, .periodic = periodic, .contacts = mode});
   for (int k = 0; k < 4; ++k) {
     const double y = 2.0 + 2.0 * k;
@@ -279,7 +279,7 @@ testing::AssertionResult is_refused(const Bytes& bytes, const std::string& why) 
 }
 
 TEST(BadSnapshot, EveryTruncationIsRefused) {
-  const Bytes bytes = rich_snapshot(ContactMode::begin_and_end);
+  const Bytes bytes = rich_snapshot(ContactEvents::begin_and_end);
   for (std::size_t length = 0; length < bytes.size(); ++length)
     ASSERT_TRUE(is_refused({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length)},
                            length < 8 ? "mark" : "whole"))
@@ -287,21 +287,21 @@ TEST(BadSnapshot, EveryTruncationIsRefused) {
 }
 
 TEST(BadSnapshot, EveryTruncationIsRefusedThoughItBeSealed) {
-  const Bytes bytes = rich_snapshot(ContactMode::begin_and_end);
+  const Bytes bytes = rich_snapshot(ContactEvents::begin_and_end);
   for (std::size_t length = snapshot_frame_size; length < bytes.size(); ++length)
     ASSERT_TRUE(is_refused(sealed({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length)}), ""))
         << length;
 }
 
 TEST(BadSnapshot, AnythingMoreIsRefused) {
-  Bytes bytes = rich_snapshot(ContactMode::begin_and_end);
+  Bytes bytes = rich_snapshot(ContactEvents::begin_and_end);
   bytes.push_back(std::byte{0});
   EXPECT_TRUE(is_refused(bytes, "whole"));
   EXPECT_TRUE(is_refused(sealed(bytes), "form"));
 }
 
 TEST(BadSnapshot, EveryFlippedBitIsRefused) {
-  const Bytes bytes = rich_snapshot(ContactMode::impacts);
+  const Bytes bytes = rich_snapshot(ContactEvents::impacts);
   for (std::size_t k = 0; k < bytes.size(); ++k) {
     Bytes changed = bytes;
     changed[k] ^= static_cast<std::byte>(1u << (k % 8));
@@ -331,7 +331,7 @@ TEST(BadSnapshot, AnyTwoFlippedHighestBitsAreRefused) {
 }
 
 TEST(BadSnapshot, SaysWhatIsWrong) {
-  const Bytes bytes = rich_snapshot(ContactMode::impacts);
+  const Bytes bytes = rich_snapshot(ContactEvents::impacts);
   EXPECT_TRUE(is_refused({}, "mark"));
   EXPECT_TRUE(is_refused(Bytes(1000, std::byte{'x'}), "mark of a world"));
   Bytes newer = bytes;
@@ -348,9 +348,9 @@ TEST(BadSnapshot, SaysWhatIsWrong) {
 TEST(BadSnapshot, SealedNonsenseIsRefusedOrHarmless) {
   int accepted = 0;
   for (const auto& [mode, periodic] :
-       {std::pair(ContactMode::begin_and_end, Axes{}), std::pair(ContactMode::impacts, Axes{}),
-        std::pair(ContactMode::begin_and_end, Axes{true, true, true}),
-        std::pair(ContactMode::impacts, Axes{true, false, true})}) {
+       {std::pair(ContactEvents::begin_and_end, Axes{}), std::pair(ContactEvents::impacts, Axes{}),
+        std::pair(ContactEvents::begin_and_end, Axes{true, true, true}),
+        std::pair(ContactEvents::impacts, Axes{true, false, true})}) {
     const Bytes bytes = rich_snapshot(mode, periodic);
     for (std::uint64_t seed = 0; seed < 6000; ++seed) {
       SCOPED_TRACE("seed " + std::to_string(seed));

@@ -21,7 +21,7 @@ struct Kind {
   int side = 12;  ///< bodies along each axis
   double spacing = 2.4;
   double faster = 1.0;  ///< one in a hundred starts so many times as fast
-  ContactMode contacts = ContactMode::begin_and_end;
+  ContactEvents contacts = ContactEvents::begin_and_end;
   bool periodic = false;
   bool sensors = false;
   bool fixed = false;
@@ -232,14 +232,14 @@ TEST(ClustersThatWereInterrupted, LeaveBodiesWhereQueriesFindThem) {
 
 INSTANTIATE_TEST_SUITE_P(
     Of, SpeculativeRunner,
-    ::testing::Values(Kind{.name = "bouncing"}, Kind{.name = "impacts", .contacts = ContactMode::impacts},
+    ::testing::Values(Kind{.name = "bouncing"}, Kind{.name = "impacts", .contacts = ContactEvents::impacts},
                       Kind{.name = "dense", .side = 9, .spacing = 1.45, .end = 1.0},
                       Kind{.name = "bullets", .faster = 60.0}, Kind{.name = "periodic", .periodic = true},
                       Kind{.name = "sensors", .sensors = true},
                       Kind{.name = "fixed", .sensors = true, .fixed = true},
                       Kind{.name = "passing", .sensors = true, .passes = true},
                       Kind{.name = "lying", .passes = true, .lies = true, .end = 8.0},
-                      Kind{.name = "lying_impacts", .contacts = ContactMode::impacts, .lies = true}),
+                      Kind{.name = "lying_impacts", .contacts = ContactEvents::impacts, .lies = true}),
     [](const auto& kind) { return kind.param.name; });
 
 }  // namespace

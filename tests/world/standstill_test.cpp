@@ -7,7 +7,7 @@ namespace kinesphere::standstill_test {
 namespace {
 
 struct Standstill {
-  ContactMode mode;
+  ContactEvents mode;
   double gap;
 };
 
@@ -44,7 +44,7 @@ TEST_P(StandstillTest, OfBodiesWithUncertainVelocityDoesNotStopTime) {
 
 std::vector<Standstill> standstills() {
   std::vector<Standstill> cases;
-  for (const ContactMode mode : {ContactMode::begin_and_end, ContactMode::impacts})
+  for (const ContactEvents mode : {ContactEvents::begin_and_end, ContactEvents::impacts})
     for (const double gap : {-0.5e-6, -0.2e-6, 0.0, 1e-15, 1e-12, 1e-9, 0.5e-6, 0.999999e-6, 1.000001e-6,
                              2e-6, 3.999999e-6, 4.000001e-6, 4.999999e-6})
       cases.push_back({mode, gap});
@@ -73,7 +73,7 @@ TEST(Standstill, OfBouncersDeepInEachOtherDoesNotStopTime) {
   // out they are.
   for (const double place : {1.0, 30.0, 1e3, 1e5, 1e6}) {
     for (const double receding : {0.0, 0.5}) {
-      Playground p({.contacts = ContactMode::impacts});
+      Playground p({.contacts = ContactEvents::impacts});
       const Vec3 centre = Vec3{1, 1, 1} * place;
       p.add({.radius = 1, .position = centre});
       p.add({.radius = 1, .position = centre + Vec3{1, 0, 0}, .velocity = {receding, 0, 0}});

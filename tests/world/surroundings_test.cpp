@@ -216,7 +216,7 @@ TEST_P(MarginOf, BouncesAsWallsDo) {
   std::vector<std::size_t> counts;
   std::vector<State> last;
   for (const bool walled : {true, false}) {
-    WorldDefinition definition{.contact_tolerance = eps, .contacts = ContactMode::impacts};
+    WorldDefinition definition{.contact_tolerance = eps, .contacts = ContactEvents::impacts};
     if (walled) definition.box = Box{{0, 0, 0}, {size, size, size}};
     Surroundings p(definition);
     // The filters separate all bodies, so that each bounces alone.
@@ -253,7 +253,7 @@ INSTANTIATE_TEST_SUITE_P(, MarginOf, testing::Values("half_spaces", "boxes", "tr
                          [](const auto& room) { return std::string(room.param); });
 
 TEST(Surroundings, OneBounceOnASharedEdge) {
-  Surroundings p({.contact_tolerance = eps, .contacts = ContactMode::impacts});
+  Surroundings p({.contact_tolerance = eps, .contacts = ContactEvents::impacts});
   const std::vector<Vec3> vertices{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}};
   const std::vector<std::array<std::uint32_t, 3>> corners{{0, 1, 2}, {0, 2, 3}};
   p.place_all(mesh(vertices, corners).value());
@@ -269,7 +269,7 @@ TEST(Surroundings, OneBounceOnASharedEdge) {
 
 TEST(Surroundings, ABallRestsAndRollsOnAMesh) {
   // Stopped again and again: the Zeno guard and the mesh's edges together.
-  Surroundings p({.contact_tolerance = eps, .contacts = ContactMode::impacts});
+  Surroundings p({.contact_tolerance = eps, .contacts = ContactEvents::impacts});
   const std::vector<Vec3> vertices{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}};
   const std::vector<std::array<std::uint32_t, 3>> corners{{0, 1, 2}, {0, 2, 3}};
   p.place_all(mesh(vertices, corners).value());
@@ -354,7 +354,7 @@ TEST(Terrain, BallsThatFallThroughTouchWhatBruteForceSays) {
 
 TEST(Terrain, BouncingBallsStayAboveIt) {
   constexpr double big_eps = 1e-4;
-  Surroundings p({.contact_tolerance = big_eps, .contacts = ContactMode::impacts});
+  Surroundings p({.contact_tolerance = big_eps, .contacts = ContactEvents::impacts});
   const auto hills = p.place_all(terrain(24, 20.0));
   Random random(4);
   std::vector<BodyId> balls;
@@ -559,7 +559,7 @@ TEST(Surroundings, WrongCalls) {
 }
 
 TEST(Surroundings, OneBallOnTheFloorDoesNotRepeatAnother) {
-  Surroundings p({.contact_tolerance = eps, .contacts = ContactMode::impacts, .zeno_interval = 0.5});
+  Surroundings p({.contact_tolerance = eps, .contacts = ContactEvents::impacts, .zeno_interval = 0.5});
   p.place(ground);
   for (int k = 0; k < 3; ++k)
     p.add({.radius = 1, .position = {5.0 * k, 0, 2.0 + 0.1 * k}, .velocity = {0, 0, -1}});

@@ -24,7 +24,7 @@ Scene empty_scene(SceneResponse response, double seconds) {
   scene.response = response;
   scene.end_time = seconds;
   scene.world.contacts =
-      response == SceneResponse::bounce ? ContactMode::impacts : ContactMode::begin_and_end;
+      response == SceneResponse::bounce ? ContactEvents::impacts : ContactEvents::begin_and_end;
   return scene;
 }
 

@@ -141,7 +141,7 @@ class EventDrivenDetector::Audit {
     return gap.lower > undecided || (detector_.touch(a, b) && !just_seen);
   }
 
-  bool impacts() const { return detector_.rule().impacts_only(); }
+  bool impacts() const { return !wants_ends(detector_.definition().contacts); }
   static std::string pair(std::uint32_t a, std::uint32_t b) { return name(a) + " and " + name(b); }
 
   const EventDrivenDetector& detector_;

@@ -106,7 +106,7 @@ TEST(GasProperties, OfTwoSpheresAreCountedByHand) {
   scene.world = {.box = Box{{0, 0, 0}, {10, 10, 10}},
                  .periodic = {true, true, true},
                  .contact_tolerance = 1e-9,
-                 .contacts = ContactMode::impacts};
+                 .contacts = ContactEvents::impacts};
   scene.bodies = {{.radius = 0.5}, {.radius = 0.5}};
   scene.motion = std::make_unique<Ballistic>(
       Ballistic::create({.start = {{{2, 5, 5}, {1, 0, 0}}, {{6, 5, 5}, {-1, 0, 0}}}}).value());

@@ -26,7 +26,7 @@ Scene straight(std::vector<State> states, double limit, double seconds) {
   scene.motion = std::make_unique<SteeredMotion>(
       SteeredMotion::create({.start = std::move(states), .acceleration_limits = limits}).value());
   scene.response = SceneResponse::bounce;
-  scene.world.contacts = ContactMode::impacts;
+  scene.world.contacts = ContactEvents::impacts;
   scene.end_time = seconds;
   return scene;
 }

@@ -178,7 +178,7 @@ TEST(BallisticDetectorEvents, need_no_probes) {
   Scene scene = scene_of("gas", 100, 2.0);
   EXPECT_EQ(outcome_of(scene, make_ballistic_detector).result.counters.probes, 0u);
   scene.response = SceneResponse::pass_through;
-  scene.world.contacts = ContactMode::begin_and_end;
+  scene.world.contacts = ContactEvents::begin_and_end;
   const Outcome passing = outcome_of(scene, make_ballistic_detector);
   EXPECT_GT(passing.events.size(), 20u);
   EXPECT_EQ(passing.result.counters.probes, 0u);

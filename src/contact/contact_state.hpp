@@ -1,0 +1,52 @@
+// State of an existing contact: whether the next approach of its two partners is an event.
+#pragma once
+
+#include <cstdint>
+
+namespace kinesphere {
+
+/// What an approach of two partners in touch means.
+enum class ApproachState : std::uint8_t {
+  /// They do not approach, as far as is known. Their next approach is an event.
+  watched,
+  /// Their present approach has been reported. They may pass through each other.
+  reported,
+  /// Reported, but one of the two has got another velocity since: fresh reports decide whether they still
+  /// approach.
+  turned,
+  /// No approach is an event until they have separated: responses do not part them (ContactGraph::note_jam()).
+  ignored,
+};
+
+/// State of a contact between two bodies, or between a body and a wall.
+struct ContactState {
+  ApproachState approach = ApproachState::watched;
+  /// Number of times that the contact was jammed since it began.
+  std::uint8_t jams = 0;
+  /// True if the Zeno guard has reported that the two may overlap by more than the tolerance.
+  bool guard_reported = false;
+
+  /// True if there is something to remember until the two have separated, beside the approach.
+  bool has_history() const { return jams > 0 || guard_reported; }
+  bool is_valid() const { return approach <= ApproachState::ignored; }
+
+  static void serialize(auto& self, auto& archive) {
+    auto& [approach, jams, guard_reported] = self;
+    archive(approach, jams, guard_reported);
+  }
+  friend bool operator==(const ContactState&, const ContactState&) = default;
+};
+
+/// A partner in contact, and the state of that contact.
+struct ContactRecord {
+  std::uint32_t partner;
+  ContactState state{};
+
+  static void serialize(auto& self, auto& archive) {
+    auto& [partner, state] = self;
+    archive(partner, state);
+  }
+  friend bool operator==(const ContactRecord&, const ContactRecord&) = default;
+};
+
+}  // namespace kinesphere
