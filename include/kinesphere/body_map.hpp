@@ -14,6 +14,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -33,11 +34,17 @@ struct MovedBody {
   std::uint32_t number;
 };
 
-/// Lifetimes: a motion must keep its address while the map refers to its bodies. Changes go to the motion
-/// first, then to the world: after an error of the motion nothing has changed; after an error of the world
-/// the motion has changed. One map may serve clones of a world, because clones keep the ids.
+/// Lifetimes: a motion must keep its address while the map refers to its bodies. A map cannot be moved or
+/// copied, and neither can a struct that holds it beside its motions: the references would dangle. A
+/// Simulation (simulation.hpp) owns world, motions and map, and can be moved and cloned. Changes go to the
+/// motion first, then to the world: after an error of the motion nothing has changed; after an error of the
+/// world the motion has changed. One map may serve clones of a world, because clones keep the ids.
 class BodyMap {
  public:
+  BodyMap() = default;
+  BodyMap(const BodyMap&) = delete;
+  BodyMap& operator=(const BodyMap&) = delete;
+
   /// Adds a body of a motion to the world. State and motion limits come from the motion, at world.time();
   /// everything else (radius, filter, solid, sensor class, user data) comes from `like`. Errors:
   /// unknown_body or stale_body, and those of World::add(). Throws BadResult as Motion::definition() for a
@@ -94,6 +101,7 @@ class BodyMap {
   MapSource source() const { return MapSource(*this); }
 
  private:
+  friend class Simulation;
   struct Entry {
     Motion* motion = nullptr;  ///< null if no body of this index is known
     std::uint32_t number = 0;
@@ -103,6 +111,10 @@ class BodyMap {
   /// Returns the entry of the body. Throws BadResult: unknown_body.
   const Entry& known(std::string_view call, BodyId body) const;
   void connect(BodyId body, Motion& motion, std::uint32_t number);
+  /// Returns a map of the same bodies that has to[k] in the place of from[k]. Precondition: `from` has all
+  /// motions of this map.
+  std::unique_ptr<BodyMap> with_motions(std::span<const std::unique_ptr<Motion>> from,
+                                        std::span<const std::unique_ptr<Motion>> to) const;
   const Entry* entry(BodyId body) const {
     if (body.index >= entries_.size()) return nullptr;
     const Entry& found = entries_[body.index];

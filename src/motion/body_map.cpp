@@ -110,6 +110,22 @@ Result<void> BodyMap::report_violations(World& world, const FrameMotion& frames)
   return {};
 }
 
+std::unique_ptr<BodyMap> BodyMap::with_motions(std::span<const std::unique_ptr<Motion>> from,
+                                               std::span<const std::unique_ptr<Motion>> to) const {
+  auto map = std::make_unique<BodyMap>();
+  map->entries_ = entries_;
+  std::size_t k = 0;
+  for (Entry& moved : map->entries_) {
+    if (moved.motion == nullptr) continue;
+    // Bodies of one motion mostly follow each other, so the motion of the last one is tried first.
+    if (from[k].get() != moved.motion) {
+      for (k = 0; from[k].get() != moved.motion;) ++k;
+    }
+    moved.motion = to[k].get();
+  }
+  return map;
+}
+
 std::optional<MovedBody> BodyMap::find(BodyId body) const {
   const Entry* const found = entry(body);
   if (found == nullptr) return std::nullopt;
