@@ -77,6 +77,12 @@ class BodyMap {
   /// Motion::state().
   State state(BodyId body, double time) const;
 
+  /// Returns a map of the same bodies, in which the motion to[k] stands for from[k]: for clones of a world
+  /// and of its motions. Errors: out_of_range for another number of motions in `to`, and if `from` lacks a
+  /// motion of this map. Cost: O(n).
+  Result<std::unique_ptr<BodyMap>> with_motions(std::span<Motion* const> from,
+                                                std::span<Motion* const> to) const;
+
   /// Returns a callable for World::advance() and all other calls that take a probe; it queries each body's
   /// motion. The callable throws as state(), and World::advance() lets the exception pass. The map must
   /// outlive it.
@@ -101,7 +107,6 @@ class BodyMap {
   MapSource source() const { return MapSource(*this); }
 
  private:
-  friend class Simulation;
   struct Entry {
     Motion* motion = nullptr;  ///< null if no body of this index is known
     std::uint32_t number = 0;
@@ -111,10 +116,6 @@ class BodyMap {
   /// Returns the entry of the body. Throws BadResult: unknown_body.
   const Entry& known(std::string_view call, BodyId body) const;
   void connect(BodyId body, Motion& motion, std::uint32_t number);
-  /// Returns a map of the same bodies that has to[k] in the place of from[k]. Precondition: `from` has all
-  /// motions of this map.
-  std::unique_ptr<BodyMap> with_motions(std::span<const std::unique_ptr<Motion>> from,
-                                        std::span<const std::unique_ptr<Motion>> to) const;
   const Entry* entry(BodyId body) const {
     if (body.index >= entries_.size()) return nullptr;
     const Entry& found = entries_[body.index];

@@ -115,7 +115,6 @@ class Simulation {
   auto probe() const { return known_bodies("probe").probe(); }
 
  private:
-  Simulation(World world, std::vector<std::unique_ptr<Motion>> motions);
   std::uint32_t own(std::unique_ptr<Motion> motion);
   const Motion& known_motion(std::uint32_t index) const;
   [[noreturn]] void refuse_motion(std::uint32_t index) const;

@@ -1,6 +1,7 @@
 // BodyMap: assigns each body of a world its motion and its number there.
 #include "kinesphere/body_map.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "input/input_check.hpp"
@@ -110,18 +111,29 @@ Result<void> BodyMap::report_violations(World& world, const FrameMotion& frames)
   return {};
 }
 
-std::unique_ptr<BodyMap> BodyMap::with_motions(std::span<const std::unique_ptr<Motion>> from,
-                                               std::span<const std::unique_ptr<Motion>> to) const {
+Result<std::unique_ptr<BodyMap>> BodyMap::with_motions(std::span<Motion* const> from,
+                                                       std::span<Motion* const> to) const {
+  InputCheck check("BodyMap::with_motions");
+  check.require(from.size() == to.size(), ErrorCode::out_of_range, {"to"},
+                "must have as many motions as from,", from.size(), to.size());
+  if (check.error()) return *check.error();
   auto map = std::make_unique<BodyMap>();
   map->entries_ = entries_;
   std::size_t k = 0;
   for (Entry& moved : map->entries_) {
     if (moved.motion == nullptr) continue;
     // Bodies of one motion mostly follow each other, so the motion of the last one is tried first.
-    if (from[k].get() != moved.motion) {
-      for (k = 0; from[k].get() != moved.motion;) ++k;
+    if (k == from.size() || from[k] != moved.motion)
+      k = static_cast<std::size_t>(std::find(from.begin(), from.end(), moved.motion) - from.begin());
+    if (k == from.size()) {
+      const auto index = static_cast<std::uint32_t>(&moved - map->entries_.data());
+      return Error{ErrorCode::out_of_range,
+                   "from",
+                   {index, moved.generation},
+                   "BodyMap::with_motions: from must have every motion of this map, but lacks that of " +
+                       text_of(BodyId{index, moved.generation})};
     }
-    moved.motion = to[k].get();
+    moved.motion = to[k];
   }
   return map;
 }

@@ -9,31 +9,34 @@
 
 namespace kinesphere {
 
-Simulation::Simulation(World world) : Simulation(std::move(world), {}) {}
+namespace {
 
-Simulation::Simulation(World world, std::vector<std::unique_ptr<Motion>> motions)
-    : world_(std::move(world)), motions_(std::move(motions)), bodies_(std::make_unique<BodyMap>()) {}
+bool is_same_class(const Motion* first, const Motion* second) {
+  return second != nullptr && typeid(*first) == typeid(*second);
+}
+
+}  // namespace
+
+Simulation::Simulation(World world) : world_(std::move(world)), bodies_(std::make_unique<BodyMap>()) {}
 
 Result<Simulation> Simulation::clone() const {
   if (const auto error = moved_from("clone")) return *error;
   auto world = world_.clone();
   if (!world) return world.error();
-  std::vector<std::unique_ptr<Motion>> motions;
-  motions.reserve(motions_.size());
+  Simulation copy(std::move(*world));
+  std::vector<Motion*> from, to;
   for (const auto& motion : motions_) {
-    const Motion& original = *motion;
-    auto copy = original.clone();
-    const Motion* const copied = copy.get();
-    if (copied == nullptr || typeid(*copied) != typeid(original)) {
-      return Error{ErrorCode::unsupported, "motion", no_body,
-                   "Simulation::clone: motion " + std::to_string(motions.size()) +
-                       " must have a clone() that returns its own class, but its clone() returned " +
-                       (copied == nullptr ? "null" : "another class")};
-    }
-    motions.push_back(std::move(copy));
+    auto cloned = motion->clone();
+    from.push_back(motion.get());
+    to.push_back(cloned.get());
+    copy.motions_.push_back(std::move(cloned));
+    if (is_same_class(from.back(), to.back())) continue;
+    return Error{ErrorCode::unsupported, "motion", no_body,
+                 "Simulation::clone: motion " + std::to_string(from.size() - 1) +
+                     " must have a clone() that returns its own class, but its clone() returned " +
+                     (to.back() == nullptr ? "null" : "another class")};
   }
-  Simulation copy(std::move(*world), std::move(motions));
-  copy.bodies_ = bodies_->with_motions(motions_, copy.motions_);
+  copy.bodies_ = bodies_->with_motions(from, to).value();
   copy.ids_ = ids_;
   return copy;
 }
