@@ -14,6 +14,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -33,11 +34,17 @@ struct MovedBody {
   std::uint32_t number;
 };
 
-/// Lifetimes: a motion must keep its address while the map refers to its bodies. Changes go to the motion
-/// first, then to the world: after an error of the motion nothing has changed; after an error of the world
-/// the motion has changed. One map may serve clones of a world, because clones keep the ids.
+/// Lifetimes: a motion must keep its address while the map refers to its bodies. A map cannot be moved or
+/// copied, and neither can a struct that holds it beside its motions: the references would dangle. A
+/// Simulation (simulation.hpp) owns world, motions and map, and can be moved and cloned. Changes go to the
+/// motion first, then to the world: after an error of the motion nothing has changed; after an error of the
+/// world the motion has changed. One map may serve clones of a world, because clones keep the ids.
 class BodyMap {
  public:
+  BodyMap() = default;
+  BodyMap(const BodyMap&) = delete;
+  BodyMap& operator=(const BodyMap&) = delete;
+
   /// Adds a body of a motion to the world. State and motion limits come from the motion, at world.time();
   /// everything else (radius, filter, solid, sensor class, user data) comes from `like`. Errors:
   /// unknown_body or stale_body, and those of World::add(). Throws BadResult as Motion::definition() for a
@@ -69,6 +76,12 @@ class BodyMap {
   /// Returns the state that the body's motion gives. Throws BadResult: unknown_body, and as
   /// Motion::state().
   State state(BodyId body, double time) const;
+
+  /// Returns a map of the same bodies, in which the motion to[k] stands for from[k]: for clones of a world
+  /// and of its motions. Errors: out_of_range for another number of motions in `to`, and if `from` lacks a
+  /// motion of this map. Cost: O(n).
+  Result<std::unique_ptr<BodyMap>> with_motions(std::span<Motion* const> from,
+                                                std::span<Motion* const> to) const;
 
   /// Returns a callable for World::advance() and all other calls that take a probe; it queries each body's
   /// motion. The callable throws as state(), and World::advance() lets the exception pass. The map must

@@ -158,8 +158,10 @@ cannot be changed.)")
           "repeated", &Event::repeated,
           "One of the two touched something less than its Zeno interval ago: a response that loses energy "
           "should lose none here.")
-      .def_readonly("jammed", &Event::jammed,
-                    "Each of the two has had 64 contacts at this very instant already.")
+      .def_readonly(
+          "jammed", &Event::jammed,
+          "Each of the two has had 64 contacts at this very instant already, as a ball that is stuck "
+          "between others: a response should make them part, or stop both. bounce() and settle() do.")
       .def_property_readonly(
           "senses", [](const Event& event) { return member("Senses", static_cast<int>(event.senses)); },
           "Of sensor events: which of the two senses the other.")

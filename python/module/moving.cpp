@@ -49,7 +49,7 @@ Asked::Asked(const py::object& given, std::string_view call, bool plane)
     keep_to_itself(handle.in_use, "body map");
     for (const py::object& motion : handle.motions)
       keep_to_itself(motion.cast<MotionHandle&>().in_use, "motion");
-    mover_ = interruptible(handle.map.source(), interruptions_);
+    mover_ = interruptible(handle.map->source(), interruptions_);
   } else if (py::isinstance<MoverHandle>(given)) {
     auto& handle = given.cast<MoverHandle&>();
     keep_to_itself(handle.in_use, "mover");

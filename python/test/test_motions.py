@@ -103,6 +103,58 @@ def test_a_map_has_several_motions() -> None:
         bodies.set_velocity(world, bullet, (0, 0, 0))
 
 
+class Game:
+    """Steered targets and a bullet in each frame, with what a game keeps beside its world."""
+
+    def __init__(self) -> None:
+        self.world, self.bodies = ks.World(contact_tolerance=1e-4), ks.BodyMap()
+        places = [(3.0 * (k % 8) - 12, 3.0 * (k // 8) - 12, 0) for k in range(64)]
+        self.ships = ks.SteeredMotion(places, acceleration_limits=5.0)
+        self.bullets = ks.Ballistic([])
+        self.ids = self.bodies.add_all(self.world, self.ships, radii=0.6, category=1)
+        self.flying: list[ks.BodyId] = []
+        self.hits = 0
+        self.hash = ks.EventHash()
+
+    def play_frame(self, frame: int, aim: float) -> None:
+        now = self.world.time
+        self.ships.steer(frame % 64, now, (4 * np.sin(frame), 4 * np.cos(frame), 0))
+        number = self.bullets.add(now, (-30, 10 * aim, 0), (300, 0, 0))
+        self.flying.append(self.bodies.add(self.world, self.bullets, number, radius=0.02, category=2, mask=1))
+        if len(self.flying) > 12:
+            self.bodies.remove(self.world, self.flying.pop(0))
+        for event in self.world.events((frame + 1) / 60, self.bodies):
+            self.hash.add(event)
+            if event.kind == EventKind.contact_begin and event.second in self.flying:
+                self.bodies.remove(self.world, event.second)
+                self.flying.remove(event.second)
+                self.hits += 1
+
+
+def test_a_game_goes_back_eight_frames_in_each_frame() -> None:
+    frames, delay = 60, 8
+    in_time = Game()
+    for frame in range(frames):
+        in_time.play_frame(frame, np.sin(0.7 * frame))
+    game, past = Game(), []
+    for frame in range(frames + delay):
+        known = frame - delay
+        if known >= 0:
+            game, past = past[0], []
+        for again in range(known if known >= 0 else frame, min(frame + 1, frames)):
+            if again > known:
+                past.append(copy.deepcopy(game))
+            game.play_frame(again, np.sin(0.7 * again) if again <= known else 1.0)
+    assert in_time.hits > 20 and game.hits == in_time.hits
+    assert game.hash == in_time.hash and game.world.save() == in_time.world.save()
+    later = copy.deepcopy(game)
+    assert later.bodies.find(later.ids[3]) == (later.ships, 3), "the map knows the copies of the motions"
+    later.bodies.set_velocity(later.world, later.ids[3], (9, 0, 0))
+    now = game.world.time
+    assert later.ships.states(now)[1][3].tolist() == [9, 0, 0]
+    assert game.ships.states(now)[1][3].tolist() != [9, 0, 0]
+
+
 def test_frames_of_a_game() -> None:
     places = np.array([[0.0, 0, 10], [0.0, 0, 30]])
     speeds, gravity, dt = np.zeros((2, 3)), np.array([0, 0, -10.0]), 1 / 60

@@ -124,6 +124,26 @@ TEST(BodyMap, LeavesBodiesToMotionsThatCannotRemoveThem) {
   EXPECT_FALSE(map.find(id));
 }
 
+TEST(BodyMap, ServesClonesOfItsMotions) {
+  Ballistic balls = rows(2, 0), others = rows(1, 100);
+  World world = World::create({}).value();
+  BodyMap map;
+  const auto ids = map.add_all(world, balls).value();
+  const BodyId other = map.add(world, others, 0).value();
+  Ballistic balls_then = balls, others_then = others;
+  const auto then =
+      map.with_motions(std::vector<Motion*>{&balls, &others}, std::vector<Motion*>{&balls_then, &others_then})
+          .value();
+  map.set_velocity(world, ids[1], {5, 0, 0}).value();
+  EXPECT_EQ(then->find(ids[1])->motion, &balls_then);
+  EXPECT_EQ(then->state(ids[1], 1.0).position, (Vec3{10, 1, 0}));
+  EXPECT_EQ(then->find(other)->motion, &others_then);
+  expect_error(map.with_motions(std::vector<Motion*>{&balls}, std::vector<Motion*>{&balls_then}),
+               ErrorCode::out_of_range, "from", "BodyMap::with_motions: ", other);
+  expect_error(map.with_motions(std::vector<Motion*>{&balls}, {}), ErrorCode::out_of_range, "to",
+               "BodyMap::with_motions: ");
+}
+
 TEST(BodyMap, TellsViolationsAtTheirFrameOnly) {
   FrameMotion frames =
       FrameMotion::create({.start = {{}}, .acceleration_limits = {1.0}, .interval = 1.0}).value();

@@ -42,9 +42,9 @@ export class Event {
   /** The other body; null for walls, violations and bodies that wake. */
   get second(): BodyId | null { return this.numbers[3]! < 0 ? null : this.numbers[3]!; }
   get wall(): Wall | null { return wallOf(this.numbers[4]!); }
-  /** One of the two touched another body less than the Zeno interval ago. */
+  /** One of the two touched another body less than the Zeno interval ago. A response should take no energy here. */
   get repeated(): boolean { return this.numbers[5] === 1; }
-  /** Each of the two has had 64 contacts at this instant. */
+  /** Each of the two has had 64 contacts at this instant, as if stuck: a response should part them, or stop both. */
   get jammed(): boolean { return this.numbers[6] === 1; }
   /** For sensor events: the body or bodies with the sensor. */
   get senses(): (typeof senses)[number] { return senses[this.numbers[7]!]!; }

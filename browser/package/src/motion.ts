@@ -1,6 +1,7 @@
 // Ready-made motions, which move bodies inside the module: their states need no call of JavaScript.
 import type { State, Vec3 } from "./event.js";
 import { Owned, theModule } from "./module.js";
+import { checkKeys, type Keys } from "./options.js";
 
 /** States of many bodies: three numbers for each in `positions`, and in `velocities` if they move. */
 export interface States {
@@ -36,7 +37,10 @@ export class Made {
   constructor(readonly address: number) {}
 }
 
+const stateKeys: Keys<States> = { positions: true, velocities: true };
+
 function sixes(states: States, call: string): Float64Array {
+  checkKeys(states, stateKeys, "start", call);
   const count = countOf(states.positions, call);
   const { positions, velocities } = states;
   if (velocities !== undefined && velocities.length !== positions.length)
@@ -157,8 +161,12 @@ export interface LimitedMotion {
   startTime?: number;
 }
 
+const limitedKeys: Keys<LimitedMotion> = { accelerationLimits: true, startTime: true };
+
 /** Makes the motion of bodies with limits by the function of this name; `more` are its last arguments. */
-function limited(name: string, call: string, start: States, options: LimitedMotion, ...more: number[]): Made {
+function limited<Options extends LimitedMotion>(name: string, call: string, start: States, options: Options,
+                                                keys: Keys<Options>, ...more: number[]): Made {
+  checkKeys(options, keys, "options", call);
   const numbers = sixes(start, call);
   const count = numbers.length / 6;
   const limits = each(options.accelerationLimits, count, "accelerationLimits", call);
@@ -183,8 +191,11 @@ export class Ballistic extends Motion {
   }
 }
 
+const ballisticKeys: Keys<BallisticOptions> = { gravity: true, startTime: true };
+
 function flying(start: States, options: BallisticOptions): Made {
   const call = "Ballistic";
+  checkKeys(options, ballisticKeys, "options", call);
   const numbers = sixes(start, call);
   const gravity = vector(options.gravity ?? [0, 0, 0], "gravity", call);
   const module = theModule();
@@ -199,6 +210,8 @@ export interface RandomForcesOptions extends LimitedMotion {
   seed?: number;
 }
 
+const forcesKeys: Keys<RandomForcesOptions> = { ...limitedKeys, interval: true, seed: true };
+
 /** Bodies pushed around by random forces that change at fixed times. */
 export class RandomForces extends Motion {
   constructor(start: States, options: RandomForcesOptions);
@@ -206,7 +219,7 @@ export class RandomForces extends Motion {
   constructor(made: Made);
   constructor(start: States | Made, options?: RandomForcesOptions) {
     super(start instanceof Made ? start
-      : limited("motion_random_forces", "RandomForces", start, options!, options!.interval ?? 0.2, options!.seed ?? 1));
+      : limited("motion_random_forces", "RandomForces", start, options!, forcesKeys, options!.interval ?? 0.2, options!.seed ?? 1));
   }
 }
 
@@ -216,7 +229,7 @@ export class SteeredMotion extends Motion {
   /** @internal */
   constructor(made: Made);
   constructor(start: States | Made, options?: LimitedMotion) {
-    super(start instanceof Made ? start : limited("motion_steered", "SteeredMotion", start, options!));
+    super(start instanceof Made ? start : limited("motion_steered", "SteeredMotion", start, options!, limitedKeys));
   }
   /** Sets the acceleration from `time` on, within the body's limit. Needs no call of the world. */
   steer(body: number, time: number, acceleration: Vec3): void {
@@ -233,6 +246,8 @@ export interface FrameMotionOptions extends LimitedMotion {
   /** >= 0 (length): the largest error of the game's positions. */
   positionError?: number;
 }
+
+const frameKeys: Keys<FrameMotionOptions> = { ...limitedKeys, interval: true, positionError: true };
 
 /** A position with which a body violated its limit; see `FrameViolation` in kinesphere/motion/frame_motion.hpp. */
 export interface FrameViolation {
@@ -265,7 +280,7 @@ export class FrameMotion extends Motion {
   constructor(made: Made);
   constructor(start: States | Made, options?: FrameMotionOptions) {
     super(start instanceof Made ? start
-      : limited("motion_frames", "FrameMotion", start, options!, options!.interval ?? 1 / 60, options!.positionError ?? 0));
+      : limited("motion_frames", "FrameMotion", start, options!, frameKeys, options!.interval ?? 1 / 60, options!.positionError ?? 0));
   }
   /** Adds the next frame: three numbers for each body. */
   push(positions: ArrayLike<number>): void {

@@ -1,6 +1,7 @@
 // Responses of two bodies to a contact.
 import type { Event, Vec3 } from "./event.js";
 import { theModule } from "./module.js";
+import { checkKeys, type Keys } from "./options.js";
 
 /** The velocities of the two bodies after the contact; that of a wall is zero. */
 export interface Bounce {
@@ -19,10 +20,13 @@ export interface BounceOptions {
   restingSpeed?: number;
 }
 
+const bounceKeys: Keys<BounceOptions> = { firstMass: true, secondMass: true, restitution: true, restingSpeed: true };
+
 /**
  * Returns the response of smooth spheres to a begin, as `bounce` and `settle` of the C++ library do. Momentum is kept.
  */
 export function bounce(contact: Event, options: BounceOptions = {}): Bounce {
+  checkKeys(options, bounceKeys, "options", "bounce");
   const { firstMass = 1, secondMass = 1, restitution = 1, restingSpeed = 0 } = options;
   const module = theModule();
   return module.with((scratch) => {

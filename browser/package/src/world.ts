@@ -1,12 +1,13 @@
 // The world: moving spheres with unknown trajectories, and every contact among them, in time order.
-import { asking, type Probe, responded, type RunOptions } from "./asking.js";
+import { asking, type Probe, responded, runKeys, type RunOptions } from "./asking.js";
 import {
-  type BodyBatch, type BodyDefinition, bodyNumbers, type BodyOptions, type MotionLimits, putBody, putOptions, type Shape,
-  shapeNumbers, whole,
+  batchKeys, type BodyBatch, type BodyDefinition, bodyKeys, bodyNumbers, type BodyOptions, limitKeys, type MotionLimits,
+  movedKeys, putBody, putOptions, type Shape, shapeNumbers, staticKeys, type StaticOptions, whole,
 } from "./body.js";
 import { type Definition, definitionAt, definitionNumbers, type WorldDefinition } from "./definition.js";
 import { type BodyId, Event, type EventKind, Events, eventKinds, type State, type Vec3, type Wall, wallOf } from "./event.js";
 import { Owned, type Scratch, theModule } from "./module.js";
+import { checkKeys } from "./options.js";
 import { countOf, each, Motion, type MotionDefinition, type PerBody, sixOf, vector } from "./motion.js";
 
 export interface BodyView {
@@ -259,6 +260,7 @@ export class World extends WorldView {
   }
 
   add(body: BodyDefinition): BodyId {
+    checkKeys(body, bodyKeys, "body", "add");
     const numbers = new Float64Array(bodyNumbers);
     putBody(numbers, 0, body, "add");
     return this.addNumbers(numbers)[0]!;
@@ -266,6 +268,7 @@ export class World extends WorldView {
   /** Adds all bodies or, after an error, none. Returns their ids. */
   addAll(bodies: BodyBatch): Float64Array {
     const call = "addAll";
+    checkKeys(bodies, batchKeys, "bodies", call);
     const count = countOf(bodies.positions, call);
     const radii = each(bodies.radii ?? 1, count, "radii", call);
     const limits = each(bodies.accelerationLimits ?? 0, count, "accelerationLimits", call);
@@ -297,6 +300,7 @@ export class World extends WorldView {
    */
   addMotion(motion: Motion, radii: PerBody = 1, options: Omit<BodyOptions, keyof MotionLimits> = {}): Float64Array {
     const call = "addMotion";
+    checkKeys(options, movedKeys, "options", call);
     const count = motion.size;
     const sizes = each(radii, count, "radii", call);
     const numbers = new Float64Array(count * bodyNumbers);
@@ -307,7 +311,8 @@ export class World extends WorldView {
     return this.addNumbers(numbers);
   }
   /** Adds a static body. */
-  addStatic(shape: Shape, options: { solid?: boolean; sensorClass?: number; userData?: number } = {}): BodyId {
+  addStatic(shape: Shape, options: StaticOptions = {}): BodyId {
+    checkKeys(options, staticKeys, "options", "addStatic");
     return this.addSurroundings(shape, false, options, "addStatic");
   }
   /**
@@ -332,6 +337,7 @@ export class World extends WorldView {
     module.require(module.call("world_set_radius", this.address, body, radius));
   }
   setMotionLimits(body: BodyId, limits: MotionLimits): void {
+    checkKeys(limits, limitKeys, "limits", "setMotionLimits");
     this.change("world_set_motion_limits", body, [
       limits.accelerationLimit ?? 0,
       ...vector(limits.plannedAcceleration ?? [0, 0, 0], "plannedAcceleration", "setMotionLimits"),
@@ -385,6 +391,7 @@ export class World extends WorldView {
   run(until: number, options: RunOptions, sink?: (events: Events) => void): Events {
     const module = theModule();
     if (!(options?.motion instanceof Motion)) throw new TypeError("run: motion must be a Motion");
+    checkKeys(options, runKeys, "options", "run");
     const [responding, bounces, scene, asked] = responded(options.respond);
     return module.with((scratch) => {
       const masses = bounces.masses ?? [];
@@ -428,8 +435,7 @@ export class World extends WorldView {
       return module.answer();
     });
   }
-  private addSurroundings(shape: Shape, isZone: boolean, options: { solid?: boolean; sensorClass?: number; userData?: number },
-                call: string): BodyId {
+  private addSurroundings(shape: Shape, isZone: boolean, options: StaticOptions, call: string): BodyId {
     const module = theModule();
     const [kind, numbers] = shapeNumbers(shape, call);
     const id = module.with((scratch) =>
