@@ -351,7 +351,7 @@ Velocities are news at every frame: push() informs the world of them, and nothin
 but straight motion. acceleration_limits (length / time^2, gravity included) changes that, with one number, or
 one of each body. While a body keeps its limit, |p[k+1] - 2 p[k] + p[k-1]| <= limit * interval^2, the world
 need not be informed. A limit suits bodies that turn little, far from others; where velocities jump it costs
-10 to 25 times as much. position_error (length) is how far positions may be off. States can be asked for from
+10 to 30 times as much. position_error (length) is how far positions may be off. States can be asked for from
 previous_time to latest_time. Entries of removed bodies must be NaN, as in latest().)");
   frames
       .def(py::init([](const py::object& positions, const py::object& velocities, const py::object& limits,

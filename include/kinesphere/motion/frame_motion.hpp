@@ -72,7 +72,7 @@ struct FrameViolation {
 ///
 /// Costs. A body whose velocity the world is informed of costs a probe and a search in that frame. A limit
 /// costs probes and rechecks of all neighbours that the body could reach within it: where velocities jump by
-/// the speed of the bodies, a limit that covers the jumps makes a frame 10 to 25 times as expensive.
+/// the speed of the bodies, a limit that covers the jumps makes a frame 10 to 30 times as expensive.
 ///
 /// Delay. States are known from the previous frame to the latest one, so the game sees events one frame
 /// late. A position far away is a fast flight there, with all contacts on the way; BodyMap::teleport() puts
