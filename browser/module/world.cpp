@@ -127,6 +127,16 @@ KINESPHERE_EXPORT(world_set_velocity)
 bool world_set_velocity(World* world, double body, const double* velocity) {
   return is_good(world->set_velocity(body_of(body), vector_at(velocity)));
 }
+KINESPHERE_EXPORT(world_set_velocity_all)
+bool world_set_velocity_all(World* world, std::size_t count, const double* bodies, const double* velocities) {
+  std::vector<BodyId> ids;
+  std::vector<Vec3> each;
+  for (std::size_t k = 0; k < count; ++k) {
+    ids.push_back(body_of(bodies[k]));
+    each.push_back(vector_at(velocities + 3 * k));
+  }
+  return is_good(world->set_velocity_all(ids, each));
+}
 KINESPHERE_EXPORT(world_teleport) bool world_teleport(World* world, double body, const double* state) {
   return is_good(world->teleport(body_of(body), state_at(state)));
 }

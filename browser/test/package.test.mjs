@@ -318,7 +318,7 @@ test("a game hands over its frames, and answers contacts between them", () => {
   const dt = 1 / 60;
   const positions = Float64Array.of(50, 50, 30, 50, 50, 33);
   const velocities = Float64Array.of(0, 0, 90, 0, 0, 0);
-  const frames = new FrameMotion({ positions, velocities }, { accelerationLimits: 10 });
+  const frames = new FrameMotion({ positions, velocities });
   const world = new World({ box, contacts: "impacts" });
   world.addMotion(frames, 1);
   let contacts = 0;
@@ -327,8 +327,7 @@ test("a game hands over its frames, and answers contacts between them", () => {
       velocities[3 * k + 2] -= 9.81 * dt;
       for (let axis = 0; axis < 3; ++axis) positions[3 * k + axis] += velocities[3 * k + axis] * dt;
     }
-    frames.push(positions);
-    assert.deepEqual(frames.violations(), []);
+    frames.push(world, positions);
     for (const event of world.events(frames.latestTime, frames)) {
       assert.ok(event.time > frames.previousTime - 1e-12 && event.time <= frames.latestTime);
       ++contacts;
@@ -344,14 +343,54 @@ test("a game hands over its frames, and answers contacts between them", () => {
   }
   assert.ok(contacts >= 2 && positions[5] - positions[2] > 2 - 1e-5);
   assert.equal(world.counters.events.bound_violation, 0);
-  // A jump by the game itself is reported, also by a copy.
+  // A jump by the game itself: the world has to know.
   positions[0] += 5;
+  refuses(() => frames.push(positions), "out_of_range", "positions", 0);
+  frames.push(world, positions);
+  assert.ok(world.body(0).reported.velocity[0] > 290);
+  refuses(() => frames.push(world, positions), "out_of_range", "world");
+  refuses(() => frames.push(world, [1, 2, 3]), "out_of_range", "positions");
+});
+
+test("a game states limits, and is told of frames that violate them", () => {
+  const positions = Float64Array.of(0, 0, 0, -5, 0, 0);
+  const frames = new FrameMotion({ positions }, { accelerationLimits: 1, interval: 1 });
+  const world = new World();
+  world.addMotion(frames, 1);
   frames.push(positions);
+  assert.equal(world.advance(1, frames), null);
+  positions[3] = 5;
+  refuses(() => frames.push(positions), "out_of_range", "positions", 1);
+  frames.push(world, positions);
   for (const one of [frames, frames.clone()]) {
     const [jump] = one.violations();
-    assert.ok(jump.body === 0 && jump.excess > 4.9 && jump.velocity[0] > 290);
+    assert.ok(jump.body === 1 && jump.excess === 9 && jump.velocity[0] === 10);
   }
-  assert.throws(() => frames.push([1, 2, 3]), (error) => error.code === "out_of_range" && error.argument === "positions");
+  assert.ok(Math.abs(world.advance(2, frames).time - 1.3) < 1e-6);
+  // The entry of a removed body moves no other.
+  frames.remove(1);
+  assert.ok(Number.isNaN(frames.latest()[3]));
+  world.remove(1);
+  world.run(2, { motion: frames });
+  refuses(() => frames.push(world, positions), "stale_body", "positions", 1);
+  positions.fill(NaN, 3);
+  frames.push(world, positions);
+  assert.equal(frames.add(3, { position: [50, 0, 0], velocity: [0, 0, 0] }), 1);
+  refuses(() => frames.push(positions), "not_finite", "positions", 1);
+});
+
+test("velocities of many are set for all or for none", () => {
+  const motion = new Ballistic({ positions: [0, 0, 0, 9, 0, 0] });
+  const world = new World();
+  const ids = world.addMotion(motion, 1);
+  refuses(() => world.setVelocityAll(ids, [1, 0, 0, NaN, 0, 0]), "not_finite", "velocity", 1);
+  assert.throws(() => world.setVelocityAll(ids, [1, 0, 0]), /setVelocityAll: velocities must have three numbers for each of 2/);
+  for (const k of [0, 1]) {
+    assert.equal(world.body(k).reported.velocity[0], 0);
+    motion.setVelocity(k, 0, [3 - 5 * k, 0, 0]);
+  }
+  world.setVelocityAll(ids, [3, 0, 0, -2, 0, 0]);
+  assert.ok(Math.abs(world.advance(9, motion).time - 1.4) < 1e-6);
 });
 
 test("recorded tracks are gone along", () => {

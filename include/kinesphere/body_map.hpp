@@ -65,11 +65,11 @@ class BodyMap {
   /// Removes the body. A motion that does not support removal keeps it, but is no longer queried for it.
   Result<void> remove(World& world, BodyId body);
 
-  /// Sets in the world the velocity of each body that violated its motion limits in the latest pushed frame
-  /// (FrameMotion::violations), so that no contact is missed. Call it after each push, with world.time() ==
-  /// frames.previous_time(). Bodies that this map does not know are skipped. Errors: out_of_range for
-  /// another time; as World::set_velocity(). Cost: O(n) if there are violations.
-  Result<void> report_violations(World& world, const FrameMotion& frames) const;
+  /// Appends the next frame to the frames (FrameMotion::push) and informs the world of the new velocities,
+  /// so that no contact is missed. Needs world.time() == frames.latest_time(). Errors, which leave frames
+  /// and world unchanged: as FrameMotion::push(); unknown_body for a body with a new velocity that was not
+  /// added to the world through this map. Cost: O(n).
+  Result<void> push(World& world, FrameMotion& frames, std::span<const Vec3> positions) const;
 
   /// Returns the motion and the number of the body, or nothing if this map does not know it.
   std::optional<MovedBody> find(BodyId body) const;

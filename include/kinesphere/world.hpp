@@ -171,6 +171,9 @@ class World {
   /// (beyond limits.hpp, or z other than 0 in two dimensions); probe_in_progress. Cost: O(1) here, and a
   /// search at the next advance.
   Result<void> set_velocity(BodyId body, const Vec3& velocity);
+  /// Sets the velocities of all these bodies or, on an error, of none. Errors: as set_velocity(), naming the
+  /// body; out_of_range if the number of velocities differs from the number of bodies.
+  Result<void> set_velocity_all(std::span<const BodyId> bodies, std::span<const Vec3> velocities);
 
   // Further changes. The next advance reports a contact that a change certainly ends as ended, before all
   // other events, with the states from before the change. A contact that persists causes no event. An

@@ -220,9 +220,12 @@ std::vector<Vec3> vectors_for(WorldHandle& handle, const py::object& bodies, con
 }
 
 void set_velocity(WorldHandle& handle, const py::object& bodies, const py::object& velocities) {
+  const auto turn = handle.take("set_velocity");
+  const Ids named = ids_of(bodies, {"set_velocity", "bodies"});
   const std::vector<Vec3> each = vectors_for(handle, bodies, velocities, {"set_velocity", "velocities"});
-  change_each(handle, bodies, "set_velocity",
-              [&](BodyId body, std::size_t k) { return handle.world.set_velocity(body, each[k]); });
+  require(named.is_single ? handle.world.set_velocity(named.ids.front(), each.front())
+                          : handle.world.set_velocity_all(named.ids, each));
+  end_call(handle);
 }
 
 /// Reads the states of teleport() and enable().
@@ -345,9 +348,11 @@ Their contacts end: the end events come next. Ids of removed bodies are stale fo
       .def("set_velocity", set_velocity, py::arg("bodies"), py::arg("velocities"),
            R"(Tells the world that these velocities (length / time) hold from the current time on.
 
-One id and shape (3,), or n ids and shape (n, 3). The probe has to answer accordingly. On an error the
-bodies before the one that it names have been changed; this holds for all calls below that take several
-bodies.)")
+One id and shape (3,), or n ids and shape (n, 3), all of them or on an error none. The probe has to answer
+accordingly.
+
+On an error of a call below that takes several bodies, those before the one that it names have been
+changed.)")
       .def(
           "teleport",
           [](WorldHandle& handle, const py::object& bodies, const py::object& positions,

@@ -140,15 +140,18 @@ together, for rollback.)")
           },
           py::arg("world"), py::arg("body"))
       .def(
-          "report_violations",
-          [](BodyMapHandle& map, WorldHandle& world, const HandleOf<FrameMotion>& frames) {
-            change(map, world, "report_violations",
-                   [&](BodyMap& known, World& of) { return known.report_violations(of, frames.get()); });
+          "push",
+          [](BodyMapHandle& map, WorldHandle& world, HandleOf<FrameMotion>& frames,
+             const py::object& positions) {
+            const std::vector<Vec3> each = vectors_of(positions, {"push", "positions"}, true);
+            const auto turn_of_frames = frames.in_use.take_alone("push", "frames");
+            change(map, world, "push",
+                   [&](BodyMap& known, World& of) { return known.push(of, frames.get(), each); });
           },
-          py::arg("world"), py::arg("frames"),
-          "After each FrameMotion.push(): tells the world the velocities of bodies that broke their promise "
-          "in "
-          "that frame.")
+          py::arg("world"), py::arg("frames"), py::arg("positions"),
+          R"(The next frame of a FrameMotion: the position of every body, shape (n, 3) or (n, 2).
+
+The world learns all new velocities, so that no contact is missed; world.time must be frames.latest_time.)")
       .def(
           "find",
           [](const BodyMapHandle& map, const py::object& body) -> py::object {

@@ -92,23 +92,13 @@ Result<void> BodyMap::remove(World& world, BodyId body) {
   return world.remove(body);
 }
 
-Result<void> BodyMap::report_violations(World& world, const FrameMotion& frames) const {
-  InputCheck check("BodyMap::report_violations");
-  check.require(world.time() == frames.previous_time(), ErrorCode::out_of_range, {"world"},
-                "must have its time at that of the last frame but one,", frames.previous_time(),
-                world.time());
-  if (check.error()) return check.result();
-  if (frames.violations().empty()) return {};
+Result<void> BodyMap::push(World& world, FrameMotion& frames, std::span<const Vec3> positions) const {
   std::vector<BodyId> ids(frames.size(), no_body);
   for (std::uint32_t index = 0; index < entries_.size(); ++index) {
     const Entry& known = entries_[index];
     if (known.motion == &frames) ids[known.number] = {index, known.generation};
   }
-  for (const FrameViolation& turn : frames.violations()) {
-    if (ids[turn.body] == no_body) continue;
-    if (auto changed = world.set_velocity(ids[turn.body], turn.velocity); !changed) return changed;
-  }
-  return {};
+  return frames.push("BodyMap::push", world, ids, positions);
 }
 
 Result<std::unique_ptr<BodyMap>> BodyMap::with_motions(std::span<Motion* const> from,

@@ -144,24 +144,5 @@ TEST(BodyMap, ServesClonesOfItsMotions) {
                "BodyMap::with_motions: ");
 }
 
-TEST(BodyMap, TellsViolationsAtTheirFrameOnly) {
-  FrameMotion frames =
-      FrameMotion::create({.start = {{}}, .acceleration_limits = {1.0}, .interval = 1.0}).value();
-  World world = World::create({}).value();
-  BodyMap map;
-  map.add_all(world, frames).value();
-  frames.push(std::vector<Vec3>{{5, 0, 0}}).value();
-  ASSERT_EQ(frames.violations().size(), 1u);
-  map.report_violations(world, frames).value();
-  EXPECT_FALSE(world.advance(frames.latest_time(), map.probe()).value()) << "no violation";
-  frames.push(std::vector<Vec3>{{10, 0, 0}}).value();
-  map.report_violations(world, frames).value();
-  EXPECT_FALSE(world.advance(frames.latest_time(), map.probe()).value());
-  frames.push(std::vector<Vec3>{{10, 0, 0}}).value();
-  EXPECT_FALSE(world.advance(2.5, map.probe()).value());
-  expect_error(map.report_violations(world, frames), ErrorCode::out_of_range, "world",
-               "BodyMap::report_violations: ");
-}
-
 }  // namespace
 }  // namespace kinesphere::body_map_test

@@ -2,6 +2,7 @@
 import type { State, Vec3 } from "./event.js";
 import { Owned, theModule } from "./module.js";
 import { checkKeys, type Keys } from "./options.js";
+import type { World } from "./world.js";
 
 /** States of many bodies: three numbers for each in `positions`, and in `velocities` if they move. */
 export interface States {
@@ -240,7 +241,13 @@ export class SteeredMotion extends Motion {
   }
 }
 
-export interface FrameMotionOptions extends LimitedMotion {
+export interface FrameMotionOptions {
+  /**
+   * >= 0 (length / time^2), gravity included; infinite (the default) for bodies without a limit, whose velocities are
+   * news at every frame. See `FrameMotion` in kinesphere/motion/frame_motion.hpp.
+   */
+  accelerationLimits?: PerBody;
+  startTime?: number;
   /** > 0 (time): from one frame to the next; by default 1 / 60. */
   interval?: number;
   /** >= 0 (length): the largest error of the game's positions. */
@@ -264,10 +271,10 @@ export interface FrameViolation {
  * The motion of a game that moves its bodies in fixed steps: straight lines between its last two frames, so the world
  * is one frame late.
  *
- *     const frames = new FrameMotion({ positions, velocities }, { accelerationLimits: 10 });
+ *     const frames = new FrameMotion({ positions });
  *     world.addMotion(frames, radii);
  *     // each frame, after the game has moved its bodies:
- *     frames.push(positions);
+ *     frames.push(world, positions);
  *     for (const event of world.events(frames.latestTime, frames)) ...
  *     positions.set(frames.latest());  // includes changes at events
  *
@@ -275,21 +282,34 @@ export interface FrameViolation {
  * world.setVelocity(body, velocity).
  */
 export class FrameMotion extends Motion {
-  constructor(start: States, options: FrameMotionOptions);
+  constructor(start: States, options?: FrameMotionOptions);
   /** @internal */
   constructor(made: Made);
-  constructor(start: States | Made, options?: FrameMotionOptions) {
+  constructor(start: States | Made, options: FrameMotionOptions = {}) {
     super(start instanceof Made ? start
-      : limited("motion_frames", "FrameMotion", start, options!, frameKeys, options!.interval ?? 1 / 60, options!.positionError ?? 0));
+      : limited("motion_frames", "FrameMotion", start, { ...options, accelerationLimits: options.accelerationLimits ?? Infinity },
+                frameKeys, options.interval ?? 1 / 60, options.positionError ?? 0));
   }
-  /** Adds the next frame: three numbers for each body. */
-  push(positions: ArrayLike<number>): void {
+  /**
+   * Adds the next frame: three numbers for each body, NaN for a removed one. The world, in which the bodies' ids are
+   * their numbers here, learns all new velocities, so that no contact is missed; its time must be latestTime. Without a
+   * world, all bodies must have limits and keep them.
+   */
+  push(world: World, positions: ArrayLike<number>): void;
+  push(positions: ArrayLike<number>): void;
+  push(first: World | ArrayLike<number>, second?: ArrayLike<number>): void {
+    const world = second === undefined ? 0 : (first as World).address;
+    const positions = second ?? (first as ArrayLike<number>);
     const count = countOf(positions, "push");
     const module = theModule();
     module.with((scratch) =>
-      module.require(module.call("frames_push", this.address, count, scratch.numbers(positions))));
+      module.require(module.call("frames_push", this.address, world, count, scratch.numbers(positions))));
   }
-  /** Returns three numbers for each body: its position at latestTime, including changes since the push. */
+  /** Adds a body that moves on from there, by default without a limit; returns its number. */
+  override add(time: number, state: State, accelerationLimit = Infinity): number {
+    return super.add(time, state, accelerationLimit);
+  }
+  /** Returns three numbers for each body: its position at latestTime, including changes since the push; NaN if removed. */
   latest(): Float64Array {
     return this.frame().subarray(2);
   }
@@ -300,10 +320,7 @@ export class FrameMotion extends Motion {
   get latestTime(): number {
     return this.frame()[1]!;
   }
-  /**
-   * Bodies that violated their limits in the last pushed frame, by jumps of velocity that the game has made itself.
-   * Before the world goes on, call world.setVelocity(body, velocity) for each.
-   */
+  /** Bodies that violated their limits in the latest frame. The world has been informed of them. */
   violations(): FrameViolation[] {
     const module = theModule();
     module.require(module.call("frames_violations", this.address));

@@ -329,6 +329,17 @@ export class World extends WorldView {
   setVelocity(body: BodyId, velocity: Vec3): void {
     this.change("world_set_velocity", body, vector(velocity, "velocity", "setVelocity"));
   }
+  /** Sets the velocities of all these bodies, three numbers for each, or on an error of none. */
+  setVelocityAll(bodies: ArrayLike<BodyId>, velocities: ArrayLike<number>): void {
+    const call = "setVelocityAll";
+    if (velocities.length !== 3 * bodies.length)
+      throw new RangeError(`${call}: velocities must have three numbers for each of ${bodies.length} bodies, ` +
+                           `but has ${velocities.length}`);
+    const module = theModule();
+    module.with((scratch) =>
+      module.require(module.call("world_set_velocity_all", this.address, bodies.length, scratch.numbers(bodies),
+                                 scratch.numbers(velocities))));
+  }
   teleport(body: BodyId, state: State): void {
     this.change("world_teleport", body, sixOf(state, "teleport"));
   }
