@@ -48,7 +48,7 @@ int main() {
     };
     for (const Event& event : world.events(frames.latest_time(), bodies.probe())) {
       if (event.kind != EventKind::contact_begin && event.kind != EventKind::wall_begin) continue;
-      const Bounce after = bounce(event, 1.0, 1.0, 0.8);
+      const Bounce after = bounce(event, 0.8);
       set_velocity(event.first, after.first_velocity);
       if (event.second != no_body) set_velocity(event.second, after.second_velocity);
     }

@@ -453,3 +453,26 @@ test("memory comes back from thousands of worlds", () => {
   for (let k = 0; k < 3000; ++k) motion.clone().free();
   assert.ok(world.size === 2);
 });
+
+test("a static body is infinitely heavy, a zone finds its events, and a zone changes its shape", () => {
+  const world = new World({ contacts: "impacts" });
+  const motion = new Ballistic({ positions: [0, 0, 0], velocities: [10, 0, 0] });
+  world.addMotion(motion, 1, { mass: 2 });
+  world.setSensor(0, [0]);
+  const zone = world.addZone({ box: { lower: [1.5, -1, -1], upper: [2, 1, 1] } });
+  const post = world.addStatic({ ball: { centre: [5, 0, 0], radius: 1 } });
+  const kinds = [];
+  for (const event of world.events(0.25, motion)) {
+    assert.equal(event.isSensedBy(zone), true);
+    assert.deepEqual([event.partnerOf(zone), event.partnerOf(post)], [0, null]);
+    assert.deepEqual([event.firstMass, event.secondMass], [2, Infinity]);
+    assert.deepEqual(event.secondTraits, { isStatic: true, isZone: true, isSleeping: false });
+    kinds.push(event.kind);
+  }
+  world.setShape(zone, { box: { lower: [0, -1, -1], upper: [9, 1, 1] } });
+  const hit = [...world.events(0.35, motion)].find((event) => event.kind === "contact_begin");
+  assert.deepEqual(kinds, ["sensor_enter"]);
+  const after = bounce(hit, { restitution: 0.5 });
+  assert.deepEqual([...after.first, ...after.second], [-5, 0, 0, 0, 0, 0]);
+  assert.throws(() => world.setMass(post, 1), { code: "static_body" });
+});

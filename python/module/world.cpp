@@ -66,7 +66,6 @@ std::shared_ptr<WorldHandle> clone(WorldHandle& handle) {
   const auto turn = handle.take("clone");
   auto copy =
       std::make_shared<WorldHandle>(without_gil(handle, [&] { return handle.world.clone(); }).value());
-  copy->fixed = handle.fixed;
   copy->filter_trouble = handle.filter_trouble;
   copy->undelivered = handle.undelivered;
   return copy;
@@ -136,8 +135,6 @@ std::shared_ptr<WorldHandle> restored(const py::object& snapshot, const py::obje
       std::make_shared<WorldHandle>(World::restore(bytes, pair_filter_of(pair_filter, trouble)).value());
   handle->filter_trouble = trouble;
   end_call(*handle);
-  for (const BodyId body : handle->world.bodies())
-    if (handle->world.body(body).value().is_static) handle->fixed.insert(body.pack());
   return handle;
 }
 

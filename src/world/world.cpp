@@ -268,6 +268,13 @@ const Sensor& World::sensor(SensorClass sensor_class) const {
   return engine("sensor").bodies().sensors.of(sensor_class);
 }
 
+Result<void> World::set_mass(BodyId body, double mass) {
+  auto valid = Preconditions(*this, "set_mass").moving(body);
+  if (valid) valid = check_mass(mass, body, "set_mass");
+  if (valid) changing(step::SetMass{body, mass}).set_mass(body, mass);
+  return valid;
+}
+
 Result<void> World::set_user_data(BodyId body, std::uint64_t data) {
   auto valid = Preconditions(*this, "set_user_data").changeable(body);
   if (valid) changing(step::SetUserData{body, data}).set_user_data(body, data);

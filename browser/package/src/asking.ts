@@ -21,8 +21,8 @@ export interface Answer {
 /** Precondition: equal events get equal answers. */
 export type RespondFunction = (event: Event) => Answer | undefined;
 /**
- * Bodies bounce off each other and the walls. Masses are by index, by default 1, infinite for static bodies; a body
- * that the motion does not move is static.
+ * Bodies bounce off each other, static bodies and the walls. Masses are by index, by default those of the bodies; static
+ * bodies are infinitely heavy.
  */
 export interface Bounces {
   masses?: ArrayLike<number>;

@@ -23,6 +23,8 @@ export interface BodyOptions extends MotionLimits {
   sensorClass?: number;
   /** A whole number of the caller's, up to 2^53. */
   userData?: number;
+  /** >= 0, or infinite; by default 1: every event of the body has it, and `bounce` and `run` use it. */
+  mass?: number;
 }
 
 export interface BodyDefinition extends BodyOptions {
@@ -32,10 +34,11 @@ export interface BodyDefinition extends BodyOptions {
   radius?: number;
 }
 
-export interface BodyBatch extends States, Omit<BodyOptions, "accelerationLimit" | "userData"> {
+export interface BodyBatch extends States, Omit<BodyOptions, "accelerationLimit" | "userData" | "mass"> {
   radii?: PerBody;
   accelerationLimits?: PerBody;
   userData?: PerBody;
+  masses?: PerBody;
 }
 
 export type Shape =
@@ -92,6 +95,7 @@ export function putOptions(numbers: Float64Array, at: number, body: BodyOptions,
     throw new RangeError(`${call}: filter.group must be a whole number of 32 bits, but is ${group}`);
   numbers[at + 17] = group;
   numbers[at + 18] = whole(body.userData ?? 0, 2 ** 53, "userData", call);
+  numbers[at + 19] = body.mass ?? 1;
 }
 
 export function whole(value: number, most: number, what: string, call: string): number {

@@ -11,7 +11,7 @@ export interface Bounce {
 
 /** Arguments of `bounce` and `settle` besides the contact. */
 export interface BounceOptions {
-  /** >= 0, infinite for static bodies (walls always are); by default 1. */
+  /** >= 0; by default those of the event. A static body and a wall keep their velocity whatever is given. */
   firstMass?: number;
   secondMass?: number;
   /** Range: 0 to 1; default: 1. The part of the approach speed that is left. */
@@ -27,7 +27,7 @@ const bounceKeys: Keys<BounceOptions> = { firstMass: true, secondMass: true, res
  */
 export function bounce(contact: Event, options: BounceOptions = {}): Bounce {
   checkKeys(options, bounceKeys, "options", "bounce");
-  const { firstMass = 1, secondMass = 1, restitution = 1, restingSpeed = 0 } = options;
+  const { firstMass = contact.firstMass, secondMass = contact.secondMass, restitution = 1, restingSpeed = 0 } = options;
   const module = theModule();
   return module.with((scratch) => {
     const event = scratch.numbers(contact.numbers);

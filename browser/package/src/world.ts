@@ -273,6 +273,7 @@ export class World extends WorldView {
     const radii = each(bodies.radii ?? 1, count, "radii", call);
     const limits = each(bodies.accelerationLimits ?? 0, count, "accelerationLimits", call);
     const userData = each(bodies.userData ?? 0, count, "userData", call);
+    const masses = each(bodies.masses ?? 1, count, "masses", call);
     const { positions, velocities } = bodies;
     if (velocities !== undefined && velocities.length !== positions.length)
       throw new RangeError(
@@ -291,6 +292,7 @@ export class World extends WorldView {
       numbers[at + 6] = radii[k]!;
       numbers[at + 7] = limits[k]!;
       numbers[at + 18] = whole(userData[k]!, 2 ** 53, "userData", call);
+      numbers[at + 19] = masses[k]!;
     }
     return this.addNumbers(numbers);
   }
@@ -346,6 +348,18 @@ export class World extends WorldView {
   setRadius(body: BodyId, radius: number): void {
     const module = theModule();
     module.require(module.call("world_set_radius", this.address, body, radius));
+  }
+  /** Gives a static body or a zone another shape: those that stay in contact with it or inside it get no event. */
+  setShape(body: BodyId, shape: Shape): void {
+    const module = theModule();
+    const [kind, numbers] = shapeNumbers(shape, "setShape");
+    module.with((scratch) =>
+      module.require(module.call("world_set_shape", this.address, body, kind, scratch.numbers(numbers))));
+  }
+  /** Sets the mass (>= 0) that events have from now on. */
+  setMass(body: BodyId, mass: number): void {
+    const module = theModule();
+    module.require(module.call("world_set_mass", this.address, body, mass));
   }
   setMotionLimits(body: BodyId, limits: MotionLimits): void {
     checkKeys(limits, limitKeys, "limits", "setMotionLimits");
