@@ -19,7 +19,7 @@ struct LastError {
 LastError last_error;
 
 /// A body's traits as bits: static 1, zone 2, sleeping 4.
-double number_of(const BodyTraits& traits) {
+double bits_of(const BodyTraits& traits) {
   return (traits.is_static ? 1 : 0) + (traits.is_zone ? 2 : 0) + (traits.is_sleeping ? 4 : 0);
 }
 
@@ -89,8 +89,8 @@ void put(const Event& event, double* numbers) {
   numbers[32] = static_cast<double>(event.second_user_data);
   numbers[33] = event.first_mass;
   numbers[34] = event.second_mass;
-  numbers[35] = number_of(event.first_traits);
-  numbers[36] = number_of(event.second_traits);
+  numbers[35] = bits_of(event.first_traits);
+  numbers[36] = bits_of(event.second_traits);
 }
 
 void answer_ids(std::span<const BodyId> ids) {

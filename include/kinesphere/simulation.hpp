@@ -72,7 +72,7 @@ class Simulation {
   MotionId<Kind> add_motion(Kind motion) {
     return {own(std::make_unique<Kind>(std::move(motion)))};
   }
-  /// Returns a motion, for the calls of its class: FrameMotion::push(), SteeredMotion::steer() and so on.
+  /// Returns a motion, for the calls of its class: SteeredMotion::steer() and so on.
   template <class Kind>
   Kind& motion(MotionId<Kind> id) {
     return const_cast<Kind&>(std::as_const(*this).motion(id));
@@ -97,7 +97,7 @@ class Simulation {
   Result<void> set_velocity(BodyId body, const Vec3& velocity);
   Result<void> teleport(BodyId body, const State& state);
   Result<void> remove(BodyId body);
-  Result<void> report_violations(MotionId<FrameMotion> frames);
+  Result<void> push(MotionId<FrameMotion> frames, std::span<const Vec3> positions);
   State state(BodyId body, double time) const;
 
   /// Returns the motion of a body and its number there, or nothing if no motion moves it.

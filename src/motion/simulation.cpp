@@ -132,9 +132,9 @@ Result<void> Simulation::remove(BodyId body) {
   return removed;
 }
 
-Result<void> Simulation::report_violations(MotionId<FrameMotion> frames) {
-  if (const auto error = wrong_motion("report_violations", frames)) return *error;
-  return bodies_->report_violations(world_, motion(frames));
+Result<void> Simulation::push(MotionId<FrameMotion> frames, std::span<const Vec3> positions) {
+  if (const auto error = wrong_motion("push", frames)) return *error;
+  return bodies_->push(world_, motion(frames), positions);
 }
 
 State Simulation::state(BodyId body, double time) const { return known_bodies("state").state(body, time); }

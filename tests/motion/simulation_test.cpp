@@ -62,8 +62,7 @@ class Game {
           velocities_[k][axis] = -velocities_[k][axis];
     }
     FrameMotion& frames = simulation_.motion(frames_);
-    frames.push(positions_).value();
-    simulation_.report_violations(frames_).value();
+    simulation_.push(frames_, positions_).value();
     fire(aim);
     for (const Event& event : simulation_.events(frames.latest_time())) {
       hash_.add(event);
@@ -253,7 +252,7 @@ TEST(Simulation, SaysWhatIsWrong) {
   refused(simulation.set_velocity(post, {}), "set_velocity");
   refused(simulation.teleport(post, {}), "teleport");
   refused(simulation.remove(post), "remove");
-  refused(simulation.report_violations({0}), "report_violations");
+  refused(simulation.push({0}, {}), "push");
   refused(simulation.advance(1.0), "advance");
   refused(simulation.run(
               1.0, [](const Event&) -> Response { return {}; }, [](const Event&) {}),

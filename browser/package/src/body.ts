@@ -51,14 +51,17 @@ export type Shape =
 export const limitKeys: Keys<MotionLimits> = {
   accelerationLimit: true, plannedAcceleration: true, positionError: true, velocityError: true,
 };
-const placelessKeys: Keys<Omit<BodyOptions, keyof MotionLimits>> = { filter: true, solid: true, sensorClass: true, userData: true };
-export const bodyKeys: Keys<BodyDefinition> = { ...limitKeys, ...placelessKeys, position: true, velocity: true, radius: true };
-const { accelerationLimit: _, ...commonLimitKeys } = limitKeys;
-export const batchKeys: Keys<BodyBatch> = {
-  ...commonLimitKeys, ...placelessKeys, positions: true, velocities: true, radii: true, accelerationLimits: true,
-};
 /** Keys of the options beside a motion, which gives the limits. */
-export const movedKeys = placelessKeys;
+export const movedKeys: Keys<Omit<BodyOptions, keyof MotionLimits>> = {
+  filter: true, solid: true, sensorClass: true, userData: true, mass: true,
+};
+export const bodyKeys: Keys<BodyDefinition> = { ...limitKeys, ...movedKeys, position: true, velocity: true, radius: true };
+const { accelerationLimit: _, ...commonLimitKeys } = limitKeys;
+const { mass: __, ...commonKeys } = movedKeys;
+export const batchKeys: Keys<BodyBatch> = {
+  ...commonLimitKeys, ...commonKeys, positions: true, velocities: true, radii: true, accelerationLimits: true,
+  masses: true,
+};
 export interface StaticOptions {
   solid?: boolean;
   sensorClass?: number;
