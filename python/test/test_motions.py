@@ -136,7 +136,8 @@ def test_a_game_goes_back_eight_frames_in_each_frame() -> None:
     in_time = Game()
     for frame in range(frames):
         in_time.play_frame(frame, np.sin(0.7 * frame))
-    game, past = Game(), []
+    game = Game()
+    past: list[Game] = []
     for frame in range(frames + delay):
         known = frame - delay
         if known >= 0:
