@@ -46,7 +46,7 @@ int main() {
   SingleMotionSource mover(motion);
   std::size_t impacts = 0;
   const auto respond = [](const Event& event) -> Response {
-    const Bounce after = bounce(event, 1.0, 1.0, 1.0);
+    const Bounce after = bounce(event, 1.0);
     return {after.first_velocity, after.second_velocity};
   };
   world

@@ -4,7 +4,7 @@
 //   SingleMotionSource source(motion);
 //   const auto respond = [&](const Event& event) -> Response {
 //     if (event.kind != EventKind::contact_begin) return {};
-//     const Bounce after = bounce(event, 1, 1, 0.9);
+//     const Bounce after = bounce(event, 0.9);
 //     return {after.first_velocity, after.second_velocity};
 //   };
 //   const auto sink = [&](const Event& event) { log(event); };

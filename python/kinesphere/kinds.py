@@ -25,7 +25,11 @@ class EventKind(_Named):
     wall_end = 4
     """A body that touched a wall is clear of it."""
     zeno_guard = 5
-    """Time was moved on at a contact that is deep in its tolerance already, by its least step."""
+    """A response left two bodies approaching, deep in their tolerance: time was moved on by its least step.
+
+    They may overlap by more than the tolerance meanwhile. If it comes often, a response does not part its
+    bodies, or a body reaches through a wall.
+    """
     sensor_enter = 6
     """The gap of two bodies has come down to a sensor distance."""
     sensor_leave = 7

@@ -50,7 +50,6 @@ class Responding {
   Responding(const py::object& given, const WorldHandle& handle, Interruptions& interruptions)
       : interruptions_(interruptions),
         plane_(handle.is_plane()),
-        fixed_(handle.fixed),
         given_(py::reinterpret_borrow<py::object>(given)) {
     if (given.is_none()) return;
     if (py::isinstance<Bouncing>(given)) {
@@ -66,8 +65,7 @@ class Responding {
 
   /// Needs no GIL.
   Response operator()(const Event& event) const {
-    if (bouncing_ != nullptr)
-      return bouncing_->answer(event, [this](BodyId body) { return fixed_.contains(body.pack()); });
+    if (bouncing_ != nullptr) return bouncing_->answer(event);
     if (scene_ != nullptr) {
       check_known(event.first);
       check_known(event.second);
@@ -85,7 +83,6 @@ class Responding {
 
   Interruptions& interruptions_;
   bool plane_;
-  const std::unordered_set<std::uint64_t>& fixed_;
   py::object given_;
   const Bouncing* bouncing_ = nullptr;
   const Scene* scene_ = nullptr;

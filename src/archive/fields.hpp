@@ -2,6 +2,7 @@
 // added here too.
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <type_traits>
 
@@ -63,9 +64,9 @@ void serialize(Some<Sensor> auto& self, auto& archive) {
 
 void serialize(Some<BodyDefinition> auto& self, auto& archive) {
   auto& [radius, acceleration_limit, planned_acceleration, position_error, velocity_error, position, velocity,
-         filter, solid, contacts, sensor_class, user_data] = self;
+         filter, solid, contacts, sensor_class, user_data, mass] = self;
   archive(radius, acceleration_limit, planned_acceleration, position_error, velocity_error, position,
-          velocity, filter, solid, contacts, sensor_class, user_data);
+          velocity, filter, solid, contacts, sensor_class, user_data, mass);
 }
 
 void serialize(Some<MotionLimits> auto& self, auto& archive) {
@@ -98,12 +99,22 @@ void serialize(Some<StaticDefinition> auto& self, auto& archive) {
   archive(shape, filter, solid, sensor_class, user_data);
 }
 
+/// References cannot refer to bit-fields, so the archive gets copies.
+template <Some<BodyTraits> Self>
+void serialize(Self& self, auto& archive) {
+  const auto [is_static, is_zone, is_sleeping] = self;
+  std::array<bool, 3> traits{is_static, is_zone, is_sleeping};
+  archive(traits);
+  if constexpr (!std::is_const_v<Self>) self = {traits[0], traits[1], traits[2]};
+}
+
 void serialize(Some<Event> auto& self, auto& archive) {
-  auto& [kind, time, first, second, wall, repeated, jammed, already_touching, senses, first_state, second_state, point, normal,
-         gap, approach_speed, position_excess, velocity_excess, distance, first_user_data, second_user_data] =
-      self;
-  archive(kind, time, first, second, wall, repeated, jammed, already_touching, senses, first_state, second_state, point, normal,
-          gap, approach_speed, position_excess, velocity_excess, distance, first_user_data, second_user_data);
+  auto& [kind, time, first, second, wall, repeated, jammed, already_touching, senses, first_traits, second_traits, first_state,
+         second_state, point, normal, gap, approach_speed, position_excess, velocity_excess, distance,
+         first_user_data, second_user_data, first_mass, second_mass] = self;
+  archive(kind, time, first, second, wall, repeated, jammed, already_touching, senses, first_traits, second_traits, first_state,
+          second_state, point, normal, gap, approach_speed, position_excess, velocity_excess, distance,
+          first_user_data, second_user_data, first_mass, second_mass);
 }
 
 void serialize(Some<Axes> auto& self, auto& archive) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace kinesphere {
 
@@ -101,10 +102,12 @@ void ContactGraph::change_reported(std::uint32_t body, ApproachState approach) {
       set_wall_state(body, wall, true, state);
     }
   }
-  if (body >= partners_.size() || flags_[body].is_static) return;
-  for (ContactRecord& record : partners_[body].all()) {
-    change(record.state);
-    set_half(record.partner, body, &record.state);
+  if (body >= partners_.size()) return;
+  for (const ContactRecord& record : std::as_const(partners_[body]).all()) {
+    ContactState state = *contact_of(body, record.partner);
+    change(state);
+    set_half(body, record.partner, &state);
+    set_half(record.partner, body, &state);
   }
 }
 

@@ -13,7 +13,7 @@ class ContactGraphTest : public ::testing::Test {
     for (std::uint32_t body = 0; body < 3; ++body) book.add(body, 0.0);
   }
 
-  Sphere sphere(std::uint32_t body) const { return {{body, 0}, 1.0, {{2.0 * body, 0, 0}, velocities[body]}, nullptr, 0, wanted}; }
+  Sphere sphere(std::uint32_t body) const { return {{body, 0}, 1.0, {{2.0 * body, 0, 0}, velocities[body]}, nullptr, 0, 1.0, {}, wanted}; }
 
   Event begin(std::uint32_t a, std::uint32_t b) const {
     return contact_event(EventKind::contact_begin, 5.0, sphere(a), sphere(b));
