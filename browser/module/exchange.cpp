@@ -91,6 +91,7 @@ void put(const Event& event, double* numbers) {
   numbers[34] = event.second_mass;
   numbers[35] = bits_of(event.first_traits);
   numbers[36] = bits_of(event.second_traits);
+  numbers[37] = event.already_touching ? 1.0 : 0.0;
 }
 
 void answer_ids(std::span<const BodyId> ids) {
@@ -115,6 +116,7 @@ Event event_at(const double* numbers) {
   event.wall = static_cast<Wall>(numbers[4]);
   event.repeated = numbers[5] != 0.0;
   event.jammed = numbers[6] != 0.0;
+  event.already_touching = numbers[37] != 0.0;
   event.senses = static_cast<decltype(event.senses)>(numbers[7]);
   event.first_state = state_at(numbers + 8);
   event.second_state = state_at(numbers + 14);

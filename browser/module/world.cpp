@@ -13,7 +13,7 @@ WorldDefinition definition_at(const double* numbers) {
   definition.dimensions = static_cast<int>(numbers[10]);
   definition.contact_tolerance = numbers[11];
   definition.separation_distance = numbers[12];
-  definition.contacts = numbers[13] != 0.0 ? ContactEvents::impacts : ContactEvents::begin_and_end;
+  definition.contacts = static_cast<ContactEvents>(numbers[13]);
   definition.allow_overlap = numbers[14] != 0.0;
   definition.zeno_interval = numbers[15];
   definition.start_time = numbers[16];
@@ -87,7 +87,7 @@ KINESPHERE_EXPORT(definition_numbers) void definition_numbers(const WorldDefinit
   numbers[10] = definition.dimensions;
   numbers[11] = definition.contact_tolerance;
   numbers[12] = definition.separation_distance;
-  numbers[13] = definition.contacts == ContactEvents::impacts ? 1.0 : 0.0;
+  numbers[13] = static_cast<double>(definition.contacts);
   numbers[14] = definition.allow_overlap ? 1.0 : 0.0;
   numbers[15] = definition.zeno_interval;
   numbers[16] = definition.start_time;

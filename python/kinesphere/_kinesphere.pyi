@@ -33,7 +33,7 @@ class WorldDefinition(TypedDict):
     dimensions: int
     contact_tolerance: float
     separation_distance: Optional[float]
-    contacts: Literal["begin_and_end", "impacts"]
+    contacts: Literal["all", "begin_and_end", "impacts"]
     allow_overlap: bool
     zeno_interval: float
     start_time: float
@@ -93,6 +93,8 @@ class Event:
     def repeated(self) -> bool: ...
     @property
     def jammed(self) -> bool: ...
+    @property
+    def already_touching(self) -> bool: ...
     @property
     def senses(self) -> Senses: ...
     @property
@@ -461,7 +463,7 @@ class World:
         dimensions: int = 3,
         contact_tolerance: float = 1e-6,
         separation_distance: Optional[float] = None,
-        contacts: Literal["begin_and_end", "impacts"] = "begin_and_end",
+        contacts: Literal["all", "begin_and_end", "impacts"] = "all",
         allow_overlap: bool = True,
         zeno_interval: float = 0.0,
         start_time: float = 0.0,

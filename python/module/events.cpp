@@ -24,6 +24,7 @@ constexpr Field event_fields[] = {
     {"wall", "u1", offsetof(EventRecord, wall)},
     {"repeated", "?", offsetof(EventRecord, repeated)},
     {"jammed", "?", offsetof(EventRecord, jammed)},
+    {"already_touching", "?", offsetof(EventRecord, already_touching)},
     {"senses", "u1", offsetof(EventRecord, senses)},
     {"first_position", "3f8", offsetof(EventRecord, first_state)},
     {"first_velocity", "3f8", offsetof(EventRecord, first_state) + velocity_offset},
@@ -56,6 +57,7 @@ Event event_of(const EventRecord& record) {
           .wall = record.wall,
           .repeated = record.repeated,
           .jammed = record.jammed,
+          .already_touching = record.already_touching,
           .senses = record.senses,
           .first_traits = {record.first_is_static, record.first_is_zone, record.first_is_sleeping},
           .second_traits = {record.second_is_static, record.second_is_zone, record.second_is_sleeping},
@@ -133,6 +135,7 @@ EventRecord record_of(const Event& event) {
           event.senses,
           event.repeated,
           event.jammed,
+          event.already_touching,
           event.first_traits.is_static,
           event.first_traits.is_zone,
           event.first_traits.is_sleeping,
@@ -184,6 +187,9 @@ cannot be changed.)")
           "jammed", &Event::jammed,
           "Each of the two has had 64 contacts at this very instant already, as a ball that is stuck "
           "between others: a response should make them part, or stop both. bounce() and settle() do.")
+      .def_readonly("already_touching", &Event::already_touching,
+                    "Of begins: the two have touched since an earlier begin, and approach again. To count "
+                    "contacts, count the others.")
       .def_property_readonly(
           "senses", [](const Event& event) { return member("Senses", static_cast<int>(event.senses)); },
           "Of sensor events: which of the two senses the other.")

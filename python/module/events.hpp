@@ -36,6 +36,7 @@ struct EventRecord {
   Senses senses;
   bool repeated;
   bool jammed;
+  bool already_touching;
   bool first_is_static;
   bool first_is_zone;
   bool first_is_sleeping;

@@ -31,10 +31,15 @@ std::string text_of(const Axes& axes) {
   return std::string(axes.x ? "x" : "") + (axes.y ? "y" : "") + (axes.z ? "z" : "");
 }
 
-ContactEvents contact_mode_of(const std::string& name) {
+ContactEvents contact_events_of(const std::string& name) {
+  if (name == "all") return ContactEvents::all;
   if (name == "begin_and_end") return ContactEvents::begin_and_end;
   if (name == "impacts") return ContactEvents::impacts;
-  refuse({"World", "contacts"}, "must be \"begin_and_end\" or \"impacts\"", "is \"" + name + "\"");
+  refuse({"World", "contacts"}, "must be \"all\", \"begin_and_end\" or \"impacts\"", "is \"" + name + "\"");
+}
+
+const char* name_of(ContactEvents contacts) {
+  return contacts == ContactEvents::all ? "all" : wants_ends(contacts) ? "begin_and_end" : "impacts";
 }
 
 std::shared_ptr<WorldHandle> create_world(const py::object& box, const py::object& periodic, int dimensions,
@@ -55,7 +60,7 @@ std::shared_ptr<WorldHandle> create_world(const py::object& box, const py::objec
     if (std::isnan(definition.separation_distance))
       refuse({"World", "separation_distance"}, "must be a number", "is nan", ErrorCode::not_finite);
   }
-  definition.contacts = contact_mode_of(contacts);
+  definition.contacts = contact_events_of(contacts);
   definition.allow_overlap = allow_overlap;
   definition.zeno_interval = zeno_interval;
   definition.start_time = start_time;
@@ -100,7 +105,7 @@ py::dict arguments_of(const WorldDefinition& definition) {
   arguments["separation_distance"] = std::isnan(definition.separation_distance)
                                          ? py::none()
                                          : py::object(py::float_(definition.separation_distance));
-  arguments["contacts"] = definition.contacts == ContactEvents::impacts ? "impacts" : "begin_and_end";
+  arguments["contacts"] = name_of(definition.contacts);
   arguments["allow_overlap"] = definition.allow_overlap;
   arguments["zeno_interval"] = definition.zeno_interval;
   arguments["start_time"] = definition.start_time;
@@ -159,7 +164,7 @@ at a time may use a world; another one is refused with StateError.)");
   world
       .def(py::init(&create_world), py::kw_only(), py::arg("box") = py::none(), py::arg("periodic") = false,
            py::arg("dimensions") = 3, py::arg("contact_tolerance") = 1e-6,
-           py::arg("separation_distance") = py::none(), py::arg("contacts") = "begin_and_end",
+           py::arg("separation_distance") = py::none(), py::arg("contacts") = "all",
            py::arg("allow_overlap") = true, py::arg("zeno_interval") = 0.0, py::arg("start_time") = 0.0,
            R"(box: walls, a Box or a pair of corners; without one the world is unbounded.
 periodic: True, or axes such as "xy", on which the box repeats instead of having walls.
@@ -168,7 +173,9 @@ contact_tolerance (length, > 0): a contact begins when the gap is at most this, 
 this unreported.
 separation_distance (length, > contact_tolerance; default 4 of it): a contact ends when the gap has grown to
 this.
-contacts: "begin_and_end", or "impacts" for what bounces: a begin for each approach, and no ends.
+contacts: which contact events the world reports. "all": a begin and an end for each contact, and a begin for
+each further approach in between (event.already_touching). "impacts", for what only bounces: a begin for each
+approach, and no ends. "begin_and_end", for contacts that are watched and not answered.
 allow_overlap: when False, add() refuses a body that certainly overlaps another or a wall.
 zeno_interval (time, >= 0): contacts of a body that follow each other sooner are marked as repeated, and
 bounce() takes no energy from those; otherwise a ball that comes to rest would bounce infinitely often in a

@@ -10,6 +10,9 @@ export interface Box {
 }
 
 /** The definition of a world; kinesphere/world_definition.hpp documents each field. */
+const contactEvents = [undefined, "impacts", "begin_and_end", "all"] as const;
+export type ContactEvents = "all" | "begin_and_end" | "impacts";
+
 export interface WorldDefinition {
   /** The walls. Without a box the world is unbounded. */
   box?: Box;
@@ -21,7 +24,12 @@ export interface WorldDefinition {
   contactTolerance?: number;
   /** > contactTolerance (length): the gap at which a contact ends. */
   separationDistance?: number;
-  contacts?: "begin_and_end" | "impacts";
+  /**
+   * Which contact events the world reports. "all", the default: a begin and an end for each contact, and a begin for each
+   * further approach in between (`alreadyTouching`). "impacts", for what only bounces: a begin for each approach, and no
+   * ends. "begin_and_end", for contacts that are watched and not answered.
+   */
+  contacts?: ContactEvents;
   /** If false, bodies that certainly overlap are refused. */
   allowOverlap?: boolean;
   /** >= 0 (time): contacts of a body that follow each other sooner are `repeated`. */
@@ -57,11 +65,17 @@ export function definitionNumbers(definition: WorldDefinition): number[] {
     definition.dimensions ?? 3,
     definition.contactTolerance ?? 1e-6,
     definition.separationDistance ?? NaN,
-    definition.contacts === "impacts" ? 1 : 0,
+    numberOfContacts(definition.contacts ?? "all"),
     definition.allowOverlap === false ? 0 : 1,
     definition.zenoInterval ?? 0,
     definition.startTime ?? 0,
   ];
+}
+
+function numberOfContacts(contacts: ContactEvents): number {
+  const number = contactEvents.indexOf(contacts);
+  if (number < 1) throw new TypeError(`World: contacts must be "all", "begin_and_end" or "impacts", but is "${contacts}"`);
+  return number;
 }
 
 /** Returns the definition at this address in the module. */
@@ -74,7 +88,7 @@ export function definitionAt(module: Module, address: number): Definition {
     dimensions: numbers[10] as 2 | 3,
     contactTolerance: numbers[11]!,
     separationDistance: numbers[12]!,
-    contacts: numbers[13] !== 0 ? "impacts" : "begin_and_end",
+    contacts: contactEvents[numbers[13]!] as ContactEvents,
     allowOverlap: numbers[14] !== 0,
     zenoInterval: numbers[15]!,
     startTime: numbers[16]!,

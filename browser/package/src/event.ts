@@ -41,7 +41,7 @@ function traitsOf(bits: number): BodyTraits {
 }
 
 /** Size of an event in numbers; see `put` in browser/module/exchange.cpp. */
-export const eventNumbers = 37;
+export const eventNumbers = 38;
 
 /** An event. It reads from numbers that never change. */
 export class Event {
@@ -59,6 +59,10 @@ export class Event {
   get repeated(): boolean { return this.numbers[5] === 1; }
   /** Each of the two has had 64 contacts at this instant, as if stuck: a response should part them, or stop both. */
   get jammed(): boolean { return this.numbers[6] === 1; }
+  /**
+   * Of begins: the two have touched since an earlier begin, and approach again. To count contacts, count the others.
+   */
+  get alreadyTouching(): boolean { return this.numbers[37] === 1; }
   /** For sensor events: the body or bodies with the sensor. */
   get senses(): (typeof senses)[number] { return senses[this.numbers[7]!]!; }
   /** States at `time`; in periodic space, of the nearest images. */
