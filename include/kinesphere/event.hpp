@@ -60,12 +60,12 @@ std::string_view name_of(Wall wall);
 /// Properties of one body of an event.
 struct BodyTraits {
   /// The body never moves (World::add_static). World::set_velocity() refuses it with static_body.
-  bool is_static : 1 = false;
+  bool is_static = false;
   /// The body is not solid (BodyDefinition::solid): it touches no other body, and only senses and is sensed.
-  bool is_zone : 1 = false;
+  bool is_zone = false;
   /// The body sleeps (World::sleep) and stays asleep. False at contact_begin and contact_end, which wake
   /// their bodies.
-  bool is_sleeping : 1 = false;
+  bool is_sleeping = false;
 
   friend constexpr bool operator==(const BodyTraits&, const BodyTraits&) = default;
 };

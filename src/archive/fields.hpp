@@ -2,7 +2,6 @@
 // added here too.
 #pragma once
 
-#include <array>
 #include <concepts>
 #include <type_traits>
 
@@ -99,13 +98,9 @@ void serialize(Some<StaticDefinition> auto& self, auto& archive) {
   archive(shape, filter, solid, sensor_class, user_data);
 }
 
-/// References cannot refer to bit-fields, so the archive gets copies.
-template <Some<BodyTraits> Self>
-void serialize(Self& self, auto& archive) {
-  const auto [is_static, is_zone, is_sleeping] = self;
-  std::array<bool, 3> traits{is_static, is_zone, is_sleeping};
-  archive(traits);
-  if constexpr (!std::is_const_v<Self>) self = {traits[0], traits[1], traits[2]};
+void serialize(Some<BodyTraits> auto& self, auto& archive) {
+  auto& [is_static, is_zone, is_sleeping] = self;
+  archive(is_static, is_zone, is_sleeping);
 }
 
 void serialize(Some<Event> auto& self, auto& archive) {
