@@ -46,7 +46,7 @@ class BodyMap {
   BodyMap& operator=(const BodyMap&) = delete;
 
   /// Adds a body of a motion to the world. State and motion limits come from the motion, at world.time();
-  /// everything else (radius, filter, solid, sensor class, user data) comes from `like`. Errors:
+  /// everything else (radius, filter, solid, sensor class, user data, mass) comes from `like`. Errors:
   /// unknown_body or stale_body, and those of World::add(). Throws BadResult as Motion::definition() for a
   /// time at which the motion does not know the body.
   Result<BodyId> add(World& world, Motion& motion, std::uint32_t number, const BodyDefinition& like = {});

@@ -25,9 +25,9 @@ class EventKind(_Named):
     wall_end = 4
     """A body that touched a wall is clear of it."""
     zeno_guard = 5
-    """A response left two bodies approaching, deep in their tolerance: time was moved on by its least step.
+    """Time would have stopped at a contact deep within its tolerance; it goes on by its least step.
 
-    They may overlap by more than the tolerance meanwhile. If it comes often, a response does not part its
+    The two may come to overlap by more than the tolerance. If it comes often, a response does not part its
     bodies, or a body reaches through a wall.
     """
     sensor_enter = 6

@@ -345,7 +345,7 @@ It may reach out of the box of the world; it is never probed. Where space repeat
 Its events are sensor_enter and sensor_leave at distance 0. Zones are of the sensor class zone_class.)")
       .def("add_mesh", add_mesh, py::arg("vertices"), py::arg("corners"), py::kw_only(),
            py::arg("category") = 1, py::arg("mask") = all_categories, py::arg("group") = 0,
-           R"(Adds a fixed triangle for each row of corners, which are numbers of vertices.
+           R"(Adds a static triangle for each row of corners, which are numbers of vertices.
 
 Shapes: vertices (n, 3), corners (m, 3). Returns their ids, shape (m,).)")
       .def(
@@ -378,7 +378,7 @@ changed.)")
           "These bodies are in other states from now on; shapes as in set_velocity().")
       .def("set_radius", set_radius, py::arg("bodies"), py::arg("radii"))
       .def("set_shape", set_shape, py::arg("body"), py::arg("shape"),
-           R"(Gives a fixed body or a zone another shape from now on: it grows, shrinks or moves.
+           R"(Gives a static body or a zone another shape from now on: it grows, shrinks or moves.
 
 Only true changes are told: who stays inside a zone neither leaves nor enters.)")
       .def("set_mass", set_mass, py::arg("bodies"), py::arg("masses"),
@@ -410,8 +410,8 @@ non-zero group, if it is positive.)")
       .def("set_pair_filter", set_pair_filter, py::arg("function"),
            R"(A function of two ids that says whether these bodies may touch, or None.
 
-It must be symmetric, and its answers must not change but before refresh_filter(). What it raises comes out of the
-call of the world that asked it, and counts as True.)")
+It must be symmetric, and its answers must not change but before refresh_filter(). What it raises comes out of
+the call of the world that asked it, and counts as True.)")
       .def("refresh_filter",
            changing("refresh_filter", [](World& of, BodyId body) { return of.refresh_filter(body); }),
            py::arg("bodies"),
@@ -427,8 +427,8 @@ call of the world that asked it, and counts as True.)")
            py::arg("mask") = all_categories,
            R"(From now on all bodies of this class sense others at these distances (length, each >= 0).
 
-distances: shape (k,), or a number. Each crossing is told by sensor_enter and sensor_leave. The mask says which categories are sensed. Cost:
-O(n).)")
+distances: shape (k,), or a number. Each crossing is told by sensor_enter and sensor_leave. The mask says which
+categories are sensed. Cost: O(n).)")
       .def(
           "set_sensor_class",
           [](WorldHandle& handle, const py::object& bodies, std::uint64_t sensor_class) {

@@ -195,7 +195,7 @@ cannot be changed.)")
           "Of sensor events: which of the two senses the other.")
       .def_property_readonly(
           "first_position", [](const Event& event) { return array_of(event.first_state.position); },
-          "At `time`, shape (3,). Of a fixed body one point of its shape.")
+          "At `time`, shape (3,). Of a static body one point of its shape.")
       .def_property_readonly("first_velocity",
                              [](const Event& event) { return array_of(event.first_state.velocity); })
       .def_property_readonly(
@@ -222,8 +222,8 @@ cannot be changed.)")
                     "Of sensor events: the sensor distance that was crossed (length).")
       .def_readonly("first_user_data", &Event::first_user_data)
       .def_readonly("second_user_data", &Event::second_user_data)
-      .def_readonly("first_mass", &Event::first_mass, "Of add(); infinite for a fixed body.")
-      .def_readonly("second_mass", &Event::second_mass, "Infinite for a fixed body and for a wall.")
+      .def_readonly("first_mass", &Event::first_mass, "Of add(); infinite for a static body.")
+      .def_readonly("second_mass", &Event::second_mass, "Infinite for a static body and for a wall.")
       .def_property_readonly(
           "first_is_static", [](const Event& event) { return event.first_traits.is_static; },
           "The body never moves (add_static, add_zone).")
@@ -306,9 +306,9 @@ sensor distance that differs changes it. str(hash) has the 16 digits that the pr
       R"(Velocities after a frictionless central bounce: two arrays of shape (3,); at a wall the second is
 None.
 
-Masses are > 0, those of the event if not given. A fixed body keeps its velocity and throws the other back,
-as a wall does; so does a body of infinite mass. The restitution lies in [0, 1]. Momentum is kept; a repeated contact is answered without loss. A NaN gives velocities that the world
-refuses by name.)");
+Masses are > 0, those of the event if not given. A static body keeps its velocity and turns the other one, as a
+wall does; so does a body of infinite mass. The restitution lies in [0, 1]. Momentum is conserved; a repeated
+contact loses no energy. A NaN gives velocities that the world refuses by name.)");
   module.def(
       "settle",
       [velocities](const Event& contact, std::optional<double> first_mass, std::optional<double> second_mass,

@@ -171,7 +171,8 @@ it is left early, the world stands at the last event. Each step is an advance().
            py::arg("sink") = py::none(), py::arg("threads") = 1,
            R"(Goes on to time `until` by itself and returns all Events, in order.
 
-motion: a Motion or BodyMap, and then no Python is called for states; a MotionSource; without respond any probe.
+motion: a Motion or BodyMap, and then no Python is called for states; a MotionSource; without respond any
+probe.
 respond: what gives bodies new velocities at an event: a Bouncing, a Scene, or a function of the Event that
 returns None or (first velocity or None, second velocity or None). It must depend on the event alone, and
 may not call the world.

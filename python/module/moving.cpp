@@ -132,11 +132,11 @@ Response answer_of(const py::object& returned, bool plane) {
 void bind_moving(py::module_& module) {
   py::class_<Bouncing>(
       module, "Bouncing",
-      R"(A ready-made response for World.run(): bodies bounce off each other, walls and fixed bodies.
+      R"(A ready-made response for World.run(): bodies bounce off each other, walls and static bodies.
 
 masses (> 0) is one number for all, or an array with one at the index of each body; without, the bodies have
-the masses of add(). Fixed bodies count as infinitely heavy. restitution lies in [0, 1]. With a resting_speed (length / time) bodies come to rest as
-settle() has them.)")
+the masses of add(). Static bodies count as infinitely heavy. restitution lies in [0, 1]. With a
+resting_speed (length / time) bodies come to rest as settle() has them.)")
       .def(py::init<const py::object&, double, double>(), py::arg("masses") = py::none(),
            py::arg("restitution") = 1.0, py::arg("resting_speed") = 0.0);
 }

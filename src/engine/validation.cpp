@@ -27,11 +27,6 @@ void require_radius(InputCheck& check, double radius, BodyId body, const WorldDe
   require_size(check, {"radius", body}, radius, coordinate_limit(world));
 }
 
-void require_mass(InputCheck& check, double mass, BodyId body) {
-  check.require(!std::isnan(mass), ErrorCode::not_finite, {"mass", body}, "must be a number", mass)
-      .require(mass >= 0.0, ErrorCode::out_of_range, {"mass", body}, "must be >= 0", mass);
-}
-
 /// Ensures that a pair can meet in one image only; space/space.hpp has the limit and the proof.
 void require_fit(InputCheck& check, std::string_view argument, const BodyDefinition& definition, BodyId body,
                  const WorldDefinition& world) {
@@ -210,13 +205,7 @@ Result<void> check_body(const BodyDefinition& body, const WorldDefinition& world
   require_state(check, {body.position, body.velocity}, body, no_body, world);
   require_fit(check, "radius", body, no_body, world);
   if (body.contacts) require_contact_events(check, *body.contacts);
-  require_mass(check, body.mass, no_body);
-  return check.result();
-}
-
-Result<void> check_mass(double mass, BodyId body, std::string_view call) {
-  InputCheck check(call);
-  require_mass(check, mass, body);
+  check.not_negative_or_infinite({"mass"}, body.mass);
   return check.result();
 }
 

@@ -19,7 +19,6 @@ Result<void> check_radius(const BodyDefinition& changed, BodyId body, const Worl
                           std::string_view call);
 Result<void> check_limits(const BodyDefinition& changed, BodyId body, const WorldDefinition& world,
                           std::string_view call);
-Result<void> check_mass(double mass, BodyId body, std::string_view call);
 Result<void> check_state(const State& state, const BodyDefinition& definition, BodyId body,
                          const WorldDefinition& world, std::string_view call);
 Result<void> check_sensor(const Sensor& sensor, const WorldDefinition& world);

@@ -21,12 +21,6 @@ void check_vectors(InputCheck& check, std::string_view argument, std::span<const
   }
 }
 
-/// Requires a limit >= 0, which may be infinite.
-void check_limit(InputCheck& check, const Subject& subject, double limit) {
-  check.require(!std::isnan(limit), ErrorCode::not_finite, subject, "must be a number", limit)
-      .require(limit >= 0.0, ErrorCode::out_of_range, subject, "must be >= 0", limit);
-}
-
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr Vec3 no_position{not_a_number, not_a_number, not_a_number};
 
@@ -69,7 +63,7 @@ Result<FrameMotion> FrameMotion::create(FrameMotionDefinition definition) {
   check.require(limits.size() == definition.start.size(), ErrorCode::out_of_range, {"acceleration_limits"},
                 "must have no entry or one per body,", definition.start.size(), limits.size());
   for (std::uint32_t body = 0; body < limits.size(); ++body)
-    check_limit(check, {"acceleration_limits", {body, 0}}, limits[body]);
+    check.not_negative_or_infinite({"acceleration_limits", {body, 0}}, limits[body]);
   check_vectors(check, "start", definition.start);
   const std::vector<Vec3>& velocities = definition.velocities;
   check.require(velocities.empty() || velocities.size() == definition.start.size(), ErrorCode::out_of_range,
@@ -170,6 +164,7 @@ Result<void> FrameMotion::push(std::string_view call, World& world, std::span<co
                                std::span<const Vec3> positions) {
   auto next = next_frame(call, positions);
   if (!next) return next.error();
+  // A world that was moved from has no time to compare; a call for no body returns its error.
   if (auto idle = world.set_velocity_all({}, {}); !idle) return idle;
   InputCheck check(call);
   check.require(world.time() == latest_time(), ErrorCode::out_of_range, {"world"},
@@ -308,8 +303,8 @@ Result<std::uint32_t> FrameMotion::add(double t, const State& state, double acce
   if (const auto error = wrong_time(call, no_body, "t", t, {previous_time(), latest_time()})) return *error;
   if (const auto error = wrong_state(call, no_body, state)) return *error;
   InputCheck check(call);
-  check_limit(check, {"acceleration_limit"}, acceleration_limit);
-  if (check.error()) return *check.error();
+  if (check.not_negative_or_infinite({"acceleration_limit"}, acceleration_limit).error())
+    return *check.error();
   auto body = static_cast<std::uint32_t>(size());
   if (free_.empty()) {
     chords_.emplace_back();

@@ -270,7 +270,7 @@ const Sensor& World::sensor(SensorClass sensor_class) const {
 
 Result<void> World::set_mass(BodyId body, double mass) {
   auto valid = Preconditions(*this, "set_mass").moving(body);
-  if (valid) valid = check_mass(mass, body, "set_mass");
+  if (valid) valid = InputCheck("set_mass").not_negative_or_infinite({"mass", body}, mass).result();
   if (valid) changing(step::SetMass{body, mass}).set_mass(body, mass);
   return valid;
 }
