@@ -75,9 +75,11 @@ py::object audit(WorldHandle& handle) {
   return py::make_tuple(finding->where, finding->what);
 }
 
-std::vector<BusyBody> busiest(WorldHandle& handle, std::size_t count) {
+py::list busiest(WorldHandle& handle, std::size_t count) {
   const auto turn = handle.take("busiest");
-  return handle.world.busiest(count).value();
+  py::list list;
+  for (const BusyBody& busy : handle.world.busiest(count).value()) list.append(busy);
+  return list;
 }
 
 py::bytes stop_recording(WorldHandle& handle) {
