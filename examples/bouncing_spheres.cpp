@@ -34,7 +34,7 @@ int main() {
   };
   for (const Event& event : world.events(10.0, motion.probe())) {
     if (event.kind != EventKind::contact_begin && event.kind != EventKind::wall_begin) continue;
-    const Bounce after = bounce(event, 1.0, 1.0, 1.0);
+    const Bounce after = bounce(event, 1.0);
     set_velocity(event.first, event.time, after.first_velocity);
     if (event.second != no_body) set_velocity(event.second, event.time, after.second_velocity);
   }

@@ -17,11 +17,7 @@ int main() {
     position.push_back({-9.0 + 1.5 * k, 0.0, -3.0 + 0.5 * k});
     velocity.push_back({3.0 - 0.5 * k, 0, 4});
   }
-  FrameMotion frames = FrameMotion::create({.start = position,
-                                            .velocities = velocity,
-                                            .acceleration_limits = std::vector(position.size(), 1.0),
-                                            .interval = dt})
-                           .value();
+  FrameMotion frames = FrameMotion::create({.start = position, .interval = dt}).value();
   Ballistic bullets = Ballistic::create({}).value();
 
   World world = World::create({.contact_tolerance = 1e-4}).value();
@@ -39,8 +35,7 @@ int main() {
       if (std::abs(position[k].x) > 10) velocity[k].x = -velocity[k].x, ++turns;
       if (std::abs(position[k].z) > 10) velocity[k].z = -velocity[k].z, ++turns;
     }
-    frames.push(position).value();
-    bodies.report_violations(world, frames).value();
+    bodies.push(world, frames, position).value();
 
     const double height = 9.0 * std::sin(frame);
     const auto number = bullets.add(world.time(), {{-15, 0, height}, {300, 0, 0}}).value();

@@ -39,11 +39,7 @@ int main(int argc, char** argv) {
   }
 
   // Equal on all processes, since it depends on the event alone.
-  const auto respond = [](const Event& event) {
-    const Bounce after = bounce(event, 1.0, 1.0, 1.0);
-    if (event.second == no_body) return Response{after.first_velocity, std::nullopt};
-    return Response{after.first_velocity, after.second_velocity};
-  };
+  const auto respond = [](const Event& event) { return response_of(event, bounce(event, 1.0)); };
   // Receives the events with a first body of this process.
   const auto sink = [](const OrderedEvent&) {};
   if (const auto done = world.run(2.0, respond, sink); !done) {

@@ -1,6 +1,7 @@
 // A game at 60 frames a second. It moves its balls as games do, v += g dt, x += v dt, and hands each frame
 // over. Contacts come with their exact times between the last two frames and are answered there: fast balls
 // never pass through each other or the walls.
+#include <kinesphere/body_map.hpp>
 #include <kinesphere/motion/frame_motion.hpp>
 #include <kinesphere/random.hpp>
 #include <kinesphere/response.hpp>
@@ -28,19 +29,11 @@ int main() {
         velocity.push_back(60 * random.point_in_ball());  // up to a unit, five radii, a frame
       }
 
-  FrameMotion frames =
-      FrameMotion::create({.start = position,
-                           .velocities = velocity,
-                           .acceleration_limits = std::vector(position.size(), 1.01 * norm(gravity)),
-                           .interval = dt})
-          .value();
+  FrameMotion frames = FrameMotion::create({.start = position, .interval = dt}).value();
   World world =
       World::create({.box = room, .contact_tolerance = 1e-3, .contacts = ContactMode::impacts}).value();
-  for (std::uint32_t k = 0; k < frames.size(); ++k) {
-    BodyDefinition ball = frames.definition(k, 0.0);
-    ball.radius = radius;
-    world.add(ball).value();
-  }
+  BodyMap bodies;
+  bodies.add_all(world, frames, {.radius = radius}).value();
 
   double deepest = 0.0;
   for (int frame = 1; frame <= 600; ++frame) {
@@ -48,17 +41,16 @@ int main() {
       velocity[k] += gravity * dt;
       position[k] += velocity[k] * dt;
     }
-    frames.push(position).value();
-    const auto set_velocity = [&](BodyId ball, double time, const Vec3& bounced) {
+    bodies.push(world, frames, position).value();
+    const auto set_velocity = [&](BodyId ball, const Vec3& bounced) {
       velocity[ball.index] = bounced;
-      frames.set_velocity(ball.index, time, bounced).value();
-      world.set_velocity(ball, bounced).value();
+      bodies.set_velocity(world, ball, bounced).value();
     };
-    for (const Event& event : world.events(frames.latest_time(), frames.probe())) {
+    for (const Event& event : world.events(frames.latest_time(), bodies.probe())) {
       if (event.kind != EventKind::contact_begin && event.kind != EventKind::wall_begin) continue;
-      const Bounce after = bounce(event, 1.0, 1.0, 0.8);
-      set_velocity(event.first, event.time, after.first_velocity);
-      if (event.second != no_body) set_velocity(event.second, event.time, after.second_velocity);
+      const Bounce after = bounce(event, 0.8);
+      set_velocity(event.first, after.first_velocity);
+      if (event.second != no_body) set_velocity(event.second, after.second_velocity);
     }
     position = frames.latest();
 

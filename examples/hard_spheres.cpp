@@ -43,7 +43,7 @@ int main() {
   long long collisions = 0;
   for (const Event& event : world.events(end, spheres.probe())) {
     if (event.kind != EventKind::contact_begin) continue;
-    const Bounce after = bounce(event, 1.0, 1.0, 1.0);
+    const Bounce after = bounce(event, 1.0);
     for (const auto& [id, velocity] :
          {std::pair(event.first, after.first_velocity), std::pair(event.second, after.second_velocity)}) {
       spheres.set_velocity(id.index, event.time, velocity).value();

@@ -62,7 +62,7 @@ int main() {
     if (!event) table.sleep(stopping).value();
     if (!event || (event->kind != EventKind::contact_begin && event->kind != EventKind::wall_begin)) continue;
     ++(event->second == no_body ? cushions : clicks);
-    const Bounce after = bounce(*event, 1, 1, 0.95);
+    const Bounce after = bounce(*event, 0.95);
     set_velocity(event->first, event->time, after.first_velocity);
     if (event->second != no_body) set_velocity(event->second, event->time, after.second_velocity);
   }

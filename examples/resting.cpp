@@ -49,7 +49,7 @@ int main() {
   while (auto event = world.advance(1003.0, probe).value()) {
     if (event->kind == EventKind::woke) ++awake;
     if (event->kind != EventKind::contact_begin) continue;
-    const Bounce after = bounce(*event, 1.0, 1.0, 0.95);
+    const Bounce after = bounce(*event, 0.95);
     turn(event->first, after.first_velocity);
     turn(event->second, after.second_velocity);
     ++hits;

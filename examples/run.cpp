@@ -21,22 +21,18 @@ int main() {
   RandomForces motion = RandomForces::create(forces).value();
   World world =
       World::create({.box = Box{{0, 0, 0}, {26, 26, 26}}, .contacts = ContactMode::impacts}).value();
-  std::vector<double> mass;
   for (std::uint32_t k = 0; k < balls; ++k) {
     BodyDefinition ball = motion.definition(k, 0.0);
     ball.radius = random.uniform(0.3, 0.8);
-    mass.push_back(ball.radius * ball.radius * ball.radius);
+    ball.mass = ball.radius * ball.radius * ball.radius;
     world.add(ball).value();
   }
 
   SingleMotionSource mover(motion);
   // Depends on the event alone: equal events must get equal responses, at any time and in any thread.
-  const auto respond = [&](const Event& event) -> Response {
-    const double first = mass[event.first.index];
-    if (event.kind == EventKind::wall_begin) return {bounce(event, first, 0.0, 0.9).first_velocity, {}};
-    if (event.kind != EventKind::contact_begin) return {};
-    const Bounce after = bounce(event, first, mass[event.second.index], 0.9);
-    return {after.first_velocity, after.second_velocity};
+  const auto respond = [](const Event& event) -> Response {
+    if (event.kind != EventKind::contact_begin && event.kind != EventKind::wall_begin) return {};
+    return response_of(event, bounce(event, 0.9));
   };
   double hardest = 0.0;
   const auto sink = [&](const Event& event) { hardest = std::max(hardest, event.approach_speed); };

@@ -54,7 +54,7 @@ int main() {
 
   int entered = 0, left = 0;
   for (const Event& event : world.events(seconds, probe)) {
-    if (event.sensor() != barrier) continue;
+    if (!event.is_sensed_by(barrier)) continue;
     if (event.kind == EventKind::sensor_enter) ++entered;
     if (event.kind == EventKind::sensor_leave) ++left;
   }

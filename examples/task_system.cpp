@@ -45,10 +45,7 @@ int main() {
   }
   SingleMotionSource mover(motion);
   std::size_t impacts = 0;
-  const auto respond = [](const Event& event) -> Response {
-    const Bounce after = bounce(event, 1.0, 1.0, 1.0);
-    return {after.first_velocity, after.second_velocity};
-  };
+  const auto respond = [](const Event& event) -> Response { return response_of(event, bounce(event, 1.0)); };
   world
       .run(
           10.0, mover, respond, [&](const Event&) { ++impacts; }, &workers)

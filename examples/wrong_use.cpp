@@ -1,4 +1,4 @@
-// Wrong use in 45 ways. Nothing crashes, nothing is silently wrong: each results in an error that names the
+// Wrong use in 48 ways. Nothing crashes, nothing is silently wrong: each results in an error that names the
 // call, the argument and the body.
 #include <kinesphere/kinesphere.hpp>
 
@@ -57,6 +57,8 @@ int main() {
   refused(World::create({.contact_tolerance = 0}), out_of_range); refused(World::create({.dimensions = 4}), out_of_range);
   refused(World::create({.box = Box{{0, 0, 0}, {1, 0, 1}}}), out_of_range);
   refused(World::create({.periodic = {true, false, false}}), out_of_range);
+  refused(World::create({.box = Box{{0, 0, 0}, {1, 1, 1e12}}}), out_of_range);
+  refused(World::create({.box = Box{{0, 0, 0}, {9, 9, 9}}, .periodic = {true, true, true}, .dimensions = 2}), out_of_range);
   refused(plane.add({.position = {0, 0, 1}}), out_of_range); refused(plane.add_zone(Triangle{}), unsupported);
   refused(w.add_static({.shape = Box{{1, 1, 1}, {0, 2, 2}}}), out_of_range);
   refused(w.add_zone(Triangle{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}), out_of_range);
@@ -67,13 +69,13 @@ int main() {
   refused(w.advance(1, Probe::Function{nullptr}), null_probe);
   refused(w.advance(1, std::function<void(std::span<const BodyId>, double, std::span<State>)>()), null_probe);
   refused(w.advance(20, [](auto, double, auto states) { states[0].position.x = 5; }), not_finite);
-  (void)w.advance(w.time() + 10, [&](auto ids, double t, auto s) { if (ways == 36) refused(w.save(), probe_in_progress); motion.probe()(ids, t, s); });
+  (void)w.advance(w.time() + 10, [&](auto ids, double t, auto s) { if (ways == 38) refused(w.save(), probe_in_progress); motion.probe()(ids, t, s); });
   refused(World::restore(half), bad_snapshot);              refused(Replay::open(half), bad_recording);
   refused(w.stop_recording(), not_recording);               refused(motion.set_velocity(9, 0, {}), unknown_body);
   thrown([&] { return w.body(gone)->enabled; }, stale_body); thrown([&] { return motion.state(9, 0); }, unknown_body);
-  thrown([&] { return w.add({.radius = -1}).value(); }, out_of_range);
+  thrown([&] { return w.add({.radius = -1}).value(); }, out_of_range); refused(Simulation(new_world()).add(MotionId<>{0}, 0), out_of_range);
   const World taken = std::move(w);                         thrown([&] { return w.time(); }, moved_from);  // NOLINT(bugprone-use-after-move)
   // clang-format on
   std::printf("%d ways, %d unnoticed\n", ways, unnoticed);
-  return ways == 45 && unnoticed == 0 ? 0 : 1;
+  return ways == 48 && unnoticed == 0 ? 0 : 1;
 }

@@ -80,26 +80,18 @@ Response ask_javascript(const Event& event) {
   return {velocity_at(velocities), velocity_at(velocities + 4)};
 }
 
-/// Masses are by index; a body that the motion does not move, such as a static shape, stands still.
-Response bounce_off(const Event& event, const Motion& motion, std::span<const double> masses,
-                    double restitution, double resting_speed) {
+/// Given masses are by index; bodies beyond them, or all if there are none, have their own.
+Response bounce_off(const Event& event, std::span<const double> masses, double restitution,
+                    double resting_speed) {
   const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
   if (!begins || event.approach_speed <= 0.0) return {};
-  const auto mass = [&](BodyId body) {
-    if (!motion.contains(body.index)) return std::numeric_limits<double>::infinity();
-    return body.index < masses.size() ? masses[body.index] : 1.0;
+  const auto mass = [&](BodyId body, double own) {
+    return body.index < masses.size() ? masses[body.index] : own;
   };
-  const bool is_pair = event.second != no_body;
-  const double first = mass(event.first);
-  const double second = is_pair ? mass(event.second) : first;
-  const Bounce after = resting_speed > 0.0 ? settle(event, first, second, restitution, resting_speed)
-                                           : bounce(event, first, second, restitution);
-  // A body that cannot move stays at rest.
-  const auto unless_fixed = [](double mass_of_it, const Vec3& velocity) {
-    return mass_of_it < std::numeric_limits<double>::infinity() ? std::optional(velocity) : std::nullopt;
-  };
-  if (!is_pair) return {unless_fixed(first, after.first_velocity), std::nullopt};
-  return {unless_fixed(first, after.first_velocity), unless_fixed(second, after.second_velocity)};
+  const double first = mass(event.first, event.first_mass);
+  const double second = mass(event.second, event.second_mass);
+  return response_of(event, resting_speed > 0.0 ? settle(event, first, second, restitution, resting_speed)
+                                                : bounce(event, first, second, restitution));
 }
 
 }  // namespace
@@ -132,7 +124,7 @@ bool world_run(World* world, double until, MotionHandle* handle, Responding resp
       case Responding::nothing:
         return {};
       case Responding::bounces:
-        return bounce_off(event, *handle->motion, {masses, mass_count}, restitution, resting_speed);
+        return bounce_off(event, {masses, mass_count}, restitution, resting_speed);
       case Responding::asks_javascript:
         return ask_javascript(event);
       case Responding::as_in_scene:

@@ -18,6 +18,16 @@ struct LastError {
 };
 LastError last_error;
 
+/// A body's traits as bits: static 1, zone 2, sleeping 4.
+double bits_of(const BodyTraits& traits) {
+  return (traits.is_static ? 1 : 0) + (traits.is_zone ? 2 : 0) + (traits.is_sleeping ? 4 : 0);
+}
+
+BodyTraits traits_at(double number) {
+  const int bits = static_cast<int>(number);
+  return {.is_static = (bits & 1) != 0, .is_zone = (bits & 2) != 0, .is_sleeping = (bits & 4) != 0};
+}
+
 }  // namespace
 
 double number_of(BodyId body) { return body == no_body ? no_id : two_to_32 * body.generation + body.index; }
@@ -77,6 +87,10 @@ void put(const Event& event, double* numbers) {
   // Exact up to 2^53.
   numbers[31] = static_cast<double>(event.first_user_data);
   numbers[32] = static_cast<double>(event.second_user_data);
+  numbers[33] = event.first_mass;
+  numbers[34] = event.second_mass;
+  numbers[35] = bits_of(event.first_traits);
+  numbers[36] = bits_of(event.second_traits);
 }
 
 void answer_ids(std::span<const BodyId> ids) {
@@ -113,6 +127,10 @@ Event event_at(const double* numbers) {
   event.distance = numbers[30];
   event.first_user_data = static_cast<std::uint64_t>(numbers[31]);
   event.second_user_data = static_cast<std::uint64_t>(numbers[32]);
+  event.first_mass = numbers[33];
+  event.second_mass = numbers[34];
+  event.first_traits = traits_at(numbers[35]);
+  event.second_traits = traits_at(numbers[36]);
   return event;
 }
 

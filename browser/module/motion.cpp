@@ -211,13 +211,15 @@ bool motion_steer(MotionHandle* handle, double body, double time, const double* 
          is_good(steered->steer(static_cast<std::uint32_t>(body), time, vector_at(acceleration)));
 }
 
+/// Pushes to a world, or to none if `world` is null.
 KINESPHERE_EXPORT(frames_push)
-bool frames_push(MotionHandle* handle, std::size_t count, const double* positions) {
+bool frames_push(MotionHandle* handle, World* world, std::size_t count, const double* positions) {
   auto* const frames = as<FrameMotion>(*handle, "push: this motion has no frames");
   if (frames == nullptr) return false;
   std::vector<Vec3> next;
+  next.reserve(count);
   for (std::size_t k = 0; k < count; ++k) next.push_back(vector_at(positions + 3 * k));
-  return is_good(frames->push(next));
+  return is_good(world != nullptr ? frames->push(*world, next) : frames->push(next));
 }
 
 /// Answers the times of the last frame but one and of the last, then three numbers for each body: its

@@ -36,6 +36,7 @@ BodyDefinition body_at(const double* numbers) {
   body.filter.mask = numbers[16] < 0.0 ? ~std::uint64_t{0} : static_cast<std::uint64_t>(numbers[16]);
   body.filter.group = static_cast<std::int32_t>(numbers[17]);
   body.user_data = static_cast<std::uint64_t>(numbers[18]);
+  body.mass = numbers[19];
   return body;
 }
 
@@ -127,11 +128,28 @@ KINESPHERE_EXPORT(world_set_velocity)
 bool world_set_velocity(World* world, double body, const double* velocity) {
   return is_good(world->set_velocity(body_of(body), vector_at(velocity)));
 }
+KINESPHERE_EXPORT(world_set_velocity_all)
+bool world_set_velocity_all(World* world, std::size_t count, const double* bodies, const double* velocities) {
+  std::vector<BodyId> ids;
+  std::vector<Vec3> each;
+  for (std::size_t k = 0; k < count; ++k) {
+    ids.push_back(body_of(bodies[k]));
+    each.push_back(vector_at(velocities + 3 * k));
+  }
+  return is_good(world->set_velocity_all(ids, each));
+}
 KINESPHERE_EXPORT(world_teleport) bool world_teleport(World* world, double body, const double* state) {
   return is_good(world->teleport(body_of(body), state_at(state)));
 }
 KINESPHERE_EXPORT(world_set_radius) bool world_set_radius(World* world, double body, double radius) {
   return is_good(world->set_radius(body_of(body), radius));
+}
+KINESPHERE_EXPORT(world_set_shape)
+bool world_set_shape(World* world, double body, int kind, const double* shape) {
+  return is_good(world->set_shape(body_of(body), shape_at(kind, shape)));
+}
+KINESPHERE_EXPORT(world_set_mass) bool world_set_mass(World* world, double body, double mass) {
+  return is_good(world->set_mass(body_of(body), mass));
 }
 KINESPHERE_EXPORT(world_set_motion_limits)
 bool world_set_motion_limits(World* world, double body, const double* limits) {

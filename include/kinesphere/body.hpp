@@ -45,6 +45,10 @@ struct BodyDefinition {
   SensorClass sensor_class = 0;
   /// Stored for the caller; the world does not interpret it.
   std::uint64_t user_data = 0;
+  /// m >= 0 (mass): every event of the body has it (Event::first_mass), and bounce() and settle() use it.
+  /// Infinity for a body that moves but that no contact turns; 0 is the limit of small masses. The world does
+  /// not interpret it.
+  double mass = 1.0;
 };
 
 /// Limits of a body's motion and of its report errors, without radius and state. Fields: see

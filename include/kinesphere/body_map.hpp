@@ -14,6 +14,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -33,13 +34,19 @@ struct MovedBody {
   std::uint32_t number;
 };
 
-/// Lifetimes: a motion must keep its address while the map refers to its bodies. Changes go to the motion
-/// first, then to the world: after an error of the motion nothing has changed; after an error of the world
-/// the motion has changed. One map may serve clones of a world, because clones keep the ids.
+/// Lifetimes: a motion must keep its address while the map refers to its bodies. A map cannot be moved or
+/// copied, and neither can a struct that holds it beside its motions: the references would dangle. A
+/// Simulation (simulation.hpp) owns world, motions and map, and can be moved and cloned. Changes go to the
+/// motion first, then to the world: after an error of the motion nothing has changed; after an error of the
+/// world the motion has changed. One map may serve clones of a world, because clones keep the ids.
 class BodyMap {
  public:
+  BodyMap() = default;
+  BodyMap(const BodyMap&) = delete;
+  BodyMap& operator=(const BodyMap&) = delete;
+
   /// Adds a body of a motion to the world. State and motion limits come from the motion, at world.time();
-  /// everything else (radius, filter, solid, sensor class, user data) comes from `like`. Errors:
+  /// everything else (radius, filter, solid, sensor class, user data, mass) comes from `like`. Errors:
   /// unknown_body or stale_body, and those of World::add(). Throws BadResult as Motion::definition() for a
   /// time at which the motion does not know the body.
   Result<BodyId> add(World& world, Motion& motion, std::uint32_t number, const BodyDefinition& like = {});
@@ -58,17 +65,23 @@ class BodyMap {
   /// Removes the body. A motion that does not support removal keeps it, but is no longer queried for it.
   Result<void> remove(World& world, BodyId body);
 
-  /// Sets in the world the velocity of each body that violated its motion limits in the latest pushed frame
-  /// (FrameMotion::violations), so that no contact is missed. Call it after each push, with world.time() ==
-  /// frames.previous_time(). Bodies that this map does not know are skipped. Errors: out_of_range for
-  /// another time; as World::set_velocity(). Cost: O(n) if there are violations.
-  Result<void> report_violations(World& world, const FrameMotion& frames) const;
+  /// Appends the next frame to the frames (FrameMotion::push) and informs the world of the new velocities,
+  /// so that no contact is missed. Needs world.time() == frames.latest_time(). Errors, which leave frames
+  /// and world unchanged: as FrameMotion::push(); unknown_body for a body with a new velocity that was not
+  /// added to the world through this map. Cost: O(n).
+  Result<void> push(World& world, FrameMotion& frames, std::span<const Vec3> positions) const;
 
   /// Returns the motion and the number of the body, or nothing if this map does not know it.
   std::optional<MovedBody> find(BodyId body) const;
   /// Returns the state that the body's motion gives. Throws BadResult: unknown_body, and as
   /// Motion::state().
   State state(BodyId body, double time) const;
+
+  /// Returns a map of the same bodies, in which the motion to[k] stands for from[k]: for clones of a world
+  /// and of its motions. Errors: out_of_range for another number of motions in `to`, and if `from` lacks a
+  /// motion of this map. Cost: O(n).
+  Result<std::unique_ptr<BodyMap>> with_motions(std::span<Motion* const> from,
+                                                std::span<Motion* const> to) const;
 
   /// Returns a callable for World::advance() and all other calls that take a probe; it queries each body's
   /// motion. The callable throws as state(), and World::advance() lets the exception pass. The map must

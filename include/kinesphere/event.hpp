@@ -54,6 +54,19 @@ std::string_view name_of(EventKind kind);
 /// Returns the name of a wall, such as "x_lower"; "none" for Wall::none.
 std::string_view name_of(Wall wall);
 
+/// Properties of one body of an event.
+struct BodyTraits {
+  /// The body never moves (World::add_static). World::set_velocity() refuses it with static_body.
+  bool is_static = false;
+  /// The body is not solid (BodyDefinition::solid): it touches no other body, and only senses and is sensed.
+  bool is_zone = false;
+  /// The body sleeps (World::sleep) and stays asleep. False at contact_begin and contact_end, which wake
+  /// their bodies.
+  bool is_sleeping = false;
+
+  friend constexpr bool operator==(const BodyTraits&, const BodyTraits&) = default;
+};
+
 struct Event {
   EventKind kind = EventKind::contact_begin;
   double time = 0.0;
@@ -73,6 +86,8 @@ struct Event {
   /// sensor_enter: the body or bodies that sense. A sensor_leave repeats the value of its sensor_enter,
   /// even if sensors and classes have changed since.
   Senses senses = Senses::neither;
+  BodyTraits first_traits{};
+  BodyTraits second_traits{};  ///< all false for a wall or no_body
   /// States of the two bodies at `time`. The state is zero for a wall or no_body; for a static body it is
   /// one point of its shape, with zero velocity. On periodic axes the first body is in the primary image,
   /// and the second one in its nearest image, inside the box or not, so that the vector between them is the
@@ -98,10 +113,31 @@ struct Event {
   /// BodyDefinition::user_data of the two bodies, also of removed bodies; 0 for a wall or no_body.
   std::uint64_t first_user_data = 0;
   std::uint64_t second_user_data = 0;
+  /// BodyDefinition::mass of the two bodies; infinity for a static body and for a wall; 1 for no_body.
+  double first_mass = 1.0;
+  double second_mass = 1.0;
+
+  /// Returns true if the body can be given a velocity: there is one, and it is not static.
+  constexpr bool first_can_move() const { return first != no_body && !first_traits.is_static; }
+  constexpr bool second_can_move() const { return second != no_body && !second_traits.is_static; }
+
+  /// Returns the other body of a pair; no_body if there is no other one, or `body` has no part in the event.
+  constexpr BodyId partner_of(BodyId body) const {
+    if (body == no_body) return no_body;
+    return body == first ? second : body == second ? first : no_body;
+  }
+
+  /// Returns true if `body` senses the other body of this sensor_enter or sensor_leave. The events of one
+  /// zone or sensor are those for which this is true, whether or not the other body senses it, too.
+  constexpr bool is_sensed_by(BodyId body) const {
+    if (body == no_body) return false;
+    return (body == first && (senses == Senses::first || senses == Senses::both)) ||
+           (body == second && (senses == Senses::second || senses == Senses::both));
+  }
 
   /// For sensor_enter and sensor_leave, sensor() returns the sensing body and visitor() the sensed one. If
-  /// each senses the other, `first` is the sensor. For all other events they return no_body, with user data
-  /// 0.
+  /// each senses the other, `first` is the sensor: to select the events of one body, use is_sensed_by() and
+  /// partner_of(). For all other events they return no_body, with user data 0.
   constexpr BodyId sensor() const {
     if (senses == Senses::neither) return no_body;
     return senses == Senses::second ? second : first;

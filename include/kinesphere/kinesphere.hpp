@@ -34,6 +34,7 @@
 #include "kinesphere/run.hpp"
 #include "kinesphere/sensor.hpp"
 #include "kinesphere/shape.hpp"
+#include "kinesphere/simulation.hpp"
 #include "kinesphere/vec3.hpp"
 #include "kinesphere/version.hpp"
 #include "kinesphere/workers.hpp"

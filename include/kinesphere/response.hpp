@@ -1,7 +1,15 @@
 // Textbook collision responses: velocities after a contact.
+//
+//   for (const Event& event : world.events(60.0, probe)) {
+//     if (event.kind != EventKind::contact_begin && event.kind != EventKind::wall_begin) continue;
+//     const Bounce after = bounce(event, 0.8);
+//     set_velocity(event.first, after.first_velocity);
+//     if (event.second_can_move()) set_velocity(event.second, after.second_velocity);
+//   }
 #pragma once
 
 #include "kinesphere/event.hpp"
+#include "kinesphere/run.hpp"
 
 namespace kinesphere {
 
@@ -10,14 +18,19 @@ struct Bounce {
   Vec3 second_velocity;  ///< zero for a wall
 };
 
-/// Returns the velocities after a frictionless central bounce with the given masses (> 0; the second is
-/// ignored for a wall; infinity for a static body, if the other body can move) and restitution in [0, 1].
-/// Momentum is conserved. A `repeated` contact loses no energy (restitution 1), which prevents inelastic
-/// collapse from stopping time (Luding and McNamara's TC model). Bodies of a `jammed` contact separate with
-/// zero speed, whatever the restitution. A mass of 0 is the limit of small masses: that body takes the
-/// whole velocity change, and two such bodies take half of it each. A negative mass counts as 0. Finite
-/// input therefore gives finite velocities. NaN gives velocities that are NaN, which World::set_velocity()
-/// refuses by name.
+/// Returns the velocities after a frictionless central bounce with restitution in [0, 1], and with the masses
+/// of the event (BodyDefinition::mass). Momentum is conserved. A static body, a sleeping one and a wall keep
+/// their velocity and turn the other body, whatever its mass. A body of infinite mass keeps its velocity in
+/// all other contacts, so two of them do not turn each other. A `repeated` contact loses no energy
+/// (restitution 1), which prevents inelastic collapse from stopping time (Luding and McNamara's TC model).
+/// Bodies of a `jammed` contact separate with zero speed, whatever the restitution. NaN gives velocities that
+/// are NaN, which World::set_velocity() refuses by name.
+[[nodiscard]] Bounce bounce(const Event& contact, double restitution);
+
+/// Like the above, with these masses (> 0; the second is ignored for a wall) instead of those of the event. A
+/// static or sleeping body keeps its velocity all the same. A mass of 0 is the limit of small masses: that
+/// body takes the whole velocity change, and two such bodies take half of it each. A negative mass counts as
+/// 0. Finite input therefore gives finite velocities.
 [[nodiscard]] Bounce bounce(const Event& contact, double first_mass, double second_mass, double restitution);
 
 /// Like bounce(), for bodies that settle in a heap. A `repeated` contact loses energy too, but no two
@@ -27,8 +40,13 @@ struct Bounce {
 /// resting_speed contacts per unit of time. To separate resting from flight, set the world's zeno_interval
 /// to the time of such a hop, 2 resting_speed / g, and resting_speed to at least least_resting_speed().
 /// Masses: as for bounce().
+[[nodiscard]] Bounce settle(const Event& contact, double restitution, double resting_speed);
 [[nodiscard]] Bounce settle(const Event& contact, double first_mass, double second_mass, double restitution,
                             double resting_speed);
+
+/// Returns the response, for World::run(), that gives the bodies of the contact these velocities. It leaves
+/// out walls, static bodies and sleeping ones.
+[[nodiscard]] Response response_of(const Event& contact, const Bounce& after);
 
 /// Returns sqrt(3 contact_tolerance acceleration): the speed of a body that falls from the outer edge of
 /// the contact tolerance to half of it inside, where the world rechecks the contact. Slower bodies would

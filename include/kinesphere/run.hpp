@@ -4,8 +4,7 @@
 //   SingleMotionSource source(motion);
 //   const auto respond = [&](const Event& event) -> Response {
 //     if (event.kind != EventKind::contact_begin) return {};
-//     const Bounce after = bounce(event, 1, 1, 0.9);
-//     return {after.first_velocity, after.second_velocity};
+//     return response_of(event, bounce(event, 0.9));
 //   };
 //   const auto sink = [&](const Event& event) { log(event); };
 //   world.run(60.0, source, respond, sink).value();

@@ -155,6 +155,15 @@ class World {
   /// Returns the shape of a static body as the world stores it, or, for any other body, a ball at the
   /// position of its last report.
   Result<Shape> shape_of(BodyId body) const;
+  /// Gives a static body or a zone another shape from the current time on: it grows, shrinks, turns or moves.
+  /// Contacts and sensor overlaps that the new shape certainly ends are reported as ended, with the states
+  /// and the shape from before; those that it may end are decided at once from fresh reports. Those that
+  /// persist cause no event, so a zone that grows around a body inside it reports nothing. Those that the new
+  /// shape creates begin at once. Nothing is swept in between: a body that the shape jumps over is not
+  /// reported. Errors: as add_static(); unsupported for a body that is not static. Cost: O(1 + contacts) here
+  /// (plus a search if allow_overlap is false), and a search and one state for each linked body at the next
+  /// advance.
+  Result<void> set_shape(BodyId body, const Shape& shape);
 
   /// Removes a body. Its contacts end: the next advance reports their ends, with the body's state
   /// extrapolated from its last report (ContactMode::impacts reports no ends). Errors: probe_in_progress.
@@ -171,6 +180,9 @@ class World {
   /// (beyond limits.hpp, or z other than 0 in two dimensions); probe_in_progress. Cost: O(1) here, and a
   /// search at the next advance.
   Result<void> set_velocity(BodyId body, const Vec3& velocity);
+  /// Sets the velocities of all these bodies or, on an error, of none. Errors: as set_velocity(), naming the
+  /// body; out_of_range if the number of velocities differs from the number of bodies.
+  Result<void> set_velocity_all(std::span<const BodyId> bodies, std::span<const Vec3> velocities);
 
   // Further changes. The next advance reports a contact that a change certainly ends as ended, before all
   // other events, with the states from before the change. A contact that persists causes no event. An
@@ -179,10 +191,12 @@ class World {
   // is false, each change also searches here, and refuses what add() refuses. Errors of all:
   // probe_in_progress, and those of add() for the values that they set.
 
-  /// Puts the body into another state from the current time on. In ContactMode::impacts the body's next
-  /// approach to any partner is a new contact, as after set_velocity(). Errors: disabled_body, static_body.
+  /// Puts the body into another state from the current time on. A static body moves by set_shape(). In
+  /// ContactMode::impacts the body's next approach to any partner is a new contact, as after set_velocity().
+  /// Errors: disabled_body, static_body.
   Result<void> teleport(BodyId body, const State& state);
-  /// Sets the radius (length) from the current time on. Errors: static_body.
+  /// Sets the radius (length) from the current time on. Errors: static_body (set_shape() changes a static
+  /// body).
   Result<void> set_radius(BodyId body, double radius);
   /// Sets the limits within which the body moves from the current time on. Errors: static_body.
   Result<void> set_motion_limits(BodyId body, const MotionLimits& limits);
@@ -201,8 +215,8 @@ class World {
   /// former motion limits. A body wakes by
   ///   - an event contact_begin or contact_end in which it takes part;
   ///   - set_velocity, teleport, set_radius and set_motion_limits of the body itself, and wake();
-  ///   - the waking, removal, disabling, teleport or change of radius of a body in contact with it, one
-  ///     whose gap to it is at most the separation distance plus the tolerance. A whole island therefore
+  ///   - the waking, removal, disabling, teleport or change of radius or shape of a body in contact with it,
+  ///     one whose gap to it is at most the separation distance plus the tolerance. A whole island therefore
   ///     wakes together.
   /// ContactMode::impacts has no contact_end: a body that sleeps upon an awake body does not wake when that
   /// body leaves. A call for a sleeping body changes nothing. Errors: disabled_body, static_body.
@@ -241,6 +255,9 @@ class World {
   Result<void> set_sensor_class(BodyId body, SensorClass sensor_class);
   const Sensor& sensor(SensorClass sensor_class) const;
 
+  /// Sets the mass that events have from now on (BodyDefinition::mass). Errors: static_body; not_finite for
+  /// NaN; out_of_range for a negative mass.
+  Result<void> set_mass(BodyId body, double mass);
   Result<void> set_user_data(BodyId body, std::uint64_t data);
   Result<std::uint64_t> user_data(BodyId body) const;
 

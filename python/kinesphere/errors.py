@@ -36,7 +36,7 @@ class BodyError(KinesphereError, LookupError):
 
 
 class StateError(KinesphereError, RuntimeError):
-    """A call that is not possible now, or not of this body: inside a probe, of a disabled or fixed body."""
+    """A call that is not possible now, or not of this body: inside a probe, of a disabled or static body."""
 
 
 _values = {

@@ -25,7 +25,11 @@ class EventKind(_Named):
     wall_end = 4
     """A body that touched a wall is clear of it."""
     zeno_guard = 5
-    """Time was moved on at a contact that is deep in its tolerance already, by its least step."""
+    """Time would have stopped at a contact deep within its tolerance; it goes on by its least step.
+
+    The two may come to overlap by more than the tolerance. If it comes often, a response does not part its
+    bodies, or a body reaches through a wall.
+    """
     sensor_enter = 6
     """The gap of two bodies has come down to a sensor distance."""
     sensor_leave = 7

@@ -33,7 +33,7 @@ std::vector<BodyDefinition> definitions_of(
     const py::object& acceleration_limits, const py::object& planned_accelerations,
     const py::object& position_errors, const py::object& velocity_errors, const py::object& categories,
     const py::object& masks, const py::object& groups, const py::object& solid,
-    const py::object& sensor_classes, const py::object& user_data) {
+    const py::object& sensor_classes, const py::object& user_data, const py::object& masses_of_bodies) {
   const std::string_view call = "add";
   const std::vector<State> states = states_of(positions, velocities, call, handle.is_plane());
   const std::size_t count = states.size();
@@ -79,6 +79,8 @@ std::vector<BodyDefinition> definitions_of(
       });
   set(each_whole_of(user_data, {call, "user_data"}, count),
       [](BodyDefinition& body, std::uint64_t data) { body.user_data = data; });
+  set(each_of(masses_of_bodies, {call, "masses"}, count),
+      [](BodyDefinition& body, double mass) { body.mass = mass; });
   return bodies;
 }
 
@@ -98,14 +100,14 @@ py::object add_bodies(WorldHandle& handle, const py::object& positions, const py
                       const py::object& planned_accelerations, const py::object& position_errors,
                       const py::object& velocity_errors, const py::object& categories,
                       const py::object& masks, const py::object& group, const py::object& solid,
-                      const py::object& sensor_classes, const py::object& user_data) {
+                      const py::object& sensor_classes, const py::object& user_data, const py::object& mass) {
   const auto turn = handle.take("add");
   const bool single = is_vector(positions);
   const auto bodies =
       definitions_of(handle, single ? one_row(positions) : py::reinterpret_borrow<py::object>(positions),
                      single ? one_row(velocities) : py::reinterpret_borrow<py::object>(velocities), radii,
                      acceleration_limits, planned_accelerations, position_errors, velocity_errors, categories,
-                     masks, group, solid, sensor_classes, user_data);
+                     masks, group, solid, sensor_classes, user_data, mass);
   if (single) {
     const BodyId id = handle.world.add(bodies.front()).value();
     end_call(handle);
@@ -154,7 +156,6 @@ py::object add_static(WorldHandle& handle, const py::object& shape, std::uint64_
                        .sensor_class = sensor_class_of(sensor_class, {"add_static", "sensor_class"}),
                        .user_data = user_data})
           .value();
-  handle.fixed.insert(id.pack());
   end_call(handle);
   return object_of(id);
 }
@@ -162,7 +163,6 @@ py::object add_static(WorldHandle& handle, const py::object& shape, std::uint64_
 py::object add_zone(WorldHandle& handle, const py::object& shape, std::uint64_t user_data) {
   const auto turn = handle.take("add_zone");
   const BodyId id = handle.world.add_zone(shape_of(shape, {"add_zone", "shape"}), user_data).value();
-  handle.fixed.insert(id.pack());
   end_call(handle);
   return object_of(id);
 }
@@ -182,7 +182,6 @@ py::object add_mesh(WorldHandle& handle, const py::object& vertices, const py::o
   const auto triangles =
       mesh(places, triples, {category, mask, group_of(group, {"add_mesh", "group"})}).value();
   const std::vector<BodyId> ids = handle.world.add_static_all(triangles).value();
-  for (const BodyId id : ids) handle.fixed.insert(id.pack());
   end_call(handle);
   return array_of(ids);
 }
@@ -220,9 +219,12 @@ std::vector<Vec3> vectors_for(WorldHandle& handle, const py::object& bodies, con
 }
 
 void set_velocity(WorldHandle& handle, const py::object& bodies, const py::object& velocities) {
+  const auto turn = handle.take("set_velocity");
+  const Ids named = ids_of(bodies, {"set_velocity", "bodies"});
   const std::vector<Vec3> each = vectors_for(handle, bodies, velocities, {"set_velocity", "velocities"});
-  change_each(handle, bodies, "set_velocity",
-              [&](BodyId body, std::size_t k) { return handle.world.set_velocity(body, each[k]); });
+  require(named.is_single ? handle.world.set_velocity(named.ids.front(), each.front())
+                          : handle.world.set_velocity_all(named.ids, each));
+  end_call(handle);
 }
 
 /// Reads the states of teleport() and enable().
@@ -242,6 +244,20 @@ void set_radius(WorldHandle& handle, const py::object& bodies, const py::object&
       each_of(radii, {"set_radius", "radii"}, ids_of(bodies, {"set_radius", "bodies"}).ids.size());
   change_each(handle, bodies, "set_radius",
               [&](BodyId body, std::size_t k) { return handle.world.set_radius(body, each[k]); });
+}
+
+void set_shape(WorldHandle& handle, const py::object& body, const py::object& shape) {
+  const auto turn = handle.take("set_shape");
+  require(
+      handle.world.set_shape(id_of(body, {"set_shape", "body"}), shape_of(shape, {"set_shape", "shape"})));
+  end_call(handle);
+}
+
+void set_mass(WorldHandle& handle, const py::object& bodies, const py::object& masses) {
+  const std::vector<double> each =
+      each_of(masses, {"set_mass", "masses"}, ids_of(bodies, {"set_mass", "bodies"}).ids.size());
+  change_each(handle, bodies, "set_mass",
+              [&](BodyId body, std::size_t k) { return handle.world.set_mass(body, each[k]); });
 }
 
 void set_motion_limits(WorldHandle& handle, const py::object& bodies, double acceleration_limit,
@@ -293,7 +309,7 @@ void bind_bodies(WorldClass& world) {
            py::arg("planned_accelerations") = py::none(), py::arg("position_errors") = 0.0,
            py::arg("velocity_errors") = 0.0, py::arg("categories") = 1, py::arg("masks") = all_categories,
            py::arg("group") = 0, py::arg("solid") = true, py::arg("sensor_classes") = 0,
-           py::arg("user_data") = 0,
+           py::arg("user_data") = 0, py::arg("masses") = 1.0,
            R"(Adds bodies at the current time, all of them or, where something is wrong, none.
 
 positions (length): shape (n, 3), or (n, 2) in a world of two dimensions; shape (3,) or (2,) for one body.
@@ -308,6 +324,7 @@ categories, masks (64 bits each), and one group (32 bits): which others they may
 solid: False for what touches nobody and only senses and is sensed.
 sensor_classes (0 to 254).
 user_data (64 bits): kept for you.
+masses (>= 0, or infinite): every event of the body has it, and bounce(), settle() and Bouncing() use it.
 
 Returns the ids: an array of int64, shape (n,), or a BodyId for a single body. Raises InvalidValue that
 names the argument and the body. Cost: O(1) each, and a search when the world goes on.)")
@@ -328,7 +345,7 @@ It may reach out of the box of the world; it is never probed. Where space repeat
 Its events are sensor_enter and sensor_leave at distance 0. Zones are of the sensor class zone_class.)")
       .def("add_mesh", add_mesh, py::arg("vertices"), py::arg("corners"), py::kw_only(),
            py::arg("category") = 1, py::arg("mask") = all_categories, py::arg("group") = 0,
-           R"(Adds a fixed triangle for each row of corners, which are numbers of vertices.
+           R"(Adds a static triangle for each row of corners, which are numbers of vertices.
 
 Shapes: vertices (n, 3), corners (m, 3). Returns their ids, shape (m,).)")
       .def(
@@ -345,9 +362,11 @@ Their contacts end: the end events come next. Ids of removed bodies are stale fo
       .def("set_velocity", set_velocity, py::arg("bodies"), py::arg("velocities"),
            R"(Tells the world that these velocities (length / time) hold from the current time on.
 
-One id and shape (3,), or n ids and shape (n, 3). The probe has to answer accordingly. On an error the
-bodies before the one that it names have been changed; this holds for all calls below that take several
-bodies.)")
+One id and shape (3,), or n ids and shape (n, 3), all of them or on an error none. The probe has to answer
+accordingly.
+
+On an error of a call below that takes several bodies, those before the one that it names have been
+changed.)")
       .def(
           "teleport",
           [](WorldHandle& handle, const py::object& bodies, const py::object& positions,
@@ -358,6 +377,12 @@ bodies.)")
           py::arg("bodies"), py::arg("positions"), py::arg("velocities") = py::none(),
           "These bodies are in other states from now on; shapes as in set_velocity().")
       .def("set_radius", set_radius, py::arg("bodies"), py::arg("radii"))
+      .def("set_shape", set_shape, py::arg("body"), py::arg("shape"),
+           R"(Gives a static body or a zone another shape from now on: it grows, shrinks or moves.
+
+Only true changes are told: who stays inside a zone neither leaves nor enters.)")
+      .def("set_mass", set_mass, py::arg("bodies"), py::arg("masses"),
+           "The masses (>= 0) that events have from now on; see add().")
       .def("set_motion_limits", set_motion_limits, py::arg("bodies"), py::arg("acceleration_limit"),
            py::kw_only(), py::arg("planned_acceleration") = py::make_tuple(0.0, 0.0, 0.0),
            py::arg("position_error") = 0.0, py::arg("velocity_error") = 0.0,
@@ -385,8 +410,8 @@ non-zero group, if it is positive.)")
       .def("set_pair_filter", set_pair_filter, py::arg("function"),
            R"(A function of two ids that says whether these bodies may touch, or None.
 
-It must be symmetric, and its answers must not change but before refresh_filter(). What it raises comes out of the
-call of the world that asked it, and counts as True.)")
+It must be symmetric, and its answers must not change but before refresh_filter(). What it raises comes out of
+the call of the world that asked it, and counts as True.)")
       .def("refresh_filter",
            changing("refresh_filter", [](World& of, BodyId body) { return of.refresh_filter(body); }),
            py::arg("bodies"),
@@ -402,8 +427,8 @@ call of the world that asked it, and counts as True.)")
            py::arg("mask") = all_categories,
            R"(From now on all bodies of this class sense others at these distances (length, each >= 0).
 
-distances: shape (k,), or a number. Each crossing is told by sensor_enter and sensor_leave. The mask says which categories are sensed. Cost:
-O(n).)")
+distances: shape (k,), or a number. Each crossing is told by sensor_enter and sensor_leave. The mask says which
+categories are sensed. Cost: O(n).)")
       .def(
           "set_sensor_class",
           [](WorldHandle& handle, const py::object& bodies, std::uint64_t sensor_class) {

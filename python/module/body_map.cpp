@@ -35,8 +35,8 @@ py::object add_moved(BodyMapHandle& map, WorldHandle& world, const py::object& m
   const auto turn_of_motion = motion.in_use.take_alone("add", "motion");
   const auto turn_of_world = world.take("add");
   const BodyId id = map.map
-                        .add(world.world, *motion.motion, number,
-                             like(radius, category, mask, group, solid, sensor_class, user_data))
+                        ->add(world.world, *motion.motion, number,
+                              like(radius, category, mask, group, solid, sensor_class, user_data))
                         .value();
   keep(map, moving);
   end_call(world);
@@ -56,12 +56,28 @@ py::object add_all_moved(BodyMapHandle& map, WorldHandle& world, const py::objec
   const std::vector<double> each = each_of(radii, {"add_all", "radii"}, count);
   const std::vector<BodyId> ids =
       map.map
-          .add_all(world.world, *motion.motion, each,
-                   like(1.0, category, mask, group, solid, sensor_class, user_data))
+          ->add_all(world.world, *motion.motion, each,
+                    like(1.0, category, mask, group, solid, sensor_class, user_data))
           .value();
   keep(map, moving);
   end_call(world);
   return array_of(ids);
+}
+
+/// Returns a map of the same bodies for copies of its motions. copy.deepcopy() copies each motion once, also
+/// where the copied object refers to it elsewhere.
+std::shared_ptr<BodyMapHandle> deep_copy(BodyMapHandle& map, const py::dict& memo) {
+  const auto turn = map.in_use.take_alone("copy", map_name);
+  const py::object copied = py::module_::import("copy").attr("deepcopy");
+  auto copy = std::make_shared<BodyMapHandle>();
+  std::vector<Motion*> from, to;
+  for (const py::object& motion : map.motions) {
+    copy->motions.push_back(copied(motion, memo));
+    from.push_back(motion.cast<MotionHandle&>().motion.get());
+    to.push_back(copy->motions.back().cast<MotionHandle&>().motion.get());
+  }
+  copy->map = map.map->with_motions(from, to).value();
+  return copy;
 }
 
 /// Changes a body in its motion and in the world.
@@ -69,7 +85,7 @@ template <class Change>
 void change(BodyMapHandle& map, WorldHandle& world, const char* call, const Change& made) {
   const auto turn = map.in_use.take_alone(call, map_name);
   const auto turn_of_world = world.take(call);
-  require(made(map.map, world.world));
+  require(made(*map.map, world.world));
   end_call(world);
 }
 
@@ -82,7 +98,8 @@ void bind_body_map(py::module_& module) {
       R"(Which body of a world is which body of which motion, where several move them or bodies come and go.
 
 It serves wherever a probe or a motion is asked for. It keeps its motions alive. One map may serve clones of
-a world.)")
+a world. copy.deepcopy() of an object that holds the world, the map and the motions copies all of them
+together, for rollback.)")
       .def(py::init([] { return std::make_shared<BodyMapHandle>(); }))
       .def("add", add_moved, py::arg("world"), py::arg("motion"), py::arg("number"), py::arg("radius") = 1.0,
            py::kw_only(), py::arg("category") = 1, py::arg("mask") = all_categories, py::arg("group") = 0,
@@ -123,19 +140,22 @@ a world.)")
           },
           py::arg("world"), py::arg("body"))
       .def(
-          "report_violations",
-          [](BodyMapHandle& map, WorldHandle& world, const HandleOf<FrameMotion>& frames) {
-            change(map, world, "report_violations",
-                   [&](BodyMap& known, World& of) { return known.report_violations(of, frames.get()); });
+          "push",
+          [](BodyMapHandle& map, WorldHandle& world, HandleOf<FrameMotion>& frames,
+             const py::object& positions) {
+            const std::vector<Vec3> each = vectors_of(positions, {"push", "positions"}, true);
+            const auto turn_of_frames = frames.in_use.take_alone("push", "frames");
+            change(map, world, "push",
+                   [&](BodyMap& known, World& of) { return known.push(of, frames.get(), each); });
           },
-          py::arg("world"), py::arg("frames"),
-          "After each FrameMotion.push(): tells the world the velocities of bodies that broke their promise "
-          "in "
-          "that frame.")
+          py::arg("world"), py::arg("frames"), py::arg("positions"),
+          R"(The next frame of a FrameMotion: the position of every body, shape (n, 3) or (n, 2).
+
+The world learns all new velocities, so that no contact is missed; world.time must be frames.latest_time.)")
       .def(
           "find",
           [](const BodyMapHandle& map, const py::object& body) -> py::object {
-            const auto found = map.map.find(id_of(body, {"find", "body"}));
+            const auto found = map.map->find(id_of(body, {"find", "body"}));
             if (!found) return py::none();
             const auto moves_it = [&](const py::object& kept) {
               return kept.cast<MotionHandle&>().motion.get() == found->motion;
@@ -143,7 +163,8 @@ a world.)")
             return py::make_tuple(*std::find_if(map.motions.begin(), map.motions.end(), moves_it),
                                   found->number);
           },
-          py::arg("body"), "The motion and the number there of a body; None for one that is not known.");
+          py::arg("body"), "The motion and the number there of a body; None for one that is not known.")
+      .def("__deepcopy__", deep_copy);
 }
 
 }  // namespace kinesphere::python

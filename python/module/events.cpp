@@ -5,6 +5,8 @@
 #include <limits>
 #include <string>
 
+#include <pybind11/stl.h>
+
 #include "errors.hpp"
 #include "exchange.hpp"
 #include "kinesphere/event_hash.hpp"
@@ -36,6 +38,14 @@ constexpr Field event_fields[] = {
     {"distance", "f8", offsetof(EventRecord, distance)},
     {"first_user_data", "u8", offsetof(EventRecord, first_user_data)},
     {"second_user_data", "u8", offsetof(EventRecord, second_user_data)},
+    {"first_mass", "f8", offsetof(EventRecord, first_mass)},
+    {"second_mass", "f8", offsetof(EventRecord, second_mass)},
+    {"first_is_static", "?", offsetof(EventRecord, first_is_static)},
+    {"first_is_zone", "?", offsetof(EventRecord, first_is_zone)},
+    {"first_is_sleeping", "?", offsetof(EventRecord, first_is_sleeping)},
+    {"second_is_static", "?", offsetof(EventRecord, second_is_static)},
+    {"second_is_zone", "?", offsetof(EventRecord, second_is_zone)},
+    {"second_is_sleeping", "?", offsetof(EventRecord, second_is_sleeping)},
 };
 
 Event event_of(const EventRecord& record) {
@@ -47,6 +57,8 @@ Event event_of(const EventRecord& record) {
           .repeated = record.repeated,
           .jammed = record.jammed,
           .senses = record.senses,
+          .first_traits = {record.first_is_static, record.first_is_zone, record.first_is_sleeping},
+          .second_traits = {record.second_is_static, record.second_is_zone, record.second_is_sleeping},
           .first_state = record.first_state,
           .second_state = record.second_state,
           .point = record.point,
@@ -57,7 +69,9 @@ Event event_of(const EventRecord& record) {
           .velocity_excess = record.velocity_excess,
           .distance = record.distance,
           .first_user_data = record.first_user_data,
-          .second_user_data = record.second_user_data};
+          .second_user_data = record.second_user_data,
+          .first_mass = record.first_mass,
+          .second_mass = record.second_mass};
 }
 
 EventRecord record_at(const std::byte* bytes) {
@@ -112,11 +126,19 @@ EventRecord record_of(const Event& event) {
           event.distance,
           event.first_user_data,
           event.second_user_data,
+          event.first_mass,
+          event.second_mass,
           event.kind,
           event.wall,
           event.senses,
           event.repeated,
-          event.jammed};
+          event.jammed,
+          event.first_traits.is_static,
+          event.first_traits.is_zone,
+          event.first_traits.is_sleeping,
+          event.second_traits.is_static,
+          event.second_traits.is_zone,
+          event.second_traits.is_sleeping};
 }
 
 py::object table_of(std::span<const EventRecord> records) {
@@ -158,14 +180,16 @@ cannot be changed.)")
           "repeated", &Event::repeated,
           "One of the two touched something less than its Zeno interval ago: a response that loses energy "
           "should lose none here.")
-      .def_readonly("jammed", &Event::jammed,
-                    "Each of the two has had 64 contacts at this very instant already.")
+      .def_readonly(
+          "jammed", &Event::jammed,
+          "Each of the two has had 64 contacts at this very instant already, as a ball that is stuck "
+          "between others: a response should make them part, or stop both. bounce() and settle() do.")
       .def_property_readonly(
           "senses", [](const Event& event) { return member("Senses", static_cast<int>(event.senses)); },
           "Of sensor events: which of the two senses the other.")
       .def_property_readonly(
           "first_position", [](const Event& event) { return array_of(event.first_state.position); },
-          "At `time`, shape (3,). Of a fixed body one point of its shape.")
+          "At `time`, shape (3,). Of a static body one point of its shape.")
       .def_property_readonly("first_velocity",
                              [](const Event& event) { return array_of(event.first_state.velocity); })
       .def_property_readonly(
@@ -192,6 +216,34 @@ cannot be changed.)")
                     "Of sensor events: the sensor distance that was crossed (length).")
       .def_readonly("first_user_data", &Event::first_user_data)
       .def_readonly("second_user_data", &Event::second_user_data)
+      .def_readonly("first_mass", &Event::first_mass, "Of add(); infinite for a static body.")
+      .def_readonly("second_mass", &Event::second_mass, "Infinite for a static body and for a wall.")
+      .def_property_readonly(
+          "first_is_static", [](const Event& event) { return event.first_traits.is_static; },
+          "The body never moves (add_static, add_zone).")
+      .def_property_readonly(
+          "first_is_zone", [](const Event& event) { return event.first_traits.is_zone; },
+          "The body is not solid: it touches nobody.")
+      .def_property_readonly(
+          "first_is_sleeping", [](const Event& event) { return event.first_traits.is_sleeping; },
+          "The body sleeps and stays asleep: False for contacts, which wake.")
+      .def_property_readonly("second_is_static",
+                             [](const Event& event) { return event.second_traits.is_static; })
+      .def_property_readonly("second_is_zone", [](const Event& event) { return event.second_traits.is_zone; })
+      .def_property_readonly("second_is_sleeping",
+                             [](const Event& event) { return event.second_traits.is_sleeping; })
+      .def(
+          "partner_of",
+          [](const Event& event, const py::object& body) {
+            return object_of(event.partner_of(id_of(body, {"partner_of", "body"})));
+          },
+          py::arg("body"), "The other body of the pair; None if there is none, or body has no part.")
+      .def(
+          "is_sensed_by",
+          [](const Event& event, const py::object& body) {
+            return event.is_sensed_by(id_of(body, {"is_sensed_by", "body"}));
+          },
+          py::arg("body"), "Of sensor events: whether this body senses the other, which may sense it, too.")
       .def_property_readonly(
           "sensor", [](const Event& event) { return object_of(event.sensor()); },
           "Of sensor events: the body that senses (the first where both do), else None.")
@@ -238,22 +290,26 @@ sensor distance that differs changes it. str(hash) has the 16 digits that the pr
   };
   module.def(
       "bounce",
-      [velocities](const Event& contact, double first_mass, double second_mass, double restitution) {
-        return velocities(contact, bounce(contact, first_mass, second_mass, restitution));
+      [velocities](const Event& contact, std::optional<double> first_mass, std::optional<double> second_mass,
+                   double restitution) {
+        return velocities(contact, bounce(contact, first_mass.value_or(contact.first_mass),
+                                          second_mass.value_or(contact.second_mass), restitution));
       },
-      py::arg("contact"), py::arg("first_mass") = 1.0, py::arg("second_mass") = 1.0,
+      py::arg("contact"), py::arg("first_mass") = py::none(), py::arg("second_mass") = py::none(),
       py::arg("restitution") = 1.0,
       R"(Velocities after a frictionless central bounce: two arrays of shape (3,); at a wall the second is
 None.
 
-Masses are > 0; the second is unused for a wall, and infinite for a fixed body. The restitution lies in [0,
-1]. Momentum is kept; a repeated contact is answered without loss. A NaN gives velocities that the world
-refuses by name.)");
+Masses are > 0, those of the event if not given. A static body keeps its velocity and turns the other one, as a
+wall does; so does a body of infinite mass. The restitution lies in [0, 1]. Momentum is conserved; a repeated
+contact loses no energy. A NaN gives velocities that the world refuses by name.)");
   module.def(
       "settle",
-      [velocities](const Event& contact, double first_mass, double second_mass, double restitution,
-                   double resting_speed) {
-        return velocities(contact, settle(contact, first_mass, second_mass, restitution, resting_speed));
+      [velocities](const Event& contact, std::optional<double> first_mass, std::optional<double> second_mass,
+                   double restitution, double resting_speed) {
+        return velocities(contact,
+                          settle(contact, first_mass.value_or(contact.first_mass),
+                                 second_mass.value_or(contact.second_mass), restitution, resting_speed));
       },
       py::arg("contact"), py::arg("first_mass"), py::arg("second_mass"), py::arg("restitution"),
       py::arg("resting_speed"),

@@ -29,11 +29,19 @@ struct EventRecord {
   double distance;
   std::uint64_t first_user_data;
   std::uint64_t second_user_data;
+  double first_mass;
+  double second_mass;
   EventKind kind;
   Wall wall;
   Senses senses;
   bool repeated;
   bool jammed;
+  bool first_is_static;
+  bool first_is_zone;
+  bool first_is_sleeping;
+  bool second_is_static;
+  bool second_is_zone;
+  bool second_is_sleeping;
 };
 EventRecord record_of(const Event& event);
 

@@ -50,7 +50,6 @@ class Responding {
   Responding(const py::object& given, const WorldHandle& handle, Interruptions& interruptions)
       : interruptions_(interruptions),
         plane_(handle.is_plane()),
-        fixed_(handle.fixed),
         given_(py::reinterpret_borrow<py::object>(given)) {
     if (given.is_none()) return;
     if (py::isinstance<Bouncing>(given)) {
@@ -66,8 +65,7 @@ class Responding {
 
   /// Needs no GIL.
   Response operator()(const Event& event) const {
-    if (bouncing_ != nullptr)
-      return bouncing_->answer(event, [this](BodyId body) { return fixed_.contains(body.pack()); });
+    if (bouncing_ != nullptr) return bouncing_->answer(event);
     if (scene_ != nullptr) {
       check_known(event.first);
       check_known(event.second);
@@ -85,7 +83,6 @@ class Responding {
 
   Interruptions& interruptions_;
   bool plane_;
-  const std::unordered_set<std::uint64_t>& fixed_;
   py::object given_;
   const Bouncing* bouncing_ = nullptr;
   const Scene* scene_ = nullptr;
@@ -174,7 +171,8 @@ it is left early, the world stands at the last event. Each step is an advance().
            py::arg("sink") = py::none(), py::arg("threads") = 1,
            R"(Goes on to time `until` by itself and returns all Events, in order.
 
-motion: a Motion or BodyMap, and then no Python is called for states; a MotionSource; without respond any probe.
+motion: a Motion or BodyMap, and then no Python is called for states; a MotionSource; without respond any
+probe.
 respond: what gives bodies new velocities at an event: a Bouncing, a Scene, or a function of the Event that
 returns None or (first velocity or None, second velocity or None). It must depend on the event alone, and
 may not call the world.

@@ -252,7 +252,7 @@ radii, shape (n,).)")
             const auto turn = handle.take("shape_of");
             return object_of(handle.world.shape_of(id_of(body, {"shape_of", "body"})).value());
           },
-          py::arg("body"), "Of a fixed body; of any other a Ball at its last report.")
+          py::arg("body"), "Of a static body; of any other a Ball at its last report.")
       .def(
           "user_data",
           [](WorldHandle& handle, const py::object& body) {

@@ -13,9 +13,12 @@
 #include "kinesphere/motion/recorded_tracks.hpp"
 #include "kinesphere/motion/steered_motion.hpp"
 #include "kinesphere/motion/velocity_field.hpp"
+#include "world.hpp"
 
 namespace kinesphere::python {
 namespace {
+
+constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 /// Motions have no dimension: arrays with two columns lie in the plane z = 0.
 constexpr bool any_dimension = true;
@@ -186,8 +189,8 @@ py::class_<HandleOf<Kind>, MotionHandle, std::shared_ptr<HandleOf<Kind>>> bind_k
       .def("__deepcopy__", [copy](Handle& handle, const py::object&) { return copy(handle); });
 }
 
-template <class Class>
-void bind_add_with_limit(Class& kind) {
+template <class Class, class Limit = py::arg>
+void bind_add_with_limit(Class& kind, const Limit& limit = Limit("acceleration_limit")) {
   using Handle = typename Class::type;
   kind.def(
       "add",
@@ -201,7 +204,7 @@ void bind_add_with_limit(Class& kind) {
                  acceleration_limit)
             .value();
       },
-      py::arg("t"), py::arg("position"), py::arg("velocity"), py::arg("acceleration_limit"),
+      py::arg("t"), py::arg("position"), py::arg("velocity"), limit,
       "Adds a body that moves on from there at time t, and returns its number.");
 }
 
@@ -344,12 +347,15 @@ the last sample it goes straight on. Bodies can be removed, but not be changed.)
       module, "FrameMotion",
       R"(Bodies of a program that moves them in fixed steps: straight lines between its last two frames.
 
-acceleration_limits (length / time^2, gravity included) is one number, or one of each body: positions of
-successive frames obey |p[k+1] - 2 p[k] + p[k-1]| <= limit * interval^2. position_error (length) is how far
-positions may be off. States can be asked for from previous_time to latest_time.)");
+Velocities are news at every frame: push() informs the world of them, and nothing is promised between frames
+but straight motion. acceleration_limits (length / time^2, gravity included) changes that, with one number, or
+one of each body. While a body keeps its limit, |p[k+1] - 2 p[k] + p[k-1]| <= limit * interval^2, the world
+need not be informed. A limit suits bodies that turn little, far from others; where velocities jump it costs
+10 to 30 times as much. position_error (length) is how far positions may be off. States can be asked for from
+previous_time to latest_time. Entries of removed bodies must be NaN, as in latest().)");
   frames
       .def(py::init([](const py::object& positions, const py::object& velocities, const py::object& limits,
-                       double interval, double position_error, double start_time, bool refuse_violations) {
+                       double interval, double position_error, double start_time) {
              const std::string_view call = "FrameMotion";
              FrameMotionDefinition definition;
              definition.start = vectors_of(positions, {call, "positions"}, any_dimension);
@@ -360,19 +366,33 @@ positions may be off. States can be asked for from previous_time to latest_time.
              definition.interval = interval;
              definition.position_error = position_error;
              definition.start_time = start_time;
-             definition.refuse_violations = refuse_violations;
              return std::make_shared<HandleOf<FrameMotion>>(FrameMotion::create(std::move(definition)));
            }),
-           py::arg("positions"), py::arg("velocities") = py::none(), py::arg("acceleration_limits") = 1.0,
-           py::kw_only(), py::arg("interval") = 1.0 / 60.0, py::arg("position_error") = 0.0,
-           py::arg("start_time") = 0.0, py::arg("refuse_violations") = false)
+           py::arg("positions"), py::arg("velocities") = py::none(),
+           py::arg("acceleration_limits") = no_limit, py::kw_only(), py::arg("interval") = 1.0 / 60.0,
+           py::arg("position_error") = 0.0, py::arg("start_time") = 0.0)
+      .def(
+          "push",
+          [](HandleOf<FrameMotion>& handle, WorldHandle& world, const py::object& positions) {
+            const std::vector<Vec3> next = vectors_of(positions, {"push", "positions"}, any_dimension);
+            const auto turn = handle.in_use.take_alone("push", "frames");
+            const auto turn_of_world = world.take("push");
+            require(handle.get().push(world.world, next));
+            end_call(world);
+          },
+          py::arg("world"), py::arg("positions"),
+          R"(The next frame: the position of every body, shape (n, 3) or (n, 2).
+
+The world, in which ids are the numbers here, learns all new velocities, so that no contact is missed;
+world.time must be latest_time. For other worlds: BodyMap.push().)")
       .def(
           "push",
           [](HandleOf<FrameMotion>& handle, const py::object& positions) {
             const auto turn = handle.in_use.take_alone("push", "frames");
             require(handle.get().push(vectors_of(positions, {"push", "positions"}, any_dimension)));
           },
-          py::arg("positions"), "The next frame: the position of every body, shape (n, 3) or (n, 2).")
+          py::arg("positions"),
+          "The next frame, if no world has to know of a new velocity: all bodies have limits and keep them.")
       .def(
           "latest",
           [](const HandleOf<FrameMotion>& handle) {
@@ -382,7 +402,7 @@ positions may be off. States can be asked for from previous_time to latest_time.
               std::memcpy(array.data<double>(), latest.data(), latest.size() * sizeof(Vec3));
             return array.take();
           },
-          "Where the bodies are at latest_time, changes included: shape (n, 3).")
+          "Where the bodies are at latest_time, changes included: shape (n, 3), NaN for removed ones.")
       .def_property_readonly("previous_time",
                              [](const HandleOf<FrameMotion>& handle) { return handle.get().previous_time(); })
       .def_property_readonly("latest_time",
@@ -399,9 +419,9 @@ positions may be off. States can be asked for from previous_time to latest_time.
                   py::make_tuple(found.body, found.excess, found.acceleration, array_of(found.velocity)));
             return violations;
           },
-          R"(Who broke its promise in the frame that was pushed last: tuples of number, excess (length), the
-acceleration limit that would have allowed it, and velocity.)");
-  bind_add_with_limit(frames);
+          R"(Bodies that violated their limits in the latest frame: tuples of number, excess (length), the
+acceleration limit that would have allowed it, and velocity. The world has been informed of them.)");
+  bind_add_with_limit(frames, py::arg("acceleration_limit") = no_limit);
 }
 
 /// Tries each of these kinds.

@@ -32,7 +32,7 @@ struct HandleOf : MotionHandle {
 
 /// A map with its motions, which live as long as it does.
 struct BodyMapHandle {
-  BodyMap map{};
+  std::unique_ptr<BodyMap> map = std::make_unique<BodyMap>();
   std::vector<py::object> motions{};
   InUse in_use{};
 };

@@ -117,8 +117,13 @@ to n - 1; what a run answers is kept here. mover(ids, t) tells states.)")
 One id and vectors of shape (3,), or n ids and shape (n, 3).)")
       .def("__call__", states_now, py::arg("ids"), py::arg("t"))
       .def("__len__", [](const MoverHandle& handle) { return handle.departures.size(); })
-      .def("__copy__", [](const MoverHandle& handle) {
-        return std::make_shared<MoverHandle>(MoverHandle{handle.function, handle.departures});
+      .def("__copy__",
+           [](const MoverHandle& handle) {
+             return std::make_shared<MoverHandle>(MoverHandle{handle.function, handle.departures});
+           })
+      .def("__deepcopy__", [](const MoverHandle& handle, const py::dict& memo) {
+        const py::object function = py::module_::import("copy").attr("deepcopy")(handle.function, memo);
+        return std::make_shared<MoverHandle>(MoverHandle{function, handle.departures});
       });
 }
 

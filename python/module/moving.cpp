@@ -49,7 +49,7 @@ Asked::Asked(const py::object& given, std::string_view call, bool plane)
     keep_to_itself(handle.in_use, "body map");
     for (const py::object& motion : handle.motions)
       keep_to_itself(motion.cast<MotionHandle&>().in_use, "motion");
-    mover_ = interruptible(handle.map.source(), interruptions_);
+    mover_ = interruptible(handle.map->source(), interruptions_);
   } else if (py::isinstance<MoverHandle>(given)) {
     auto& handle = given.cast<MoverHandle&>();
     keep_to_itself(handle.in_use, "mover");
@@ -76,30 +76,42 @@ void Asked::ask(std::span<const BodyId> ids, double time, std::span<State> state
 Bouncing::Bouncing(const py::object& masses, double restitution, double resting_speed)
     : restitution_(restitution), resting_speed_(resting_speed) {
   const std::string_view call = "Bouncing";
-  const Numbers numbers(masses, {call, "masses"});
-  if (numbers.dimensions() == 0) {
-    common_mass_ = numbers.scalar();
-  } else {
-    if (numbers.dimensions() != 1)
+  if (!masses.is_none()) {
+    const Numbers numbers(masses, {call, "masses"});
+    if (numbers.dimensions() > 1)
       refuse({call, "masses"}, "must have shape (n,)", "has shape " + numbers.shape());
-    masses_ = each_of(masses, {call, "masses"}, numbers.length(0));
+    if (numbers.dimensions() == 0)
+      common_mass_ = numbers.scalar();
+    else
+      masses_ = each_of(masses, {call, "masses"}, numbers.length(0));
   }
   const auto check = [call](bool good, std::string_view name, std::string_view expectation, double found) {
     if (!good) refuse({call, name}, expectation, "is " + py::repr(py::float_(found)).cast<std::string>());
   };
   if (common_mass_) check(*common_mass_ > 0.0, "masses", "must be > 0", *common_mass_);
-  for (const double mass : masses_) check(mass > 0.0, "masses", "must be > 0", mass);
+  for (const double mass : masses_.value_or(std::vector<double>()))
+    check(mass > 0.0, "masses", "must be > 0", mass);
   check(restitution >= 0.0 && restitution <= 1.0, "restitution", "must lie in [0, 1]", restitution);
   check(resting_speed >= 0.0 && std::isfinite(resting_speed), "resting_speed", "must be finite and >= 0",
         resting_speed);
 }
 
-double Bouncing::mass(BodyId body) const {
+Response Bouncing::answer(const Event& event) const {
+  const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
+  if (!begins || event.approach_speed <= 0.0) return {};
+  const double first = event.first_can_move() ? mass(event.first, event.first_mass) : 1.0;
+  const double second = event.second_can_move() ? mass(event.second, event.second_mass) : 1.0;
+  return response_of(event, resting_speed_ > 0.0 ? settle(event, first, second, restitution_, resting_speed_)
+                                                 : bounce(event, first, second, restitution_));
+}
+
+double Bouncing::mass(BodyId body, double own) const {
   if (common_mass_) return *common_mass_;
-  if (body.index < masses_.size()) return masses_[body.index];
+  if (!masses_) return own;
+  if (body.index < masses_->size()) return (*masses_)[body.index];
   throw BadResult({ErrorCode::out_of_range, "masses", body,
                    "run: respond: masses must have one number for each body, but has " +
-                       std::to_string(masses_.size()) + ", and none for body " + to_string(body)});
+                       std::to_string(masses_->size()) + ", and none for body " + to_string(body)});
 }
 
 Response answer_of(const py::object& returned, bool plane) {
@@ -120,12 +132,12 @@ Response answer_of(const py::object& returned, bool plane) {
 void bind_moving(py::module_& module) {
   py::class_<Bouncing>(
       module, "Bouncing",
-      R"(A ready-made response for World.run(): bodies bounce off each other, walls and fixed bodies.
+      R"(A ready-made response for World.run(): bodies bounce off each other, walls and static bodies.
 
-masses (> 0) is one number for all, or an array with one at the index of each body; fixed bodies count as
-infinitely heavy. restitution lies in [0, 1]. With a resting_speed (length / time) bodies come to rest as
-settle() has them.)")
-      .def(py::init<const py::object&, double, double>(), py::arg("masses") = 1.0,
+masses (> 0) is one number for all, or an array with one at the index of each body; without, the bodies have
+the masses of add(). Static bodies count as infinitely heavy. restitution lies in [0, 1]. With a
+resting_speed (length / time) bodies come to rest as settle() has them.)")
+      .def(py::init<const py::object&, double, double>(), py::arg("masses") = py::none(),
            py::arg("restitution") = 1.0, py::arg("resting_speed") = 0.0);
 }
 

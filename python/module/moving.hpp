@@ -51,34 +51,17 @@ class Asked {
 class Bouncing {
  public:
   Bouncing(const py::object& masses, double restitution, double resting_speed);
-  /// `is_fixed`: returns whether a body is static; its mass counts as infinite.
-  template <class IsFixed>
-  Response answer(const Event& event, const IsFixed& is_fixed) const;
+  Response answer(const Event& event) const;
 
  private:
-  double mass(BodyId body) const;
+  /// Returns the given mass of a body, or `own` if none were given.
+  double mass(BodyId body, double own) const;
 
-  std::vector<double> masses_;
+  std::optional<std::vector<double>> masses_;
   std::optional<double> common_mass_;
   double restitution_;
   double resting_speed_;
 };
-
-template <class IsFixed>
-Response Bouncing::answer(const Event& event, const IsFixed& is_fixed) const {
-  const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
-  if (!begins || event.approach_speed <= 0.0) return {};
-  const bool is_pair = event.second != no_body;
-  constexpr double infinite = std::numeric_limits<double>::infinity();
-  const double first = is_fixed(event.first) ? infinite : mass(event.first);
-  const double second = !is_pair ? first : is_fixed(event.second) ? infinite : mass(event.second);
-  const Bounce after = resting_speed_ > 0.0 ? settle(event, first, second, restitution_, resting_speed_)
-                                            : bounce(event, first, second, restitution_);
-  Response answer;
-  if (first < infinite) answer.first_velocity = after.first_velocity;
-  if (is_pair && second < infinite) answer.second_velocity = after.second_velocity;
-  return answer;
-}
 
 /// Converts the result of a Python function for an event: None, or a velocity or None for each of
 /// the two bodies.

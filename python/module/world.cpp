@@ -45,6 +45,9 @@ std::shared_ptr<WorldHandle> create_world(const py::object& box, const py::objec
   definition.box = box_of(box, {"World", "box"});
   definition.periodic = axes_of(periodic);
   definition.dimensions = dimensions;
+  if (dimensions == 2 && definition.periodic.z)
+    refuse({"World", "periodic"}, "must be of x and y in two dimensions, such as \"xy\"",
+           "is " + py::repr(periodic).cast<std::string>());
   definition.contact_tolerance = contact_tolerance;
   if (!separation_distance.is_none()) {
     definition.separation_distance = separation_distance.cast<double>();
@@ -63,7 +66,6 @@ std::shared_ptr<WorldHandle> clone(WorldHandle& handle) {
   const auto turn = handle.take("clone");
   auto copy =
       std::make_shared<WorldHandle>(without_gil(handle, [&] { return handle.world.clone(); }).value());
-  copy->fixed = handle.fixed;
   copy->filter_trouble = handle.filter_trouble;
   copy->undelivered = handle.undelivered;
   return copy;
@@ -133,8 +135,6 @@ std::shared_ptr<WorldHandle> restored(const py::object& snapshot, const py::obje
       std::make_shared<WorldHandle>(World::restore(bytes, pair_filter_of(pair_filter, trouble)).value());
   handle->filter_trouble = trouble;
   end_call(*handle);
-  for (const BodyId body : handle->world.bodies())
-    if (handle->world.body(body).value().is_static) handle->fixed.insert(body.pack());
   return handle;
 }
 
@@ -170,8 +170,9 @@ separation_distance (length, > contact_tolerance; default 4 of it): a contact en
 this.
 contacts: "begin_and_end", or "impacts" for what bounces: a begin for each approach, and no ends.
 allow_overlap: when False, add() refuses a body that certainly overlaps another or a wall.
-zeno_interval (time, >= 0): contacts of a body that follow each other sooner are marked as repeated. Raises
-ValueError (InvalidValue) that names the argument.)")
+zeno_interval (time, >= 0): contacts of a body that follow each other sooner are marked as repeated, and
+bounce() takes no energy from those; otherwise a ball that comes to rest would bounce infinitely often in a
+finite time. Raises ValueError (InvalidValue) that names the argument.)")
       .def_property_readonly(
           "definition",
           reading("definition", [](const World& made) { return arguments_of(made.definition()); }),

@@ -6,7 +6,6 @@
 #include <exception>
 #include <memory>
 #include <string_view>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -29,8 +28,6 @@ struct WorldHandle {
 
   World world;
   InUse in_use{};
-  /// All static bodies ever added, including removed ones.
-  std::unordered_set<std::uint64_t> fixed{};
   /// Events that an interrupted run has delivered.
   std::vector<EventRecord> undelivered{};
   /// Set while there is a pair filter.

@@ -11,7 +11,7 @@ source=$(realpath "$(dirname "${BASH_SOURCE[0]}")/..")
 work=$build/python
 log=$work/log
 # ccache depends on the folder of a compilation; pip's own folders change each time.
-rm -rf "$work/unpacked" "$work/wheel" "$work/venv" && mkdir -p "$work/wheel" "$work/pictures"
+rm -rf "$work/unpacked" "$work/wheel" "$work/venv" "$work"/kinesphere-*.tar.gz && mkdir -p "$work/wheel" "$work/pictures"
 quietly() { "$@" >"$log" 2>&1 || { cat "$log"; exit 1; }; }
 
 # The source distribution has everything that the package is built from.

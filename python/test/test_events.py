@@ -72,3 +72,42 @@ def test_pandas(events: ks.Events) -> None:
 
 def test_tables_are_pickled(events: ks.Events) -> None:
     assert hash_of(pickle.loads(pickle.dumps(events))) == hash_of(events)
+
+
+def test_a_fixed_body_is_infinitely_heavy_for_bounce_and_bouncing() -> None:
+    velocities = []
+    for ready_made in (True, False):
+        motion = ks.Ballistic([[0.0, 0, 0]], [[10.0, 0, 0]])
+        world = ks.World(contacts="impacts")
+        world.add_motion(motion, 1.0)
+        post = world.add_static(ks.Ball((5, 0, 0), 1.0))
+        if ready_made:
+            event = world.run(2.0, motion, ks.Bouncing(restitution=0.7))[0]
+        else:
+            event = next(iter(world.events(2.0, motion)))
+            first, second = ks.bounce(event, restitution=0.7)
+            assert second is not None and not second.any()
+            motion.set_velocity(0, event.time, first)
+            world.set_velocity(0, first)
+        assert event.second_is_static and not event.first_is_static and event.second_mass == np.inf
+        assert event.partner_of(0) == post and event.partner_of(post) == 0 and event.partner_of(7) is None
+        velocities.append(motion.states(2.0)[1][0, 0])
+    assert velocities == [-7.0, -7.0]
+
+
+def test_a_zone_finds_its_events_if_the_visitor_senses_too_and_changes_its_shape() -> None:
+    motion = ks.Ballistic([[0.0, 0, 0]], [[10.0, 0, 0]])
+    world = ks.World()
+    world.set_sensor(1, [0.0])
+    ball = world.add([0.0, 0, 0], [10.0, 0, 0], sensor_classes=1, masses=2.5)
+    zone = world.add_zone(ks.Box((5, -1, -1), (6, 1, 1)))
+    enter = next(iter(world.events(2.0, motion)))
+    assert enter.is_sensed_by(zone) and enter.is_sensed_by(ball) and enter.sensor == ball
+    assert enter.first_mass == 2.5 and enter.second_is_zone
+    world.set_mass(ball, 3.0)
+    world.set_shape(zone, ks.Box((4, -1, -1), (9, 1, 1)))
+    (leave,) = world.events(2.0, motion)
+    assert leave.kind == ks.EventKind.sensor_leave and leave.time == pytest.approx(1.0)
+    assert leave.first_mass == 3.0
+    with pytest.raises(ks.StateError, match="body must be static"):
+        world.set_shape(ball, ks.Ball((0, 0, 0), 1.0))

@@ -103,30 +103,124 @@ def test_a_map_has_several_motions() -> None:
         bodies.set_velocity(world, bullet, (0, 0, 0))
 
 
+class Game:
+    """Steered targets and a bullet in each frame, with what a game keeps beside its world."""
+
+    def __init__(self) -> None:
+        self.world, self.bodies = ks.World(contact_tolerance=1e-4), ks.BodyMap()
+        places = [(3.0 * (k % 8) - 12, 3.0 * (k // 8) - 12, 0) for k in range(64)]
+        self.ships = ks.SteeredMotion(places, acceleration_limits=5.0)
+        self.bullets = ks.Ballistic([])
+        self.ids = self.bodies.add_all(self.world, self.ships, radii=0.6, category=1)
+        self.flying: list[ks.BodyId] = []
+        self.hits = 0
+        self.hash = ks.EventHash()
+
+    def play_frame(self, frame: int, aim: float) -> None:
+        now = self.world.time
+        self.ships.steer(frame % 64, now, (4 * np.sin(frame), 4 * np.cos(frame), 0))
+        number = self.bullets.add(now, (-30, 10 * aim, 0), (300, 0, 0))
+        self.flying.append(self.bodies.add(self.world, self.bullets, number, radius=0.02, category=2, mask=1))
+        if len(self.flying) > 12:
+            self.bodies.remove(self.world, self.flying.pop(0))
+        for event in self.world.events((frame + 1) / 60, self.bodies):
+            self.hash.add(event)
+            if event.kind == EventKind.contact_begin and event.second in self.flying:
+                self.bodies.remove(self.world, event.second)
+                self.flying.remove(event.second)
+                self.hits += 1
+
+
+def test_a_game_goes_back_eight_frames_in_each_frame() -> None:
+    frames, delay = 60, 8
+    in_time = Game()
+    for frame in range(frames):
+        in_time.play_frame(frame, np.sin(0.7 * frame))
+    game = Game()
+    past: list[Game] = []
+    for frame in range(frames + delay):
+        known = frame - delay
+        if known >= 0:
+            game, past = past[0], []
+        for again in range(known if known >= 0 else frame, min(frame + 1, frames)):
+            if again > known:
+                past.append(copy.deepcopy(game))
+            game.play_frame(again, np.sin(0.7 * again) if again <= known else 1.0)
+    assert in_time.hits > 20 and game.hits == in_time.hits
+    assert game.hash == in_time.hash and game.world.save() == in_time.world.save()
+    later = copy.deepcopy(game)
+    assert later.bodies.find(later.ids[3]) == (later.ships, 3), "the map knows the copies of the motions"
+    later.bodies.set_velocity(later.world, later.ids[3], (9, 0, 0))
+    now = game.world.time
+    assert later.ships.states(now)[1][3].tolist() == [9, 0, 0]
+    assert game.ships.states(now)[1][3].tolist() != [9, 0, 0]
+
+
 def test_frames_of_a_game() -> None:
     places = np.array([[0.0, 0, 10], [0.0, 0, 30]])
     speeds, gravity, dt = np.zeros((2, 3)), np.array([0, 0, -10.0]), 1 / 60
-    frames = ks.FrameMotion(places, speeds, 10.2, interval=dt)
-    world = ks.World(contacts="impacts")
-    world.add(**frames.definitions(0.0), radii=0.5)
-    floor = world.add_static(ks.HalfSpace((0, 0, 1), 0))
-    hits = []
-    for _ in range(120):
-        speeds = speeds + gravity * dt
-        frames.push(places + speeds * dt)
-        for event in world.events(frames.latest_time, frames):
-            assert event.second == floor
-            hits.append(event.time)
-            speeds[event.first] = -event.first_velocity
-            frames.set_velocity(event.first, event.time, speeds[event.first])
-            world.set_velocity(event.first, speeds[event.first])
-        places = frames.latest()
-    assert len(hits) == 1 and hits[0] == pytest.approx(np.sqrt(2 * 9.5 / 10), abs=0.02)
-    assert frames.violation_count == 0 and frames.violations() == []
-    frames.push(places + 5)
+    for limits in (np.inf, 10.2):
+        frames = ks.FrameMotion(places, speeds, limits, interval=dt)
+        world, bodies = ks.World(contacts="impacts"), ks.BodyMap()
+        ids = bodies.add_all(world, frames, radii=0.5)
+        floor = world.add_static(ks.HalfSpace((0, 0, 1), 0))
+        at, speed = places, speeds.copy()
+        hits = []
+        for _ in range(120):
+            speed = speed + gravity * dt
+            bodies.push(world, frames, at + speed * dt)
+            for event in world.events(frames.latest_time, bodies):
+                assert event.kind == EventKind.contact_begin and event.second == floor
+                hits.append(event.time)
+                speed[event.first] = -event.first_velocity
+                bodies.set_velocity(world, event.first, speed[event.first])
+            at = frames.latest()
+        assert len(hits) == 1 and hits[0] == pytest.approx(np.sqrt(2 * 9.5 / 10), abs=0.02)
+        assert frames.violation_count == 0 and frames.violations() == []
+    bodies.push(world, frames, at + 5)
     assert [violation[0] for violation in frames.violations()] == [0, 1]
+    assert world.body(ids[0]).velocity == pytest.approx(np.full(3, 5 / dt))
     with pytest.raises(ks.InvalidValue, match="positions"):
-        frames.push(places[:1])
+        bodies.push(world, frames, at[:1])
+
+
+def test_a_jump_of_a_frame_meets_what_is_on_its_way() -> None:
+    places = np.array([[0.0, 0, 0], [-5.0, 0, 0]])
+    frames = ks.FrameMotion(places, interval=1.0)
+    world = ks.World()
+    world.add_motion(frames, radii=1.0)
+    frames.push(world, places)
+    assert len(world.run(1.0, frames)) == 0
+    places[1, 0] = 5.0
+    with pytest.raises(ks.InvalidValue, match=r"body 1 give it a new velocity.*push\(world, positions\)"):
+        frames.push(places)
+    frames.push(world, places)
+    begin = world.advance(2.0, frames)
+    assert begin is not None and begin.kind == EventKind.contact_begin
+    assert begin.time == pytest.approx(1.3, abs=1e-6)
+    with pytest.raises(ks.InvalidValue, match="latest frame"):
+        frames.push(world, places)
+
+
+def test_the_entry_of_a_removed_body_moves_no_other() -> None:
+    frames = ks.FrameMotion([(0, 0, 0), (40, 0, 0)], interval=1.0)
+    world, bodies = ks.World(), ks.BodyMap()
+    ids = bodies.add_all(world, frames)
+    places = frames.latest()
+    bodies.remove(world, ids[1])
+    with pytest.raises(ks.BodyError, match="positions of body 1 must be NaN") as caught:
+        bodies.push(world, frames, places)
+    assert caught.value.code == "stale_body"
+    places[1] = np.nan
+    bodies.push(world, frames, places)
+    assert len(world.run(1.0, bodies)) == 0
+    assert frames.add(1.0, (-40, 0, 0), (0, 0, 0)) == 1
+    spawned = bodies.add(world, frames, 1)
+    with pytest.raises(ks.InvalidValue, match="positions of body 1 must be finite"):
+        bodies.push(world, frames, places)
+    bodies.push(world, frames, frames.latest())
+    assert len(world.run(2.0, bodies)) == 0
+    assert world.body(spawned).position.tolist() == [-40, 0, 0]
 
 
 def test_recorded_tracks() -> None:

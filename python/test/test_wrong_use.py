@@ -1,4 +1,4 @@
-"""Wrong use in the 45 ways of examples/wrong_use.cpp, translated, and those that only Python has.
+"""Wrong use in the 48 ways of examples/wrong_use.cpp, translated, and those that only Python has.
 
 Nothing crashes, nothing is silently wrong: each is answered with an exception that names the call, the
 argument and, where there is one, the body.
@@ -71,6 +71,8 @@ ways: list[Way] = [
     (lambda o: ks.World(dimensions=4), "out_of_range", "dimensions", None),
     (lambda o: ks.World(box=((0, 0, 0), (1, 0, 1))), "out_of_range", "box", None),
     (lambda o: ks.World(periodic="x"), "out_of_range", "periodic", None),
+    (lambda o: ks.World(box=((0, 0, 0), (1, 1, 1e12))), "out_of_range", "contact_tolerance", None),
+    (lambda o: ks.World(box=((0, 0, 0), (9, 9, 9)), periodic=True, dimensions=2), "out_of_range", "periodic", None),
     (lambda o: o.plane.add((0, 0, 1)), "out_of_range", "position", None),
     (lambda o: o.plane.add_zone(ks.Triangle((0, 0, 0), (1, 0, 0), (0, 1, 0))), "unsupported", "shape", None),
     (lambda o: o.w.add_static(ks.Box((1, 1, 1), (0, 2, 2))), "out_of_range", "shape", None),
@@ -93,6 +95,7 @@ ways: list[Way] = [
     (lambda o: o.w.body(o.gone), "stale_body", "body", "2"),
     (lambda o: o.motion.states(0, 9), "unknown_body", "body", "9"),
     (lambda o: o.w.add([(0, 0, 0), (5, 0, 0)], radii=[1, -1]), "out_of_range", "radius", None),
+    (lambda o: ks.BodyMap().set_velocity(o.w, o.a, (0, 0, 0)), "unknown_body", "body", "0"),
     (lambda o: in_another_thread(o), "in_use", "world", None),
 ]  # fmt: skip
 
@@ -136,8 +139,8 @@ def test_a_wrong_way_is_named(number: int) -> None:
     things.w.run(things.w.time + 5.0, things.motion)
 
 
-def test_there_are_45_ways() -> None:
-    assert len(ways) == 45
+def test_there_are_48_ways() -> None:
+    assert len(ways) == 48
 
 
 Answer = Callable[[Ids], Any]
@@ -243,6 +246,7 @@ def test_wrong_kinds_of_things_are_named() -> None:
         (lambda: ks.Bouncing(masses=np.ones((2, 2))), ks.InvalidValue, "masses must have shape"),
         (lambda: things.w.run(20, things.motion, ks.Bouncing(masses=[1.0])), ks.InvalidValue, "masses must have one number for each body"),
         (lambda: ks.World(periodic="w"), ks.InvalidValue, "letters x, y and z"),
+        (lambda: ks.World(box=((0, 0, 0), (9, 9, 9)), periodic="xyz", dimensions=2), ks.InvalidValue, 'such as "xy", but is .xyz.'),
         (lambda: ks.World(periodic=3), TypeError, "periodic"),  # type: ignore[arg-type]
         (lambda: ks.World(contacts="some"), ks.InvalidValue, "begin_and_end"),  # type: ignore[arg-type]
         (lambda: ks.World(separation_distance=nan), ks.InvalidValue, "separation_distance"),

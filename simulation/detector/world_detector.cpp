@@ -62,16 +62,20 @@ class WorldDetector final : public Detector {
       for (std::size_t k = 0; k < ids.size(); ++k) states[k] = motion_.state(numbers_[ids[k].index], time);
     };
     auto event = world_.advance(until, probe);
-    if (event && *event) return std::optional(numbered(**event, [this](BodyId id) { return number_of(id); }));
-    if (event) departed_.clear();
+    if (event && *event) {
+      number_bodies(**event, [this](BodyId id) { return number_of(id); });
+    } else if (event) {
+      departed_.clear();
+    }
     return event;
   }
 
   Result<void> run(double until, Motion& motion, const ResponseFn& respond, const EventFn& sink,
                    Workers& workers) override {
     NumberedMotionSource source(motion, numbers_);
-    const auto with_numbers = [this](const Event& event) {
-      return numbered(event, [this](BodyId id) { return number_of(id); });
+    const auto with_numbers = [this](Event event) {
+      number_bodies(event, [this](BodyId id) { return number_of(id); });
+      return event;
     };
     const auto answer = [&](const Event& event) {
       const Event event_with_numbers = with_numbers(event);

@@ -38,14 +38,16 @@ Result<SimulationResult> replay(std::span<const std::byte> recording) {
   SimulationResult result;
   while (!opened->finished()) {
     const double before = world.time();
-    const auto event = opened->advance();
+    auto event = opened->advance();
     if (!event) return event.error();
     result.body_time += (world.time() - before) * static_cast<double>(world.size());
     // Bodies are added and removed between events only.
-    if (*event)
-      hash.add(numbered(**event, [&](BodyId id) { return numbers.of(id, world); }));
-    else
+    if (*event) {
+      number_bodies(**event, [&](BodyId id) { return numbers.of(id, world); });
+      hash.add(**event);
+    } else {
       numbers.see(world);
+    }
   }
   result.counters = {world.counters()};
   result.simulated_time = world.time() - start;

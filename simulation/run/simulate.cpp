@@ -16,10 +16,10 @@
 namespace kinesphere {
 namespace {
 
-class Simulation {
+class SceneRun {
  public:
-  Simulation(const Scene& scene, Motion& motion, Detector& detector, const SimulationObserver& observer,
-             Workers* workers)
+  SceneRun(const Scene& scene, Motion& motion, Detector& detector, const SimulationObserver& observer,
+           Workers* workers)
       : scene_(scene), motion_(motion), detector_(detector), observer_(observer), workers_(workers) {
     for (std::uint32_t number = 0; number < scene.bodies.size(); ++number) {
       const SceneBody& body = scene.bodies[number];
@@ -176,7 +176,7 @@ Result<SimulationResult> simulate(const Scene& scene, const DetectorMaker& make,
   if (observer.at_start) {
     if (auto started = observer.at_start(**detector); !started) return started.error();
   }
-  auto result = Simulation(scene, *motion, **detector, observer, workers).run();
+  auto result = SceneRun(scene, *motion, **detector, observer, workers).run();
   if (result && observer.at_end) {
     if (auto ended = observer.at_end(**detector); !ended) return ended.error();
   }

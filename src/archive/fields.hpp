@@ -63,9 +63,9 @@ void serialize(Some<Sensor> auto& self, auto& archive) {
 
 void serialize(Some<BodyDefinition> auto& self, auto& archive) {
   auto& [radius, acceleration_limit, planned_acceleration, position_error, velocity_error, position, velocity,
-         filter, solid, sensor_class, user_data] = self;
+         filter, solid, sensor_class, user_data, mass] = self;
   archive(radius, acceleration_limit, planned_acceleration, position_error, velocity_error, position,
-          velocity, filter, solid, sensor_class, user_data);
+          velocity, filter, solid, sensor_class, user_data, mass);
 }
 
 void serialize(Some<MotionLimits> auto& self, auto& archive) {
@@ -98,12 +98,18 @@ void serialize(Some<StaticDefinition> auto& self, auto& archive) {
   archive(shape, filter, solid, sensor_class, user_data);
 }
 
+void serialize(Some<BodyTraits> auto& self, auto& archive) {
+  auto& [is_static, is_zone, is_sleeping] = self;
+  archive(is_static, is_zone, is_sleeping);
+}
+
 void serialize(Some<Event> auto& self, auto& archive) {
-  auto& [kind, time, first, second, wall, repeated, jammed, senses, first_state, second_state, point, normal,
-         gap, approach_speed, position_excess, velocity_excess, distance, first_user_data, second_user_data] =
-      self;
-  archive(kind, time, first, second, wall, repeated, jammed, senses, first_state, second_state, point, normal,
-          gap, approach_speed, position_excess, velocity_excess, distance, first_user_data, second_user_data);
+  auto& [kind, time, first, second, wall, repeated, jammed, senses, first_traits, second_traits, first_state,
+         second_state, point, normal, gap, approach_speed, position_excess, velocity_excess, distance,
+         first_user_data, second_user_data, first_mass, second_mass] = self;
+  archive(kind, time, first, second, wall, repeated, jammed, senses, first_traits, second_traits, first_state,
+          second_state, point, normal, gap, approach_speed, position_excess, velocity_excess, distance,
+          first_user_data, second_user_data, first_mass, second_mass);
 }
 
 void serialize(Some<Axes> auto& self, auto& archive) {

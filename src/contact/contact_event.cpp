@@ -39,12 +39,21 @@ void describe_surface(Event& event, const Sphere& sphere, const Sphere& surface)
   event.point = sphere.state.position - nearest.normal * (sphere.radius + 0.5 * event.gap);
 }
 
+/// Sets what the event says of its first body.
+void describe_first(Event& event, const Sphere& first) {
+  event.first_state = first.state;
+  event.first_traits = first.traits;
+  event.first_user_data = first.user_data;
+  event.first_mass = first.mass;
+}
+
 /// Describes an event between two bodies whose positions are already in the images that meet.
 void describe_as_seen(Event& event, const Sphere& first, const Sphere& second) {
-  event.first_state = first.state;
+  describe_first(event, first);
   event.second_state = second.state;
-  event.first_user_data = first.user_data;
+  event.second_traits = second.traits;
   event.second_user_data = second.user_data;
+  event.second_mass = second.mass;
   if (first.shape || second.shape) {
     describe_surface(event, first.shape ? second : first, first.shape ? first : second);
   } else {
@@ -86,8 +95,8 @@ Event wall_event(EventKind kind, double time, const Sphere& sphere, const Box& b
 
 void describe(Event& event, const Sphere& sphere, const Box& box) {
   const HalfSpace inside = half_space(box, event.wall);
-  event.first_state = sphere.state;
-  event.first_user_data = sphere.user_data;
+  describe_first(event, sphere);
+  event.second_mass = infinity;
   event.normal = -inside.normal;
   const double distance = dot(inside.normal, sphere.state.position) - inside.offset;
   event.gap = distance - sphere.radius;
@@ -116,10 +125,17 @@ double approach_error(const Event& event, const Sphere& first, const Sphere& sec
   return approach_error(event, event.gap + (first.shape ? second : first).radius);
 }
 
+Event woke_event(double time, const Sphere& sphere) {
+  Event event{.kind = EventKind::woke, .time = time, .first = sphere.id};
+  describe_first(event, sphere);
+  event.first_state.velocity = {};
+  event.point = sphere.state.position;
+  return event;
+}
+
 Event violation_event(double time, const Sphere& sphere, const BoundViolation& broken) {
   Event event{.kind = EventKind::bound_violation, .time = time, .first = sphere.id};
-  event.first_state = sphere.state;
-  event.first_user_data = sphere.user_data;
+  describe_first(event, sphere);
   event.point = sphere.state.position;
   event.position_excess = broken.position_excess;
   event.velocity_excess = broken.velocity_excess;

@@ -21,6 +21,8 @@ struct Sphere {
   /// Shape of a static body that is not a ball (then `radius` is ignored), otherwise nullptr.
   const Shape* shape = nullptr;
   std::uint64_t user_data = 0;
+  double mass = 1.0;
+  BodyTraits traits{};
 };
 
 /// Event::first becomes the body with the smaller id, in whichever order the two are passed.
@@ -38,6 +40,8 @@ void describe(Event& event, const Sphere& sphere, const Box& box);
 /// by the caller in positions and velocities: a few units in the last place each.
 double approach_error(const Event& event, double arm);
 double approach_error(const Event& event, const Sphere& first, const Sphere& second);
+/// Returns a woke event. The body stands at the centre of the sphere.
+Event woke_event(double time, const Sphere& sphere);
 /// Returns a bound_violation event. The sphere's state is the violating report.
 Event violation_event(double time, const Sphere& sphere, const BoundViolation& broken);
 

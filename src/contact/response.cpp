@@ -7,15 +7,18 @@ namespace kinesphere {
 namespace {
 
 /// Share of a velocity change that a body takes: the limit of other / (own + other). Two massless bodies take
-/// half each; two bodies of infinite mass take all of it each.
+/// half each, and a body of infinite mass takes nothing.
 double share(double own, double other) {
   own = own < 0.0 ? 0.0 : own;
   other = other < 0.0 ? 0.0 : other;
+  if (std::isinf(own)) return 0.0;
   if (std::isinf(other)) return 1.0;
   if (own == 0.0 && other == 0.0) return 0.5;
   const double mass = own + other;
-  return std::isinf(mass) && std::isfinite(own) ? 0.5 * other / (0.5 * own + 0.5 * other) : other / mass;
+  return std::isinf(mass) ? 0.5 * other / (0.5 * own + 0.5 * other) : other / mass;
 }
+
+bool stays(const BodyTraits& traits) { return traits.is_static || traits.is_sleeping; }
 
 /// Returns the change of relative normal speed: the approach speed plus the rebound speed, which is
 /// `restitution` times the approach speed, or zero if the contact is jammed.
@@ -27,15 +30,26 @@ double both_speeds(const Event& contact, double restitution) {
 Bounce rebound(const Event& contact, double first_mass, double second_mass, double speed) {
   const Vec3 change = contact.normal * speed;
   if (contact.second == no_body) return {contact.first_state.velocity - change, {}};
-  return {contact.first_state.velocity - change * share(first_mass, second_mass),
-          contact.second_state.velocity + change * share(second_mass, first_mass)};
+  const bool first_stays = stays(contact.first_traits);
+  const bool second_stays = stays(contact.second_traits);
+  const double first = first_stays ? 0.0 : second_stays ? 1.0 : share(first_mass, second_mass);
+  const double second = second_stays ? 0.0 : first_stays ? 1.0 : share(second_mass, first_mass);
+  return {contact.first_state.velocity - change * first, contact.second_state.velocity + change * second};
 }
 
 }  // namespace
 
+Bounce bounce(const Event& contact, double restitution) {
+  return bounce(contact, contact.first_mass, contact.second_mass, restitution);
+}
+
 Bounce bounce(const Event& contact, double first_mass, double second_mass, double restitution) {
   return rebound(contact, first_mass, second_mass,
                  both_speeds(contact, contact.repeated ? 1.0 : restitution));
+}
+
+Bounce settle(const Event& contact, double restitution, double resting_speed) {
+  return settle(contact, contact.first_mass, contact.second_mass, restitution, resting_speed);
 }
 
 Bounce settle(const Event& contact, double first_mass, double second_mass, double restitution,
@@ -49,6 +63,14 @@ Bounce settle(const Event& contact, double first_mass, double second_mass, doubl
   const bool overflows = std::isinf(restitution_now) && !contact.jammed;
   return rebound(contact, first_mass, second_mass,
                  overflows ? approach + least : both_speeds(contact, restitution_now));
+}
+
+Response response_of(const Event& contact, const Bounce& after) {
+  Response response;
+  if (!stays(contact.first_traits)) response.first_velocity = after.first_velocity;
+  if (contact.second != no_body && !stays(contact.second_traits))
+    response.second_velocity = after.second_velocity;
+  return response;
 }
 
 double least_resting_speed(double contact_tolerance, double acceleration) {

@@ -30,6 +30,7 @@ struct BodyMessage {
   Body body{};
   PeriodicImage image{};
   Filter filter{};
+  double mass = 1.0;
   ContactCheckpoint contacts{};
   /// Registration in the broad phase and, if registered, the window (`rung`, `end`). `enters`: the receiver
   /// inserts it now, with a new swept sphere. `starts`: it takes part in the bulk window start that is in
@@ -48,10 +49,10 @@ struct BodyMessage {
   Window window() const { return {rung, end}; }
 
   static void serialize(auto& self, auto& archive) {
-    auto& [name, owner, body, image, filter, contacts, is_registered, enters, starts, rung, end, is_stale,
-           due, pending, motion] = self;
-    archive(name, owner, body, image, filter, contacts, is_registered, enters, starts, rung, end, is_stale,
-            due, pending, motion);
+    auto& [name, owner, body, image, filter, mass, contacts, is_registered, enters, starts, rung, end,
+           is_stale, due, pending, motion] = self;
+    archive(name, owner, body, image, filter, mass, contacts, is_registered, enters, starts, rung, end,
+            is_stale, due, pending, motion);
   }
 };
 

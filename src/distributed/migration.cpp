@@ -17,6 +17,7 @@ BodyMessage Migration::pack(std::uint32_t number) const {
   message.body = body;
   message.image = image;
   message.filter = bodies.filters.of(number);
+  message.mass = bodies.masses.of(number);
   message.contacts = ContactCheckpoint::of(rank_.state.contacts, number);
   const BroadPhase& windows = rank_.state.broad_phase;
   message.is_registered = windows.contains(number);
@@ -187,6 +188,7 @@ Result<std::uint32_t> Migration::install(BodyMessage& message) {
   body.revision = new_revision;
   body.shape_number = body.change_number = body.sleep_number = Body::none;
   bodies.filters.keep(number, message.filter);
+  bodies.masses.keep(number, message.mass);
   bodies.set_solid(number, body.solid);
   if (bodies.space().repeats()) bodies.images[number] = message.image;
   if (!known) {

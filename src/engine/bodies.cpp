@@ -26,6 +26,7 @@ std::uint32_t Bodies::describe(std::uint32_t number, const BodyDefinition& defin
   body.sensor_class = definition.sensor_class;
   body.user_data = definition.user_data;
   filters.keep(number, definition.filter);
+  masses.keep(number, definition.mass);
   set_solid(number, definition.solid);
   return number;
 }
@@ -39,6 +40,7 @@ void Bodies::remove(std::uint32_t number) {
   shapes.remove(table_[number]);
   forget_change(number);
   filters.keep(number, {});
+  masses.keep(number, BodyDefinition{}.mass);
   count_images_anew(number);
   table_.give_back(number);
 }
@@ -56,7 +58,8 @@ BodyDefinition Bodies::definition_of(std::uint32_t number) const {
                             .filter = filters.of(number),
                             .solid = body.solid,
                             .sensor_class = body.sensor_class,
-                            .user_data = body.user_data};
+                            .user_data = body.user_data,
+                            .mass = masses.of(number)};
   if (const Change* change = changes.find(body)) {
     definition = with_motion_limits(definition, change->limits);
     definition.velocity = change->velocity.value_or(bound.velocity);

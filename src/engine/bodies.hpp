@@ -1,5 +1,5 @@
 // Bodies holds all bodies of a world: their table, and side tables for changes, sleep records, filters,
-// periodic images, shapes and sensors.
+// masses, periodic images, shapes and sensors.
 //
 // A static body has a shape in a side table and is never probed. A sleeping body has a bound that stands
 // still and is otherwise treated like any other; the motion limits that apply after it wakes are in a side
@@ -16,6 +16,7 @@
 #include "contact/sensor_table.hpp"
 #include "engine/body_table.hpp"
 #include "engine/filters.hpp"
+#include "engine/masses.hpp"
 #include "engine/periodic_image.hpp"
 #include "engine/shapes.hpp"
 #include "engine/side_table.hpp"
@@ -47,6 +48,8 @@ class Bodies {
   std::uint32_t add(const BodyDefinition& definition, std::uint32_t name);
   /// Makes the body static, with this shape.
   void fix(std::uint32_t number, const Shape& shape);
+  /// Gives a static body another shape. Its bound must follow.
+  void reshape(std::uint32_t number, const Shape& shape) { shapes.replace(table_[number], shape); }
   void remove(std::uint32_t number);
 
   /// Returns the definition with the state of the last report and all pending changes.
@@ -91,11 +94,12 @@ class Bodies {
   /// Bodies that are read get ids with tag 0.
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive) {
-    auto& [changes, sleep_records, filters, images, shapes, sensors, definition, space, enclosure, table] =
-        self;
+    auto& [changes, sleep_records, filters, masses, images, shapes, sensors, definition, space, enclosure,
+           table] = self;
     auto& [bodies, live_count, free, tag, names] = table;
     auto& [by_number, pair_filter, any] = filters;
-    archive(bodies, live_count, changes, sleep_records, by_number, images, free, shapes, sensors, any);
+    archive(bodies, live_count, changes, sleep_records, by_number, masses, images, free, shapes, sensors,
+            any);
     if constexpr (!std::is_const_v<Self>) tag = 0;
   }
   /// Returns the name of the part that no sequence of calls could have produced, or nullptr if there is none.
@@ -106,6 +110,7 @@ class Bodies {
   WaitingChanges changes;
   SleepRecords sleep_records;
   Filters filters;
+  Masses masses;
   std::vector<PeriodicImage> images;  ///< by body number; empty unless space is periodic
   Shapes shapes;
   SensorTable sensors;

@@ -81,7 +81,7 @@ const char* Bodies::first_invalid_part(double now, const std::vector<std::uint32
 bool Bodies::bodies_are_valid(double now, const std::vector<std::uint32_t>& dirty) const {
   const std::size_t where_space_repeats = space_.repeats() ? numbers() : 0;
   if (!table_.is_valid() || !changes.is_valid(table_) || !sleep_records.is_valid(table_) ||
-      !filters.is_valid(numbers()) || images.size() != where_space_repeats)
+      !filters.is_valid(numbers()) || !masses.is_valid(numbers()) || images.size() != where_space_repeats)
     return false;
   std::vector<bool> is_listed(numbers(), false);
   for (const std::uint32_t number : dirty) {

@@ -7,6 +7,7 @@
 
 #include "kinesphere/body.hpp"
 #include "kinesphere/bound.hpp"
+#include "kinesphere/event.hpp"
 
 namespace kinesphere {
 
@@ -64,6 +65,10 @@ struct Body {
   }
 };
 static_assert(sizeof(Body) <= 168);
+
+inline BodyTraits traits_of(const Body& body) {
+  return {.is_static = body.is_static(), .is_zone = !body.solid, .is_sleeping = body.is_sleeping()};
+}
 
 /// Changes that the caller made since the body's last report. They take effect with the next report, or when
 /// the body is enabled again.

@@ -43,7 +43,9 @@ Sphere sphere_at(const Bodies& bodies, double now, std::uint32_t number) {
                 bound.radius,
                 {bound.centre_at(now), bound.velocity_at(now)},
                 bodies.shapes.empty() ? nullptr : collision_shape_of(bodies, number).shape,
-                bodies[number].user_data};
+                bodies[number].user_data,
+                bodies.masses.of(number),
+                traits_of(bodies[number])};
   const Space& space = bodies.space();
   if (space.repeats()) sphere.state.position = space.wrapped(sphere.state.position).position;
   return sphere;

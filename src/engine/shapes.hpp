@@ -27,6 +27,8 @@ class Shapes {
       shapes_[body.shape_number] = shape;
     }
   }
+  /// Gives a static body another shape.
+  void replace(const Body& body, const Shape& shape) { shapes_[body.shape_number] = shape; }
   /// Removes the shape of a body that is being removed, if it has one.
   void remove(const Body& body) {
     if (body.is_static()) free_.push_back(body.shape_number);

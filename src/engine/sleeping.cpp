@@ -31,13 +31,8 @@ void Sleeping::resume(std::uint32_t number) {
 void Sleeping::wake_one(std::uint32_t number) {
   resume(number);
   processor_.invalidate(number);
-  const Sphere now = sphere_at(bodies(), processor_.time(), number);
-  processor_.events().queue_first({.kind = EventKind::woke,
-                                   .time = processor_.time(),
-                                   .first = now.id,
-                                   .first_state = {now.state.position, {}},
-                                   .point = now.state.position,
-                                   .first_user_data = now.user_data});
+  processor_.events().queue_first(
+      woke_event(processor_.time(), sphere_at(bodies(), processor_.time(), number)));
 }
 
 void Sleeping::wake(std::uint32_t number) {
@@ -54,8 +49,9 @@ void Sleeping::wake(std::uint32_t number) {
   }
 }
 
-void Sleeping::wake_by(const Event& event) {
+void Sleeping::wake_by(Event& event) {
   if (event.kind != EventKind::contact_begin && event.kind != EventKind::contact_end) return;
+  event.first_traits.is_sleeping = event.second_traits.is_sleeping = false;
   for (const BodyId id : {event.first, event.second})
     if (bodies().table().is_alive(id) && bodies()[id.index].is_sleeping()) wake(id.index);
 }

@@ -31,8 +31,9 @@ class Sleeping {
   /// Wakes the body if it sleeps, and all sleeping bodies connected to it by contacts. Queues an event for
   /// each body that wakes. Cost: one search per body.
   void wake(std::uint32_t number);
-  /// Wakes sleeping bodies of a contact begin or end, as wake() does.
-  void wake_by(const Event& event);
+  /// Wakes sleeping bodies of a contact begin or end, as wake() does; the event then says that they are
+  /// awake.
+  void wake_by(Event& event);
 
  private:
   Bodies& bodies() { return state_.bodies; }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/validation.hpp"
+#include "number/infinity.hpp"
 #include "space/space.hpp"
 
 namespace kinesphere {
@@ -24,7 +25,8 @@ BodyDefinition body_of(const StaticDefinition& definition) {
           .filter = definition.filter,
           .solid = definition.solid,
           .sensor_class = definition.sensor_class,
-          .user_data = definition.user_data};
+          .user_data = definition.user_data,
+          .mass = infinity};
 }
 
 StaticDefinition static_definition(const Bodies& bodies, BodyId id) {

@@ -5,7 +5,7 @@
 
 namespace kinesphere {
 
-/// Returns a body that stands still at one point of the shape, with zero motion limits.
+/// Returns a body of infinite mass that stands still at one point of the shape, with zero motion limits.
 BodyDefinition body_of(const StaticDefinition& definition);
 StaticDefinition static_definition(const Bodies& bodies, BodyId id);
 /// Returns the shape in normal form: the normal of a half-space has length 1 to double precision, a ball is

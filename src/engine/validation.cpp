@@ -1,6 +1,8 @@
 #include "engine/validation.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -67,6 +69,29 @@ void require_state(InputCheck& check, const State& state, const BodyDefinition& 
                   world.allow_overlap ? "must lie in the box" : "must keep the whole sphere in the box",
                   *world.box, state.position);
   }
+}
+
+/// Requires a contact tolerance that doubles can resolve at the corners of the box: coordinate_limit().
+void require_tolerance_for(InputCheck& check, const Box& box, const WorldDefinition& world) {
+  double farthest = 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+    farthest = std::max({farthest, std::abs(box.lower[axis]), std::abs(box.upper[axis])});
+  if (check.error() || farthest <= coordinate_limit(world)) return;
+  const double needed = farthest / limits::largest_length;
+  const std::string wanted = "must be at least " + text_of(needed) + " for a box that reaches to " +
+                             text_of(farthest) + " (2^41 tolerances reach no farther)";
+  check
+      .require(needed > limits::largest_contact_tolerance, ErrorCode::out_of_range, {"contact_tolerance"},
+               wanted, world.contact_tolerance)
+      .within({"box", no_body, "lower"}, box.lower, coordinate_limit(world))
+      .within({"box", no_body, "upper"}, box.upper, coordinate_limit(world));
+}
+
+/// Returns the names of the axes, such as "x and z".
+std::string_view names_of(const Axes& axes) {
+  constexpr std::string_view names[] = {"no axis", "x",       "y",       "x and y",
+                                        "z",       "x and z", "y and z", "x, y and z"};
+  return names[(axes.x ? 1 : 0) + (axes.y ? 2 : 0) + (axes.z ? 4 : 0)];
 }
 
 void require_shape(InputCheck& check, const Ball& ball, const WorldDefinition& world) {
@@ -153,18 +178,15 @@ Result<void> check_world(const WorldDefinition& definition) {
   if (definition.box) {
     Box box = *definition.box;
     if (dimensions == 2) std::tie(box.lower.z, box.upper.z) = std::pair(0.0, coordinate_limit(definition));
-    check.box({"box"}, box)
-        .within({"box", no_body, "lower"}, box.lower, coordinate_limit(definition))
-        .within({"box", no_body, "upper"}, box.upper, coordinate_limit(definition));
+    check.box({"box"}, box);
+    require_tolerance_for(check, box, definition);
   }
-  const std::string_view on = definition.periodic.x   ? "true on x"
-                              : definition.periodic.y ? "true on y"
-                                                      : "true on z";
+  const std::string_view axes = names_of(definition.periodic);
   check
       .require(definition.box || !definition.periodic.any(), ErrorCode::out_of_range, {"periodic"},
-               "must be false on all axes where there is no box", on)
+               "must be no axis where there is no box to give the period", axes)
       .require(dimensions == 3 || !definition.periodic.z, ErrorCode::out_of_range, {"periodic"},
-               "must be false on z in two dimensions", on);
+               "must be x, y or both in two dimensions, where there is no z", axes);
   // The box must be large enough for a body of radius 0.
   if (!check.error()) require_fit(check, "box", {.radius = 0.0}, no_body, definition);
   return check.result();
@@ -176,6 +198,7 @@ Result<void> check_body(const BodyDefinition& body, const WorldDefinition& world
   require_limits(check, motion_limits_of(body), no_body, world);
   require_state(check, {body.position, body.velocity}, body, no_body, world);
   require_fit(check, "radius", body, no_body, world);
+  check.not_negative_or_infinite({"mass"}, body.mass);
   return check.result();
 }
 

@@ -70,18 +70,23 @@ void World::WorldEditor::remove(BodyId id) {
 /// Replaces the bound of the body. Contacts that this certainly ends are ended with the states before the
 /// change.
 void World::WorldEditor::replace(std::uint32_t number, const Bound& bound) {
+  end_contacts_outside(number, {bound});
+  insert_at(number, bound);
+}
+
+/// Ends the contacts and overlaps that the body certainly does not have with another collision shape.
+void World::WorldEditor::end_contacts_outside(std::uint32_t number, const CollisionShape& replacement) {
   const double apart = state_.contacts.rule().separation_distance();
   const auto ends = [&](const Event& end) {
     if (main_.events().pending().contains(end)) return true;
     const std::uint32_t partner = end.first.index == number ? end.second.index : end.first.index;
-    const GapLimits gap = end.wall == Wall::none
-                              ? gap_at(bodies(), time(), collision_shape_of(bodies(), number, bound),
-                                       collision_shape_of(bodies(), partner))
-                              : gap_limits(bound, half_space(*bodies().walls(), end.wall), time());
+    const GapLimits gap =
+        end.wall == Wall::none
+            ? gap_at(bodies(), time(), replacement, collision_shape_of(bodies(), partner))
+            : gap_limits(replacement.bound, half_space(*bodies().walls(), end.wall), time());
     return gap.lower >= end.distance + apart;
   };
   end_contacts(number, ends);
-  insert_at(number, bound);
 }
 
 void World::WorldEditor::teleport(BodyId id, const State& state) {
@@ -98,6 +103,24 @@ void World::WorldEditor::set_radius(BodyId id, double radius) {
   changed.radius = radius;
   if (bodies()[id.index].enabled) replace(id.index, bound_with(bodies(), id.index, changed, time()));
   state_.bodies[id.index].radius = radius;
+}
+
+void World::WorldEditor::set_shape(BodyId id, const Shape& shape) {
+  const std::uint32_t number = id.index;
+  const bool enabled = bodies()[number].enabled;
+  StaticDefinition changed = static_definition(bodies(), id);
+  changed.shape = shape;
+  const BodyDefinition at_rest = body_of(changed);
+  const Bound bound = bound_now(at_rest, time());
+  if (enabled) {
+    sleeping().wake(number);
+    if (bodies().definition().contacts == ContactMode::impacts) state_.contacts.release_all(number);
+    end_contacts_outside(number, collision_shape_of(bound, shape));
+  }
+  state_.bodies[number].radius = at_rest.radius;
+  state_.bodies[number].bound = bound;
+  state_.bodies.reshape(number, shape);
+  if (enabled) insert_at(number, bound);
 }
 
 void World::WorldEditor::set_motion_limits(BodyId id, const MotionLimits& limits) {

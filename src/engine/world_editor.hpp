@@ -40,6 +40,9 @@ class World::WorldEditor {
   void set_solid(BodyId id, bool solid);
   void set_sensor(SensorClass sensor_class, const Sensor& sensor);
   void set_sensor_class(BodyId id, SensorClass sensor_class);
+  /// `shape` is in normal form (normalized()).
+  void set_shape(BodyId id, const Shape& shape);
+  void set_mass(BodyId id, double mass) { state_.bodies.masses.keep(id.index, mass); }
   void set_user_data(BodyId id, std::uint64_t data) { state_.bodies[id.index].user_data = data; }
 
  private:
@@ -49,6 +52,7 @@ class World::WorldEditor {
   void insert_at(std::uint32_t number, const Bound& bound);
   void detach(std::uint32_t number);
   void replace(std::uint32_t number, const Bound& bound);
+  void end_contacts_outside(std::uint32_t number, const CollisionShape& replacement);
   void end_contacts(std::uint32_t number, const std::function<bool(const Event&)>& ends);
   bool may_hold(const Event& event) const;
 

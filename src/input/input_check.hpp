@@ -55,6 +55,11 @@ class InputCheck {
     return finite(subject, value)
         .require(value >= 0, ErrorCode::out_of_range, subject, "must be >= 0", value);
   }
+  /// Requires a number >= 0, which may be infinite.
+  InputCheck& not_negative_or_infinite(const Subject& subject, double value) {
+    return require(!std::isnan(value), ErrorCode::not_finite, subject, "must be a number", value)
+        .require(value >= 0, ErrorCode::out_of_range, subject, "must be >= 0", value);
+  }
   /// Requires a finite vector with each coordinate in [-limit, limit].
   [[gnu::always_inline]] InputCheck& within(const Subject& subject, const Vec3& value, double limit) {
     const double largest = std::max({std::abs(value.x), std::abs(value.y), std::abs(value.z)});

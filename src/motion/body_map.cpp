@@ -1,6 +1,7 @@
 // BodyMap: assigns each body of a world its motion and its number there.
 #include "kinesphere/body_map.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "input/input_check.hpp"
@@ -91,23 +92,40 @@ Result<void> BodyMap::remove(World& world, BodyId body) {
   return world.remove(body);
 }
 
-Result<void> BodyMap::report_violations(World& world, const FrameMotion& frames) const {
-  InputCheck check("BodyMap::report_violations");
-  check.require(world.time() == frames.previous_time(), ErrorCode::out_of_range, {"world"},
-                "must have its time at that of the last frame but one,", frames.previous_time(),
-                world.time());
-  if (check.error()) return check.result();
-  if (frames.violations().empty()) return {};
+Result<void> BodyMap::push(World& world, FrameMotion& frames, std::span<const Vec3> positions) const {
   std::vector<BodyId> ids(frames.size(), no_body);
   for (std::uint32_t index = 0; index < entries_.size(); ++index) {
     const Entry& known = entries_[index];
     if (known.motion == &frames) ids[known.number] = {index, known.generation};
   }
-  for (const FrameViolation& turn : frames.violations()) {
-    if (ids[turn.body] == no_body) continue;
-    if (auto changed = world.set_velocity(ids[turn.body], turn.velocity); !changed) return changed;
+  return frames.push("BodyMap::push", world, ids, positions);
+}
+
+Result<std::unique_ptr<BodyMap>> BodyMap::with_motions(std::span<Motion* const> from,
+                                                       std::span<Motion* const> to) const {
+  InputCheck check("BodyMap::with_motions");
+  check.require(from.size() == to.size(), ErrorCode::out_of_range, {"to"},
+                "must have as many motions as from,", from.size(), to.size());
+  if (check.error()) return *check.error();
+  auto map = std::make_unique<BodyMap>();
+  map->entries_ = entries_;
+  std::size_t k = 0;
+  for (Entry& moved : map->entries_) {
+    if (moved.motion == nullptr) continue;
+    // Bodies of one motion mostly follow each other, so the motion of the last one is tried first.
+    if (k == from.size() || from[k] != moved.motion)
+      k = static_cast<std::size_t>(std::find(from.begin(), from.end(), moved.motion) - from.begin());
+    if (k == from.size()) {
+      const auto index = static_cast<std::uint32_t>(&moved - map->entries_.data());
+      return Error{ErrorCode::out_of_range,
+                   "from",
+                   {index, moved.generation},
+                   "BodyMap::with_motions: from must have every motion of this map, but lacks that of " +
+                       text_of(BodyId{index, moved.generation})};
+    }
+    moved.motion = to[k];
   }
-  return {};
+  return map;
 }
 
 std::optional<MovedBody> BodyMap::find(BodyId body) const {

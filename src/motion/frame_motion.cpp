@@ -1,9 +1,12 @@
 // FrameMotion: interpolation between the last two frames of a game.
 #include "kinesphere/motion/frame_motion.hpp"
 
+#include <cmath>
+#include <string>
 #include <utility>
 
 #include "input/input_check.hpp"
+#include "kinesphere/world.hpp"
 #include "motion/body_bytes.hpp"
 #include "motion/checks.hpp"
 #include "number/infinity.hpp"
@@ -18,14 +21,49 @@ void check_vectors(InputCheck& check, std::string_view argument, std::span<const
   }
 }
 
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr Vec3 no_position{not_a_number, not_a_number, not_a_number};
+
+bool has_nan(const Vec3& vector) {
+  return std::isnan(vector.x) || std::isnan(vector.y) || std::isnan(vector.z);
+}
+
+/// Informs the world of the velocities of those of these bodies that are enabled there.
+Result<void> inform(World& world, std::vector<BodyId> bodies, std::vector<Vec3> velocities) {
+  auto informed = world.set_velocity_all(bodies, velocities);
+  if (informed || informed.error().code != ErrorCode::disabled_body) return informed;
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    const auto view = world.body(bodies[k]);
+    if (view && !view->enabled) continue;
+    bodies[kept] = bodies[k];
+    velocities[kept++] = velocities[k];
+  }
+  return world.set_velocity_all(std::span(bodies).first(kept), std::span(velocities).first(kept));
+}
+
+/// Returns the error of a push without a world for a body with a new velocity.
+Error untold(std::uint32_t body, const std::string& reason) {
+  return {ErrorCode::out_of_range,
+          "positions",
+          {body, 0},
+          "push: positions of body " + std::to_string(body) + " give it a new velocity" + reason +
+              ", which its world has to know: call push(world, positions), or BodyMap::push"};
+}
+
 }  // namespace
 
 Result<FrameMotion> FrameMotion::create(FrameMotionDefinition definition) {
   InputCheck check("FrameMotion::create");
   check.finite({"start_time"}, definition.start_time)
       .positive({"interval"}, definition.interval)
-      .not_negative({"position_error"}, definition.position_error)
-      .acceleration_limits(definition.acceleration_limits, definition.start.size());
+      .not_negative({"position_error"}, definition.position_error);
+  std::vector<double>& limits = definition.acceleration_limits;
+  if (limits.empty()) limits.assign(definition.start.size(), infinity);
+  check.require(limits.size() == definition.start.size(), ErrorCode::out_of_range, {"acceleration_limits"},
+                "must have no entry or one per body,", definition.start.size(), limits.size());
+  for (std::uint32_t body = 0; body < limits.size(); ++body)
+    check.not_negative_or_infinite({"acceleration_limits", {body, 0}}, limits[body]);
   check_vectors(check, "start", definition.start);
   const std::vector<Vec3>& velocities = definition.velocities;
   check.require(velocities.empty() || velocities.size() == definition.start.size(), ErrorCode::out_of_range,
@@ -40,7 +78,6 @@ FrameMotion::FrameMotion(FrameMotionDefinition definition)
     : latest_(std::move(definition.start)),
       pushed_(latest_),
       limits_(std::move(definition.acceleration_limits)),
-      refuse_violations_(definition.refuse_violations),
       interval_(definition.interval),
       position_error_(definition.position_error),
       start_time_(definition.start_time) {
@@ -78,24 +115,38 @@ std::optional<FrameViolation> FrameMotion::violation(std::uint32_t body, const V
                         .velocity = (position - before) / interval_};
 }
 
-Result<void> FrameMotion::push(std::span<const Vec3> positions) {
-  InputCheck check("push");
+Result<FrameMotion::NextFrame> FrameMotion::next_frame(std::string_view call,
+                                                       std::span<const Vec3> positions) const {
+  InputCheck check(call);
   check.require(positions.size() == size(), ErrorCode::out_of_range, {"positions"},
                 "must have one entry per body,", size(), positions.size());
   if (check.error()) return *check.error();
-  std::vector<FrameViolation> violations;
+  NextFrame next;
   for (std::uint32_t body = 0; body < size(); ++body) {
-    if (!contains(body)) continue;
-    if (check.finite({"positions", {body, 0}}, positions[body]).error()) return *check.error();
-    if (const auto found = violation(body, positions[body])) violations.push_back(*found);
+    const Subject subject{"positions", {body, 0}};
+    if (!contains(body)) {
+      check.require(has_nan(positions[body]), ErrorCode::stale_body, subject,
+                    "must be NaN, because the body has been removed", positions[body]);
+      if (check.error()) return *check.error();
+      continue;
+    }
+    if (check.finite(subject, positions[body]).error()) return *check.error();
+    const Vec3 velocity = (positions[body] - latest_[body]) / interval_;
+    if (limits_[body] == infinity) {
+      if (velocity == chords_[body].velocity) continue;
+    } else {
+      const auto found = violation(body, positions[body]);
+      if (!found) continue;
+      next.violations.push_back(*found);
+    }
+    next.bodies.push_back(body);
+    next.velocities.push_back(velocity);
   }
-  if (refuse_violations_ && !violations.empty()) {
-    const FrameViolation& first = violations.front();
-    check.require(false, ErrorCode::out_of_range, {"positions", {first.body, 0}, "acceleration"},
-                  "must be at most its limit", limits_[first.body], first.acceleration);
-    return *check.error();
-  }
-  violations_ = std::move(violations);
+  return next;
+}
+
+void FrameMotion::append(NextFrame next, std::span<const Vec3> positions) {
+  violations_ = std::move(next.violations);
   violation_count_ += violations_.size();
   const double begin = latest_time();
   for (std::uint32_t body = 0; body < size(); ++body) {
@@ -105,6 +156,49 @@ Result<void> FrameMotion::push(std::span<const Vec3> positions) {
     pushed_[body] = positions[body];
   }
   ++latest_frame_;
+  free_.insert(free_.end(), removed_.begin(), removed_.end());
+  removed_.clear();
+}
+
+Result<void> FrameMotion::push(std::string_view call, World& world, std::span<const BodyId> ids,
+                               std::span<const Vec3> positions) {
+  auto next = next_frame(call, positions);
+  if (!next) return next.error();
+  // A world that was moved from has no time to compare; a call for no body returns its error.
+  if (auto idle = world.set_velocity_all({}, {}); !idle) return idle;
+  InputCheck check(call);
+  check.require(world.time() == latest_time(), ErrorCode::out_of_range, {"world"},
+                "must have advanced to the latest frame,", latest_time(), world.time());
+  std::vector<BodyId> informed;
+  informed.reserve(next->bodies.size());
+  for (const std::uint32_t body : next->bodies) {
+    check.require(ids[body] != no_body, ErrorCode::unknown_body, {"frames", {body, 0}},
+                  "must have been added to the world through this map", "not known to it");
+    informed.push_back(ids[body]);
+  }
+  if (check.error()) return *check.error();
+  if (auto told = inform(world, std::move(informed), std::move(next->velocities)); !told) return told;
+  append(std::move(*next), positions);
+  return {};
+}
+
+Result<void> FrameMotion::push(World& world, std::span<const Vec3> positions) {
+  std::vector<BodyId> ids;
+  ids.reserve(size());
+  for (std::uint32_t body = 0; body < size(); ++body) ids.push_back({body, 0});
+  return push("push", world, ids, positions);
+}
+
+Result<void> FrameMotion::push(std::span<const Vec3> positions) {
+  auto next = next_frame("push", positions);
+  if (!next) return next.error();
+  if (!next->violations.empty()) {
+    const FrameViolation& first = next->violations.front();
+    return untold(first.body, " (acceleration " + text_of(first.acceleration) + ", with a limit of " +
+                                  text_of(limits_[first.body]) + ")");
+  }
+  if (!next->bodies.empty()) return untold(next->bodies.front(), "");
+  append(std::move(*next), positions);
   return {};
 }
 
@@ -122,9 +216,10 @@ const FrameMotion::Chord& FrameMotion::known_chord(std::uint32_t body, double t,
 
 BodyDefinition FrameMotion::definition(std::uint32_t body, double t) const {
   const Chord& chord = known_chord(body, t, "FrameMotion::definition", "t");
-  return {.acceleration_limit = limits_[body],
+  const bool limited = limits_[body] < infinity;
+  return {.acceleration_limit = limited ? limits_[body] : 0.0,
           .position_error = position_error_,
-          .velocity_error = limits_[body] * interval_ + 2.0 * position_error_ / interval_,
+          .velocity_error = limited ? limits_[body] * interval_ + 2.0 * position_error_ / interval_ : 0.0,
           .position = chord.segment(t).state_at(t).position,
           .velocity = chord.velocity};
 }
@@ -198,7 +293,8 @@ Result<void> FrameMotion::set_origin(std::uint32_t body, const MotionOrigin& ori
 Result<void> FrameMotion::remove(std::uint32_t body) {
   if (const auto error = wrong_body("FrameMotion::remove", *this, body)) return *error;
   chords_[body].begin = infinity;
-  free_.push_back(body);
+  latest_[body] = no_position;
+  removed_.push_back(body);
   return {};
 }
 
@@ -207,7 +303,8 @@ Result<std::uint32_t> FrameMotion::add(double t, const State& state, double acce
   if (const auto error = wrong_time(call, no_body, "t", t, {previous_time(), latest_time()})) return *error;
   if (const auto error = wrong_state(call, no_body, state)) return *error;
   InputCheck check(call);
-  if (check.not_negative({"acceleration_limit"}, acceleration_limit).error()) return *check.error();
+  if (check.not_negative_or_infinite({"acceleration_limit"}, acceleration_limit).error())
+    return *check.error();
   auto body = static_cast<std::uint32_t>(size());
   if (free_.empty()) {
     chords_.emplace_back();

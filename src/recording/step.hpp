@@ -80,6 +80,8 @@ using SetFilter = With<BodyId, Filter, const Filter&, &World::set_filter>;
 using SetSolid = With<BodyId, bool, bool, &World::set_solid>;
 using SetSensor = With<SensorClass, Sensor, const Sensor&, &World::set_sensor>;
 using SetSensorClass = With<BodyId, SensorClass, SensorClass, &World::set_sensor_class>;
+using SetShape = With<BodyId, Shape, const Shape&, &World::set_shape>;
+using SetMass = With<BodyId, double, double, &World::set_mass>;
 using SetUserData = With<BodyId, std::uint64_t, std::uint64_t, &World::set_user_data>;
 
 /// Change of the pair filter. A predicate is code and cannot be recorded, so this holds only whether there is
@@ -132,11 +134,11 @@ struct End {
 }  // namespace step
 
 /// Any step of a recording. The order of the alternatives is part of the format.
-using Step =
-    std::variant<step::Asking, step::Add, step::AddStatic, step::Remove, step::SetVelocity, step::Teleport,
-                 step::SetRadius, step::SetMotionLimits, step::Disable, step::Enable, step::SetFilter,
-                 step::SetPairFilter, step::RefreshFilter, step::SetSolid, step::SetSensor,
-                 step::SetSensorClass, step::SetUserData, step::End, step::SleepBody, step::Wake>;
+using Step = std::variant<step::Asking, step::Add, step::AddStatic, step::Remove, step::SetVelocity,
+                          step::Teleport, step::SetRadius, step::SetMotionLimits, step::Disable, step::Enable,
+                          step::SetFilter, step::SetPairFilter, step::RefreshFilter, step::SetSolid,
+                          step::SetSensor, step::SetSensorClass, step::SetUserData, step::End,
+                          step::SleepBody, step::Wake, step::SetShape, step::SetMass>;
 
 /// Running hash over the outcomes of all steps so far: events to the last bit, and all work counters.
 class StepHash {

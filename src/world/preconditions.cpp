@@ -92,8 +92,9 @@ Result<void> World::Preconditions::is_enabled(BodyId body, bool enabled) const {
 
 Result<void> World::Preconditions::is_moving(BodyId body) const {
   if (!engine_->bodies().table()[body.index].is_static()) return {};
-  return error_about(ErrorCode::static_body, body,
-                     "body must be one that can move, but " + text_of(body) + " is static");
+  return error_about(
+      ErrorCode::static_body, body,
+      "body must be one that can move, but " + text_of(body) + " is static; set_shape() changes it");
 }
 
 Result<void> World::Preconditions::pair(BodyId first, BodyId second) const {
@@ -162,6 +163,19 @@ Result<StaticDefinition> World::Preconditions::new_static(const StaticDefinition
   accepted.shape = normalized(added.shape, engine_->definition());
   if (auto space = no_static_overlap(accepted, id); !space) return space.error();
   return accepted;
+}
+
+Result<Shape> World::Preconditions::reshaped(BodyId id, const Shape& shape) const {
+  if (auto valid = changeable(id); !valid) return valid.error();
+  const Body& body = engine_->bodies().table()[id.index];
+  if (!body.is_static())
+    return error_about(ErrorCode::unsupported, id,
+                       "body must be static, but " + text_of(id) + " can move; set_radius() changes it");
+  StaticDefinition changed = static_definition(engine_->bodies(), id);
+  changed.shape = shape;
+  const auto accepted = new_static(changed, id);
+  if (!accepted) return accepted.error();
+  return accepted->shape;
 }
 
 }  // namespace kinesphere

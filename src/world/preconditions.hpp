@@ -64,6 +64,9 @@ class World::Preconditions {
   /// The definition is valid for adding a static body. Returns it with its shape normalized, as the world
   /// stores it.
   Result<StaticDefinition> new_static(const StaticDefinition& added, BodyId id) const;
+  /// The world is idle, the body is known and static, and it may have this shape. Returns the shape
+  /// normalized, as the world stores it.
+  Result<Shape> reshaped(BodyId id, const Shape& shape) const;
 
  private:
   const WorldDefinition& definition() const { return engine_->definition(); }

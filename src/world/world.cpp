@@ -139,6 +139,24 @@ Result<void> World::set_velocity(BodyId body, const Vec3& velocity) {
   return valid;
 }
 
+Result<void> World::set_velocity_all(std::span<const BodyId> bodies, std::span<const Vec3> velocities) {
+  constexpr std::string_view call = "set_velocity_all";
+  const Preconditions preconditions(*this, call);
+  if (auto idle = preconditions.idle(); !idle) return idle;
+  InputCheck check(call);
+  check.require(velocities.size() == bodies.size(), ErrorCode::out_of_range, {"velocities"},
+                "must have one entry per body,", bodies.size(), velocities.size());
+  if (check.error()) return *check.error();
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    if (auto valid = preconditions.mobile(bodies[k]); !valid) return valid;
+    if (auto valid = check_velocity(velocities[k], bodies[k], engine_->definition(), call); !valid)
+      return valid;
+  }
+  for (std::size_t k = 0; k < bodies.size(); ++k)
+    changing(step::SetVelocity{bodies[k], velocities[k]}).set_velocity(bodies[k], velocities[k]);
+  return {};
+}
+
 Result<void> World::teleport(BodyId body, const State& state) {
   auto valid = Preconditions(*this, "teleport").mobile(body);
   if (valid) valid = Preconditions(*this, "teleport").moved(body, state);
@@ -248,6 +266,13 @@ Result<void> World::set_sensor_class(BodyId body, SensorClass sensor_class) {
 
 const Sensor& World::sensor(SensorClass sensor_class) const {
   return engine("sensor").bodies().sensors.of(sensor_class);
+}
+
+Result<void> World::set_mass(BodyId body, double mass) {
+  auto valid = Preconditions(*this, "set_mass").moving(body);
+  if (valid) valid = InputCheck("set_mass").not_negative_or_infinite({"mass", body}, mass).result();
+  if (valid) changing(step::SetMass{body, mass}).set_mass(body, mass);
+  return valid;
 }
 
 Result<void> World::set_user_data(BodyId body, std::uint64_t data) {

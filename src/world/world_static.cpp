@@ -52,4 +52,11 @@ Result<Shape> World::shape_of(BodyId body) const {
   return Shape(Ball{known.bound.position, known.radius});
 }
 
+Result<void> World::set_shape(BodyId body, const Shape& shape) {
+  const auto accepted = Preconditions(*this, "set_shape").reshaped(body, shape);
+  if (!accepted) return accepted.error();
+  changing(step::SetShape{body, *accepted}).set_shape(body, *accepted);
+  return {};
+}
+
 }  // namespace kinesphere

@@ -53,6 +53,43 @@ TEST(Bounce, EqualMassesSwapAndAHeavyOneStays) {
   EXPECT_EQ(other_way.second_velocity.x, 4.0);
 }
 
+TEST(Bounce, TakesTheMassesOfTheEventUnlessOthersAreGiven) {
+  Event event = contact_event(EventKind::contact_begin, 0.0, {{0, 0}, 1, {{}, {2, 0, 0}}},
+                              {{1, 0}, 1, {{2, 0, 0}, {}}});
+  event.first_mass = 3.0;
+  const Bounce own = bounce(event, 0.5);
+  const Bounce told = bounce(event, 3.0, 1.0, 0.5);
+  EXPECT_EQ(own.first_velocity, told.first_velocity);
+  EXPECT_EQ(own.second_velocity, told.second_velocity);
+  EXPECT_EQ(settle(event, 0.5, 0.1).first_velocity, settle(event, 3.0, 1.0, 0.5, 0.1).first_velocity);
+  event.first_mass = event.second_mass = infinity;
+  EXPECT_EQ(bounce(event, 1.0).first_velocity, (Vec3{2, 0, 0})) << "two of infinite mass";
+  EXPECT_EQ(bounce(event, 1.0).second_velocity, Vec3());
+}
+
+TEST(Bounce, OffWhatStaysIsThatOfAnInfiniteMassWhateverIsGiven) {
+  for (const bool asleep : {false, true}) {
+    Event event = contact_event(EventKind::contact_begin, 0.0, {{0, 0}, 1, {{}, {2, 0, 0}}},
+                                {{1, 0}, 1, {{2, 0, 0}, {}}});
+    (asleep ? event.second_traits.is_sleeping : event.second_traits.is_static) = true;
+    for (const double mass : {1.0, 0.0, infinity}) {
+      EXPECT_EQ(bounce(event, mass, 1.0, 0.5).first_velocity, (Vec3{-1, 0, 0})) << mass;
+      EXPECT_EQ(bounce(event, mass, 1.0, 0.5).second_velocity, Vec3()) << mass;
+      EXPECT_EQ(settle(event, mass, 1.0, 0.5, 0.1).first_velocity, (Vec3{-1, 0, 0})) << mass;
+    }
+    const Response response = response_of(event, bounce(event, 0.5));
+    EXPECT_EQ(response.first_velocity, (Vec3{-1, 0, 0}));
+    EXPECT_FALSE(response.second_velocity);
+    event.first_traits = event.second_traits;
+    EXPECT_EQ(bounce(event, 1.0).first_velocity, (Vec3{2, 0, 0})) << "both stay";
+  }
+  const Event wall = wall_event(EventKind::wall_begin, 0.0, {{0, 0}, 1, {{9, 5, 5}, {3, 1, -2}}},
+                                Box{{0, 0, 0}, {10, 10, 10}}, Wall::x_upper);
+  EXPECT_EQ(wall.second_mass, infinity);
+  EXPECT_EQ(response_of(wall, bounce(wall, 0.5)).first_velocity, (Vec3{-1.5, 1, -2}));
+  EXPECT_FALSE(response_of(wall, bounce(wall, 0.5)).second_velocity);
+}
+
 TEST(Bounce, OfMassesThatAreNoneIsTheLimitOfSmallOnes) {
   const Event event = contact_event(EventKind::contact_begin, 0.0, {{0, 0}, 1, {{}, {2, 0, 0}}},
                                     {{1, 0}, 1, {{2, 0, 0}, {}}});

@@ -115,9 +115,12 @@ Pair recorded_tracks(Random& random) {
           std::make_unique<RecordedTracks>(RecordedTracks::create({}).value())};
 }
 
+/// Frames with limits that permit all steps of next_frame().
 Pair frames(Random& random) {
+  std::vector<double> limits = random_limits(random);
+  for (double& limit : limits) limit += 1e6;
   FrameMotionDefinition definition{.start = {},
-                                   .acceleration_limits = random_limits(random),
+                                   .acceleration_limits = std::move(limits),
                                    .interval = random.uniform(0.01, 0.5),
                                    .position_error = random.uniform(0, 1e-3),
                                    .start_time = random.uniform(-5, 5)};
@@ -324,7 +327,9 @@ TEST_P(BodyBytes, GoOnElsewhereAsTheyWould) {
       motions.there->remove(traveller.there).value();
       require_same(*all, traveller.here, *motions.here, back, GetParam().changeable, random);
     }
-    RC_ASSERT(motions.here->size() == bodies);
+    // Frames use the number of a removed body only after the next push.
+    const bool has_frames = dynamic_cast<const FrameMotion*>(motions.here.get()) != nullptr;
+    RC_ASSERT(motions.here->size() == bodies + (has_frames ? travellers.size() : 0));
   }));
 }
 

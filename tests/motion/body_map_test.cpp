@@ -124,23 +124,24 @@ TEST(BodyMap, LeavesBodiesToMotionsThatCannotRemoveThem) {
   EXPECT_FALSE(map.find(id));
 }
 
-TEST(BodyMap, TellsViolationsAtTheirFrameOnly) {
-  FrameMotion frames =
-      FrameMotion::create({.start = {{}}, .acceleration_limits = {1.0}, .interval = 1.0}).value();
+TEST(BodyMap, ServesClonesOfItsMotions) {
+  Ballistic balls = rows(2, 0), others = rows(1, 100);
   World world = World::create({}).value();
   BodyMap map;
-  map.add_all(world, frames).value();
-  frames.push(std::vector<Vec3>{{5, 0, 0}}).value();
-  ASSERT_EQ(frames.violations().size(), 1u);
-  map.report_violations(world, frames).value();
-  EXPECT_FALSE(world.advance(frames.latest_time(), map.probe()).value()) << "no violation";
-  frames.push(std::vector<Vec3>{{10, 0, 0}}).value();
-  map.report_violations(world, frames).value();
-  EXPECT_FALSE(world.advance(frames.latest_time(), map.probe()).value());
-  frames.push(std::vector<Vec3>{{10, 0, 0}}).value();
-  EXPECT_FALSE(world.advance(2.5, map.probe()).value());
-  expect_error(map.report_violations(world, frames), ErrorCode::out_of_range, "world",
-               "BodyMap::report_violations: ");
+  const auto ids = map.add_all(world, balls).value();
+  const BodyId other = map.add(world, others, 0).value();
+  Ballistic balls_then = balls, others_then = others;
+  const auto then =
+      map.with_motions(std::vector<Motion*>{&balls, &others}, std::vector<Motion*>{&balls_then, &others_then})
+          .value();
+  map.set_velocity(world, ids[1], {5, 0, 0}).value();
+  EXPECT_EQ(then->find(ids[1])->motion, &balls_then);
+  EXPECT_EQ(then->state(ids[1], 1.0).position, (Vec3{10, 1, 0}));
+  EXPECT_EQ(then->find(other)->motion, &others_then);
+  expect_error(map.with_motions(std::vector<Motion*>{&balls}, std::vector<Motion*>{&balls_then}),
+               ErrorCode::out_of_range, "from", "BodyMap::with_motions: ", other);
+  expect_error(map.with_motions(std::vector<Motion*>{&balls}, {}), ErrorCode::out_of_range, "to",
+               "BodyMap::with_motions: ");
 }
 
 }  // namespace

@@ -77,6 +77,17 @@ TEST(Frames, PromiseTheJumpsOfTheChord) {
   EXPECT_EQ(promise.position_error, 0.125);
 }
 
+TEST(Frames, PromiseStraightMotionWithoutALimit) {
+  FrameMotion frames = FrameMotion::create({.start = {{}}, .interval = 0.5, .position_error = 0.125}).value();
+  EXPECT_EQ(frames.add(0.0, {}).value(), 1u);
+  for (std::uint32_t body = 0; body < 2; ++body) {
+    const BodyDefinition promise = frames.definition(body, 0.0);
+    EXPECT_EQ(promise.acceleration_limit, 0.0);
+    EXPECT_EQ(promise.velocity_error, 0.0);
+    EXPECT_EQ(promise.position_error, 0.125);
+  }
+}
+
 TEST(Frames, RefuseQuestionsThatTheyCannotAnswer) {
   FrameMotion frames =
       FrameMotion::create({.start = {{}, {}}, .acceleration_limits = {8, 8}, .interval = 1.0}).value();
@@ -127,7 +138,7 @@ TEST(Frames, ProbeTellsOfABodyThatTheyDoNotHave) {
 TEST(Frames, TrajectoryAndClone) {
   Random random(1);
   FrameMotion frames =
-      FrameMotion::create({.start = {{1, 2, 3}}, .acceleration_limits = {1.0}, .interval = 0.1}).value();
+      FrameMotion::create({.start = {{1, 2, 3}}, .acceleration_limits = {1e4}, .interval = 0.1}).value();
   for (int k = 0; k < 20; ++k) {
     frames.push(std::vector<Vec3>{random.point_in_ball()}).value();
     const double begin = random.uniform(frames.previous_time(), frames.latest_time());
@@ -170,6 +181,7 @@ Game stepped(Random& random, double limit, double interval, int frames) {
 double expect_promise_across_frames(const Game& game, double limit, double interval, double position_error,
                                     Random& random) {
   FrameMotion frames = FrameMotion::create({.start = {game[0]},
+                                            .velocities = {(game[1] - game[0]) / interval},
                                             .acceleration_limits = {limit},
                                             .interval = interval,
                                             .position_error = position_error})

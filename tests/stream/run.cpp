@@ -25,7 +25,8 @@ bool same_in_all(const Event& a, const Event& b) {
          a.normal == b.normal && a.gap == b.gap && a.approach_speed == b.approach_speed &&
          a.position_excess == b.position_excess && a.velocity_excess == b.velocity_excess &&
          a.distance == b.distance && a.first_user_data == b.first_user_data &&
-         a.second_user_data == b.second_user_data;
+         a.second_user_data == b.second_user_data && a.first_traits == b.first_traits &&
+         a.second_traits == b.second_traits && a.first_mass == b.first_mass && a.second_mass == b.second_mass;
 }
 
 bool is_begin(const Event& event) {

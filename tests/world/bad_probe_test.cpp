@@ -288,6 +288,7 @@ TEST(Probe, MayNotCallTheWorldThatAskedIt) {
     refused(p.world.refresh_filter(a), "refresh_filter");
     refused(p.world.set_user_data(a, 1), "set_user_data");
     refused(p.world.remove_all({}), "remove_all");
+    refused(p.world.set_velocity_all({}, {}), "set_velocity_all");
     refused(p.world.advance(1e9, p.probe()), "advance");
     EXPECT_TRUE(p.world.contains(a));
     EXPECT_EQ(p.world.size(), 2u);

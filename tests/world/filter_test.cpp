@@ -174,6 +174,7 @@ TEST(PairFilter, CannotMakeOtherCallsToTheWorldThatAsksIt) {
         EXPECT_TRUE(refuses(w.add_static({.shape = Ball{{}, 1}})));
         EXPECT_TRUE(refuses(w.remove(first)));
         EXPECT_TRUE(refuses(w.set_velocity(first, {})));
+        EXPECT_TRUE(refuses(w.set_velocity_all({}, {})));
         EXPECT_TRUE(refuses(w.teleport(first, {})));
         EXPECT_TRUE(refuses(w.set_radius(first, 1)));
         EXPECT_TRUE(refuses(w.disable(first)));

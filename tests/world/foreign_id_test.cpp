@@ -22,6 +22,7 @@ TEST(ForeignId, IsRefusedByEveryCallThatTakesOne) {
   refused(world.remove(id), "remove");
   refused(world.remove_all(std::vector{id}), "remove_all: bodies[0]");
   refused(world.set_velocity(id, {1, 0, 0}), "set_velocity");
+  refused(world.set_velocity_all(std::vector{id}, std::vector<Vec3>(1)), "set_velocity_all");
   refused(world.teleport(id, {}), "teleport");
   refused(world.set_radius(id, 2.0), "set_radius");
   refused(world.set_motion_limits(id, {}), "set_motion_limits");

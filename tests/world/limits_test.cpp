@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -78,14 +79,6 @@ std::vector<Limit> limits_of_a_world() {
        create([](WorldDefinition& d, double v) { d.contact_tolerance = v; }), false},
       {"separation_distance", largest_length, "World::create",
        create([](WorldDefinition& d, double v) { d.separation_distance = v; }), false},
-      {"box", largest_length, "World::create", create([](WorldDefinition& d, double v) {
-         d.box = Box{{0, 0, 0}, {1, v, 1}};
-       }),
-       false},
-      {"box", -largest_length, "World::create", create([](WorldDefinition& d, double v) {
-         d.box = Box{{v, 0, 0}, {1, 1, 1}};
-       }),
-       false},
       {"radius", largest_length, "add", add([](BodyDefinition& b, double v) { b.radius = v; }), false},
       {"position", -largest_length, "add", add([](BodyDefinition& b, double v) { b.position.z = v; }), false},
       {"position_error", largest_length, "add",
@@ -182,6 +175,19 @@ TEST(Limits, WhatLiesBeyondALimitIsRefusedByName) {
                    limit.names_the_body ? id : no_body);
       EXPECT_TRUE(is_clean(world));
     }
+}
+
+TEST(Limits, ABoxMayReachAsFarAsItsToleranceAllows) {
+  const auto with = [](double reach) {
+    return World::create({.box = Box{{std::min(reach, 0.0), 0, 0}, {1, std::max(reach, 1.0), 1}}});
+  };
+  for (const double limit : {largest_length, -largest_length}) {
+    EXPECT_TRUE(with(limit));
+    expect_error(with(std::nextafter(limit, 2 * limit)), ErrorCode::out_of_range, "contact_tolerance",
+                 "World::create");
+    expect_error(with(std::copysign(std::numeric_limits<double>::max(), limit)), ErrorCode::out_of_range,
+                 "box", "World::create");
+  }
 }
 
 TEST(Limits, TheLeastToleranceIsTakenAndNoSmallerOne) {

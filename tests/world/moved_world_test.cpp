@@ -29,6 +29,7 @@ TEST(MovedFromWorld, AnswersEveryCallWithAnError) {
   refused(world.remove(id), "remove");
   refused(world.remove_all({}), "remove_all");
   refused(world.set_velocity(id, {}), "set_velocity");
+  refused(world.set_velocity_all({}, {}), "set_velocity_all");
   refused(world.teleport(id, {}), "teleport");
   refused(world.set_radius(id, 1.0), "set_radius");
   refused(world.set_motion_limits(id, {}), "set_motion_limits");

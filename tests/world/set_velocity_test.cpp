@@ -1,6 +1,10 @@
 // Velocity changes: of bodies just probed and not, in contact and free, and of several at one stop.
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <vector>
+
+#include "support/expect_error.hpp"
 #include "support/playground.hpp"
 
 namespace kinesphere::set_velocity_test {
@@ -155,6 +159,45 @@ TEST(VelocityChange, IsExemptFromTheVelocityPromise) {
     p.set_velocity(a, {100.0 * (k % 3), -50.0, 7.0 * k});
   }
   EXPECT_EQ(p.world.counters().count(EventKind::bound_violation), 0u);
+}
+
+TEST(VelocityChange, OfManyIsThatOfEachOrOfNone) {
+  Playground one, all;
+  std::vector<BodyId> bodies, same;
+  std::vector<Vec3> velocities;
+  for (int k = 0; k < 20; ++k) {
+    const BodyDefinition body{.radius = 1, .position = {5.0 * k, 0.1 * k, 0}, .velocity = {0, 0, 0.01 * k}};
+    same.push_back(one.add(body));
+    bodies.push_back(all.add(body));
+    velocities.push_back({3.0 * (k % 4), 0, 1});
+  }
+  one.run(0.5);
+  all.run(0.5);
+  for (const std::size_t k : {0u, 7u, 19u}) {
+    std::vector<BodyId> wrong_bodies = bodies;
+    std::vector<Vec3> wrong = velocities;
+    wrong[k].y = std::numeric_limits<double>::quiet_NaN();
+    expect_error(all.world.set_velocity_all(bodies, wrong), ErrorCode::not_finite, "velocity",
+                 "set_velocity_all: ", bodies[k]);
+    wrong_bodies[k] = {1000, 0};
+    expect_error(all.world.set_velocity_all(wrong_bodies, velocities), ErrorCode::unknown_body, "body",
+                 "set_velocity_all: ", BodyId{1000, 0});
+  }
+  expect_error(all.world.set_velocity_all(bodies, std::vector<Vec3>(3)), ErrorCode::out_of_range,
+               "velocities", "set_velocity_all: ");
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    EXPECT_EQ(all.world.body(bodies[k])->bound.velocity, (Vec3{0, 0, 0.01 * static_cast<double>(k)}));
+    one.set_velocity(same[k], velocities[k]);
+    all.set_velocity_unseen(bodies[k], velocities[k]);
+  }
+  all.world.set_velocity_all(bodies, velocities).value();
+  const auto expected = one.run(20.0), events = all.run(20.0);
+  EXPECT_GT(events.size(), 5u);
+  ASSERT_EQ(events.size(), expected.size());
+  for (std::size_t k = 0; k < events.size(); ++k) {
+    EXPECT_EQ(events[k].time, expected[k].time);
+    EXPECT_NE(events[k].kind, EventKind::bound_violation);
+  }
 }
 
 }  // namespace

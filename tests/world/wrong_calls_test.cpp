@@ -32,7 +32,23 @@ TEST(WrongWorld, IsRefusedByField) {
   refused(ErrorCode::not_finite, "box", {.box = Box{{0, 0, 0}, {1, infinity, 1}}});
   refused(ErrorCode::out_of_range, "box", {.box = Box{{0, 0, 0}, {1, 0, 1}}});
   refused(ErrorCode::out_of_range, "box", {.box = Box{{2, 0, 0}, {1, 1, 1}}});
-  refused(ErrorCode::out_of_range, "box", {.box = Box{{0, 0, 0}, {1, 1, 1e12}}});
+  refused(ErrorCode::out_of_range, "box", {.box = Box{{0, 0, 0}, {1, 1, 1e35}}, .contact_tolerance = 1e20});
+}
+
+TEST(WrongWorld, MessagesSayWhatToWrite) {
+  expect_error(
+      World::create({.box = Box{{0, 0, 0}, {1, 1, 1e12}}}), ErrorCode::out_of_range, "contact_tolerance",
+      "World::create: contact_tolerance must be at least 0.45474735088646412 for a box that reaches to "
+      "1000000000000 (2^41 tolerances reach no farther), but is 9.9999999999999995e-07");
+  EXPECT_TRUE(World::create({.box = Box{{0, 0, 0}, {1, 1, 1e12}}, .contact_tolerance = 0.46}));
+  expect_error(
+      World::create({.box = Box{{0, 0, 0}, {9, 9, 9}}, .periodic = {true, true, true}, .dimensions = 2}),
+      ErrorCode::out_of_range, "periodic",
+      "World::create: periodic must be x, y or both in two dimensions, where there is no z, but is x, y "
+      "and z");
+  expect_error(
+      World::create({.periodic = {true, false, true}}), ErrorCode::out_of_range, "periodic",
+      "World::create: periodic must be no axis where there is no box to give the period, but is x and z");
 }
 
 TEST(WrongBody, IsRefusedByField) {

@@ -1,4 +1,4 @@
-// Wrong use in 45 ways, each in a line or three: every one gets an error that names the cause, and none
+// Wrong use in 48 ways, each in a line or three: every one gets an error that names the cause, and none
 // crashes. Wrong ids, moved worlds and temporary probes in every call have test files of their own.
 #include <gtest/gtest.h>
 
@@ -289,6 +289,25 @@ TEST_F(WrongUse, 45_StoppingARecordingThatWasNeverStarted) {
   expect_error(world.stop_recording(), ErrorCode::not_recording, "world", "stop_recording:");
   world.start_recording().value();
   expect_error(world.start_recording(), ErrorCode::recording, "world", "start_recording:");
+}
+
+// Words of the caller.
+
+TEST_F(WrongUse, 46_AToleranceTooSmallForTheBox) {
+  expect_error(World::create({.box = Box{{0, 0, 0}, {1, 1, 1e12}}}), ErrorCode::out_of_range,
+               "contact_tolerance", "World::create: contact_tolerance must be at least");
+}
+
+TEST_F(WrongUse, 47_APlaneThatRepeatsOnZ) {
+  expect_error(
+      World::create({.box = Box{{0, 0, 0}, {9, 9, 9}}, .periodic = {true, true, true}, .dimensions = 2}),
+      ErrorCode::out_of_range, "periodic", "World::create: periodic must be x, y or both");
+}
+
+TEST_F(WrongUse, 48_AMotionOfAnotherSimulation) {
+  Simulation one(World::create({}).value()), another(World::create({}).value());
+  const auto foreign = another.add_motion(std::move(motion));
+  expect_error(one.add(foreign, 0), ErrorCode::out_of_range, "motion", "Simulation::add: motion");
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 import { Event, eventNumbers, type Vec3 } from "./event.js";
 import type { Module } from "./module.js";
 import { type Motion, vector } from "./motion.js";
+import { checkKeys, type Keys } from "./options.js";
 import { Scene } from "./scene.js";
 
 /**
@@ -20,8 +21,8 @@ export interface Answer {
 /** Precondition: equal events get equal answers. */
 export type RespondFunction = (event: Event) => Answer | undefined;
 /**
- * Bodies bounce off each other and the walls. Masses are by index, by default 1, infinite for static bodies; a body
- * that the motion does not move is static.
+ * Bodies bounce off each other, static bodies and the walls. Masses are by index, by default those of the bodies; static
+ * bodies are infinitely heavy.
  */
 export interface Bounces {
   masses?: ArrayLike<number>;
@@ -37,6 +38,10 @@ export interface RunOptions {
   respond?: RespondFunction | Bounces | Scene;
 }
 
+export const runKeys: Keys<RunOptions> = { motion: true, respond: true };
+const bounceKeys: Keys<Bounces> = { masses: true, restitution: true, restingSpeed: true };
+const answerKeys: Keys<Answer> = { first: true, second: true };
+
 const respondings = { nothing: 0, bounces: 1, asksJavaScript: 2, asInScene: 3 } as const;
 
 /** Returns how to respond, for the module: a number, masses and so on, and a scene; and the function to call. */
@@ -44,6 +49,7 @@ export function responded(respond: RunOptions["respond"]): [number, Bounces, num
   if (respond === undefined) return [respondings.nothing, {}, 0, null];
   if (respond instanceof Scene) return [respondings.asInScene, {}, respond.address, null];
   if (typeof respond === "function") return [respondings.asksJavaScript, {}, 0, respond];
+  checkKeys(respond, bounceKeys, "respond", "run");
   return [respondings.bounces, respond, 0, null];
 }
 
@@ -58,6 +64,7 @@ export function asking(module: Module, probe: ProbeFunction | null, respond: Res
     },
     respond(event: number, velocities: number): void {
       const answer = respond!(new Event(module.numbersAt(event, eventNumbers).slice()));
+      if (answer !== undefined) checkKeys(answer, answerKeys, "answer", "respond");
       const numbers = new Float64Array(8);
       for (const [velocity, at] of [[answer?.first, 0], [answer?.second, 4]] as const) {
         if (velocity === undefined) continue;

@@ -1,7 +1,8 @@
 // Definitions of bodies, and their tables of numbers for the module.
-import type { Box } from "./definition.js";
+import { type Box, boxKeys } from "./definition.js";
 import type { Vec3 } from "./event.js";
 import { type PerBody, type States, vector } from "./motion.js";
+import { checkKeys, type Keys } from "./options.js";
 
 export interface MotionLimits {
   /** >= 0 (length / time^2): the largest deviation from the planned acceleration. */
@@ -22,6 +23,8 @@ export interface BodyOptions extends MotionLimits {
   sensorClass?: number;
   /** A whole number of the caller's, up to 2^53. */
   userData?: number;
+  /** >= 0, or infinite; by default 1: every event of the body has it, and `bounce` and `run` use it. */
+  mass?: number;
 }
 
 export interface BodyDefinition extends BodyOptions {
@@ -31,10 +34,11 @@ export interface BodyDefinition extends BodyOptions {
   radius?: number;
 }
 
-export interface BodyBatch extends States, Omit<BodyOptions, "accelerationLimit" | "userData"> {
+export interface BodyBatch extends States, Omit<BodyOptions, "accelerationLimit" | "userData" | "mass"> {
   radii?: PerBody;
   accelerationLimits?: PerBody;
   userData?: PerBody;
+  masses?: PerBody;
 }
 
 export type Shape =
@@ -43,6 +47,30 @@ export type Shape =
   | { halfSpace: { normal: Vec3; offset: number } }
   | { box: Box }
   | { triangle: readonly [Vec3, Vec3, Vec3] };
+
+export const limitKeys: Keys<MotionLimits> = {
+  accelerationLimit: true, plannedAcceleration: true, positionError: true, velocityError: true,
+};
+/** Keys of the options beside a motion, which gives the limits. */
+export const movedKeys: Keys<Omit<BodyOptions, keyof MotionLimits>> = {
+  filter: true, solid: true, sensorClass: true, userData: true, mass: true,
+};
+export const bodyKeys: Keys<BodyDefinition> = { ...limitKeys, ...movedKeys, position: true, velocity: true, radius: true };
+const { accelerationLimit: _, ...commonLimitKeys } = limitKeys;
+const { mass: __, ...commonKeys } = movedKeys;
+export const batchKeys: Keys<BodyBatch> = {
+  ...commonLimitKeys, ...commonKeys, positions: true, velocities: true, radii: true, accelerationLimits: true,
+  masses: true,
+};
+export interface StaticOptions {
+  solid?: boolean;
+  sensorClass?: number;
+  userData?: number;
+}
+export const staticKeys: Keys<StaticOptions> = { solid: true, sensorClass: true, userData: true };
+const filterKeys: Keys<NonNullable<BodyOptions["filter"]>> = { category: true, mask: true, group: true };
+const ballKeys: Keys<{ centre: Vec3; radius: number }> = { centre: true, radius: true };
+const halfSpaceKeys: Keys<{ normal: Vec3; offset: number }> = { normal: true, offset: true };
 
 /** Size of the table that body_at() in browser/module/world.cpp reads. */
 export const bodyNumbers = 20;
@@ -55,6 +83,7 @@ export function putBody(numbers: Float64Array, at: number, body: BodyDefinition,
 }
 
 export function putOptions(numbers: Float64Array, at: number, body: BodyOptions, call: string): void {
+  if (body.filter !== undefined) checkKeys(body.filter, filterKeys, "filter", call);
   numbers[at + 7] = body.accelerationLimit ?? 0;
   numbers.set(vector(body.plannedAcceleration ?? [0, 0, 0], "plannedAcceleration", call), at + 8);
   numbers[at + 11] = body.positionError ?? 0;
@@ -69,6 +98,7 @@ export function putOptions(numbers: Float64Array, at: number, body: BodyOptions,
     throw new RangeError(`${call}: filter.group must be a whole number of 32 bits, but is ${group}`);
   numbers[at + 17] = group;
   numbers[at + 18] = whole(body.userData ?? 0, 2 ** 53, "userData", call);
+  numbers[at + 19] = body.mass ?? 1;
 }
 
 export function whole(value: number, most: number, what: string, call: string): number {
@@ -79,6 +109,9 @@ export function whole(value: number, most: number, what: string, call: string): 
 
 export function shapeNumbers(shape: Shape, call: string): [kind: number, numbers: number[]] {
   const of = (values: Vec3, what: string) => vector(values, what, call);
+  if ("ball" in shape) checkKeys(shape.ball, ballKeys, "ball", call);
+  if ("halfSpace" in shape) checkKeys(shape.halfSpace, halfSpaceKeys, "halfSpace", call);
+  if ("box" in shape) checkKeys(shape.box, boxKeys, "box", call);
   if ("ball" in shape) return [0, [...of(shape.ball.centre, "centre"), shape.ball.radius]];
   if ("halfSpace" in shape) return [1, [...of(shape.halfSpace.normal, "normal"), shape.halfSpace.offset]];
   if ("box" in shape) return [2, [...of(shape.box.lower, "lower"), ...of(shape.box.upper, "upper")]];

@@ -2,6 +2,7 @@
 import type { Vec3 } from "./event.js";
 import type { Module } from "./module.js";
 import { vector } from "./motion.js";
+import { checkKeys, type Keys } from "./options.js";
 
 export interface Box {
   lower: Vec3;
@@ -23,7 +24,7 @@ export interface WorldDefinition {
   contacts?: "begin_and_end" | "impacts";
   /** If false, bodies that certainly overlap are refused. */
   allowOverlap?: boolean;
-  /** >= 0 (time). */
+  /** >= 0 (time): contacts of a body that follow each other sooner are `repeated`. */
   zenoInterval?: number;
   startTime?: number;
 }
@@ -31,9 +32,19 @@ export interface WorldDefinition {
 /** A definition with all defaults filled in. */
 export type Definition = Required<Omit<WorldDefinition, "box">> & Pick<WorldDefinition, "box">;
 
+const definitionKeys: Keys<WorldDefinition> = {
+  box: true, periodic: true, dimensions: true, contactTolerance: true, separationDistance: true, contacts: true,
+  allowOverlap: true, zenoInterval: true, startTime: true,
+};
+const periodicKeys: Keys<NonNullable<WorldDefinition["periodic"]>> = { x: true, y: true, z: true };
+export const boxKeys: Keys<Box> = { lower: true, upper: true };
+
 /** Returns numbers in the order of definition_at() in browser/module/world.cpp. */
 export function definitionNumbers(definition: WorldDefinition): number[] {
+  checkKeys(definition, definitionKeys, "definition", "World");
   const { box, periodic } = definition;
+  if (box !== undefined) checkKeys(box, boxKeys, "box", "World");
+  if (periodic !== undefined) checkKeys(periodic, periodicKeys, "periodic", "World");
   const corners = box === undefined
     ? [0, 0, 0, 0, 0, 0]
     : [...vector(box.lower, "box.lower", "World"), ...vector(box.upper, "box.upper", "World")];

@@ -27,8 +27,21 @@ export function wallOf(number: number): Wall | null {
 
 const senses = ["neither", "first", "second", "both"] as const;
 
+/** Properties of one body of an event. */
+export interface BodyTraits {
+  /** It never moves: `setVelocity` refuses it. */
+  isStatic: boolean;
+  /** It is not solid: it touches no other body. */
+  isZone: boolean;
+  /** It sleeps and stays asleep: false for contacts, which wake their bodies. */
+  isSleeping: boolean;
+}
+function traitsOf(bits: number): BodyTraits {
+  return { isStatic: (bits & 1) !== 0, isZone: (bits & 2) !== 0, isSleeping: (bits & 4) !== 0 };
+}
+
 /** Size of an event in numbers; see `put` in browser/module/exchange.cpp. */
-export const eventNumbers = 33;
+export const eventNumbers = 37;
 
 /** An event. It reads from numbers that never change. */
 export class Event {
@@ -42,9 +55,9 @@ export class Event {
   /** The other body; null for walls, violations and bodies that wake. */
   get second(): BodyId | null { return this.numbers[3]! < 0 ? null : this.numbers[3]!; }
   get wall(): Wall | null { return wallOf(this.numbers[4]!); }
-  /** One of the two touched another body less than the Zeno interval ago. */
+  /** One of the two touched another body less than the Zeno interval ago. A response should take no energy here. */
   get repeated(): boolean { return this.numbers[5] === 1; }
-  /** Each of the two has had 64 contacts at this instant. */
+  /** Each of the two has had 64 contacts at this instant, as if stuck: a response should part them, or stop both. */
   get jammed(): boolean { return this.numbers[6] === 1; }
   /** For sensor events: the body or bodies with the sensor. */
   get senses(): (typeof senses)[number] { return senses[this.numbers[7]!]!; }
@@ -66,6 +79,24 @@ export class Event {
   /** The userData of the bodies. Exact up to 2^53. */
   get firstUserData(): number { return this.numbers[31]!; }
   get secondUserData(): number { return this.numbers[32]!; }
+
+  /** The masses of the bodies; infinite for a static body and a wall. */
+  get firstMass(): number { return this.numbers[33]!; }
+  get secondMass(): number { return this.numbers[34]!; }
+  get firstTraits(): BodyTraits { return traitsOf(this.numbers[35]!); }
+  /** All false for a wall. */
+  get secondTraits(): BodyTraits { return traitsOf(this.numbers[36]!); }
+
+  /** Returns the other body of the pair; null if there is none, or `body` has no part in the event. */
+  partnerOf(body: BodyId): BodyId | null {
+    return body === this.first ? this.second : body === this.second ? this.first : null;
+  }
+  /** For sensor events: true if this body senses the other, which may sense it, too. */
+  isSensedBy(body: BodyId): boolean {
+    const { senses } = this;
+    return (body === this.first && (senses === "first" || senses === "both")) ||
+           (body === this.second && (senses === "second" || senses === "both"));
+  }
 
   private state(from: number): State {
     return {

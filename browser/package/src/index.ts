@@ -1,6 +1,6 @@
 // Kinesphere: finds every collision among moving spheres with trajectories that are unknown in advance.
 export { type ErrorCode, KinesphereError, load, type LoadOptions, usesSimd, version } from "./module.js";
-export { type BodyId, Event, EventHash, type EventKind, eventKinds, Events, type State, type Vec3, type Wall } from "./event.js";
+export { type BodyId, type BodyTraits, Event, EventHash, type EventKind, eventKinds, Events, type State, type Vec3, type Wall } from "./event.js";
 export {
   Ballistic, type BallisticOptions, FrameMotion, type FrameMotionOptions, type FrameViolation, type LimitedMotion, Motion,
   type MotionDefinition, type PerBody, RandomForces, type RandomForcesOptions, RecordedTracks, type States, SteeredMotion,

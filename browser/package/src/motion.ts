@@ -1,6 +1,8 @@
 // Ready-made motions, which move bodies inside the module: their states need no call of JavaScript.
 import type { State, Vec3 } from "./event.js";
 import { Owned, theModule } from "./module.js";
+import { checkKeys, type Keys } from "./options.js";
+import type { World } from "./world.js";
 
 /** States of many bodies: three numbers for each in `positions`, and in `velocities` if they move. */
 export interface States {
@@ -36,7 +38,10 @@ export class Made {
   constructor(readonly address: number) {}
 }
 
+const stateKeys: Keys<States> = { positions: true, velocities: true };
+
 function sixes(states: States, call: string): Float64Array {
+  checkKeys(states, stateKeys, "start", call);
   const count = countOf(states.positions, call);
   const { positions, velocities } = states;
   if (velocities !== undefined && velocities.length !== positions.length)
@@ -157,8 +162,12 @@ export interface LimitedMotion {
   startTime?: number;
 }
 
+const limitedKeys: Keys<LimitedMotion> = { accelerationLimits: true, startTime: true };
+
 /** Makes the motion of bodies with limits by the function of this name; `more` are its last arguments. */
-function limited(name: string, call: string, start: States, options: LimitedMotion, ...more: number[]): Made {
+function limited<Options extends LimitedMotion>(name: string, call: string, start: States, options: Options,
+                                                keys: Keys<Options>, ...more: number[]): Made {
+  checkKeys(options, keys, "options", call);
   const numbers = sixes(start, call);
   const count = numbers.length / 6;
   const limits = each(options.accelerationLimits, count, "accelerationLimits", call);
@@ -183,8 +192,11 @@ export class Ballistic extends Motion {
   }
 }
 
+const ballisticKeys: Keys<BallisticOptions> = { gravity: true, startTime: true };
+
 function flying(start: States, options: BallisticOptions): Made {
   const call = "Ballistic";
+  checkKeys(options, ballisticKeys, "options", call);
   const numbers = sixes(start, call);
   const gravity = vector(options.gravity ?? [0, 0, 0], "gravity", call);
   const module = theModule();
@@ -199,6 +211,8 @@ export interface RandomForcesOptions extends LimitedMotion {
   seed?: number;
 }
 
+const forcesKeys: Keys<RandomForcesOptions> = { ...limitedKeys, interval: true, seed: true };
+
 /** Bodies pushed around by random forces that change at fixed times. */
 export class RandomForces extends Motion {
   constructor(start: States, options: RandomForcesOptions);
@@ -206,7 +220,7 @@ export class RandomForces extends Motion {
   constructor(made: Made);
   constructor(start: States | Made, options?: RandomForcesOptions) {
     super(start instanceof Made ? start
-      : limited("motion_random_forces", "RandomForces", start, options!, options!.interval ?? 0.2, options!.seed ?? 1));
+      : limited("motion_random_forces", "RandomForces", start, options!, forcesKeys, options!.interval ?? 0.2, options!.seed ?? 1));
   }
 }
 
@@ -216,7 +230,7 @@ export class SteeredMotion extends Motion {
   /** @internal */
   constructor(made: Made);
   constructor(start: States | Made, options?: LimitedMotion) {
-    super(start instanceof Made ? start : limited("motion_steered", "SteeredMotion", start, options!));
+    super(start instanceof Made ? start : limited("motion_steered", "SteeredMotion", start, options!, limitedKeys));
   }
   /** Sets the acceleration from `time` on, within the body's limit. Needs no call of the world. */
   steer(body: number, time: number, acceleration: Vec3): void {
@@ -227,12 +241,20 @@ export class SteeredMotion extends Motion {
   }
 }
 
-export interface FrameMotionOptions extends LimitedMotion {
+export interface FrameMotionOptions {
+  /**
+   * >= 0 (length / time^2), gravity included; infinite (the default) for bodies without a limit, whose velocities are
+   * news at every frame. See `FrameMotion` in kinesphere/motion/frame_motion.hpp.
+   */
+  accelerationLimits?: PerBody;
+  startTime?: number;
   /** > 0 (time): from one frame to the next; by default 1 / 60. */
   interval?: number;
   /** >= 0 (length): the largest error of the game's positions. */
   positionError?: number;
 }
+
+const frameKeys: Keys<FrameMotionOptions> = { ...limitedKeys, interval: true, positionError: true };
 
 /** A position with which a body violated its limit; see `FrameViolation` in kinesphere/motion/frame_motion.hpp. */
 export interface FrameViolation {
@@ -249,10 +271,10 @@ export interface FrameViolation {
  * The motion of a game that moves its bodies in fixed steps: straight lines between its last two frames, so the world
  * is one frame late.
  *
- *     const frames = new FrameMotion({ positions, velocities }, { accelerationLimits: 10 });
+ *     const frames = new FrameMotion({ positions });
  *     world.addMotion(frames, radii);
  *     // each frame, after the game has moved its bodies:
- *     frames.push(positions);
+ *     frames.push(world, positions);
  *     for (const event of world.events(frames.latestTime, frames)) ...
  *     positions.set(frames.latest());  // includes changes at events
  *
@@ -260,21 +282,34 @@ export interface FrameViolation {
  * world.setVelocity(body, velocity).
  */
 export class FrameMotion extends Motion {
-  constructor(start: States, options: FrameMotionOptions);
+  constructor(start: States, options?: FrameMotionOptions);
   /** @internal */
   constructor(made: Made);
-  constructor(start: States | Made, options?: FrameMotionOptions) {
+  constructor(start: States | Made, options: FrameMotionOptions = {}) {
     super(start instanceof Made ? start
-      : limited("motion_frames", "FrameMotion", start, options!, options!.interval ?? 1 / 60, options!.positionError ?? 0));
+      : limited("motion_frames", "FrameMotion", start, { ...options, accelerationLimits: options.accelerationLimits ?? Infinity },
+                frameKeys, options.interval ?? 1 / 60, options.positionError ?? 0));
   }
-  /** Adds the next frame: three numbers for each body. */
-  push(positions: ArrayLike<number>): void {
+  /**
+   * Adds the next frame: three numbers for each body, NaN for a removed one. The world, in which the bodies' ids are
+   * their numbers here, learns all new velocities, so that no contact is missed; its time must be latestTime. Without a
+   * world, all bodies must have limits and keep them.
+   */
+  push(world: World, positions: ArrayLike<number>): void;
+  push(positions: ArrayLike<number>): void;
+  push(first: World | ArrayLike<number>, second?: ArrayLike<number>): void {
+    const world = second === undefined ? 0 : (first as World).address;
+    const positions = second ?? (first as ArrayLike<number>);
     const count = countOf(positions, "push");
     const module = theModule();
     module.with((scratch) =>
-      module.require(module.call("frames_push", this.address, count, scratch.numbers(positions))));
+      module.require(module.call("frames_push", this.address, world, count, scratch.numbers(positions))));
   }
-  /** Returns three numbers for each body: its position at latestTime, including changes since the push. */
+  /** Adds a body that moves on from there, by default without a limit; returns its number. */
+  override add(time: number, state: State, accelerationLimit = Infinity): number {
+    return super.add(time, state, accelerationLimit);
+  }
+  /** Returns three numbers for each body: its position at latestTime, including changes since the push; NaN if removed. */
   latest(): Float64Array {
     return this.frame().subarray(2);
   }
@@ -285,10 +320,7 @@ export class FrameMotion extends Motion {
   get latestTime(): number {
     return this.frame()[1]!;
   }
-  /**
-   * Bodies that violated their limits in the last pushed frame, by jumps of velocity that the game has made itself.
-   * Before the world goes on, call world.setVelocity(body, velocity) for each.
-   */
+  /** Bodies that violated their limits in the latest frame. The world has been informed of them. */
   violations(): FrameViolation[] {
     const module = theModule();
     module.require(module.call("frames_violations", this.address));

@@ -2,6 +2,7 @@
 import { type Definition, definitionAt } from "./definition.js";
 import { Owned, theModule } from "./module.js";
 import { Made, Motion } from "./motion.js";
+import { checkKeys, type Keys } from "./options.js";
 
 /** Changes of the built-in scene; see `kinesphere run --help`. */
 export interface SceneSettings {
@@ -22,10 +23,11 @@ export interface SceneSettings {
 }
 
 /** Names of the settings, in the order of scene_create in browser/module/scene.cpp. */
-const sceneSettings: readonly (keyof SceneSettings)[] = [
-  "bodies", "seed", "seconds", "packing", "radiusMin", "radiusMax", "speedMin", "speedMax", "limitMin",
-  "limitMax", "restitution", "contactTolerance",
-];
+const sceneKeys: Keys<SceneSettings> = {
+  bodies: true, seed: true, seconds: true, packing: true, radiusMin: true, radiusMax: true, speedMin: true, speedMax: true,
+  limitMin: true, limitMax: true, restitution: true, contactTolerance: true,
+};
+const sceneSettings = Object.keys(sceneKeys) as (keyof SceneSettings)[];
 
 /** Returns "paper1" and so on. */
 export function sceneNames(): string[] {
@@ -45,6 +47,7 @@ export class Scene extends Owned {
     const names = sceneNames();
     const place = names.indexOf(name);
     if (place < 0) throw new RangeError(`Scene: name must be one of ${names.join(", ")}, but is ${name}`);
+    checkKeys(settings, sceneKeys, "settings", "Scene");
     for (const key of ["bodies", "seed"] as const) {
       const value = settings[key];
       if (value !== undefined && !(Number.isInteger(value) && value >= 0 && value < 2 ** 32))

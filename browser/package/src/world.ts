@@ -1,12 +1,13 @@
 // The world: moving spheres with unknown trajectories, and every contact among them, in time order.
-import { asking, type Probe, responded, type RunOptions } from "./asking.js";
+import { asking, type Probe, responded, runKeys, type RunOptions } from "./asking.js";
 import {
-  type BodyBatch, type BodyDefinition, bodyNumbers, type BodyOptions, type MotionLimits, putBody, putOptions, type Shape,
-  shapeNumbers, whole,
+  batchKeys, type BodyBatch, type BodyDefinition, bodyKeys, bodyNumbers, type BodyOptions, limitKeys, type MotionLimits,
+  movedKeys, putBody, putOptions, type Shape, shapeNumbers, staticKeys, type StaticOptions, whole,
 } from "./body.js";
 import { type Definition, definitionAt, definitionNumbers, type WorldDefinition } from "./definition.js";
 import { type BodyId, Event, type EventKind, Events, eventKinds, type State, type Vec3, type Wall, wallOf } from "./event.js";
 import { Owned, type Scratch, theModule } from "./module.js";
+import { checkKeys } from "./options.js";
 import { countOf, each, Motion, type MotionDefinition, type PerBody, sixOf, vector } from "./motion.js";
 
 export interface BodyView {
@@ -318,6 +319,7 @@ export class World extends WorldView {
   }
 
   add(body: BodyDefinition): BodyId {
+    checkKeys(body, bodyKeys, "body", "add");
     const numbers = new Float64Array(bodyNumbers);
     putBody(numbers, 0, body, "add");
     return this.addNumbers(numbers)[0]!;
@@ -325,10 +327,12 @@ export class World extends WorldView {
   /** Adds all bodies or, after an error, none. Returns their ids. */
   addAll(bodies: BodyBatch): Float64Array {
     const call = "addAll";
+    checkKeys(bodies, batchKeys, "bodies", call);
     const count = countOf(bodies.positions, call);
     const radii = each(bodies.radii ?? 1, count, "radii", call);
     const limits = each(bodies.accelerationLimits ?? 0, count, "accelerationLimits", call);
     const userData = each(bodies.userData ?? 0, count, "userData", call);
+    const masses = each(bodies.masses ?? 1, count, "masses", call);
     const { positions, velocities } = bodies;
     if (velocities !== undefined && velocities.length !== positions.length)
       throw new RangeError(
@@ -347,6 +351,7 @@ export class World extends WorldView {
       numbers[at + 6] = radii[k]!;
       numbers[at + 7] = limits[k]!;
       numbers[at + 18] = whole(userData[k]!, 2 ** 53, "userData", call);
+      numbers[at + 19] = masses[k]!;
     }
     return this.addNumbers(numbers);
   }
@@ -356,6 +361,7 @@ export class World extends WorldView {
    */
   addMotion(motion: Motion, radii: PerBody = 1, options: Omit<BodyOptions, keyof MotionLimits> = {}): Float64Array {
     const call = "addMotion";
+    checkKeys(options, movedKeys, "options", call);
     const count = motion.size;
     const sizes = each(radii, count, "radii", call);
     const numbers = new Float64Array(count * bodyNumbers);
@@ -366,7 +372,8 @@ export class World extends WorldView {
     return this.addNumbers(numbers);
   }
   /** Adds a static body. */
-  addStatic(shape: Shape, options: { solid?: boolean; sensorClass?: number; userData?: number } = {}): BodyId {
+  addStatic(shape: Shape, options: StaticOptions = {}): BodyId {
+    checkKeys(options, staticKeys, "options", "addStatic");
     return this.addSurroundings(shape, false, options, "addStatic");
   }
   /**
@@ -383,6 +390,17 @@ export class World extends WorldView {
   setVelocity(body: BodyId, velocity: Vec3): void {
     this.change("world_set_velocity", body, vector(velocity, "velocity", "setVelocity"));
   }
+  /** Sets the velocities of all these bodies, three numbers for each, or on an error of none. */
+  setVelocityAll(bodies: ArrayLike<BodyId>, velocities: ArrayLike<number>): void {
+    const call = "setVelocityAll";
+    if (velocities.length !== 3 * bodies.length)
+      throw new RangeError(`${call}: velocities must have three numbers for each of ${bodies.length} bodies, ` +
+                           `but has ${velocities.length}`);
+    const module = theModule();
+    module.with((scratch) =>
+      module.require(module.call("world_set_velocity_all", this.address, bodies.length, scratch.numbers(bodies),
+                                 scratch.numbers(velocities))));
+  }
   teleport(body: BodyId, state: State): void {
     this.change("world_teleport", body, sixOf(state, "teleport"));
   }
@@ -390,7 +408,20 @@ export class World extends WorldView {
     const module = theModule();
     module.require(module.call("world_set_radius", this.address, body, radius));
   }
+  /** Gives a static body or a zone another shape: those that stay in contact with it or inside it get no event. */
+  setShape(body: BodyId, shape: Shape): void {
+    const module = theModule();
+    const [kind, numbers] = shapeNumbers(shape, "setShape");
+    module.with((scratch) =>
+      module.require(module.call("world_set_shape", this.address, body, kind, scratch.numbers(numbers))));
+  }
+  /** Sets the mass (>= 0) that events have from now on. */
+  setMass(body: BodyId, mass: number): void {
+    const module = theModule();
+    module.require(module.call("world_set_mass", this.address, body, mass));
+  }
   setMotionLimits(body: BodyId, limits: MotionLimits): void {
+    checkKeys(limits, limitKeys, "limits", "setMotionLimits");
     this.change("world_set_motion_limits", body, [
       limits.accelerationLimit ?? 0,
       ...vector(limits.plannedAcceleration ?? [0, 0, 0], "plannedAcceleration", "setMotionLimits"),
@@ -444,6 +475,7 @@ export class World extends WorldView {
   run(until: number, options: RunOptions, sink?: (events: Events) => void): Events {
     const module = theModule();
     if (!(options?.motion instanceof Motion)) throw new TypeError("run: motion must be a Motion");
+    checkKeys(options, runKeys, "options", "run");
     const [responding, bounces, scene, asked] = responded(options.respond);
     return module.with((scratch) => {
       const masses = bounces.masses ?? [];
@@ -495,8 +527,7 @@ export class World extends WorldView {
       return module.answer();
     });
   }
-  private addSurroundings(shape: Shape, isZone: boolean, options: { solid?: boolean; sensorClass?: number; userData?: number },
-                call: string): BodyId {
+  private addSurroundings(shape: Shape, isZone: boolean, options: StaticOptions, call: string): BodyId {
     const module = theModule();
     const [kind, numbers] = shapeNumbers(shape, call);
     const id = module.with((scratch) =>

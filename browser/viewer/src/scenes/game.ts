@@ -44,8 +44,7 @@ class GameLoop implements LiveScene {
       if (at % 3 === 2) this.velocities[at]! -= gravity * interval;
       positions[at]! += this.velocities[at]! * interval;
     }
-    this.frames.push(positions);
-    for (const { body, velocity } of this.frames.violations()) this.world.setVelocity(body, velocity);
+    this.frames.push(this.world, positions);
   }
   private answer(event: Event): void {
     if (event.kind !== "contact_begin" && event.kind !== "wall_begin") return;
@@ -69,7 +68,7 @@ export function game({ bodies, seed }: SceneChoice): Setup {
       velocities[3 * k + axis] = fastest * (2 * random() - 1) / Math.sqrt(3);
     }
   }
-  const frames = new FrameMotion({ positions, velocities }, { accelerationLimits: 1.01 * gravity, interval });
+  const frames = new FrameMotion({ positions, velocities }, { interval });
   const world = new World({ box: room, contactTolerance: 1e-4, contacts: "impacts", zenoInterval: 1e-4 });
   const radii = new Float64Array(bodies).fill(radius);
   world.addMotion(frames, radii);
