@@ -59,6 +59,26 @@ KINESPHERE_EXPORT(world_certificates) void world_certificates(const World* world
     answer().insert(answer().end(),
                     {number_of(certificate.first), number_of(certificate.second), certificate.until});
 }
+/// Numbers for each body that World.busiest() in package/src/world.ts reads.
+KINESPHERE_EXPORT(world_busiest) bool world_busiest(const World* world, std::size_t count) {
+  const auto busiest = world->busiest(count);
+  if (!is_good(busiest)) return false;
+  answer().clear();
+  for (const BusyBody& busy : *busiest) {
+    answer().insert(answer().end(), {number_of(busy.body), static_cast<double>(busy.reason)});
+    for (const std::uint64_t counted :
+         {busy.probes, busy.touching, busy.near, busy.windows, busy.changes, busy.queries, busy.contacts})
+      answer().push_back(static_cast<double>(counted));
+    answer().insert(answer().end(), {busy.acceleration_limit, busy.largest_acceleration});
+  }
+  return true;
+}
+/// Answers the advice on a reason.
+KINESPHERE_EXPORT(advice) void advice(unsigned reason) {
+  answer_bytes().clear();
+  for (const char c : advice_on(static_cast<ProbeReason>(reason)))
+    answer_bytes().push_back(static_cast<std::byte>(c));
+}
 KINESPHERE_EXPORT(world_cells) void world_cells(const World* world) {
   answer().clear();
   for (const CellView& cell : world->cells())

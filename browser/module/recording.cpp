@@ -6,6 +6,9 @@ namespace kinesphere::browser {
 KINESPHERE_EXPORT(world_start_recording) bool world_start_recording(World* world) {
   return is_good(world->start_recording());
 }
+KINESPHERE_EXPORT(world_set_profiling) bool world_set_profiling(World* world, bool on) {
+  return is_good(world->set_profiling(on));
+}
 KINESPHERE_EXPORT(world_stop_recording) bool world_stop_recording(World* world) {
   auto recording = world->stop_recording();
   if (recording) answer_bytes() = std::move(*recording);

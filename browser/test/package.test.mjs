@@ -81,6 +81,30 @@ test("a function answers for bodies in typed arrays", () => {
   assert.equal(world.time, 7.5);
 });
 
+test("the busiest bodies are named, with the reason", () => {
+  const world = new World();
+  world.addStatic({ halfSpace: { normal: [0, 0, 1], offset: 0 } });
+  const balls = Array.from(world.addAll({ positions: [0, 0, 1, 4, 0, 1, 8, 0, 1], accelerationLimits: 10 }));
+  refuses(() => world.busiest(), "not_profiling", "world");
+  world.setProfiling(true);
+  const probe = (ids, time, states) => ids.forEach((id, k) => states.set([4 * balls.indexOf(id), 0, 1, 0, 0, 0], 6 * k));
+  while (world.advance(0.2, probe) !== null);
+  const busiest = world.busiest();
+  assert.deepEqual(busiest.map(({ body }) => body).sort(), balls);
+  let probes = 0;
+  for (const busy of busiest) {
+    assert.equal(busy.reason, "touching");
+    assert.match(busy.advice, /sleep/);
+    assert.equal(busy.probes, busy.touching + busy.near + busy.windows + busy.changes + busy.queries);
+    assert.deepEqual([busy.contacts, busy.accelerationLimit, busy.largestAcceleration], [1, 10, 0]);
+    probes += busy.probes;
+  }
+  assert.equal(probes, world.counters.probes);
+  assert.equal(world.busiest(1).length, 1);
+  world.setProfiling(false);
+  refuses(() => world.clone().busiest(), "not_profiling", "world");
+});
+
 test("a broken promise is reported with its size", () => {
   const world = new World();
   world.addAll({ positions: [0, 0, 0, 10, 0, 0], velocities: [1, 0, 0, 0, 0, 0] });

@@ -8,11 +8,16 @@
 //   for (const CellView& cell : world.cells()) draw(cell.box);
 //   for (const Certificate& c : world.certificates()) draw(c.first, c.second, c.until - world.time());
 //
+//   world.set_profiling(true).value();
+//   ... // let time pass
+//   for (const BusyBody& busy : world.busiest(10).value()) print(busy.body, name_of(busy.reason));
+//
 // All results are copies: changing them does not change the world.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 #include "kinesphere/body_id.hpp"
 #include "kinesphere/vec3.hpp"
@@ -37,6 +42,44 @@ struct Timings {
   std::uint64_t advances = 0;  ///< calls of advance()
   double advance = 0.0;        ///< in advance(), including probes
   double probes = 0.0;         ///< in the caller's probes
+};
+
+/// Main reason for the probes of a body (World::busiest()).
+enum class ProbeReason : std::uint8_t {
+  touching,       ///< it stays in touch, and its acceleration limit would let it leave at any time
+  narrow_misses,  ///< it comes near other bodies, walls or sensor distances without touching them
+  loose_limit,    ///< its acceleration limit is over 4 times the largest acceleration that reports showed
+  contacts,       ///< its contacts begin often, and each needs probes
+  travel,         ///< it moves through space; its windows of time end
+  changes,        ///< the caller changes it, or its reports violate its bound
+  queries,        ///< queries and predictions with a probe ask for it
+};
+
+/// Returns the name of a reason, such as "narrow_misses".
+std::string_view name_of(ProbeReason reason);
+/// Returns two sentences for a person: what the reason means, and what makes such a body cheaper.
+std::string_view advice_on(ProbeReason reason);
+
+/// A body that was probed while profiling was on, and why.
+struct BusyBody {
+  BodyId body;
+  ProbeReason reason = ProbeReason::travel;
+  /// Probed states of the body; the sum of the next five.
+  std::uint64_t probes = 0;
+  std::uint64_t touching = 0;  ///< for a body or wall that it touches
+  std::uint64_t near = 0;      ///< for a body, wall or sensor distance that it may reach or leave
+  std::uint64_t windows = 0;   ///< at ends of its windows of time
+  std::uint64_t changes = 0;   ///< after changes by the caller and violated bounds
+  std::uint64_t queries = 0;   ///< for queries and predictions with a probe
+  /// Events contact_begin and wall_begin of the body.
+  std::uint64_t contacts = 0;
+  double acceleration_limit = 0.0;  ///< now (length / time^2)
+  /// Largest deviation from the planned acceleration (length / time^2) that reported velocities prove: the
+  /// mean between two reports, less the velocity errors. The true acceleration may have been larger in
+  /// between.
+  double largest_acceleration = 0.0;
+
+  friend constexpr bool operator==(const BusyBody&, const BusyBody&) = default;
 };
 
 /// A non-empty cell of the broad phase. Bodies of about equal size and speed share a grid level; each level

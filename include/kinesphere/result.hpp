@@ -45,6 +45,7 @@ enum class ErrorCode {
   bad_bytes,           ///< no body of a motion can be read from these bytes
   recording,           ///< the world is already recorded
   not_recording,       ///< the world is not recorded
+  not_profiling,       ///< profiling of the world was never on
   bad_recording,       ///< these bytes are not a recording
   diverged,            ///< a replay differs from its recording
 };

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "busiest_bodies.hpp"
 #include "contact_log.hpp"
 #include "frames_xyz.hpp"
 #include "output_file.hpp"
@@ -34,6 +35,7 @@ struct Attachments {
   std::unique_ptr<FramesXyz> frames;
   std::unique_ptr<OutputFile> recording;
   std::unique_ptr<Progress> progress;
+  std::vector<BusyBody> busiest;
   std::optional<AuditFinding> finding;
   double finding_time = 0.0;
 };
@@ -61,9 +63,19 @@ SimulationObserver observer_of(const RunOptions& options, const Scene& scene, At
       attached.frames->write(detector, motion, time);
     };
   }
-  if (attached.recording) {
-    observer.at_start = [](Detector& detector) { return detector.start_recording(); };
-    observer.at_end = [&](Detector& detector) -> Result<void> {
+  if (attached.recording || options.explain) {
+    observer.at_start = [&attached, explain = options.explain](Detector& detector) -> Result<void> {
+      if (explain)
+        if (auto profiling = detector.set_profiling(true); !profiling) return profiling;
+      return attached.recording ? detector.start_recording() : Result<void>();
+    };
+    observer.at_end = [&attached, explain = options.explain](Detector& detector) -> Result<void> {
+      if (explain) {
+        auto busiest = detector.busiest(listed_bodies);
+        if (!busiest) return busiest.error();
+        attached.busiest = *std::move(busiest);
+      }
+      if (!attached.recording) return {};
       const auto recording = detector.stop_recording();
       if (!recording) return recording.error();
       attached.recording->write({reinterpret_cast<const char*>(recording->data()), recording->size()});
@@ -173,6 +185,8 @@ CLI::App* add_run_command(CLI::App& program, RunOptions& options) {
       ->add_option("--threads", options.threads,
                    "Let the world go on by itself (World::run) with so many threads, with the same outcome")
       ->check(whole_number(Workers::most_threads, 1));
+  command->add_flag("--explain", options.explain,
+                    "Print the bodies that cost most probes, with the reasons and what helps (one thread)");
   command->add_flag("--audit", options.audit, "Check the detector's own records before every event (slow)");
   command->add_flag("--hash-only", options.hash_only, "Print the hash of the contacts and nothing else");
   command->add_flag("--quiet", options.quiet, "No progress bar and no summary");
@@ -214,6 +228,8 @@ int run(const RunOptions& options, const NamedDetector& detector) {
   } else if (!options.quiet) {
     print("{}", summary_of(source.parameters, options, detector, scene, result, real_time.count()));
   }
+  if (options.explain && !options.hash_only)
+    print("{}", text_of_busiest(attached.busiest, result.counters.probes));
   if (failure) throw ProgramError(*failure);
   if (!attached.finding) return exit_fine;
   print_message("kinesphere: audit at time {}: {}: {}\n", attached.finding_time, attached.finding->where,

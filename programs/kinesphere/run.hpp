@@ -18,6 +18,7 @@ struct RunOptions {
   std::optional<double> frame_interval;
   std::optional<int> threads;
   bool audit = false;
+  bool explain = false;
   bool hash_only = false;
   bool quiet = false;
 };

@@ -75,6 +75,13 @@ py::object audit(WorldHandle& handle) {
   return py::make_tuple(finding->where, finding->what);
 }
 
+py::list busiest(WorldHandle& handle, std::size_t count) {
+  const auto turn = handle.take("busiest");
+  py::list list;
+  for (const BusyBody& busy : handle.world.busiest(count).value()) list.append(busy);
+  return list;
+}
+
 py::bytes stop_recording(WorldHandle& handle) {
   const auto turn = handle.take("stop_recording");
   return bytes_of(handle.world.stop_recording().value());
@@ -138,6 +145,30 @@ void bind_views(py::module_& module) {
             return counters.count(static_cast<EventKind>(kind));
           },
           py::arg("kind"), "Events of an EventKind that have been told.");
+
+  py::class_<BusyBody>(module, "BusyBody", "A body that was probed while profiling was on, and why; a copy.")
+      .def_property_readonly("body", [](const BusyBody& busy) { return object_of(busy.body); })
+      .def_property_readonly(
+          "reason", [](const BusyBody& busy) { return name_of(busy.reason); },
+          "One of touching, narrow_misses, loose_limit, contacts, travel, changes, queries.")
+      .def_property_readonly(
+          "advice", [](const BusyBody& busy) { return advice_on(busy.reason); },
+          "What the reason means, and what makes such a body cheaper.")
+      .def_readonly("probes", &BusyBody::probes, "Probed states of the body; the sum of the next five.")
+      .def_readonly("touching", &BusyBody::touching, "For a body or wall that it touches.")
+      .def_readonly("near", &BusyBody::near,
+                    "For a body, wall or sensor distance that it may reach or leave.")
+      .def_readonly("windows", &BusyBody::windows, "At ends of its windows of time.")
+      .def_readonly("changes", &BusyBody::changes, "After changes and violated bounds.")
+      .def_readonly("queries", &BusyBody::queries, "For queries and predictions with a probe.")
+      .def_readonly("contacts", &BusyBody::contacts, "Events contact_begin and wall_begin of the body.")
+      .def_readonly("acceleration_limit", &BusyBody::acceleration_limit, "Now (length / time^2).")
+      .def_readonly("largest_acceleration", &BusyBody::largest_acceleration,
+                    "Largest deviation from the planned acceleration that reported velocities prove.")
+      .def("__repr__", [](const BusyBody& busy) {
+        return "BusyBody(body=" + to_string(busy.body) + ", reason='" + std::string(name_of(busy.reason)) +
+               "', probes=" + std::to_string(busy.probes) + ")";
+      });
 }
 
 /// A replay; WorldView reads its world.
@@ -258,7 +289,9 @@ radii, shape (n,).)")
             const auto turn = handle.take("set_profiling");
             require(handle.world.set_profiling(on));
           },
-          py::arg("on"), "Switched on it begins from zero.")
+          py::arg("on"),
+          R"(Switched on it begins from zero: timings() and busiest() tell what has cost since. Then run() processes
+events one at a time.)")
       .def("timings",
            reading("timings",
                    [](const World& now) {
@@ -270,6 +303,10 @@ radii, shape (n,).)")
                      return parts;
                    }),
            "Real time (seconds) in advances, and in probes, while timing was on.")
+      .def(
+          "busiest", busiest, py::arg("count") = 10,
+          R"(The bodies that were probed most often while profiling was on: a list of BusyBody, the most probed
+first. Raises StateError (not_profiling) if profiling was never on. Cost: O(n).)")
       .def("audit", audit,
            "Checks all facts anew: None, or where and what is wrong. For tests; cost: O(n^2).")
       .def(

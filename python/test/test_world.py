@@ -233,6 +233,30 @@ def test_inspection() -> None:
     assert world.body(0).image == (0, 0, 0)
 
 
+def test_busiest_names_what_costs_probes_and_why() -> None:
+    world = ks.World()
+    world.add_static(ks.HalfSpace((0, 0, 1), 0.0))
+    places = np.array([[0, 0, 1], [4, 0, 1], [8, 0, 1], [0, 50, 50]], dtype=float)
+    *balls, far = world.add(places, acceleration_limits=[10.0, 10.0, 10.0, 0.0])
+    with pytest.raises(ks.StateError, match="set_profiling") as error:
+        world.busiest()
+    assert error.value.code == "not_profiling"
+    world.set_profiling(True)
+
+    def probe(ids: Ids, t: float) -> tuple[Doubles, Doubles]:
+        return places[ids - 1], np.zeros((len(ids), 3))
+
+    world.run(0.2, probe)
+    busiest = world.busiest()
+    assert sorted(one.body for one in busiest) == balls
+    assert far in world and far not in [one.body for one in busiest]
+    assert {one.reason for one in busiest} == {"touching"} and "sleep" in busiest[0].advice
+    assert busiest[0].touching > 100 and busiest[0].acceleration_limit == 10.0
+    assert busiest[0].largest_acceleration == 0.0
+    assert sum(one.probes for one in busiest) == world.counters.probes
+    assert len(world.busiest(2)) == 2 and "touching" in repr(busiest[0])
+
+
 def test_snapshots_clones_copies_and_pickles_go_the_same_way() -> None:
     scene = ks.Scene("paper1", bodies=60, seconds=1.0)
     world, motion = ks.World(**scene.definition), scene.motion()

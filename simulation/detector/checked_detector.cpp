@@ -67,6 +67,10 @@ class CheckedDetector final : public Detector {
   std::optional<Memory> memory() const override { return detector_->memory(); }
   Result<void> start_recording() override { return detector_->start_recording(); }
   Result<std::vector<std::byte>> stop_recording() override { return detector_->stop_recording(); }
+  Result<void> set_profiling(bool on) override { return detector_->set_profiling(on); }
+  Result<std::vector<BusyBody>> busiest(std::size_t count) const override {
+    return detector_->busiest(count);
+  }
 
  private:
   bool is_present(std::uint32_t body) const { return body < present_.size() && present_[body]; }

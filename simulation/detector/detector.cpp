@@ -1,4 +1,4 @@
-// The default answers of a detector: run and recording are unsupported.
+// The default answers of a detector: run, recording and profiling are unsupported.
 #include "simulation/detector/detector.hpp"
 
 #include <string>
@@ -20,6 +20,10 @@ Result<void> Detector::run(double, Motion&, const ResponseFn&, const EventFn&, W
 Result<void> Detector::start_recording() { return cannot("start_recording", "be recorded", name()); }
 Result<std::vector<std::byte>> Detector::stop_recording() {
   return cannot("stop_recording", "be recorded", name());
+}
+Result<void> Detector::set_profiling(bool) { return cannot("set_profiling", "be profiled", name()); }
+Result<std::vector<BusyBody>> Detector::busiest(std::size_t) const {
+  return cannot("busiest", "be profiled", name());
 }
 
 }  // namespace kinesphere

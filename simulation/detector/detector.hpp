@@ -55,6 +55,10 @@ class Detector {
   // unsupported, and those of World.
   virtual Result<void> start_recording();
   virtual Result<std::vector<std::byte>> stop_recording();
+  // The bodies that cost most probes (World::busiest()), for detectors that are a World. Errors: unsupported,
+  // and those of World.
+  virtual Result<void> set_profiling(bool on);
+  virtual Result<std::vector<BusyBody>> busiest(std::size_t count) const;
 };
 
 /// Makes a detector that watches the bodies of a motion.

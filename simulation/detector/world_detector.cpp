@@ -97,6 +97,13 @@ class WorldDetector final : public Detector {
   std::optional<Memory> memory() const override { return world_.memory(); }
   Result<void> start_recording() override { return world_.start_recording(); }
   Result<std::vector<std::byte>> stop_recording() override { return world_.stop_recording(); }
+  Result<void> set_profiling(bool on) override { return world_.set_profiling(on); }
+  Result<std::vector<BusyBody>> busiest(std::size_t count) const override {
+    auto busiest = world_.busiest(count);
+    if (busiest)
+      for (BusyBody& busy : *busiest) busy.body = {numbers_[busy.body.index], 0};
+    return busiest;
+  }
 
  private:
   struct Departed {

@@ -26,7 +26,7 @@ Result<void> WindowStarts::start_with(const Arrivals& arrivals, PoolLease& lease
     choose_policy(joining, lease);
   if (!anew || all_joining == 0) return {};
   const auto probed = guarded([&]() -> Result<void> {
-    auto stale = rank_.main.probe_stale(joining, lease);
+    auto stale = rank_.main.probe_stale(joining, ProbeCause::change, lease);
     return stale ? Result<void>() : stale.error();
   });
   if (auto agreed = consensus_.agree(probed); !agreed) return agreed;

@@ -79,11 +79,16 @@ std::vector<PairCertificate> World::Engine::certificates(std::optional<std::uint
   return pairs;
 }
 
+void World::Engine::set_profiling(bool on) {
+  if (on) profile_ = std::make_unique<ProbeProfile>();
+  main_.reports().set_profile(on ? profile_.get() : nullptr);
+}
+
 Result<bool> World::Engine::probe_stale(std::span<const std::uint32_t> numbers, const Probe& ask,
                                         std::string_view call) {
   main_.reports().ask(ask, call);
   PoolLease alone;
-  return main_.probe_stale(numbers, alone);
+  return main_.probe_stale(numbers, ProbeCause::query, alone);
 }
 
 }  // namespace kinesphere

@@ -66,6 +66,10 @@ class World::Engine {
   class Queries;
   std::optional<AuditFinding> audit() const;
   Memory memory() const;
+  /// Starts a new profile of probes, or stops the present one. Copies of the engine have none.
+  void set_profiling(bool on);
+  /// Returns the last profile, or nullptr if there was none.
+  const ProbeProfile* profile() const { return profile_.get(); }
 
   Overlaps overlaps() const { return {bodies(), broad_phase(), time()}; }
   /// Probes bodies as EventProcessor::probe_stale() does. Must not be called during advance().
@@ -94,6 +98,7 @@ class World::Engine {
 
   WorldState state_;
   EventProcessor main_;
+  std::unique_ptr<ProbeProfile> profile_;
   std::vector<SearchResults> found_;  ///< by worker; a member only to reuse its memory
   /// certificates read from a snapshot, before they enter the queue
   std::vector<PairCertificate> read_pairs_;

@@ -22,7 +22,7 @@ Result<void> World::Engine::start_with_arrivals(PoolLease& lease) {
   if (!joining.empty() && (was_for_few || !state_.window_policy.is_chosen()))
     starting.choose_policy(starting.measure(joining));
   if (!anew || joining.empty()) return {};
-  if (auto probed = main_.probe_stale(joining, lease); !probed) return probed.error();
+  if (auto probed = main_.probe_stale(joining, ProbeCause::change, lease); !probed) return probed.error();
   if (auto started = start_windows(lease, true, joining); !started) return started;
   // Bodies for which no window was found stay dirty.
   for (const std::uint32_t number : joining)

@@ -52,17 +52,20 @@ std::optional<Event> EventProcessor::pop() {
   ++work_.counters.events[static_cast<std::size_t>(event->kind)];
   if (!bodies().sleep_records.empty()) Sleeping(*state_, *this).wake_by(*event);
   if (event->repeated) ++work_.counters.repeated_contacts;
+  if (reports_.profile() != nullptr) reports_.profile()->note_event(bodies().table(), *event);
   return event;
 }
 
-Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers) {
+Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers, ProbeCause cause) {
   PoolLease alone;
-  return probe(numbers, alone);
+  return probe(numbers, cause, alone);
 }
 
-Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers, PoolLease& lease) {
+Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers, ProbeCause cause,
+                                   PoolLease& lease) {
   // Probes are counted first, so that a probe that throws leaves the same state as one that gives no answer.
   work_.counters.probes += numbers.size();
+  if (reports_.profile() != nullptr) reports_.profile()->note_probes(bodies().table(), numbers, cause);
   if (log_)
     for (const std::uint32_t number : numbers) log_->note_change(number, time_);
   const auto broken = reports_.take(bodies(), time_, numbers, lease);
@@ -76,12 +79,13 @@ Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers, PoolL
   return {};
 }
 
-Result<bool> EventProcessor::probe_stale(std::span<const std::uint32_t> numbers, PoolLease& lease) {
+Result<bool> EventProcessor::probe_stale(std::span<const std::uint32_t> numbers, ProbeCause cause,
+                                         PoolLease& lease) {
   std::vector<std::uint32_t> stale;
   for (const std::uint32_t number : numbers)
     if (bodies()[number].enabled && !bodies()[number].fresh(time_)) stale.push_back(number);
   if (stale.empty()) return false;
-  if (auto probed = probe(stale, lease); !probed) return probed.error();
+  if (auto probed = probe(stale, cause, lease); !probed) return probed.error();
   return true;
 }
 

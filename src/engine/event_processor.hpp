@@ -47,6 +47,7 @@ class alignas(128) EventProcessor {
   /// Copies a processor, to work on `state`, a copy of the other's world state.
   EventProcessor(EventProcessor other, WorldState& state) : EventProcessor(std::move(other)) {
     state_ = &state;
+    reports_.set_profile(nullptr);
   }
 
   double time() const { return time_; }
@@ -120,11 +121,11 @@ class alignas(128) EventProcessor {
   // Reports.
   Reports& reports() { return reports_; }
   const Reports& reports() const { return reports_; }
-  Result<void> probe(std::span<const std::uint32_t> numbers);
+  Result<void> probe(std::span<const std::uint32_t> numbers, ProbeCause cause);
   /// Probes as above; several threads may call the probe concurrently.
-  Result<void> probe(std::span<const std::uint32_t> numbers, PoolLease& lease);
+  Result<void> probe(std::span<const std::uint32_t> numbers, ProbeCause cause, PoolLease& lease);
   /// Probes the enabled bodies whose state at the current time is unknown. Returns true if there were any.
-  Result<bool> probe_stale(std::span<const std::uint32_t> numbers, PoolLease& lease);
+  Result<bool> probe_stale(std::span<const std::uint32_t> numbers, ProbeCause cause, PoolLease& lease);
 
   /// Starts the execution of a cluster at the start of its batch. Its initial work is certificates that are
   /// due, bodies to recertify first, and events that are known already.

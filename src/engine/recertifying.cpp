@@ -11,7 +11,7 @@ Result<void> EventProcessor::recertify_dirty() {
   // Listed bodies may have been removed, disabled or restarted with all others since.
   round_ = dirty_.sort(bodies());
   PoolLease alone;
-  if (auto probed = probe_stale(round_, alone); !probed) return probed.error();
+  if (auto probed = probe_stale(round_, ProbeCause::change, alone); !probed) return probed.error();
   // Reports that violate bounds may have made further bodies dirty.
   round_ = dirty_.numbers();
   recertify(round_);
@@ -59,7 +59,7 @@ void EventProcessor::search(std::span<const std::uint32_t> numbers) {
 Result<void> EventProcessor::renew(std::uint32_t number) {
   const WindowChoice choice = this->window_choice();
   if (choice.needs_report(number)) {
-    if (auto probed = probe(std::span(&number, 1)); !probed) return probed;
+    if (auto probed = probe(std::span(&number, 1), ProbeCause::window); !probed) return probed;
   }
   if (bodies()[number].dirty) return {};
   const auto ended = certifier().window_of(number);

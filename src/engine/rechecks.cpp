@@ -48,7 +48,8 @@ Result<void> EventProcessor::probe_staler(std::uint32_t a, std::uint32_t b) {
   const bool a_is_staler = bodies()[a].bound.time < bodies()[b].bound.time;
   const bool a_is_asked = !bodies()[a].fresh(time_) && (a_is_staler || bodies()[b].fresh(time_));
   const std::uint32_t staler = a_is_asked ? a : b;
-  return probe(std::span(&staler, 1));
+  const bool touching = reports_.profile() != nullptr && contacts().touch(a, b);
+  return probe(std::span(&staler, 1), touching ? ProbeCause::touching : ProbeCause::near);
 }
 
 /// Applies the contact rule to the fresh reports of two bodies. Returns the time of the next recheck, or
@@ -129,7 +130,8 @@ Result<void> EventProcessor::recheck_walls(std::uint32_t number) {
       if (until < end) queue_.add(certifier.certificate(until, number, PairCertificate::walls));
       return {};
     }
-    if (auto probed = probe(std::span(&number, 1)); !probed) return probed;
+    const ProbeCause cause = contacts().walls_of(number) != 0 ? ProbeCause::touching : ProbeCause::near;
+    if (auto probed = probe(std::span(&number, 1), cause); !probed) return probed;
   }
   return {};
 }

@@ -105,6 +105,7 @@ void Reports::apply(Bodies& bodies, double time, std::size_t from, std::size_t t
     }
     const auto violation =
         bound_violation(before, body.bound, body.radius, new_velocity, bodies.definition().contact_tolerance);
+    if (profile_ != nullptr && !new_velocity) profile_->note_report(number, before, body.bound);
     if (body.is_sleeping()) body.stand_still();
     if (violation) broken.push_back({k, states_[k].velocity, *violation});
   }

@@ -9,6 +9,7 @@
 
 #include "bound/bound_violation.hpp"
 #include "engine/bodies.hpp"
+#include "engine/probe_profile.hpp"
 #include "kinesphere/probe.hpp"
 #include "kinesphere/result.hpp"
 #include "parallel/thread_pool.hpp"
@@ -32,6 +33,10 @@ class Reports {
   }
   bool is_asking() const { return asking_; }
 
+  /// Sets the profile that counts probes from now on; nullptr for none. It must outlive its use here.
+  void set_profile(ProbeProfile* profile) { profile_ = profile; }
+  ProbeProfile* profile() const { return profile_; }
+
   /// Probes bodies at a time, with several threads if `lease` has them, and starts their bounds anew from the
   /// reports. Returns the violated bounds in the order of `numbers`; the span is valid until the next call.
   /// Errors: an invalid state; then all bounds are unchanged.
@@ -51,6 +56,7 @@ class Reports {
   const Probe* probe_ = nullptr;
   std::string_view call_;  ///< name of the API call, for error messages
   bool asking_ = false;
+  ProbeProfile* profile_ = nullptr;
   // Members only to reuse their memory.
   std::vector<BodyId> ids_;
   std::vector<State> states_;

@@ -54,7 +54,7 @@ Result<void> WindowStart::refresh(std::span<const std::uint32_t> ending) {
   for (std::size_t k = 0; k < ending.size(); ++k)
     if (is_asked[k] != 0) asked.push_back(ending[k]);
   if (asked.empty()) return {};
-  return main_.probe(asked, lease_);
+  return main_.probe(asked, ProbeCause::window, lease_);
 }
 
 std::vector<BroadPhase::Starter> WindowStart::choose_windows(std::span<const std::uint32_t> numbers,

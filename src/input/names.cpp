@@ -64,6 +64,8 @@ std::string_view name_of(ErrorCode code) {
       return "recording";
     case ErrorCode::not_recording:
       return "not_recording";
+    case ErrorCode::not_profiling:
+      return "not_profiling";
     case ErrorCode::bad_recording:
       return "bad_recording";
     case ErrorCode::diverged:

@@ -35,6 +35,7 @@ Memory World::Engine::memory() const {
   memory.contacts = heap_bytes(contacts());
   memory.windows = heap_bytes(broad_phase());
   memory.other = sizeof *this + main_.bytes() - memory.pairs;
+  if (profile_) memory.other += profile_->bytes();
   for (const SearchResults& found : found_) memory.other += heap_bytes(found.certificates);
   return memory;
 }
@@ -67,7 +68,9 @@ std::vector<Certificate> World::certificates() const {
 Result<void> World::set_profiling(bool on) {
   auto valid = Preconditions(*this, "set_profiling").idle();
   if (!valid) return valid;
-  if (on && !profiling_) timings_ = {};
+  if (on == profiling_) return valid;
+  if (on) timings_ = {};
+  changeable().set_profiling(on);
   profiling_ = on;
   return valid;
 }
@@ -75,6 +78,14 @@ Result<void> World::set_profiling(bool on) {
 Timings World::timings() const {
   (void)engine("timings");
   return timings_;
+}
+
+Result<std::vector<BusyBody>> World::busiest(std::size_t count) const {
+  const Engine& engine = this->engine("busiest");
+  if (engine.profile() == nullptr)
+    return Error{ErrorCode::not_profiling, "world", no_body,
+                 "busiest: the world counts probes while profiling is on: call set_profiling(true) first"};
+  return engine.profile()->busiest(engine.bodies(), count);
 }
 
 Result<std::optional<Event>> World::timed_advance(double until, const Probe& probe) {

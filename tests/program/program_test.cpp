@@ -128,6 +128,21 @@ TEST_F(ProgramTest, TellsOfTheZenoGuardWhereBodiesSettle) {
   EXPECT_EQ(lines_with(result.out, "zeno guard "), 1u) << result.out;
 }
 
+TEST_F(ProgramTest, ExplainsWhichBodiesCostMostAndWhy) {
+  const std::string scene = "run " + write("s.json", small_scene) + " --explain";
+  const ProgramRun result = run(scene);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(lines_with(result.out, "  body "), 10u) << result.out;
+  EXPECT_EQ(lines_with(result.out, "busiest bodies "), 1u) << result.out;
+  EXPECT_GE(lines_with(result.out, "contacts: Its contacts begin often"), 1u) << result.out;
+  // The same bodies without the summary, with threads, and beside a recording.
+  const std::string list = result.out.substr(result.out.find("\nbusiest bodies"));
+  EXPECT_EQ(run(scene + " --quiet").out, list);
+  EXPECT_EQ(run(scene + " --quiet --threads 2 --record " + path("r.kin")).out, list);
+  EXPECT_EQ(run(scene + " --hash-only").out.size(), 17u);
+  EXPECT_NE(run(scene + " --bodies 0").out.find("none was probed"), std::string::npos);
+}
+
 TEST_F(ProgramTest, RunsScenesOfNothing) {
   for (const char* nothing : {" --bodies 0", " --seconds 0"}) {
     const ProgramRun result =

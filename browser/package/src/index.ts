@@ -9,7 +9,9 @@ export {
 export { bounce, type Bounce, type BounceOptions } from "./response.js";
 export type { Answer, Bounces, Probe, ProbeFunction, RespondFunction, RunOptions } from "./asking.js";
 export type { BodyBatch, BodyDefinition, BodyOptions, MotionLimits, Shape } from "./body.js";
-export { type BodyView, type Certain, type Counters, type Earliest, type Located, World, WorldView } from "./world.js";
+export {
+  type BodyView, type BusyBody, type Certain, type Counters, type Earliest, type Located, type ProbeReason, World, WorldView,
+} from "./world.js";
 export type { Box, Definition, WorldDefinition } from "./definition.js";
 export { Scene, sceneNames, type SceneSettings } from "./scene.js";
 export { Replay } from "./replay.js";

@@ -7,7 +7,7 @@ export type ErrorCode =
   | "disabled_body" | "enabled_body" | "static_body" | "outside_domain" | "overlapping" | "probe_in_progress"
   | "filter_in_progress" | "run_in_progress" | "workers_busy" | "no_threads" | "null_probe" | "null_callback"
   | "callback_threw" | "rank_failed" | "moved_from" | "unsupported" | "bad_snapshot" | "bad_bytes"
-  | "recording" | "not_recording" | "bad_recording" | "diverged";
+  | "recording" | "not_recording" | "not_profiling" | "bad_recording" | "diverged";
 
 /** An error of the library. Its message names the call, the argument, the body, and the wrong value. */
 export class KinesphereError extends Error {

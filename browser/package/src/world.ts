@@ -62,7 +62,39 @@ export interface Counters {
   repeatedContacts: number;
 }
 
+const reasons = [
+  "touching", "narrow_misses", "loose_limit", "contacts", "travel", "changes", "queries",
+] as const;
+/** Main reason for the probes of a body (kinesphere/inspection.hpp explains each). */
+export type ProbeReason = (typeof reasons)[number];
+
+/** A body that was probed while profiling was on, and why. */
+export interface BusyBody {
+  body: BodyId;
+  reason: ProbeReason;
+  /** For a person: what the reason means, and what makes such a body cheaper. */
+  advice: string;
+  /** Probed states of the body; the sum of the next five. */
+  probes: number;
+  /** For a body or wall that it touches. */
+  touching: number;
+  /** For a body, wall or sensor distance that it may reach or leave. */
+  near: number;
+  /** At ends of its windows of time. */
+  windows: number;
+  /** After changes and violated bounds. */
+  changes: number;
+  /** For queries and predictions with a probe. */
+  queries: number;
+  /** Events contact_begin and wall_begin of the body. */
+  contacts: number;
+  accelerationLimit: number;
+  /** Largest deviation from the planned acceleration that reported velocities prove. */
+  largestAcceleration: number;
+}
+
 const viewNumbers = 28;
+const busyNumbers = 11;
 
 /** Read access to a world, which may be that of a replay. */
 export class WorldView extends Owned {
@@ -143,6 +175,33 @@ export class WorldView extends Owned {
       zenoSteps: numbers[after + 10]!,
       repeatedContacts: numbers[after + 11]!,
     };
+  }
+  /**
+   * Returns the bodies that were probed most often while profiling was on (World.setProfiling), at most `count`, the most
+   * probed first. Throws KinesphereError (not_profiling) if profiling was never on.
+   */
+  busiest(count = 10): BusyBody[] {
+    const module = theModule();
+    module.require(module.call("world_busiest", this.address, whole(count, 2 ** 32 - 1, "count", "busiest")));
+    const all = module.answer();
+    return Array.from({ length: all.length / busyNumbers }, (_, k) => {
+      const numbers = all.subarray(k * busyNumbers, (k + 1) * busyNumbers);
+      module.call("advice", numbers[1]!);
+      return {
+        body: numbers[0]!,
+        reason: reasons[numbers[1]!]!,
+        advice: module.textOfBytes(),
+        probes: numbers[2]!,
+        touching: numbers[3]!,
+        near: numbers[4]!,
+        windows: numbers[5]!,
+        changes: numbers[6]!,
+        queries: numbers[7]!,
+        contacts: numbers[8]!,
+        accelerationLimit: numbers[9]!,
+        largestAcceleration: numbers[10]!,
+      };
+    });
   }
   /** Returns three numbers for each certificate: two ids, -1 for the walls, and its failure time. */
   certificates(): Float64Array {
@@ -436,6 +495,14 @@ export class World extends WorldView {
     });
   }
 
+  /**
+   * Switches profiling on, from zero, or off. It is off at first, and also in clones and restored worlds. busiest() tells
+   * which bodies have cost most probes since.
+   */
+  setProfiling(on: boolean): void {
+    const module = theModule();
+    module.require(module.call("world_set_profiling", this.address, on ? 1 : 0));
+  }
   /** Records all inputs and outputs of this world from now on. */
   startRecording(): void {
     const module = theModule();

@@ -1,4 +1,5 @@
 // The numbers at the edge of the picture, and messages.
+import { BusiestTable, busiestShown } from "./busiest.ts";
 import { Numbers, put, whole } from "./numbers.ts";
 import type { Shown } from "./shown.ts";
 
@@ -20,6 +21,7 @@ export class Hud {
   private readonly message = document.querySelector<HTMLElement>("#message")!;
   private readonly messageText = document.querySelector<HTMLElement>("#message-text")!;
   private readonly numbers = new Numbers(document.querySelector<HTMLElement>("#numbers")!);
+  private readonly busiest = new BusiestTable();
   private readonly time = this.numbers.row("time", "Simulated seconds");
   private readonly contacts = this.numbers.row("contacts", "Contacts of two bodies, each reported at its exact time");
   private readonly missed = this.numbers.row("missed by 60 Hz", "Contacts that a loop which looks 60 times per second would not see");
@@ -43,7 +45,7 @@ export class Hud {
     this.missed.row.hidden = shown.alarms !== null;
   }
 
-  update(shown: Shown, times: Times): void {
+  update(shown: Shown, times: Times, showBusiest: boolean): void {
     const { tally, bodyCount } = shown;
     put(this.time, `${shown.time.toFixed(3)} s`, `${whole.format(bodyCount)} bodies`);
     put(this.contacts, short(tally.contacts), tally.wallContacts > 0 ? `+ ${short(tally.wallContacts)} at walls` : "");
@@ -61,6 +63,7 @@ export class Hud {
     put(this.violations, short(tally.violations), "");
     this.violations.row.classList.toggle("bad", tally.violations > 0);
     put(this.hash, shown.hash, "");
+    this.busiest.update(showBusiest ? shown.busiest(busiestShown) : null);
   }
 
   /** Shows an error message. */

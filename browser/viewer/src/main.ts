@@ -58,7 +58,7 @@ function show(next: Shown): void {
   stage.show(shown);
   overlays.show(shown);
   hud.show(shown);
-  hud.update(shown, times);
+  hud.update(shown, times, settings.overlays.busiest);
 }
 
 /** The earlier choice stays if the scene cannot be made. */
@@ -117,12 +117,12 @@ function attempt(action: () => ReportedEvent[] | void): void {
 const next = () => {
   setPlaying(false);
   attempt(() => shown.nextEvent());
-  hud.update(shown, times);
+  hud.update(shown, times, settings.overlays.busiest);
 };
 const back = () => {
   hand.release();
   attempt(() => shown.back(1));
-  hud.update(shown, times);
+  hud.update(shown, times, settings.overlays.busiest);
 };
 
 function openRecording(name: string, bytes: ArrayBuffer): void {
@@ -269,7 +269,7 @@ function frame(now: number): void {
   viewer.pictures += 1;
   if (now - hudTime < 200) return;
   hudTime = now;
-  hud.update(shown, times);
+  hud.update(shown, times, settings.overlays.busiest);
 }
 
 /** For tests, and for the console. */

@@ -22,6 +22,7 @@ export function makePanel(settings: Settings, actions: PanelActions): GUI {
   overlays.add(settings.overlays, "probes").name("who is asked");
   overlays.add(settings.overlays, "bounds").name("bounds");
   overlays.add(settings.overlays, "certificates").name("certificates");
+  overlays.add(settings.overlays, "busiest").name("who costs most");
   overlays.add(settings.overlays, "boxes").name("boxes of bodies");
   overlays.add(settings.overlays, "cells").name("cells");
   gui.add(settings, "theme", ["system", "dark", "bright"]).onChange(actions.repaint);

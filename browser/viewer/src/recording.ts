@@ -1,5 +1,5 @@
 // A recording for display: bodies are drawn at the centres of their bounds, since nothing else is recorded.
-import { type BodyView, type Box, EventHash, Replay, type WorldView } from "kinesphere";
+import { type BodyView, type Box, type BusyBody, EventHash, Replay, type WorldView } from "kinesphere";
 import { isMissedByLoop } from "./missed.ts";
 import { emptyTally, RecentRate, type Shown, type Tally, type ReportedEvent, wrapInto } from "./shown.ts";
 
@@ -36,6 +36,10 @@ export class Recording implements Shown {
   get probesPerSecond(): number { return this.rate.value; }
   get bodyCount(): number { return this.replay.world.size; }
 
+  /** The world of a replay is not profiled. */
+  busiest(): BusyBody[] {
+    return [];
+  }
   radii(): Float64Array {
     return Float64Array.from(this.views(), (view) => view.radius);
   }

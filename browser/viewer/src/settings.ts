@@ -18,6 +18,7 @@ export interface Settings {
     boxes: boolean;
     cells: boolean;
     certificates: boolean;
+    busiest: boolean;
   };
 }
 
@@ -29,5 +30,5 @@ export const firstSettings = (): Settings => ({
   playing: true,
   colouring: "size",
   theme: "system",
-  overlays: { contacts: true, probes: true, bounds: false, boxes: false, cells: false, certificates: false },
+  overlays: { contacts: true, probes: true, bounds: false, boxes: false, cells: false, certificates: false, busiest: false },
 });

@@ -1,5 +1,5 @@
 // A simulation or a recording on the page, in a form for drawing and numbers.
-import type { BodyId, BodyView, Box, Event, WorldView } from "kinesphere";
+import type { BodyId, BodyView, Box, BusyBody, Event, WorldView } from "kinesphere";
 import type { AlarmDistances } from "./scenes/live_scene.ts";
 
 /** An event, and whether a loop of 60 Hz would miss it. */
@@ -55,6 +55,11 @@ export interface Shown {
   readonly probesPerSecond: number;
   /** Number of present bodies. */
   readonly bodyCount: number;
+  /**
+   * Returns the bodies that cost most probes in the last whole second of simulated time, at most `count`. The first call
+   * begins to count.
+   */
+  busiest(count: number): BusyBody[];
   /** Returns the radii, by place in the picture. */
   radii(): Float64Array;
   /** Returns three numbers for each body, in the box if space is periodic; NaN for absent ones. */

@@ -1,5 +1,5 @@
 // A running scene with single steps and a way back, in which bodies can be pushed. Needs no page.
-import { type BodyId, type BodyView, type Box, type Event, EventHash, type Vec3, type World } from "kinesphere";
+import { type BodyId, type BodyView, type Box, type BusyBody, type Event, EventHash, type Vec3, type World } from "kinesphere";
 import { isMissedByLoop, loopLooksWithin } from "./missed.ts";
 import type { TrackTable } from "./scenes/crowd.ts";
 import { sceneAbout, setUp } from "./scenes/list.ts";
@@ -9,6 +9,8 @@ import { emptyTally, type NearPair, RecentRate, type Shown, type Tally, type Rep
 /** Simulated time between two snapshots. */
 const snapshotInterval = 0.25;
 const snapshotsKept = 120;
+/** Simulated time for which the probes of bodies are counted. */
+const profilePeriod = 1;
 /** Simulated time in which the next event is searched for. */
 const eventHorizon = 60;
 
@@ -47,6 +49,8 @@ export class Simulation implements Shown {
   /** Snapshots in order of time. */
   private snapshots: Moment[] = [];
   private rate = new RecentRate();
+  /** The world whose probes are counted, since when, and what was counted in the period before. */
+  private profile: { world: World; since: number; before: BusyBody[] } | null = null;
 
   /** `opened` are the tracks of a recorded crowd. */
   constructor(readonly choice: SceneChoice, opened: TrackTable | null = null) {
@@ -77,6 +81,19 @@ export class Simulation implements Shown {
   /** True if bodies can be pushed. */
   get canBePushed(): boolean { return this.now.scene.setVelocity !== undefined; }
 
+  busiest(count: number): BusyBody[] {
+    const world = this.view;
+    // Going back replaces the world by a copy, which is not profiled.
+    if (this.profile?.world !== world) {
+      world.setProfiling(true);
+      this.profile = { world, since: this.time, before: [] };
+    } else if (this.time >= this.profile.since + profilePeriod) {
+      this.profile = { world, since: this.time, before: world.busiest(count) };
+      world.setProfiling(false);
+      world.setProfiling(true);
+    }
+    return this.profile.before.length > 0 ? this.profile.before : world.busiest(count);
+  }
   radii(): Float64Array {
     return this.setup.radii;
   }

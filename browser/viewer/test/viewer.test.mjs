@@ -40,6 +40,20 @@ test("the scene goes on by itself", async () => {
   assert.ok(contacts > 0);
 });
 
+test("the bodies that cost most are listed with a reason", async () => {
+  await page.evaluate(() => { window.kinesphereViewer.settings.overlays.busiest = true; });
+  await page.waitForFunction(() => document.querySelectorAll("#busiest tbody tr").length === 5, null, { timeout: 60_000 });
+  const rows = await page.evaluate(() => Array.from(document.querySelectorAll("#busiest tbody tr"), (row) =>
+    ({ cells: Array.from(row.cells, (cell) => cell.textContent), advice: row.title })));
+  for (const { cells, advice } of rows) {
+    assert.match(cells[0], /^\d+$/);
+    assert.match(cells[2], /^(touching|narrow misses|loose limit|contacts|travel|changes)$/);
+    assert.ok(advice.length > 40);
+  }
+  await page.evaluate(() => { window.kinesphereViewer.settings.overlays.busiest = false; });
+  await page.waitForFunction(() => document.querySelector("#busiest").hidden);
+});
+
 test("a pause holds it", async () => {
   await page.keyboard.press("Space");
   const first = await state();
