@@ -20,12 +20,7 @@ int main() {
   }
   RandomForces motion = RandomForces::create(forces).value();
   World world =
-<<<<<<< HEAD
       World::create({.box = Box{{0, 0, 0}, {26, 26, 26}}, .contacts = ContactEvents::impacts}).value();
-  std::vector<double> mass;
-=======
-      World::create({.box = Box{{0, 0, 0}, {26, 26, 26}}, .contacts = ContactMode::impacts}).value();
->>>>>>> main
   for (std::uint32_t k = 0; k < balls; ++k) {
     BodyDefinition ball = motion.definition(k, 0.0);
     ball.radius = random.uniform(0.3, 0.8);

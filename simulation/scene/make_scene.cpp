@@ -136,8 +136,8 @@ Result<Scene> make_scene(const SceneParameters& parameters) {
   scene.world.contacts =
       p.response == SceneResponse::bounce ? ContactEvents::impacts : ContactEvents::begin_and_end;
 
-  const auto centres =
-      place_spheres(radii, p.box, 4.0 * p.contact_tolerance, Random::at(p.seed, placement_stream, 0).bits());
+  const auto centres = place_spheres(radii, p.box, 4.0 * p.contact_tolerance,
+                                     Random::at(p.seed, placement_stream, 0).bits(), p.periodic);
   if (!centres) {
     return Error{ErrorCode::out_of_range, "bodies", no_body,
                  "make_scene: bodies must fit into the box without overlap, but no room was found for " +

@@ -4,8 +4,8 @@
 #include <numeric>
 
 #include "kinesphere/random.hpp"
-#include "simulation/grid/hash_grid.hpp"
 #include "simulation/scene/relaxation.hpp"
+#include "simulation/scene/sphere_room.hpp"
 
 namespace kinesphere {
 namespace {
@@ -14,60 +14,33 @@ namespace {
 /// time before relax_spheres().
 constexpr int max_tries = 200000;
 
-class RandomPlacement {
- public:
-  RandomPlacement(const std::vector<double>& radii, const Box& box, double clearance, std::uint64_t seed)
-      : radii_(radii),
-        box_(box),
-        clearance_(clearance),
-        random_(Random::at(seed, 0, 0)),
-        centres_(radii.size()) {}
-
-  std::optional<std::vector<Vec3>> run() {
-    std::vector<std::uint32_t> order(radii_.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(),
-                     [this](std::uint32_t a, std::uint32_t b) { return radii_[a] > radii_[b]; });
-    for (const std::uint32_t sphere : order)
-      if (!place(sphere)) return std::nullopt;
-    return centres_;
-  }
-
- private:
-  bool place(std::uint32_t sphere) {
-    const double reach = radii_[sphere] + clearance_;
-    const Vec3 half{reach, reach, reach};
-    const Vec3 lower = box_.lower + half;
-    const Vec3 upper = box_.upper - half;
-    if (!(lower.x <= upper.x && lower.y <= upper.y && lower.z <= upper.z)) return false;
+std::optional<std::vector<Vec3>> place_at_random(SphereRoom& room, std::size_t count, Random random) {
+  const auto is_free = [&](std::uint32_t sphere, const Vec3& centre) {
+    bool free = true;
+    room.for_each_near(sphere, centre, [&](std::uint32_t other) {
+      const double distance = room.least_distance(sphere, other);
+      free = free && norm_squared(room.offset(centre, other)) > distance * distance;
+    });
+    return free;
+  };
+  const auto place = [&](std::uint32_t sphere) {
+    const auto range = room.range(sphere);
+    if (!range) return false;
     for (int tries = 0; tries < max_tries; ++tries) {
-      const Vec3 centre{random_.uniform(lower.x, upper.x), random_.uniform(lower.y, upper.y),
-                        random_.uniform(lower.z, upper.z)};
-      const Box box{centre - half, centre + half};
-      if (!is_free(sphere, centre, box)) continue;
-      centres_[sphere] = centre;
-      grid_.set(sphere, box);
+      const Vec3 centre = SphereRoom::random_point(*range, random);
+      if (!is_free(sphere, centre)) continue;
+      room.move_to(sphere, centre);
       return true;
     }
     return false;
-  }
-
-  bool is_free(std::uint32_t sphere, const Vec3& centre, const Box& box) const {
-    bool free = true;
-    grid_.for_each_overlap(box, [&](std::uint32_t other) {
-      const double distance = radii_[sphere] + radii_[other] + clearance_;
-      free = free && norm_squared(centre - centres_[other]) > distance * distance;
-    });
-    return free;
-  }
-
-  const std::vector<double>& radii_;
-  Box box_;
-  double clearance_;
-  Random random_;
-  HashGrid grid_;
-  std::vector<Vec3> centres_;
-};
+  };
+  std::vector<std::uint32_t> order(count);
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return room.radius(a) > room.radius(b); });
+  if (!std::all_of(order.begin(), order.end(), place)) return std::nullopt;
+  return room.centres();
+}
 
 /// Returns the part of the box that the spheres fill.
 double filled_part(const std::vector<double>& radii, const Box& box) {
@@ -88,13 +61,14 @@ bool will_jam(const std::vector<double>& radii, double filled) {
 }  // namespace
 
 std::optional<std::vector<Vec3>> place_spheres(const std::vector<double>& radii, const Box& box,
-                                               double clearance, std::uint64_t seed) {
+                                               double clearance, std::uint64_t seed, bool periodic) {
   const double filled = filled_part(radii, box);
   if (filled > 1.0) return std::nullopt;  // spheres cannot fill more than the box
   if (!will_jam(radii, filled)) {
-    if (auto centres = RandomPlacement(radii, box, clearance, seed).run()) return centres;
+    SphereRoom room(radii, box, clearance, periodic);
+    if (auto centres = place_at_random(room, radii.size(), Random::at(seed, 0, 0))) return centres;
   }
-  return relax_spheres(radii, box, clearance, seed);
+  return relax_spheres(radii, box, clearance, seed, periodic);
 }
 
 }  // namespace kinesphere

@@ -87,14 +87,14 @@ TEST(BodyDirectory, KeepsListOfCopies) {
 TEST(PendingLinks, AreThereUntilPartnersCome) {
   PendingLinks links;
   EXPECT_EQ(links.of(1), nullptr);
-  links.add_partner(1, 10);
-  links.add_partner(1, 11);
+  links.add_partner(1, {10});
+  links.add_partner(1, {11});
   links.add_overlap(1, {10, 0.5, Senses::first});
   ASSERT_NE(links.of(1), nullptr);
-  EXPECT_EQ(links.of(1)->partners, (std::vector<std::uint32_t>{10, 11}));
+  EXPECT_EQ(links.of(1)->partners, (std::vector<ContactRecord>{{10}, {11}}));
   links.remove(1, 10);
   ASSERT_NE(links.of(1), nullptr);
-  EXPECT_EQ(links.of(1)->partners, std::vector<std::uint32_t>{11});
+  EXPECT_EQ(links.of(1)->partners, (std::vector<ContactRecord>{{11}}));
   EXPECT_TRUE(links.of(1)->overlaps.empty());
   links.remove(1, 11);
   EXPECT_EQ(links.of(1), nullptr);
@@ -102,12 +102,12 @@ TEST(PendingLinks, AreThereUntilPartnersCome) {
 
 TEST(PendingLinks, AreReplacedAndForgotten) {
   PendingLinks links;
-  links.add_partner(1, 10);
-  links.set(1, {.partners = {12}});
-  EXPECT_EQ(links.of(1)->partners, std::vector<std::uint32_t>{12});
+  links.add_partner(1, {10});
+  links.set(1, {.partners = {{12}}});
+  EXPECT_EQ(links.of(1)->partners, (std::vector<ContactRecord>{{12}}));
   links.set(1, {});
   EXPECT_EQ(links.of(1), nullptr);
-  links.add_partner(1, 10);
+  links.add_partner(1, {10});
   links.remove(1);
   EXPECT_EQ(links.of(1), nullptr);
 }

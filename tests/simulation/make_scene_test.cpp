@@ -53,6 +53,28 @@ TEST(PeriodicScene, HasNoWallsAndNoMomentum) {
   EXPECT_GT(norm(momentum_of(make_scene({.bodies = 50}).value())), 1.0);
 }
 
+TEST(PeriodicScene, IsAsDenseAtTheFacesAsAnywhere) {
+  for (const double packing : {0.25, 0.45}) {
+    SceneParameters gas = built_in("periodic_gas");
+    gas.packing = packing;
+    const Scene scene = make_scene(gas).value();
+    const Box box = *scene.world.box;
+    const double size = box.upper.x - box.lower.x;
+    int near_face = 0;
+    for (std::uint32_t k = 0; k < gas.bodies; ++k) {
+      const Vec3 centre = scene.motion->state(k, 0.0).position;
+      const auto is_near = [&](int axis) {
+        return centre[axis] < box.lower[axis] + 0.5 || centre[axis] > box.upper[axis] - 0.5;
+      };
+      near_face += is_near(0) || is_near(1) || is_near(2) ? 1 : 0;
+      ASSERT_TRUE(box.lower.x <= centre.x && centre.x < box.upper.x);
+    }
+    const double inside = (size - 1.0) / size;
+    const double uniform = gas.bodies * (1.0 - inside * inside * inside);
+    EXPECT_NEAR(near_face, uniform, 4.0 * std::sqrt(uniform)) << "packing " << packing;
+  }
+}
+
 TEST(PeriodicScene, IsRunWithoutEverMeetingAWall) {
   SceneParameters gas = built_in("periodic_gas");
   gas.bodies = 200;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cmath>
 
 #include "kinesphere/random.hpp"
 #include "simulation/scene/make_scene.hpp"
@@ -44,6 +45,19 @@ void expect_placed(const std::vector<double>& radii, const std::optional<std::ve
   }
 }
 
+void expect_placed_in_periodic_box(const std::vector<double>& radii,
+                                   const std::optional<std::vector<Vec3>>& centres) {
+  ASSERT_TRUE(centres);
+  const double size = box.upper.x - box.lower.x;
+  for (std::size_t a = 0; a < radii.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      Vec3 offset = (*centres)[a] - (*centres)[b];
+      for (int axis = 0; axis < 3; ++axis) offset[axis] -= size * std::round(offset[axis] / size);
+      ASSERT_GE(norm(offset) - radii[a] - radii[b], 0.999 * clearance) << "spheres " << a << " and " << b;
+    }
+  }
+}
+
 class Seeds : public ::testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(Seeds, places_what_random_placement_can) {
@@ -54,6 +68,14 @@ TEST_P(Seeds, places_what_random_placement_can) {
 TEST_P(Seeds, places_the_fullest_box_of_the_paper) {
   const auto radii = radii_that_fill(0.47, 0.1, GetParam());
   expect_placed(radii, place_spheres(radii, box, clearance, GetParam()));
+}
+
+TEST_P(Seeds, keeps_images_apart_in_a_periodic_box) {
+  for (const double part : {0.3, 0.5}) {
+    const auto radii = radii_that_fill(part, 0.1, GetParam());
+    expect_placed_in_periodic_box(radii, place_spheres(radii, box, clearance, GetParam(), true));
+    expect_placed_in_periodic_box(radii, relax_spheres(radii, box, clearance, GetParam(), true));
+  }
 }
 
 TEST_P(Seeds, places_denser_packings) {
