@@ -69,6 +69,7 @@ py::tuple approaches(const py::object& times, const py::object& positions, const
     Scene scene =
         scene_of_tracks(tracks, distance, straight ? Interpolation::linear : Interpolation::spline).value();
     scene.world.contact_tolerance = tolerance;
+    scene.world.contacts = ContactEvents::begin_and_end;
     scene.world.dimensions = plane ? 2 : 3;
     std::vector<Event> events;
     Interruptions interruptions;

@@ -202,6 +202,7 @@ Scene make_vessels(const VesselParameters& parameters, double distance) {
   Scene scene;
   scene.name = "vessels";
   scene.world.contact_tolerance = 1e-6 * distance;
+  scene.world.contacts = ContactEvents::begin_and_end;
   scene.end_time = parameters.seconds;
   scene.bodies.assign(parameters.vessels, {.radius = 0.5 * distance});
   scene.motion = std::make_unique<RecordedTracks>(require(RecordedTracks::create(vessel_tracks(parameters))));

@@ -35,7 +35,7 @@ Result<void> BoundDetector::set_velocity(std::uint32_t number, const Vec3& veloc
   if (!fresh(number)) probe(number);
   body.bound.velocity = velocity;
   body.kicked_to.reset();
-  contacts_.change_reported(number, ApproachState::watched);
+  contacts_.turn_reported(number);
   begin_new_course(number);
   return {};
 }

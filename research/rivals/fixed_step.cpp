@@ -50,7 +50,7 @@ class FixedStep final : public Detector {
 
   Result<void> set_velocity(std::uint32_t number, const Vec3& velocity) override {
     bodies_[number].state.velocity = velocity;
-    contacts_.change_reported(number, ApproachState::watched);
+    contacts_.turn_reported(number);
     return {};
   }
 

@@ -54,6 +54,7 @@ class FlightRecorder {
     const bool wall = event.wall != Wall::none;
     const std::uint32_t first = event.first.index;
     const std::uint32_t second = wall ? first : event.second.index;
+    if (event.already_touching) return;
     if (event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin) {
       const bool ends = wants_ends(scene_.world.contacts);
       open_[{first, second, event.wall}] = flight_.contacts.size();

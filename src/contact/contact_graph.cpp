@@ -90,22 +90,22 @@ void ContactGraph::set_overlap(std::uint32_t body, std::uint32_t partner, const 
   }
 }
 
-void ContactGraph::change_reported(std::uint32_t body, ApproachState approach) {
-  const auto change = [approach](ContactState& state) {
-    if (state.approach == ApproachState::reported || state.approach == ApproachState::turned) state.approach = approach;
+void ContactGraph::turn_reported(std::uint32_t body) {
+  const auto turn = [](ContactState& state) {
+    if (state.approach == ApproachState::reported) state.approach = ApproachState::turned;
   };
   if (flags_[body].walls != 0) {
     for (const Wall wall : walls) {
       if (!touches_wall(body, wall)) continue;
       ContactState state = wall_state(body, wall);
-      change(state);
+      turn(state);
       set_wall_state(body, wall, true, state);
     }
   }
   if (body >= partners_.size()) return;
   for (const ContactRecord& record : std::as_const(partners_[body]).all()) {
     ContactState state = *contact_of(body, record.partner);
-    change(state);
+    turn(state);
     set_half(body, record.partner, &state);
     set_half(record.partner, body, &state);
   }

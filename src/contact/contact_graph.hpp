@@ -83,9 +83,9 @@ class ContactGraph {
   void set_touching(const Event& contact, bool touching);
   /// Sets the state of the contact that the event names. The contact begins if it does not exist.
   void set_state(const Event& contact, const ContactState& state);
-  /// Gives all reported approaches of a body another state: `turned` after another velocity, `watched` if the
-  /// caller has moved the body elsewhere.
-  void change_reported(std::uint32_t body, ApproachState approach);
+  /// Marks all reported approaches of a body as turned, because the caller has given it another velocity, place
+  /// or shape.
+  void turn_reported(std::uint32_t body);
 
   // Begins of contacts.
 

@@ -11,7 +11,7 @@ enum class ApproachState : std::uint8_t {
   watched,
   /// Their present approach has been reported. They may pass through each other.
   reported,
-  /// Reported, but one of the two has got another velocity since: fresh reports decide whether they still
+  /// Reported, but the caller has changed one of the two since: fresh reports decide whether they still
   /// approach.
   turned,
   /// No approach is an event until they have separated: responses do not part them (ContactGraph::note_jam()).

@@ -5,6 +5,10 @@
 namespace kinesphere {
 namespace {
 
+/// Part of the approach speed that a response may leave and still part the two. What remains is another event at
+/// the same instant, so the speed is gone after about 60 of them.
+constexpr double largest_rest_of_approach = 0.5;
+
 /// Recomputes the event from the present states of its bodies.
 void describe_now(Event& event, const Sphere& first, const Sphere& second, const Space& space,
                   const std::optional<Box>& box) {
@@ -59,8 +63,12 @@ void PendingEvents::note_response(ContactGraph& graph, const Sphere& first, cons
   describe_now(now, first, second, graph.space(), box);
   ContactState state = threshold.state;
   const double error = approach_error(now, first, second);
-  const bool approaches = graph.rule().is_approach(now.gap, now.approach_speed, error);
-  state.approach = approaches ? ApproachState::reported : ApproachState::watched;
+  const auto approaches = [&](const Event& event) {
+    return graph.rule().is_approach(event.gap, event.approach_speed, error);
+  };
+  const bool passes = approaches(reported) && approaches(now) &&
+                      now.approach_speed > largest_rest_of_approach * reported.approach_speed;
+  state.approach = passes ? ApproachState::reported : ApproachState::watched;
   if (state.approach == ApproachState::watched && !wants_ends(wanted) && !state.has_history()) {
     graph.set_touching(reported, false);
   } else {
@@ -100,6 +108,8 @@ bool PendingEvents::take_effect(ContactGraph& graph, Event& event, const Sphere&
       const bool approaches = graph.rule().is_approach(event.gap, event.approach_speed, error);
       const bool is_watched = wants_approaches(wanted) && !approaches;
       state.approach = is_watched ? ApproachState::watched : ApproachState::reported;
+      // The begin itself says that the two overlap.
+      state.guard_reported = state.guard_reported || event.gap < -graph.rule().tolerance();
       graph.set_state(event, state);
       delivered_ = event;
     }

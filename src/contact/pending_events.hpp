@@ -99,9 +99,8 @@ class PendingEvents {
         graph, is_there, sphere, [](const Event&) { return Senses::neither; }, box);
   }
 
-  /// Takes note of the response to the last delivered begin: if the two still approach with the velocities that
-  /// the response gave them, they are let through until that changes; otherwise their next approach is an
-  /// event. pop() does this before it delivers another event. Call it before velocities change for another
+  /// Takes note of the response to the last delivered begin: if the two still approach with more than half of
+  /// their speed, they are let through until that changes; otherwise their next approach is an event. pop() does this before it delivers another event. Call it before velocities change for another
   /// reason, and before bodies are recertified.
   template <class SphereNow>
   void note_response(ContactGraph& graph, SphereNow sphere, const std::optional<Box>& box) {

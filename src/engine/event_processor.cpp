@@ -106,7 +106,7 @@ void EventProcessor::set_velocity(std::uint32_t number, const Vec3& velocity) {
     note_linked_conflicts(number);
     if (!log_->conflicts.empty()) return;
   }
-  contacts().change_reported(number, ApproachState::turned);
+  contacts().turn_reported(number);
   invalidate(number);
 }
 

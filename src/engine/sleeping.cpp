@@ -13,7 +13,7 @@ void Sleeping::sleep(std::uint32_t number) {
   if (!known) bodies().change_of(number).velocity = Vec3{};
   bodies().sleep_records.add(body, {number, limits});
   if (known) body.stand_still();
-  state_.contacts.change_reported(number, ApproachState::turned);
+  state_.contacts.turn_reported(number);
   processor_.invalidate(number);
 }
 

@@ -91,7 +91,7 @@ void World::WorldEditor::end_contacts_outside(std::uint32_t number, const Collis
 
 void World::WorldEditor::teleport(BodyId id, const State& state) {
   sleeping().wake(id.index);
-  state_.contacts.change_reported(id.index, ApproachState::watched);
+  state_.contacts.turn_reported(id.index);
   state_.bodies.count_images_anew(id.index);
   replace(id.index, bound_of(bodies().definition_of(id.index), state, time()));
   state_.bodies.forget_change(id.index);
@@ -114,7 +114,7 @@ void World::WorldEditor::set_shape(BodyId id, const Shape& shape) {
   const Bound bound = bound_now(at_rest, time());
   if (enabled) {
     sleeping().wake(number);
-    state_.contacts.change_reported(number, ApproachState::watched);
+    state_.contacts.turn_reported(number);
     end_contacts_outside(number, collision_shape_of(bound, shape));
   }
   state_.bodies[number].radius = at_rest.radius;

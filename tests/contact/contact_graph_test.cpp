@@ -109,8 +109,13 @@ TEST_F(ContactGraphTest, ResponseThatPartsTheTwoMakesTheirNextApproachAnEvent) {
 TEST_F(ContactGraphTest, ResponseThatDoesNotPartTheTwoLetsThemThrough) {
   instant.queue(begin(0, 1));
   EXPECT_TRUE(deliver());
+  // At least half of the approach is gone: what remains is another approach.
   velocities[0] = {0.5, 0, 0};
-  book.change_reported(0, ApproachState::turned);
+  book.turn_reported(0);
+  instant.queue(begin(0, 1));
+  EXPECT_TRUE(deliver());
+  velocities[0] = {0.375, 0, 0};
+  book.turn_reported(0);
   instant.queue(begin(0, 1));
   EXPECT_FALSE(deliver());
   EXPECT_EQ(book.contact_threshold(0, 1, wanted).state.approach, ApproachState::reported);
@@ -124,7 +129,7 @@ TEST_F(ContactGraphTest, TurnsReportedApproachesOfABodyAndItsWalls) {
   while (deliver()) {
   }
   EXPECT_EQ(book.wall_threshold(0, Wall::x_lower, wanted).state.approach, ApproachState::reported);
-  book.change_reported(0, ApproachState::turned);
+  book.turn_reported(0);
   EXPECT_EQ(book.wall_threshold(0, Wall::x_lower, wanted).state.approach, ApproachState::turned);
   EXPECT_EQ(book.contact_threshold(0, 1, wanted).state.approach, ApproachState::turned);
   EXPECT_EQ(book.contact_threshold(1, 0, wanted).state.approach, ApproachState::turned);

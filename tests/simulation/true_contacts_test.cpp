@@ -177,6 +177,7 @@ TEST(NearSpans, box_holds_the_whole_curve) {
 Scene many_short_tracks(std::uint32_t count) {
   std::vector<Track> tracks;
   Scene scene;
+  scene.world.contacts = ContactEvents::begin_and_end;
   for (std::uint32_t k = 0; k < count; ++k) {
     Random random = Random::at(7, 0, k);
     const double start = 0.5 * k;

@@ -197,7 +197,7 @@ void Player::teleport(BodyId id, const State& state) {
   if (!done) return require(done.error().code == ErrorCode::overlapping, "teleport: a wrong reason");
   truth_.move(id, state);
   told_.replaced(world_, id, before);
-  told_.teleported(id);
+  told_.redirected(id);
   changed();
 }
 

@@ -132,7 +132,9 @@ WorldKind kind_of(std::span<const std::uint8_t> bytes) {
   const std::uint8_t features = header(bytes, 4);
   WorldKind kind;
   WorldDefinition& world = kind.definition;
-  world.contacts = choices % 2 == 0 ? ContactEvents::begin_and_end : ContactEvents::impacts;
+  world.contacts = choices % 2 == 1  ? ContactEvents::impacts
+                   : bodies % 2 == 0 ? ContactEvents::begin_and_end
+                                     : ContactEvents::all;
   if (choices / 2 % 2 == 0) world.box = Box{{0, 0, 0}, {world_size, world_size, world_size}};
   world.allow_overlap = choices / 4 % 4 != 3;
   world.contact_tolerance = tolerances[choices / 16 % 4];

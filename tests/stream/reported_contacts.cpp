@@ -74,6 +74,15 @@ void ReportedContacts::for_each(BodyId id, Action action) const {
   for (const Wall wall : truth_.walls()) action(Contact{.first = id, .wall = wall});
 }
 
+ContactEvents ReportedContacts::wanted(const Contact& contact) const {
+  if (contact.sensed) return ContactEvents::begin_and_end;
+  const auto of = [this](BodyId id) {
+    const TrueBody& body = truth_.at(id);
+    return body.fixed ? ContactEvents{} : body.definition.contacts.value_or(truth_.definition().contacts);
+  };
+  return contact.wall == Wall::none ? of(contact.first) | of(contact.second) : of(contact.first);
+}
+
 // Changes.
 
 Event ReportedContacts::end_now(const World& world, const Contact& contact) const {
@@ -108,7 +117,7 @@ GapLimits ReportedContacts::limits(const World& world, const Contact& contact) c
 std::vector<Before> ReportedContacts::before(const World& world, BodyId id) const {
   std::vector<Before> found;
   for_each(id, [&](const Contact& contact) {
-    if (!reported(contact).touching) return;
+    if (!is_open(contact)) return;
     found.push_back(
         {contact, end_now(world, contact), truth_.gap(contact) >= rule_.separation_distance() - slack_});
   });
@@ -116,10 +125,10 @@ std::vector<Before> ReportedContacts::before(const World& world, BodyId id) cons
 }
 
 void ReportedContacts::expect_end(const Before& before, bool certain) {
-  if (impacts(before.contact)) {
-    if (certain) reported(before.contact) = {};
-    return;
-  }
+  ReportedState& state = reported(before.contact);
+  state.opened = true;
+  if (certain) state = {.touching = state.touching};
+  if (!state.touching) return;
   auto end =
       std::find_if(ends_.begin(), ends_.end(), [&](const End& e) { return e.contact == before.contact; });
   if (end == ends_.end()) end = ends_.insert(end, {before.contact, {}, false});
@@ -150,18 +159,11 @@ void ReportedContacts::refiltered(BodyId id, const std::vector<Before>& before) 
 
 void ReportedContacts::redirected(BodyId id) {
   for_each(id, [this](const Contact& contact) {
-    if (!impacts(contact)) return;
+    if (contact.sensed) return;
     ReportedState& state = reported(contact);
     // The world may look before the next change of the same instant, or not: another begin is possible.
-    state.turned = state.opened = state.touching;
-    look_again(contact);
-  });
-}
-
-void ReportedContacts::teleported(BodyId id) {
-  for_each(id, [this](const Contact& contact) {
-    if (!impacts(contact)) return;
-    reported(contact).touching = false;
+    state.turned = state.approached;
+    state.opened = state.opened || state.approached || state.touching;
     look_again(contact);
   });
 }
@@ -181,7 +183,7 @@ void ReportedContacts::appeared(BodyId id) {
 /// Resets the state of a contact: bouncing bodies may overlap deeply, as long as they separate.
 void ReportedContacts::look_again(const Contact& contact) {
   ReportedState& state = reported(contact);
-  if (!impacts(contact) || state.touching || !truth_.may_be_reported(contact)) return;
+  if (!wants_approaches(wanted(contact)) || state.approached || !truth_.may_be_reported(contact)) return;
   state.due = true;
   // The Zeno guard may use an eighth of the tolerance more.
   state.floor = std::min(0.0, truth_.gap(contact) - 0.125 * rule_.tolerance() + rule_.tolerance());
@@ -203,13 +205,13 @@ void ReportedContacts::hear(const Event& event) {
     case EventKind::sensor_leave:
       return end(event, contact);
     case EventKind::zeno_guard:
-      if (!impacts(contact)) fail("a Zeno guard, though contacts last", contact, event.gap);
       if (event.gap > rule_.tolerance()) fail("a Zeno guard outside the tolerance", contact, event.gap);
       if (truth_.may_be_reported(contact)) {
-        reported(contact).floor =
-            std::min(reported(contact).floor, event.gap - 0.125 * rule_.tolerance() + rule_.tolerance());
-        // The guard tells once that the two may come to overlap until they have separated.
-        reported(contact).touching = reported(contact).opened = true;
+        // Further approaches may be reported until then, or not.
+        ReportedState& state = reported(contact);
+        if (!wants_approaches(wanted(contact)) && !state.opened)
+          fail("a Zeno guard, though no approach is watched", contact, event.gap);
+        state.guarded = state.approached = state.opened = true;
       }
       return;
     default:
@@ -230,6 +232,7 @@ bool ReportedContacts::take_end(const Event& event, const Contact& contact) {
     if (other.certain && delivered_before(other.candidates.front(), event))
       fail("an end by a change comes too late", other.contact, other.candidates.front().gap);
   reported(contact).touching = false;
+  look_again(contact);
   ends_.erase(end);
   return true;
 }
@@ -295,14 +298,24 @@ void ReportedContacts::begin(const Event& event, const Contact& contact) {
     if (pair) truth_.at(contact.second).last_contact = truth_.time();
   }
   ReportedState& state = reported(contact);
-  const bool impact = impacts(contact);
-  if (impact && event.approach_speed <= 0.0) fail("an impact that does not approach", contact, gap);
-  if (state.touching && !(impact && state.opened)) fail("a begin is reported twice", contact, gap);
-  state = {.touching = true};
+  const ContactEvents events = wanted(contact);
+  const bool ends = wants_ends(events);
+  if (event.already_touching != (state.touching && !contact.sensed))
+    fail("a begin says wrongly whether the two were in touch", contact, gap);
+  const bool first = ends && !state.touching;
+  if (!first && event.approach_speed <= 0.0) fail("an impact that does not approach", contact, gap);
+  // The two must have parted since the last report of an approach, or a response has parted them.
+  if (!first && !state.opened && (state.approached || !wants_approaches(events)))
+    fail("a begin is reported twice", contact, gap);
+  const bool approaches = event.approach_speed > 0.0;
+  state = {.touching = ends, .approached = approaches || !wants_approaches(events), .guarded = state.guarded};
+  // Rounding alone may produce so slow an approach.
+  state.opened = wants_approaches(events) && approaches && event.approach_speed < 1e-9;
+  if (!state.approached) look_again(contact);
 }
 
 void ReportedContacts::end(const Event& event, const Contact& contact) {
-  if (impacts(contact)) fail("an end in a world of impacts", contact, event.gap);
+  if (!wants_ends(wanted(contact))) fail("an end that nobody asks for", contact, event.gap);
   if (!truth_.may_be_reported(contact)) fail("an end of bodies that may not touch", contact, event.gap);
   if (!reported(contact).touching) fail("an end without a begin", contact, event.gap);
   const double gap = truth_.gap(contact);
@@ -311,7 +324,7 @@ void ReportedContacts::end(const Event& event, const Contact& contact) {
   if (std::abs(truth_.exact_gap(contact) - told_gap) > slack_)
     fail("an end with another gap than the exact one", contact, event.gap);
   if (told_gap < rule_.separation_distance()) fail("an end before the bodies are apart", contact, gap);
-  reported(contact).touching = false;
+  reported(contact) = {};
 }
 
 void ReportedContacts::check_account(const World& world, BodyId id) const {
@@ -320,7 +333,7 @@ void ReportedContacts::check_account(const World& world, BodyId id) const {
   std::size_t contacts = 0;
   std::size_t overlaps = 0;
   for_each(id, [&](const Contact& contact) {
-    if (contact.wall != Wall::none || impacts(contact)) return;
+    if (contact.wall != Wall::none || !wants_ends(wanted(contact))) return;
     const BodyId other = contact.first == id ? contact.second : contact.first;
     const bool listed = contact.sensed ? std::find(sensed.begin(), sensed.end(),
                                                    SensorOverlap{other, *contact.sensed}) != sensed.end()
@@ -332,7 +345,10 @@ void ReportedContacts::check_account(const World& world, BodyId id) const {
     if (listed != (reported(contact).touching && end == ends_.end()))
       fail("the account differs from what was reported", contact, 0.0);
   });
-  if (sensed.size() != overlaps || (wants_ends(truth_.definition().contacts) && touching.size() != contacts))
+  const auto with_ends = std::count_if(touching.begin(), touching.end(), [&](BodyId other) {
+    return wants_ends(wanted(id.index < other.index ? Contact{id, other} : Contact{other, id}));
+  });
+  if (sensed.size() != overlaps || static_cast<std::size_t>(with_ends) != contacts)
     throw Disagreement("touching() or sensed() names a body twice, or one that is gone");
 }
 
@@ -409,22 +425,25 @@ std::optional<double> ReportedContacts::reaches(const Contact& contact, LevelCro
 void ReportedContacts::check_contact(const Contact& contact, double until) {
   ReportedState& state = reported(contact);
   const double now = truth_.time();
-  if (impacts(contact)) return check_impacts(contact, state, until);
+  const ContactEvents events = wanted(contact);
   if (state.touching) {
     if (const auto time = reaches(contact, LevelCrossing::rises_to, rule_.release_gap(), now, until))
       fail("they part untold at " + std::to_string(*time), contact, truth_.gap(contact));
-  } else if (const auto time = reaches(contact, LevelCrossing::falls_to, -rule_.tolerance(), now, until)) {
-    fail("they touch untold at " + std::to_string(*time), contact, truth_.gap(contact));
+  } else if (wants_ends(events)) {
+    if (const auto time = reaches(contact, LevelCrossing::falls_to, -rule_.tolerance(), now, until))
+      fail("they touch untold at " + std::to_string(*time), contact, truth_.gap(contact));
+    return;
   }
+  if (wants_approaches(events)) check_approaches(contact, state, until);
 }
 
-void ReportedContacts::check_impacts(const Contact& contact, ReportedState& state, double until) {
+void ReportedContacts::check_approaches(const Contact& contact, ReportedState& state, double until) {
   double from = truth_.time();
-  if (std::exchange(state.turned, false) && truth_.approach_speed(contact) <= 0.0) {
-    state.touching = false;
+  if (std::exchange(state.turned, false) && !state.guarded && truth_.approach_speed(contact) <= 0.0) {
+    state.approached = false;
     look_again(contact);
   }
-  if (state.touching) {
+  if (state.approached) {
     state.opened = state.opened || truth_.opens_before(contact, until);
     const auto parted = reaches(contact, LevelCrossing::rises_to, rule_.release_gap(), from, until);
     if (!parted) return;

@@ -41,7 +41,6 @@ class ReportedContacts {
   void replaced(const World& world, BodyId id, const std::vector<Before>& before);
   void refiltered(BodyId id, const std::vector<Before>& before);
   void redirected(BodyId id);
-  void teleported(BodyId id);
   void appeared(BodyId id);
 
   /// Far below the tolerance, above rounding.
@@ -52,12 +51,13 @@ class ReportedContacts {
 
  private:
   struct ReportedState {
-    bool touching = false;  ///< impacts: a begin was reported, and the bodies have not certainly parted since
-    // In ContactEvents::impacts only.
-    bool opened = false;  ///< since the begin the gap may have opened for a while
-    bool turned = false;  ///< touching, and one of the two has got another velocity at this instant
-    bool due = false;     ///< an approach now must be reported before time moves on
-    double floor = 0.0;   ///< no lower gap may come unreported; 0 stands for minus the tolerance
+    bool touching = false;  ///< with ends: a begin was reported, and its end was not
+    bool approached = false;  ///< an approach was reported, and the bodies have not certainly parted since
+    bool opened = false;   ///< since that report the two may have parted for a while
+    bool turned = false;   ///< approached, and one of the two has got another velocity at this instant
+    bool guarded = false;  ///< the Zeno guard has told that the two may overlap until they have separated
+    bool due = false;      ///< an approach now must be reported before time moves on
+    double floor = 0.0;    ///< no lower gap may come unreported; 0 stands for minus the tolerance
 
     friend bool operator==(const ReportedState&, const ReportedState&) = default;
   };
@@ -68,9 +68,11 @@ class ReportedContacts {
     bool certain;
   };
 
-  /// True if ends are not reported, and each approach is.
-  bool impacts(const Contact& contact) const {
-    return !wants_ends(truth_.definition().contacts) && !contact.sensed;
+  /// Returns the events that the two report. Sensor overlaps begin and end.
+  ContactEvents wanted(const Contact& contact) const;
+  /// True if the begin of the two was reported and, as far as reports tell, they touch or may touch.
+  bool is_open(const Contact& contact) const {
+    return reported(contact).touching || reported(contact).approached;
   }
   Event end_now(const World& world, const Contact& contact) const;
   GapLimits limits(const World& world, const Contact& contact) const;
@@ -91,7 +93,7 @@ class ReportedContacts {
   bool any_reported(const Contact& contact) const;
   void check_pair(Contact contact, double until);
   void check_contact(const Contact& contact, double until);
-  void check_impacts(const Contact& contact, ReportedState& state, double until);
+  void check_approaches(const Contact& contact, ReportedState& state, double until);
   void check_free(const Contact& contact, ReportedState& state, double from, double until) const;
   std::optional<double> reaches(const Contact& contact, LevelCrossing overlap, double level, double from,
                                 double until) const;

@@ -37,7 +37,7 @@ bool goes_on(World& world, double until, Probe probe) {
 
 /// Checks that the body touches what it overlaps at `place`, where it has arrived.
 void Player::check_touching(const World& world, BodyId id, const Vec3& place) const {
-  if (truth_.definition().contacts == ContactEvents::impacts) return;
+  if (!wants_ends(truth_.definition().contacts)) return;
   const BodyDefinition& body = truth_.at(id).definition;
   const double deep = -truth_.definition().contact_tolerance - told_.slack();
   const std::vector<BodyId> touching = world.touching(id).value();

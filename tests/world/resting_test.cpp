@@ -157,7 +157,7 @@ TEST(Sleeping, BallGrindsOverADomeAndLeavesWhereItMust) {
 /// further events.
 TEST(Sleeping, HeldByTheCallerIsOneLastingContact) {
   for (const bool wall : {true, false}) {
-    Playground p({.box = room});
+    Playground p({.box = room, .contacts = ContactEvents::begin_and_end});
     const BodyId ball =
         p.add({.radius = 1, .acceleration_limit = g, .position = {0, 0, wall ? 1.5 : 5.5}}, gravity);
     if (!wall) p.add({.radius = 1.5, .position = {0, 0, 2}});
@@ -167,7 +167,9 @@ TEST(Sleeping, HeldByTheCallerIsOneLastingContact) {
     });
     ASSERT_EQ(events.size(), 1u) << events;
     EXPECT_NEAR(events[0].time, std::sqrt(0.1 * (wall ? 1.0 : 2.0)), 1e-5);
-    EXPECT_LT(p.world.counters().probes, 100000u);
+    // A contact that was responded to is watched for another approach, by least steps of the Zeno guard: in
+    // each the ball could fall by an eighth of the tolerance.
+    EXPECT_LT(p.world.counters().probes, 20.0 / std::sqrt(2.0 * 0.125e-6 / (g + g)));
     EXPECT_TRUE(is_clean(p.world));
   }
 }
@@ -203,18 +205,20 @@ TEST(Jammed, BallInACorridorComesThrough) {
   }
 }
 
-TEST(Jammed, AnswersThatGoOnAreStoppedByTheZenoGuard) {
+/// No velocity parts the ball from both walls.
+TEST(Jammed, BallIsLetThroughIfAnswersGoOn) {
   Jam p(2.0);
-  int events = 0;
-  while (const auto event = p.advance(1.0)) {
-    if (++events == 3000) break;
-    if (event->kind != EventKind::wall_begin) continue;
-    const Vec3 velocity = p.state(p.ball).velocity;
-    p.set_velocity(p.ball, velocity - event->normal * (2.0 * dot(velocity, event->normal)));
-  }
-  EXPECT_GT(p.world.time(), 0.0);
-  EXPECT_GT(p.world.counters().zeno_steps, 3u);
-  EXPECT_LT(std::abs(p.state(p.ball).position.z - 1.0), 2e-6);
+  const auto events = p.run(
+      1.0,
+      [&](const Event& event) {
+        if (event.kind != EventKind::wall_begin) return;
+        const Vec3 velocity = p.state(p.ball).velocity;
+        p.set_velocity(p.ball, velocity - event.normal * (2.0 * dot(velocity, event.normal)));
+      },
+      3000);
+  EXPECT_EQ(p.world.time(), 1.0);
+  EXPECT_GE(p.world.counters().zeno_steps, 8u);
+  EXPECT_EQ(of_kind(events, EventKind::zeno_guard).size(), 1u) << "said once, of the wall that it passes";
   EXPECT_TRUE(is_clean(p.world));
 }
 

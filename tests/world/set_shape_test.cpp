@@ -138,6 +138,7 @@ TEST(SetShape, AmongMovingBodiesReportsExactlyTheTrueChanges) {
       events_seen += events.size();
       std::set<BodyId> expected = before;
       for (const Event& event : events) {
+        if (event.already_touching) continue;  // it approaches the shape anew, of which there is another side
         const BodyId ball = event.partner_of(changed);
         if (event.kind == begins)
           EXPECT_TRUE(expected.insert(ball).second) << event;

@@ -118,7 +118,7 @@ TEST(VelocityChange, InContactKeepsTheContactUntilTheyAreApart) {
 }
 
 TEST(VelocityChange, BackAndForthInContactIsOneContact) {
-  Playground p;
+  Playground p({.contacts = ContactEvents::begin_and_end});
   const BodyId a = p.add({.radius = 1});
   const BodyId b = p.add({.radius = 1, .position = {1, 0, 0}});
   EXPECT_EQ(p.run(0.0).size(), 1u);
@@ -126,6 +126,24 @@ TEST(VelocityChange, BackAndForthInContactIsOneContact) {
     p.set_velocity(a, {k % 2 == 0 ? 3.0 : -3.0, 0, 0});
     if (k % 3 == 0) p.set_velocity(b, {0, 0, 0});
     EXPECT_TRUE(p.run(0.1 * k).empty());
+  }
+  EXPECT_TRUE(is_clean(p.world));
+}
+
+TEST(VelocityChange, BackAndForthInContactReportsEachNewApproach) {
+  Playground p;
+  const BodyId a = p.add({.radius = 1});
+  p.add({.radius = 1, .position = {1, 0, 0}});
+  EXPECT_FALSE(p.run(0.0).at(0).already_touching);
+  for (int k = 1; k <= 20; ++k) {
+    // Away, towards the other body, and towards it at another speed.
+    p.set_velocity(a, {k % 3 == 0 ? -0.1 : 0.01 * k, 0, 0});
+    const auto events = p.run(0.1 * k);
+    ASSERT_EQ(events.size(), k % 3 == 1 ? 1u : 0u) << k << events;
+    if (!events.empty()) {
+      EXPECT_EQ(events[0].kind, EventKind::contact_begin);
+      EXPECT_TRUE(events[0].already_touching);
+    }
   }
   EXPECT_TRUE(is_clean(p.world));
 }

@@ -122,6 +122,7 @@ TrackScene scene_of(const Recording& recording, const ApproachQuestion& question
   if (!scene) refuse(recording, scene.error());
   TrackScene result{.scene = std::move(*scene)};
   result.scene.world.contact_tolerance = tolerance;
+  result.scene.world.contacts = ContactEvents::begin_and_end;
   result.scene.world.dimensions = recording.is_plane ? 2 : 3;
   if (question.interpolation == Interpolation::spline)
     result.overshoots = overshoots_of(recording, *result.scene.motion, question.distance);
