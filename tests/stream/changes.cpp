@@ -39,6 +39,8 @@ BodyDefinition Player::new_body(const Operation& operation) const {
                                             .user_data = operation.code()},
                                            limits(operation));
   if (operation.byte(8) % 8 == 0) body.velocity = {};
+  const unsigned events = operation.byte(8) / 8 % 8;
+  if (events >= 1 && events <= 3) body.contacts = static_cast<ContactEvents>(events);
   body.position = inside(body.position, body.radius);
   return body;
 }

@@ -43,6 +43,8 @@ class ReportedContacts {
   void redirected(BodyId id);
   void appeared(BodyId id);
 
+  /// Returns the events that the two report. Sensor overlaps begin and end.
+  ContactEvents wanted(const Contact& contact) const;
   /// Far below the tolerance, above rounding.
   double slack() const { return slack_; }
 
@@ -68,8 +70,6 @@ class ReportedContacts {
     bool certain;
   };
 
-  /// Returns the events that the two report. Sensor overlaps begin and end.
-  ContactEvents wanted(const Contact& contact) const;
   /// True if the begin of the two was reported and, as far as reports tell, they touch or may touch.
   bool is_open(const Contact& contact) const {
     return reported(contact).touching || reported(contact).approached;

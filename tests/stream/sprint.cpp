@@ -37,12 +37,13 @@ bool goes_on(World& world, double until, Probe probe) {
 
 /// Checks that the body touches what it overlaps at `place`, where it has arrived.
 void Player::check_touching(const World& world, BodyId id, const Vec3& place) const {
-  if (!wants_ends(truth_.definition().contacts)) return;
   const BodyDefinition& body = truth_.at(id).definition;
   const double deep = -truth_.definition().contact_tolerance - told_.slack();
   const std::vector<BodyId> touching = world.touching(id).value();
   for (const BodyId other : truth_.ids()) {
     if (other == id || !truth_.is_present(other) || !truth_.may_touch(id, body, other)) continue;
+    const Contact contact = id.index < other.index ? Contact{id, other} : Contact{other, id};
+    if (!wants_ends(told_.wanted(contact))) continue;
     require(truth_.distance(other, place) - body.radius >= deep ||
                 std::find(touching.begin(), touching.end(), other) != touching.end(),
             "a sprint ends with an unreported body");
