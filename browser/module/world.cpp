@@ -20,7 +20,7 @@ WorldDefinition definition_at(const double* numbers) {
   return definition;
 }
 
-constexpr std::size_t body_numbers = 20;
+constexpr std::size_t body_numbers = 21;
 BodyDefinition body_at(const double* numbers) {
   BodyDefinition body;
   body.position = vector_at(numbers);
@@ -37,6 +37,7 @@ BodyDefinition body_at(const double* numbers) {
   body.filter.group = static_cast<std::int32_t>(numbers[17]);
   body.user_data = static_cast<std::uint64_t>(numbers[18]);
   body.mass = numbers[19];
+  if (numbers[20] != 0.0) body.contacts = static_cast<ContactEvents>(numbers[20]);
   return body;
 }
 

@@ -46,6 +46,8 @@ struct Bound {
     const double s = t - time;
     return radius + (growth_speed + 0.5 * growth_acceleration * s) * s;
   }
+  /// True if the centre moves exactly as planned and the radius does not grow.
+  [[gnu::always_inline]] bool is_exact() const { return growth_speed == 0.0 && growth_acceleration == 0.0; }
   /// Velocity of the centre at time t >= time.
   [[gnu::always_inline]] Vec3 velocity_at(double t) const {
     return velocity + planned_acceleration * (t - time);

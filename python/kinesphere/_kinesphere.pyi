@@ -523,6 +523,7 @@ class World:
         sensor_classes: Array = 0,
         user_data: Array = 0,
         masses: Array = 1.0,
+        contacts: Optional[Literal["all", "begin_and_end", "impacts"]] = None,
     ) -> Any: ...  # ids of shape (n,), or a BodyId where positions are one vector
     def add_motion(self, motion: Motion, radii: Array = 1.0) -> Ids: ...
     def add_static(

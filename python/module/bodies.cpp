@@ -1,5 +1,8 @@
 // Adding, changing and removing bodies.
+#include <pybind11/stl.h>
+
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "errors.hpp"
@@ -33,7 +36,8 @@ std::vector<BodyDefinition> definitions_of(
     const py::object& acceleration_limits, const py::object& planned_accelerations,
     const py::object& position_errors, const py::object& velocity_errors, const py::object& categories,
     const py::object& masks, const py::object& groups, const py::object& solid,
-    const py::object& sensor_classes, const py::object& user_data, const py::object& masses_of_bodies) {
+    const py::object& sensor_classes, const py::object& user_data, const py::object& masses_of_bodies,
+    const std::optional<std::string>& contacts) {
   const std::string_view call = "add";
   const std::vector<State> states = states_of(positions, velocities, call, handle.is_plane());
   const std::size_t count = states.size();
@@ -69,9 +73,12 @@ std::vector<BodyDefinition> definitions_of(
       [](BodyDefinition& body, std::uint64_t mask) { body.filter.mask = mask; });
   const std::int32_t group = group_of(groups, {call, "group"});
   const bool is_solid = solid.cast<bool>();
+  std::optional<ContactEvents> wanted;
+  if (contacts) wanted = contact_events_of(*contacts, {call, "contacts"});
   for (BodyDefinition& body : bodies) {
     body.filter.group = group;
     body.solid = is_solid;
+    body.contacts = wanted;
   }
   set(each_whole_of(sensor_classes, {call, "sensor_classes"}, count),
       [&](BodyDefinition& body, std::uint64_t sensor_class) {
@@ -100,14 +107,15 @@ py::object add_bodies(WorldHandle& handle, const py::object& positions, const py
                       const py::object& planned_accelerations, const py::object& position_errors,
                       const py::object& velocity_errors, const py::object& categories,
                       const py::object& masks, const py::object& group, const py::object& solid,
-                      const py::object& sensor_classes, const py::object& user_data, const py::object& mass) {
+                      const py::object& sensor_classes, const py::object& user_data, const py::object& mass,
+                      const std::optional<std::string>& contacts) {
   const auto turn = handle.take("add");
   const bool single = is_vector(positions);
   const auto bodies =
       definitions_of(handle, single ? one_row(positions) : py::reinterpret_borrow<py::object>(positions),
                      single ? one_row(velocities) : py::reinterpret_borrow<py::object>(velocities), radii,
                      acceleration_limits, planned_accelerations, position_errors, velocity_errors, categories,
-                     masks, group, solid, sensor_classes, user_data, mass);
+                     masks, group, solid, sensor_classes, user_data, mass, contacts);
   if (single) {
     const BodyId id = handle.world.add(bodies.front()).value();
     end_call(handle);
@@ -309,7 +317,7 @@ void bind_bodies(WorldClass& world) {
            py::arg("planned_accelerations") = py::none(), py::arg("position_errors") = 0.0,
            py::arg("velocity_errors") = 0.0, py::arg("categories") = 1, py::arg("masks") = all_categories,
            py::arg("group") = 0, py::arg("solid") = true, py::arg("sensor_classes") = 0,
-           py::arg("user_data") = 0, py::arg("masses") = 1.0,
+           py::arg("user_data") = 0, py::arg("masses") = 1.0, py::arg("contacts") = py::none(),
            R"(Adds bodies at the current time, all of them or, where something is wrong, none.
 
 positions (length): shape (n, 3), or (n, 2) in a world of two dimensions; shape (3,) or (2,) for one body.
@@ -325,6 +333,9 @@ solid: False for what touches nobody and only senses and is sensed.
 sensor_classes (0 to 254).
 user_data (64 bits): kept for you.
 masses (>= 0, or infinite): every event of the body has it, and bounce(), settle() and Bouncing() use it.
+
+contacts: which contact events these bodies ask for, if not those of the world; see World(). Two bodies report
+what either asks for.
 
 Returns the ids: an array of int64, shape (n,), or a BodyId for a single body. Raises InvalidValue that
 names the argument and the body. Cost: O(1) each, and a search when the world goes on.)")

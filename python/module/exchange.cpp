@@ -194,6 +194,13 @@ std::vector<Vec3> vectors_of(py::handle given, const Argument& argument, bool pl
   return vectors;
 }
 
+ContactEvents contact_events_of(const std::string& name, const Argument& argument) {
+  if (name == "all") return ContactEvents::all;
+  if (name == "begin_and_end") return ContactEvents::begin_and_end;
+  if (name == "impacts") return ContactEvents::impacts;
+  refuse(argument, "must be \"all\", \"begin_and_end\" or \"impacts\"", "is \"" + name + "\"");
+}
+
 std::vector<double> each_of(py::handle given, const Argument& argument, std::size_t count) {
   const Numbers numbers(given, argument);
   if (numbers.dimensions() == 0) return std::vector<double>(count, numbers.scalar());

@@ -72,6 +72,8 @@ std::vector<Vec3> vectors_of(py::handle given, const Argument& argument, bool pl
                              std::optional<std::size_t> count = {});
 /// Reads one number for each of `count` bodies: shape (n,), or one number for all.
 std::vector<double> each_of(py::handle given, const Argument& argument, std::size_t count);
+/// Reads "all", "begin_and_end" or "impacts".
+ContactEvents contact_events_of(const std::string& name, const Argument& argument);
 /// Reads whole numbers like each_of().
 std::vector<std::uint64_t> each_whole_of(py::handle given, const Argument& argument, std::size_t count);
 /// Reads positions and velocities; None for the latter means zero.

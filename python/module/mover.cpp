@@ -1,5 +1,6 @@
 #include "mover.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <iterator>
@@ -92,6 +93,20 @@ void ask(const MoverHandle& handle, std::span<const BodyId> ids, double time, st
       PyObject_Vectorcall(handle.function.ptr(), raw, std::size(raw), nullptr));
   if (!answer) throw py::error_already_set();
   read_states(answer, states, call, plane);
+}
+
+void FunctionMover::states(std::span<const BodyId> ids, double time, std::span<State> states) {
+  constexpr std::size_t few = 2;
+  const auto is_known = [&](BodyId id) {
+    return id.index < answers_.size() && answers_[id.index].time == time;
+  };
+  if (ids.size() <= few && std::all_of(ids.begin(), ids.end(), is_known)) {
+    for (std::size_t k = 0; k < ids.size(); ++k) states[k] = answers_[ids[k].index].state;
+    return;
+  }
+  interruptions_.call([&] { ask(handle_, ids, time, states, call_, plane_); });
+  if (ids.size() > few) return;
+  for (std::size_t k = 0; k < ids.size(); ++k) answers_.at(ids[k].index) = {time, states[k]};
 }
 
 void bind_mover(py::module_& module) {

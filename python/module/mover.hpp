@@ -3,6 +3,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,13 +33,16 @@ void ask(const MoverHandle& handle, std::span<const BodyId> ids, double time, st
 class FunctionMover final : public MotionSource {
  public:
   FunctionMover(MoverHandle& handle, Interruptions& interruptions, std::string call, bool plane)
-      : handle_(handle), interruptions_(interruptions), call_(std::move(call)), plane_(plane) {}
-  void states(std::span<const BodyId> ids, double time, std::span<State> states) override {
-    interruptions_.call([&] { ask(handle_, ids, time, states, call_, plane_); });
-  }
+      : handle_(handle),
+        interruptions_(interruptions),
+        call_(std::move(call)),
+        plane_(plane),
+        answers_(handle.departures.size()) {}
+  void states(std::span<const BodyId> ids, double time, std::span<State> states) override;
   MotionOrigin origin(BodyId body) const override { return handle_.origin(body); }
   void set_origin(BodyId body, const MotionOrigin& departure) override {
     handle_.departures.at(body.index) = departure;
+    answers_.at(body.index).time = std::numeric_limits<double>::quiet_NaN();
   }
 
  private:
@@ -46,6 +50,13 @@ class FunctionMover final : public MotionSource {
   Interruptions& interruptions_;
   std::string call_;
   bool plane_;
+  /// The last answer of each body that was asked with few others: a response asks again at the time of its
+  /// event.
+  struct Answer {
+    double time = std::numeric_limits<double>::quiet_NaN();
+    State state{};
+  };
+  std::vector<Answer> answers_;  ///< by index of the id
 };
 
 void bind_mover(py::module_& module);

@@ -31,13 +31,6 @@ std::string text_of(const Axes& axes) {
   return std::string(axes.x ? "x" : "") + (axes.y ? "y" : "") + (axes.z ? "z" : "");
 }
 
-ContactEvents contact_events_of(const std::string& name) {
-  if (name == "all") return ContactEvents::all;
-  if (name == "begin_and_end") return ContactEvents::begin_and_end;
-  if (name == "impacts") return ContactEvents::impacts;
-  refuse({"World", "contacts"}, "must be \"all\", \"begin_and_end\" or \"impacts\"", "is \"" + name + "\"");
-}
-
 const char* name_of(ContactEvents contacts) {
   return contacts == ContactEvents::all ? "all" : wants_ends(contacts) ? "begin_and_end" : "impacts";
 }
@@ -60,7 +53,7 @@ std::shared_ptr<WorldHandle> create_world(const py::object& box, const py::objec
     if (std::isnan(definition.separation_distance))
       refuse({"World", "separation_distance"}, "must be a number", "is nan", ErrorCode::not_finite);
   }
-  definition.contacts = contact_events_of(contacts);
+  definition.contacts = contact_events_of(contacts, {"World", "contacts"});
   definition.allow_overlap = allow_overlap;
   definition.zeno_interval = zeno_interval;
   definition.start_time = start_time;

@@ -88,7 +88,8 @@ class FixedStep final : public Detector {
   };
 
   Sphere sphere(std::uint32_t number) const {
-    return {{number, 0}, bodies_[number].radius, bodies_[number].state, nullptr, 0, 1.0, {}, definition_.contacts};
+    return {{number, 0}, bodies_[number].radius, bodies_[number].state, nullptr, 0, 1.0,
+            {},          definition_.contacts};
   }
 
   void move_on_to(double time) {
@@ -164,7 +165,7 @@ class FixedStep final : public Detector {
 
   void look_at_wall(std::uint32_t number, Wall wall) {
     const Event event = wall_event(EventKind::wall_begin, time_, sphere(number), *definition_.box, wall);
-    judge(event, approach_error(event, infinity));
+    judge(event, approach_error(event.first_state, event.second_state, infinity));
   }
 
   void judge(Event event, double error) {

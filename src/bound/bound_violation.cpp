@@ -14,10 +14,6 @@ std::optional<BoundViolation> bound_violation(const Bound& before, const Bound& 
   const double change_limit =
       (new_velocity ? 0.0 : before.growth_acceleration * s) + (before.growth_speed + after.growth_speed);
   const double position_slack = contact_tolerance / 16.0;
-  // Fast path without square roots: nearly all reports satisfy the bound.
-  if (norm_squared(way) <= deviation_limit * deviation_limit &&
-      norm_squared(turn) <= change_limit * change_limit)
-    return std::nullopt;
   const double deviation = norm(way);
   const double change = norm(turn);
   const double velocity_slack = 0x1p-30 * (norm(after.velocity) + norm(expected) + change_limit);

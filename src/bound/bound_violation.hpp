@@ -23,4 +23,16 @@ std::optional<BoundViolation> bound_violation(const Bound& before, const Bound& 
                                               const std::optional<Vec3>& new_velocity,
                                               double contact_tolerance);
 
+/// Returns true if bound_violation() certainly finds none in a report at `time`, where nothing has changed
+/// since the previous report. Without square roots.
+[[gnu::always_inline]] inline bool certainly_keeps(const Bound& before, double time, const State& report,
+                                                   double radius) {
+  const double s = time - before.time;
+  const double position_errors = (before.radius - radius) + (before.radius - radius);
+  const double deviation_limit = before.radius_at(time) - before.radius + position_errors;
+  const double change_limit = before.growth_acceleration * s + (before.growth_speed + before.growth_speed);
+  return norm_squared(report.position - before.centre_at(time)) <= deviation_limit * deviation_limit &&
+         norm_squared(report.velocity - before.velocity_at(time)) <= change_limit * change_limit;
+}
+
 }  // namespace kinesphere

@@ -104,11 +104,11 @@ void describe(Event& event, const Sphere& sphere, const Box& box) {
   event.point = sphere.state.position + event.normal * distance;
 }
 
-double approach_error(const Event& event, double arm) {
+double approach_error(const State& first, const State& second, double arm) {
   // Covers a few units in the last place, relative to the coordinates.
   constexpr double part_lost = 0x1p-49;
-  const auto& [position_a, velocity_a] = event.first_state;
-  const auto& [position_b, velocity_b] = event.second_state;
+  const auto& [position_a, velocity_a] = first;
+  const auto& [position_b, velocity_b] = second;
   const double turned = part_lost * (norm_one(position_a) + norm_one(position_b)) / std::abs(arm);
   // Two points have no arm within the tolerance, and their normal means little, so the error of the normal's
   // direction is capped: a fast approach still counts as one.
@@ -118,11 +118,14 @@ double approach_error(const Event& event, double arm) {
 }
 
 double approach_error(const Event& event, const Sphere& first, const Sphere& second) {
-  if (event.wall != Wall::none) return approach_error(event, infinity);
+  const auto with_arm = [&](double arm) {
+    return approach_error(event.first_state, event.second_state, arm);
+  };
+  if (event.wall != Wall::none) return with_arm(infinity);
   const Shape* shape = first.shape ? first.shape : second.shape;
-  if (shape == nullptr) return approach_error(event, event.gap + first.radius + second.radius);
-  if (std::holds_alternative<HalfSpace>(*shape)) return approach_error(event, infinity);
-  return approach_error(event, event.gap + (first.shape ? second : first).radius);
+  if (shape == nullptr) return with_arm(event.gap + first.radius + second.radius);
+  if (std::holds_alternative<HalfSpace>(*shape)) return with_arm(infinity);
+  return with_arm(event.gap + (first.shape ? second : first).radius);
 }
 
 Event woke_event(double time, const Sphere& sphere) {

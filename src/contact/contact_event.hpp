@@ -40,11 +40,12 @@ Event wall_event(EventKind kind, double time, const Sphere& sphere, const Box& b
 /// Recomputes all geometric fields of a contact or wall event from the present spheres.
 void describe(Event& event, const Sphere& first, const Sphere& second, const Space& space);
 void describe(Event& event, const Sphere& sphere, const Box& box);
-/// Bounds the rounding error in the approach speed of an event that describe() has filled in (length / time).
+/// Bounds the rounding error in the approach speed of two bodies with these states (length / time).
 /// `arm` is the length of the vector along the normal: from centre to centre, or from a centre to the nearest
 /// point of a shape; +infinity where the normal is that of a wall or a half-space. The bound covers rounding
 /// by the caller in positions and velocities: a few units in the last place each.
-double approach_error(const Event& event, double arm);
+double approach_error(const State& first, const State& second, double arm);
+/// Does the above for an event that describe() has filled in.
 double approach_error(const Event& event, const Sphere& first, const Sphere& second);
 /// Returns a woke event. The body stands at the centre of the sphere.
 Event woke_event(double time, const Sphere& sphere);

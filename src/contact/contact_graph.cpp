@@ -14,12 +14,6 @@ void ContactGraph::add(std::uint32_t body, double largest_acceleration) {
   overlaps_.clear(body);
 }
 
-/// Returns the state of a contact, or nullptr if the two do not touch. The list of a static body has no states.
-const ContactState* ContactGraph::contact_of(std::uint32_t a, std::uint32_t b) const {
-  if (flags_[a].is_static) std::swap(a, b);
-  return a < partners_.size() ? partners_[a].find(b) : nullptr;
-}
-
 ContactState ContactGraph::wall_state(std::uint32_t body, Wall wall) const {
   const Flags& flags = flags_[body];
   const unsigned index = static_cast<unsigned>(wall) - 1u;
@@ -91,21 +85,19 @@ void ContactGraph::set_overlap(std::uint32_t body, std::uint32_t partner, const 
 }
 
 void ContactGraph::turn_reported(std::uint32_t body) {
-  const auto turn = [](ContactState& state) {
-    if (state.approach == ApproachState::reported) state.approach = ApproachState::turned;
-  };
   if (flags_[body].walls != 0) {
     for (const Wall wall : walls) {
-      if (!touches_wall(body, wall)) continue;
       ContactState state = wall_state(body, wall);
-      turn(state);
+      if (!touches_wall(body, wall) || state.approach != ApproachState::reported) continue;
+      state.approach = ApproachState::turned;
       set_wall_state(body, wall, true, state);
     }
   }
   if (body >= partners_.size()) return;
   for (const ContactRecord& record : std::as_const(partners_[body]).all()) {
     ContactState state = *contact_of(body, record.partner);
-    turn(state);
+    if (state.approach != ApproachState::reported) continue;
+    state.approach = ApproachState::turned;
     set_half(body, record.partner, &state);
     set_half(record.partner, body, &state);
   }

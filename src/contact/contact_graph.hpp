@@ -48,8 +48,8 @@ class ContactGraph {
   bool touch(std::uint32_t a, std::uint32_t b) const { return contact_of(a, b) != nullptr; }
   bool touches_wall(std::uint32_t body, Wall wall) const { return (walls_of(body) & wall_bit(wall)) != 0; }
   /// Returns the partners of a body in the order in which the contacts began. The list of a static body has
-  /// no defined order after concurrent execution, and says nothing of states. Invalidated when a contact of the
-  /// body begins, ends or changes.
+  /// no defined order after concurrent execution, and says nothing of states. Invalidated when a contact of
+  /// the body begins, ends or changes.
   std::span<const ContactRecord> partners_of(std::uint32_t body) const {
     return body < partners_.size() ? partners_[body].all() : std::span<const ContactRecord>();
   }
@@ -83,8 +83,8 @@ class ContactGraph {
   void set_touching(const Event& contact, bool touching);
   /// Sets the state of the contact that the event names. The contact begins if it does not exist.
   void set_state(const Event& contact, const ContactState& state);
-  /// Marks all reported approaches of a body as turned, because the caller has given it another velocity, place
-  /// or shape.
+  /// Marks all reported approaches of a body as turned, because the caller has given it another velocity,
+  /// place or shape.
   void turn_reported(std::uint32_t body);
 
   // Begins of contacts.
@@ -95,8 +95,8 @@ class ContactGraph {
   /// Marks the begin of a contact as repeated or jammed, and counts it for later marks.
   void note_contact(Event& begin);
   /// Counts a jam of the contact. Returns false if it was the last one: from then on the two are let through
-  /// until they have separated. `is_deep`: they may overlap by more than the tolerance before they are checked
-  /// again.
+  /// until they have separated. `is_deep`: they may overlap by more than the tolerance before they are
+  /// checked again.
   bool note_jam(const Event& current, const Threshold& threshold, bool is_deep);
 
   /// Replaces all contacts and overlaps of a body that has arrived from elsewhere. The lists of its former
@@ -126,9 +126,9 @@ class ContactGraph {
   struct Flags {
     std::uint8_t walls = 0;  ///< walls in touch
     bool is_static = false;
-    std::uint8_t wall_guards = 0;        ///< walls with ContactState::guard_reported
-    std::uint8_t wall_jams = 0;          ///< ContactState::jams, of all walls together
-    std::uint16_t wall_approaches = 0;   ///< two bits for each wall: ApproachState
+    std::uint8_t wall_guards = 0;       ///< walls with ContactState::guard_reported
+    std::uint8_t wall_jams = 0;         ///< ContactState::jams, of all walls together
+    std::uint16_t wall_approaches = 0;  ///< two bits for each wall: ApproachState
 
     static void serialize(auto& self, auto& archive) {
       auto& [touched_walls, is_static, wall_guards, wall_jams, wall_approaches] = self;
@@ -136,7 +136,12 @@ class ContactGraph {
     }
   };
 
-  const ContactState* contact_of(std::uint32_t a, std::uint32_t b) const;
+  /// Returns the state of a contact, or nullptr if the two do not touch. The list of a static body has no
+  /// states.
+  const ContactState* contact_of(std::uint32_t a, std::uint32_t b) const {
+    if (flags_[a].is_static) std::swap(a, b);
+    return a < partners_.size() ? partners_[a].find(b) : nullptr;
+  }
   ContactState wall_state(std::uint32_t body, Wall wall) const;
   void set_wall_state(std::uint32_t body, Wall wall, bool touching, const ContactState& state);
   void set_half(std::uint32_t body, std::uint32_t partner, const ContactState* state);

@@ -29,7 +29,9 @@ template <class Partner>
 double ContactPredictor<Partner>::until_reports() const {
   const bool has_turned = threshold_.within && threshold_.state.approach == ApproachState::turned;
   if (has_turned && wants_approaches(threshold_.wanted)) return now_;
-  const bool may_begin = !threshold_.within || threshold_.is_watched();
+  bool may_begin = !threshold_.within || threshold_.is_watched();
+  if constexpr (std::is_same_v<Partner, Bound>)
+    may_begin = may_begin && !(threshold_.within && recede_for_good(bound_, partner_, now_));
   double time = may_begin ? meeting(0.0) : infinity;
   if (threshold_.within && time > now_) time = std::min(time, separation(rule_.release_gap()));
   if (time == infinity || time <= now_) return time;
@@ -40,20 +42,34 @@ double ContactPredictor<Partner>::until_reports() const {
 }
 
 template <class Partner>
+std::optional<double> ContactPredictor<Partner>::next_check_if_apart() const {
+  if (threshold_.within) return std::nullopt;
+  const Vec3 centre = bound_.centre_at(now_);
+  double gap = 0.0;
+  if constexpr (std::is_same_v<Partner, Bound>) {
+    gap = norm(partner_.centre_at(now_) - centre) - (bound_.radius + partner_.radius);
+  } else if constexpr (std::is_same_v<Partner, HalfSpace>) {
+    gap = dot(partner_.normal, centre) - partner_.offset - bound_.radius;
+  }
+  if (!(gap - threshold_.distance > rule_.tolerance())) return std::nullopt;
+  return std::max(meeting(0.0), just_after(now_));
+}
+
+template <class Partner>
 ContactDecision ContactPredictor<Partner>::decide(const Event& current, const RelativeLimits& limits) const {
   ContactDecision decision;
   const double beyond = current.gap - threshold_.distance;
-  const double error = approach_error(current, arm(current.gap));
+  const double error = approach_error(current.first_state, current.second_state, arm(current.gap));
   decision.change = rule_.decide(threshold_, beyond, current.approach_speed, error);
   if (decision.is_event()) return decision;
   const bool stays = threshold_.within && decision.change != ContactRule::Change::release;
   const double apart = stays ? separation(rule_.release_gap()) : infinity;
   decision.approach = threshold_.state.approach;
   if (stays && decision.approach == ApproachState::turned)
-    decision.approach = rule_.is_approach(beyond, current.approach_speed, error) ||
-                                !wants_approaches(threshold_.wanted)
-                            ? ApproachState::reported
-                            : ApproachState::watched;
+    decision.approach =
+        rule_.is_approach(beyond, current.approach_speed, error) || !wants_approaches(threshold_.wanted)
+            ? ApproachState::reported
+            : ApproachState::watched;
   if (stays && decision.approach != ApproachState::watched) {
     decision.next_check = std::max(apart, just_after(now_));
     return decision;
@@ -122,6 +138,15 @@ Box walls_in_reach(const ContactRule& rule, const BoundAt& bound, const Box& box
 }
 
 }  // namespace
+
+bool recede_for_good(const Bound& a, const Bound& b, double now) {
+  if (!a.is_exact() || !b.is_exact() || a.planned_acceleration != b.planned_acceleration) return false;
+  const State first{a.centre_at(now), a.velocity_at(now)};
+  const State second{b.centre_at(now), b.velocity_at(now)};
+  const Vec3 offset = second.position - first.position;
+  const double distance = norm(offset);
+  return dot(offset, second.velocity - first.velocity) > approach_error(first, second, distance) * distance;
+}
 
 Box walls_in_reach(const ContactRule& rule, const Bound& bound, const Box& box, double now, double until) {
   return walls_in_reach(rule, BoundAt(bound, now), box, until - now);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "contact/contact_rule.hpp"
 #include "kinesphere/bound.hpp"
@@ -61,6 +62,10 @@ class ContactPredictor {
   /// reports the rule decides or the certificate spans a tolerance.
   double until_reports() const;
 
+  /// Returns the next check of two bodies that fresh reports show to be apart, as decide() would; nullopt if
+  /// an event may be due.
+  std::optional<double> next_check_if_apart() const;
+
   /// Decides from fresh reports. `current` is an event that describes the pair now.
   ContactDecision decide(const Event& current, const RelativeLimits& limits) const;
 
@@ -88,6 +93,10 @@ class ContactPredictor {
   double now_;
   Horizon horizons_;
 };
+
+/// Returns true if exact bounds with the same planned acceleration recede by more than rounding could hide:
+/// then the gap never shrinks again.
+bool recede_for_good(const Bound& a, const Bound& b, double now);
 
 extern template class ContactPredictor<Bound>;
 extern template class ContactPredictor<HalfSpace>;

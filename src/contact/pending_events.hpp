@@ -100,8 +100,9 @@ class PendingEvents {
   }
 
   /// Takes note of the response to the last delivered begin: if the two still approach with more than half of
-  /// their speed, they are let through until that changes; otherwise their next approach is an event. pop() does this before it delivers another event. Call it before velocities change for another
-  /// reason, and before bodies are recertified.
+  /// their speed, they are let through until that changes; otherwise their next approach is an event. pop()
+  /// does this before it delivers another event. Call it before velocities change for another reason, and
+  /// before bodies are recertified.
   template <class SphereNow>
   void note_response(ContactGraph& graph, SphereNow sphere, const std::optional<Box>& box) {
     if (!delivered_) return;
@@ -109,6 +110,8 @@ class PendingEvents {
     const bool is_pair = delivered_->second != no_body;
     note_response(graph, first, is_pair ? sphere(graph.number_of(delivered_->second)) : first, box);
   }
+  /// Returns true if note_response() would look at a begin.
+  bool awaits_response() const { return delivered_.has_value(); }
   /// Drops the last delivered begin if it is one of this body, which the caller changes in another way.
   void forget_delivered(const ContactGraph& graph, std::uint32_t body);
 

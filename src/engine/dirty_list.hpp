@@ -34,6 +34,12 @@ class DirtyList {
     std::erase_if(numbers_, [&](std::uint32_t number) { return !bodies[number].dirty; });
     return numbers_;
   }
+  /// Returns true if arrivals() has any.
+  bool has_arrivals(const Bodies& bodies) const {
+    return std::any_of(numbers_.begin(), numbers_.end(), [&](std::uint32_t number) {
+      return bodies[number].dirty && bodies[number].relocated;
+    });
+  }
   /// Returns the dirty bodies that were relocated since the last window start, each once, in ascending order.
   std::vector<std::uint32_t> arrivals(const Bodies& bodies) const {
     std::vector<std::uint32_t> arrived;

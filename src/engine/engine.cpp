@@ -59,8 +59,9 @@ Result<void> World::Engine::gather() {
 
 /// Restarts all windows if many bodies were relocated; otherwise recertifies dirty bodies one by one.
 Result<void> World::Engine::recertify(PoolLease& lease) {
+  if (main_.is_recertified()) return {};
   main_.recertify_changed();
-  if (!main_.dirty().empty()) {
+  if (main_.dirty().has_arrivals(bodies())) {
     if (auto started = start_with_arrivals(lease); !started) return started;
   }
   return main_.recertify();

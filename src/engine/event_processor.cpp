@@ -125,7 +125,7 @@ void EventProcessor::recertify_changed() {
   }
 }
 
-Result<void> EventProcessor::recertify() {
+Result<void> EventProcessor::recertify_all() {
   recertify_changed();
   // Reports can violate bounds, which makes further bodies dirty.
   while (!dirty_.empty()) {

@@ -93,7 +93,11 @@ class alignas(128) EventProcessor {
   void recertify_changed();
   /// Recertifies all changed pairs and dirty bodies; afterwards the invariant holds. Errors: those of
   /// probe().
-  Result<void> recertify();
+  Result<void> recertify() { return is_recertified() ? Result<void>() : recertify_all(); }
+  /// Returns true if recertify() would do nothing.
+  bool is_recertified() const {
+    return events_.changed().empty() && dirty_.empty() && !events_.awaits_response();
+  }
   /// Returns the next event of this instant, or nullopt if there is none.
   std::optional<Event> pop();
   /// Takes note of the response to the last event. Call it before windows start.
@@ -146,6 +150,7 @@ class alignas(128) EventProcessor {
   std::size_t bytes() const;
 
  private:
+  Result<void> recertify_all();
   WindowChoice window_choice() const { return {*state_, time_}; }
   Bodies& bodies() { return state_->bodies; }
   const Bodies& bodies() const { return state_->bodies; }
@@ -170,13 +175,13 @@ class alignas(128) EventProcessor {
   Result<void> recheck_walls(std::uint32_t number);
   std::optional<double> decide_pair(std::uint32_t a, std::uint32_t b);
   std::optional<double> decide_walls(std::uint32_t number);
-  template <class Partner>
+  template <class Partner, class EventNow>
   std::optional<double> decide(const ContactPredictor<Partner>& predictor, const Threshold& threshold,
-                               Event current, const RelativeLimits& limits);
+                               const RelativeLimits& limits, EventNow event_now);
   template <class Partner>
   double defer(const ContactPredictor<Partner>& predictor, const Threshold& threshold, const Event& current,
                const RelativeLimits& limits);
-  Result<void> probe_staler(std::uint32_t a, std::uint32_t b);
+  Result<void> probe_one_of(std::uint32_t a, std::uint32_t b);
   Sphere sphere(std::uint32_t number) const { return sphere_at(bodies(), time_, number); }
   Event contact(EventKind kind, std::uint32_t a, std::uint32_t b) const;
   Event wall_contact(EventKind kind, std::uint32_t number, Wall wall) const;

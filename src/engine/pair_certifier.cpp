@@ -62,8 +62,7 @@ double PairCertifier::unchanged_until_by_thresholds(std::uint32_t a, std::uint32
   if (!bodies().may_meet(a, b)) return first;
   visit_pair(bodies(), a, b, [&](const Bound& bound, const auto& other) {
     for_each_threshold(a, b, [&](const Threshold& threshold) {
-      const ContactPredictor predictor(contacts().rule(), threshold, bound, other, time_,
-                                       {end, end});
+      const ContactPredictor predictor(contacts().rule(), threshold, bound, other, time_, {end, end});
       first = std::min(first, predictor.until_reports());
     });
   });
@@ -76,12 +75,24 @@ double PairCertifier::walls_unchanged_until(std::uint32_t number) const {
                                 window_end_of(number));
 }
 
+/// Returns true if the next event of two near bodies would be an approach, and they recede for good: a
+/// response has just parted them.
+[[gnu::noinline]] bool PairCertifier::bounce_apart(std::uint32_t a, std::uint32_t b) const {
+  if (bodies().sensors.any() || wants_ends(bodies().wanted_of(a, b))) return false;
+  const Bound& bound = *bound_ref(a).bound;
+  Bound other = *bound_ref(b).bound;
+  if (bodies().space().repeats())
+    other.position += bodies().space().shift_to_nearest(other.centre_at(time_), bound.centre_at(time_));
+  return bodies().shapes.empty() && recede_for_good(bound, other, time_);
+}
+
 double PairCertifier::certify(std::uint32_t a, std::uint32_t b, SearchResults& found) const {
   ++found.candidates;
   const double until = apart_until(a, b);
   if (until == infinity) return until;
   ++found.near;
   if (are_linked(a, b)) return infinity;
+  if (until <= time_ && bounce_apart(a, b)) return infinity;
   found.certificates.push_back(certificate(until, a, b));
   ++found.certified;
   return until;

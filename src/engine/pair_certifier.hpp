@@ -114,6 +114,7 @@ class PairCertifier {
   void certify_walls(std::uint32_t number, SearchResults& found) const;
 
  private:
+  bool bounce_apart(std::uint32_t a, std::uint32_t b) const;
   const Bodies& bodies() const { return state_.bodies; }
   const ContactGraph& contacts() const { return state_.contacts; }
   /// Returns the checkpoint of a body that another cluster may be changing concurrently; nullptr for all
@@ -121,7 +122,7 @@ class PairCertifier {
   const BodyCheckpoint* checkpoint_of(std::uint32_t number) const {
     return log_ ? log_->checkpoint_of(number) : nullptr;
   }
-  BoundRef bound_ref(std::uint32_t number) const {
+  [[gnu::always_inline]] BoundRef bound_ref(std::uint32_t number) const {
     const bool repeats = bodies().space().repeats();
     if (const BodyCheckpoint* const checkpoint = checkpoint_of(number))
       return {number, &checkpoint->body.body.bound, window_end_of(number),
@@ -148,8 +149,7 @@ void PairCertifier::for_each_threshold(std::uint32_t a, std::uint32_t b, Visit v
   if (const auto next =
           bodies().sensors.next_inward(sensing_of(bodies(), a), sensing_of(bodies(), b), crossed))
     visit(Threshold{.within = false, .distance = *next, .sensed = true});
-  if (!crossed.empty())
-    visit(Threshold{.within = true, .distance = crossed.back().distance, .sensed = true});
+  if (!crossed.empty()) visit(Threshold{.within = true, .distance = crossed.back().distance, .sensed = true});
 }
 
 }  // namespace kinesphere

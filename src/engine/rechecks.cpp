@@ -1,6 +1,7 @@
 // Rechecks of certificates that are due: the current bounds decide whether a contact can have changed; if so,
 // fresh reports decide whether it has.
 #include <algorithm>
+#include <array>
 
 #include "engine/event_processor.hpp"
 #include "number/infinity.hpp"
@@ -37,19 +38,24 @@ Result<void> EventProcessor::recheck_pair(std::uint32_t a, std::uint32_t b) {
       if (until < end) queue_.add(certifier.certificate(until, a, b));
       return {};
     }
-    if (auto probed = probe_staler(a, b); !probed) return probed;
+    if (auto probed = probe_one_of(a, b); !probed) return probed;
   }
   return {};
 }
 
-/// Probes the body with the older report, or the second one if both are equally old. Precondition: at least
-/// one of them is not fresh.
-Result<void> EventProcessor::probe_staler(std::uint32_t a, std::uint32_t b) {
-  const bool a_is_staler = bodies()[a].bound.time < bodies()[b].bound.time;
-  const bool a_is_asked = !bodies()[a].fresh(time_) && (a_is_staler || bodies()[b].fresh(time_));
-  const std::uint32_t staler = a_is_asked ? a : b;
+/// Probes the body with the older report, or the second one if both are equally old; and the other one too if
+/// both bounds are exact, since then a report changes neither. Precondition: at least one of them is not
+/// fresh.
+Result<void> EventProcessor::probe_one_of(std::uint32_t a, std::uint32_t b) {
+  const Bound& one = bodies()[a].bound;
+  const Bound& other = bodies()[b].bound;
+  const bool a_is_fresh = bodies()[a].fresh(time_);
+  const bool b_is_fresh = bodies()[b].fresh(time_);
+  const bool a_is_first = !a_is_fresh && (one.time < other.time || b_is_fresh);
+  const std::array<std::uint32_t, 2> order = a_is_first ? std::array{a, b} : std::array{b, a};
+  const bool asks_both = one.is_exact() && other.is_exact() && !a_is_fresh && !b_is_fresh;
   const bool touching = reports_.profile() != nullptr && contacts().touch(a, b);
-  return probe(std::span(&staler, 1), touching ? ProbeCause::touching : ProbeCause::near);
+  return probe(std::span(order).first(asks_both ? 2 : 1), touching ? ProbeCause::touching : ProbeCause::near);
 }
 
 /// Applies the contact rule to the fresh reports of two bodies. Returns the time of the next recheck, or
@@ -65,9 +71,9 @@ std::optional<double> EventProcessor::decide_pair(std::uint32_t a, std::uint32_t
   visit_pair(bodies(), a, b, [&](const Bound& bound, const auto& partner) {
     certifier.for_each_threshold(a, b, [&](const Threshold& threshold) {
       ++work_.counters.certificates;
-      const ContactPredictor predictor(contacts().rule(), threshold, bound, partner, time_,
-                                       {end, end});
-      const auto known = decide(predictor, threshold, contact(EventKind::zeno_guard, a, b), sum);
+      const ContactPredictor predictor(contacts().rule(), threshold, bound, partner, time_, {end, end});
+      const auto known =
+          decide(predictor, threshold, sum, [&] { return contact(EventKind::zeno_guard, a, b); });
       next = next && known ? std::optional(std::min(*next, *known)) : std::nullopt;
     });
   });
@@ -75,11 +81,14 @@ std::optional<double> EventProcessor::decide_pair(std::uint32_t a, std::uint32_t
 }
 
 /// Applies the contact rule to fresh reports. Queues the events that result. Returns the time before which
-/// the threshold cannot be crossed, or nullopt if a begin or an end was queued.
-template <class Partner>
+/// the threshold cannot be crossed, or nullopt if a begin or an end was queued. `event_now` returns an event
+/// that describes the two now.
+template <class Partner, class EventNow>
 std::optional<double> EventProcessor::decide(const ContactPredictor<Partner>& predictor,
-                                             const Threshold& threshold, Event current,
-                                             const RelativeLimits& limits) {
+                                             const Threshold& threshold, const RelativeLimits& limits,
+                                             EventNow event_now) {
+  if (const auto next_check = predictor.next_check_if_apart()) return next_check;
+  Event current = event_now();
   ContactDecision decision = predictor.decide(current, limits);
   if (decision.change == ContactRule::Change::begin && !threshold.sensed && contacts().is_jammed(current))
     return defer(predictor, threshold, current, limits);
@@ -103,7 +112,8 @@ std::optional<double> EventProcessor::decide(const ContactPredictor<Partner>& pr
   return decision.next_check;
 }
 
-/// Defers the begin of a jammed contact by a least step or, after too many jams, until the two have separated.
+/// Defers the begin of a jammed contact by a least step or, after too many jams, until the two have
+/// separated.
 template <class Partner>
 double EventProcessor::defer(const ContactPredictor<Partner>& predictor, const Threshold& threshold,
                              const Event& current, const RelativeLimits& limits) {
@@ -151,7 +161,8 @@ std::optional<double> EventProcessor::decide_walls(std::uint32_t number) {
     const Threshold threshold = contacts().wall_threshold(number, wall, body.contact_events);
     const ContactPredictor<HalfSpace> predictor(contacts().rule(), threshold, body.bound, inside, time_,
                                                 {end, end});
-    const auto next = decide(predictor, threshold, wall_contact(EventKind::zeno_guard, number, wall), limits);
+    const auto next = decide(predictor, threshold, limits,
+                             [&] { return wall_contact(EventKind::zeno_guard, number, wall); });
     if (next) first = std::min(first, *next);
   }
   return first;

@@ -1,6 +1,7 @@
 #include "engine/reports.hpp"
 
 #include <algorithm>
+#include <array>
 #include <mutex>
 #include <optional>
 
@@ -14,33 +15,65 @@ namespace {
 /// Minimum reports per parallel chunk; below this, dispatch costs more than probing.
 constexpr std::size_t reports_at_once = 512;
 
+constexpr std::size_t few = 2;
+
 }  // namespace
 
 Result<std::span<const Reports::Violation>> Reports::take(Bodies& bodies, double time,
                                                           std::span<const std::uint32_t> numbers,
                                                           PoolLease& lease) {
-  ask_for(bodies, time, numbers, lease);
-  violations_.clear();
-  // Most calls concern one body.
-  if (numbers.size() == 1) {
-    if (auto valid = check(bodies, time, 0); !valid) return valid.error();
-    apply(bodies, time, 0, 1, violations_);
+  if (numbers.size() <= few && profile_ == nullptr) {
+    if (take_few(bodies, time, numbers)) return std::span<const Violation>();
   } else {
-    const std::size_t bad = first_bad(bodies, time, lease);
-    if (bad < numbers.size()) return check(bodies, time, bad).error();
-    apply_all(bodies, time, lease);
+    ask_for(bodies, time, numbers, lease);
   }
+  violations_.clear();
+  const std::size_t bad = first_bad(bodies, time, lease);
+  if (bad < ids_.size()) return check(bodies, time, bad).error();
+  apply_all(bodies, time, lease);
   return std::span<const Violation>(violations_);
+}
+
+/// Probes one or two bodies, as nearly all calls do. Applies the reports if they are valid, keep the limits
+/// of the bodies, and change nothing but their bounds, as nearly all do. Otherwise keeps them, and returns
+/// false.
+[[gnu::always_inline]] inline bool Reports::take_few(Bodies& bodies, double time,
+                                                     std::span<const std::uint32_t> numbers) {
+  std::array<BodyId, few> ids;
+  std::array<State, few> states{no_answer, no_answer};
+  const std::size_t count = numbers.size();
+  for (std::size_t k = 0; k < count; ++k) ids[k] = bodies.id_of(numbers[k]);
+  {
+    asking_ = true;
+    const ScopeGuard answered([&] { asking_ = false; });
+    (*probe_)(std::span(ids).first(count), time, std::span(states).first(count));
+  }
+  bool are_plain = !bodies.space().repeats();
+  for (std::size_t k = 0; k < count; ++k) {
+    const Body& body = bodies[numbers[k]];
+    are_plain = are_plain && body.change_number == Body::none && !body.is_sleeping() &&
+                is_valid_report(states[k], bodies.definition()) &&
+                certainly_keeps(body.bound, time, states[k], body.radius);
+  }
+  if (!are_plain) {
+    ids_.assign(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(count));
+    states_.assign(states.begin(), states.begin() + static_cast<std::ptrdiff_t>(count));
+    return false;
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    Bound& bound = bodies[numbers[k]].bound;
+    bound.time = time;
+    bound.position = states[k].position;
+    bound.velocity = states[k].velocity;
+  }
+  return true;
 }
 
 void Reports::ask_for(const Bodies& bodies, double time, std::span<const std::uint32_t> numbers,
                       PoolLease& lease) {
   ids_.resize(numbers.size());
-  states_.resize(numbers.size());
-  for (std::size_t k = 0; k < numbers.size(); ++k) {
-    ids_[k] = bodies.id_of(numbers[k]);
-    states_[k] = no_answer;
-  }
+  states_.assign(numbers.size(), no_answer);
+  for (std::size_t k = 0; k < numbers.size(); ++k) ids_[k] = bodies.id_of(numbers[k]);
   asking_ = true;
   const ScopeGuard answered([&] { asking_ = false; });
   lease.parallel_for(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
@@ -103,8 +136,11 @@ void Reports::apply(Bodies& bodies, double time, std::size_t from, std::size_t t
       body.bound.position = state.position;
       body.bound.velocity = state.velocity;
     }
-    const auto violation =
-        bound_violation(before, body.bound, body.radius, new_velocity, bodies.definition().contact_tolerance);
+    std::optional<BoundViolation> violation;
+    if (new_velocity || before.radius != body.bound.radius ||
+        !certainly_keeps(before, time, {body.bound.position, body.bound.velocity}, body.radius))
+      violation = bound_violation(before, body.bound, body.radius, new_velocity,
+                                  bodies.definition().contact_tolerance);
     if (profile_ != nullptr && !new_velocity) profile_->note_report(number, before, body.bound);
     if (body.is_sleeping()) body.stand_still();
     if (violation) broken.push_back({k, states_[k].velocity, *violation});

@@ -45,6 +45,7 @@ class Reports {
   std::size_t bytes() const;
 
  private:
+  bool take_few(Bodies& bodies, double time, std::span<const std::uint32_t> numbers);
   void ask_for(const Bodies& bodies, double time, std::span<const std::uint32_t> numbers, PoolLease& lease);
   std::size_t first_bad(const Bodies& bodies, double time, PoolLease& lease) const;
   Result<void> check(const Bodies& bodies, double time, std::size_t k) const;

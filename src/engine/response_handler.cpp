@@ -1,5 +1,6 @@
 #include "engine/response_handler.hpp"
 
+#include <array>
 #include <optional>
 #include <span>
 
@@ -9,31 +10,35 @@ namespace kinesphere {
 
 Result<void> apply_response(MotionSource& source, const WorldDefinition& world, const Event& event,
                             const Response& answer) {
-  // All states are validated before the first origin is set.
-  std::optional<MotionOrigin> first, second;
-  const auto make = [&](BodyId body, const std::optional<Vec3>& velocity,
-                        std::optional<MotionOrigin>& origin) -> Result<void> {
-    if (!velocity) return {};
-    State state = no_answer;
-    source.states(std::span(&body, 1), event.time, std::span(&state, 1));
-    if (auto valid = check_report(state, body, event.time, world, "run"); !valid) return valid;
-    origin = MotionOrigin{event.time, {state.position, *velocity}};
-    return {};
+  std::array<BodyId, 2> ids;
+  std::array<Vec3, 2> velocities;
+  std::array<State, 2> states{no_answer, no_answer};
+  std::size_t count = 0;
+  const auto turn = [&](BodyId body, const std::optional<Vec3>& velocity) {
+    if (!velocity) return;
+    ids[count] = body;
+    velocities[count++] = *velocity;
   };
-  auto made = make(event.second, answer.second_velocity, second);
-  if (made) made = make(event.first, answer.first_velocity, first);
-  if (!made) return made;
-  if (!first || !second) {
-    if (first) source.set_origin(event.first, *first);
-    if (second) source.set_origin(event.second, *second);
+  turn(event.first, answer.first_velocity);
+  turn(event.second, answer.second_velocity);
+  if (count == 0) return {};
+  source.states(std::span(ids).first(count), event.time, std::span(states).first(count));
+  // All states are validated before the first origin is set.
+  for (std::size_t k = 0; k < count; ++k)
+    if (auto valid = check_report(states[k], ids[k], event.time, world, "run"); !valid) return valid;
+  const auto set = [&](std::size_t k) {
+    source.set_origin(ids[k], {event.time, {states[k].position, velocities[k]}});
+  };
+  if (count == 1) {
+    set(0);
     return {};
   }
-  const MotionOrigin before = source.origin(event.first);
-  source.set_origin(event.first, *first);
+  const MotionOrigin before = source.origin(ids[0]);
+  set(0);
   try {
-    source.set_origin(event.second, *second);
+    set(1);
   } catch (...) {
-    source.set_origin(event.first, before);
+    source.set_origin(ids[0], before);
     throw;
   }
   return {};

@@ -13,11 +13,6 @@
 namespace kinesphere {
 namespace {
 
-/// Fast path without error messages, since nearly all input is valid.
-bool fits(const Vec3& v, double limit) {
-  return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
-}
-
 void require_size(InputCheck& check, const Subject& subject, double value, double limit) {
   check.not_negative(subject, value)
       .require(value <= limit, ErrorCode::out_of_range, subject, "must be at most", limit, value);
@@ -151,10 +146,6 @@ void require_plane(InputCheck& check, const Subject& subject, const Vec3& value,
                 "must have z = 0 in two dimensions", value);
 }
 
-double coordinate_limit(const WorldDefinition& world) {
-  return limits::largest_length * world.contact_tolerance;
-}
-
 Result<void> check_world(const WorldDefinition& definition) {
   InputCheck check("World::create");
   check.positive({"contact_tolerance"}, definition.contact_tolerance)
@@ -271,10 +262,7 @@ Result<void> check_velocity(const Vec3& velocity, BodyId body, const WorldDefini
 
 Result<void> check_report(const State& state, BodyId body, double time, const WorldDefinition& world,
                           std::string_view call) {
-  const bool in_plane = world.dimensions == 3 || (state.position.z == 0.0 && state.velocity.z == 0.0);
-  if (fits(state.position, coordinate_limit(world)) && fits(state.velocity, limits::largest_speed) &&
-      in_plane)
-    return {};
+  if (is_valid_report(state, world)) return {};
   const std::string answer = std::string(call) + ": the probe's answer at time " + text_of(time);
   InputCheck check(answer);
   check.within({"position", body}, state.position, coordinate_limit(world))

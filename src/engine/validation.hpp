@@ -1,11 +1,13 @@
 // Validation of all input to a world. Each function returns an error that names the argument and the body.
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <string>
 #include <string_view>
 
 #include "input/input_check.hpp"
+#include "kinesphere/limits.hpp"
 #include "kinesphere/world.hpp"
 
 namespace kinesphere {
@@ -39,7 +41,17 @@ Error moved_from_error(std::string_view call);
 
 /// Returns the largest coordinate (length): a fixed number of contact tolerances, so that rounding errors of
 /// certificates stay well below one tolerance.
-double coordinate_limit(const WorldDefinition& world);
+inline double coordinate_limit(const WorldDefinition& world) {
+  return limits::largest_length * world.contact_tolerance;
+}
+inline bool fits(const Vec3& v, double limit) {
+  return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
+}
+/// Returns true if check_report() accepts the state.
+inline bool is_valid_report(const State& state, const WorldDefinition& world) {
+  return fits(state.position, coordinate_limit(world)) && fits(state.velocity, limits::largest_speed) &&
+         (world.dimensions == 3 || (state.position.z == 0.0 && state.velocity.z == 0.0));
+}
 
 /// Returns the error of a body that would overlap `other`.
 Error overlap_error(std::string_view call, BodyId other, const std::string& name_of_other,

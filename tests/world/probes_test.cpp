@@ -1,8 +1,10 @@
 // Which bodies are probed, and when: only if the existing reports are not sufficient.
 #include <gtest/gtest.h>
 
+#include <set>
 #include <vector>
 
+#include "kinesphere/response.hpp"
 #include "support/playground.hpp"
 
 namespace kinesphere::probes_test {
@@ -42,6 +44,32 @@ TEST_P(TwoAtRest, AreNotProbedAsLongAsALaterReportSuffices) {
 /// In the second case the two sense each other from the start.
 INSTANTIATE_TEST_SUITE_P(Distances, TwoAtRest,
                          testing::Values(std::vector<double>{1.0}, std::vector<double>{1.0, 50.0}));
+
+/// A response parts the two, so the pair need not be checked again.
+TEST(ExactBodies, AreProbedTogetherOnceForTheirContact) {
+  Playground p({.contacts = ContactEvents::impacts});
+  const BodyId a = p.add({.radius = 0.5, .position = {-5, 0, 0}, .velocity = {1, 0, 0}});
+  const BodyId b = p.add({.radius = 0.5, .position = {5, 0.3, 0}, .velocity = {-1, 0, 0}});
+  std::vector<std::vector<BodyId>> calls;
+  const auto probe = [&](std::span<const BodyId> ids, double time, std::span<State> states) {
+    calls.emplace_back(ids.begin(), ids.end());
+    for (std::size_t k = 0; k < ids.size(); ++k) states[k] = p.state(ids[k], time);
+  };
+  std::vector<Event> events;
+  for (const Event& event : p.world.events(20.0, probe)) {
+    events.push_back(event);
+    const Bounce after = bounce(event, 1.0);
+    p.set_velocity(event.first, after.first_velocity);
+    p.set_velocity(event.second, after.second_velocity);
+  }
+  EXPECT_EQ(events.size(), 1u);
+  ASSERT_EQ(calls.size(), 1u);
+  EXPECT_EQ(std::set(calls[0].begin(), calls[0].end()), (std::set{a, b}));
+  const Counters& counters = p.world.counters();
+  EXPECT_EQ(counters.pair_checks, 1u);
+  EXPECT_EQ(counters.certificates, 2u);
+  EXPECT_EQ(counters.probes, 2u);
+}
 
 }  // namespace
 }  // namespace kinesphere::probes_test

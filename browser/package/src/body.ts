@@ -1,5 +1,5 @@
 // Definitions of bodies, and their tables of numbers for the module.
-import { type Box, boxKeys } from "./definition.js";
+import { type Box, boxKeys, type ContactEvents, numberOfContacts } from "./definition.js";
 import type { Vec3 } from "./event.js";
 import { type PerBody, type States, vector } from "./motion.js";
 import { checkKeys, type Keys } from "./options.js";
@@ -20,6 +20,8 @@ export interface BodyOptions extends MotionLimits {
   filter?: { category?: number; mask?: number; group?: number };
   /** A body that is not solid only senses and is sensed. */
   solid?: boolean;
+  /** Which contact events it asks for; by default those of the world's definition. */
+  contacts?: ContactEvents;
   sensorClass?: number;
   /** A whole number of the caller's, up to 2^53. */
   userData?: number;
@@ -53,7 +55,7 @@ export const limitKeys: Keys<MotionLimits> = {
 };
 /** Keys of the options beside a motion, which gives the limits. */
 export const movedKeys: Keys<Omit<BodyOptions, keyof MotionLimits>> = {
-  filter: true, solid: true, sensorClass: true, userData: true, mass: true,
+  filter: true, solid: true, contacts: true, sensorClass: true, userData: true, mass: true,
 };
 export const bodyKeys: Keys<BodyDefinition> = { ...limitKeys, ...movedKeys, position: true, velocity: true, radius: true };
 const { accelerationLimit: _, ...commonLimitKeys } = limitKeys;
@@ -73,7 +75,7 @@ const ballKeys: Keys<{ centre: Vec3; radius: number }> = { centre: true, radius:
 const halfSpaceKeys: Keys<{ normal: Vec3; offset: number }> = { normal: true, offset: true };
 
 /** Size of the table that body_at() in browser/module/world.cpp reads. */
-export const bodyNumbers = 20;
+export const bodyNumbers = 21;
 
 export function putBody(numbers: Float64Array, at: number, body: BodyDefinition, call: string): void {
   numbers.set(vector(body.position, "position", call), at);
@@ -99,6 +101,7 @@ export function putOptions(numbers: Float64Array, at: number, body: BodyOptions,
   numbers[at + 17] = group;
   numbers[at + 18] = whole(body.userData ?? 0, 2 ** 53, "userData", call);
   numbers[at + 19] = body.mass ?? 1;
+  numbers[at + 20] = body.contacts === undefined ? 0 : numberOfContacts(body.contacts, call);
 }
 
 export function whole(value: number, most: number, what: string, call: string): number {

@@ -9,10 +9,15 @@ export interface Box {
   upper: Vec3;
 }
 
-/** The definition of a world; kinesphere/world_definition.hpp documents each field. */
-const contactEvents = [undefined, "impacts", "begin_and_end", "all"] as const;
+/**
+ * Which contact events a body asks for. "all": a begin and an end for each contact, and a begin for each further approach
+ * in between (`alreadyTouching`). "impacts", for what only bounces: a begin for each approach, and no ends.
+ * "begin_and_end", for contacts that are watched and not answered. Two bodies report what either asks for.
+ */
 export type ContactEvents = "all" | "begin_and_end" | "impacts";
+const contactEvents = [undefined, "impacts", "begin_and_end", "all"] as const;
 
+/** The definition of a world; kinesphere/world_definition.hpp documents each field. */
 export interface WorldDefinition {
   /** The walls. Without a box the world is unbounded. */
   box?: Box;
@@ -24,11 +29,7 @@ export interface WorldDefinition {
   contactTolerance?: number;
   /** > contactTolerance (length): the gap at which a contact ends. */
   separationDistance?: number;
-  /**
-   * Which contact events the world reports. "all", the default: a begin and an end for each contact, and a begin for each
-   * further approach in between (`alreadyTouching`). "impacts", for what only bounces: a begin for each approach, and no
-   * ends. "begin_and_end", for contacts that are watched and not answered.
-   */
+  /** What bodies ask for that do not say it themselves; by default "all". */
   contacts?: ContactEvents;
   /** If false, bodies that certainly overlap are refused. */
   allowOverlap?: boolean;
@@ -65,16 +66,16 @@ export function definitionNumbers(definition: WorldDefinition): number[] {
     definition.dimensions ?? 3,
     definition.contactTolerance ?? 1e-6,
     definition.separationDistance ?? NaN,
-    numberOfContacts(definition.contacts ?? "all"),
+    numberOfContacts(definition.contacts ?? "all", "World"),
     definition.allowOverlap === false ? 0 : 1,
     definition.zenoInterval ?? 0,
     definition.startTime ?? 0,
   ];
 }
 
-function numberOfContacts(contacts: ContactEvents): number {
+export function numberOfContacts(contacts: ContactEvents, call: string): number {
   const number = contactEvents.indexOf(contacts);
-  if (number < 1) throw new TypeError(`World: contacts must be "all", "begin_and_end" or "impacts", but is "${contacts}"`);
+  if (number < 1) throw new TypeError(`${call}: contacts must be "all", "begin_and_end" or "impacts", but is "${contacts}"`);
   return number;
 }
 

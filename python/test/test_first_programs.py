@@ -1,0 +1,108 @@
+"""What people write first is right: no ball leaves its box or passes through another, energy is kept."""
+
+import inspect
+import textwrap
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+import kinesphere as ks
+
+Doubles = NDArray[np.float64]
+
+
+def deepest(positions: Doubles, radius: float, size: float) -> float:
+    """The deepest overlap of balls with each other and with the walls of a box from 0 to size."""
+    offsets = positions[:, None] - positions[None]
+    distances = np.sqrt((offsets**2).sum(2)) + np.where(np.eye(len(positions)) > 0, np.inf, 0)
+    return float(
+        max(2 * radius - distances.min(), (radius - positions).max(), (positions + radius - size).max())
+    )
+
+
+def test_the_program_of_the_docstring() -> None:
+    text = inspect.getdoc(ks)
+    assert text is not None
+    program = textwrap.dedent("\n".join(line for line in text.splitlines() if line.startswith("    ")))
+    names: dict[str, Any] = {}
+    exec(program, names)
+    world, motion = names["world"], names["motion"]
+    assert world.time == 10.0 and len(names["events"]) > 100
+    assert deepest(np.asarray(motion.states(10.0)[0]), 1.0, 100.0) < 1e-6
+
+
+@pytest.mark.parametrize("contacts", ["all", "impacts", "begin_and_end", None])
+@pytest.mark.parametrize(
+    ("balls", "radius", "gravity", "restitution"),
+    [(8, 0.415, 0.0, 1.0), (5, 0.49, 0.0, 1.0), (5, 0.5, 0.0, 1.0), (6, 0.4, 10.0, 0.9), (6, 0.4, 10.0, 0.5)],
+)
+def test_bouncing_balls_never_pass(
+    contacts: str | None, balls: int, radius: float, gravity: float, restitution: float
+) -> None:
+    if contacts == "begin_and_end" and radius == 0.5:
+        pytest.skip("balls that touch from the start begin without an approach, and report no further one")
+    rng = np.random.default_rng(1)
+    size = float(balls)
+    positions = np.stack(np.meshgrid(*[np.arange(balls) + 0.5] * 3, indexing="ij"), -1).reshape(-1, 3)
+    velocities = rng.normal(0, 1, positions.shape)
+    motion = ks.Ballistic(positions, velocities, gravity=(0, 0, -gravity))
+    choice: dict[str, Any] = {} if contacts is None else {"contacts": contacts}
+    world = ks.World(box=((0, 0, 0), (size, size, size)), contact_tolerance=1e-6, **choice)
+    world.add_motion(motion, radii=radius)
+    for step in range(1, 11):
+        world.run(0.1 * step, motion, ks.Bouncing(restitution=restitution))
+        now, speeds = (np.asarray(part) for part in motion.states(world.time))
+        assert deepest(now, radius, size) < 2e-6, step
+    energy = 0.5 * (speeds**2).sum() + gravity * now[:, 2].sum()
+    before = 0.5 * (velocities**2).sum() + gravity * positions[:, 2].sum()
+    if restitution == 1.0:
+        assert energy == pytest.approx(before, rel=1e-9)
+    else:
+        assert energy < before
+
+
+def test_bodies_ask_for_their_own_events() -> None:
+    kinds = {}
+    for contacts in ("all", "begin_and_end", "impacts", None):
+        world = ks.World(contacts="impacts")
+        world.add([[0.0, 0, 0]], [[1.0, 0, 0]])
+        world.add([[5.0, 0, 0]], contacts=contacts)  # type: ignore[arg-type]
+        events = world.run(
+            10.0,
+            lambda ids, t: (
+                np.stack([np.where(ids == 0, t, 5.0), 0 * ids, 0 * ids], -1),
+                np.stack([np.where(ids == 0, 1.0, 0), 0 * ids, 0 * ids], -1),
+            ),
+        )
+        kinds[contacts] = [str(event.kind) for event in events]
+    both = ["contact_begin", "contact_end"]
+    assert kinds == {"all": both, "begin_and_end": both, "impacts": both[:1], None: both[:1]}
+    with pytest.raises(ks.InvalidValue, match='add: contacts must be "all", "begin_and_end" or "impacts"'):
+        ks.World().add([[0.0, 0, 0]], contacts="hits")  # type: ignore[arg-type]
+
+
+def test_a_motion_of_ones_own_is_asked_once_for_each_instant() -> None:
+    scene = ks.Scene("periodic_gas", bodies=200, packing=0.3, seconds=40)
+    positions, velocities = (np.asarray(part) for part in scene.motion().states(0.0))
+    asked: list[tuple[float, tuple[int, ...]]] = []
+
+    def straight_on(
+        ids: NDArray[Any], t: float, since: Doubles, places: Doubles, speeds: Doubles
+    ) -> tuple[Doubles, Doubles]:
+        if len(ids) <= 2:
+            asked.append((t, tuple(sorted(int(body) for body in ids))))
+        return places + speeds * (t - since), speeds
+
+    world = ks.World(**scene.definition)
+    world.add(positions, velocities, scene.radii)
+    events = world.run(2.0, ks.MotionSource(straight_on, positions, velocities), ks.Bouncing())
+    calls = {event.time: [] for event in events}  # type: dict[float, list[tuple[int, ...]]]
+    for t, bodies in asked:
+        if t in calls:
+            calls[t].append(bodies)
+    assert len(events) > 500
+    pairs = {event.time: tuple(sorted((int(event.first), int(event.second)))) for event in events}
+    alone = [t for t, bodies in calls.items() if bodies == [pairs[t]]]
+    assert len(alone) > 0.95 * len(calls)
