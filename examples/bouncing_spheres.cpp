@@ -21,7 +21,8 @@ int main() {
   RandomForces motion =
       RandomForces::create({.start = start, .acceleration_limits = std::vector(start.size(), 20.0)}).value();
 
-  World world = World::create({.box = box, .contacts = ContactEvents::impacts, .allow_overlap = false}).value();
+  World world =
+      World::create({.box = box, .contacts = ContactEvents::impacts, .allow_overlap = false}).value();
   for (std::uint32_t body = 0; body < motion.size(); ++body) {
     BodyDefinition definition = motion.definition(body, 0.0);
     definition.radius = 2.0;

@@ -5,8 +5,8 @@
 
 namespace kinesphere {
 
-/// Which contact events a body asks for (BodyDefinition::contacts, WorldDefinition::contacts). Two bodies report what either asks for. Walls and static bodies ask
-/// for nothing themselves.
+/// Which contact events a body asks for (BodyDefinition::contacts, WorldDefinition::contacts). Two bodies
+/// report what either asks for. Walls and static bodies ask for nothing themselves.
 enum class ContactEvents : std::uint8_t {
   /// A begin whenever the two touch and approach, and no ends: the least, for bodies that only bounce.
   impacts = 1,

@@ -26,7 +26,7 @@ enum class EventKind : std::uint8_t {
   wall_end,
   /// The Zeno guard advances time by its least step, because time would otherwise stop at a contact deep
   /// within its tolerance. From now on the two may overlap by more than the contact tolerance. Reported once
-  /// for each contact; after further jams (Event::jammed) the two are let through until they have separated.
+  /// for each contact, and once more if the two are let through (Event::jammed).
   zeno_guard,
   /// The gap of two bodies has shrunk to a sensor distance (to at most that distance plus the contact
   /// tolerance).
@@ -84,9 +84,9 @@ struct Event {
   bool repeated = false;
   /// True if each of the two bodies has already had 64 contacts at this very instant, for example a body
   /// stuck between walls. A response that returns any speed would continue for ever. After 256 contacts the
-  /// Zeno guard advances time by its least step. A pair that has been jammed so 8 times since it began to
-  /// touch, or deep within the tolerance, is let through until it has separated, which EventKind::zeno_guard
-  /// reports.
+  /// Zeno guard advances time by its least step. A pair whose responses go on to return speed is let through
+  /// until it has separated, after 8 such steps or if it is deep within the tolerance, which
+  /// EventKind::zeno_guard reports.
   bool jammed = false;
   /// contact_begin, wall_begin: true if the two have been in touch since an earlier begin, without an end in
   /// between (never with ContactEvents::impacts). To count contacts, count the begins for which it is

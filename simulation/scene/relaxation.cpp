@@ -81,8 +81,7 @@ class Relaxation {
 }  // namespace
 
 std::optional<std::vector<Vec3>> relax_spheres(const std::vector<double>& radii, const Box& box,
-                                               double clearance, std::uint64_t seed,
-                                               bool periodic) {
+                                               double clearance, std::uint64_t seed, bool periodic) {
   return Relaxation(radii, box, clearance, seed, periodic).run();
 }
 

@@ -14,7 +14,6 @@ namespace kinesphere {
 /// box's volume. The result is the same to the bit on every machine. Cost: some hundred sweeps, each about a
 /// microsecond per sphere.
 std::optional<std::vector<Vec3>> relax_spheres(const std::vector<double>& radii, const Box& box,
-                                               double clearance, std::uint64_t seed,
-                                               bool periodic = false);
+                                               double clearance, std::uint64_t seed, bool periodic = false);
 
 }  // namespace kinesphere

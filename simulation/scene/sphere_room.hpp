@@ -13,7 +13,8 @@
 
 namespace kinesphere {
 
-/// Centres of spheres in a box. In a periodic box they may be anywhere, and spheres meet the images of others.
+/// Centres of spheres in a box. In a periodic box they may be anywhere, and spheres meet the images of
+/// others.
 class SphereRoom {
  public:
   /// `clearance` (length) is kept free between spheres, and between spheres and walls.
@@ -45,8 +46,8 @@ class SphereRoom {
             random.uniform(range.lower.z, range.upper.z)};
   }
 
-  /// Moves a sphere to a centre, or to the nearest one within its range; in a periodic box to its image in the
-  /// box. Precondition: the sphere has a range.
+  /// Moves a sphere to a centre, or to the nearest one within its range; in a periodic box to its image in
+  /// the box. Precondition: the sphere has a range.
   void move_to(std::uint32_t sphere, Vec3 centre) {
     const Box inside = *range(sphere);
     for (int axis = 0; axis < 3; ++axis) {
@@ -85,7 +86,9 @@ class SphereRoom {
     };
     if (!periodic_) return visit_image({});
     const Vec3 size = box_.upper - box_.lower;
-    const auto first = [&](int axis) { return near.upper[axis] + largest_reach_ > box_.upper[axis] ? -1 : 0; };
+    const auto first = [&](int axis) {
+      return near.upper[axis] + largest_reach_ > box_.upper[axis] ? -1 : 0;
+    };
     const auto last = [&](int axis) { return near.lower[axis] - largest_reach_ < box_.lower[axis] ? 1 : 0; };
     for (int x = first(0); x <= last(0); ++x)
       for (int y = first(1); y <= last(1); ++y)

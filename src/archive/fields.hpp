@@ -104,12 +104,12 @@ void serialize(Some<BodyTraits> auto& self, auto& archive) {
 }
 
 void serialize(Some<Event> auto& self, auto& archive) {
-  auto& [kind, time, first, second, wall, repeated, jammed, already_touching, senses, first_traits, second_traits, first_state,
-         second_state, point, normal, gap, approach_speed, position_excess, velocity_excess, distance,
-         first_user_data, second_user_data, first_mass, second_mass] = self;
-  archive(kind, time, first, second, wall, repeated, jammed, already_touching, senses, first_traits, second_traits, first_state,
-          second_state, point, normal, gap, approach_speed, position_excess, velocity_excess, distance,
-          first_user_data, second_user_data, first_mass, second_mass);
+  auto& [kind, time, first, second, wall, repeated, jammed, already_touching, senses, first_traits,
+         second_traits, first_state, second_state, point, normal, gap, approach_speed, position_excess,
+         velocity_excess, distance, first_user_data, second_user_data, first_mass, second_mass] = self;
+  archive(kind, time, first, second, wall, repeated, jammed, already_touching, senses, first_traits,
+          second_traits, first_state, second_state, point, normal, gap, approach_speed, position_excess,
+          velocity_excess, distance, first_user_data, second_user_data, first_mass, second_mass);
 }
 
 void serialize(Some<Axes> auto& self, auto& archive) {

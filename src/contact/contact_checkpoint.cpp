@@ -14,7 +14,8 @@ template <class Record>
 std::vector<Record> missing(std::span<const Record> from, std::span<const Record> in) {
   std::vector<Record> found(from.begin(), from.end());
   std::erase_if(found, [&](const Record& one) {
-    return std::any_of(in.begin(), in.end(), [&](const Record& other) { return is_of_same_link(one, other); });
+    return std::any_of(in.begin(), in.end(),
+                       [&](const Record& other) { return is_of_same_link(one, other); });
   });
   return found;
 }

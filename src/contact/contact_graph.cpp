@@ -151,17 +151,19 @@ void ContactGraph::note_contact(Event& begin) {
   begin.jammed = jammed;
 }
 
-bool ContactGraph::note_jam(const Event& current, const Threshold& threshold, bool is_deep) {
+ContactGraph::Jam ContactGraph::note_jam(const Event& current, const Threshold& threshold, bool is_deep) {
   // The first jams may end by themselves: a long chain of touching bodies takes more contacts at an instant
   // than one body may have.
-  constexpr std::uint8_t most_jams = 8;
+  constexpr std::uint8_t last = 9;
   ContactState state = threshold.within ? threshold.state : ContactState{};
-  if (state.jams < most_jams) ++state.jams;
-  const bool is_last = is_deep || state.jams == most_jams;
+  const bool is_defied = state.jams > 0;
+  if (is_defied && state.jams < last) ++state.jams;
+  const bool is_last = is_defied && (is_deep || state.jams == last);
+  const Jam jam{is_last, is_last || (is_deep && !state.guard_reported)};
   state.approach = is_last ? ApproachState::ignored : ApproachState::watched;
-  state.guard_reported = state.guard_reported || is_last;
+  state.guard_reported = state.guard_reported || jam.is_news;
   set_state(current, state);
-  return !is_last;
+  return jam;
 }
 
 bool ContactGraph::contacts_are_valid(const std::optional<Box>& box) const {

@@ -94,10 +94,16 @@ class ContactGraph {
   bool is_jammed(const Event& current) const;
   /// Marks the begin of a contact as repeated or jammed, and counts it for later marks.
   void note_contact(Event& begin);
-  /// Counts a jam of the contact. Returns false if it was the last one: from then on the two are let through
-  /// until they have separated. `is_deep`: they may overlap by more than the tolerance before they are
-  /// checked again.
-  bool note_jam(const Event& current, const Threshold& threshold, bool is_deep);
+  struct Jam {
+    /// From now on the two are let through until they have separated.
+    bool is_last;
+    /// The caller must be notified of that, or of an overlap.
+    bool is_news;
+  };
+  /// Counts a jam of the contact. It can be the last one only if responses have returned speed at events
+  /// marked as jammed. `is_deep`: the two may overlap by more than the tolerance before they are checked
+  /// again.
+  Jam note_jam(const Event& current, const Threshold& threshold, bool is_deep);
 
   /// Replaces all contacts and overlaps of a body that has arrived from elsewhere. The lists of its former
   /// and new partners are updated too.

@@ -14,14 +14,16 @@ enum class ApproachState : std::uint8_t {
   /// Reported, but the caller has changed one of the two since: fresh reports decide whether they still
   /// approach.
   turned,
-  /// No approach is an event until they have separated: responses do not part them (ContactGraph::note_jam()).
+  /// No approach is an event until they have separated: responses do not part them
+  /// (ContactGraph::note_jam()).
   ignored,
 };
 
 /// State of a contact between two bodies, or between a body and a wall.
 struct ContactState {
   ApproachState approach = ApproachState::watched;
-  /// Number of times that the contact was jammed since it began.
+  /// One more than the number of times that the contact was jammed since a response returned speed at an
+  /// event marked as jammed (Event::jammed); 0 if none has.
   std::uint8_t jams = 0;
   /// True if the Zeno guard has reported that the two may overlap by more than the tolerance.
   bool guard_reported = false;

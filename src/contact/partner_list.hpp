@@ -16,8 +16,8 @@ namespace kinesphere {
 
 class HeapCounter;
 
-/// Partners in the order in which they were added, in an object of 24 bytes. Up to two are stored inline; more
-/// are on the heap. Thread safety: different lists may be changed concurrently.
+/// Partners in the order in which they were added, in an object of 24 bytes. Up to two are stored inline;
+/// more are on the heap. Thread safety: different lists may be changed concurrently.
 class PartnerList {
  public:
   PartnerList() = default;

@@ -5,8 +5,8 @@
 namespace kinesphere {
 namespace {
 
-/// Part of the approach speed that a response may leave and still part the two. What remains is another event at
-/// the same instant, so the speed is gone after about 60 of them.
+/// Part of the approach speed that a response may leave and still part the two. What remains is another event
+/// at the same instant, so the speed is gone after about 60 of them.
 constexpr double largest_rest_of_approach = 0.5;
 
 /// Recomputes the event from the present states of its bodies.
@@ -69,6 +69,8 @@ void PendingEvents::note_response(ContactGraph& graph, const Sphere& first, cons
   const bool passes = approaches(reported) && approaches(now) &&
                       now.approach_speed > largest_rest_of_approach * reported.approach_speed;
   state.approach = passes ? ApproachState::reported : ApproachState::watched;
+  // A response to a jammed contact should return no speed (Event::jammed).
+  if (reported.jammed && now.approach_speed < -error && state.jams == 0) state.jams = 1;
   if (state.approach == ApproachState::watched && !wants_ends(wanted) && !state.has_history()) {
     graph.set_touching(reported, false);
   } else {

@@ -119,9 +119,9 @@ double EventProcessor::defer(const ContactPredictor<Partner>& predictor, const T
                              const Event& current, const RelativeLimits& limits) {
   const ContactDecision decision = predictor.defer(current, limits);
   ++work_.counters.zeno_steps;
-  if (contacts().note_jam(current, threshold, decision.breaks_tolerance)) return decision.next_check;
-  events_.queue(current);
-  return predictor.until_separated();
+  const ContactGraph::Jam jam = contacts().note_jam(current, threshold, decision.breaks_tolerance);
+  if (jam.is_news) events_.queue(current);
+  return jam.is_last ? predictor.until_separated() : decision.next_check;
 }
 
 /// Rechecks the certificate of a body and the walls.

@@ -50,8 +50,12 @@ double World::Engine::Answers::recorded_of_walls(std::uint32_t number, const Cer
 void World::Engine::Answers::consider_touching(std::uint32_t number, ContactBoundary& first) const {
   if (first.touching) return;
   const auto partners = engine_.contacts().partners_of(number);
+  const auto has_lower_number = [](const ContactRecord& a, const ContactRecord& b) {
+    return a.partner < b.partner;
+  };
   if (!partners.empty())
-    first = {now_, number, std::ranges::min(partners, {}, &ContactRecord::partner).partner, Wall::none, true};
+    first = {now_, number, std::min_element(partners.begin(), partners.end(), has_lower_number)->partner,
+             Wall::none, true};
   for (const Wall wall : walls)
     if (!first.touching && engine_.contacts().touches_wall(number, wall))
       first = {now_, number, std::nullopt, wall, true};

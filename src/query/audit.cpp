@@ -284,9 +284,10 @@ class World::Engine::Audit {
   bool checkable(std::uint32_t a, std::uint32_t b, const Threshold& threshold) const {
     if (!exact(body(a)) || !exact(body(b))) return false;
     const ContactRule& rule = engine_.contacts().rule();
-    return threshold.within || wants_ends(threshold.wanted) || gap_at(engine_.bodies(), now_, collision_shape_of(engine_.bodies(), a),
-                                          collision_shape_of(engine_.bodies(), b))
-                                           .lower > rule.tolerance();
+    return threshold.within || wants_ends(threshold.wanted) ||
+           gap_at(engine_.bodies(), now_, collision_shape_of(engine_.bodies(), a),
+                  collision_shape_of(engine_.bodies(), b))
+                   .lower > rule.tolerance();
   }
 
   /// True if the engine must hold a valid certificate of the pair now. A pair of a body with itself stands

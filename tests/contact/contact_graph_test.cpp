@@ -13,7 +13,9 @@ class ContactGraphTest : public ::testing::Test {
     for (std::uint32_t body = 0; body < 3; ++body) book.add(body, 0.0);
   }
 
-  Sphere sphere(std::uint32_t body) const { return {{body, 0}, 1.0, {{2.0 * body, 0, 0}, velocities[body]}, nullptr, 0, 1.0, {}, wanted}; }
+  Sphere sphere(std::uint32_t body) const {
+    return {{body, 0}, 1.0, {{2.0 * body, 0, 0}, velocities[body]}, nullptr, 0, 1.0, {}, wanted};
+  }
 
   Event begin(std::uint32_t a, std::uint32_t b) const {
     return contact_event(EventKind::contact_begin, 5.0, sphere(a), sphere(b));
@@ -89,7 +91,8 @@ TEST_F(ContactGraphTest, TellsAZenoGuardOncePerInstant) {
 }
 
 TEST_F(ContactGraphTest, ResponseThatPartsTheTwoMakesTheirNextApproachAnEvent) {
-  for (const ContactEvents events : {ContactEvents::impacts, ContactEvents::begin_and_end, ContactEvents::all}) {
+  for (const ContactEvents events :
+       {ContactEvents::impacts, ContactEvents::begin_and_end, ContactEvents::all}) {
     wanted = events;
     velocities[0] = {1, 0, 0};
     instant.queue(begin(0, 1));
@@ -136,16 +139,28 @@ TEST_F(ContactGraphTest, TurnsReportedApproachesOfABodyAndItsWalls) {
   EXPECT_TRUE(book.is_valid(3, Box{{-1, -9, -9}, {9, 9, 9}}));
 }
 
-TEST_F(ContactGraphTest, LetsAPairThroughAfterTooManyJams) {
+TEST_F(ContactGraphTest, LetsAPairThroughIfResponsesGoOnAfterItWasMarkedAsJammed) {
   const Event event = begin(0, 1);
-  for (int jam = 1; jam < 8; ++jam) {
-    EXPECT_TRUE(book.note_jam(event, book.threshold_of(event, wanted), false)) << jam;
+  const auto jam = [&](bool is_deep) {
+    return book.note_jam(event, book.threshold_of(event, wanted), is_deep);
+  };
+  for (int k = 0; k < 20; ++k) EXPECT_FALSE(jam(false).is_last) << "no response has returned speed";
+  EXPECT_TRUE(jam(true).is_news);
+  const ContactGraph::Jam again = jam(true);
+  EXPECT_FALSE(again.is_last || again.is_news);
+  for (int contact = 0; contact < 70; ++contact) {
+    velocities[0] = {1, 0, 0};
+    instant.queue(begin(0, 1));
+    EXPECT_EQ(deliver()->jammed, contact >= 64) << contact;
+    velocities[0] = {-1, 0, 0};
+    EXPECT_FALSE(deliver()) << "takes note of the response";
+  }
+  for (int k = 1; k < 8; ++k) {
+    EXPECT_FALSE(jam(false).is_last) << k;
     EXPECT_EQ(book.threshold_of(event, wanted).state.approach, ApproachState::watched);
   }
-  EXPECT_FALSE(book.note_jam(event, book.threshold_of(event, wanted), false));
+  EXPECT_TRUE(jam(false).is_last);
   EXPECT_EQ(book.threshold_of(event, wanted).state.approach, ApproachState::ignored);
-  const Event other = begin(1, 2);
-  EXPECT_FALSE(book.note_jam(other, book.threshold_of(other, wanted), true)) << "deep";
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ TEST(ContactRule, BeginsAndEndsWithHysteresis) {
       EXPECT_EQ(rule.decide(apart(wanted), eps, approach), Change::begin);
       EXPECT_EQ(rule.decide(apart(wanted), -100.0, approach), Change::begin);
       EXPECT_EQ(rule.decide(apart(wanted), std::nextafter(eps, 1.0), approach), Change::none);
-      for (const ApproachState state : {ApproachState::reported, ApproachState::turned, ApproachState::ignored}) {
+      for (const ApproachState state :
+           {ApproachState::reported, ApproachState::turned, ApproachState::ignored}) {
         EXPECT_EQ(rule.decide(in_touch(wanted, state), std::nextafter(4 * eps, 0.0), approach), Change::none);
         EXPECT_EQ(rule.decide(in_touch(wanted, state), 4 * eps, approach), Change::end);
         EXPECT_EQ(rule.decide(in_touch(wanted, state), -100.0, approach), Change::none);

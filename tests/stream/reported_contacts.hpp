@@ -53,13 +53,13 @@ class ReportedContacts {
 
  private:
   struct ReportedState {
-    bool touching = false;  ///< with ends: a begin was reported, and its end was not
+    bool touching = false;    ///< with ends: a begin was reported, and its end was not
     bool approached = false;  ///< an approach was reported, and the bodies have not certainly parted since
-    bool opened = false;   ///< since that report the two may have parted for a while
-    bool turned = false;   ///< approached, and one of the two has got another velocity at this instant
-    bool guarded = false;  ///< the Zeno guard has told that the two may overlap until they have separated
-    bool due = false;      ///< an approach now must be reported before time moves on
-    double floor = 0.0;    ///< no lower gap may come unreported; 0 stands for minus the tolerance
+    bool opened = false;      ///< since that report the two may have parted for a while
+    bool turned = false;      ///< approached, and one of the two has got another velocity at this instant
+    bool guarded = false;     ///< the Zeno guard has told that the two may overlap until they have separated
+    bool due = false;         ///< an approach now must be reported before time moves on
+    double floor = 0.0;       ///< no lower gap may come unreported; 0 stands for minus the tolerance
 
     friend bool operator==(const ReportedState&, const ReportedState&) = default;
   };

@@ -195,8 +195,8 @@ INSTANTIATE_TEST_SUITE_P(, RandomSurroundings,
                          testing::Values(Kind{ContactEvents::begin_and_end, 1},
                                          Kind{ContactEvents::begin_and_end, 2},
                                          Kind{ContactEvents::begin_and_end, 3},
-                                         Kind{ContactEvents::begin_and_end, 4}, Kind{ContactEvents::impacts, 5},
-                                         Kind{ContactEvents::impacts, 6}));
+                                         Kind{ContactEvents::begin_and_end, 4},
+                                         Kind{ContactEvents::impacts, 5}, Kind{ContactEvents::impacts, 6}));
 
 }  // namespace
 }  // namespace kinesphere::random_surroundings_test

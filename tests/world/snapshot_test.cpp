@@ -98,7 +98,8 @@ class Snapshot : public testing::TestWithParam<std::tuple<ContactEvents, Answer>
 };
 
 INSTANTIATE_TEST_SUITE_P(Modes, Snapshot,
-                         testing::Combine(testing::Values(ContactEvents::begin_and_end, ContactEvents::impacts),
+                         testing::Combine(testing::Values(ContactEvents::begin_and_end,
+                                                          ContactEvents::impacts),
                                           testing::Values(Answer::pass_through, Answer::bounce)));
 
 TEST_P(Snapshot, RestoredAtAHundredMomentsGoesOnTheSame) {
