@@ -69,8 +69,10 @@ void PendingEvents::note_response(ContactGraph& graph, const Sphere& first, cons
   const bool passes = approaches(reported) && approaches(now) &&
                       now.approach_speed > largest_rest_of_approach * reported.approach_speed;
   state.approach = passes ? ApproachState::reported : ApproachState::watched;
-  // A response to a jammed contact should return no speed (Event::jammed).
-  if (reported.jammed && now.approach_speed < -error && state.jams == 0) state.jams = 1;
+  // A response to a jammed contact should return no speed (Event::jammed), but for rounding.
+  const double returned = -now.approach_speed;
+  if (reported.jammed && returned > error + 0x1p-20 * reported.approach_speed && state.jams == 0)
+    state.jams = 1;
   if (state.approach == ApproachState::watched && !wants_ends(wanted) && !state.has_history()) {
     graph.set_touching(reported, false);
   } else {
@@ -108,8 +110,7 @@ bool PendingEvents::take_effect(ContactGraph& graph, Event& event, const Sphere&
       graph.note_contact(event);
       ContactState state = threshold.within ? threshold.state : ContactState{};
       const bool approaches = graph.rule().is_approach(event.gap, event.approach_speed, error);
-      const bool is_watched = wants_approaches(wanted) && !approaches;
-      state.approach = is_watched ? ApproachState::watched : ApproachState::reported;
+      state.approach = approaches ? ApproachState::reported : ApproachState::watched;
       // The begin itself says that the two overlap.
       state.guard_reported = state.guard_reported || event.gap < -graph.rule().tolerance();
       graph.set_state(event, state);

@@ -118,7 +118,7 @@ class RandomSurroundings : public testing::TestWithParam<Kind> {
     if (GetParam().mode == ContactEvents::impacts) return;
     const auto pair = std::pair(event.first, event.second);
     if (event.kind == EventKind::contact_begin) {
-      EXPECT_TRUE(touching.insert(pair).second) << event;
+      EXPECT_EQ(touching.insert(pair).second, !event.already_touching) << event;
     } else if (event.kind == EventKind::contact_end) {
       // The end of a removed body's contact comes after its removal.
       const bool known = p.world.contains(event.first) && p.world.contains(event.second);
