@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "columns/time_scale.hpp"
 #include "kinesphere/vec3.hpp"
-#include "tracks/time_scale.hpp"
 
 namespace kinesphere::program {
 
@@ -27,9 +27,13 @@ struct SourceReport {
   /// x, y, z; if geographic, degrees east and north on WGS 84, and metres above it.
   Vec3 position{};
   bool has_height = false;
+  bool may_have_height = false;  ///< the stream has heights, though perhaps none here
+  bool on_ground = false;        ///< an aircraft that says so, without a height
   /// x, y, z; if geographic, eastward, northward and upward.
   std::optional<Vec3> velocity{};
   bool has_climb = false;  ///< true if the velocity's z is known
+  /// A speed in an unknown direction, which the velocity may have in addition.
+  double undirected_speed = 0.0;
 
   // Error bounds from the stream; options supply the absent ones.
   std::optional<DeclaredError> position_error{};  ///< horizontal; without a height error, in all directions
@@ -46,6 +50,7 @@ struct SourceReport {
 /// Reasons for which a valid record is skipped.
 enum class Passed {
   no_position,  ///< a track of which the stream has no position, or no time
+  filtered,     ///< --where leaves it out
   no_bound,     ///< the stream says that it does not know how far off the position may be
 };
 

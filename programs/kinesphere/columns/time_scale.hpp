@@ -5,17 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "tracks/time_text.hpp"
+#include "columns/time_text.hpp"
 
 namespace kinesphere::program {
-
-/// The kind of a file's times.
-enum class TimeKind {
-  number,  ///< numbers of a unit
-  frames,  ///< frame numbers
-  date,    ///< dates in an unknown zone
-  utc,     ///< dates with Z or an offset
-};
 
 /// Computed times are seconds since an origin near the recording, so that no digits are lost to a large
 /// offset such as that of Unix times. A recording near zero keeps zero as its origin.

@@ -1,5 +1,5 @@
 // Converts the times of a file to those of the computation, and back.
-#include "tracks/time_scale.hpp"
+#include "columns/time_scale.hpp"
 
 #include <fmt/format.h>
 
@@ -62,7 +62,11 @@ void TimeScale::set_origin(const FileTime& first, const FileTime& last) {
 }
 
 double TimeScale::seconds(const FileTime& time) const {
-  return (static_cast<double>(time.whole - origin_) + time.fraction) * unit_ / rate_;
+  const auto whole = static_cast<double>(time.whole - origin_);
+  const double sum = whole + time.fraction;
+  // The result is rounded as if the file's number had been rounded once.
+  const double lost = time.fraction - (sum - whole);
+  return (sum + (lost + time.rest)) * unit_ / rate_;
 }
 
 std::string TimeScale::text(double seconds, int most_decimals) const {

@@ -1,8 +1,8 @@
 // Times of files: dates and numbers, exact at any distance from zero, and written in the file's form.
 #include <gtest/gtest.h>
 
-#include "tracks/time_scale.hpp"
-#include "tracks/time_text.hpp"
+#include "columns/time_scale.hpp"
+#include "columns/time_text.hpp"
 
 namespace kinesphere::program::time_test {
 namespace {
