@@ -1,11 +1,15 @@
 // Units in headers and options: their names and sizes.
 #include "columns/units.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <initializer_list>
 #include <span>
 
 #include "ascii_text.hpp"
+#include "number_text.hpp"
+#include "program_error.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -91,6 +95,20 @@ std::string unit_list(Measure measure) {
   for (const NamedUnit& unit : units_of(measure))
     list += (list.empty() ? "" : ", ") + std::string(unit.names.substr(0, unit.names.find(' ')));
   return list;
+}
+
+double parse_measure(std::string_view text, Measure measure, std::string_view option) {
+  std::size_t end = std::min(text.find_first_not_of("0123456789.+-eE"), text.size());
+  // An e that no digit follows is not part of the number.
+  while (end > 0 && (text[end - 1] == 'e' || text[end - 1] == 'E')) --end;
+  std::string_view unit = text.substr(end);
+  while (unit.starts_with(' ')) unit.remove_prefix(1);
+  const auto number = parse_number(text.substr(0, end));
+  const double size = unit.empty() ? 1.0 : unit_named(unit, measure).value_or(0.0);
+  if (!number || size == 0.0 || *number < 0.0)
+    throw ProgramError(fmt::format("{}: expected a number >= 0 and perhaps a unit ({}), but got '{}'", option,
+                                   unit_list(measure), text));
+  return *number * size;
 }
 
 bool is_pixel(std::string_view unit) {

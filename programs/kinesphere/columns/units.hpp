@@ -26,6 +26,11 @@ std::optional<TimeUnit> time_unit_named(std::string_view name);
 /// Returns the usual names, for messages.
 std::string unit_list(Measure measure);
 
+/// Parses "5NM", "1000 ft", "0.3g", "50": a number with an optional unit; without one it is in metres and
+/// seconds, or in the units of the stream. Throws ProgramError naming `option` for other text and for a
+/// number that is not finite or is negative.
+double parse_measure(std::string_view text, Measure measure, std::string_view option);
+
 /// True for px and pixel: lengths of unknown size.
 bool is_pixel(std::string_view unit);
 /// True for a name of a unit of any measure, in brackets or not.

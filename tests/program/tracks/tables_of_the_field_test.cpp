@@ -55,6 +55,19 @@ TEST_F(TablesOfTheField, UnitsInNamesCountInEveryColumn) {
       std::string::npos);
 }
 
+TEST_F(TablesOfTheField, DistancesMayHaveUnits) {
+  const std::string cells = "id,t,x_um,y_um\nu,0,0,0\nu,1,0,0\nv,0,10,0\nv,1,10,0\n";
+  EXPECT_EQ(approaches(cells, "--distance 11um"), "1");
+  EXPECT_EQ(approaches(cells, "--distance 9um"), "0");
+  EXPECT_EQ(approaches(cells, "--distance 9e-6"), "0");
+  const std::string plain = "id,t,x,y\nu,0,0,0\nu,1,0,0\nv,0,10,0\nv,1,10,0\n";
+  EXPECT_NE(approaches(plain, "--distance 11um").find("the unit of lengths is not known"), std::string::npos);
+  EXPECT_EQ(approaches(plain, "--distance 0.011mm --unit um"), "1");
+  EXPECT_NE(
+      approaches(plain, "--distance 3parsec").find("perhaps a unit (m, km, cm, mm, um, ft, NM, mi, yd)"),
+      std::string::npos);
+}
+
 TEST_F(TablesOfTheField, DegreesAreNoLengths) {
   // Two animals half a degree apart.
   const std::string animals =
