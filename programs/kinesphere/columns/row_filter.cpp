@@ -151,6 +151,9 @@ class RowFilter::Parser {
   std::size_t column(const Word& name, std::string_view at) {
     for (std::size_t place = 0; place < head_.names.size(); ++place)
       if (same_name(head_.names[place], name.text)) return place;
+    // Presets know a name with other signs between its words.
+    for (std::size_t place = 0; place < head_.names.size(); ++place)
+      if (!name.text.empty() && plain_name(head_.names[place]) == plain_name(name.text)) return place;
     if (const auto quantity = quantity_of_key(name.text); quantity && columns_[*quantity])
       return columns_[*quantity]->place;
     const double number = name.is_quoted ? 0.0 : parse_number(name.text).value_or(0.0);

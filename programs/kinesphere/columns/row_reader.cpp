@@ -26,6 +26,15 @@ bool is_one_of(std::string_view value, std::string_view words) {
   return false;
 }
 
+/// Returns the name as --where takes it: in quotes where it has other signs than those of a word.
+std::string word_of(const std::string& name) {
+  const bool is_word = std::all_of(name.begin(), name.end(), [](char c) {
+    return (lower_case(c) >= 'a' && lower_case(c) <= 'z') || (c >= '0' && c <= '9') ||
+           std::string_view("_-.:/").find(c) != std::string_view::npos;
+  });
+  return is_word ? name : fmt::format("\"{}\"", name);
+}
+
 }  // namespace
 
 RowReader::RowReader(const TableHead& head, TableColumns columns)
@@ -51,10 +60,12 @@ void RowReader::set_row(const std::vector<std::string_view>& fields) {
 void RowReader::check_void_columns() const {
   for (const auto& [place, values] : void_columns_) {
     if (place >= fields_->size() || !is_one_of(field(place), values)) continue;
+    const std::string name = word_of(head_.names[place]);
     throw OpenQuestion(
-        fmt::format("'{}' as {} may mean that there is no such position: leave such rows out with "
-                    "--where '{} != {}', or keep them with --where '{} != none'",
-                    field(place), head_.names[place], head_.names[place], field(place), head_.names[place]));
+        fmt::format("'{}' as {} may mean that there is no such position: leave such rows out with --where "
+                    "'{} != {}', or keep "
+                    "them with --where '{} != none'",
+                    field(place), head_.names[place], name, field(place), name));
   }
 }
 
@@ -89,24 +100,27 @@ std::string_view RowReader::id() {
   if (text.empty()) throw WrongInput(wrong_text(column, "an id"));
   const auto number = text.find('.') != std::string_view::npos ? parse_number(text) : std::nullopt;
   const bool whole = number && std::floor(*number) == *number && std::abs(*number) < 1e15;
-  id_ = whole ? fmt::format("{}", static_cast<long long>(*number)) : std::string(text);
-  if (id_ == "-1" && !filter_.mentions(column))
-    throw OpenQuestion(
-        "the id -1 is that of nobody in most files: leave its rows out with --where 'id != -1', or keep them "
-        "with "
-        "--where 'id != none'");
-  return id_;
+  if (whole) id_ = fmt::format("{}", static_cast<long long>(*number));
+  const std::string_view id = whole ? std::string_view(id_) : text;
+  if (id == "-1" && !filter_.mentions(column)) {
+    const std::string name = head_.names.empty() ? "id" : word_of(head_.names[column]);
+    throw OpenQuestion(fmt::format(
+        "the id -1 is that of nobody in most files: leave its rows out with --where '{} != -1', or keep "
+        "them with --where '{} != none'",
+        name, name));
+  }
+  return id;
 }
 
 std::optional<TimeField> RowReader::time(Quantity quantity) {
   const auto& column = columns_[quantity];
   if (!column) return std::nullopt;
   const std::string_view text = field(column->place);
-  if (is_missing(text)) {
+  auto time = time_field(text, columns_.dates);
+  if (!time && is_missing(text)) {
     if (!missing_) missing_ = {column->place, "time"};
     return std::nullopt;
   }
-  auto time = time_field(text, columns_.dates);
   if (!time && columns_.decimal_comma) time = time_field(with_decimal_point(text, buffer_), columns_.dates);
   if (!time) {
     if (parse_date_time(text, DateOrder::any))

@@ -10,6 +10,7 @@
 #include <numeric>
 #include <utility>
 
+#include "columns/converted_table.hpp"
 #include "columns/row_reader.hpp"
 #include "columns/text_table.hpp"
 #include "program_error.hpp"
@@ -96,9 +97,16 @@ class RawRecording::FileReader {
 };
 
 void RawRecording::read(std::string text, const std::string& file) {
+  auto converted = convert_to_table(text, file);
+  if (converted) {
+    text = std::move(converted->text);
+    warnings_.insert(warnings_.end(), converted->warnings.begin(), converted->warnings.end());
+  }
   TextTable table(std::move(text), file);
   files_.push_back(file);
-  FileReader reader(*this, table, find_columns(table.head(), options_.hints, ColumnUse::positions));
+  TableColumns columns = find_columns(table.head(), options_.hints, ColumnUse::positions);
+  if (converted) columns.format = converted->format;
+  FileReader reader(*this, table, std::move(columns));
   const bool is_first = files_.size() == 1;
   if (is_first) head_ = table.head();
   if (!is_first) agree_on_positions(reader.columns(), file);

@@ -54,6 +54,7 @@ class RawRecording {
   std::size_t rows() const { return rows_; }
   const Tally& missing() const { return missing_; }
   const Tally& filtered() const { return filtered_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
   /// Returns "file:line".
   std::string name(const Place& place) const;
   /// Increments the tally.
@@ -79,6 +80,7 @@ class RawRecording {
   std::unordered_map<std::string, std::size_t> track_of_;
   std::size_t rows_ = 0;
   Tally missing_, filtered_;
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace kinesphere::program

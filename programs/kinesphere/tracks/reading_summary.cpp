@@ -88,7 +88,7 @@ void add_recording(Summary& summary, const std::vector<std::string>& files, cons
 }
 
 std::vector<std::string> warnings_of(const Recording& recording) {
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = recording.warnings;
   if (is_much(recording.left_out, recording)) {
     warnings.push_back(fmt::format("{} were left out, alone between two gaps: a longer --max-gap keeps them",
                                    part_text(recording.left_out, recording)));

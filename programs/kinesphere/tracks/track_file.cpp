@@ -95,6 +95,12 @@ void ask_about_row_numbers(const RawRecording& raw) {
   const bool all_alone = std::all_of(raw.tracks().begin(), raw.tracks().end(),
                                      [](const RawTrack& track) { return track.samples.size() <= 1; });
   if (!all_alone || raw.tracks().size() < 3 || !raw.columns()[Quantity::id]) return;
+  // One frame has each id once.
+  const auto has_other_time = [&](const RawTrack& track) {
+    const auto& first = raw.tracks().front().samples;
+    return !track.samples.empty() && !first.empty() && earlier(first[0].time, track.samples[0].time);
+  };
+  if (std::none_of(raw.tracks().begin(), raw.tracks().end(), has_other_time)) return;
   const std::size_t column = raw.columns()[Quantity::id]->place;
   const TableHead& head = raw.head();
   throw ProgramError(fmt::format(
@@ -124,6 +130,7 @@ class Reading {
     recording_.ids = raw.tracks().size();
     recording_.rows = raw.rows();
     recording_.missing = raw.missing();
+    recording_.warnings = raw.warnings();
     recording_.filter = raw.columns().where;
     recording_.filtered = raw.filtered();
     for (const std::size_t column : raw.columns().unused)

@@ -195,7 +195,7 @@ TEST_F(TablesOfTheField, OtherFilesAreNamed) {
   for (const auto& [text, part] : std::initializer_list<std::pair<std::string, std::string>>{
            {std::string("\xFF\xFEi\0d\0", 6), "UTF-16: convert it with iconv"},
            {"{\"id\":1,\"time\":0}\n", "JSON"},
-           {"<?xml version=\"1.0\"?><gpx version=\"1.1\"></gpx>", "GPX"},
+           {"<?xml version=\"1.0\"?><kml></kml>", "KML"},
            {std::string("PK\3\4\0\0", 6), "zip archive"},
            {"PAR1\1\2", "Parquet"},
            {"MATLAB 5.0 MAT-file", ".mat file"}}) {
