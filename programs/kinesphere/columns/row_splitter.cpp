@@ -45,6 +45,17 @@ void RowSplitter::skip_line() {
 void RowSplitter::read(std::vector<std::string_view>& fields) {
   fields.clear();
   unquoted_.clear();
+  std::string_view line = line_ahead();
+  if (separator_ != ' ' && line.find('"') == std::string_view::npos) {
+    for (std::size_t end = line.find(separator_); end != std::string_view::npos;
+         end = line.find(separator_)) {
+      fields.push_back(trimmed(line.substr(0, end)));
+      line.remove_prefix(end + 1);
+    }
+    fields.push_back(trimmed(line));
+    skip_line();
+    return;
+  }
   for (;;) {
     fields.push_back(read_field(fields.size() + 1));
     const std::string_view ahead = line_ahead();
