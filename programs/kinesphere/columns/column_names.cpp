@@ -86,7 +86,7 @@ bool is_unit_of(Measure measure, std::string_view unit) {
 /// Returns the text behind `at` as a unit: without brackets, blanks and the word "in".
 std::string_view unit_behind(std::string_view name, std::size_t at) {
   std::string_view unit = name.substr(at);
-  while (!unit.empty() && std::string_view(" _-([/").find(unit.front()) != std::string_view::npos)
+  while (!unit.empty() && std::string_view(" _-,([/").find(unit.front()) != std::string_view::npos)
     unit.remove_prefix(1);
   for (std::string_view in : {"in_", "in "})
     if (unit.starts_with(in)) unit.remove_prefix(in.size());
@@ -97,7 +97,7 @@ std::string_view unit_behind(std::string_view name, std::size_t at) {
 
 /// True if a unit may begin at `at`: behind a separator, or at the end of a word in camelCase.
 bool may_begin_unit(std::string_view name, std::size_t at) {
-  constexpr std::string_view between = " _([/";
+  constexpr std::string_view between = " _,([/";
   if (between.find(name[at]) != std::string_view::npos) return true;
   const auto is_upper = [](char c) { return lower_case(c) != c; };
   return is_upper(name[at]) && !is_upper(name[at - 1]) &&

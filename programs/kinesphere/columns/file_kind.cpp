@@ -29,6 +29,9 @@ constexpr FileKind kinds_by_bytes[] = {
      "compressed by xz: unpack it with xz -d, or use gzip"},
     {"\x28\xB5\x2F\xFD"sv, "compressed by zstd: unpack it with zstd -d, or use gzip"},
     {"BZh"sv, "compressed by bzip2: unpack it with bzip2 -d, or use gzip"},
+    {"\xD0\xCF\x11\xE0"sv, "a sheet of old Excel (.xls): save it as CSV"},
+    {"Obj\1"sv, "an Avro file: write it as CSV"},
+    {"RDX"sv, "data of R: write it as CSV, with write.csv"},
     {"PAR1"sv, "a Parquet file: write it as CSV, with pandas: read_parquet(...).to_csv(...)"},
     {"ARROW1"sv, "an Arrow file: write it as CSV, with pandas: read_feather(...).to_csv(...)"},
     {"\x89HDF"sv, "an HDF5 file (or .mat of version 7.3, or NetCDF 4): write its table as CSV"},
@@ -66,6 +69,13 @@ bool has_begin(std::string_view text, std::string_view begin) {
 std::string other_file_kind(std::string_view beginning) {
   for (const FileKind& kind : kinds_by_bytes)
     if (has_begin(beginning, kind.begins)) return std::string(kind.is);
+  // Text in UTF-16 may lack its mark.
+  if (beginning.size() >= 4 && (beginning[0] == '\0') != (beginning[1] == '\0') &&
+      (beginning[0] == '\0') == (beginning[2] == '\0') && (beginning[1] == '\0') == (beginning[3] == '\0'))
+    return std::string(kinds_by_bytes[0].is);
+  constexpr std::size_t place_of_tar = 257;
+  if (beginning.size() > place_of_tar && has_begin(beginning.substr(place_of_tar), "ustar"))
+    return "a tar archive: unpack it first";
   if (has_begin(beginning, "\xEF\xBB\xBF")) beginning.remove_prefix(3);
   beginning.remove_prefix(std::min(beginning.find_first_not_of(" \t\r\n"), beginning.size()));
   if (has_begin(beginning, "{") || has_begin(beginning, "["))

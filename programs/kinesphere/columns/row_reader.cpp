@@ -102,12 +102,12 @@ std::string_view RowReader::id() {
   const bool whole = number && std::floor(*number) == *number && std::abs(*number) < 1e15;
   if (whole) id_ = fmt::format("{}", static_cast<long long>(*number));
   const std::string_view id = whole ? std::string_view(id_) : text;
-  if (id == "-1" && !filter_.mentions(column)) {
+  if ((id == "-1" || is_missing(id)) && !filter_.mentions(column)) {
     const std::string name = head_.names.empty() ? "id" : word_of(head_.names[column]);
     throw OpenQuestion(fmt::format(
-        "the id -1 is that of nobody in most files: leave its rows out with --where '{} != -1', or keep "
-        "them with --where '{} != none'",
-        name, name));
+        "the id {} is that of nobody in most files: leave its rows out with --where '{} != {}', or keep "
+        "them with --where '{} != \"\"'",
+        id, name, id, name));
   }
   return id;
 }
@@ -182,6 +182,12 @@ std::optional<Vec3> RowReader::position() {
       throw WrongInput(wrong_text(columns_.x().place, "a longitude from -360 to 360 degrees"));
     if (!(std::abs(latitude) <= 90.0))
       throw WrongInput(wrong_text(columns_.y().place, "a latitude from -90 to 90 degrees"));
+    // No aircraft or balloon flies as high; in feet they do.
+    constexpr double highest = 20e3;
+    if (z && !columns_.z()->has_unit && std::abs(*z) > highest)
+      throw OpenQuestion(fmt::format("{}: say its unit, {}",
+                                     wrong_text(columns_.z()->place, "a height in metres up to 20000"),
+                                     columns_.height_advice));
   }
   return Vec3{*x, *y, z.value_or(0.0)};
 }

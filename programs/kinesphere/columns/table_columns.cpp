@@ -580,6 +580,9 @@ TableColumns find_columns(const TableHead& head, const ColumnHints& hints, Colum
       use == ColumnUse::positions
           ? "--time-unit ms, us or ns, or s if these are seconds"
           : fmt::format("--columns {}, or :us, :ns, :s", columns_text(head, columns, Quantity::time, ":ms"));
+  columns.height_advice =
+      fmt::format("--columns {} (or :m)", columns_text(head, columns, Quantity::z, ":ft"));
+  if (columns.geographic && columns.z() && !columns.z()->has_unit) columns.format += ", heights in m";
   if (!hints.where.empty())
     columns.where =
         columns.where.empty() ? hints.where : fmt::format("({}) and ({})", columns.where, hints.where);

@@ -69,12 +69,22 @@ double TimeScale::seconds(const FileTime& time) const {
   return (sum + (lost + time.rest)) * unit_ / rate_;
 }
 
+std::string TimeScale::shortest(double seconds) const {
+  const double own = seconds * rate_ / unit_;
+  for (int digits = 15; digits <= 16; ++digits) {
+    std::string text = fmt::format("{:.{}g}", own, digits);
+    const auto time = parse_decimal_time(text);
+    if (time && this->seconds(*time) == seconds) return text;
+  }
+  return fmt::format("{}", own);
+}
+
 std::string TimeScale::text(double seconds, int most_decimals) const {
   const bool frames = kind_ == TimeKind::frames;
   if (is_number() && (frames || origin_ == 0)) {
     const double own =
         frames ? static_cast<double>(origin_) * unit_ / rate_ + seconds : seconds * rate_ / unit_;
-    if (most_decimals >= 17) return fmt::format("{}", own);
+    if (most_decimals >= 17) return frames ? fmt::format("{}", own) : shortest(seconds);
     const double whole = std::floor(own);
     if (std::abs(whole) < 0x1p61)
       return number_text(rounded(static_cast<std::int64_t>(whole), own - whole, most_decimals));

@@ -32,6 +32,9 @@ class TimeScale {
   std::string text(double seconds, int most_decimals = 17) const;
 
  private:
+  /// Returns the shortest number of the file's unit that is this time. Precondition: the origin is 0.
+  std::string shortest(double seconds) const;
+
   TimeKind kind_;
   double unit_;
   double rate_;

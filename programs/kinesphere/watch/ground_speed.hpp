@@ -21,7 +21,7 @@ inline void set_velocity(SourceReport& report, std::optional<double> speed, std:
   if (!speed) return;
   report.velocity =
       course ? going(*speed, *course, climb.value_or(0.0)) : Vec3{0.0, 0.0, climb.value_or(0.0)};
-  report.undirected_speed = course ? 0.0 : std::abs(*speed);
+  report.velocity_spread = course ? 0.0 : std::abs(*speed);
 }
 
 }  // namespace kinesphere::program

@@ -62,7 +62,7 @@ class SbsFormat final : public ReportFormat {
     auto velocities = nlohmann::json::array();
     for (const auto& [hex, known] : velocities_)
       velocities.push_back({hex, known.time.whole, known.time.fraction, known.velocity.x, known.velocity.y,
-                            known.velocity.z, known.has_climb, known.undirected_speed});
+                            known.velocity.z, known.has_climb, known.velocity_spread});
     return velocities;
   }
   void restore(const nlohmann::json& state) override {
@@ -76,7 +76,7 @@ class SbsFormat final : public ReportFormat {
     FileTime time;
     Vec3 velocity;
     bool has_climb = false;
-    double undirected_speed = 0.0;
+    double velocity_spread = 0.0;
   };
 
   TimeField time_at(std::size_t date, std::size_t clock) {
@@ -111,7 +111,7 @@ class SbsFormat final : public ReportFormat {
     set_velocity_here(here);
     if (here.velocity)
       velocities_[std::string(fields_[sbs::hex])] = {time, *here.velocity, here.has_climb,
-                                                     here.undirected_speed};
+                                                     here.velocity_spread};
   }
 
   SourceReport report_at(const TimeField& made, const FileTime& logged) {
@@ -135,7 +135,7 @@ class SbsFormat final : public ReportFormat {
       if (age <= choices_.velocity_age) {
         report.velocity = known->second.velocity;
         report.has_climb = known->second.has_climb;
-        report.undirected_speed = known->second.undirected_speed;
+        report.velocity_spread = known->second.velocity_spread;
         report.velocity_age = age;
       }
     }

@@ -32,8 +32,6 @@ struct SourceReport {
   /// x, y, z; if geographic, eastward, northward and upward.
   std::optional<Vec3> velocity{};
   bool has_climb = false;  ///< true if the velocity's z is known
-  /// A speed in an unknown direction, which the velocity may have in addition.
-  double undirected_speed = 0.0;
 
   // Error bounds from the stream; options supply the absent ones.
   std::optional<DeclaredError> position_error{};  ///< horizontal; without a height error, in all directions
@@ -43,6 +41,8 @@ struct SourceReport {
   std::optional<double> stamp_error{};  ///< seconds
   /// Largest time between the measurement of the velocity and the timestamp. Unit: seconds.
   double velocity_age = 0.0;
+  /// Added to the velocity error: the speed, for example, of a track whose course is not known.
+  double velocity_spread = 0.0;
   /// Two reports of one place with timestamps this close are one report. Unit: seconds.
   double same_within = 0.0;
 };

@@ -437,7 +437,7 @@ void Watcher::add_errors(const SourceReport& report, double added_velocity_error
     result.velocity_error = ErrorBound(unbounded);
     return;
   }
-  *turning += report.undirected_speed;
+  *turning += report.velocity_spread;
   // The velocity was measured a little before or after the position.
   const double age = velocity_age_of(report);
   if (age > 0.0 && std::isfinite(settings_.acceleration.total())) {

@@ -60,8 +60,8 @@ std::optional<DeclaredError> restored_error(const Json& saved, const KeepText& k
 
 Json saved(const SourceReport& report) {
   const auto& [id, stamp, arrival, time_kind, geographic, position, has_height, may_have_height, on_ground,
-               velocity, has_climb, undirected_speed, position_error, height_error, velocity_error,
-               climb_error, stamp_error, velocity_age, same_within] = report;
+               velocity, has_climb, position_error, height_error, velocity_error, climb_error, stamp_error,
+               velocity_age, velocity_spread, same_within] = report;
   return {{"stamp", stamp},
           {"arrival", arrival},
           {"time_kind", time_kind},
@@ -72,13 +72,13 @@ Json saved(const SourceReport& report) {
           {"on_ground", on_ground},
           {"velocity", velocity},
           {"has_climb", has_climb},
-          {"undirected_speed", undirected_speed},
           {"position_error", saved(position_error)},
           {"height_error", saved(height_error)},
           {"velocity_error", saved(velocity_error)},
           {"climb_error", saved(climb_error)},
           {"stamp_error", stamp_error},
           {"velocity_age", velocity_age},
+          {"velocity_spread", velocity_spread},
           {"same_within", same_within}};
 }
 
@@ -93,13 +93,13 @@ SourceReport restored_report(const Json& saved, const KeepText& keep) {
           .on_ground = saved.at("on_ground"),
           .velocity = saved.at("velocity").get<std::optional<Vec3>>(),
           .has_climb = saved.at("has_climb"),
-          .undirected_speed = saved.at("undirected_speed"),
           .position_error = restored_error(saved.at("position_error"), keep),
           .height_error = restored_error(saved.at("height_error"), keep),
           .velocity_error = restored_error(saved.at("velocity_error"), keep),
           .climb_error = restored_error(saved.at("climb_error"), keep),
           .stamp_error = saved.at("stamp_error").get<std::optional<double>>(),
           .velocity_age = saved.at("velocity_age"),
+          .velocity_spread = saved.at("velocity_spread"),
           .same_within = saved.at("same_within")};
 }
 

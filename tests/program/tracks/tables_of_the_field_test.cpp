@@ -33,13 +33,17 @@ TEST_F(TablesOfTheField, UnitsInNamesCountInEveryColumn) {
   const std::string flight =
       "id,time,lon,lat,{}\nu,0,8,47,33000\nu,10,8,47,33000\nu,20,8,47,33000\n"
       "v,0,8,47,34000\nv,10,8,47,34000\nv,20,8,47,34000\n";
-  for (const char* name : {"altitude_ft", "alt [feet]", "altitudeFt", "z (ft)", "alt/ft"}) {
+  for (const char* name : {"altitude_ft", "alt [feet]", "\"alt, ft\"", "altitudeFt", "z (ft)", "alt/ft"}) {
     EXPECT_EQ(approaches(fmt::format(fmt::runtime(flight), name), "--distance 305"), "1") << name;
     EXPECT_EQ(approaches(fmt::format(fmt::runtime(flight), name), "--distance 304"), "0") << name;
   }
   const std::string space = "id,time,{}\nu,0,0,0,0\nu,1,0,0,0\nv,0,0,0,10\nv,1,0,0,10\n";
   EXPECT_EQ(approaches(fmt::format(fmt::runtime(space), "x_m,y_m,z_ft"), "--distance 3.1"), "1");
   EXPECT_EQ(approaches(fmt::format(fmt::runtime(space), "x_m,y_m,z_ft"), "--distance 3"), "0");
+  // In metres nothing flies at 33000.
+  const std::string unit = approaches(fmt::format(fmt::runtime(flight), "alt"), "--distance 305");
+  EXPECT_NE(unit.find("z=alt:ft"), std::string::npos) << unit;
+  EXPECT_EQ(approaches(fmt::format(fmt::runtime(flight), "alt"), "--distance 305 --unit ft"), "1");
   EXPECT_EQ(approaches("id,t,x_cm,y_m\nu,0,0,0\nu,1,0,0\nv,0,100,0\nv,1,100,0\n", "--distance 1.1"), "1");
   // What comes out has the file's own units.
   approaches("id,t,x_cm,y_m\nu,0,50,7\nu,1,50,7\nv,0,100,7\nv,1,100,7\n",
@@ -133,6 +137,10 @@ TEST_F(TablesOfTheField, RowsThatMeanNothingBecomeNoTracks) {
   EXPECT_NE(approaches(flagged, "--distance 1").find("--where 'lost != 1'"), std::string::npos);
   EXPECT_EQ(approaches(flagged, "--distance 1 --where 'lost != 1'"), "0");
   EXPECT_EQ(approaches(flagged, "--distance 1 --interpolate linear --where 'lost != none'"), "1");
+  EXPECT_NE(approaches("id,t,x,y\nu,0,0,0\nu,1,0,0\nNone,0,0,0\nNone,1,0,0\n", "--distance 1")
+                .find(":4: the id None is that of nobody in most files: leave its rows out with --where 'id "
+                      "!= None'"),
+            std::string::npos);
   const std::string numbered = "row,id,t,x,y,person_no\n1,1,0,0,0,7\n2,2,1,0,0,7\n3,3,0,1,0,8\n4,4,1,1,0,8\n";
   const std::string which = approaches(numbered, "--distance 1");
   EXPECT_NE(which.find("each row has an id of its own in column 'id', as a row number is"), std::string::npos)
@@ -196,6 +204,7 @@ TEST_F(TablesOfTheField, OtherFilesAreNamed) {
            {std::string("\xFF\xFEi\0d\0", 6), "UTF-16: convert it with iconv"},
            {"{\"id\":1,\"time\":0}\n", "JSON"},
            {"<?xml version=\"1.0\"?><kml></kml>", "KML"},
+           {std::string("i\0d\0", 4), "UTF-16"},
            {std::string("PK\3\4\0\0", 6), "zip archive"},
            {"PAR1\1\2", "Parquet"},
            {"MATLAB 5.0 MAT-file", ".mat file"}}) {
