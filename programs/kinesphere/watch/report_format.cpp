@@ -132,12 +132,14 @@ std::optional<StreamFormat> recognised_format(std::string_view beginning) {
   for (const std::string_view type : {"MSG,", "SEL,", "ID,", "AIR,", "STA,", "CLK,"})
     if (line.starts_with(type)) return StreamFormat::sbs;
   if (line.starts_with('{')) {
-    if (has_key(line, "aircraft") || has_key(line, "now")) return StreamFormat::readsb;
-    if (has_key(line, "states") || has_key(line, "time")) return StreamFormat::opensky;
+    if (has_key(line, "aircraft") || has_key(line, "ac") || has_key(line, "now")) return StreamFormat::readsb;
+    if (has_key(line, "states") || (has_key(line, "time") && !has_key(line, "id")))
+      return StreamFormat::opensky;
     if (has_key(line, "stamp")) return StreamFormat::jsonl;
     return std::nullopt;
   }
-  if (has_column(line, "MMSI") && (has_column(line, "BaseDateTime") || has_column(line, "base_date_time")))
+  if (has_column(line, "MMSI") && (has_column(line, "BaseDateTime") || has_column(line, "base_date_time") ||
+                                   has_column(line, "Type of mobile")))
     return StreamFormat::ais;
   // A header consists of names.
   const bool has_letters =

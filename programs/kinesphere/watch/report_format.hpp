@@ -4,10 +4,11 @@
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "columns/row_splitter.hpp"
+#include "columns/table_columns.hpp"
 #include "kinesphere/monitor/report.hpp"
 #include "watch/record_cutter.hpp"
 #include "watch/source_report.hpp"
@@ -15,15 +16,16 @@
 namespace kinesphere::program {
 
 /// A record does not match its format; the message says what was expected.
-class MalformedRecord : public std::runtime_error {
+class MalformedRecord : public WrongInput {
  public:
-  using std::runtime_error::runtime_error;
+  using WrongInput::WrongInput;
 };
 
 class ReportFormat {
  public:
   virtual ~ReportFormat() = default;
-  /// Passes the reports of a record to `sink`. Throws MalformedRecord; reports passed before that stay valid.
+  /// Passes the reports of a record to `sink`. Throws WrongInput, such as MalformedRecord; reports passed
+  /// before that stay valid.
   virtual void read(const Record& record, ReportSink& sink) = 0;
   /// Returns the state from earlier records, for a run that continues behind them.
   virtual nlohmann::json save() const;
@@ -55,7 +57,8 @@ struct FormatDefaults {
 FormatDefaults defaults_of(StreamFormat format);
 
 struct FormatChoices {
-  std::string columns;  ///< for csv: id=...,time=...
+  ColumnHints hints;   ///< for csv and ais
+  std::string source;  ///< the stream's name, for messages
   enum class Altitude { barometric, geometric } altitude = Altitude::barometric;
   enum class PositionBound {
     containment_radius,

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "tracks/time_text.hpp"
+#include "columns/time_text.hpp"
 
 namespace kinesphere::program {
 

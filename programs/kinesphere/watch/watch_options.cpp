@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "number_text.hpp"
@@ -123,7 +124,8 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
   settings.silence = positive_time(options.silence, "--silence", defaults.silence);
   settings.forget = positive_time(options.forget, "--forget", defaults.forget);
   settings.window = defaults.window;
-  settings.leap = positive_time(options.leap, "--leap", settings.leap);
+  // A track that is not yet silent may be the only one that reports.
+  settings.leap = positive_time(options.leap, "--leap", std::max(settings.leap, settings.silence));
   settings.clock = clock_named(options.clock);
   if (!options.origin.empty()) settings.origin = parse_origin(options.origin);
   if (!options.radius.empty()) settings.radius = parse_measure(options.radius, Measure::length, "--radius");
@@ -143,7 +145,9 @@ GivenOptions given_options(const WatchOptions& options) {
   for (const std::string& separation : options.separations) given.emplace_back("--separation", separation);
   given.insert(
       given.end(),
-      {{"--columns", choices.columns},
+      {{"--columns", choices.hints.columns},
+       {"--where", choices.hints.where},
+       {"--dates", fmt::to_string(static_cast<int>(choices.hints.dates))},
        {"--dimensions", options.dimensions ? fmt::to_string(*options.dimensions) : ""},
        {"--acceleration", options.acceleration},
        {"--largest-speed", options.largest_speed},

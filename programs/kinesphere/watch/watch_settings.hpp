@@ -29,7 +29,7 @@ struct WatchSettings {
   double velocity_age = 0.0;
   double silence = 0.0, forget = 0.0;
   double window = 1.0;
-  double leap = 60.0;
+  double leap = 60.0;  ///< a time that is ahead by more needs confirmation (seconds)
   enum class Clock {
     stream,  ///< arrival times in the stream, else timestamps
     stamps,

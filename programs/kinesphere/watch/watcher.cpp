@@ -17,6 +17,9 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 /// Maximum reports held until their times are accepted. A document of all aircraft on earth has fewer.
 constexpr std::size_t most_held = 65536;
 
+/// Bound of a height that is not known, where heights have no unit.
+constexpr double any_height = 1e9;
+
 /// Returns a horizontal and a vertical bound, or one for all directions if the vertical one is absent.
 ErrorBound spread_of(double flat, const std::optional<double>& upright) {
   return upright ? ErrorBound::cylinder(flat, *upright) : ErrorBound(flat);
@@ -93,6 +96,9 @@ void Watcher::pass_over(Passed reason) {
       break;
     case Passed::no_bound:
       ++counts_.no_bound;
+      break;
+    case Passed::filtered:
+      ++counts_.filtered;
       break;
   }
 }
@@ -274,7 +280,7 @@ void Watcher::begin_map(const WatchSettings::Origin& origin) {
 
 void Watcher::begin_monitor(const SourceReport& report) {
   is_geographic_ = report.geographic;
-  dimensions_ = settings_.dimensions.value_or(report.has_height ? 3 : 2);
+  dimensions_ = settings_.dimensions.value_or(report.has_height || report.may_have_height ? 3 : 2);
   MonitorDefinition definition{.dimensions = dimensions_,
                                .start_time = times_.seconds(clock_.now()),
                                .window = settings_.window,
@@ -311,12 +317,25 @@ void Watcher::deliver(const SourceReport& report) {
     ++counts_.ahead;
     return;
   }
+  const bool knows_velocity =
+      report.velocity && !(report.velocity_error && !std::isfinite(report.velocity_error->bound));
+  if (!knows_velocity && !std::isfinite(settings_.largest_speed.total())) {
+    if (!monitor_ || monitor_->counters().reports == 0)
+      throw ProgramError(
+          fmt::format("--largest-speed: expected it, because {} has positions without velocities: an "
+                      "acceleration alone does not "
+                      "say how far a track goes",
+                      settings_.source));
+    ++counts_.no_velocity;
+    return;
+  }
   if (!monitor_) begin_monitor(report);
   if (report.geographic != is_geographic_)
     return refuse(fmt::format("expected the position of {} in the same words as the first: {}", report.id,
                               is_geographic_ ? "latitude and longitude" : "x and y"));
-  if (dimensions_ == 3 && !report.has_height) {
-    ++counts_.no_height;
+  const bool lacks_height = dimensions_ == 3 && !report.has_height;
+  if (lacks_height && report.on_ground) {
+    ++counts_.on_ground;
     return;
   }
   const TrackId id = track_id_of(report.id);
@@ -342,6 +361,7 @@ void Watcher::deliver(const SourceReport& report) {
   }
   if (const auto taken = monitor_->report(id, *on_map); !taken)
     return refuse(fmt::format("{}: {}", report.id, taken.error().message));
+  if (lacks_height) ++counts_.no_height;
   NamedTrack& named = known != nullptr ? *known : names_.add(id, report.id);
   if (known == nullptr || seconds_between(named.stamp, report.stamp) >= 0.0) {
     named.stamp = report.stamp;
@@ -393,7 +413,11 @@ void Watcher::add_errors(const SourceReport& report, double added_velocity_error
   };
   auto flat = said(report.position_error, settings_.position_error, track.position_by);
   if (!flat) flat = needed_bound(settings_.position_error, "--position-error");
-  const auto upright = said(report.height_error, settings_.height_error, track.height_by);
+  auto upright = said(report.height_error, settings_.height_error, track.height_by);
+  if (dimensions_ == 3 && !report.has_height) {
+    upright = frame_ ? LocalFrame::largest_height : any_height;
+    track.height_by = "unknown";
+  }
   result.position_error = frame_
                               ? ErrorBound::cylinder(frame_->position_error(*flat), upright.value_or(*flat))
                               : spread_of(*flat, upright);
@@ -413,6 +437,7 @@ void Watcher::add_errors(const SourceReport& report, double added_velocity_error
     result.velocity_error = ErrorBound(unbounded);
     return;
   }
+  *turning += report.velocity_spread;
   // The velocity was measured a little before or after the position.
   const double age = velocity_age_of(report);
   if (age > 0.0 && std::isfinite(settings_.acceleration.total())) {

@@ -104,7 +104,7 @@ TEST_P(DamagedStream, IsReadAsFarAsItGoes) {
     watcher.begin_record(record.line);
     try {
       reader->read(record, sink);
-    } catch (const MalformedRecord& error) {
+    } catch (const WrongInput& error) {
       watcher.refuse(error.what());
     }
     watcher.end_record();

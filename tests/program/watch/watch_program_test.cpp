@@ -309,8 +309,9 @@ TEST_F(WatchProgram, RefusesWrongOptions) {
   expect_wrong_input("watch " + write("nmea", "!AIVDM,1,1,,A,13u?etPv2;0n:dDPwUM1U1Cb069D,0*23\n") +
                          " --separation sphere:3" + promises,
                      {"NMEA", "gpsdecode"});
-  const std::string earth = write("e.jsonl", R"({"id": "a", "stamp": 1, "lat": 50, "lon": 8})"
-                                             "\n");
+  const std::string earth =
+      write("e.jsonl", R"({"id": "a", "stamp": 1, "lat": 50, "lon": 8, "velocity": [0, 0]})"
+                       "\n");
   expect_wrong_input("watch " + earth + " --separation sphere:3" + promises, {"--largest-speed, --forget"});
   expect_wrong_input(
       "watch " + earth + " --separation sphere:3 --largest-speed 400 --radius 4990km --forget 60" + promises,

@@ -5,17 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "tracks/time_text.hpp"
+#include "columns/time_text.hpp"
 
 namespace kinesphere::program {
-
-/// The kind of a file's times.
-enum class TimeKind {
-  number,  ///< numbers of a unit
-  frames,  ///< frame numbers
-  date,    ///< dates in an unknown zone
-  utc,     ///< dates with Z or an offset
-};
 
 /// Computed times are seconds since an origin near the recording, so that no digits are lost to a large
 /// offset such as that of Unix times. A recording near zero keeps zero as its origin.
@@ -40,6 +32,9 @@ class TimeScale {
   std::string text(double seconds, int most_decimals = 17) const;
 
  private:
+  /// Returns the shortest number of the file's unit that is this time. Precondition: the origin is 0.
+  std::string shortest(double seconds) const;
+
   TimeKind kind_;
   double unit_;
   double rate_;

@@ -1,8 +1,8 @@
 // Times of files: dates and numbers, exact at any distance from zero, and written in the file's form.
 #include <gtest/gtest.h>
 
-#include "tracks/time_scale.hpp"
-#include "tracks/time_text.hpp"
+#include "columns/time_scale.hpp"
+#include "columns/time_text.hpp"
 
 namespace kinesphere::program::time_test {
 namespace {
@@ -87,6 +87,12 @@ TEST(TimeScale, TellsTimesAsTheFileDoes) {
   EXPECT_EQ(round_trip(seconds, "12.04", "99"), "12.04");
   EXPECT_EQ(round_trip(seconds, "1700000000.123", "1700000321"), "1700000000.123");
   EXPECT_EQ(round_trip(seconds, "-1700000000.123", "-1700000000"), "-1700000000.123");
+  // A sum of rounded parts would end in ...0000000000002.
+  for (const char* time :
+       {"1.648337", "24.975016", "-1.648337", "1.2000000000000002", "0.30000000000000004", "54321.648337"})
+    EXPECT_EQ(round_trip(seconds, time, "99999"), time);
+  for (const char* time : {"1648.337", "24975.016", "1.1", "0.7"})
+    EXPECT_EQ(round_trip(TimeScale(TimeKind::number, 1.0, 1e3), time, "99999"), time);
   const TimeScale milliseconds(TimeKind::number, 1.0, 1e3);
   EXPECT_EQ(round_trip(milliseconds, "1700000000123", "1700000321000"), "1700000000123");
   const TimeScale nanoseconds(TimeKind::number, 1.0, 1e9);

@@ -1,5 +1,5 @@
 // Converts the times of a file to those of the computation, and back.
-#include "tracks/time_scale.hpp"
+#include "columns/time_scale.hpp"
 
 #include <fmt/format.h>
 
@@ -62,7 +62,21 @@ void TimeScale::set_origin(const FileTime& first, const FileTime& last) {
 }
 
 double TimeScale::seconds(const FileTime& time) const {
-  return (static_cast<double>(time.whole - origin_) + time.fraction) * unit_ / rate_;
+  const auto whole = static_cast<double>(time.whole - origin_);
+  const double sum = whole + time.fraction;
+  // The result is rounded as if the file's number had been rounded once.
+  const double lost = time.fraction - (sum - whole);
+  return (sum + (lost + time.rest)) * unit_ / rate_;
+}
+
+std::string TimeScale::shortest(double seconds) const {
+  const double own = seconds * rate_ / unit_;
+  for (int digits = 15; digits <= 16; ++digits) {
+    std::string text = fmt::format("{:.{}g}", own, digits);
+    const auto time = parse_decimal_time(text);
+    if (time && this->seconds(*time) == seconds) return text;
+  }
+  return fmt::format("{}", own);
 }
 
 std::string TimeScale::text(double seconds, int most_decimals) const {
@@ -70,7 +84,7 @@ std::string TimeScale::text(double seconds, int most_decimals) const {
   if (is_number() && (frames || origin_ == 0)) {
     const double own =
         frames ? static_cast<double>(origin_) * unit_ / rate_ + seconds : seconds * rate_ / unit_;
-    if (most_decimals >= 17) return fmt::format("{}", own);
+    if (most_decimals >= 17) return frames ? fmt::format("{}", own) : shortest(seconds);
     const double whole = std::floor(own);
     if (std::abs(whole) < 0x1p61)
       return number_text(rounded(static_cast<std::int64_t>(whole), own - whole, most_decimals));

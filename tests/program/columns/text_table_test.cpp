@@ -1,5 +1,5 @@
 // Tables in text files.
-#include "tracks/text_table.hpp"
+#include "columns/text_table.hpp"
 
 #include "number_text.hpp"
 #include "program/support.hpp"
@@ -21,7 +21,7 @@ struct Table {
 
 Table parse(const std::string& text) {
   TextTable table(text, "t.txt");
-  Table result{{table.comments().begin(), table.comments().end()}, table.header(), {}};
+  Table result{table.head().comments, table.header(), {}};
   for (TableRow row; table.next(row);)
     result.rows.push_back({row.line, {row.fields.begin(), row.fields.end()}});
   return result;
