@@ -12,6 +12,7 @@
 #include "standard_output.hpp"
 #include "validators.hpp"
 #include "watch/nats/nats_address.hpp"
+#include "watch/udp_source.hpp"
 #include "watch/watch_report.hpp"
 #include "watch/watch_run.hpp"
 
@@ -23,7 +24,7 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
   command
       ->add_option("FILE", options.file,
                    "The stream, plain or gzipped; - for standard input; nats://HOST:PORT/SUBJECT for what a "
-                   "server of NATS has")
+                   "server of NATS has; udp://127.0.0.1:PORT for datagrams to this port")
       ->capture_default_str();
   command
       ->add_option(
@@ -131,7 +132,8 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
       ->capture_default_str()
       ->group(reading);
   measure("--leap", options.leap,
-          "A time that is ahead by more is not believed unless others confirm it; 60 s when not given",
+          "A time that is ahead by more is not believed unless others confirm it; 60 s when not given, 210 s "
+          "for AIS",
           "TIME", reading);
   command
       ->add_option("--most-malformed", options.most_malformed,
@@ -165,7 +167,7 @@ int watch(const WatchOptions& options) {
   const OutputPath outputs[] = {{"--summary", options.summary},
                                 {"--snapshot", options.snapshot},
                                 {"--alerts", is_nats_address(options.alerts) ? "" : options.alerts}};
-  const bool is_file = options.file != "-" && !is_nats_address(options.file);
+  const bool is_file = options.file != "-" && !is_nats_address(options.file) && !is_udp_address(options.file);
   const std::string inputs[] = {is_file ? options.file : ""};
   check_outputs(outputs, inputs);
   std::optional<OutputFile> summary;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "number_text.hpp"
@@ -105,6 +106,11 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
         name_of(format)));
   settings.promise = fmt::format("acceleration: {}; speed: {}", spread_text(settings.acceleration),
                                  spread_text(settings.largest_speed));
+  settings.aircraft = defaults.aircraft;
+  if (settings.aircraft)
+    settings.promise +=
+        fmt::format("; aircraft: acceleration: {}; speed: {}", spread_text(settings.aircraft->acceleration),
+                    spread_text(settings.aircraft->largest_speed));
   const auto by_default = [&](const std::optional<double>& bound) {
     return FallbackError{bound, bound ? fmt::format("{:.4g} (default of {})", *bound, name_of(format)) : ""};
   };
@@ -123,7 +129,8 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
   settings.silence = positive_time(options.silence, "--silence", defaults.silence);
   settings.forget = positive_time(options.forget, "--forget", defaults.forget);
   settings.window = defaults.window;
-  settings.leap = positive_time(options.leap, "--leap", settings.leap);
+  // The next report of a sparse stream is no wrong clock.
+  settings.leap = positive_time(options.leap, "--leap", std::max(settings.leap, defaults.silence));
   settings.clock = clock_named(options.clock);
   if (!options.origin.empty()) settings.origin = parse_origin(options.origin);
   if (!options.radius.empty()) settings.radius = parse_measure(options.radius, Measure::length, "--radius");

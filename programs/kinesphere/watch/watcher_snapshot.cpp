@@ -60,8 +60,8 @@ std::optional<DeclaredError> restored_error(const Json& saved, const KeepText& k
 
 Json saved(const SourceReport& report) {
   const auto& [id, stamp, arrival, time_kind, geographic, position, has_height, velocity, has_climb,
-               position_error, height_error, velocity_error, climb_error, stamp_error, velocity_age,
-               same_within] = report;
+               position_error, height_error, velocity_error, climb_error, stamp_error, velocity_age, extent,
+               velocity_spread, is_aircraft, same_within] = report;
   return {{"stamp", stamp},
           {"arrival", arrival},
           {"time_kind", time_kind},
@@ -76,6 +76,9 @@ Json saved(const SourceReport& report) {
           {"climb_error", saved(climb_error)},
           {"stamp_error", stamp_error},
           {"velocity_age", velocity_age},
+          {"extent", extent},
+          {"velocity_spread", velocity_spread},
+          {"is_aircraft", is_aircraft},
           {"same_within", same_within}};
 }
 
@@ -94,12 +97,15 @@ SourceReport restored_report(const Json& saved, const KeepText& keep) {
           .climb_error = restored_error(saved.at("climb_error"), keep),
           .stamp_error = saved.at("stamp_error").get<std::optional<double>>(),
           .velocity_age = saved.at("velocity_age"),
+          .extent = saved.at("extent"),
+          .velocity_spread = saved.at("velocity_spread"),
+          .is_aircraft = saved.at("is_aircraft"),
           .same_within = saved.at("same_within")};
 }
 
 Json saved(const NamedTrack& track) {
-  const auto& [text, stamp, position, position_by, height_by, velocity_by, climb_by] = track;
-  return {text, stamp, position, position_by, height_by, velocity_by, climb_by};
+  const auto& [text, stamp, position, extent, position_by, height_by, velocity_by, climb_by] = track;
+  return {text, stamp, position, position_by, height_by, velocity_by, climb_by, extent};
 }
 
 /// Arrays of tracks are packed into CBOR: as JSON in memory they would take ten times as much.
@@ -160,6 +166,7 @@ void Watcher::restore(const Json& state) {
       track.height_by = keep(saved.at(4));
       track.velocity_by = keep(saved.at(5));
       track.climb_by = keep(saved.at(6));
+      track.extent = saved.at(7);
     }
   }
   counts_ = state.at("counts");

@@ -1,0 +1,196 @@
+// Sentences of AIS (VDM and VDO), as receivers write them.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "watch/ais/ais_message.hpp"
+#include "watch/ais/nmea_line.hpp"
+#include "watch/ais/sentence_assembler.hpp"
+#include "watch/ais/ship_sizes.hpp"
+#include "watch/json_reading.hpp"
+#include "watch/measures.hpp"
+#include "watch/report_format.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+/// Error of the time of a position, in seconds, where the station says no second of it (receivers of
+/// satellite navigation on ships give a position each second, and 30 s leave room for a late one), and for a
+/// message 27 that says that its position was less than 5 s old.
+constexpr double unknown_second = 30.0, prompt = 6.0;
+/// Steps of message 27. The standard does not say whether stations round or cut off, so a whole step counts:
+/// 1/10 minute of latitude and of longitude, 1 knot, 1 degree.
+constexpr double coarse_step = 185.2, coarse_speed = knot, coarse_course = 3.14159265358979323846 / 180.0;
+
+/// Returns the time with this UTC second that is closest to the arrival, from 50 s before it to 10 s after
+/// it: messages come late, clocks of receivers are off by a little.
+FileTime time_with_second(const FileTime& arrival, int second) {
+  constexpr std::int64_t minute = 60, most_ahead = 10;
+  std::int64_t late = ((arrival.whole - second) % minute + minute) % minute;
+  if (late >= minute - most_ahead) late -= minute;
+  return {arrival.whole - late, 0.0};
+}
+
+class NmeaFormat final : public ReportFormat {
+ public:
+  explicit NmeaFormat(FormatChoices choices)
+      : choices_(std::move(choices)),
+        accuracy_bound_(10.0 * choices_.containment),
+        accuracy_declaration_(fmt::format("{:g} times the 10 m of the accuracy flag", choices_.containment)) {
+  }
+
+  void read(const Record& record, ReportSink& sink) override {
+    if (!record.is_whole) throw MalformedRecord("expected a line, but it is too long");
+    NmeaLine line = parse_nmea_line(record.text);
+    find_time(line, record, sink);
+    if (!line.sentence) return;
+    has_sentences_ = true;
+    const auto whole = assembler_.add(line, record.line, sink);
+    if (!whole) return;
+    const auto message = ais_message_of(whole->bits);
+    if (!message) return;
+    if (message->dimensions) sizes_.set(message->mmsi, message->dimensions->radius());
+    if (message->position) report(*message, *message->position, whole->received, record.line, sink);
+  }
+
+  void finish(ReportSink& sink) override {
+    assembler_.finish(sink);
+    if (!untimed_.empty()) fail_without_times();
+    if (!has_sentences_)
+      throw UnusableStream(
+          "expected sentences of AIS (!AIVDM or !AIVDO of any talker), but the stream has none");
+  }
+
+  nlohmann::json save() const override {
+    return {{"sentences", assembler_.save()},
+            {"sizes", sizes_.save()},
+            {"group", group_},
+            {"group_time", saved(group_time_)},
+            {"has_sentences", has_sentences_},
+            {"has_times", has_times_},
+            {"untimed", untimed_}};
+  }
+  void restore(const nlohmann::json& state) override {
+    assembler_.restore(state.at("sentences"));
+    sizes_.restore(state.at("sizes"));
+    group_ = state.at("group");
+    group_time_ = restored(state.at("group_time"));
+    has_sentences_ = state.at("has_sentences");
+    has_times_ = state.at("has_times");
+    untimed_ = state.at("untimed").get<std::vector<std::size_t>>();
+  }
+
+ private:
+  static nlohmann::json saved(const std::optional<TimeField>& time) {
+    if (!time) return nullptr;
+    return {time->time.whole, time->time.fraction, static_cast<int>(time->kind)};
+  }
+  static std::optional<TimeField> restored(const nlohmann::json& saved) {
+    if (saved.is_null()) return std::nullopt;
+    return TimeField{{saved.at(0), saved.at(1)}, static_cast<TimeKind>(saved.at(2).get<int>())};
+  }
+
+  /// Gives the line the time of its group if it has none of its own, else that at which it was read.
+  void find_time(NmeaLine& line, const Record& record, ReportSink& sink) {
+    if (!line.group.empty()) {
+      if (line.group != group_) {
+        group_ = line.group;
+        group_time_.reset();
+      }
+      if (line.received) group_time_ = line.received;
+      if (!line.received) line.received = group_time_;
+    }
+    if (!line.received && record.read_at) line.received = TimeField{*record.read_at, TimeKind::number};
+    if (!line.received) return;
+    has_times_ = true;
+    for (const std::size_t untimed : untimed_) refuse_without_time(untimed, sink);
+    untimed_.clear();
+  }
+
+  static void refuse_without_time(std::size_t line, ReportSink& sink) {
+    sink.refuse(line, "expected a time of receipt, as other sentences have one");
+  }
+  [[noreturn]] static void fail_without_times() {
+    throw UnusableStream(
+        "expected the time at which each sentence was received, but there is none: record it in a tag block "
+        "(\\c:1700000000*5F\\!AIVDM...) or before the sentence; what comes from a receiver right now can be "
+        "read "
+        "from udp://, a device, or standard input with --clock arrival");
+  }
+
+  void report(const AisMessage& message, const AisPosition& position,
+              const std::optional<TimeField>& received, std::size_t line, ReportSink& sink) {
+    if (!position.longitude || !position.latitude) return sink.pass_over(Passed::no_position);
+    if (!has_bound(position)) return sink.pass_over(Passed::no_bound);
+    if (!received) {
+      if (has_times_) return refuse_without_time(line, sink);
+      // A recording may begin in the middle of a group.
+      constexpr std::size_t enough = 10;
+      untimed_.push_back(line);
+      if (untimed_.size() == enough) fail_without_times();
+      return;
+    }
+    id_ = fmt::format("{:09}", message.mmsi);
+    SourceReport report{
+        .id = id_, .stamp = received->time, .arrival = received->time, .time_kind = received->kind};
+    if (position.second)
+      report.stamp = time_with_second(received->time, *position.second);
+    else
+      report.stamp_error = position.is_prompt ? prompt : unknown_second;
+    report.geographic = true;
+    report.position = {*position.longitude, *position.latitude, 0.0};
+    report.is_aircraft = position.station == AisStation::search_aircraft;
+    if (position.is_accurate) report.position_error = DeclaredError{accuracy_bound_, accuracy_declaration_};
+    report.extent = sizes_.radius_of(message.mmsi);
+    if (position.is_coarse) report.extent += std::hypot(coarse_step, coarse_step);
+    set_velocity(position, report);
+    sink.take(report);
+  }
+
+  /// Returns false for a position that no sensor gave, unless an option says how far off it may be. That of
+  /// an aid to navigation may be surveyed.
+  bool has_bound(const AisPosition& position) const {
+    if (position.origin == AisPosition::Origin::sensor || choices_.position_error_is_said) return true;
+    return position.station == AisStation::aid_to_navigation &&
+           position.origin == AisPosition::Origin::manual;
+  }
+
+  static void set_velocity(const AisPosition& position, SourceReport& report) {
+    // An aid to navigation is fixed or moored; its message has no speed.
+    const auto speed =
+        position.station == AisStation::aid_to_navigation ? std::optional(0.0) : position.speed;
+    if (!speed) return;
+    const bool has_way = *speed > 0.0;
+    if (has_way && position.course)
+      report.velocity = going(*speed * knot, *position.course, 0.0);
+    else
+      report.velocity = Vec3{};
+    if (has_way && !position.course) report.velocity_spread = *speed * knot;
+    if (position.is_coarse) report.velocity_spread += coarse_speed + coarse_course * *speed * knot;
+  }
+
+  FormatChoices choices_;
+  double accuracy_bound_;
+  std::string accuracy_declaration_;
+  SentenceAssembler assembler_;
+  ShipSizes sizes_;
+  std::string id_;
+  // The group of lines of the latest tag block that has one, and its time.
+  std::string group_;
+  std::optional<TimeField> group_time_;
+  bool has_sentences_ = false;
+  bool has_times_ = false;
+  std::vector<std::size_t> untimed_;  ///< lines of reports before the first time
+};
+
+}  // namespace
+
+std::unique_ptr<ReportFormat> make_nmea_format(const FormatChoices& choices) {
+  return std::make_unique<NmeaFormat>(choices);
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,188 @@
+// A line with a sentence of AIS: IEC 61162-1 sentences VDM and VDO, tag blocks of IEC 61162-450.
+#include "watch/ais/nmea_line.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "ascii_text.hpp"
+#include "watch/ais/ais_bits.hpp"
+#include "watch/report_format.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+constexpr bool is_capital_or_digit(char c) { return ('A' <= c && c <= 'Z') || ('0' <= c && c <= '9'); }
+
+/// Returns the value of a hexadecimal digit; -1 for another character.
+constexpr int hex_digit(char c) {
+  if ('0' <= c && c <= '9') return c - '0';
+  const char lower = lower_case(c);
+  return 'a' <= lower && lower <= 'f' ? lower - 'a' + 10 : -1;
+}
+
+/// Returns the digit from `least` to `most` that is the whole text; nothing for other text.
+std::optional<std::size_t> digit_in(std::string_view text, char least, char most) {
+  if (text.size() != 1 || text[0] < least || text[0] > most) return std::nullopt;
+  return static_cast<std::size_t>(text[0] - '0');
+}
+
+/// Returns the text before the checksum, and moves `text` behind it. `what` names the text in errors.
+std::string_view checked(std::string_view& text, const char* what) {
+  const std::size_t star = std::min(text.find('*'), text.size());
+  const std::string_view digits = text.substr(std::min(star + 1, text.size()), 2);
+  const int high = digits.size() == 2 ? hex_digit(digits[0]) : -1,
+            low = digits.size() == 2 ? hex_digit(digits[1]) : -1;
+  if (high < 0 || low < 0)
+    throw MalformedRecord(fmt::format("expected * and a checksum of two hexadecimal digits behind {}", what));
+  const std::string_view content = text.substr(0, star);
+  if (!std::ranges::all_of(content, [](char c) { return ' ' <= c && c <= '~'; }))
+    throw MalformedRecord(fmt::format("expected printable ASCII characters in {}", what));
+  unsigned sum = 0;
+  for (const char c : content) sum ^= static_cast<unsigned char>(c);
+  const auto said = static_cast<unsigned>(16 * high + low);
+  if (sum != said)
+    throw MalformedRecord(fmt::format("expected the checksum {:02X} behind {}, but got {:02X}: it is damaged",
+                                      sum, what, said));
+  text.remove_prefix(star + 3);
+  return content;
+}
+
+/// Returns the time of receipt that a text spells: a date, or a number of seconds or milliseconds since 1970,
+/// at least 1e8 s (1973); nothing for other text.
+std::optional<TimeField> time_of_receipt(std::string_view text) {
+  constexpr std::int64_t least = 100'000'000, least_milliseconds = 100'000'000'000;
+  auto field = time_field(text);
+  if (!field || field->kind != TimeKind::number) return field;
+  FileTime& time = field->time;
+  if (time.whole < least || time.whole >= 1000 * least_milliseconds) return std::nullopt;
+  if (time.whole >= least_milliseconds)
+    time = {time.whole / 1000, (static_cast<double>(time.whole % 1000) + time.fraction) / 1000.0};
+  return field;
+}
+
+void read_tag(std::string_view tag, NmeaLine& line) {
+  while (!tag.empty()) {
+    const std::string_view field = tag.substr(0, tag.find(','));
+    tag.remove_prefix(std::min(field.size() + 1, tag.size()));
+    if (field.size() < 2 || field[1] != ':') continue;
+    const std::string_view value = field.substr(2);
+    if (field[0] == 'c') {
+      line.received = time_of_receipt(value);
+      if (!line.received)
+        throw MalformedRecord(fmt::format(
+            "expected seconds or milliseconds since 1970 as c of the tag block, but got '{}'", value));
+    } else if (field[0] == 's') {
+      line.source = value;
+    } else if (field[0] == 'g') {
+      // Number in the group - lines in the group - identifier of the group.
+      line.group = value.substr(value.rfind('-') + 1);
+    }
+  }
+}
+
+AisSentence sentence_of(std::string_view content) {
+  std::string_view fields[7];
+  std::size_t count = 0;
+  for (std::string_view rest = content; count < std::size(fields); ++count) {
+    fields[count] = rest.substr(0, rest.find(','));
+    if (fields[count].size() == rest.size()) {
+      ++count;
+      break;
+    }
+    rest.remove_prefix(fields[count].size() + 1);
+  }
+  if (count != std::size(fields) || std::ranges::count(content, ',') != 6)
+    throw MalformedRecord(fmt::format("expected 7 fields of a sentence of AIS, but got {}",
+                                      std::ranges::count(content, ',') + 1));
+  const auto of = digit_in(fields[1], '1', '9'), number = digit_in(fields[2], '1', '9');
+  const auto fill_bits = digit_in(fields[6], '0', '5');
+  if (!of || !number || *number > *of)
+    throw MalformedRecord(
+        fmt::format("expected the number of sentences and that of this one (fields 2 and 3), but got '{}' "
+                    "and '{}'",
+                    fields[1], fields[2]));
+  if (!fill_bits)
+    throw MalformedRecord(fmt::format("expected 0 to 5 fill bits (field 7), but got '{}'", fields[6]));
+  if (fields[3].size() > 1 || fields[4].size() > 1)
+    throw MalformedRecord(
+        fmt::format("expected a sequence identifier and a channel (fields 4 and 5), but got '{}' and '{}'",
+                    fields[3], fields[4]));
+  if (fields[5].empty() || fields[5].size() > longest_ais_payload)
+    throw MalformedRecord(fmt::format("expected 1 to {} characters of a message (field 6), but got {}",
+                                      longest_ais_payload, fields[5].size()));
+  if (!is_six_bit_text(fields[5]))
+    throw MalformedRecord("expected characters from 0 to W and ` to w as the message (field 6)");
+  return {*of, *number, fields[3], fields[4], fields[5], *fill_bits};
+}
+
+/// Returns true for !--VDM, and !--VDO, of any talker.
+bool begins_ais(std::string_view text) {
+  if (text.size() < 7 || text[0] != '!' || text[6] != ',') return false;
+  const std::string_view formatter = text.substr(3, 3);
+  return formatter == "VDM" || formatter == "VDO";
+}
+
+/// Returns true if the text begins with $ or !, five capitals or digits or more, and a comma.
+bool begins_sentence(std::string_view text) {
+  if (text.empty() || (text[0] != '$' && text[0] != '!')) return false;
+  const std::size_t comma = text.find(',');
+  return comma != std::string_view::npos && comma > 4 &&
+         std::ranges::all_of(text.substr(1, comma - 1), is_capital_or_digit);
+}
+
+}  // namespace
+
+NmeaLine parse_nmea_line(std::string_view text) {
+  NmeaLine line;
+  text = trimmed(text);
+  if (text.empty() || text[0] == '#') return line;
+  const std::size_t begin = text.find_first_of("\\!$");
+  if (begin == std::string_view::npos)
+    throw MalformedRecord(
+        fmt::format("expected a sentence of AIS (!AIVDM,...), but got '{}'", text.substr(0, 20)));
+  std::optional<TimeField> before, behind;
+  if (begin > 0) {
+    std::string_view time = trimmed(text.substr(0, begin));
+    while (!time.empty() && (time.back() == ',' || time.back() == ';'))
+      time = trimmed(time.substr(0, time.size() - 1));
+    before = time_of_receipt(time);
+    if (!before)
+      throw MalformedRecord(fmt::format(
+          "expected a date or seconds since 1970 before the sentence, but got '{}'", time.substr(0, 40)));
+    text.remove_prefix(begin);
+  }
+  while (text.starts_with('\\')) {
+    const std::size_t end = text.find('\\', 1);
+    if (end == std::string_view::npos) throw MalformedRecord("expected a \\ that ends the tag block");
+    std::string_view tag = text.substr(1, end - 1);
+    read_tag(checked(tag, "the tag block"), line);
+    text = trimmed(text.substr(end + 1));
+  }
+  if (text.starts_with('!')) {
+    const bool is_ais = begins_ais(text);
+    text.remove_prefix(1);
+    const std::string_view content = checked(text, "the sentence");
+    if (is_ais) line.sentence = sentence_of(content);
+    if (const std::size_t comma = text.rfind(','); comma != std::string_view::npos)
+      behind = time_of_receipt(trimmed(text.substr(comma + 1)));
+  } else if (!text.empty() && !begins_sentence(text)) {
+    throw MalformedRecord(
+        fmt::format("expected a sentence of AIS (!AIVDM,...), but got '{}'", text.substr(0, 20)));
+  }
+  if (!line.received) line.received = before ? before : behind;
+  return line;
+}
+
+bool looks_like_nmea(std::string_view line) {
+  line = trimmed(line);
+  if (begins_sentence(line)) return true;
+  for (std::size_t at = line.find('!'); at != std::string_view::npos; at = line.find('!', at + 1))
+    if (begins_ais(line.substr(at))) return true;
+  // A tag block in a line of its own, or before a sentence of another kind.
+  const std::size_t end = line.starts_with('\\') ? line.find('\\', 1) : std::string_view::npos;
+  return end != std::string_view::npos && line.substr(0, end).find('*') != std::string_view::npos;
+}
+
+}  // namespace kinesphere::program
