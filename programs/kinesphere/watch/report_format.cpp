@@ -145,7 +145,8 @@ std::optional<StreamFormat> recognised_format(std::string_view beginning) {
   std::string_view line = beginning.substr(first);
   line = line.substr(0, line.find('\n'));
   if (line.ends_with('\r')) line.remove_suffix(1);
-  if (looks_like_nmea(line)) return StreamFormat::nmea;
+  if (looks_like_nmea(line) || (!line.starts_with('{') && has_ais_sentence(beginning.substr(0, 4096))))
+    return StreamFormat::nmea;
   for (const std::string_view type : {"MSG,", "SEL,", "ID,", "AIR,", "STA,", "CLK,"})
     if (line.starts_with(type)) return StreamFormat::sbs;
   if (line.starts_with('{')) {

@@ -53,7 +53,8 @@ class NmeaFormat final : public ReportFormat {
     if (!whole) return;
     const auto message = ais_message_of(whole->bits);
     if (!message) return;
-    if (message->dimensions) sizes_.set(message->mmsi, message->dimensions->radius());
+    const double radius = message->dimensions ? message->dimensions->radius() : 0.0;
+    if (radius > 0.0) sizes_.set(message->mmsi, radius);
     if (message->position) report(*message, *message->position, whole->received, record.line, sink);
   }
 
@@ -70,6 +71,7 @@ class NmeaFormat final : public ReportFormat {
             {"sizes", sizes_.save()},
             {"group", group_},
             {"group_time", saved(group_time_)},
+            {"announced", saved(announced_)},
             {"has_sentences", has_sentences_},
             {"has_times", has_times_},
             {"untimed", untimed_}};
@@ -79,6 +81,7 @@ class NmeaFormat final : public ReportFormat {
     sizes_.restore(state.at("sizes"));
     group_ = state.at("group");
     group_time_ = restored(state.at("group_time"));
+    announced_ = restored(state.at("announced"));
     has_sentences_ = state.at("has_sentences");
     has_times_ = state.at("has_times");
     untimed_ = state.at("untimed").get<std::vector<std::size_t>>();
@@ -94,7 +97,8 @@ class NmeaFormat final : public ReportFormat {
     return TimeField{{saved.at(0), saved.at(1)}, static_cast<TimeKind>(saved.at(2).get<int>())};
   }
 
-  /// Gives the line the time of its group if it has none of its own, else that at which it was read.
+  /// Gives the line the time of its group or of the line before it if it has none of its own, else that at
+  /// which it was read.
   void find_time(NmeaLine& line, const Record& record, ReportSink& sink) {
     if (!line.group.empty()) {
       if (line.group != group_) {
@@ -103,6 +107,14 @@ class NmeaFormat final : public ReportFormat {
       }
       if (line.received) group_time_ = line.received;
       if (!line.received) line.received = group_time_;
+    }
+    if (line.is_of_next) {
+      announced_ = line.received;
+      return;
+    }
+    if (line.sentence) {
+      if (!line.received) line.received = announced_;
+      announced_.reset();
     }
     if (!line.received && record.read_at) line.received = TimeField{*record.read_at, TimeKind::number};
     if (!line.received) return;
@@ -144,7 +156,8 @@ class NmeaFormat final : public ReportFormat {
     report.geographic = true;
     report.position = {*position.longitude, *position.latitude, 0.0};
     report.is_aircraft = position.station == AisStation::search_aircraft;
-    if (position.is_accurate) report.position_error = DeclaredError{accuracy_bound_, accuracy_declaration_};
+    if (position.is_accurate && position.origin == AisPosition::Origin::sensor)
+      report.position_error = DeclaredError{accuracy_bound_, accuracy_declaration_};
     report.extent = sizes_.radius_of(message.mmsi);
     if (position.is_coarse) report.extent += std::hypot(coarse_step, coarse_step);
     set_velocity(position, report);
@@ -182,6 +195,7 @@ class NmeaFormat final : public ReportFormat {
   // The group of lines of the latest tag block that has one, and its time.
   std::string group_;
   std::optional<TimeField> group_time_;
+  std::optional<TimeField> announced_;  ///< of the next line, from one before it
   bool has_sentences_ = false;
   bool has_times_ = false;
   std::vector<std::size_t> untimed_;  ///< lines of reports before the first time

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <vector>
 
 #include "ascii_text.hpp"
@@ -117,6 +118,24 @@ AisSentence sentence_of(std::string_view content) {
   return {*of, *number, fields[3], fields[4], fields[5], *fill_bits};
 }
 
+/// Returns the time of PGHP,1,YEAR,MONTH,DAY,HOUR,MINUTE,SECOND,MILLISECOND,...; nothing for other text.
+std::optional<TimeField> time_of_pghp(std::string_view content) {
+  std::vector<std::string_view> fields;
+  split_fields(content, ',', fields);
+  if (fields.size() < 9 || fields[1] != "1") return std::nullopt;
+  int numbers[7] = {};
+  for (std::size_t k = 0; k < std::size(numbers); ++k) {
+    const std::string_view field = fields[k + 2];
+    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), numbers[k]);
+    if (error != std::errc() || end != field.data() + field.size()) return std::nullopt;
+  }
+  const auto [year, month, day, hour, minute, second, millisecond] = numbers;
+  const auto date = parse_date_time(fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:03}", year, month, day,
+                                                hour, minute, second, millisecond));
+  if (!date) return std::nullopt;
+  return TimeField{date->time, TimeKind::number};
+}
+
 /// Returns true for !--VDM, and !--VDO, of any talker.
 bool begins_ais(std::string_view text) {
   if (text.size() < 7 || text[0] != '!' || text[6] != ',') return false;
@@ -167,7 +186,13 @@ NmeaLine parse_nmea_line(std::string_view text) {
     if (is_ais) line.sentence = sentence_of(content);
     if (const std::size_t comma = text.rfind(','); comma != std::string_view::npos)
       behind = time_of_receipt(trimmed(text.substr(comma + 1)));
-  } else if (!text.empty() && !begins_sentence(text)) {
+  } else if (text.empty()) {
+    line.is_of_next = true;
+  } else if (text.starts_with("$PGHP,")) {
+    text.remove_prefix(1);
+    line.received = time_of_pghp(checked(text, "the sentence"));
+    line.is_of_next = true;
+  } else if (!begins_sentence(text)) {
     throw MalformedRecord(
         fmt::format("expected a sentence of AIS (!AIVDM,...), but got '{}'", text.substr(0, 20)));
   }
@@ -175,11 +200,15 @@ NmeaLine parse_nmea_line(std::string_view text) {
   return line;
 }
 
+bool has_ais_sentence(std::string_view text) {
+  for (std::size_t at = text.find('!'); at != std::string_view::npos; at = text.find('!', at + 1))
+    if (begins_ais(text.substr(at))) return true;
+  return false;
+}
+
 bool looks_like_nmea(std::string_view line) {
   line = trimmed(line);
-  if (begins_sentence(line)) return true;
-  for (std::size_t at = line.find('!'); at != std::string_view::npos; at = line.find('!', at + 1))
-    if (begins_ais(line.substr(at))) return true;
+  if (begins_sentence(line) || has_ais_sentence(line)) return true;
   // A tag block in a line of its own, or before a sentence of another kind.
   const std::size_t end = line.starts_with('\\') ? line.find('\\', 1) : std::string_view::npos;
   return end != std::string_view::npos && line.substr(0, end).find('*') != std::string_view::npos;

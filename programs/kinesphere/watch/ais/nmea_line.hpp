@@ -24,6 +24,8 @@ struct NmeaLine {
   /// Time of receipt that the line gives: c of a tag block, else a time before the sentence, else the last
   /// field behind its checksum. Numbers are seconds since 1970; those of 1e11 or more are milliseconds.
   std::optional<TimeField> received;
+  /// The time is that of the next line: the line is a tag block alone, or a sentence $PGHP of Gatehouse.
+  bool is_of_next = false;
   std::string_view source;  ///< s of a tag block
   std::string_view group;   ///< the identifier of the group of lines, from g of a tag block
 };
@@ -39,5 +41,8 @@ NmeaLine parse_nmea_line(std::string_view line);
 /// Returns true if the line looks like one of a stream of sentences: it has VDM or VDO, or begins with a tag
 /// block or another sentence.
 bool looks_like_nmea(std::string_view line);
+
+/// Returns true if the text has VDM or VDO anywhere.
+bool has_ais_sentence(std::string_view text);
 
 }  // namespace kinesphere::program

@@ -118,6 +118,16 @@ TEST(NmeaFormat, ReadsTheTimesOfLines) {
   ASSERT_EQ(group.reports.size(), 2u);
   EXPECT_EQ(group.reports[1].stamp.whole, 1700000000);
   EXPECT_EQ(stamp_of("12.5 " + plain), -1.0) << "since when?";
+  // A line before the sentence has its time, and that of no other.
+  const std::string pghp = "PGHP,1,2023,11,14,22,13,20,250,338,2,,1,09";
+  NmeaReports next;
+  next.read(fmt::format("${}*{:02X}", pghp, checksum_of(pghp))).read(plain).read(plain);
+  next.read(tag_block("c:1700000060")).read(plain);
+  ASSERT_EQ(next.reports.size(), 2u);
+  EXPECT_EQ(next.reports[0].stamp.whole, 1700000000);
+  EXPECT_NEAR(next.reports[0].stamp.fraction, 0.25, 1e-9);
+  EXPECT_EQ(next.reports[1].stamp.whole, 1700000060);
+  EXPECT_EQ(next.refused.size(), 1u);
 }
 
 TEST(NmeaFormat, TakesAllTalkersAndSkipsOtherSentences) {
@@ -125,7 +135,7 @@ TEST(NmeaFormat, TakesAllTalkersAndSkipsOtherSentences) {
   for (const char* talker : {"AIVDM", "AIVDO", "BSVDM", "ABVDM"})
     kept.read(vdm(class_a_message(ship()), "1700000000", talker));
   EXPECT_EQ(kept.reports.size(), 4u);
-  kept.read("$GPZDA,201530.00,04,07,2002,00,00*60").read("").read("# a comment").read("$PGHP,1,2008*00");
+  kept.read("$GPZDA,201530.00,04,07,2002,00,00*60").read("").read("# a comment").read("$GPGGA,");
   kept.read(sentence("AIVSI,r3669961,1,013536.96326433,1386,-98,"))
       .read(vdm("000100" + std::string(162, '0'), "1700000000"));
   kept.format->finish(kept);
@@ -174,6 +184,8 @@ TEST(NmeaFormat, JoinsSentencesInAnyOrder) {
   kept.read(time + vdm_part(one, 2, 3, 5, 'A'));
   EXPECT_EQ(kept.ids, (std::vector<std::string>{"000000002", "000000001"}));
   EXPECT_GT(kept.reports[1].extent, 100.0);
+  kept.read(time + vdm(class_b_static_message({.mmsi = 1}))).read(time + vdm(class_b_message(a)));
+  EXPECT_GT(kept.reports.at(2).extent, 100.0) << "a size that is not available is no other one";
   EXPECT_TRUE(kept.refused.empty());
 }
 
@@ -323,8 +335,8 @@ TEST(NmeaFormat, GoesOnFromItsState) {
 TEST(NmeaFormat, IsRecognised) {
   for (const char* beginning :
        {"!AIVDM,1,1,,A,13u?etPv2;0n:dDPwUM1U1Cb069D,0*23\n", "\\s:rx1,c:1700000000*01\\!AIVDM,1,1,,A,139",
-        "!BSVDM,1,1", "1700000000 !AIVDO,1,1,,A", "$GPZDA,201530.00,04,07,2002,00,00*60",
-        "\\g:1-2-77,c:1700000000*00\\\n"})
+        "!BSVDM,1,1", "1700000000 !AIVDO,1,1,,A", "# a comment\n!AIVDM,1,1", "3Q?v00000,0*67\n!AIVDM,1,1,,A",
+        "$GPZDA,201530.00,04,07,2002,00,00*60", "\\g:1-2-77,c:1700000000*00\\\n"})
     EXPECT_EQ(recognised_format(beginning), StreamFormat::nmea) << beginning;
   for (const char* beginning : {"a,b,!c", "!note", "$5,$6", "\\a\\b,c"})
     EXPECT_NE(recognised_format(beginning), StreamFormat::nmea) << beginning;
