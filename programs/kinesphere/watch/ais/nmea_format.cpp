@@ -14,6 +14,7 @@
 #include "watch/json_reading.hpp"
 #include "watch/measures.hpp"
 #include "watch/report_format.hpp"
+#include "watch/stream_clock.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -51,30 +52,33 @@ class NmeaFormat final : public ReportFormat {
     has_sentences_ = true;
     const auto whole = assembler_.add(line, record.line, sink);
     if (!whole) return;
-    const auto message = ais_message_of(whole->bits);
-    if (!message) return;
-    const double radius = message->dimensions ? message->dimensions->radius() : 0.0;
-    if (radius > 0.0) sizes_.set(message->mmsi, radius);
-    if (message->position) report(*message, *message->position, whole->received, record.line, sink);
+    if (whole->received)
+      take(whole->bits, *whole->received, 0.0, sink);
+    else
+      keep_untimed(whole->bits, record.line, sink);
   }
 
   void finish(ReportSink& sink) override {
     assembler_.finish(sink);
-    if (!untimed_.empty()) fail_without_times();
+    if (!untimed_.empty() && !latest_) fail_without_times();
+    for (const Untimed& each : untimed_) refuse_without_time(each.line, sink);
+    untimed_.clear();
     if (!has_sentences_)
       throw UnusableStream(
           "expected sentences of AIS (!AIVDM or !AIVDO of any talker), but the stream has none");
   }
 
   nlohmann::json save() const override {
+    auto untimed = nlohmann::json::array();
+    for (const Untimed& each : untimed_) untimed.push_back({each.bits.digits(), each.line});
     return {{"sentences", assembler_.save()},
             {"sizes", sizes_.save()},
             {"group", group_},
             {"group_time", saved(group_time_)},
             {"announced", saved(announced_)},
             {"has_sentences", has_sentences_},
-            {"has_times", has_times_},
-            {"untimed", untimed_}};
+            {"latest", saved(latest_)},
+            {"untimed", untimed}};
   }
   void restore(const nlohmann::json& state) override {
     assembler_.restore(state.at("sentences"));
@@ -83,11 +87,19 @@ class NmeaFormat final : public ReportFormat {
     group_time_ = restored(state.at("group_time"));
     announced_ = restored(state.at("announced"));
     has_sentences_ = state.at("has_sentences");
-    has_times_ = state.at("has_times");
-    untimed_ = state.at("untimed").get<std::vector<std::size_t>>();
+    latest_ = restored(state.at("latest"));
+    untimed_.clear();
+    for (const auto& each : state.at("untimed"))
+      untimed_.push_back({AisBits::of_digits(each.at(0).get<std::string>()), each.at(1)});
   }
 
  private:
+  /// A message without time of receipt, and the line that ended it.
+  struct Untimed {
+    AisBits bits;
+    std::size_t line = 0;
+  };
+
   static nlohmann::json saved(const std::optional<TimeField>& time) {
     if (!time) return nullptr;
     return {time->time.whole, time->time.fraction, static_cast<int>(time->kind)};
@@ -118,13 +130,37 @@ class NmeaFormat final : public ReportFormat {
     }
     if (!line.received && record.read_at) line.received = TimeField{*record.read_at, TimeKind::number};
     if (!line.received) return;
-    has_times_ = true;
-    for (const std::size_t untimed : untimed_) refuse_without_time(untimed, sink);
-    untimed_.clear();
+    settle_untimed(*line.received, sink);
+    latest_ = line.received;
+  }
+
+  /// Takes messages without time, at the time of the next sentence that has one, if that comes soon enough
+  /// after the one before: then the UTC second is unique for messages that were less than 20 s on their way.
+  void settle_untimed(const TimeField& next, ReportSink& sink) {
+    constexpr double longest_gap = 30.0;
+    const double gap = latest_ ? std::abs(seconds_between(latest_->time, next.time)) : longest_gap + 1.0;
+    const std::vector<Untimed> all = std::exchange(untimed_, {});
+    for (const Untimed& each : all) {
+      if (gap <= longest_gap)
+        take(each.bits, next, gap, sink);
+      else
+        refuse_without_time(each.line, sink);
+    }
+  }
+
+  void keep_untimed(const AisBits& bits, std::size_t line, ReportSink& sink) {
+    const auto message = ais_message_of(bits);
+    if (!message) return;
+    if (!message->position) return take_size(*message);
+    // A recording may begin in the middle of a group.
+    constexpr std::size_t most_at_begin = 10, most = 1000;
+    if (untimed_.size() == most) return refuse_without_time(line, sink);
+    untimed_.push_back({bits, line});
+    if (!latest_ && untimed_.size() == most_at_begin) fail_without_times();
   }
 
   static void refuse_without_time(std::size_t line, ReportSink& sink) {
-    sink.refuse(line, "expected a time of receipt, as other sentences have one");
+    sink.refuse(line, "expected a time of receipt, in this line or in others around it");
   }
   [[noreturn]] static void fail_without_times() {
     throw UnusableStream(
@@ -134,25 +170,30 @@ class NmeaFormat final : public ReportFormat {
         "from udp://, a device, or standard input with --clock arrival");
   }
 
-  void report(const AisMessage& message, const AisPosition& position,
-              const std::optional<TimeField>& received, std::size_t line, ReportSink& sink) {
+  /// `received`: the time of receipt, or at most `earlier` seconds after it.
+  void take(const AisBits& bits, const TimeField& received, double earlier, ReportSink& sink) {
+    const auto message = ais_message_of(bits);
+    if (!message) return;
+    take_size(*message);
+    if (message->position) report(*message, *message->position, received, earlier, sink);
+  }
+
+  void take_size(const AisMessage& message) {
+    const double radius = message.dimensions ? message.dimensions->radius() : 0.0;
+    if (radius > 0.0) sizes_.set(message.mmsi, radius);
+  }
+
+  void report(const AisMessage& message, const AisPosition& position, const TimeField& received,
+              double earlier, ReportSink& sink) {
     if (!position.longitude || !position.latitude) return sink.pass_over(Passed::no_position);
     if (!has_bound(position)) return sink.pass_over(Passed::no_bound);
-    if (!received) {
-      if (has_times_) return refuse_without_time(line, sink);
-      // A recording may begin in the middle of a group.
-      constexpr std::size_t enough = 10;
-      untimed_.push_back(line);
-      if (untimed_.size() == enough) fail_without_times();
-      return;
-    }
     id_ = fmt::format("{:09}", message.mmsi);
     SourceReport report{
-        .id = id_, .stamp = received->time, .arrival = received->time, .time_kind = received->kind};
+        .id = id_, .stamp = received.time, .arrival = received.time, .time_kind = received.kind};
     if (position.second)
-      report.stamp = time_with_second(received->time, *position.second);
+      report.stamp = time_with_second(received.time, *position.second);
     else
-      report.stamp_error = position.is_prompt ? prompt : unknown_second;
+      report.stamp_error = earlier + (position.is_prompt ? prompt : unknown_second);
     report.geographic = true;
     report.position = {*position.longitude, *position.latitude, 0.0};
     report.is_aircraft = position.station == AisStation::search_aircraft;
@@ -197,8 +238,8 @@ class NmeaFormat final : public ReportFormat {
   std::optional<TimeField> group_time_;
   std::optional<TimeField> announced_;  ///< of the next line, from one before it
   bool has_sentences_ = false;
-  bool has_times_ = false;
-  std::vector<std::size_t> untimed_;  ///< lines of reports before the first time
+  std::optional<TimeField> latest_;  ///< time of receipt of the latest sentence that has one
+  std::vector<Untimed> untimed_;     ///< since then, in their order
 };
 
 }  // namespace

@@ -29,25 +29,40 @@ std::optional<std::size_t> digit_in(std::string_view text, char least, char most
   return static_cast<std::size_t>(text[0] - '0');
 }
 
-/// Returns the text before the checksum, and moves `text` behind it. `what` names the text in errors.
-std::string_view checked(std::string_view& text, const char* what) {
+/// A text with a checksum, *hh behind it.
+struct CheckedText {
+  std::string_view content, behind;
+  std::optional<unsigned> said;  ///< the checksum as it stands there
+  unsigned sum = 0;              ///< the exclusive or of the content's characters
+  bool is_printable = false;     ///< all of them are printable ASCII characters
+
+  bool is_whole() const { return said == sum && is_printable; }
+};
+
+CheckedText split_checksum(std::string_view text) {
   const std::size_t star = std::min(text.find('*'), text.size());
   const std::string_view digits = text.substr(std::min(star + 1, text.size()), 2);
-  const int high = digits.size() == 2 ? hex_digit(digits[0]) : -1,
-            low = digits.size() == 2 ? hex_digit(digits[1]) : -1;
-  if (high < 0 || low < 0)
-    throw MalformedRecord(fmt::format("expected * and a checksum of two hexadecimal digits behind {}", what));
-  const std::string_view content = text.substr(0, star);
-  if (!std::ranges::all_of(content, [](char c) { return ' ' <= c && c <= '~'; }))
-    throw MalformedRecord(fmt::format("expected printable ASCII characters in {}", what));
-  unsigned sum = 0;
-  for (const char c : content) sum ^= static_cast<unsigned char>(c);
-  const auto said = static_cast<unsigned>(16 * high + low);
-  if (sum != said)
-    throw MalformedRecord(fmt::format("expected the checksum {:02X} behind {}, but got {:02X}: it is damaged",
-                                      sum, what, said));
-  text.remove_prefix(star + 3);
-  return content;
+  CheckedText result{.content = text.substr(0, star), .behind = text.substr(std::min(star + 3, text.size()))};
+  const int high = digits.size() == 2 ? hex_digit(digits[0]) : -1;
+  const int low = digits.size() == 2 ? hex_digit(digits[1]) : -1;
+  if (high >= 0 && low >= 0) result.said = static_cast<unsigned>(16 * high + low);
+  for (const char c : result.content) result.sum ^= static_cast<unsigned char>(c);
+  result.is_printable = std::ranges::all_of(result.content, [](char c) { return ' ' <= c && c <= '~'; });
+  return result;
+}
+
+/// Returns the content of a sentence, and moves `text` behind its checksum. Throws MalformedRecord.
+std::string_view checked_sentence(std::string_view& text) {
+  const CheckedText split = split_checksum(text);
+  if (!split.said)
+    throw MalformedRecord("expected * and a checksum of two hexadecimal digits behind the sentence");
+  if (*split.said != split.sum)
+    throw MalformedRecord(
+        fmt::format("expected the checksum {:02X} behind the sentence, but got {:02X}: it is damaged",
+                    split.sum, *split.said));
+  if (!split.is_printable) throw MalformedRecord("expected printable ASCII characters in the sentence");
+  text = split.behind;
+  return split.content;
 }
 
 /// Returns the time of receipt that a text spells: a date, or a number of seconds or milliseconds since 1970,
@@ -63,24 +78,31 @@ std::optional<TimeField> time_of_receipt(std::string_view text) {
   return field;
 }
 
-void read_tag(std::string_view tag, NmeaLine& line) {
-  while (!tag.empty()) {
-    const std::string_view field = tag.substr(0, tag.find(','));
-    tag.remove_prefix(std::min(field.size() + 1, tag.size()));
-    if (field.size() < 2 || field[1] != ':') continue;
-    const std::string_view value = field.substr(2);
-    if (field[0] == 'c') {
-      line.received = time_of_receipt(value);
-      if (!line.received)
-        throw MalformedRecord(fmt::format(
-            "expected seconds or milliseconds since 1970 as c of the tag block, but got '{}'", value));
-    } else if (field[0] == 's') {
-      line.source = value;
-    } else if (field[0] == 'g') {
+/// Reads what precedes a sentence: a time, and tag blocks. What is damaged or unknown is passed over. Returns
+/// the time, that of a tag block first.
+std::optional<TimeField> read_head(std::string_view head, NmeaLine& line) {
+  std::string_view time = trimmed(head.substr(0, head.find('\\')));
+  while (!time.empty() && (time.back() == ',' || time.back() == ';'))
+    time = trimmed(time.substr(0, time.size() - 1));
+  std::optional<TimeField> received = time_of_receipt(time);
+  for (std::size_t begin = head.find('\\'); begin < head.size();) {
+    const std::size_t end = head.find('\\', begin + 1);
+    if (end == std::string_view::npos) break;
+    const CheckedText tag = split_checksum(head.substr(begin + 1, end - begin - 1));
+    begin = head.find('\\', end + 1);
+    if (!tag.is_whole()) continue;
+    for (std::string_view fields = tag.content; !fields.empty();) {
+      const std::string_view field = fields.substr(0, fields.find(','));
+      fields.remove_prefix(std::min(field.size() + 1, fields.size()));
+      if (field.size() < 2 || field[1] != ':') continue;
+      const std::string_view value = field.substr(2);
+      if (field[0] == 'c') received = time_of_receipt(value);
+      if (field[0] == 's') line.source = value;
       // Number in the group - lines in the group - identifier of the group.
-      line.group = value.substr(value.rfind('-') + 1);
+      if (field[0] == 'g') line.group = value.substr(value.rfind('-') + 1);
     }
   }
+  return received;
 }
 
 AisSentence sentence_of(std::string_view content) {
@@ -136,11 +158,15 @@ std::optional<TimeField> time_of_pghp(std::string_view content) {
   return TimeField{date->time, TimeKind::number};
 }
 
-/// Returns true for !--VDM, and !--VDO, of any talker.
-bool begins_ais(std::string_view text) {
-  if (text.size() < 7 || text[0] != '!' || text[6] != ',') return false;
-  const std::string_view formatter = text.substr(3, 3);
-  return formatter == "VDM" || formatter == "VDO";
+/// Returns where !--VDM or !--VDO of any talker begins in the text; npos if it has none.
+std::size_t ais_sentence_in(std::string_view text) {
+  for (std::size_t at = text.find('!'); at != std::string_view::npos; at = text.find('!', at + 1)) {
+    const std::string_view sentence = text.substr(at);
+    if (sentence.size() < 7 || sentence[6] != ',') continue;
+    const std::string_view formatter = sentence.substr(3, 3);
+    if (formatter == "VDM" || formatter == "VDO") return at;
+  }
+  return std::string_view::npos;
 }
 
 /// Returns true if the text begins with $ or !, five capitals or digits or more, and a comma.
@@ -151,60 +177,45 @@ bool begins_sentence(std::string_view text) {
          std::ranges::all_of(text.substr(1, comma - 1), is_capital_or_digit);
 }
 
-}  // namespace
-
-NmeaLine parse_nmea_line(std::string_view text) {
+/// Reads a line without VDM and VDO. Throws MalformedRecord if it is none of a stream of sentences.
+NmeaLine line_without_ais(std::string_view text) {
   NmeaLine line;
-  text = trimmed(text);
-  if (text.empty() || text[0] == '#') return line;
-  const std::size_t begin = text.find_first_of("\\!$");
-  if (begin == std::string_view::npos)
-    throw MalformedRecord(
-        fmt::format("expected a sentence of AIS (!AIVDM,...), but got '{}'", text.substr(0, 20)));
-  std::optional<TimeField> before, behind;
-  if (begin > 0) {
-    std::string_view time = trimmed(text.substr(0, begin));
-    while (!time.empty() && (time.back() == ',' || time.back() == ';'))
-      time = trimmed(time.substr(0, time.size() - 1));
-    before = time_of_receipt(time);
-    if (!before)
-      throw MalformedRecord(fmt::format(
-          "expected a date or seconds since 1970 before the sentence, but got '{}'", time.substr(0, 40)));
-    text.remove_prefix(begin);
-  }
-  while (text.starts_with('\\')) {
-    const std::size_t end = text.find('\\', 1);
-    if (end == std::string_view::npos) throw MalformedRecord("expected a \\ that ends the tag block");
-    std::string_view tag = text.substr(1, end - 1);
-    read_tag(checked(tag, "the tag block"), line);
-    text = trimmed(text.substr(end + 1));
-  }
-  if (text.starts_with('!')) {
-    const bool is_ais = begins_ais(text);
-    text.remove_prefix(1);
-    const std::string_view content = checked(text, "the sentence");
-    if (is_ais) line.sentence = sentence_of(content);
-    if (const std::size_t comma = text.rfind(','); comma != std::string_view::npos)
-      behind = time_of_receipt(trimmed(text.substr(comma + 1)));
-  } else if (text.empty()) {
+  const std::size_t end = text.find_last_of('\\') + 1;
+  std::string_view sentence = trimmed(text.substr(end));
+  if (sentence.empty() && split_checksum(text.substr(1)).is_whole()) {
+    line.received = read_head(text, line);
     line.is_of_next = true;
-  } else if (text.starts_with("$PGHP,")) {
-    text.remove_prefix(1);
-    line.received = time_of_pghp(checked(text, "the sentence"));
+  } else if (sentence.starts_with("$PGHP,")) {
+    sentence.remove_prefix(1);
+    line.received = time_of_pghp(checked_sentence(sentence));
     line.is_of_next = true;
-  } else if (!begins_sentence(text)) {
+  } else if (!begins_sentence(sentence)) {
     throw MalformedRecord(
-        fmt::format("expected a sentence of AIS (!AIVDM,...), but got '{}'", text.substr(0, 20)));
+        fmt::format("expected a sentence of AIS (!AIVDM,...), but got '{}'", text.substr(0, 40)));
+  } else if (sentence.starts_with('!')) {
+    sentence.remove_prefix(1);
+    checked_sentence(sentence);
   }
-  if (!line.received) line.received = before ? before : behind;
   return line;
 }
 
-bool has_ais_sentence(std::string_view text) {
-  for (std::size_t at = text.find('!'); at != std::string_view::npos; at = text.find('!', at + 1))
-    if (begins_ais(text.substr(at))) return true;
-  return false;
+}  // namespace
+
+NmeaLine parse_nmea_line(std::string_view text) {
+  text = trimmed(text);
+  if (text.empty() || text[0] == '#') return {};
+  const std::size_t begin = ais_sentence_in(text);
+  if (begin == std::string_view::npos) return line_without_ais(text);
+  NmeaLine line;
+  std::string_view rest = text.substr(begin + 1);
+  line.sentence = sentence_of(checked_sentence(rest));
+  line.received = read_head(text.substr(0, begin), line);
+  if (const std::size_t comma = rest.rfind(','); !line.received && comma != std::string_view::npos)
+    line.received = time_of_receipt(trimmed(rest.substr(comma + 1)));
+  return line;
 }
+
+bool has_ais_sentence(std::string_view text) { return ais_sentence_in(text) != std::string_view::npos; }
 
 bool looks_like_nmea(std::string_view line) {
   line = trimmed(line);

@@ -34,8 +34,9 @@ struct NmeaLine {
 /// 82 characters.
 inline constexpr std::size_t longest_ais_payload = 1024;
 
-/// Reads a line; blank ones and those that begin with # are empty. Checks the checksums of tag blocks and of
-/// sentences that begin with !. Throws MalformedRecord.
+/// Reads a line; blank ones and those that begin with # are empty. A damaged tag block, and other text before
+/// the sentence, is passed over: then the line has no time. Throws MalformedRecord for a damaged sentence
+/// that begins with !, and for a line without sentence and tag block.
 NmeaLine parse_nmea_line(std::string_view line);
 
 /// Returns true if the line looks like one of a stream of sentences: it has VDM or VDO, or begins with a tag

@@ -104,7 +104,7 @@ std::string damaged_line(const std::string& line, Random& random) {
 
 void add_lines(Voyage& voyage, const LocalFrame& map, Random& random, std::vector<TimedLine>& lines) {
   double statics_due = 0.0;
-  for (double time = random.uniform(0.0, 10.0); time < day; time += voyage.interval_at(time)) {
+  for (double time = random.uniform(0.0, 180.0); time < day; time += voyage.interval_at(time)) {
     EncodedStation s = voyage.station;
     const double angle = random.uniform(0.0, 2.0 * pi), off = random.uniform(0.0, 9.0);
     const Vec3 seen = voyage.position_at(time) + Vec3{std::cos(angle), std::sin(angle), 0.0} * off;
@@ -149,16 +149,21 @@ TEST_F(AisDay, IsTakenAndToldWholly) {
   std::string text;
   std::uint64_t whole = 0;
   for (const TimedLine& line : lines) {
-    const bool is_damaged = random.uniform(0.0, 1.0) < 0.05;
-    if (line.is_report && !is_damaged) ++whole;
-    text += (is_damaged ? damaged_line(line.text, random) : line.text) + "\n";
+    // The first line and the last one give the times of sentences with a damaged tag block beside them.
+    const bool is_outer = &line == &lines.front() || &line == &lines.back();
+    const bool is_damaged = random.uniform(0.0, 1.0) < 0.05 && !is_outer;
+    const std::string written = is_damaged ? damaged_line(line.text, random) : line.text;
+    // A sentence is taken if only its tag block is damaged.
+    const std::string_view sentence = std::string_view(line.text).substr(line.text.find('!'));
+    if (line.is_report && written.find(sentence) != std::string::npos) ++whole;
+    text += written + "\n";
   }
   const ProgramRun run =
       this->run("watch '" + write("day.nmea", text) + "' --separation sphere:500m --origin 53.5,8 " +
                 "--radius 100km --acceleration 0.2 --quiet --summary '" + path("summary.json") + "'");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const nlohmann::json summary = nlohmann::json::parse(read_text(path("summary.json")));
-  EXPECT_EQ(summary["reports"], whole);
+  EXPECT_EQ(summary["reports"], whole) << summary.dump();
   EXPECT_EQ(summary["contradictions"], 0);
 
   // Verdicts are compared with the true distances each ten seconds.
@@ -172,7 +177,7 @@ TEST_F(AisDay, IsTakenAndToldWholly) {
   next_alert();
   int near = 0, approaches = 0;
   std::array<std::array<bool, ships>, ships> was_near{};
-  for (double time = 60.0; time < day - 400.0; time += 10.0) {
+  for (double time = 400.0; time < day - 400.0; time += 10.0) {
     for (; !alert.is_null() && alert["time"].get<double>() <= begin + time; next_alert()) {
       if (alert["event"] != "verdict") continue;
       const auto index = [&](const char* key) {

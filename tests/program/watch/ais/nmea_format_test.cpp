@@ -147,24 +147,49 @@ TEST(NmeaFormat, RefusesDamagedLines) {
   const std::string good = vdm(class_a_message(ship()), "1700000000");
   std::string flipped = good;
   flipped[good.size() - 10] = flipped[good.size() - 10] == '0' ? '1' : '0';
-  std::string wrong_time = good;
-  wrong_time[4] = '2';
+  std::string wrong_tag = tag_block("c:1700000000");
+  wrong_tag[4] = '2';
   NmeaReports kept;
   const auto ais = [](const char* body) { return sentence(body); };
   for (const std::string& line :
-       {flipped, wrong_time, good.substr(0, good.size() - 2), good.substr(0, 10), std::string("mumble"),
-        tag_block("c:noon") + vdm(class_a_message(ship())), ais("AIVDM,1,1,,A,13u?etPv2;0n:dDPwUM1U1Cb069D"),
-        ais("AIVDM,1,2,,A,13u?etPv2;0n:dDPwUM1U1Cb069D,0"), ais("AIVDM,1,1,,A,,0"),
-        ais("AIVDM,1,1,,A,13u?etPv2;0n:dDPwUM1U1Cb069D,6"),
+       {flipped, good.substr(0, good.size() - 2), good.substr(0, 10), wrong_tag, std::string("mumble"),
+        ais("AIVDM,1,1,,A,13u?etPv2;0n:dDPwUM1U1Cb069D"), ais("AIVDM,1,2,,A,13u?etPv2;0n:dDPwUM1U1Cb069D,0"),
+        ais("AIVDM,1,1,,A,,0"), ais("AIVDM,1,1,,A,13u?etPv2;0n:dDPwUM1U1Cb069D,6"),
         ais("AIVDM,1,1,,A,13u?etPv2;0n:dDPwUM1U1Cb069x,0"), ais("AIVDM,1,1,,A,13u?etPv2;0n:d,0"),
-        vdm(class_a_message({.mmsi = 0})), "tomorrow " + good})
+        vdm(class_a_message({.mmsi = 0}), "1700000000"), std::string("!AIVSI,r3669961,1*00")})
     kept.read(line);
   EXPECT_TRUE(kept.reports.empty());
-  ASSERT_EQ(kept.refused.size(), 14u);
+  ASSERT_EQ(kept.refused.size(), 13u);
   for (const std::string& reason : kept.refused)
     EXPECT_NE(reason.find(": expected "), std::string::npos) << reason;
   EXPECT_NE(kept.refused[0].find("behind the sentence"), std::string::npos) << kept.refused[0];
-  EXPECT_NE(kept.refused[1].find("behind the tag block"), std::string::npos) << kept.refused[1];
+}
+
+/// A sentence that is whole is taken, though what is before it is damaged: its time is between those around
+/// it.
+TEST(NmeaFormat, TakesSentencesWithDamagedTagBlocks) {
+  const auto at = [](int seconds) { return tag_block(fmt::format("s:rx1,c:{}", 1700000000 + seconds)); };
+  const std::string bits = class_a_message(ship(21));
+  std::string changed = at(0), open = at(0);
+  changed[9] = '9';
+  open[0] = 'x';
+  NmeaReports kept;
+  kept.read(at(0) + vdm(bits));
+  for (const std::string& damaged :
+       {changed, open, at(0).substr(0, 9), std::string("tomorrow "), tag_block("c:noon")})
+    kept.read(damaged + vdm(bits));
+  EXPECT_EQ(kept.reports.size(), 1u);
+  kept.read(at(3) + vdm(bits));
+  ASSERT_EQ(kept.reports.size(), 7u);
+  for (const SourceReport& report : kept.reports) EXPECT_EQ(report.stamp.whole, 1700000001);
+  EXPECT_TRUE(kept.refused.empty());
+  // Without a second its time is not known better than by those two.
+  kept.read(vdm(class_b_message(ship()))).read(at(23) + vdm(bits));
+  EXPECT_EQ(kept.reports.at(7).stamp_error, 20.0 + unbounded_stamp_error());
+  // If it is long until the next time, that may be the wrong minute.
+  kept.read(vdm(bits)).read(at(100) + vdm(bits));
+  EXPECT_EQ(kept.reports.size(), 10u);
+  EXPECT_EQ(kept.refused.size(), 1u);
 }
 
 TEST(NmeaFormat, JoinsSentencesInAnyOrder) {
@@ -330,6 +355,12 @@ TEST(NmeaFormat, GoesOnFromItsState) {
   EXPECT_EQ(second.reports[0].arrival->whole, 1700000000);
   second.read(tag_block("c:1700000001") + vdm(class_b_message(s)));
   EXPECT_GT(second.reports.at(1).extent, 90.0);
+  // One without a time waits for the next.
+  second.read(vdm(class_b_message(s)));
+  NmeaReports third;
+  third.format->restore(second.format->save());
+  third.read(tag_block("c:1700000003") + vdm(class_b_message(s)));
+  EXPECT_EQ(third.reports.size(), 2u);
 }
 
 TEST(NmeaFormat, IsRecognised) {
