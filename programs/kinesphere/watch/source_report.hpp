@@ -30,6 +30,8 @@ struct SourceReport {
   /// x, y, z; if geographic, eastward, northward and upward.
   std::optional<Vec3> velocity{};
   bool has_climb = false;  ///< true if the velocity's z is known
+  /// A speed in an unknown direction, which the velocity may have in addition.
+  double undirected_speed = 0.0;
 
   // Error bounds from the stream; options supply the absent ones.
   std::optional<DeclaredError> position_error{};  ///< horizontal; without a height error, in all directions
@@ -44,8 +46,6 @@ struct SourceReport {
   /// for each offset u of at most this length the path of the position + u keeps all limits and enlarged
   /// errors.
   double extent = 0.0;
-  /// Added to the velocity error: the speed, for example, of a track whose course is not known.
-  double velocity_spread = 0.0;
   /// The track has the limits of aircraft, where the format has others for most tracks.
   bool is_aircraft = false;
   /// Two reports of one place with timestamps this close are one report. Unit: seconds.

@@ -129,8 +129,8 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
   settings.silence = positive_time(options.silence, "--silence", defaults.silence);
   settings.forget = positive_time(options.forget, "--forget", defaults.forget);
   settings.window = defaults.window;
-  // The next report of a sparse stream is no wrong clock.
-  settings.leap = positive_time(options.leap, "--leap", std::max(settings.leap, defaults.silence));
+  // A track that is not yet silent may be the only one that reports.
+  settings.leap = positive_time(options.leap, "--leap", std::max(settings.leap, settings.silence));
   settings.clock = clock_named(options.clock);
   if (!options.origin.empty()) settings.origin = parse_origin(options.origin);
   if (!options.radius.empty()) settings.radius = parse_measure(options.radius, Measure::length, "--radius");

@@ -428,7 +428,6 @@ void Watcher::add_errors(const SourceReport& report, double added_velocity_error
   auto turning = said(report.velocity_error, settings_.velocity_error, track.velocity_by);
   if (!turning) turning = needed_bound(settings_.velocity_error, "--velocity-error");
   const MotionLimits limits = limits_of(report);
-  *turning += report.velocity_spread;
   auto climbing = said(report.climb_error, settings_.climb_error, track.climb_by);
   if (!report.has_climb) {
     climbing = dimensions_ == 2 ? 0.0 : limits.largest_speed.vertical();
@@ -438,6 +437,7 @@ void Watcher::add_errors(const SourceReport& report, double added_velocity_error
     result.velocity_error = ErrorBound(unbounded);
     return;
   }
+  *turning += report.undirected_speed;
   // The velocity was measured a little before or after the position.
   const double age = velocity_age_of(report);
   if (age > 0.0 && std::isfinite(limits.acceleration.total())) {

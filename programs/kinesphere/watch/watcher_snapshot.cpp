@@ -60,8 +60,8 @@ std::optional<DeclaredError> restored_error(const Json& saved, const KeepText& k
 
 Json saved(const SourceReport& report) {
   const auto& [id, stamp, arrival, time_kind, geographic, position, has_height, velocity, has_climb,
-               position_error, height_error, velocity_error, climb_error, stamp_error, velocity_age, extent,
-               velocity_spread, is_aircraft, same_within] = report;
+               undirected_speed, position_error, height_error, velocity_error, climb_error, stamp_error,
+               velocity_age, extent, is_aircraft, same_within] = report;
   return {{"stamp", stamp},
           {"arrival", arrival},
           {"time_kind", time_kind},
@@ -70,6 +70,7 @@ Json saved(const SourceReport& report) {
           {"has_height", has_height},
           {"velocity", velocity},
           {"has_climb", has_climb},
+          {"undirected_speed", undirected_speed},
           {"position_error", saved(position_error)},
           {"height_error", saved(height_error)},
           {"velocity_error", saved(velocity_error)},
@@ -77,7 +78,6 @@ Json saved(const SourceReport& report) {
           {"stamp_error", stamp_error},
           {"velocity_age", velocity_age},
           {"extent", extent},
-          {"velocity_spread", velocity_spread},
           {"is_aircraft", is_aircraft},
           {"same_within", same_within}};
 }
@@ -91,6 +91,7 @@ SourceReport restored_report(const Json& saved, const KeepText& keep) {
           .has_height = saved.at("has_height"),
           .velocity = saved.at("velocity").get<std::optional<Vec3>>(),
           .has_climb = saved.at("has_climb"),
+          .undirected_speed = saved.at("undirected_speed"),
           .position_error = restored_error(saved.at("position_error"), keep),
           .height_error = restored_error(saved.at("height_error"), keep),
           .velocity_error = restored_error(saved.at("velocity_error"), keep),
@@ -98,7 +99,6 @@ SourceReport restored_report(const Json& saved, const KeepText& keep) {
           .stamp_error = saved.at("stamp_error").get<std::optional<double>>(),
           .velocity_age = saved.at("velocity_age"),
           .extent = saved.at("extent"),
-          .velocity_spread = saved.at("velocity_spread"),
           .is_aircraft = saved.at("is_aircraft"),
           .same_within = saved.at("same_within")};
 }

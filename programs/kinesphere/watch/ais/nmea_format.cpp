@@ -223,8 +223,8 @@ class NmeaFormat final : public ReportFormat {
       report.velocity = going(*speed * knot, *position.course, 0.0);
     else
       report.velocity = Vec3{};
-    if (has_way && !position.course) report.velocity_spread = *speed * knot;
-    if (position.is_coarse) report.velocity_spread += coarse_speed + coarse_course * *speed * knot;
+    if (has_way && !position.course) report.undirected_speed = *speed * knot;
+    if (position.is_coarse) report.undirected_speed += coarse_speed + coarse_course * *speed * knot;
   }
 
   FormatChoices choices_;

@@ -266,10 +266,10 @@ TEST(NmeaFormat, KnowsNoMoreThanItIsTold) {
   s.speed = 0;
   s.course = 3600;
   EXPECT_EQ(norm(report_of(s).velocity.value()), 0.0) << "at rest";
-  EXPECT_EQ(report_of(s).velocity_spread, 0.0);
+  EXPECT_EQ(report_of(s).undirected_speed, 0.0);
   s.speed = 100;
   EXPECT_EQ(norm(report_of(s).velocity.value()), 0.0);
-  EXPECT_DOUBLE_EQ(report_of(s).velocity_spread, 10.0 * knot) << "any direction";
+  EXPECT_DOUBLE_EQ(report_of(s).undirected_speed, 10.0 * knot) << "any direction";
   NmeaReports nowhere;
   nowhere.read(vdm(class_a_message({}), "1700000000"));
   s.longitude = 181 * 600'000;
@@ -312,7 +312,7 @@ TEST(NmeaFormat, CountsSizesAndSteps) {
   read(long_range_message({.mmsi = 5, .longitude = 4800, .latitude = 32100, .speed = 10, .course = 90}, 0));
   EXPECT_DOUBLE_EQ(kept.reports.at(3).extent, radius + std::hypot(185.2, 185.2));
   EXPECT_EQ(kept.reports[3].stamp_error, 6.0);
-  EXPECT_NEAR(kept.reports[3].velocity_spread, knot * (1.0 + 10.0 * 3.14159265 / 180.0), 1e-6);
+  EXPECT_NEAR(kept.reports[3].undirected_speed, knot * (1.0 + 10.0 * 3.14159265 / 180.0), 1e-6);
   read(search_aircraft_message(
       {.mmsi = 111'232'511, .longitude = 0, .latitude = 0, .speed = 100, .course = 0}));
   EXPECT_TRUE(kept.reports.at(4).is_aircraft);
