@@ -13,6 +13,7 @@
 #include "tracks/reading_options.hpp"
 #include "validators.hpp"
 #include "watch/nats/nats_address.hpp"
+#include "watch/udp_source.hpp"
 #include "watch/watch_report.hpp"
 #include "watch/watch_run.hpp"
 
@@ -24,7 +25,7 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
   command
       ->add_option("FILE", options.file,
                    "The stream, plain or gzipped; - for standard input; nats://HOST:PORT/SUBJECT for what a "
-                   "server of NATS has")
+                   "server of NATS has; udp://127.0.0.1:PORT for datagrams to this port")
       ->capture_default_str();
   command
       ->add_option(
@@ -168,7 +169,7 @@ int watch(const WatchOptions& options) {
   const OutputPath outputs[] = {{"--summary", options.summary},
                                 {"--snapshot", options.snapshot},
                                 {"--alerts", is_nats_address(options.alerts) ? "" : options.alerts}};
-  const bool is_file = options.file != "-" && !is_nats_address(options.file);
+  const bool is_file = options.file != "-" && !is_nats_address(options.file) && !is_udp_address(options.file);
   const std::string inputs[] = {is_file ? options.file : ""};
   check_outputs(outputs, inputs);
   std::optional<OutputFile> summary;

@@ -43,6 +43,13 @@ struct SourceReport {
   double velocity_age = 0.0;
   /// Added to the velocity error: the speed, for example, of a track whose course is not known.
   double velocity_spread = 0.0;
+  /// The track extends at most this far from its reported position, horizontally: added to the position
+  /// error, so that `apart` holds for all parts of two tracks, and `within` for all parts too. Sound, because
+  /// for each offset u of at most this length the path of the position + u keeps all limits and enlarged
+  /// errors.
+  double extent = 0.0;
+  /// The track has the limits of aircraft, where the format has others for most tracks.
+  bool is_aircraft = false;
   /// Two reports of one place with timestamps this close are one report. Unit: seconds.
   double same_within = 0.0;
 };

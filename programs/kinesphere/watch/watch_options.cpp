@@ -106,6 +106,11 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
         name_of(format)));
   settings.promise = fmt::format("acceleration: {}; speed: {}", spread_text(settings.acceleration),
                                  spread_text(settings.largest_speed));
+  settings.aircraft = defaults.aircraft;
+  if (settings.aircraft)
+    settings.promise +=
+        fmt::format("; aircraft: acceleration: {}; speed: {}", spread_text(settings.aircraft->acceleration),
+                    spread_text(settings.aircraft->largest_speed));
   const auto by_default = [&](const std::optional<double>& bound) {
     return FallbackError{bound, bound ? fmt::format("{:.4g} (default of {})", *bound, name_of(format)) : ""};
   };

@@ -11,6 +11,7 @@
 #include "standard_output.hpp"
 #include "watch/file_source.hpp"
 #include "watch/nats/nats_streams.hpp"
+#include "watch/udp_source.hpp"
 #include "watch/watch_options.hpp"
 #include "watch/watch_report.hpp"
 
@@ -38,6 +39,8 @@ std::optional<WatchSnapshot> snapshot_of(const WatchOptions& options) {
 std::unique_ptr<ReportSource> source_of(const WatchOptions& options, const StopSignals& stop,
                                         const std::optional<WatchSnapshot>& snapshot) {
   const StreamPlace* const from = snapshot ? &snapshot->place : nullptr;
+  if (is_udp_address(options.file))
+    return make_udp_source(parse_udp_address(options.file), stop, options.quiet);
   if (is_nats_address(options.file))
     return make_nats_source(parse_nats_address(options.file, "FILE"), stop, options.clock == "arrival",
                             options.quiet, from);
@@ -100,11 +103,6 @@ std::optional<StreamFormat> format_of(const WatchOptions& options,
   if (stop.asked()) return std::nullopt;
   if (beginning.find_first_not_of(" \t\r\n") == std::string_view::npos)
     throw ProgramError(fmt::format("{}: expected reports, but it is empty", source.name()));
-  if (beginning.find("!AIVDM") != std::string_view::npos ||
-      beginning.find("!AIVDO") != std::string_view::npos)
-    throw ProgramError(fmt::format(
-        "{}: raw NMEA of AIS is not read: decode it first, with gpsdecode for example (docs/watch.md)",
-        source.name()));
   if (!kind.empty()) refuse_kind();
   throw ProgramError(fmt::format("{}: expected one of the formats {}: say which with --format", source.name(),
                                  stream_format_names));
@@ -194,6 +192,7 @@ void WatchRun::run() {
   keep_snapshot();
   if (has_ended) {
     if (const auto last = cutter_.rest()) read(*last);
+    finish();
   }
   // A shared stream continues after this reader stops.
   if (!has_ended && source_->has_clock()) return;
@@ -214,17 +213,33 @@ void WatchRun::take() {
   if (const auto cut_off = cutter_.rest()) read(*cut_off);
 }
 
-void WatchRun::read(const Record& record) {
+void WatchRun::finish() {
+  const auto guard = guarded();
+  try {
+    reader_->finish(watcher_);
+  } catch (const UnusableStream& error) {
+    throw ProgramError(fmt::format("{}: {}", source_->name(), error.what()));
+  }
+}
+
+void WatchRun::read(Record record) {
   const std::uint64_t position = source_->position(record.behind);
   const std::uint64_t malformed = watcher_.counts().malformed;
   {
     const auto guard = guarded();
-    if (watcher_.settings().clock == WatchSettings::Clock::machine) watcher_.machine_time_is(now());
+    const bool by_machine = watcher_.settings().clock == WatchSettings::Clock::machine;
+    if (by_machine) watcher_.machine_time_is(now());
+    // A pipe is live if it is said to be.
+    const auto nature = source_->nature();
+    if (nature == ReportSource::Nature::live || (by_machine && nature == ReportSource::Nature::unknown))
+      record.read_at = now();
     watcher_.begin_record(record.line);
     try {
       reader_->read(record, watcher_);
     } catch (const WrongInput& error) {
       watcher_.refuse(error.what());
+    } catch (const UnusableStream& error) {
+      throw ProgramError(fmt::format("{}: {}", source_->name(), error.what()));
     }
     watcher_.end_record();
   }

@@ -38,7 +38,8 @@ class WatchRun {
   std::unique_ptr<AlertOutput> open_alerts() const;
   /// Processes the text that has arrived.
   void take();
-  void read(const Record& record);
+  void read(Record record);
+  void finish();
   void pass_time();
   FileTime now() const;
   void complain();

@@ -16,6 +16,10 @@ struct FallbackError {
   std::string declaration{};
 };
 
+struct MotionLimits {
+  ErrorBound acceleration, largest_speed;
+};
+
 struct WatchSettings {
   std::vector<NamedSeparation> separations;
   Shard share{};                  ///< other watches have the other pairs
@@ -23,7 +27,9 @@ struct WatchSettings {
   // Limits of tracks; infinite if there is none.
   ErrorBound acceleration = std::numeric_limits<double>::infinity();
   ErrorBound largest_speed = std::numeric_limits<double>::infinity();
-  std::string promise;  ///< text of both limits in alerts
+  /// Limits of SourceReport::is_aircraft; empty: those above.
+  std::optional<MotionLimits> aircraft;
+  std::string promise;  ///< text of the limits in alerts
   FallbackError position_error, height_error, velocity_error, climb_error;
   double stamp_error = 0.0;
   double velocity_age = 0.0;

@@ -263,7 +263,9 @@ double Watcher::time_covered() const {
 
 void Watcher::begin_map(const WatchSettings::Origin& origin) {
   // A track is dropped before it gets farther than this beyond the radius.
-  const double margin = settings_.largest_speed.horizontal() * settings_.forget;
+  double margin = settings_.largest_speed.horizontal() * settings_.forget;
+  if (settings_.aircraft)
+    margin = std::max(margin, settings_.aircraft->largest_speed.horizontal() * settings_.forget);
   if (!std::isfinite(margin))
     throw ProgramError(
         "--largest-speed, --forget: expected finite ones, which latitudes and longitudes need: the error "
@@ -292,9 +294,15 @@ void Watcher::begin_monitor(const SourceReport& report) {
   if (is_geographic_) {
     begin_map(settings_.origin.value_or(WatchSettings::Origin{report.position.y, report.position.x}));
     definition.classes = {frame_->promise(settings_.acceleration, settings_.largest_speed)};
+    if (settings_.aircraft)
+      definition.classes.push_back(
+          frame_->promise(settings_.aircraft->acceleration, settings_.aircraft->largest_speed));
   } else {
     definition.classes = {
         {.acceleration_limit = settings_.acceleration, .largest_speed = settings_.largest_speed}};
+    if (settings_.aircraft)
+      definition.classes.push_back({.acceleration_limit = settings_.aircraft->acceleration,
+                                    .largest_speed = settings_.aircraft->largest_speed});
   }
   for (const NamedSeparation& named : settings_.separations) {
     const Separation& separation = named.separation;
@@ -303,7 +311,10 @@ void Watcher::begin_monitor(const SourceReport& report) {
     if (dimensions_ == 3) least = std::min(least, separation.vertical);
   }
   definition.tolerance = 1e-4 * least;
-  definition.separations = {std::move(rule)};
+  for (std::size_t first = 0; first < definition.classes.size(); ++first)
+    for (rule.first_class = first, rule.second_class = first; rule.second_class < definition.classes.size();
+         ++rule.second_class)
+      definition.separations.push_back(rule);
   monitor_.emplace(require(Monitor::create(definition)));
 }
 
@@ -319,7 +330,7 @@ void Watcher::deliver(const SourceReport& report) {
   }
   const bool knows_velocity =
       report.velocity && !(report.velocity_error && !std::isfinite(report.velocity_error->bound));
-  if (!knows_velocity && !std::isfinite(settings_.largest_speed.total())) {
+  if (!knows_velocity && !std::isfinite(limits_of(report).largest_speed.total())) {
     if (!monitor_ || monitor_->counters().reports == 0)
       throw ProgramError(
           fmt::format("--largest-speed: expected it, because {} has positions without velocities: an "
@@ -366,11 +377,21 @@ void Watcher::deliver(const SourceReport& report) {
   if (known == nullptr || seconds_between(named.stamp, report.stamp) >= 0.0) {
     named.stamp = report.stamp;
     named.position = report.position;
+    named.extent = report.extent;
     named.position_by = track.position_by;
     named.height_by = track.height_by;
     named.velocity_by = track.velocity_by;
     named.climb_by = track.climb_by;
   }
+}
+
+bool Watcher::has_limits_of_aircraft(const SourceReport& report) const {
+  return report.is_aircraft && settings_.aircraft;
+}
+
+MotionLimits Watcher::limits_of(const SourceReport& report) const {
+  if (has_limits_of_aircraft(report)) return *settings_.aircraft;
+  return {settings_.acceleration, settings_.largest_speed};
 }
 
 double Watcher::velocity_age_of(const SourceReport& report) const {
@@ -379,6 +400,7 @@ double Watcher::velocity_age_of(const SourceReport& report) const {
 
 std::optional<TrackReport> Watcher::on_map(const SourceReport& report, NamedTrack& track) {
   TrackReport result{.timestamp = times_.seconds(report.stamp)};
+  result.track_class = has_limits_of_aircraft(report) ? 1 : 0;
   double added_velocity_error = 0.0;
   if (is_geographic_) {
     // The velocity was measured a little earlier or later, elsewhere on the map than the reported position.
@@ -386,7 +408,7 @@ std::optional<TrackReport> Watcher::on_map(const SourceReport& report, NamedTrac
         report.position_error ? report.position_error->bound : settings_.position_error.bound.value_or(0.0);
     const double time = report.stamp_error.value_or(settings_.stamp_error) + velocity_age_of(report);
     const auto placed = frame_->place(report.position, report.has_height, report.velocity.value_or(Vec3{}),
-                                      error + settings_.largest_speed.horizontal() * time);
+                                      error + limits_of(report).largest_speed.horizontal() * time);
     if (!placed) return std::nullopt;
     result.state = placed->state;
     added_velocity_error = placed->velocity_error;
@@ -413,6 +435,7 @@ void Watcher::add_errors(const SourceReport& report, double added_velocity_error
   };
   auto flat = said(report.position_error, settings_.position_error, track.position_by);
   if (!flat) flat = needed_bound(settings_.position_error, "--position-error");
+  *flat += report.extent;
   auto upright = said(report.height_error, settings_.height_error, track.height_by);
   if (dimensions_ == 3 && !report.has_height) {
     upright = frame_ ? LocalFrame::largest_height : any_height;
@@ -428,9 +451,10 @@ void Watcher::add_errors(const SourceReport& report, double added_velocity_error
   }
   auto turning = said(report.velocity_error, settings_.velocity_error, track.velocity_by);
   if (!turning) turning = needed_bound(settings_.velocity_error, "--velocity-error");
+  const MotionLimits limits = limits_of(report);
   auto climbing = said(report.climb_error, settings_.climb_error, track.climb_by);
   if (!report.has_climb) {
-    climbing = dimensions_ == 2 ? 0.0 : settings_.largest_speed.vertical();
+    climbing = dimensions_ == 2 ? 0.0 : limits.largest_speed.vertical();
     track.climb_by = "largest speed";
   }
   if (!std::isfinite(*turning)) {
@@ -440,9 +464,9 @@ void Watcher::add_errors(const SourceReport& report, double added_velocity_error
   *turning += report.velocity_spread;
   // The velocity was measured a little before or after the position.
   const double age = velocity_age_of(report);
-  if (age > 0.0 && std::isfinite(settings_.acceleration.total())) {
-    *turning += age * settings_.acceleration.horizontal();
-    climbing = climbing.value_or(*turning) + age * settings_.acceleration.vertical();
+  if (age > 0.0 && std::isfinite(limits.acceleration.total())) {
+    *turning += age * limits.acceleration.horizontal();
+    climbing = climbing.value_or(*turning) + age * limits.acceleration.vertical();
   }
   if (frame_)
     result.velocity_error = ErrorBound::cylinder(frame_->velocity_error(*turning) + added_velocity_error,

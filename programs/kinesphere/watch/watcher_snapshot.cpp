@@ -61,7 +61,7 @@ std::optional<DeclaredError> restored_error(const Json& saved, const KeepText& k
 Json saved(const SourceReport& report) {
   const auto& [id, stamp, arrival, time_kind, geographic, position, has_height, may_have_height, on_ground,
                velocity, has_climb, position_error, height_error, velocity_error, climb_error, stamp_error,
-               velocity_age, velocity_spread, same_within] = report;
+               velocity_age, velocity_spread, extent, is_aircraft, same_within] = report;
   return {{"stamp", stamp},
           {"arrival", arrival},
           {"time_kind", time_kind},
@@ -79,6 +79,8 @@ Json saved(const SourceReport& report) {
           {"stamp_error", stamp_error},
           {"velocity_age", velocity_age},
           {"velocity_spread", velocity_spread},
+          {"extent", extent},
+          {"is_aircraft", is_aircraft},
           {"same_within", same_within}};
 }
 
@@ -100,12 +102,14 @@ SourceReport restored_report(const Json& saved, const KeepText& keep) {
           .stamp_error = saved.at("stamp_error").get<std::optional<double>>(),
           .velocity_age = saved.at("velocity_age"),
           .velocity_spread = saved.at("velocity_spread"),
+          .extent = saved.at("extent"),
+          .is_aircraft = saved.at("is_aircraft"),
           .same_within = saved.at("same_within")};
 }
 
 Json saved(const NamedTrack& track) {
-  const auto& [text, stamp, position, position_by, height_by, velocity_by, climb_by] = track;
-  return {text, stamp, position, position_by, height_by, velocity_by, climb_by};
+  const auto& [text, stamp, position, extent, position_by, height_by, velocity_by, climb_by] = track;
+  return {text, stamp, position, position_by, height_by, velocity_by, climb_by, extent};
 }
 
 /// Arrays of tracks are packed into CBOR: as JSON in memory they would take ten times as much.
@@ -166,6 +170,7 @@ void Watcher::restore(const Json& state) {
       track.height_by = keep(saved.at(4));
       track.velocity_by = keep(saved.at(5));
       track.climb_by = keep(saved.at(6));
+      track.extent = saved.at(7);
     }
   }
   counts_ = state.at("counts");
