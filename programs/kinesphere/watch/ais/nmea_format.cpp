@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "columns/units.hpp"
 #include "watch/ais/ais_message.hpp"
 #include "watch/ais/nmea_line.hpp"
 #include "watch/ais/sentence_assembler.hpp"
@@ -201,7 +202,7 @@ class NmeaFormat final : public ReportFormat {
       report.position_error = DeclaredError{accuracy_bound_, accuracy_declaration_};
     report.extent = sizes_.radius_of(message.mmsi);
     if (position.is_coarse) report.extent += std::hypot(coarse_step, coarse_step);
-    set_velocity(position, report);
+    add_velocity(position, report);
     sink.take(report);
   }
 
@@ -213,17 +214,12 @@ class NmeaFormat final : public ReportFormat {
            position.origin == AisPosition::Origin::manual;
   }
 
-  static void set_velocity(const AisPosition& position, SourceReport& report) {
+  static void add_velocity(const AisPosition& position, SourceReport& report) {
     // An aid to navigation is fixed or moored; its message has no speed.
     const auto speed =
         position.station == AisStation::aid_to_navigation ? std::optional(0.0) : position.speed;
     if (!speed) return;
-    const bool has_way = *speed > 0.0;
-    if (has_way && position.course)
-      report.velocity = going(*speed * knot, *position.course, 0.0);
-    else
-      report.velocity = Vec3{};
-    if (has_way && !position.course) report.velocity_spread = *speed * knot;
+    set_velocity(report, *speed * knot, position.course, std::nullopt);
     if (position.is_coarse) report.velocity_spread += coarse_speed + coarse_course * *speed * knot;
   }
 
