@@ -3,7 +3,7 @@
 # Usage: setup.sh run | mpi | browser | python | research | prove | test | coverage
 set -euo pipefail
 
-packages=(g++ cmake ninja-build libhwy-dev libcli11-dev libfmt-dev nlohmann-json3-dev libsimdjson-dev zlib1g-dev libgeographiclib-dev libnats-dev)
+packages=(g++ cmake ninja-build libhwy-dev libcli11-dev libfmt-dev nlohmann-json3-dev libsimdjson-dev zlib1g-dev libgeographiclib-dev libexpat1-dev libnats-dev)
 mpi=(libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev)
 browser=(emscripten nodejs)
 # Node.js's own package brings npm.

@@ -10,6 +10,8 @@
 #include <memory>
 #include <utility>
 
+#include "columns/units.hpp"
+#include "number_text.hpp"
 #include "output_paths.hpp"
 #include "program_error.hpp"
 #include "progress.hpp"
@@ -30,9 +32,20 @@
 namespace kinesphere::program {
 namespace {
 
-double positive(std::string_view option, double value) {
-  if (value > 0 && std::isfinite(value)) return value;
-  throw ProgramError(fmt::format("{}: expected a finite number > 0, but got {}", option, value));
+/// Returns a distance in metres or, without a unit, in the unit of the recording's lengths.
+double parse_distance(const std::string& text) {
+  const double distance = parse_measure(text, Measure::length, "--distance");
+  if (distance > 0) return distance;
+  throw ProgramError(fmt::format("--distance: expected a distance > 0, but got '{}'", text));
+}
+
+void check_unit_of_distance(const std::string& text, const Recording& recording) {
+  if (recording.in_metres || parse_number(text)) return;
+  throw ProgramError(
+      fmt::format("--distance: expected a number without a unit, because the unit of lengths is not known, "
+                  "but got '{}': say "
+                  "--unit",
+                  text));
 }
 
 void add_approaches(Summary& summary, double distance, const std::vector<Approach>& approaches) {
@@ -115,8 +128,10 @@ class TracksFiles {
 
 CLI::App* add_tracks_command(CLI::App& program, TracksOptions& options) {
   CLI::App* command = program.add_subcommand("tracks", "Find every approach in a recording of real motion");
-  command->add_option("--distance", options.distance, "How close counts as an approach")
-      ->check(finite_number())
+  command
+      ->add_option("--distance", options.distance,
+                   "How close counts as an approach: a number, and perhaps a unit, such as 500m, 5NM, 2um")
+      ->type_name("LENGTH")
       ->required();
   command
       ->add_option("--tolerance", options.tolerance,
@@ -140,9 +155,10 @@ CLI::App* add_tracks_command(CLI::App& program, TracksOptions& options) {
 }
 
 int tracks(const TracksOptions& options) {
-  const double distance = positive("--distance", options.distance);
+  const double distance = parse_distance(options.distance);
   TracksFiles files(options);
   const Recording recording = read_tracks(options.files, options.reading);
+  check_unit_of_distance(options.distance, recording);
   files.check(recording);
   const TrackScene scene_and_notes = scene_of(
       recording,

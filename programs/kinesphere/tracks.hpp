@@ -12,7 +12,7 @@ namespace kinesphere::program {
 
 struct TracksOptions {
   std::vector<std::string> files;
-  double distance = 0.0;
+  std::string distance;  ///< a number, and perhaps a unit
   std::optional<double> tolerance;
   TrackOptions reading;
   std::string contacts, pairs, plot;  ///< files to write; empty for none

@@ -10,8 +10,10 @@
 #include "output_paths.hpp"
 #include "program_error.hpp"
 #include "standard_output.hpp"
+#include "tracks/reading_options.hpp"
 #include "validators.hpp"
 #include "watch/nats/nats_address.hpp"
+#include "watch/udp_source.hpp"
 #include "watch/watch_report.hpp"
 #include "watch/watch_run.hpp"
 
@@ -23,7 +25,7 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
   command
       ->add_option("FILE", options.file,
                    "The stream, plain or gzipped; - for standard input; nats://HOST:PORT/SUBJECT for what a "
-                   "server of NATS has")
+                   "server of NATS has; udp://127.0.0.1:PORT for datagrams to this port")
       ->capture_default_str();
   command
       ->add_option(
@@ -44,10 +46,11 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
           "", "format"))
       ->type_name(stream_format_names);
   command
-      ->add_option("--columns", options.choices.columns,
+      ->add_option("--columns", options.choices.hints.columns,
                    "Of csv: where what is, by name or number from 1, and its unit: "
                    "id=...,time=...,lat=...,alt=NAME:ft")
       ->type_name("LIST");
+  add_row_options(*command, options.choices.hints, "Reading");
   command->add_option("--dimensions", options.dimensions, "2 or 3; else as the format has heights or not")
       ->check(CLI::Range(2, 3));
   const auto measure = [command](const std::string& name, std::string& value, const std::string& description,
@@ -131,7 +134,8 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
       ->capture_default_str()
       ->group(reading);
   measure("--leap", options.leap,
-          "A time that is ahead by more is not believed unless others confirm it; 60 s when not given",
+          "A time that is ahead by more is not believed unless others confirm it; when not given 60 s, or "
+          "--silence where that is longer",
           "TIME", reading);
   command
       ->add_option("--most-malformed", options.most_malformed,
@@ -165,7 +169,7 @@ int watch(const WatchOptions& options) {
   const OutputPath outputs[] = {{"--summary", options.summary},
                                 {"--snapshot", options.snapshot},
                                 {"--alerts", is_nats_address(options.alerts) ? "" : options.alerts}};
-  const bool is_file = options.file != "-" && !is_nats_address(options.file);
+  const bool is_file = options.file != "-" && !is_nats_address(options.file) && !is_udp_address(options.file);
   const std::string inputs[] = {is_file ? options.file : ""};
   check_outputs(outputs, inputs);
   std::optional<OutputFile> summary;
@@ -190,9 +194,12 @@ int watch(const WatchOptions& options) {
   }
   conclude();
   const WatchCounts& counts = watch.watcher().counts();
-  if (counts.malformed > 0 && watch.watcher().monitor_counters().reports == 0)
-    throw ProgramError(fmt::format("{}: expected reports of format {}, but there are none, and {} malformed",
-                                   watch.watcher().settings().source, watch.format_name(), counts.malformed));
+  if (watch.watcher().monitor_counters().reports > 0) return exit_fine;
+  if (const std::string reasons = reasons_text(watch.watcher()); !reasons.empty())
+    throw ProgramError(
+        fmt::format("{}: expected reports of format {} that can be used, but there are none: {}{}",
+                    watch.watcher().settings().source, watch.format_name(), reasons,
+                    counts.first_malformed.empty() ? "" : "; " + counts.first_malformed.front().reason));
   return exit_fine;
 }
 

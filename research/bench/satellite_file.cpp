@@ -7,10 +7,10 @@
 #include <cstddef>
 #include <string_view>
 
+#include "columns/text_table.hpp"
 #include "input_file.hpp"
 #include "number_text.hpp"
 #include "program_error.hpp"
-#include "tracks/text_table.hpp"
 
 namespace kinesphere::program {
 namespace {

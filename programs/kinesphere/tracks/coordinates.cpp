@@ -12,10 +12,13 @@ double origin_near(double low, double high, double step) {
   return step * std::round((low / 2 + high / 2) / step);
 }
 
+Vec3 product(const Vec3& a, const Vec3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+Vec3 quotient(const Vec3& a, const Vec3& b) { return {a.x / b.x, a.y / b.y, a.z / b.z}; }
+
 }  // namespace
 
-Coordinates::Coordinates(const Box& extent, double unit, std::optional<UtmZone> zone)
-    : unit_(unit), zone_(zone) {
+Coordinates::Coordinates(const Box& extent, const Vec3& units, std::optional<UtmZone> zone)
+    : units_(units), zone_(zone) {
   const Vec3 size = extent.upper - extent.lower;
   const double largest = std::max({size.x, size.y, size.z});
   // Powers of two keep the numbers exact.
@@ -26,18 +29,18 @@ Coordinates::Coordinates(const Box& extent, double unit, std::optional<UtmZone> 
 }
 
 Vec3 Coordinates::local(const Vec3& position) const {
-  return projection_ ? projection_->local(position) : unit_ * (position - origin_);
+  return projection_ ? projection_->local(product(position, units_)) : product(position - origin_, units_);
 }
 
 Vec3 Coordinates::as_in_file(const Vec3& local) const {
-  return projection_ ? projection_->geographic(local) : origin_ + local / unit_;
+  return projection_ ? quotient(projection_->geographic(local), units_) : origin_ + quotient(local, units_);
 }
 
 std::optional<Vec3> Coordinates::geographic(const Vec3& local) const {
   if (projection_) return projection_->geographic(local);
   if (!zone_) return std::nullopt;
   // UTM is in metres, in whatever unit the file is.
-  return geographic_from_utm(*zone_, unit_ * as_in_file(local));
+  return geographic_from_utm(*zone_, product(as_in_file(local), units_));
 }
 
 }  // namespace kinesphere::program

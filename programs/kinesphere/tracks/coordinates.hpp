@@ -18,10 +18,11 @@ namespace kinesphere::program {
 class Coordinates {
  public:
   Coordinates() = default;
-  /// Lengths of `unit` metres each (1: unchanged), which lie in `extent`.
-  Coordinates(const Box& extent, double unit, std::optional<UtmZone> zone = {});
-  /// Degrees, and metres of height.
-  explicit Coordinates(std::shared_ptr<const Projection> projection) : projection_(std::move(projection)) {}
+  /// Lengths whose x, y and z have these units (1: unchanged), which lie in `extent`.
+  Coordinates(const Box& extent, const Vec3& units, std::optional<UtmZone> zone = {});
+  /// Longitude, latitude and height in these units of degrees and metres.
+  explicit Coordinates(std::shared_ptr<const Projection> projection, const Vec3& units = {1.0, 1.0, 1.0})
+      : units_(units), projection_(std::move(projection)) {}
 
   Vec3 local(const Vec3& position) const;
   /// Returns x, y, z or longitude, latitude, height, in the file's coordinates.
@@ -37,8 +38,8 @@ class Coordinates {
   std::string description() const { return projection_ ? projection_->description() : ""; }
 
  private:
-  Vec3 origin_{};      ///< in the file's coordinates
-  double unit_ = 1.0;  ///< metres, of the file's lengths
+  Vec3 origin_{};              ///< in the file's coordinates
+  Vec3 units_{1.0, 1.0, 1.0};  ///< metres or degrees, of the file's x, y and z
   std::optional<UtmZone> zone_;
   std::shared_ptr<const Projection> projection_;
 };

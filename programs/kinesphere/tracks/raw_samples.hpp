@@ -4,13 +4,15 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
+#include "columns/table_head.hpp"
+#include "columns/time_text.hpp"
 #include "kinesphere/vec3.hpp"
 #include "tracks/reading_policy.hpp"
 #include "tracks/recording.hpp"
-#include "tracks/time_text.hpp"
 
 namespace kinesphere::program {
 
@@ -22,7 +24,7 @@ struct Place {
 
 struct RawSample {
   FileTime time;
-  Vec3 position;
+  Vec3 position;  ///< in the units of the file
   Place place;
 };
 
@@ -45,10 +47,14 @@ class RawRecording {
   /// numbers do not fit the format.
   TimeScale time_scale() const;
 
-  const TrackColumns& columns() const { return columns_; }
+  const TableColumns& columns() const { return columns_; }
+  /// The head of the first file.
+  const TableHead& head() const { return head_; }
   const std::vector<RawTrack>& tracks() const { return tracks_; }
   std::size_t rows() const { return rows_; }
   const Tally& missing() const { return missing_; }
+  const Tally& filtered() const { return filtered_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
   /// Returns "file:line".
   std::string name(const Place& place) const;
   /// Increments the tally.
@@ -57,19 +63,24 @@ class RawRecording {
  private:
   class FileReader;
 
-  void agree(const TrackColumns& columns, const std::string& file);
+  // All files have the units and the kind of times of the first. These throw ProgramError naming the file.
+  void agree(bool is_same, std::string_view what, const std::string& file) const;
+  void agree_on_positions(const TableColumns& columns, const std::string& file) const;
+  void agree_on_times(const TableColumns& columns, const std::string& file) const;
 
   const TrackOptions& options_;
   bool several_files_;
   std::vector<std::string> files_;
-  TrackColumns columns_;
+  TableColumns columns_;
+  TableHead head_;
   /// Kind of the first time; empty before it.
   std::optional<TimeKind> time_kind_;
   Place first_time_;
   std::vector<RawTrack> tracks_;
   std::unordered_map<std::string, std::size_t> track_of_;
   std::size_t rows_ = 0;
-  Tally missing_;
+  Tally missing_, filtered_;
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace kinesphere::program

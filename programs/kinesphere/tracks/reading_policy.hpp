@@ -3,14 +3,14 @@
 
 #include <optional>
 
+#include "columns/table_columns.hpp"
 #include "simulation/tracks/scene_of_tracks.hpp"
 #include "tracks/projection.hpp"
-#include "tracks/track_columns.hpp"
 
 namespace kinesphere::program {
 
-/// Rows without a time or a position: empty, NaN, NA, N/A, null or none; for longitudes and latitudes also
-/// 181 and 91, the unknown position of AIS.
+/// Rows without a time or a position: empty, NaN, inf, NA, N/A, null or none; for longitudes and latitudes
+/// also 181 and 91, the unknown position of AIS.
 enum class MissingPolicy {
   fail,
   skip,   ///< drops the row
@@ -25,7 +25,7 @@ enum class DuplicatePolicy {
 };
 
 struct TrackOptions {
-  TrackHints hints;
+  ColumnHints hints;
   ProjectionChoice projection = ProjectionChoice::automatic;
   MissingPolicy missing = MissingPolicy::fail;
   DuplicatePolicy duplicates = DuplicatePolicy::fail;

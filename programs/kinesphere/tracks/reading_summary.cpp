@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace kinesphere::program {
@@ -18,6 +19,16 @@ std::string format_text(const Recording& recording) {
   if (recording.times.kind() == TimeKind::utc) text += ", dates with a zone";
   if (recording.times.kind() == TimeKind::date) text += ", dates without a zone";
   return text;
+}
+
+/// Names the first columns, on one line.
+std::string unused_text(const Recording& recording) {
+  constexpr std::size_t most = 12;
+  const auto& names = recording.unused;
+  const std::size_t shown = std::min(most, names.size());
+  return fmt::format("columns {}{}",
+                     fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+                     names.size() > shown ? fmt::format(" and {} more", names.size() - shown) : "");
 }
 
 std::string gap_text(const Recording& recording) {
@@ -50,6 +61,7 @@ void add_recording(Summary& summary, const std::vector<std::string>& files, cons
                    const TrackScene& scene) {
   summary.row(files.size() == 1 ? "file" : "files", fmt::format("{}", fmt::join(files, ", ")));
   summary.row("format", format_text(recording));
+  if (!recording.unused.empty()) summary.row("not used", unused_text(recording));
   if (const std::string projection = recording.coordinates.description(); !projection.empty())
     summary.row("projection", projection);
   summary.row("tracks", grouped(recording.tracks.size()),
@@ -57,6 +69,9 @@ void add_recording(Summary& summary, const std::vector<std::string>& files, cons
   summary.row(
       "samples", grouped(recording.samples),
       fmt::format("every {} s, of {} rows", number(recording.sample_interval), grouped(recording.rows)));
+  if (!recording.filter.empty())
+    summary.row("left out", grouped(recording.filtered.count),
+                fmt::format("rows for which not: {}", recording.filter));
   add_tally(summary, "missing values", recording.missing);
   add_tally(summary, "duplicates", recording.duplicates);
   add_tally(summary, "too fast", recording.too_fast);
@@ -73,7 +88,7 @@ void add_recording(Summary& summary, const std::vector<std::string>& files, cons
 }
 
 std::vector<std::string> warnings_of(const Recording& recording) {
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = recording.warnings;
   if (is_much(recording.left_out, recording)) {
     warnings.push_back(fmt::format("{} were left out, alone between two gaps: a longer --max-gap keeps them",
                                    part_text(recording.left_out, recording)));

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "columns/time_scale.hpp"
 #include "kinesphere/motion/recorded_tracks.hpp"
 #include "tracks/coordinates.hpp"
-#include "tracks/time_scale.hpp"
 
 namespace kinesphere::program {
 
@@ -34,13 +34,17 @@ struct Recording {
   bool is_plane = false;              ///< nothing leaves the plane z = 0
   std::vector<RecordedTrack> tracks;  ///< without interruption, by the first sample's place in the file
   std::size_t ids = 0;
-  std::size_t rows = 0;        ///< in all files
-  std::size_t samples = 0;     ///< in all tracks
-  std::size_t left_out = 0;    ///< samples that were alone between two gaps
-  Tally missing;               ///< rows without a time or a position
-  Tally duplicates;            ///< samples of an id that already has one at that time
-  Tally too_fast;              ///< samples that --max-speed left out
-  double sample_interval = 0;  ///< the median, over all ids
+  std::size_t rows = 0;               ///< in all files
+  std::string filter;                 ///< the rows that count (--where); empty for all
+  Tally filtered;                     ///< rows that do not
+  std::vector<std::string> warnings;  ///< of the formats, one line each
+  std::vector<std::string> unused;    ///< names, or numbers from 1, of columns that are not read
+  std::size_t samples = 0;            ///< in all tracks
+  std::size_t left_out = 0;           ///< samples that were alone between two gaps
+  Tally missing;                      ///< rows without a time or a position
+  Tally duplicates;                   ///< samples of an id that already has one at that time
+  Tally too_fast;                     ///< samples that --max-speed left out
+  double sample_interval = 0;         ///< the median, over all ids
   /// The smallest and the largest gap limit of the ids, in seconds; a longer time between two samples cuts a
   /// track.
   double smallest_max_gap = 0, largest_max_gap = 0;

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -37,13 +38,41 @@ TimeScale time_scale_of(const RawRecording& raw) {
   return scale;
 }
 
-Coordinates coordinates_of(const RawRecording& raw, ProjectionChoice choice) {
-  const TrackColumns& columns = raw.columns();
+/// Asks about lengths that may be degrees: both in their range, not all whole, a few of them wide, and far
+/// from zero. Where the origin lies among the positions or beside them, they are lengths.
+void ask_about_degrees(const RawRecording& raw, const Box& extent) {
+  const Vec3 size = extent.upper - extent.lower;
+  const Vec3 middle = extent.lower + size / 2;
+  const double spread = std::max(size.x, size.y);
+  const double offset = std::max(std::abs(middle.x), std::abs(middle.y));
+  // A lower ratio would ask about rooms and roads near their origin; a higher one would miss wide regions.
+  constexpr double largest_spread = 5.0, least_ratio = 8.0, least_offset = 1.0;
+  const bool in_range = std::abs(extent.lower.x) <= 180.0 && std::abs(extent.upper.x) <= 180.0 &&
+                        std::abs(extent.lower.y) <= 90.0 && std::abs(extent.upper.y) <= 90.0;
+  if (!in_range || spread > largest_spread || offset < std::max(least_ratio * spread, least_offset)) return;
+  bool all_whole = true;
+  for_each_sample(raw, [&](const RawSample& sample) {
+    const Vec3& at = sample.position;
+    all_whole = all_whole && at.x == std::floor(at.x) && at.y == std::floor(at.y);
+  });
+  if (all_whole) return;
+  throw ProgramError(fmt::format(
+      "{}: x ({:.9g} to {:.9g}) and y ({:.9g} to {:.9g}) may be degrees: say --from lonlat if they are "
+      "longitude and latitude, or --from plane if they are lengths",
+      raw.head().file, extent.lower.x, extent.upper.x, extent.lower.y, extent.upper.y));
+}
+
+Coordinates coordinates_of(const RawRecording& raw, const TrackOptions& options) {
+  const TableColumns& columns = raw.columns();
+  const Vec3 units{columns.x().unit, columns.y().unit, columns.z() ? columns.z()->unit : 1.0};
   if (columns.geographic) {
     std::vector<Vec3> points;
-    for_each_sample(raw, [&](const RawSample& sample) { points.push_back(sample.position); });
+    for_each_sample(raw, [&](const RawSample& sample) {
+      const Vec3& at = sample.position;
+      points.push_back({at.x * units.x, at.y * units.y, at.z * units.z});
+    });
     if (points.empty()) return {};
-    return Coordinates(project(points, columns.z.has_value(), choice));
+    return Coordinates(project(points, columns.z().has_value(), options.projection), units);
   }
   constexpr double unbounded = std::numeric_limits<double>::infinity();
   Box extent{{unbounded, unbounded, unbounded}, {-unbounded, -unbounded, -unbounded}};
@@ -54,7 +83,32 @@ Coordinates coordinates_of(const RawRecording& raw, ProjectionChoice choice) {
     }
   });
   if (!(extent.lower.x <= extent.upper.x)) return {};
-  return Coordinates(extent, columns.length_unit.value_or(1.0), columns.zone);
+  if (!columns.positions_said && !columns.x().has_unit) ask_about_degrees(raw, extent);
+  std::optional<UtmZone> zone;
+  if (options.hints.from.starts_with("utm:"))
+    zone = parse_utm_zone(std::string_view(options.hints.from).substr(4), "--from utm");
+  return Coordinates(extent, units, zone);
+}
+
+/// Asks about ids that are another for each row, as the number of the row is.
+void ask_about_row_numbers(const RawRecording& raw) {
+  const bool all_alone = std::all_of(raw.tracks().begin(), raw.tracks().end(),
+                                     [](const RawTrack& track) { return track.samples.size() <= 1; });
+  if (!all_alone || raw.tracks().size() < 3 || !raw.columns()[Quantity::id]) return;
+  // One frame has each id once.
+  const auto has_other_time = [&](const RawTrack& track) {
+    const auto& first = raw.tracks().front().samples;
+    return !track.samples.empty() && !first.empty() && earlier(first[0].time, track.samples[0].time);
+  };
+  if (std::none_of(raw.tracks().begin(), raw.tracks().end(), has_other_time)) return;
+  const std::size_t column = raw.columns()[Quantity::id]->place;
+  const TableHead& head = raw.head();
+  throw ProgramError(fmt::format(
+      "{}: each row has an id of its own in {}, as a row number is: say id=... with --columns; it has {}",
+      head.file,
+      head.names.empty() ? fmt::format("column {}", column + 1)
+                         : fmt::format("column '{}'", head.names[column]),
+      head.text()));
 }
 
 /// The pieces of one id, before they are split at gaps.
@@ -68,14 +122,20 @@ class Reading {
  public:
   Reading(const RawRecording& raw, const TrackOptions& options) : raw_(raw), options_(options) {
     recording_.times = time_scale_of(raw);
-    recording_.coordinates = coordinates_of(raw, options.projection);
-    recording_.in_metres = raw.columns().geographic || raw.columns().length_unit.has_value();
+    recording_.coordinates = coordinates_of(raw, options);
+    recording_.in_metres = raw.columns().in_metres;
     recording_.format = raw.columns().format;
-    recording_.is_plane = !raw.columns().z && recording_.coordinates.are_plane();
+    recording_.is_plane = !raw.columns().z() && recording_.coordinates.are_plane();
     if (recording_.times.kind() == TimeKind::frames) recording_.frame_rate = recording_.times.rate();
     recording_.ids = raw.tracks().size();
     recording_.rows = raw.rows();
     recording_.missing = raw.missing();
+    recording_.warnings = raw.warnings();
+    recording_.filter = raw.columns().where;
+    recording_.filtered = raw.filtered();
+    for (const std::size_t column : raw.columns().unused)
+      recording_.unused.push_back(raw.head().names.empty() ? fmt::format("{}", column + 1)
+                                                           : raw.head().names[column]);
     recording_.smallest_max_gap = std::numeric_limits<double>::infinity();
   }
 
@@ -159,6 +219,7 @@ Recording parse_tracks(std::vector<NamedText> texts, const TrackOptions& options
     files.push_back(text.file);
     raw.read(std::move(text.text), text.file);
   }
+  ask_about_row_numbers(raw);
   Recording recording = Reading(raw, options).run();
   if (recording.tracks.empty()) {
     throw ProgramError(

@@ -62,6 +62,7 @@ std::string declarations_of(const NamedTrack& track) {
     text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", what, declaration);
   };
   add("position", track.position_by);
+  if (track.extent > 0.0) add("extent", fmt::format("{:.4g}", track.extent));
   add("height", track.height_by);
   add("velocity", track.velocity_by);
   add("climb", track.climb_by);

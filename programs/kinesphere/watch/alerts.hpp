@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "columns/time_scale.hpp"
 #include "kinesphere/monitor/monitor.hpp"
-#include "tracks/time_scale.hpp"
 #include "watch/track_names.hpp"
 #include "watch/watch_settings.hpp"
 

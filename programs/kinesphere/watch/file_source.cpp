@@ -89,6 +89,10 @@ FileSource::FileSource(const std::string& path, const StopSignals& stop, const S
   if (descriptor_ < 0) fail(std::strerror(errno));
   struct stat status {};
   is_file_ = ::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode);
+  if (is_file_) nature_ = Nature::recording;
+  // A serial port, for example.
+  else if (S_ISCHR(status.st_mode))
+    nature_ = Nature::live;
   // The caller may have read a part of standard input already.
   if (is_file_)
     handed_over_ = static_cast<std::uint64_t>(std::max<off_t>(0, ::lseek(descriptor_, 0, SEEK_CUR)));

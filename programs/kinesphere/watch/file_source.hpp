@@ -25,6 +25,7 @@ class FileSource final : public ReportSource {
   std::uint64_t position(std::size_t without) const override { return handed_over_ - without; }
   StreamPlace place(std::size_t without) const override;
   std::optional<std::string> identity() const override;
+  Nature nature() const override { return nature_; }
   std::string name() const override { return path_ == "-" ? "standard input" : path_; }
 
  private:
@@ -44,7 +45,8 @@ class FileSource final : public ReportSource {
   std::vector<char> buffer_;
   std::size_t filled_ = 0;
   bool has_begun_ = false;
-  bool is_file_ = false;    ///< which can be read again
+  bool is_file_ = false;  ///< which can be read again
+  Nature nature_ = Nature::unknown;
   bool is_packed_ = false;  ///< such a file, and gzipped
   std::uint64_t handed_over_ = 0;
   // Set for gzipped input.

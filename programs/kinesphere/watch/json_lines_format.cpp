@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include "watch/json_reading.hpp"
-#include "watch/line_fields.hpp"
 #include "watch/report_format.hpp"
 
 namespace kinesphere::program {

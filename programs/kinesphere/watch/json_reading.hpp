@@ -8,8 +8,9 @@
 #include <string>
 #include <string_view>
 
+#include "columns/time_text.hpp"
 #include "kinesphere/vec3.hpp"
-#include "tracks/time_text.hpp"
+#include "watch/ground_speed.hpp"
 #include "watch/report_format.hpp"
 
 namespace kinesphere::program {
@@ -67,12 +68,6 @@ inline bool is_time(double seconds) { return std::abs(seconds) < 0x1p61; }
 
 inline bool is_place(double longitude, double latitude) {
   return std::abs(latitude) <= 90.0 && std::abs(longitude) <= 360.0;
-}
-
-/// Returns the velocity of a speed over ground and a course, in degrees clockwise from north.
-inline Vec3 going(double speed, double course, double climb) {
-  constexpr double degree = 3.14159265358979323846 / 180.0;
-  return {speed * std::sin(course * degree), speed * std::cos(course * degree), climb};
 }
 
 }  // namespace kinesphere::program

@@ -4,21 +4,11 @@
 #include <string>
 #include <string_view>
 
+#include "columns/units.hpp"
 #include "kinesphere/monitor/report.hpp"
 
 namespace kinesphere::program {
 
-enum class Measure { length, speed, acceleration, time };
-
-inline constexpr double knot = 1852.0 / 3600.0;
-inline constexpr double foot = 0.3048;
-
-/// Parses "5NM", "1000 ft", "0.3g", "50": a number with an optional unit; without one it is in metres and
-/// seconds, or in the units of the stream. Throws ProgramError naming `option` for other text and for a
-/// number that is not finite or is negative.
-double parse_measure(std::string_view text, Measure measure, std::string_view option);
-/// Returns the size of a unit in metres and seconds; 0 for an unknown one.
-double unit_named(std::string_view unit, Measure measure);
 /// Parses "3", for all directions, or "3:1", for horizontal and vertical. Throws like parse_measure().
 ErrorBound parse_spread(std::string_view text, Measure measure, std::string_view option);
 

@@ -13,7 +13,7 @@ namespace {
 /// Places in a state vector, as the documentation of OpenSky's REST API numbers them.
 namespace state_vector {
 constexpr std::size_t icao24 = 0, time_position = 3, longitude = 5, latitude = 6, baro_altitude = 7,
-                      velocity = 9, true_track = 10, vertical_rate = 11, geo_altitude = 13,
+                      on_ground = 8, velocity = 9, true_track = 10, vertical_rate = 11, geo_altitude = 13,
                       position_source = 16, count = 17;
 }
 
@@ -49,9 +49,12 @@ class OpenskyFormat final : public ReportFormat {
     std::optional<std::string_view> id;
     std::array<std::optional<double>, at::count> numbers;
     std::size_t place = 0;
+    bool on_ground = false;
     const char* ignored = nullptr;
     for (ondemand::value value : vector) {
       if (place == at::icao24) id = text_in(value, "icao24", ignored);
+      if (place == at::on_ground && value.type() == ondemand::json_type::boolean)
+        on_ground = value.get_bool();
       if (place > at::icao24 && place < at::count) numbers[place] = number_in(value, "", ignored);
       ++place;
     }
@@ -74,10 +77,8 @@ class OpenskyFormat final : public ReportFormat {
                                                                                           : at::geo_altitude];
     report.has_height = height.has_value();
     report.position.z = height.value_or(0.0);
-    report.has_climb = numbers[at::vertical_rate].has_value();
-    if (numbers[at::velocity] && numbers[at::true_track])
-      report.velocity =
-          going(*numbers[at::velocity], *numbers[at::true_track], numbers[at::vertical_rate].value_or(0.0));
+    report.on_ground = on_ground;
+    set_velocity(report, numbers[at::velocity], numbers[at::true_track], numbers[at::vertical_rate]);
     sink.take(report);
   }
 

@@ -1,4 +1,6 @@
 // aircraft.json of readsb, dump1090 and tar1090: all aircraft that a receiver of ADS-B knows at one time.
+// Also in the shapes of dump1090-mutability (keys altitude, speed, vert_rate, nucp) and of ADSBexchange's API
+// v2 (the list "ac", "now" in milliseconds).
 #include <fmt/format.h>
 
 #include <array>
@@ -19,6 +21,10 @@ constexpr std::array velocity_accuracies{unknown_accuracy, 10.0, 3.0, 1.0, 0.3};
 constexpr std::array climb_accuracies{unknown_accuracy, 50.0 * foot, 15.0 * foot, 5.0 * foot, 1.5 * foot};
 constexpr std::array height_accuracies{unknown_accuracy, 150.0, 45.0};
 
+/// Radii that contain the position, by the NUCp of DO-260.
+constexpr std::array containment_radii{
+    unknown_accuracy, 37040.0, 18520.0, 3704.0, 1852.0, 926.0, 370.4, 185.2, 25.0, 7.5};
+
 template <std::size_t count>
 double accuracy(const std::array<double, count>& accuracies, double category) {
   if (!(category >= 0.0 && category < static_cast<double>(count))) return unknown_accuracy;
@@ -29,7 +35,8 @@ double accuracy(const std::array<double, count>& accuracies, double category) {
 struct AircraftEntry {
   std::optional<std::string_view> hex;
   std::optional<double> lat, lon, alt_baro, alt_geom, gs, track, baro_rate, geom_rate, seen_pos, rc, nac_p,
-      nac_v, gva, sil;
+      nac_v, gva, sil, nuc_p;
+  bool on_ground = false;
   /// True if the position is from the aircraft itself, not from radar or receivers on the ground.
   bool is_from_aircraft = true;
   const char* wrong = nullptr;
@@ -52,9 +59,11 @@ struct AircraftEntry {
           std::string_view text;
           if (!name.get_string().get(text) && text == "lat") is_from_aircraft = false;
         }
-      } else if (key == "alt_baro") {
+      } else if (key == "alt_baro" || key == "altitude") {
         // The text "ground" is no height.
         if (value.type() == ondemand::json_type::number) alt_baro = double(value.get_double());
+        if (value.type() == ondemand::json_type::string)
+          on_ground = std::string_view(value.get_string()) == "ground";
       } else {
         for (const auto& [name, place] : numbers)
           if (key == name) {
@@ -69,10 +78,10 @@ struct AircraftEntry {
     const char* name;
     std::optional<double> AircraftEntry::*place;
   };
-  static const std::array<Number, 13> numbers;
+  static const std::array<Number, 16> numbers;
 };
 
-const std::array<AircraftEntry::Number, 13> AircraftEntry::numbers{{{"lat", &AircraftEntry::lat},
+const std::array<AircraftEntry::Number, 16> AircraftEntry::numbers{{{"lat", &AircraftEntry::lat},
                                                                     {"lon", &AircraftEntry::lon},
                                                                     {"gs", &AircraftEntry::gs},
                                                                     {"track", &AircraftEntry::track},
@@ -84,7 +93,10 @@ const std::array<AircraftEntry::Number, 13> AircraftEntry::numbers{{{"lat", &Air
                                                                     {"alt_geom", &AircraftEntry::alt_geom},
                                                                     {"geom_rate", &AircraftEntry::geom_rate},
                                                                     {"gva", &AircraftEntry::gva},
-                                                                    {"sil", &AircraftEntry::sil}}};
+                                                                    {"sil", &AircraftEntry::sil},
+                                                                    {"speed", &AircraftEntry::gs},
+                                                                    {"vert_rate", &AircraftEntry::baro_rate},
+                                                                    {"nucp", &AircraftEntry::nuc_p}}};
 
 class ReadsbFormat final : public ReportFormat {
  public:
@@ -100,10 +112,15 @@ class ReadsbFormat final : public ReportFormat {
     ondemand::object all = document.get_object();
     double now = 0.0;
     if (all["now"].get(now) || !is_time(now)) throw MalformedRecord("expected \"now\": seconds");
-    const FileTime arrival = time_of(now);
+    // No second of our time is this large.
+    constexpr double first_in_milliseconds = 1e11;
+    const FileTime arrival = time_of(now > first_in_milliseconds ? now * 1e-3 : now);
     sink.time_is(arrival, TimeKind::number);
     ondemand::array list;
-    if (all["aircraft"].get(list)) throw MalformedRecord("expected \"aircraft\": a list");
+    auto error = all["aircraft"].get(list);
+    // After another error the document must not be read on.
+    if (error == simdjson::NO_SUCH_FIELD) error = all["ac"].get(list);
+    if (error) throw MalformedRecord("expected \"aircraft\": a list");
     for (ondemand::value element : list) {
       ondemand::object object;
       if (element.get_object().get(object)) throw MalformedRecord("expected objects in \"aircraft\"");
@@ -152,6 +169,8 @@ class ReadsbFormat final : public ReportFormat {
       report.position_error = {*entry.rc, "rc"};
     else if (entry.nac_p)
       report.position_error = {choices_.containment * accuracy(position_accuracies, *entry.nac_p), nac_p_};
+    else if (entry.nuc_p)
+      report.position_error = {accuracy(containment_radii, *entry.nuc_p), "the radius of nucp"};
     else if (entry.rc)
       report.position_error = {unknown_accuracy, "rc"};
     if (entry.nac_v) {
@@ -171,9 +190,9 @@ class ReadsbFormat final : public ReportFormat {
     }
     auto climb = barometric ? entry.baro_rate : entry.geom_rate;
     if (!climb) climb = barometric ? entry.geom_rate : entry.baro_rate;
-    report.has_climb = climb.has_value();
-    if (entry.gs && entry.track)
-      report.velocity = going(*entry.gs * knot, *entry.track, climb.value_or(0.0) * foot / 60.0);
+    if (climb) *climb *= foot / 60.0;
+    report.on_ground = entry.on_ground;
+    set_velocity(report, entry.gs ? std::optional(*entry.gs * knot) : std::nullopt, entry.track, climb);
   }
 
   FormatChoices choices_;

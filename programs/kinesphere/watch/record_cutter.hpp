@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "columns/time_text.hpp"
+
 namespace kinesphere::program {
 
 struct Record {
@@ -13,6 +15,9 @@ struct Record {
   std::size_t line = 0;    ///< first line, counted from 1
   bool is_whole = true;    ///< otherwise it ends too early, or is longer than what is read
   std::size_t behind = 0;  ///< bytes fed since its begin
+  /// When it was read, if it came in then: for text that its sender writes while it is read. Unit: seconds
+  /// since 1970.
+  std::optional<FileTime> read_at{};
 };
 
 /// Cuts records. In JSON each outermost object is a record; a line end or nothing may separate two. A

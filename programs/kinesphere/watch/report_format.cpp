@@ -6,14 +6,16 @@
 #include <utility>
 
 #include "ascii_text.hpp"
+#include "watch/ais/nmea_line.hpp"
 #include "watch/measures.hpp"
 
 namespace kinesphere::program {
 namespace {
 
 constexpr std::pair<std::string_view, StreamFormat> stream_formats[] = {
-    {"readsb", StreamFormat::readsb}, {"sbs", StreamFormat::sbs}, {"opensky", StreamFormat::opensky},
-    {"ais", StreamFormat::ais},       {"csv", StreamFormat::csv}, {"jsonl", StreamFormat::jsonl}};
+    {"readsb", StreamFormat::readsb}, {"sbs", StreamFormat::sbs},   {"opensky", StreamFormat::opensky},
+    {"ais", StreamFormat::ais},       {"nmea", StreamFormat::nmea}, {"csv", StreamFormat::csv},
+    {"jsonl", StreamFormat::jsonl}};
 
 /// 92.6 m and 10 m/s (95 % of errors) are the requirements of 14 CFR 91.227 and (EU) 1207/2011 for mandatory
 /// ADS-B (NACp 8, NACv 1); 75 m is the altimeter error that ICAO Doc 9574 allows, and half of 25 ft is the
@@ -46,6 +48,17 @@ FormatDefaults of_vessels() {
           .silence = 210.0,
           .forget = 600.0,
           .window = 16.0};
+}
+
+/// Sentences of AIS say whether a position is within 10 m or worse. 100 m (95 %) is what IMO MSC.112(73) asks
+/// of ships' receivers of GPS; since GPS is no longer degraded on purpose it is declared to contain all
+/// errors.
+FormatDefaults of_stations() {
+  const FormatDefaults aircraft = of_aircraft();
+  FormatDefaults defaults = of_vessels();
+  defaults.position_error = 100.0;
+  defaults.aircraft = MotionLimits{*aircraft.acceleration, *aircraft.largest_speed};
+  return defaults;
 }
 
 /// Returns true if the outermost object that begins with `line` has this key.
@@ -81,6 +94,7 @@ bool has_column(std::string_view header, std::string_view name) {
 
 nlohmann::json ReportFormat::save() const { return nullptr; }
 void ReportFormat::restore(const nlohmann::json&) {}
+void ReportFormat::finish(ReportSink&) {}
 
 std::string_view name_of(StreamFormat format) {
   for (const auto& [name, each] : stream_formats)
@@ -110,6 +124,8 @@ FormatDefaults defaults_of(StreamFormat format) {
     }
     case StreamFormat::ais:
       return of_vessels();
+    case StreamFormat::nmea:
+      return of_stations();
     case StreamFormat::csv:
     case StreamFormat::jsonl:
       break;
@@ -129,15 +145,19 @@ std::optional<StreamFormat> recognised_format(std::string_view beginning) {
   std::string_view line = beginning.substr(first);
   line = line.substr(0, line.find('\n'));
   if (line.ends_with('\r')) line.remove_suffix(1);
+  if (looks_like_nmea(line) || (!line.starts_with('{') && has_ais_sentence(beginning.substr(0, 4096))))
+    return StreamFormat::nmea;
   for (const std::string_view type : {"MSG,", "SEL,", "ID,", "AIR,", "STA,", "CLK,"})
     if (line.starts_with(type)) return StreamFormat::sbs;
   if (line.starts_with('{')) {
-    if (has_key(line, "aircraft") || has_key(line, "now")) return StreamFormat::readsb;
-    if (has_key(line, "states") || has_key(line, "time")) return StreamFormat::opensky;
+    if (has_key(line, "aircraft") || has_key(line, "ac") || has_key(line, "now")) return StreamFormat::readsb;
+    if (has_key(line, "states") || (has_key(line, "time") && !has_key(line, "id")))
+      return StreamFormat::opensky;
     if (has_key(line, "stamp")) return StreamFormat::jsonl;
     return std::nullopt;
   }
-  if (has_column(line, "MMSI") && (has_column(line, "BaseDateTime") || has_column(line, "base_date_time")))
+  if (has_column(line, "MMSI") && (has_column(line, "BaseDateTime") || has_column(line, "base_date_time") ||
+                                   has_column(line, "Type of mobile")))
     return StreamFormat::ais;
   // A header consists of names.
   const bool has_letters =
@@ -158,6 +178,8 @@ std::unique_ptr<ReportFormat> make_format(StreamFormat format, const FormatChoic
       return make_opensky_format(choices);
     case StreamFormat::ais:
       return make_ais_format(choices);
+    case StreamFormat::nmea:
+      return make_nmea_format(choices);
     case StreamFormat::csv:
       return make_csv_format(choices);
     case StreamFormat::jsonl:

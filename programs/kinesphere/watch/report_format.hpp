@@ -4,18 +4,26 @@
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "columns/row_splitter.hpp"
+#include "columns/table_columns.hpp"
 #include "kinesphere/monitor/report.hpp"
 #include "watch/record_cutter.hpp"
 #include "watch/source_report.hpp"
+#include "watch/watch_settings.hpp"
 
 namespace kinesphere::program {
 
 /// A record does not match its format; the message says what was expected.
-class MalformedRecord : public std::runtime_error {
+class MalformedRecord : public WrongInput {
+ public:
+  using WrongInput::WrongInput;
+};
+
+/// A stream has nothing that can be used; the message says what was expected, without the stream's name.
+class UnusableStream : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
@@ -23,20 +31,23 @@ class MalformedRecord : public std::runtime_error {
 class ReportFormat {
  public:
   virtual ~ReportFormat() = default;
-  /// Passes the reports of a record to `sink`. Throws MalformedRecord; reports passed before that stay valid.
+  /// Passes the reports of a record to `sink`. Throws WrongInput, such as MalformedRecord; reports passed
+  /// before that stay valid. Throws UnusableStream.
   virtual void read(const Record& record, ReportSink& sink) = 0;
+  /// Call it at the end of the stream. Throws UnusableStream.
+  virtual void finish(ReportSink& sink);
   /// Returns the state from earlier records, for a run that continues behind them.
   virtual nlohmann::json save() const;
   /// Restores the state of save(). Throws ProgramError like read(), or an exception of nlohmann::json.
   virtual void restore(const nlohmann::json& state);
 };
 
-enum class StreamFormat { readsb, sbs, opensky, ais, csv, jsonl };
+enum class StreamFormat { readsb, sbs, opensky, ais, nmea, csv, jsonl };
 
 /// Returns "readsb" and so on; the version without arguments returns all names, separated by |.
 std::string_view name_of(StreamFormat format);
 std::optional<StreamFormat> stream_format_named(std::string_view name);
-inline constexpr const char* stream_format_names = "readsb|sbs|opensky|ais|csv|jsonl";
+inline constexpr const char* stream_format_names = "readsb|sbs|opensky|ais|nmea|csv|jsonl";
 
 /// Limits of tracks, and largest errors of reports, if neither the stream nor an option has them. An empty
 /// value must be given by an option.
@@ -45,6 +56,7 @@ struct FormatDefaults {
   bool geographic = true;  ///< always; otherwise the stream may have either
   std::optional<ErrorBound> acceleration{};
   std::optional<ErrorBound> largest_speed{};
+  std::optional<MotionLimits> aircraft{};  ///< of the aircraft among other tracks
   std::optional<double> position_error{}, height_error{}, velocity_error{}, climb_error{};
   double stamp_error = 0.0;
   double velocity_age = 0.0;
@@ -55,7 +67,8 @@ struct FormatDefaults {
 FormatDefaults defaults_of(StreamFormat format);
 
 struct FormatChoices {
-  std::string columns;  ///< for csv: id=...,time=...
+  ColumnHints hints;   ///< for csv and ais
+  std::string source;  ///< the stream's name, for messages
   enum class Altitude { barometric, geometric } altitude = Altitude::barometric;
   enum class PositionBound {
     containment_radius,
@@ -81,6 +94,7 @@ std::optional<StreamFormat> recognised_format(std::string_view beginning);
 std::unique_ptr<ReportFormat> make_readsb_format(const FormatChoices& choices);
 std::unique_ptr<ReportFormat> make_sbs_format(const FormatChoices& choices);
 std::unique_ptr<ReportFormat> make_opensky_format(const FormatChoices& choices);
+std::unique_ptr<ReportFormat> make_nmea_format(const FormatChoices& choices);
 std::unique_ptr<ReportFormat> make_csv_format(const FormatChoices& choices);
 std::unique_ptr<ReportFormat> make_ais_format(const FormatChoices& choices);
 std::unique_ptr<ReportFormat> make_json_lines_format(const FormatChoices& choices);

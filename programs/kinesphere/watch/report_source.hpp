@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "tracks/time_text.hpp"
+#include "columns/time_text.hpp"
 
 namespace kinesphere::program {
 
@@ -45,6 +45,12 @@ class ReportSource {
   virtual bool has_clock() const { return false; }
   /// Arrival of the last text by the source's clock.
   virtual FileTime arrival() const { return {}; }
+  enum class Nature {
+    recording,  ///< it was written before, and can be read again
+    live,       ///< it is read as its sender writes it
+    unknown,    ///< a pipe
+  };
+  virtual Nature nature() const { return Nature::live; }
   /// Name of the source in messages.
   virtual std::string name() const = 0;
 };

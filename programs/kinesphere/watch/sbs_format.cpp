@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "columns/row_splitter.hpp"
 #include "number_text.hpp"
 #include "watch/json_reading.hpp"
-#include "watch/line_fields.hpp"
 #include "watch/measures.hpp"
 #include "watch/report_format.hpp"
 
@@ -22,7 +22,7 @@ namespace {
 namespace sbs {
 constexpr std::size_t message = 0, type = 1, hex = 4, made_date = 6, made_time = 7, logged_date = 8,
                       logged_time = 9, altitude = 11, speed = 12, course = 13, latitude = 14, longitude = 15,
-                      climb = 16, count = 17;
+                      climb = 16, count = 17, on_ground = 21;
 }
 
 double seconds_after(const FileTime& later, const FileTime& earlier) {
@@ -31,11 +31,12 @@ double seconds_after(const FileTime& later, const FileTime& earlier) {
 
 class SbsFormat final : public ReportFormat {
  public:
-  explicit SbsFormat(FormatChoices choices) : choices_(std::move(choices)) {}
+  explicit SbsFormat(FormatChoices choices) : choices_(std::move(choices)) { row_.set_separator(','); }
 
   void read(const Record& record, ReportSink& sink) override {
     if (!record.is_whole) throw MalformedRecord("expected a line, but it is too long");
-    if (!split_fields(record.text, ',', fields_)) throw MalformedRecord("expected a quote that ends a field");
+    row_.begin(record.text);
+    row_.read(fields_);
     const std::string_view message = fields_[sbs::message];
     for (const std::string_view other : {"SEL", "ID", "AIR", "STA", "CLK"})
       if (message == other) return;
@@ -61,13 +62,13 @@ class SbsFormat final : public ReportFormat {
     auto velocities = nlohmann::json::array();
     for (const auto& [hex, known] : velocities_)
       velocities.push_back({hex, known.time.whole, known.time.fraction, known.velocity.x, known.velocity.y,
-                            known.velocity.z, known.has_climb});
+                            known.velocity.z, known.has_climb, known.velocity_spread});
     return velocities;
   }
   void restore(const nlohmann::json& state) override {
     for (const auto& known : state)
       velocities_[known.at(0)] = {
-          {known.at(1), known.at(2)}, {known.at(3), known.at(4), known.at(5)}, known.at(6)};
+          {known.at(1), known.at(2)}, {known.at(3), known.at(4), known.at(5)}, known.at(6), known.at(7)};
   }
 
  private:
@@ -75,6 +76,7 @@ class SbsFormat final : public ReportFormat {
     FileTime time;
     Vec3 velocity;
     bool has_climb = false;
+    double velocity_spread = 0.0;
   };
 
   TimeField time_at(std::size_t date, std::size_t clock) {
@@ -95,13 +97,21 @@ class SbsFormat final : public ReportFormat {
         fmt::format("expected a number as {} (field {}), but got '{}'", what, place + 1, fields_[place]));
   }
 
-  Vec3 velocity_here() const {
-    const double climb = fields_[sbs::climb].empty() ? 0.0 : number_at(sbs::climb, "a climb") * foot / 60.0;
-    return going(number_at(sbs::speed, "a speed") * knot, number_at(sbs::course, "a course"), climb);
+  /// Returns nothing for an empty field.
+  std::optional<double> number_if_any(std::size_t place, const char* what, double unit) const {
+    return fields_[place].empty() ? std::nullopt : std::optional(number_at(place, what) * unit);
+  }
+  void set_velocity_here(SourceReport& report) const {
+    set_velocity(report, number_if_any(sbs::speed, "a speed", knot),
+                 number_if_any(sbs::course, "a course", 1.0),
+                 number_if_any(sbs::climb, "a climb", foot / 60.0));
   }
   void keep_velocity(const FileTime& time) {
-    if (fields_[sbs::speed].empty() || fields_[sbs::course].empty()) return;
-    velocities_[std::string(fields_[sbs::hex])] = {time, velocity_here(), !fields_[sbs::climb].empty()};
+    SourceReport here;
+    set_velocity_here(here);
+    if (here.velocity)
+      velocities_[std::string(fields_[sbs::hex])] = {time, *here.velocity, here.has_climb,
+                                                     here.velocity_spread};
   }
 
   SourceReport report_at(const TimeField& made, const FileTime& logged) {
@@ -115,18 +125,17 @@ class SbsFormat final : public ReportFormat {
                       report.position.y, report.position.x));
     report.has_height = !fields_[sbs::altitude].empty();
     if (report.has_height) report.position.z = number_at(sbs::altitude, "an altitude") * foot;
+    report.on_ground = fields_.size() > sbs::on_ground && fields_[sbs::on_ground] == "-1";
     // Some receivers send both in one message.
-    if (!fields_[sbs::speed].empty() && !fields_[sbs::course].empty()) {
-      report.velocity = velocity_here();
-      report.has_climb = !fields_[sbs::climb].empty();
-      return report;
-    }
+    set_velocity_here(report);
+    if (report.velocity) return report;
     text_.assign(report.id);
     if (const auto known = velocities_.find(text_); known != velocities_.end()) {
       const double age = std::abs(seconds_after(made.time, known->second.time));
       if (age <= choices_.velocity_age) {
         report.velocity = known->second.velocity;
         report.has_climb = known->second.has_climb;
+        report.velocity_spread = known->second.velocity_spread;
         report.velocity_age = age;
       }
     }
@@ -142,6 +151,7 @@ class SbsFormat final : public ReportFormat {
   }
 
   FormatChoices choices_;
+  RowSplitter row_;
   std::vector<std::string_view> fields_;
   std::string text_;
   std::unordered_map<std::string, Velocity> velocities_;

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "columns/time_scale.hpp"
 #include "kinesphere/vec3.hpp"
-#include "tracks/time_scale.hpp"
 
 namespace kinesphere::program {
 
@@ -27,6 +27,8 @@ struct SourceReport {
   /// x, y, z; if geographic, degrees east and north on WGS 84, and metres above it.
   Vec3 position{};
   bool has_height = false;
+  bool may_have_height = false;  ///< the stream has heights, though perhaps none here
+  bool on_ground = false;        ///< an aircraft that says so, without a height
   /// x, y, z; if geographic, eastward, northward and upward.
   std::optional<Vec3> velocity{};
   bool has_climb = false;  ///< true if the velocity's z is known
@@ -39,6 +41,15 @@ struct SourceReport {
   std::optional<double> stamp_error{};  ///< seconds
   /// Largest time between the measurement of the velocity and the timestamp. Unit: seconds.
   double velocity_age = 0.0;
+  /// Added to the velocity error: the speed, for example, of a track whose course is not known.
+  double velocity_spread = 0.0;
+  /// The track extends at most this far from its reported position, horizontally: added to the position
+  /// error, so that `apart` holds for all parts of two tracks, and `within` for all parts too. Sound, because
+  /// for each offset u of at most this length the path of the position + u keeps all limits and enlarged
+  /// errors.
+  double extent = 0.0;
+  /// The track has the limits of aircraft, where the format has others for most tracks.
+  bool is_aircraft = false;
   /// Two reports of one place with timestamps this close are one report. Unit: seconds.
   double same_within = 0.0;
 };
@@ -46,6 +57,7 @@ struct SourceReport {
 /// Reasons for which a valid record is skipped.
 enum class Passed {
   no_position,  ///< a track of which the stream has no position, or no time
+  filtered,     ///< --where leaves it out
   no_bound,     ///< the stream says that it does not know how far off the position may be
 };
 

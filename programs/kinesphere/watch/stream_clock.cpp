@@ -16,14 +16,15 @@ void StreamClock::go_on(const FileTime& time) {
 
 bool StreamClock::confirms(const FileTime& time, const std::string& id, bool others) {
   auto& [source, has_begun, now, in_a_row, first_ahead, latest_ahead, first_id, several_ids] = memory_;
-  if (in_a_row == 0 || std::abs(seconds_between(latest_ahead, time)) > leap_) {
+  // A stream may be sparse: later ones confirm, however much later. Earlier ones do not, but for disorder.
+  if (in_a_row == 0 || seconds_between(time, latest_ahead) > leap_) {
     in_a_row = 0;
     first_ahead = time;
     first_id = id;
     several_ids = false;
   }
   ++in_a_row;
-  latest_ahead = time;
+  if (in_a_row == 1 || seconds_between(latest_ahead, time) > 0.0) latest_ahead = time;
   several_ids = several_ids || id != first_id;
   if (source == Source::arrivals) return seconds_between(first_ahead, time) != 0.0;
   constexpr std::size_t enough = 3, enough_of_one = 10;

@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "columns/time_text.hpp"
 #include "kinesphere/vec3.hpp"
-#include "tracks/time_text.hpp"
 
 namespace kinesphere::program {
 
@@ -48,9 +48,10 @@ class StreamClock {
   /// Moves the clock to an accepted time; never backwards.
   void go_on(const FileTime& time);
 
-  /// Adds an unconfirmed time of a track. Returns true if consecutive times, with no other in between,
+  /// Adds an unconfirmed time of a track. Returns true if consecutive times, with no accepted one in between,
   /// confirm each other: three timestamps of at least two tracks, or ten of one; or two arrivals that differ.
-  /// `others`: there are more tracks.
+  /// They must come in order, but for the limit of leaps; how far apart they are does not count, as a stream
+  /// may be sparse. `others`: there are more tracks.
   bool confirms(const FileTime& time, const std::string& id, bool others);
   /// Number of consecutive unconfirmed times, this one included.
   std::size_t in_a_row() const { return memory_.in_a_row; }

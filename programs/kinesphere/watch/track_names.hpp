@@ -18,8 +18,9 @@ TrackId track_id_of(std::string_view text);
 /// State of a track that the monitor does not hold.
 struct NamedTrack {
   std::string text;
-  FileTime stamp{};  ///< timestamp of its latest report
-  Vec3 position{};   ///< in the stream's own words
+  FileTime stamp{};     ///< timestamp of its latest report
+  Vec3 position{};      ///< in the stream's own words
+  double extent = 0.0;  ///< of its latest report
   /// Sources of the declared bounds of the latest report.
   std::string_view position_by, height_by, velocity_by, climb_by;
 };

@@ -22,12 +22,16 @@ struct WatchCounts {
   std::uint64_t ahead = 0;     ///< stamped ahead by more than the limit, and not confirmed
   std::uint64_t outside = 0;   ///< beyond the radius of the map
   std::uint64_t no_position = 0;
-  std::uint64_t no_height = 0;
+  std::uint64_t on_ground = 0;  ///< aircraft without a height, as they say that they are on the ground
   std::uint64_t no_bound = 0;
-  std::uint64_t crowded = 0;  ///< reports of new tracks at the limit of tracks or open pairs
+  std::uint64_t no_velocity = 0;  ///< neither it nor the largest speed is known
+  std::uint64_t filtered = 0;     ///< left out by --where
+  std::uint64_t crowded = 0;      ///< reports of new tracks at the limit of tracks or open pairs
   std::uint64_t malformed = 0;
   std::vector<MalformedLine> first_malformed;  ///< ten at most
 
+  std::uint64_t no_height =
+      0;                      ///< reports that were taken, but have no height in a space of three dimensions
   std::uint64_t dropped = 0;  ///< tracks, because there were more open pairs than may be
   std::uint64_t alerts = 0;
   std::array<std::uint64_t, 6> events{};  ///< indexed by MonitorEventKind
@@ -36,6 +40,10 @@ struct WatchCounts {
     std::uint64_t apart = 0, undecided = 0, within = 0;
   };
   std::vector<Turns> turns;
+
+  /// Reports that cannot be used for what they lack; not those without a position, which receivers of
+  /// aircraft have many of, nor those that are meant to be left out.
+  std::uint64_t unusable() const { return stale + ahead + outside + no_bound + no_velocity + malformed; }
 };
 
 }  // namespace kinesphere::program

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "number_text.hpp"
@@ -105,6 +106,11 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
         name_of(format)));
   settings.promise = fmt::format("acceleration: {}; speed: {}", spread_text(settings.acceleration),
                                  spread_text(settings.largest_speed));
+  settings.aircraft = defaults.aircraft;
+  if (settings.aircraft)
+    settings.promise +=
+        fmt::format("; aircraft: acceleration: {}; speed: {}", spread_text(settings.aircraft->acceleration),
+                    spread_text(settings.aircraft->largest_speed));
   const auto by_default = [&](const std::optional<double>& bound) {
     return FallbackError{bound, bound ? fmt::format("{:.4g} (default of {})", *bound, name_of(format)) : ""};
   };
@@ -123,7 +129,8 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
   settings.silence = positive_time(options.silence, "--silence", defaults.silence);
   settings.forget = positive_time(options.forget, "--forget", defaults.forget);
   settings.window = defaults.window;
-  settings.leap = positive_time(options.leap, "--leap", settings.leap);
+  // A track that is not yet silent may be the only one that reports.
+  settings.leap = positive_time(options.leap, "--leap", std::max(settings.leap, settings.silence));
   settings.clock = clock_named(options.clock);
   if (!options.origin.empty()) settings.origin = parse_origin(options.origin);
   if (!options.radius.empty()) settings.radius = parse_measure(options.radius, Measure::length, "--radius");
@@ -143,7 +150,9 @@ GivenOptions given_options(const WatchOptions& options) {
   for (const std::string& separation : options.separations) given.emplace_back("--separation", separation);
   given.insert(
       given.end(),
-      {{"--columns", choices.columns},
+      {{"--columns", choices.hints.columns},
+       {"--where", choices.hints.where},
+       {"--dates", fmt::to_string(static_cast<int>(choices.hints.dates))},
        {"--dimensions", options.dimensions ? fmt::to_string(*options.dimensions) : ""},
        {"--acceleration", options.acceleration},
        {"--largest-speed", options.largest_speed},

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
+#include <string_view>
 
 #include "json_text.hpp"
 #include "summary.hpp"
@@ -31,11 +33,14 @@ std::vector<WatchCount> counts_of(const Watcher& watcher) {
       {"ahead", "", "stamped ahead, and not confirmed by others (--leap)", counts.ahead},
       {"outside", "", "beyond the radius of the map (--radius, --origin)", counts.outside},
       {"no_position", "", "without a position or its time", counts.no_position},
-      {"no_height", "", "without a height, on the ground for example", counts.no_height},
+      {"on_ground", "", "on the ground, without a height", counts.on_ground},
       {"no_bound", "", "of unknown accuracy", counts.no_bound},
+      {"no_velocity", "", "without a velocity, where --largest-speed is not given", counts.no_velocity},
+      {"filtered", "", "left out by --where", counts.filtered},
       {"crowded", "", "of new tracks when there was no room for more (--most-tracks, --most-pairs)",
        counts.crowded},
       {"malformed", "", "malformed", counts.malformed},
+      {"no_height", "", "of those taken without a height: it may be any", counts.no_height},
       {"alerts", "alerts", "", counts.alerts},
       {"verdicts", "", "changes of what is certain", events(MonitorEventKind::verdict)},
       {"contradictions", "", "contradictions", events(MonitorEventKind::contradiction)},
@@ -45,6 +50,15 @@ std::vector<WatchCount> counts_of(const Watcher& watcher) {
       {"left", "", "left", events(MonitorEventKind::dropped)},
       {"dropped", "", "of them dropped: more pairs were open than --most-pairs", counts.dropped},
   };
+}
+
+/// Reasons for which reports were not taken; the counts above without those of tracks and alerts.
+bool is_reason(const WatchCount& count) {
+  constexpr std::string_view reasons[] = {"repeated",    "stale",     "ahead",    "outside",
+                                          "no_position", "on_ground", "no_bound", "no_velocity",
+                                          "filtered",    "crowded",   "malformed"};
+  return count.count > 0 &&
+         std::find(std::begin(reasons), std::end(reasons), count.name) != std::end(reasons);
 }
 
 std::string without_quotes(std::string text) {
@@ -143,6 +157,14 @@ void add_needs(std::string& text, const Watcher& watcher) {
 }
 
 }  // namespace
+
+std::string reasons_text(const Watcher& watcher) {
+  std::string text;
+  for (const WatchCount& count : counts_of(watcher))
+    if (is_reason(count))
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(count.count), count.note);
+  return text;
+}
 
 std::string watch_summary_text(const Watcher& watcher, std::string_view format, double real_seconds) {
   Summary summary;

@@ -6,11 +6,14 @@
 #include <filesystem>
 #include <random>
 
+#include "columns/file_kind.hpp"
 #include "program_error.hpp"
 #include "standard_output.hpp"
 #include "watch/file_source.hpp"
 #include "watch/nats/nats_streams.hpp"
+#include "watch/udp_source.hpp"
 #include "watch/watch_options.hpp"
+#include "watch/watch_report.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -36,6 +39,8 @@ std::optional<WatchSnapshot> snapshot_of(const WatchOptions& options) {
 std::unique_ptr<ReportSource> source_of(const WatchOptions& options, const StopSignals& stop,
                                         const std::optional<WatchSnapshot>& snapshot) {
   const StreamPlace* const from = snapshot ? &snapshot->place : nullptr;
+  if (is_udp_address(options.file))
+    return make_udp_source(parse_udp_address(options.file), stop, options.quiet);
   if (is_nats_address(options.file))
     return make_nats_source(parse_nats_address(options.file, "FILE"), stop, options.clock == "arrival",
                             options.quiet, from);
@@ -86,24 +91,26 @@ std::optional<StreamFormat> format_of(const WatchOptions& options,
     has_ended = outcome == ReportSource::Outcome::end;
     if (outcome == ReportSource::Outcome::text) cutter.feed(text);
   }
-  // An option that names columns implies a table.
-  if (!options.choices.columns.empty()) return StreamFormat::csv;
   const std::string_view beginning = cutter.waiting();
+  const std::string kind = other_file_kind(beginning);
+  const auto refuse_kind = [&] {
+    throw ProgramError(fmt::format("{}: expected a stream of reports, but it is {}", source.name(), kind));
+  };
+  if (!kind.empty() && beginning.find('\0') != std::string_view::npos) refuse_kind();
+  // An option that names columns implies a table.
+  if (!options.choices.hints.columns.empty()) return StreamFormat::csv;
   if (const auto format = recognised_format(beginning)) return *format;
   if (stop.asked()) return std::nullopt;
   if (beginning.find_first_not_of(" \t\r\n") == std::string_view::npos)
     throw ProgramError(fmt::format("{}: expected reports, but it is empty", source.name()));
-  if (beginning.find("!AIVDM") != std::string_view::npos ||
-      beginning.find("!AIVDO") != std::string_view::npos)
-    throw ProgramError(fmt::format(
-        "{}: raw NMEA of AIS is not read: decode it first, with gpsdecode for example (docs/watch.md)",
-        source.name()));
+  if (!kind.empty()) refuse_kind();
   throw ProgramError(fmt::format("{}: expected one of the formats {}: say which with --format", source.name(),
                                  stream_format_names));
 }
 
-FormatChoices choices_of(const WatchOptions& options) {
+FormatChoices choices_of(const WatchOptions& options, const ReportSource& source) {
   FormatChoices choices = options.choices;
+  choices.source = source.name();
   choices.position_error_is_said = !options.position_error.empty();
   return choices;
 }
@@ -119,7 +126,7 @@ WatchRun::WatchRun(const WatchOptions& options)
       format_(known_format_.value_or(StreamFormat::readsb)),
       watcher_(settings_of(options, format_, source_->name()),
                [this](std::uint64_t share, std::string_view line) { alerts_->write(share, line); }),
-      reader_(make_format(format_, choices_of(options))),
+      reader_(make_format(format_, choices_of(options, *source_))),
       snapshot_interval_(snapshot_interval(options)) {
   cutter_.set_kind(records_of(format_));
   if (begun_from_) go_on_from(*begun_from_);
@@ -185,6 +192,7 @@ void WatchRun::run() {
   keep_snapshot();
   if (has_ended) {
     if (const auto last = cutter_.rest()) read(*last);
+    finish();
   }
   // A shared stream continues after this reader stops.
   if (!has_ended && source_->has_clock()) return;
@@ -205,17 +213,33 @@ void WatchRun::take() {
   if (const auto cut_off = cutter_.rest()) read(*cut_off);
 }
 
-void WatchRun::read(const Record& record) {
+void WatchRun::finish() {
+  const auto guard = guarded();
+  try {
+    reader_->finish(watcher_);
+  } catch (const UnusableStream& error) {
+    throw ProgramError(fmt::format("{}: {}", source_->name(), error.what()));
+  }
+}
+
+void WatchRun::read(Record record) {
   const std::uint64_t position = source_->position(record.behind);
   const std::uint64_t malformed = watcher_.counts().malformed;
   {
     const auto guard = guarded();
-    if (watcher_.settings().clock == WatchSettings::Clock::machine) watcher_.machine_time_is(now());
+    const bool by_machine = watcher_.settings().clock == WatchSettings::Clock::machine;
+    if (by_machine) watcher_.machine_time_is(now());
+    // A pipe is live if it is said to be.
+    const auto nature = source_->nature();
+    if (nature == ReportSource::Nature::live || (by_machine && nature == ReportSource::Nature::unknown))
+      record.read_at = now();
     watcher_.begin_record(record.line);
     try {
       reader_->read(record, watcher_);
-    } catch (const MalformedRecord& error) {
+    } catch (const WrongInput& error) {
       watcher_.refuse(error.what());
+    } catch (const UnusableStream& error) {
+      throw ProgramError(fmt::format("{}: {}", source_->name(), error.what()));
     }
     watcher_.end_record();
   }
@@ -223,6 +247,8 @@ void WatchRun::read(const Record& record) {
   alerts_->flush(position);
   if (watcher_.counts().malformed > malformed) complain();
   warn_of_crowds();
+  warn_of_heights();
+  warn_of_unusable();
 }
 
 void WatchRun::pass_time() {
@@ -252,6 +278,27 @@ void WatchRun::warn_of_crowds() {
         "kinesphere: warning: {}: there are more tracks than --most-tracks or more open pairs than "
         "--most-pairs: some tracks are not watched\n",
         source_->name());
+}
+
+void WatchRun::warn_of_heights() {
+  if (has_warned_of_heights_ || watcher_.counts().no_height == 0) return;
+  has_warned_of_heights_ = true;
+  if (!options_.quiet)
+    print_message(
+        "kinesphere: warning: {}: some reports have no height: it counts as any, which leaves their pairs "
+        "undecided\n",
+        source_->name());
+}
+
+void WatchRun::warn_of_unusable() {
+  // Fewer reports say little, such as those before a clock is confirmed.
+  constexpr std::uint64_t least = 100;
+  const std::uint64_t unusable = watcher_.counts().unusable();
+  if (has_warned_of_unusable_ || unusable < least || unusable <= watcher_.monitor_counters().reports) return;
+  has_warned_of_unusable_ = true;
+  if (!options_.quiet)
+    print_message("kinesphere: warning: {}: most reports cannot be used: {} taken, {}\n", source_->name(),
+                  watcher_.monitor_counters().reports, reasons_text(watcher_));
 }
 
 bool WatchRun::is_time_for_snapshot() const {

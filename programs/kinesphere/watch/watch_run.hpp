@@ -38,11 +38,14 @@ class WatchRun {
   std::unique_ptr<AlertOutput> open_alerts() const;
   /// Processes the text that has arrived.
   void take();
-  void read(const Record& record);
+  void read(Record record);
+  void finish();
   void pass_time();
   FileTime now() const;
   void complain();
   void warn_of_crowds();
+  void warn_of_unusable();
+  void warn_of_heights();
   bool is_time_for_snapshot() const;
   void keep_snapshot();
 
@@ -57,7 +60,7 @@ class WatchRun {
   std::unique_ptr<ReportFormat> reader_;
   std::unique_ptr<StateServer> server_;
   std::size_t complaints_ = 0;
-  bool has_warned_of_crowds_ = false;
+  bool has_warned_of_crowds_ = false, has_warned_of_unusable_ = false, has_warned_of_heights_ = false;
   std::chrono::duration<double> snapshot_interval_;
   std::optional<std::chrono::steady_clock::time_point> last_snapshot_;
   /// Opened last, so that no alert file is touched if another option is wrong.

@@ -16,6 +16,10 @@ struct FallbackError {
   std::string declaration{};
 };
 
+struct MotionLimits {
+  ErrorBound acceleration, largest_speed;
+};
+
 struct WatchSettings {
   std::vector<NamedSeparation> separations;
   Shard share{};                  ///< other watches have the other pairs
@@ -23,13 +27,15 @@ struct WatchSettings {
   // Limits of tracks; infinite if there is none.
   ErrorBound acceleration = std::numeric_limits<double>::infinity();
   ErrorBound largest_speed = std::numeric_limits<double>::infinity();
-  std::string promise;  ///< text of both limits in alerts
+  /// Limits of SourceReport::is_aircraft; empty: those above.
+  std::optional<MotionLimits> aircraft;
+  std::string promise;  ///< text of the limits in alerts
   FallbackError position_error, height_error, velocity_error, climb_error;
   double stamp_error = 0.0;
   double velocity_age = 0.0;
   double silence = 0.0, forget = 0.0;
   double window = 1.0;
-  double leap = 60.0;
+  double leap = 60.0;  ///< a time that is ahead by more needs confirmation (seconds)
   enum class Clock {
     stream,  ///< arrival times in the stream, else timestamps
     stamps,

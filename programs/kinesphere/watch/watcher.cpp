@@ -17,6 +17,9 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 /// Maximum reports held until their times are accepted. A document of all aircraft on earth has fewer.
 constexpr std::size_t most_held = 65536;
 
+/// Bound of a height that is not known, where heights have no unit.
+constexpr double any_height = 1e9;
+
 /// Returns a horizontal and a vertical bound, or one for all directions if the vertical one is absent.
 ErrorBound spread_of(double flat, const std::optional<double>& upright) {
   return upright ? ErrorBound::cylinder(flat, *upright) : ErrorBound(flat);
@@ -93,6 +96,9 @@ void Watcher::pass_over(Passed reason) {
       break;
     case Passed::no_bound:
       ++counts_.no_bound;
+      break;
+    case Passed::filtered:
+      ++counts_.filtered;
       break;
   }
 }
@@ -257,7 +263,9 @@ double Watcher::time_covered() const {
 
 void Watcher::begin_map(const WatchSettings::Origin& origin) {
   // A track is dropped before it gets farther than this beyond the radius.
-  const double margin = settings_.largest_speed.horizontal() * settings_.forget;
+  double margin = settings_.largest_speed.horizontal() * settings_.forget;
+  if (settings_.aircraft)
+    margin = std::max(margin, settings_.aircraft->largest_speed.horizontal() * settings_.forget);
   if (!std::isfinite(margin))
     throw ProgramError(
         "--largest-speed, --forget: expected finite ones, which latitudes and longitudes need: the error "
@@ -274,7 +282,7 @@ void Watcher::begin_map(const WatchSettings::Origin& origin) {
 
 void Watcher::begin_monitor(const SourceReport& report) {
   is_geographic_ = report.geographic;
-  dimensions_ = settings_.dimensions.value_or(report.has_height ? 3 : 2);
+  dimensions_ = settings_.dimensions.value_or(report.has_height || report.may_have_height ? 3 : 2);
   MonitorDefinition definition{.dimensions = dimensions_,
                                .start_time = times_.seconds(clock_.now()),
                                .window = settings_.window,
@@ -286,9 +294,15 @@ void Watcher::begin_monitor(const SourceReport& report) {
   if (is_geographic_) {
     begin_map(settings_.origin.value_or(WatchSettings::Origin{report.position.y, report.position.x}));
     definition.classes = {frame_->promise(settings_.acceleration, settings_.largest_speed)};
+    if (settings_.aircraft)
+      definition.classes.push_back(
+          frame_->promise(settings_.aircraft->acceleration, settings_.aircraft->largest_speed));
   } else {
     definition.classes = {
         {.acceleration_limit = settings_.acceleration, .largest_speed = settings_.largest_speed}};
+    if (settings_.aircraft)
+      definition.classes.push_back({.acceleration_limit = settings_.aircraft->acceleration,
+                                    .largest_speed = settings_.aircraft->largest_speed});
   }
   for (const NamedSeparation& named : settings_.separations) {
     const Separation& separation = named.separation;
@@ -297,7 +311,10 @@ void Watcher::begin_monitor(const SourceReport& report) {
     if (dimensions_ == 3) least = std::min(least, separation.vertical);
   }
   definition.tolerance = 1e-4 * least;
-  definition.separations = {std::move(rule)};
+  for (std::size_t first = 0; first < definition.classes.size(); ++first)
+    for (rule.first_class = first, rule.second_class = first; rule.second_class < definition.classes.size();
+         ++rule.second_class)
+      definition.separations.push_back(rule);
   monitor_.emplace(require(Monitor::create(definition)));
 }
 
@@ -311,12 +328,25 @@ void Watcher::deliver(const SourceReport& report) {
     ++counts_.ahead;
     return;
   }
+  const bool knows_velocity =
+      report.velocity && !(report.velocity_error && !std::isfinite(report.velocity_error->bound));
+  if (!knows_velocity && !std::isfinite(limits_of(report).largest_speed.total())) {
+    if (!monitor_ || monitor_->counters().reports == 0)
+      throw ProgramError(
+          fmt::format("--largest-speed: expected it, because {} has positions without velocities: an "
+                      "acceleration alone does not "
+                      "say how far a track goes",
+                      settings_.source));
+    ++counts_.no_velocity;
+    return;
+  }
   if (!monitor_) begin_monitor(report);
   if (report.geographic != is_geographic_)
     return refuse(fmt::format("expected the position of {} in the same words as the first: {}", report.id,
                               is_geographic_ ? "latitude and longitude" : "x and y"));
-  if (dimensions_ == 3 && !report.has_height) {
-    ++counts_.no_height;
+  const bool lacks_height = dimensions_ == 3 && !report.has_height;
+  if (lacks_height && report.on_ground) {
+    ++counts_.on_ground;
     return;
   }
   const TrackId id = track_id_of(report.id);
@@ -342,15 +372,26 @@ void Watcher::deliver(const SourceReport& report) {
   }
   if (const auto taken = monitor_->report(id, *on_map); !taken)
     return refuse(fmt::format("{}: {}", report.id, taken.error().message));
+  if (lacks_height) ++counts_.no_height;
   NamedTrack& named = known != nullptr ? *known : names_.add(id, report.id);
   if (known == nullptr || seconds_between(named.stamp, report.stamp) >= 0.0) {
     named.stamp = report.stamp;
     named.position = report.position;
+    named.extent = report.extent;
     named.position_by = track.position_by;
     named.height_by = track.height_by;
     named.velocity_by = track.velocity_by;
     named.climb_by = track.climb_by;
   }
+}
+
+bool Watcher::has_limits_of_aircraft(const SourceReport& report) const {
+  return report.is_aircraft && settings_.aircraft;
+}
+
+MotionLimits Watcher::limits_of(const SourceReport& report) const {
+  if (has_limits_of_aircraft(report)) return *settings_.aircraft;
+  return {settings_.acceleration, settings_.largest_speed};
 }
 
 double Watcher::velocity_age_of(const SourceReport& report) const {
@@ -359,6 +400,7 @@ double Watcher::velocity_age_of(const SourceReport& report) const {
 
 std::optional<TrackReport> Watcher::on_map(const SourceReport& report, NamedTrack& track) {
   TrackReport result{.timestamp = times_.seconds(report.stamp)};
+  result.track_class = has_limits_of_aircraft(report) ? 1 : 0;
   double added_velocity_error = 0.0;
   if (is_geographic_) {
     // The velocity was measured a little earlier or later, elsewhere on the map than the reported position.
@@ -366,7 +408,7 @@ std::optional<TrackReport> Watcher::on_map(const SourceReport& report, NamedTrac
         report.position_error ? report.position_error->bound : settings_.position_error.bound.value_or(0.0);
     const double time = report.stamp_error.value_or(settings_.stamp_error) + velocity_age_of(report);
     const auto placed = frame_->place(report.position, report.has_height, report.velocity.value_or(Vec3{}),
-                                      error + settings_.largest_speed.horizontal() * time);
+                                      error + limits_of(report).largest_speed.horizontal() * time);
     if (!placed) return std::nullopt;
     result.state = placed->state;
     added_velocity_error = placed->velocity_error;
@@ -393,7 +435,12 @@ void Watcher::add_errors(const SourceReport& report, double added_velocity_error
   };
   auto flat = said(report.position_error, settings_.position_error, track.position_by);
   if (!flat) flat = needed_bound(settings_.position_error, "--position-error");
-  const auto upright = said(report.height_error, settings_.height_error, track.height_by);
+  *flat += report.extent;
+  auto upright = said(report.height_error, settings_.height_error, track.height_by);
+  if (dimensions_ == 3 && !report.has_height) {
+    upright = frame_ ? LocalFrame::largest_height : any_height;
+    track.height_by = "unknown";
+  }
   result.position_error = frame_
                               ? ErrorBound::cylinder(frame_->position_error(*flat), upright.value_or(*flat))
                               : spread_of(*flat, upright);
@@ -404,20 +451,22 @@ void Watcher::add_errors(const SourceReport& report, double added_velocity_error
   }
   auto turning = said(report.velocity_error, settings_.velocity_error, track.velocity_by);
   if (!turning) turning = needed_bound(settings_.velocity_error, "--velocity-error");
+  const MotionLimits limits = limits_of(report);
   auto climbing = said(report.climb_error, settings_.climb_error, track.climb_by);
   if (!report.has_climb) {
-    climbing = dimensions_ == 2 ? 0.0 : settings_.largest_speed.vertical();
+    climbing = dimensions_ == 2 ? 0.0 : limits.largest_speed.vertical();
     track.climb_by = "largest speed";
   }
   if (!std::isfinite(*turning)) {
     result.velocity_error = ErrorBound(unbounded);
     return;
   }
+  *turning += report.velocity_spread;
   // The velocity was measured a little before or after the position.
   const double age = velocity_age_of(report);
-  if (age > 0.0 && std::isfinite(settings_.acceleration.total())) {
-    *turning += age * settings_.acceleration.horizontal();
-    climbing = climbing.value_or(*turning) + age * settings_.acceleration.vertical();
+  if (age > 0.0 && std::isfinite(limits.acceleration.total())) {
+    *turning += age * limits.acceleration.horizontal();
+    climbing = climbing.value_or(*turning) + age * limits.acceleration.vertical();
   }
   if (frame_)
     result.velocity_error = ErrorBound::cylinder(frame_->velocity_error(*turning) + added_velocity_error,

@@ -88,6 +88,8 @@ class Watcher final : public ReportSink {
   std::optional<TrackReport> on_map(const SourceReport& report, NamedTrack& track);
   void add_errors(const SourceReport& report, double added_velocity_error, TrackReport& result,
                   NamedTrack& track) const;
+  bool has_limits_of_aircraft(const SourceReport& report) const;
+  MotionLimits limits_of(const SourceReport& report) const;
   double velocity_age_of(const SourceReport& report) const;
   double needed_bound(const FallbackError& fallback, const char* option) const;
   void advance(double until);

@@ -37,14 +37,14 @@ using KeepText = std::function<std::string_view(const std::string&)>;
 
 }  // namespace
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FileTime, whole, fraction)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FileTime, whole, fraction, rest)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StreamClock::Memory, source, has_begun, now, in_a_row, first_ahead,
                                    latest_ahead, first_id, several_ids)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MalformedLine, line, reason)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WatchCounts::Turns, apart, undecided, within)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WatchCounts, repeated, stale, ahead, outside, no_position, no_height,
-                                   no_bound, crowded, malformed, first_malformed, dropped, alerts, events,
-                                   turns)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WatchCounts, repeated, stale, ahead, outside, no_position, on_ground,
+                                   no_bound, no_velocity, filtered, crowded, malformed, first_malformed,
+                                   no_height, dropped, alerts, events, turns)
 
 namespace {
 
@@ -59,15 +59,17 @@ std::optional<DeclaredError> restored_error(const Json& saved, const KeepText& k
 }
 
 Json saved(const SourceReport& report) {
-  const auto& [id, stamp, arrival, time_kind, geographic, position, has_height, velocity, has_climb,
-               position_error, height_error, velocity_error, climb_error, stamp_error, velocity_age,
-               same_within] = report;
+  const auto& [id, stamp, arrival, time_kind, geographic, position, has_height, may_have_height, on_ground,
+               velocity, has_climb, position_error, height_error, velocity_error, climb_error, stamp_error,
+               velocity_age, velocity_spread, extent, is_aircraft, same_within] = report;
   return {{"stamp", stamp},
           {"arrival", arrival},
           {"time_kind", time_kind},
           {"geographic", geographic},
           {"position", position},
           {"has_height", has_height},
+          {"may_have_height", may_have_height},
+          {"on_ground", on_ground},
           {"velocity", velocity},
           {"has_climb", has_climb},
           {"position_error", saved(position_error)},
@@ -76,6 +78,9 @@ Json saved(const SourceReport& report) {
           {"climb_error", saved(climb_error)},
           {"stamp_error", stamp_error},
           {"velocity_age", velocity_age},
+          {"velocity_spread", velocity_spread},
+          {"extent", extent},
+          {"is_aircraft", is_aircraft},
           {"same_within", same_within}};
 }
 
@@ -86,6 +91,8 @@ SourceReport restored_report(const Json& saved, const KeepText& keep) {
           .geographic = saved.at("geographic"),
           .position = saved.at("position"),
           .has_height = saved.at("has_height"),
+          .may_have_height = saved.at("may_have_height"),
+          .on_ground = saved.at("on_ground"),
           .velocity = saved.at("velocity").get<std::optional<Vec3>>(),
           .has_climb = saved.at("has_climb"),
           .position_error = restored_error(saved.at("position_error"), keep),
@@ -94,12 +101,15 @@ SourceReport restored_report(const Json& saved, const KeepText& keep) {
           .climb_error = restored_error(saved.at("climb_error"), keep),
           .stamp_error = saved.at("stamp_error").get<std::optional<double>>(),
           .velocity_age = saved.at("velocity_age"),
+          .velocity_spread = saved.at("velocity_spread"),
+          .extent = saved.at("extent"),
+          .is_aircraft = saved.at("is_aircraft"),
           .same_within = saved.at("same_within")};
 }
 
 Json saved(const NamedTrack& track) {
-  const auto& [text, stamp, position, position_by, height_by, velocity_by, climb_by] = track;
-  return {text, stamp, position, position_by, height_by, velocity_by, climb_by};
+  const auto& [text, stamp, position, extent, position_by, height_by, velocity_by, climb_by] = track;
+  return {text, stamp, position, position_by, height_by, velocity_by, climb_by, extent};
 }
 
 /// Arrays of tracks are packed into CBOR: as JSON in memory they would take ten times as much.
@@ -160,6 +170,7 @@ void Watcher::restore(const Json& state) {
       track.height_by = keep(saved.at(4));
       track.velocity_by = keep(saved.at(5));
       track.climb_by = keep(saved.at(6));
+      track.extent = saved.at(7);
     }
   }
   counts_ = state.at("counts");

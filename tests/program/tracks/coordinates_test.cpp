@@ -12,14 +12,14 @@ namespace kinesphere::program::coordinates_test {
 namespace {
 
 TEST(Coordinates, KeepTheZeroOfWhatIsNearIt) {
-  const Coordinates near(Box{{-3, 20, 0}, {5, 40, 2}}, 1.0);
+  const Coordinates near(Box{{-3, 20, 0}, {5, 40, 2}}, {1.0, 1.0, 1.0});
   EXPECT_EQ(near.local({1.1, 30.3, 1}), (Vec3{1.1, 30.3, 1}));
-  const Coordinates one_place(Box{{0.5, 0.25, 0}, {0.5, 0.25, 0}}, 1.0);
+  const Coordinates one_place(Box{{0.5, 0.25, 0}, {0.5, 0.25, 0}}, {1.0, 1.0, 1.0});
   EXPECT_EQ(one_place.as_in_file(one_place.local({0.5, 0.25, 0})), (Vec3{0.5, 0.25, 0}));
 }
 
 TEST(Coordinates, ShiftWhatIsFarWithoutRounding) {
-  const Coordinates far(Box{{500000, 5400000, 0}, {500020, 5400010, 0}}, 1.0);
+  const Coordinates far(Box{{500000, 5400000, 0}, {500020, 5400010, 0}}, {1.0, 1.0, 1.0});
   const Vec3 position{500001.1234567, 5400003.7654321, 0};
   const Vec3 local = far.local(position);
   EXPECT_LT(norm(local), 2000.0);
@@ -27,7 +27,7 @@ TEST(Coordinates, ShiftWhatIsFarWithoutRounding) {
 }
 
 TEST(Coordinates, AreMetresOfOtherUnits) {
-  const Coordinates feet(Box{{0, 0, 0}, {10, 10, 0}}, 0.3048);
+  const Coordinates feet(Box{{0, 0, 0}, {10, 10, 0}}, {0.3048, 0.3048, 1.0});
   EXPECT_DOUBLE_EQ(feet.local({10, 0, 0}).x, 3.048);
   EXPECT_DOUBLE_EQ(feet.as_in_file({3.048, 0, 0}).x, 10);
 }
@@ -125,7 +125,7 @@ TEST_F(ProjectionTest, ThePlaneSaysHowWrongItIs) {
 }
 
 TEST_F(ProjectionTest, UtmIsGeographicToo) {
-  const Coordinates zone(Box{{499000, 5400000, 0}, {501000, 5401000, 0}}, 1.0, UtmZone{33, true});
+  const Coordinates zone(Box{{499000, 5400000, 0}, {501000, 5401000, 0}}, {1.0, 1.0, 1.0}, UtmZone{33, true});
   const auto place = zone.geographic(zone.local({500000, 5400000, 3}));
   ASSERT_TRUE(place);
   EXPECT_NEAR(place->x, 15.0, 1e-9);

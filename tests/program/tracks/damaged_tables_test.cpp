@@ -15,7 +15,19 @@ constexpr std::string_view healthy[] = {
     "1;2024-01-31 "
     "12:30:10+00:00;54.2;11.3\r\n2;20240131T123000Z;54.2;11.3\r\n2;20240131T123010Z;54.2;11.3\r\n",
     "# framerate: 25 fps\n# id frame x/m y/m z/m\n1\t0\t2\t3\t1.76\n1\t5\t4\t6\t1.76\n",
-    "0 7 1 0 2 0 0 0\n10 7 1 0 2 0 0 0\n20 7 1 0 2 0 0 0\n"};
+    "0 7 1 0 2 0 0 0\n10 7 1 0 2 0 0 0\n20 7 1 0 2 0 0 0\n",
+    "LABEL,TRACK_ID,POSITION_X,POSITION_Y,POSITION_T\nLabel,Track ID,X,Y,T\n,,(micron),(micron),(sec)\n"
+    "a,1,0,0,0\nb,1,1,0,1\nc,None,2,0,2\n",
+    "seconds;x1;y1;x2;y2\n0;0,5;0;5;1\n1;1,5;0;4;1\n",
+    "<?xml version=\"1.0\"?><gpx><trk><name>a</name><trkseg>\n<trkpt lat=\"47.0\" "
+    "lon=\"8.0\"><time>2024-01-01T00:00:00Z"
+    "</time></trkpt>\n<trkpt lat=\"47.0\" "
+    "lon=\"8.1\"><time>2024-01-01T00:00:10Z</time></trkpt></trkseg></trk></gpx>",
+    "1\nLattice=\"9 0 0 0 9 0 0 0 9\" Properties=species:S:1:id:I:1:pos:R:3 Time=0\nS 7 1 2 3\n1\nTime=1\nS "
+    "7 8 2 3\n",
+    "ITEM: TIME\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp ff ff\n0 9\n0 9\n0 9\nITEM: ATOMS id xs ys "
+    "zs\n"
+    "1 0.9 0 0\nITEM: TIME\n1\nITEM: NUMBER OF ATOMS\n1\nITEM: ATOMS id xs ys zs\n1 0.1 0 0\n"};
 
 /// Bytes with a meaning in tables are drawn often.
 std::string damaged(std::string_view text, Random& random) {
@@ -53,7 +65,7 @@ TEST(DamagedTables, AreReadOrRefusedByName) {
     options.duplicates = static_cast<DuplicatePolicy>(trial / 3 % 3);
     if (trial % 5 == 0) options.max_speed = 2.0;
     if (trial % 4 == 3) options.hints.format = trial % 8 == 3 ? "ucy" : "eth";
-    const std::string text = damaged(healthy[static_cast<std::size_t>(trial) % 4], random);
+    const std::string text = damaged(healthy[static_cast<std::size_t>(trial) % std::size(healthy)], random);
     try {
       const Recording recording = parse_tracks({{"t.csv", text}}, options);
       ++read;

@@ -70,7 +70,7 @@ TEST_F(TracksProgram, LinesOrCurves) {
   expect_wrong_input("tracks " + file + " --distance 2 --interpolate cubic",
                      {"--interpolate", "linear|spline", "'cubic'"});
   expect_wrong_input("tracks " + file + " --distance 2 --from mars", {"--from", "lonlat", "'mars'"});
-  expect_wrong_input("tracks " + file + " --distance 2 --unit mile", {"--unit", "nmi", "'mile'"});
+  expect_wrong_input("tracks " + file + " --distance 2 --unit furlong", {"--unit", "NM", "'furlong'"});
 }
 
 }  // namespace

@@ -29,6 +29,11 @@ const std::map<StreamFormat, std::string> samples{
      "MSG,3,1,1,4CA1FA,1,2026/03/01,12:00:00.000,2026/03/01,12:00:00.100,,35000,,,51.5,-0.5,,,0,0,0,0\n"
      "MSG,4,1,1,4CA1FA,1,2026/03/01,12:00:00.500,2026/03/01,12:00:00.600,,,450,90,,,-600,,,,,\n"},
     {StreamFormat::ais, "367390380,2023-01-01T00:00:01,51.5,-0.5,10.0,90.0,511.0,\"TUG, \"\"THE\"\"\"\n"},
+    {StreamFormat::nmea,
+     "\\s:rx1,c:1700000000*01\\!AIVDM,1,1,,A,139>Jh@P1p0TWh0NW>`3Q?v00000,0*67\n"
+     "\\s:rx1,c:1700000010*00\\!AIVDM,1,1,,A,139>Jh@P1p0T`1PNW>`3Q?vD0000,0*1D\n"
+     "!AIVDM,2,1,1,A,55?MbV02;H;s<HtKR20EHE:0@T4@Dn2222222216L961O5Gf0NSQEp6ClRp8,0*1C\n"
+     "!AIVDM,2,2,1,A,88888888880,2*25\n"},
     {StreamFormat::csv, "ann,1000.5,51.5,-0.5,3,0.1,0.2,0.3,0.5\n"},
     {StreamFormat::jsonl,
      R"({"id": "d1", "stamp": 1000.5, "lat": 51.5, "lon": -0.5, "alt": 3, "velocity": [4, 5, 6], "position_error": [3, 1]})"
@@ -104,7 +109,7 @@ TEST_P(DamagedStream, IsReadAsFarAsItGoes) {
     watcher.begin_record(record.line);
     try {
       reader->read(record, sink);
-    } catch (const MalformedRecord& error) {
+    } catch (const WrongInput& error) {
       watcher.refuse(error.what());
     }
     watcher.end_record();
@@ -138,7 +143,8 @@ TEST_P(DamagedStream, IsReadAsFarAsItGoes) {
 
 INSTANTIATE_TEST_SUITE_P(OfEachFormat, DamagedStream,
                          testing::Values(StreamFormat::readsb, StreamFormat::opensky, StreamFormat::sbs,
-                                         StreamFormat::ais, StreamFormat::csv, StreamFormat::jsonl),
+                                         StreamFormat::ais, StreamFormat::nmea, StreamFormat::csv,
+                                         StreamFormat::jsonl),
                          [](const auto& test) { return std::string(name_of(test.param)); });
 
 }  // namespace

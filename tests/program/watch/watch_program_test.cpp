@@ -289,7 +289,7 @@ TEST_F(WatchProgram, RefusesWrongOptions) {
   expect_wrong_input("watch " + file + " --separation sphere:3 --acceleration 1kt",
                      {"--acceleration", "1kt", "m/s2"});
   expect_wrong_input("watch " + file + " --separation sphere:3 --format xml" + promises,
-                     {"--format", "readsb|sbs|opensky|ais|csv|jsonl", "xml"});
+                     {"--format", "readsb|sbs|opensky|ais|nmea|csv|jsonl", "xml"});
   expect_wrong_input("watch " + file + " --separation sphere:3 --clock mine" + promises, {"--clock", "mine"});
   expect_wrong_input("watch " + file + " --separation sphere:3 --silence 0" + promises, {"--silence", "0"});
   expect_wrong_input("watch " + file + " --separation sphere:3 --origin north" + promises,
@@ -306,11 +306,9 @@ TEST_F(WatchProgram, RefusesWrongOptions) {
                      {"empty", "it is empty"});
   expect_wrong_input("watch " + write("odd", "1,2,3,4\n") + " --separation sphere:3" + promises,
                      {"odd", "--format"});
-  expect_wrong_input("watch " + write("nmea", "!AIVDM,1,1,,A,13u?etPv2;0n:dDPwUM1U1Cb069D,0*23\n") +
-                         " --separation sphere:3" + promises,
-                     {"NMEA", "gpsdecode"});
-  const std::string earth = write("e.jsonl", R"({"id": "a", "stamp": 1, "lat": 50, "lon": 8})"
-                                             "\n");
+  const std::string earth =
+      write("e.jsonl", R"({"id": "a", "stamp": 1, "lat": 50, "lon": 8, "velocity": [0, 0]})"
+                       "\n");
   expect_wrong_input("watch " + earth + " --separation sphere:3" + promises, {"--largest-speed, --forget"});
   expect_wrong_input(
       "watch " + earth + " --separation sphere:3 --largest-speed 400 --radius 4990km --forget 60" + promises,

@@ -1,0 +1,71 @@
+// Files of other formats, turned into tables that are read as all others are.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace kinesphere::program {
+
+struct ConvertedTable {
+  std::string format;  ///< for the summary
+  /// A table with a header; its rows stand in the lines in which the file has them.
+  std::string text;
+  std::vector<std::string> warnings;
+};
+
+/// Converts GPX (tracks of a GPS receiver), XYZ and extended XYZ, and dumps of LAMMPS; returns nothing for
+/// other text. Throws ProgramError naming `file` and the line for a damaged file.
+std::optional<ConvertedTable> convert_to_table(std::string_view text, const std::string& file);
+
+// One file each. They return nothing for another format.
+std::optional<ConvertedTable> convert_gpx(std::string_view text, const std::string& file);
+std::optional<ConvertedTable> convert_xyz(std::string_view text, const std::string& file);
+std::optional<ConvertedTable> convert_lammps(std::string_view text, const std::string& file);
+
+/// Cuts lines off the front of a text and counts them.
+class LineCutter {
+ public:
+  explicit LineCutter(std::string_view text) : rest_(text) {}
+
+  /// Returns the next line without its end; nothing at the end of the text.
+  std::optional<std::string_view> next();
+  /// Line of the last result of next(), from 1.
+  std::size_t line() const { return line_; }
+  /// True if the last line had an end: a file that was cut off may lack it.
+  bool has_end() const { return has_end_; }
+
+ private:
+  std::string_view rest_;
+  std::size_t line_ = 0;
+  bool has_end_ = true;
+};
+
+/// Undoes the jumps of positions at the faces of a periodic box: each goes on from the last of its atom by
+/// less than half of the box.
+class Unwrapper {
+ public:
+  /// Size of the box on each axis; 0 where it is not periodic.
+  void set_box(const std::array<double, 3>& sizes) { sizes_ = sizes; }
+  bool is_periodic() const { return sizes_ != std::array<double, 3>{}; }
+  /// Returns the text of a position on an axis: as it is, unless it jumped. What is no number stays, too, and
+  /// is refused by the reader of the table.
+  std::string position(const std::string& id, std::size_t axis, std::string_view text);
+  /// Returns the warning that distances through the faces are not seen.
+  static std::string warning(const std::string& file);
+
+ private:
+  std::array<double, 3> sizes_{};
+  std::unordered_map<std::string, std::array<std::optional<double>, 3>> last_;
+};
+
+/// Returns the parts between blanks.
+std::vector<std::string_view> words_of(std::string_view line);
+/// Returns "3" as a count; nothing for other text.
+std::optional<std::size_t> count_in(std::string_view text);
+
+}  // namespace kinesphere::program

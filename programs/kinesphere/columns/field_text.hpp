@@ -1,0 +1,23 @@
+// The text of one field: numbers, missing values, its form in messages.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace kinesphere::program {
+
+/// Returns a finite number, nothing for other text. With `decimal_comma`, 0,5 is 0.5 too.
+std::optional<double> number_field(std::string_view text, bool decimal_comma);
+/// Returns the text with a decimal point where it has one decimal comma and nothing but digits, else itself.
+/// `buffer` holds the changed text.
+std::string_view with_decimal_point(std::string_view text, std::string& buffer);
+/// True for a table whose numbers may have decimal commas: one with this separator.
+constexpr bool has_decimal_commas(char separator) { return separator == ';' || separator == '\t'; }
+
+/// True for what stands for no value: nothing, NaN, inf, NA, N/A, null, none, in any case.
+bool is_missing(std::string_view field);
+/// Returns the field on one line and shortened, for messages: in quotes, or the word nothing.
+std::string shown_field(std::string_view field);
+
+}  // namespace kinesphere::program

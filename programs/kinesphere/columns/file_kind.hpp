@@ -1,0 +1,13 @@
+// What a file is that is no table of text.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace kinesphere::program {
+
+/// Returns what the file is and what to do, for the end of a sentence: "a zip archive: unpack it first".
+/// Empty for a text that may be a table. `beginning` is that of the file; a few hundred bytes are enough.
+std::string other_file_kind(std::string_view beginning);
+
+}  // namespace kinesphere::program

@@ -1,0 +1,53 @@
+// Splits text into rows of fields.
+#pragma once
+
+#include <deque>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kinesphere::program {
+
+/// A row, or one of its fields, is not what it has to be. The message says what was expected, in which
+/// column; the caller adds file and line.
+class WrongInput : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Returns the first of ; , tab outside quotes in the first row of `text`, else a blank.
+char separator_of(std::string_view text);
+
+/// Splits rows. Fields are quoted as in RFC 4180: separators and line ends in quotes belong to the field, and
+/// two quotes in a row are one. Blanks around fields are dropped. Lines end with LF or CRLF.
+class RowSplitter {
+ public:
+  /// Begins with this text, which must outlive the fields.
+  void begin(std::string_view text, int line = 1);
+  void set_separator(char separator) { separator_ = separator; }
+  char separator() const { return separator_; }
+
+  /// Text that has not been read.
+  std::string_view rest() const { return rest_; }
+  int line() const { return line_; }  ///< line of rest(), from 1
+  /// Returns the next line without its end; empty at the end of the text.
+  std::string_view line_ahead() const { return rest_.substr(0, rest_.find('\n')); }
+  void skip_line();
+  /// Reads a row. Its fields are valid until the next call of read() or begin(). Throws WrongInput for wrong
+  /// quotes: unclosed, inside an unquoted field, or followed by text.
+  void read(std::vector<std::string_view>& fields);
+  /// Returns the texts of fields that had doubled quotes; they stay valid as long as the result.
+  std::deque<std::string> take_unquoted() { return std::move(unquoted_); }
+
+ private:
+  std::string_view read_field(std::size_t column);
+  std::string_view read_quoted(std::size_t column);
+
+  std::string_view rest_;
+  int line_ = 1;
+  char separator_ = ' ';
+  std::deque<std::string> unquoted_;
+};
+
+}  // namespace kinesphere::program

@@ -1,0 +1,45 @@
+// What stands before the rows of a table: comments, names of columns, their units.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kinesphere::program {
+
+struct TableHead {
+  std::string file;                   ///< name of the table, for messages
+  std::vector<std::string> comments;  ///< lines that begin with #, without it
+  std::vector<std::string> names;     ///< of the columns; empty without a header
+  std::vector<std::string> units;     ///< from a row of units below the header; empty, or one for each column
+  std::vector<std::string> first;     ///< fields of the first row of values
+  char separator = ' ';
+
+  std::size_t columns() const { return first.size(); }
+  /// Returns "the columns a, b, c", or "no header and 3 columns".
+  std::string text() const;
+};
+
+/// Finds the head of a table. The first row is the header if no field of it is a number. Rows below it
+/// without numbers and dates that repeat names or say units belong to it. Without such a header, the last
+/// comment is the header if it has one field, or word, for each column.
+class TableHeadReader {
+ public:
+  explicit TableHeadReader(std::string file) { head_.file = std::move(file); }
+
+  void set_separator(char separator) { head_.separator = separator; }
+  /// Takes a line that begins with #, without it.
+  void comment(std::string_view line);
+  /// Takes a row; returns true if it is the first row of values, with which the head is complete.
+  bool row(const std::vector<std::string_view>& fields);
+
+  const TableHead& head() const { return head_; }
+
+ private:
+  bool is_below_header(const std::vector<std::string_view>& fields) const;
+
+  TableHead head_;
+};
+
+}  // namespace kinesphere::program

@@ -1,0 +1,315 @@
+// Tables as their owners have them: what a file means is known, asked for or refused.
+#include <fmt/format.h>
+
+#include <functional>
+
+#include "program/support.hpp"
+#include "tracks/track_file.hpp"
+
+namespace kinesphere::program::tables_of_the_field_test {
+namespace {
+
+class TablesOfTheField : public ProgramTest {
+ protected:
+  /// Returns the row "approaches" of the summary, without blanks: its number, or the error.
+  std::string approaches(const std::string& text, const std::string& arguments) {
+    return approaches_in({write("t.csv", text)}, arguments);
+  }
+  std::string approaches_in(const std::vector<std::string>& files, const std::string& arguments) {
+    std::string names;
+    for (const std::string& file : files) names += file + " ";
+    const ProgramRun result = run("tracks " + names + arguments);
+    out_ = result.out;
+    if (result.exit_code != 0) return result.err;
+    const std::size_t row = result.out.find("\napproaches");
+    const std::size_t begin = result.out.find_first_of("0123456789", row);
+    return result.out.substr(begin, result.out.find(' ', begin) - begin);
+  }
+  std::string out_;
+};
+
+TEST_F(TablesOfTheField, UnitsInNamesCountInEveryColumn) {
+  // 1000 ft apart in height, 304.8 m.
+  const std::string flight =
+      "id,time,lon,lat,{}\nu,0,8,47,33000\nu,10,8,47,33000\nu,20,8,47,33000\n"
+      "v,0,8,47,34000\nv,10,8,47,34000\nv,20,8,47,34000\n";
+  for (const char* name : {"altitude_ft", "alt [feet]", "\"alt, ft\"", "altitudeFt", "z (ft)", "alt/ft"}) {
+    EXPECT_EQ(approaches(fmt::format(fmt::runtime(flight), name), "--distance 305"), "1") << name;
+    EXPECT_EQ(approaches(fmt::format(fmt::runtime(flight), name), "--distance 304"), "0") << name;
+  }
+  const std::string space = "id,time,{}\nu,0,0,0,0\nu,1,0,0,0\nv,0,0,0,10\nv,1,0,0,10\n";
+  EXPECT_EQ(approaches(fmt::format(fmt::runtime(space), "x_m,y_m,z_ft"), "--distance 3.1"), "1");
+  EXPECT_EQ(approaches(fmt::format(fmt::runtime(space), "x_m,y_m,z_ft"), "--distance 3"), "0");
+  // In metres nothing flies at 33000.
+  const std::string unit = approaches(fmt::format(fmt::runtime(flight), "alt"), "--distance 305");
+  EXPECT_NE(unit.find("z=alt:ft"), std::string::npos) << unit;
+  EXPECT_EQ(approaches(fmt::format(fmt::runtime(flight), "alt"), "--distance 305 --unit ft"), "1");
+  EXPECT_EQ(approaches("id,t,x_cm,y_m\nu,0,0,0\nu,1,0,0\nv,0,100,0\nv,1,100,0\n", "--distance 1.1"), "1");
+  // What comes out has the file's own units.
+  approaches("id,t,x_cm,y_m\nu,0,50,7\nu,1,50,7\nv,0,100,7\nv,1,100,7\n",
+             "--distance 1 --contacts " + path("c.csv"));
+  EXPECT_NE(read_text(path("c.csv")).find(",50,7,,100,7,"), std::string::npos) << read_text(path("c.csv"));
+  const std::string unsaid = approaches(fmt::format(fmt::runtime(space), "x_m,y_m,z"), "--distance 5");
+  EXPECT_NE(unsaid.find("column 'z' does not say its unit, but column 'x_m' does"), std::string::npos)
+      << unsaid;
+  EXPECT_EQ(approaches(fmt::format(fmt::runtime(space), "x_m,y_m,z"), "--distance 3.1 --unit ft"),
+            approaches(fmt::format(fmt::runtime(space), "x_m,y_m,z"), "--distance 3.1 --unit ft"));
+  EXPECT_NE(
+      approaches(fmt::format(fmt::runtime(space), "x_m,y_m,z_m"), "--distance 5 --unit ft").find("--unit"),
+      std::string::npos);
+}
+
+TEST_F(TablesOfTheField, DistancesMayHaveUnits) {
+  const std::string cells = "id,t,x_um,y_um\nu,0,0,0\nu,1,0,0\nv,0,10,0\nv,1,10,0\n";
+  EXPECT_EQ(approaches(cells, "--distance 11um"), "1");
+  EXPECT_EQ(approaches(cells, "--distance 9um"), "0");
+  EXPECT_EQ(approaches(cells, "--distance 9e-6"), "0");
+  const std::string plain = "id,t,x,y\nu,0,0,0\nu,1,0,0\nv,0,10,0\nv,1,10,0\n";
+  EXPECT_NE(approaches(plain, "--distance 11um").find("the unit of lengths is not known"), std::string::npos);
+  EXPECT_EQ(approaches(plain, "--distance 0.011mm --unit um"), "1");
+  EXPECT_NE(
+      approaches(plain, "--distance 3parsec").find("perhaps a unit (m, km, cm, mm, um, ft, NM, mi, yd)"),
+      std::string::npos);
+}
+
+TEST_F(TablesOfTheField, DegreesAreNoLengths) {
+  // Two animals half a degree apart.
+  const std::string animals =
+      "timestamp,location-long,location-lat,who\n2021-02-11 17:30:00.000,8.00,47.00,u\n"
+      "2021-02-11 17:40:00.000,8.01,47.00,u\n2021-02-11 17:30:00.000,8.00,47.50,v\n2021-02-11 "
+      "17:40:00.000,8.01,47.50,v\n";
+  EXPECT_EQ(
+      approaches(animals, "--distance 100 --columns id=who,time=timestamp,x=location-long,y=location-lat"),
+      "0");
+  const std::string swapped =
+      approaches(animals, "--distance 100 --columns id=who,time=timestamp,x=location-lat,y=location-long");
+  EXPECT_NE(swapped.find("lon=location-long,lat=location-lat"), std::string::npos) << swapped;
+  // Names that say nothing: the numbers do.
+  const std::string plain =
+      "id;t;X;Y\nu;0;8.391305;47.898573\nu;2;8.391317;47.898617\nv;0;8.390928;47.898613\n"
+      "v;2;8.390833;47.898635\n";
+  const std::string asked = approaches(plain, "--distance 50");
+  EXPECT_NE(asked.find("may be degrees: say --from lonlat"), std::string::npos) << asked;
+  EXPECT_EQ(approaches(plain, "--distance 50 --from lonlat"), "1");
+  EXPECT_EQ(approaches(plain, "--distance 20 --from lonlat"), "0");
+  EXPECT_EQ(approaches(plain, "--distance 50 --from plane"), "1");
+  EXPECT_EQ(approaches("id,t,x_deg,y_deg\nu,0,8,47\nu,1,8,47\nv,0,8,47.5\nv,1,8,47.5\n", "--distance 100"),
+            "0");
+  EXPECT_EQ(
+      approaches("id,t,lon_rad,lat_rad\nu,0,0,1\nu,1,0,1\nv,0,0,1.0001\nv,1,0,1.0001\n", "--distance 100"),
+      "0");
+  // Rooms, roads and whole numbers are not asked about.
+  EXPECT_EQ(approaches("id,t,x,y\nu,0,3.5,2.5\nu,1,4.5,2.5\nv,0,3.5,2.75\nv,1,4.5,2.75\n", "--distance 1"),
+            "1");
+  EXPECT_EQ(approaches("id,t,x,y\nu,0,100,50\nu,1,101,50\nv,0,100,50\nv,1,101,50\n", "--distance 1"), "1");
+}
+
+TEST_F(TablesOfTheField, HeightsAreAskedAboutAndUnusedColumnsNamed) {
+  const std::string flights =
+      "id,time,lon,lat,geoaltitude,squawk\nu,0,8,47,10000,7000\nu,1,8,47,10000,7000\nv,0,8,47,6000,7000\nv,1,"
+      "8,47,6000,"
+      "7000\n";
+  const std::string asked = approaches(flights, "--distance 100");
+  EXPECT_NE(
+      asked.find("column 'geoaltitude' may be a height: say --columns id=id,time=time,lon=lon,lat=lat,z="
+                 "geoaltitude to use it, or --columns id=id,time=time,lon=lon,lat=lat to leave heights out"),
+      std::string::npos)
+      << asked;
+  EXPECT_EQ(approaches(flights, "--distance 100 --columns id=id,time=time,lon=lon,lat=lat,alt=geoaltitude"),
+            "0");
+  EXPECT_NE(out_.find("columns squawk"), std::string::npos) << out_;
+  EXPECT_EQ(approaches(flights, "--distance 100 --columns id=id,time=time,lon=lon,lat=lat"), "1");
+  EXPECT_NE(out_.find("columns geoaltitude, squawk"), std::string::npos) << out_;
+}
+
+TEST_F(TablesOfTheField, RowsThatMeanNothingBecomeNoTracks) {
+  const std::string noise = "0 0 0 0\n0 0 0 1\n-1 0.5 0 0\n-1 9 9 0\n-1 0.4 0 1\n-1 8 8 1\n";
+  const std::string columns = "--distance 1 --columns id=1,x=2,y=3,frame=4 --frame-rate 1 ";
+  const std::string asked = approaches(noise, columns);
+  EXPECT_NE(
+      asked.find(":3: the id -1 is that of nobody in most files: leave its rows out with --where 'id != -1'"),
+      std::string::npos)
+      << asked;
+  EXPECT_EQ(approaches("0 0 0 0\n0 0 0 1\n" + noise, columns + "--where 'id != -1' --duplicates first"), "0");
+  EXPECT_NE(out_.find("rows for which not: id != -1"), std::string::npos) << out_;
+  const std::string flagged =
+      "id,t,x,y,lost\nu,0,0,0,0\nu,1,0,0,0\nv,0,5,0,0\nv,1,5,0,0\nv,2,0,0,1\nu,2,0,0,0\n";
+  EXPECT_NE(approaches(flagged, "--distance 1").find("--where 'lost != 1'"), std::string::npos);
+  EXPECT_EQ(approaches(flagged, "--distance 1 --where 'lost != 1'"), "0");
+  EXPECT_EQ(approaches(flagged, "--distance 1 --interpolate linear --where 'lost != none'"), "1");
+  EXPECT_NE(approaches("id,t,x,y\nu,0,0,0\nu,1,0,0\nNone,0,0,0\nNone,1,0,0\n", "--distance 1")
+                .find(":4: the id None is that of nobody in most files: leave its rows out with --where 'id "
+                      "!= None'"),
+            std::string::npos);
+  const std::string numbered = "row,id,t,x,y,person_no\n1,1,0,0,0,7\n2,2,1,0,0,7\n3,3,0,1,0,8\n4,4,1,1,0,8\n";
+  const std::string which = approaches(numbered, "--distance 1");
+  EXPECT_NE(which.find("each row has an id of its own in column 'id', as a row number is"), std::string::npos)
+      << which;
+  EXPECT_NE(
+      approaches("id;trajectory_id;t;x;y\n1;1;0;0;0\n", "--distance 1").find("'id' and 'trajectory_id'"),
+      std::string::npos);
+}
+
+TEST_F(TablesOfTheField, NumbersAndTimesOfOtherHabits) {
+  EXPECT_EQ(approaches("Tag;Zeit;X;Y\nu;0,5;0,0;0,0\nv;0,5;0,75;0,0\nu;1,5;0,0;0,0\nv;1,5;0,75;0,0\n",
+                       "--distance 0.8"),
+            "1");
+  const std::string infinite =
+      "id,time,x,y\nu,0,72,119.3\nu,1,inf,-Inf\nu,2,72.3,119.3\nv,0,72,119.8\nv,1,72,119.8\n"
+      "v,2,72.2,119.8\n";
+  EXPECT_NE(approaches(infinite, "--distance 1")
+                .find("t.csv:3: expected a number as x (column 3), but got 'inf' (see "
+                      "--missing)"),
+            std::string::npos);
+  EXPECT_EQ(approaches(infinite, "--distance 1 --missing skip"), "1");
+  const std::string dates =
+      "id,time,x,y\nu,03/04/2025 10:00,0,0\nu,03/04/2025 10:01,0,0\nv,04/03/2025 10:00,0,0\n"
+      "v,04/03/2025 10:01,0,0\n";
+  EXPECT_NE(approaches(dates, "--distance 1").find("say --dates day-first or --dates month-first"),
+            std::string::npos);
+  EXPECT_EQ(approaches(dates, "--distance 1 --dates day-first"), "0");
+  EXPECT_NE(out_.find("from 2025-03-04T10:00:00 to 2025-04-03T10:01:00"), std::string::npos) << out_;
+  approaches(dates, "--distance 1 --dates month-first");
+  EXPECT_NE(out_.find("from 2025-03-04T10:00:00 to 2025-04-03T10:01:00"), std::string::npos) << out_;
+  EXPECT_EQ(approaches("id,t,x,y\nu,1/2/2025 1:05:00 PM,0,0\nu,1/2/2025 1:05:01 PM,0,0\n",
+                       "--distance 1 --dates "
+                       "month-first"),
+            "0");
+  EXPECT_NE(out_.find("from 2025-01-02T13:05:00 to"), std::string::npos) << out_;
+  // A comment can be the header, as in Danish AIS.
+  EXPECT_EQ(approaches("# t,The Id,x,y\n0,u,0,0\n1,u,0,0\n0,v,0.5,0\n1,v,0.5,0\n",
+                       "--distance 1 --columns 'id=The Id,time=t,x=x,y=y'"),
+            "1");
+  // Rows of labels and units below the header.
+  EXPECT_EQ(
+      approaches("ID,TIME,X,Y\nId,Time,X,Y\n,(sec),(micron),(micron)\nu,0,0,0\nu,1,0,0\nv,0,50,0\nv,1,50,0\n",
+                 "--distance 0.00004"),
+      "0");
+  EXPECT_NE(approaches("id,t,x,y\n,s,(furlong),m\nu,0,0,0\n", "--distance 1")
+                .find("'furlong', which is no known unit"),
+            std::string::npos);
+}
+
+TEST_F(TablesOfTheField, TimesComeBackAsTheyWere) {
+  const std::string text =
+      "id,time,x,y\nu,0,0,0\nu,12,0,0\nu,24.975016,0,0\nv,1.648337,0.5,0\nv,1.673317,0.5,0\n"
+      "v,1.698297,0.5,0\n";
+  EXPECT_EQ(approaches(text, "--distance 1 --max-gap 20 --contacts " + path("c.csv")), "1");
+  EXPECT_NE(read_text(path("c.csv")).find("\n1.648337,1.698297,"), std::string::npos)
+      << read_text(path("c.csv"));
+}
+
+TEST_F(TablesOfTheField, OtherFilesAreNamed) {
+  for (const auto& [text, part] : std::initializer_list<std::pair<std::string, std::string>>{
+           {std::string("\xFF\xFEi\0d\0", 6), "UTF-16: convert it with iconv"},
+           {"{\"id\":1,\"time\":0}\n", "JSON"},
+           {"<?xml version=\"1.0\"?><kml></kml>", "KML"},
+           {std::string("i\0d\0", 4), "UTF-16"},
+           {std::string("PK\3\4\0\0", 6), "zip archive"},
+           {"PAR1\1\2", "Parquet"},
+           {"MATLAB 5.0 MAT-file", ".mat file"}}) {
+    const std::string message = approaches(text, "--distance 1");
+    EXPECT_NE(message.find("expected a table in a text file, but it is "), std::string::npos) << message;
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+    EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 1) << message;
+  }
+}
+
+/// Two bodies that pass each other at half a unit, six samples each, in the shape of a known tool.
+struct Shape {
+  const char* title;   ///< part of the summary's row "format"
+  const char* header;  ///< with its line ends
+  const char* row;     ///< {0}: body, {1}: step, {2}: x, {3}: y, {4}: longitude, {5}: latitude
+  const char* options = "";
+  int files = 1;
+};
+
+const Shape shapes[] = {
+    {"table", "agent_id,t_s,px,py\n", "{0},{1},{2},{3}\n"},
+    {"Argoverse", "TIMESTAMP,TRACK_ID,OBJECT_TYPE,X,Y,CITY_NAME\n",
+     "3159699{1}.5,0000-{0},OTHERS,{2},{3},MIA\n"},
+    {"DJI, by AirData", "time(millisecond),datetime(utc),latitude,longitude,height_above_takeoff(meters)\n",
+     "{1}00,2024-01-01 00:00:0{1},{5},{4},10\n", "", 2},
+    {"Danish AIS", "# Timestamp,Type of mobile,MMSI,Latitude,Longitude,Navigational status,ROT,SOG,COG\n",
+     "03/09/2025 00:00:0{1},Class A,11100000{0},{5},{4},Under way,0,1,90\n"},
+    {"AIS of marinecadastre.gov", "MMSI,BaseDateTime,LAT,LON,SOG,COG\n",
+     "11100000{0},2025-01-01T00:00:0{1},{5},{4},1,90\n"},
+    {"times in ms since 1970", "id,timestamp,lat,lon\n", "{0},160000000{1}000,{5},{4}\n"},
+    {"highD", "frame,id,x,y,width,height,xVelocity,yVelocity\n", "{1},{0},{2},{3},4,2,1,0\n"},
+    {"2 pairs of columns", "seconds,x1,y1,x2,y2\n", ""},
+    {"inD, rounD, exiD", "recordingId,trackId,frame,trackLifetime,xCenter,yCenter,heading,width,length\n",
+     "0,{0},{1},{1},{2},{3},0,2,4\n"},
+    {"INTERACTION", "track_id,frame_id,timestamp_ms,agent_type,x,y,vx,vy\n",
+     "{0},{1},{1}00,car,{2},{3},1,0\n"},
+    {"PeTrack, in cm", "# id frame x/cm y/cm z/cm\n", "{0} {1} {2}e2 {3}e2 180\n", "--frame-rate 16"},
+    {"columns as given", "", "{0} {1} {2}e2 {3}e2 180\n",
+     "--columns id=1,frame=2,x=3:cm,y=4:cm --frame-rate 16"},
+    {"MOT", "", "{1},{0},{2},{3},10,20,1,-1,-1,-1\n", "--frame-rate 30"},
+    {"Stanford Drone Dataset", "", "{0} {2} {3} 9 9 {1} 0 0 1 \"Biker\"\n", "--frame-rate 30"},
+    {"Movebank",
+     "event-id,visible,timestamp,location-long,location-lat,tag-local-identifier,individual-local-"
+     "identifier\n",
+     "{1}{0},true,2021-02-11 17:30:0{1}.000,{4},{5},10{0},A{0}\n9{1}{0},false,2021-02-11 "
+     "17:30:0{1}.500,0,0,10{0},"
+     "A{0}\n"},
+    {"NFL", "time,x,y,s,event,nflId,displayName,frame.id,gameId,playId\n",
+     "2017-09-08T00:41:59.{1}00Z,{2},{3},0,NA,100{0},p,{1},1,1\n"},
+    {"NGSIM", "Vehicle_ID,Frame_ID,Global_Time,Local_X,Local_Y,v_Length\n",
+     "{0},{1},1118846980{1}00,{2},{3},14\n"},
+    {"OpenSky state vectors",
+     "time,icao24,lat,lon,velocity,heading,vertrate,callsign,baroaltitude,geoaltitude\n",
+     "160000000{1},aaaaa{0},{5},{4},200,90,0,T,10000,10100\n"},
+    {"traffic", "timestamp,icao24,latitude,longitude,groundspeed,track,vertical_rate,callsign,altitude\n",
+     "2024-01-01 00:00:0{1}+00:00,aaaaa{0},{5},{4},450,90,0,T,30000\n"},
+    {"PX4", "timestamp,timestamp_sample,ref_timestamp,x,y,z,vx,vy,vz\n", "{1}000000,0,0,{2},{3},-10,0,0,0\n",
+     "", 2},
+    {"ArduPilot", "TimeUS,Status,Lat,Lng,Alt,Spd\n", "{1}000000,3,{5},{4},120,0\n", "", 2},
+    {"SUMO FCD", "timestep_time;vehicle_id;vehicle_x;vehicle_y;vehicle_speed\n", "{1};v{0};{2};{3};1\n"},
+    {"columns as given", "", "{0},2008-02-02 15:36:0{1},{4},{5}\n", "--columns id=1,time=2,lon=3,lat=4"},
+    {"TrackMate spots",
+     "LABEL,ID,TRACK_ID,POSITION_X,POSITION_Y,POSITION_Z,POSITION_T,FRAME\n"
+     "Label,Spot ID,Track ID,X,Y,Z,T,Frame\n,,,(micron),(micron),(micron),(sec),\n",
+     "ID{1},{1}{0},{0},{2},{3},0,{1},{1}\nID9{1},9{1}{0},,0,0,0,{1},{1}\n", "--unit um"},
+    {"table", "y,x,mass,size,frame,particle\n", "{3},{2},100,2,{1},{0}\n", "--frame-rate 10"},
+    {"TUM", "", "160000000{1} {2} {3} 0 0 0 0 1\n", "", 2},
+    {"TUM", "# timestamp tx ty tz qx qy qz qw\n", "{1}.25 {2} {3} 0 0 0 0 1\n", "", 2},
+    {"table", "Tag;Zeit;X;Y\n", "T{0};{1},5;{2};{3}\n"},
+    {"Vadere", "pedestrianId simTime endTime-PID1 startX-PID1 startY-PID1 endX-PID1 endY-PID1\n",
+     "{0} {1} 9 {2} {3} 0 0\n"},
+};
+
+TEST_F(TablesOfTheField, PresetsAreRecognisedByTheirHeaders) {
+  for (const Shape& shape : shapes) {
+    SCOPED_TRACE(shape.header + std::string(shape.row));
+    std::vector<std::string> texts(static_cast<std::size_t>(shape.files), shape.header);
+    for (int step = 0; step < 6; ++step) {
+      if (*shape.row == '\0') texts[0] += fmt::format("{},{},0,{},0.5\n", step, step, 5 - step);
+      for (int body = 0; body < 2 && *shape.row != '\0'; ++body) {
+        const double x = body == 0 ? step : 5 - step, y = body == 0 ? 0.0 : 0.5;
+        texts[static_cast<std::size_t>(body % shape.files)] +=
+            fmt::format(fmt::runtime(shape.row), body, step, x, y, 8.0 + 1e-5 * x, 47.0 + 1e-5 * y);
+      }
+    }
+    std::vector<std::string> files;
+    for (const std::string& text : texts)
+      files.push_back(write(fmt::format("body{}.csv", files.size()), text));
+    EXPECT_EQ(approaches_in(files, std::string("--distance 1 ") + shape.options), "1");
+    const std::size_t row = out_.find("\nformat");
+    EXPECT_NE(out_.substr(row, out_.find('\n', row + 1) - row).find(shape.title), std::string::npos) << out_;
+  }
+}
+
+TEST_F(TablesOfTheField, PresetsAskForWhatTheirFilesDoNotSay) {
+  EXPECT_NE(
+      approaches("1,1,0,0,10,20,1,-1,-1,-1\n2,1,0,0,10,20,1,-1,-1,-1\n", "--distance 1").find("--frame-rate"),
+      std::string::npos);
+  EXPECT_NE(approaches("y,x,frame,particle\n0,0,0,1\n", "--distance 1").find("--frame-rate"),
+            std::string::npos);
+  EXPECT_NE(approaches("1 0 0.5 0.5 180\n", "--distance 1").find("no header and 5 columns"),
+            std::string::npos);
+  EXPECT_NE(approaches("id,t,x,y\nu,1600000000000,0,0\n", "--distance 1").find("--time-unit ms, us or ns"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace kinesphere::program::tables_of_the_field_test

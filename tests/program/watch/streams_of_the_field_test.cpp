@@ -1,0 +1,176 @@
+// Streams as their senders write them: what cannot be used is told, and nothing is dropped without a word.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "program/support.hpp"
+
+namespace kinesphere::program::streams_of_the_field_test {
+namespace {
+
+using Json = nlohmann::json;
+
+class StreamsOfTheField : public ProgramTest {
+ protected:
+  /// Returns the verdicts of a run that must succeed.
+  std::string verdicts(const std::string& text, const std::string& arguments) {
+    const ProgramRun result =
+        run("watch " + write("stream", text) + " --summary '" + path("summary.json") + "' " + arguments);
+    err_ = result.err;
+    EXPECT_EQ(result.exit_code, 0) << err_;
+    summary_ = Json::parse(read_text(path("summary.json")));
+    std::filesystem::remove(path("summary.json"));
+    std::string told;
+    std::istringstream lines(result.out);
+    for (std::string line; std::getline(lines, line);) {
+      const Json alert = Json::parse(line);
+      if (alert["event"] == "verdict") told += alert["verdict"].get<std::string>() + " ";
+      rests_on_ = alert.value("rests_on", Json());
+    }
+    return told;
+  }
+  void expect_refused(const std::string& text, const std::string& arguments,
+                      std::initializer_list<std::string_view> parts) {
+    expect_wrong_input("watch " + write("stream", text) + " --quiet " + arguments, parts);
+  }
+  Json summary_, rests_on_;
+  std::string err_;
+};
+
+const std::string cylinder = "--separation cylinder:5NM:1000ft";
+const std::string promises =
+    " --separation sphere:5 --largest-speed 1 --acceleration 1 --position-error 0.1 ";
+
+/// Two aircraft that fly towards each other, with these keys.
+std::string head_on(std::string_view list, double now, std::string_view first, std::string_view second) {
+  return fmt::format(
+      R"({{"now":{:.1f},"{}":[{{"hex":"a1","lat":50.0,"lon":8.0,"seen_pos":0.5,"track":90,{}}},)"
+      R"({{"hex":"a2","lat":50.01,"lon":8.1,"seen_pos":0.2,"track":270,{}}}]}})"
+      "\n",
+      now, list, first, second);
+}
+
+TEST_F(StreamsOfTheField, AircraftInOtherShapes) {
+  // dump1090-mutability.
+  EXPECT_EQ(verdicts(head_on("aircraft", 1566891938, R"("nucp":7,"altitude":30000,"vert_rate":0,"speed":450)",
+                             R"("nucp":7,"altitude":30200,"vert_rate":0,"speed":450)"),
+                     cylinder),
+            "undecided ");
+  EXPECT_NE(rests_on_["first"].get<std::string>().find("position: the radius of nucp"), std::string::npos);
+  // API v2 of ADSBexchange: milliseconds.
+  EXPECT_EQ(verdicts(head_on("ac", 1717430000123, R"("rc":186,"alt_baro":30000,"gs":450)",
+                             R"("rc":186,"alt_baro":30200,"gs":450)"),
+                     cylinder),
+            "undecided ");
+  EXPECT_EQ(summary_["from"], 1717430000.123);
+}
+
+TEST_F(StreamsOfTheField, WhatHasNoHeightIsUndecidedAndToldOnce) {
+  const std::string stream =
+      head_on("aircraft", 1566891938, R"("rc":186,"gs":450)", R"("rc":186,"alt_baro":30200,"gs":450)") +
+      head_on("aircraft", 1566891939, R"("rc":186,"gs":450)", R"("rc":186,"alt_baro":30200,"gs":450)");
+  EXPECT_EQ(verdicts(stream, cylinder), "undecided ");
+  EXPECT_EQ(summary_["no_height"], 2);
+  EXPECT_NE(rests_on_["first"].get<std::string>().find("height: unknown"), std::string::npos);
+  const std::size_t told = err_.find("some reports have no height");
+  EXPECT_NE(told, std::string::npos) << err_;
+  EXPECT_EQ(err_.find("some reports have no height", told + 1), std::string::npos) << err_;
+  // On the ground there is nothing to separate from.
+  expect_refused(head_on("aircraft", 1566891938, R"("rc":186,"alt_baro":"ground","gs":5)",
+                         R"("rc":186,"alt_baro":"ground","gs":5)"),
+                 cylinder, {"2 on the ground"});
+  // Of tables, too: the first has no height, and decides nothing.
+  EXPECT_EQ(verdicts("id,time,x,y,z\nu,0,0,0,\nv,0,1,0,900\nu,1,0,0,\nv,1,1,0,900\n", promises),
+            "undecided ");
+}
+
+TEST_F(StreamsOfTheField, SpeedsWithoutCoursesAreDiscs) {
+  const std::string head = "MMSI,BaseDateTime,LAT,LON,SOG,COG\n";
+  const auto ships = [&](const char* motion) {
+    return head + fmt::format("1,2022-01-03T00:00:00,29.9,-90.0,{0}\n2,2022-01-03T00:00:00,29.91,-90.0,{0}\n",
+                              motion);
+  };
+  // The two are 1109 m apart. The faster they may go, the sooner that they are within 1500 m is in doubt.
+  const auto within_until = [&](const char* motion) {
+    const ProgramRun result =
+        run("watch " + write("s.csv", ships(motion)) + " --quiet --separation sphere:1500m");
+    const Json alert = Json::parse(result.out.substr(0, result.out.find('\n')));
+    EXPECT_EQ(alert["verdict"], "within") << result.out;
+    EXPECT_EQ(alert["rests_on"].dump().find("velocity: 1.25 (default of ais)") == std::string::npos,
+              std::string_view(motion).starts_with("102.3"));
+    return alert["until"].get<std::string>();
+  };
+  EXPECT_LT(within_until("102.3,360.0"), within_until("8.0,360.0"));
+  EXPECT_LT(within_until("8.0,360.0"), within_until("0.0,360.0"));
+  EXPECT_EQ(within_until("0.0,360.0"), within_until("0.0,90.0")) << "at rest the course says nothing";
+}
+
+TEST_F(StreamsOfTheField, SparseStreamsGoOn) {
+  std::string ship = "MMSI,BaseDateTime,LAT,LON,SOG,COG\n";
+  for (int minute = 0; minute < 60; minute += 3)
+    ship += fmt::format("211000000,2023-11-15T10:{:02}:12,53.5,8.0,0.0,{}\n", minute, minute);
+  verdicts(ship, "--separation sphere:500m");
+  EXPECT_EQ(summary_["reports"], 20);
+  EXPECT_EQ(summary_["ahead"], 0);
+  // Two ships that report every 20 minutes: others confirm the time, however far ahead it is.
+  std::string ships = "id,time,x,y\n";
+  for (int k = 0; k < 10; ++k)
+    for (const char* id : {"a", "b", "c"})
+      ships += fmt::format("{},{},{},0\n", id, 1200 * k, 100 * (id[0] - 'a'));
+  verdicts(ships, promises);
+  EXPECT_EQ(summary_["reports"], 30);
+}
+
+TEST_F(StreamsOfTheField, AStreamOfWhichNothingCanBeUsedIsAnError) {
+  expect_refused(
+      head_on("aircraft", 1566891938, R"("rc":0,"alt_baro":30000,"gs":450)",
+              R"("nac_p":0,"alt_baro":30000,"gs":450)"),
+      cylinder,
+      {"expected reports of format readsb that can be used, but there are none", "2 of unknown accuracy"});
+  expect_refused("id,time,x,y\nu,0,,\nv,0,nan,inf\n", promises, {"2 without a position"});
+  std::string mostly;
+  for (int k = 0; k < 300; ++k)
+    mostly += head_on(
+        "aircraft", 1566891938 + k, R"("rc":0,"alt_baro":30000,"gs":450)",
+        k % 3 == 0 ? R"("rc":186,"alt_baro":30000,"gs":450)" : R"("nac_p":0,"alt_baro":30000,"gs":450)");
+  verdicts(mostly, cylinder);
+  EXPECT_NE(err_.find("most reports cannot be used"), std::string::npos) << err_;
+}
+
+TEST_F(StreamsOfTheField, PositionsAloneNeedALargestSpeed) {
+  expect_refused("id,time,x,y\nu,0,0,0\nv,0,3,0\n",
+                 "--separation sphere:5 --acceleration 1 --position-error 0.1",
+                 {"--largest-speed: expected it, because", "has positions without velocities"});
+  // A track that loses its velocity later ends nothing.
+  verdicts("id,time,x,y,vx,vy\nu,0,0,0,0,0\nv,0,30,0,0,0\nu,1,0,0,,\nv,1,30,0,0,0\n",
+           "--separation sphere:5 --acceleration 1 --position-error 0.1 --velocity-error 0.1");
+  EXPECT_EQ(summary_["no_velocity"], 1);
+}
+
+TEST_F(StreamsOfTheField, TablesMeanWhatTheySay) {
+  EXPECT_EQ(verdicts("id,time,x_cm,y_cm\nu,0,0,0\nv,0,300,0\n", promises).substr(0, 7), "within ");
+  expect_refused("id,time,x_cm,y\nu,0,0,0\n", promises,
+                 {"column 'y' does not say its unit, but column 'x_cm' does"});
+  expect_refused("id,time,lat,lon,sog,cog\nu,0,50,8,10,90\n", promises,
+                 {"column 'sog' does not say its unit", "speed=sog:kt"});
+  expect_refused("id,time,x,y\nu,1700000000000,0,0\n", promises,
+                 {":2: expected seconds as time", "time=time:ms"});
+  expect_refused("id,time,x,y,valid\nu,0,0,0,false\n", promises, {":2:", "--where 'valid != false'"});
+  // Questions of a stream that has been understood end nothing, but their rows are not taken.
+  verdicts("id,time,x,y,valid\nu,0,0,0,true\nu,1,0,0,false\n", promises);
+  EXPECT_EQ(summary_["malformed"], 1);
+  EXPECT_EQ(verdicts("id,time,x,y,valid\nu,0,0,0,true\nv,0,3,0,true\nw,0,4,0,false\n",
+                     promises + "--where 'valid != false'")
+                .substr(0, 7),
+            "within ");
+  EXPECT_EQ(summary_["filtered"], 1);
+  EXPECT_EQ(verdicts("id;time;x;y\nu;0,5;0;0\nv;0,5;0,25;0\n", promises).substr(0, 7), "within ");
+  EXPECT_EQ(verdicts("# id,time,x,y\nu,0,0,0\nv,0,3,0\n", promises).substr(0, 7), "within ");
+  expect_refused(std::string("\xFF\xFEi\0d\0,\0", 8), promises, {"UTF-16"});
+  expect_refused("<?xml version=\"1.0\"?><gpx></gpx>", promises, {"GPX"});
+  expect_refused("{\"id\":\"a\",\"time\":0,\"x\":0,\"y\":0}\n", promises, {"JSON"});
+}
+
+}  // namespace
+}  // namespace kinesphere::program::streams_of_the_field_test
