@@ -249,6 +249,8 @@ def test_wrong_kinds_of_things_are_named() -> None:
         (lambda: ks.World(box=((0, 0, 0), (9, 9, 9)), periodic="xyz", dimensions=2), ks.InvalidValue, 'such as "xy", but is .xyz.'),
         (lambda: ks.World(periodic=3), TypeError, "periodic"),  # type: ignore[arg-type]
         (lambda: ks.World(contacts="some"), ks.InvalidValue, "begin_and_end"),  # type: ignore[arg-type]
+        (lambda: things.w.add((0, 0, 0), contacts="some"), ks.InvalidValue, "add: contacts must be"),  # type: ignore[arg-type]
+        (lambda: things.w.busiest(), ks.StateError, "set_profiling"),
         (lambda: ks.World(separation_distance=nan), ks.InvalidValue, "separation_distance"),
         (lambda: ks.World(box=(1, 2, 3)), ks.InvalidValue, "box"),
         (lambda: ks.World.restore("text"), TypeError, "snapshot must be bytes"),  # type: ignore[arg-type]

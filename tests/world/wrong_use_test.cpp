@@ -1,4 +1,4 @@
-// Wrong use in 48 ways, each in a line or three: every one gets an error that names the cause, and none
+// Wrong use in 50 ways, each in a line or three: every one gets an error that names the cause, and none
 // crashes. Wrong ids, moved worlds and temporary probes in every call have test files of their own.
 #include <gtest/gtest.h>
 
@@ -308,6 +308,18 @@ TEST_F(WrongUse, 48_AMotionOfAnotherSimulation) {
   Simulation one(World::create({}).value()), another(World::create({}).value());
   const auto foreign = another.add_motion(std::move(motion));
   expect_error(one.add(foreign, 0), ErrorCode::out_of_range, "motion", "Simulation::add: motion");
+}
+
+TEST_F(WrongUse, 49_ContactEventsThatAreNone) {
+  WorldDefinition definition;
+  definition.contacts = ContactEvents{};
+  expect_error(World::create(definition), ErrorCode::out_of_range, "contacts", "World::create:");
+  expect_error(world.add({.contacts = static_cast<ContactEvents>(7)}), ErrorCode::out_of_range, "contacts",
+               "add: contacts must be impacts, begin_and_end or all");
+}
+
+TEST_F(WrongUse, 50_TheBusiestBodiesWithoutProfiling) {
+  expect_error(world.busiest(3), ErrorCode::not_profiling, "world", "busiest:");
 }
 
 }  // namespace
