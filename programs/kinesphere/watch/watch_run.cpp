@@ -108,8 +108,10 @@ std::optional<StreamFormat> format_of(const WatchOptions& options,
                                  stream_format_names));
 }
 
-FormatChoices choices_of(const WatchOptions& options, const ReportSource& source) {
+FormatChoices choices_of(const WatchOptions& options, StreamFormat format, const ReportSource& source) {
   FormatChoices choices = options.choices;
+  if (!choices.hints.where.empty() && format != StreamFormat::csv && format != StreamFormat::ais)
+    throw ProgramError(fmt::format("--where: expected a table, but {} has no columns", source.name()));
   choices.source = source.name();
   choices.position_error_is_said = !options.position_error.empty();
   return choices;
@@ -126,7 +128,7 @@ WatchRun::WatchRun(const WatchOptions& options)
       format_(known_format_.value_or(StreamFormat::readsb)),
       watcher_(settings_of(options, format_, source_->name()),
                [this](std::uint64_t share, std::string_view line) { alerts_->write(share, line); }),
-      reader_(make_format(format_, choices_of(options, *source_))),
+      reader_(make_format(format_, choices_of(options, format_, *source_))),
       snapshot_interval_(snapshot_interval(options)) {
   cutter_.set_kind(records_of(format_));
   if (begun_from_) go_on_from(*begun_from_);

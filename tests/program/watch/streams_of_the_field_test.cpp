@@ -156,6 +156,8 @@ TEST_F(StreamsOfTheField, TablesMeanWhatTheySay) {
                  {"column 'sog' does not say its unit", "speed=sog:kt"});
   expect_refused("id,time,x,y\nu,1700000000000,0,0\n", promises,
                  {":2: expected seconds as time", "time=time:ms"});
+  expect_refused(head_on("aircraft", 0.0, R"("gs":450)", R"("gs":450)"), cylinder + " --where 'speed > 1'",
+                 {"--where: expected a table"});
   expect_refused("id,time,x,y,valid\nu,0,0,0,false\n", promises, {":2:", "--where 'valid != false'"});
   // Questions of a stream that has been understood end nothing, but their rows are not taken.
   verdicts("id,time,x,y,valid\nu,0,0,0,true\nu,1,0,0,false\n", promises);
