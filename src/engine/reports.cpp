@@ -15,14 +15,14 @@ namespace {
 /// Minimum reports per parallel chunk; below this, dispatch costs more than probing.
 constexpr std::size_t reports_at_once = 512;
 
-constexpr std::size_t few = 2;
+constexpr std::size_t few_reports = 2;
 
 }  // namespace
 
 Result<std::span<const Reports::Violation>> Reports::take(Bodies& bodies, double time,
                                                           std::span<const std::uint32_t> numbers,
                                                           PoolLease& lease) {
-  if (numbers.size() <= few && profile_ == nullptr) {
+  if (numbers.size() <= few_reports && profile_ == nullptr) {
     if (take_few(bodies, time, numbers)) return std::span<const Violation>();
   } else {
     ask_for(bodies, time, numbers, lease);
@@ -39,8 +39,8 @@ Result<std::span<const Reports::Violation>> Reports::take(Bodies& bodies, double
 /// false.
 [[gnu::always_inline]] inline bool Reports::take_few(Bodies& bodies, double time,
                                                      std::span<const std::uint32_t> numbers) {
-  std::array<BodyId, few> ids;
-  std::array<State, few> states{no_answer, no_answer};
+  std::array<BodyId, few_reports> ids;
+  std::array<State, few_reports> states{no_answer, no_answer};
   const std::size_t count = numbers.size();
   for (std::size_t k = 0; k < count; ++k) ids[k] = bodies.id_of(numbers[k]);
   {

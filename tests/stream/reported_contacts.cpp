@@ -310,7 +310,7 @@ void ReportedContacts::begin(const Event& event, const Contact& contact) {
   const bool approaches = event.approach_speed > 0.0;
   state = {.touching = ends, .approached = approaches || !wants_approaches(events), .guarded = state.guarded};
   // Rounding alone may produce so slow an approach.
-  state.opened = event.approach_speed < 1e-9;
+  state.opened = wants_approaches(events) && approaches && event.approach_speed < 1e-9;
   if (!state.approached) look_again(contact);
 }
 
