@@ -12,8 +12,7 @@ enum class ContactEvents : std::uint8_t {
   impacts = 1,
   /// One begin and one end for each contact, for bodies whose contacts are watched and not answered. If an
   /// answer to the begin parts the two, their next approach is another begin all the same. A contact that
-  /// began
-  /// without an approach reports none.
+  /// began without an approach reports none.
   begin_and_end = 2,
   /// A begin and an end for each contact, and a begin for each further approach in between
   /// (Event::already_touching).

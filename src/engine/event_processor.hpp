@@ -181,7 +181,7 @@ class alignas(128) EventProcessor {
   template <class Partner>
   double defer(const ContactPredictor<Partner>& predictor, const Threshold& threshold, const Event& current,
                const RelativeLimits& limits);
-  Result<void> probe_one_of(std::uint32_t a, std::uint32_t b);
+  Result<void> probe_stale_of(std::uint32_t a, std::uint32_t b);
   Sphere sphere(std::uint32_t number) const { return sphere_at(bodies(), time_, number); }
   Event contact(EventKind kind, std::uint32_t a, std::uint32_t b) const;
   Event wall_contact(EventKind kind, std::uint32_t number, Wall wall) const;

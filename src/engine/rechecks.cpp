@@ -38,15 +38,15 @@ Result<void> EventProcessor::recheck_pair(std::uint32_t a, std::uint32_t b) {
       if (until < end) queue_.add(certifier.certificate(until, a, b));
       return {};
     }
-    if (auto probed = probe_one_of(a, b); !probed) return probed;
+    if (auto probed = probe_stale_of(a, b); !probed) return probed;
   }
   return {};
 }
 
-/// Probes the body with the older report, or the second one if both are equally old; and the other one too if
-/// both bounds are exact, since then a report changes neither. Precondition: at least one of them is not
-/// fresh.
-Result<void> EventProcessor::probe_one_of(std::uint32_t a, std::uint32_t b) {
+/// Probes the body with the older report, or the second one if both are equally old. If neither is fresh and
+/// both bounds are exact, probes both at once: one report would not move the certificate, so the other would
+/// be due at the same time. Precondition: at least one of them is not fresh.
+Result<void> EventProcessor::probe_stale_of(std::uint32_t a, std::uint32_t b) {
   const Bound& one = bodies()[a].bound;
   const Bound& other = bodies()[b].bound;
   const bool a_is_fresh = bodies()[a].fresh(time_);

@@ -17,6 +17,13 @@ constexpr std::size_t reports_at_once = 512;
 
 constexpr std::size_t few_reports = 2;
 
+/// Starts a bound anew from a report whose body has the limits that it had.
+[[gnu::always_inline]] inline void restart(Bound& bound, double time, const State& report) {
+  bound.time = time;
+  bound.position = report.position;
+  bound.velocity = report.velocity;
+}
+
 }  // namespace
 
 Result<std::span<const Reports::Violation>> Reports::take(Bodies& bodies, double time,
@@ -60,12 +67,7 @@ Result<std::span<const Reports::Violation>> Reports::take(Bodies& bodies, double
     states_.assign(states.begin(), states.begin() + static_cast<std::ptrdiff_t>(count));
     return false;
   }
-  for (std::size_t k = 0; k < count; ++k) {
-    Bound& bound = bodies[numbers[k]].bound;
-    bound.time = time;
-    bound.position = states[k].position;
-    bound.velocity = states[k].velocity;
-  }
+  for (std::size_t k = 0; k < count; ++k) restart(bodies[numbers[k]].bound, time, states[k]);
   return true;
 }
 
@@ -132,9 +134,7 @@ void Reports::apply(Bodies& bodies, double time, std::size_t from, std::size_t t
       body.bound = bound_of(bodies.definition_of(number), state, time);
       bodies.forget_change(number);
     } else {
-      body.bound.time = time;
-      body.bound.position = state.position;
-      body.bound.velocity = state.velocity;
+      restart(body.bound, time, state);
     }
     std::optional<BoundViolation> violation;
     if (new_velocity || before.radius != body.bound.radius ||

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <random>
+#include <utility>
 
 #include "columns/file_kind.hpp"
 #include "program_error.hpp"
@@ -248,9 +249,7 @@ void WatchRun::read(Record record) {
   // A request for the state does not wait for a server that takes alerts.
   alerts_->flush(position);
   if (watcher_.counts().malformed > malformed) complain();
-  warn_of_crowds();
-  warn_of_heights();
-  warn_of_unusable();
+  warn();
 }
 
 void WatchRun::pass_time() {
@@ -271,36 +270,28 @@ void WatchRun::complain() {
                   lines[complaints_].reason);
 }
 
-void WatchRun::warn_of_crowds() {
+void WatchRun::warn_once(bool& has_warned, std::string_view warning) {
+  if (std::exchange(has_warned, true) || options_.quiet) return;
+  print_message("kinesphere: warning: {}: {}\n", source_->name(), warning);
+}
+
+/// Warns, once of each, of what keeps tracks or pairs from being watched.
+void WatchRun::warn() {
   const WatchCounts& counts = watcher_.counts();
-  if (has_warned_of_crowds_ || counts.crowded + counts.dropped == 0) return;
-  has_warned_of_crowds_ = true;
-  if (!options_.quiet)
-    print_message(
-        "kinesphere: warning: {}: there are more tracks than --most-tracks or more open pairs than "
-        "--most-pairs: some tracks are not watched\n",
-        source_->name());
-}
-
-void WatchRun::warn_of_heights() {
-  if (has_warned_of_heights_ || watcher_.counts().no_height == 0) return;
-  has_warned_of_heights_ = true;
-  if (!options_.quiet)
-    print_message(
-        "kinesphere: warning: {}: some reports have no height: it counts as any, which leaves their pairs "
-        "undecided\n",
-        source_->name());
-}
-
-void WatchRun::warn_of_unusable() {
+  if (counts.crowded + counts.dropped > 0)
+    warn_once(
+        has_warned_of_crowds_,
+        "there are more tracks than --most-tracks or more open pairs than --most-pairs: some tracks are "
+        "not watched");
+  if (counts.no_height > 0)
+    warn_once(has_warned_of_heights_,
+              "some reports have no height: it counts as any, which leaves their pairs undecided");
   // Fewer reports say little, such as those before a clock is confirmed.
   constexpr std::uint64_t least = 100;
-  const std::uint64_t unusable = watcher_.counts().unusable();
-  if (has_warned_of_unusable_ || unusable < least || unusable <= watcher_.monitor_counters().reports) return;
-  has_warned_of_unusable_ = true;
-  if (!options_.quiet)
-    print_message("kinesphere: warning: {}: most reports cannot be used: {} taken, {}\n", source_->name(),
-                  watcher_.monitor_counters().reports, reasons_text(watcher_));
+  const std::uint64_t taken = watcher_.monitor_counters().reports;
+  if (!has_warned_of_unusable_ && counts.unusable() >= least && counts.unusable() > taken)
+    warn_once(has_warned_of_unusable_,
+              fmt::format("most reports cannot be used: {} taken, {}", taken, reasons_text(watcher_)));
 }
 
 bool WatchRun::is_time_for_snapshot() const {

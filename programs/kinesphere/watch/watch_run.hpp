@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string_view>
 
 #include "watch.hpp"
 #include "watch/alert_output.hpp"
@@ -43,9 +44,8 @@ class WatchRun {
   void pass_time();
   FileTime now() const;
   void complain();
-  void warn_of_crowds();
-  void warn_of_unusable();
-  void warn_of_heights();
+  void warn();
+  void warn_once(bool& has_warned, std::string_view warning);
   bool is_time_for_snapshot() const;
   void keep_snapshot();
 
