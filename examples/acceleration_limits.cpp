@@ -19,10 +19,9 @@ struct Cost {
   ProbeReason reason{};  // of the body that is probed most often
 };
 
-/// Fifteen balls of radius 1 lie in a heap for one second, with this limit, awake or asleep, in a world that
-/// reports these contact events.
-Cost heap(double limit, bool asleep, ContactEvents contacts = ContactEvents::all) {
-  World world = World::create({.contacts = contacts}).value();
+/// Fifteen balls of radius 1 lie in a heap for one second, with this limit, awake or asleep.
+Cost heap(double limit, bool asleep) {
+  World world = World::create({}).value();
   world.add_static({.shape = HalfSpace{{0, 0, 1}, 0}}).value();
   std::vector<State> places(1);
   for (int layer = 5; layer > 0; --layer)
@@ -104,7 +103,6 @@ int main() {
   const Cost asleep = best_of_three([] { return heap(10.0, true); });
   print_heap("limit 10", limited);
   print_heap("limit 1", best_of_three([] { return heap(1.0, false); }));
-  print_heap("limit 10, ends", best_of_three([] { return heap(10.0, false, ContactEvents::begin_and_end); }));
   print_heap("limit 0", best_of_three([] { return heap(0.0, false); }));
   print_heap("limit 10, asleep", asleep);
 

@@ -43,8 +43,7 @@ test("the first program of the README", async () => {
   assert.ok(deepest(motion.states(10), 6, 2, 100) <= Math.max(0, deepest(positions, 3, 2, 100)) + 1e-6);
 });
 
-// "begin_and_end" is for contacts that are not answered: one that began without an approach reports no later one.
-for (const contacts of [undefined, "all", "impacts"]) {
+for (const contacts of [undefined, "all", "impacts", "begin_and_end"]) {
   test(`a falling gas stays in its box: contacts ${contacts}`, () => {
     const next = random(1);
     const n = 6, radius = 0.4, count = n ** 3;

@@ -10,9 +10,9 @@ namespace kinesphere {
 enum class ContactEvents : std::uint8_t {
   /// A begin whenever the two touch and approach, and no ends: the least, for bodies that only bounce.
   impacts = 1,
-  /// One begin and one end for each contact, for bodies whose contacts are watched and not answered. If an
-  /// answer to the begin parts the two, their next approach is another begin all the same. A contact that
-  /// began without an approach reports none.
+  /// One begin and one end for each contact, for bodies whose contacts are watched and seldom answered. There
+  /// is another begin (Event::already_touching) only for the first approach of two that did not approach when
+  /// their contact began, or that a response has parted since.
   begin_and_end = 2,
   /// A begin and an end for each contact, and a begin for each further approach in between
   /// (Event::already_touching).

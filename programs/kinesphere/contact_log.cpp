@@ -23,8 +23,8 @@ ContactLog::ContactLog(const std::string& path) : ContactLog(table_format_of(pat
 ContactLog::ContactLog(TableFormat format, OutputPlace place)
     : table_(format, std::move(place),
              {"time", "kind", "first", "second", "wall", "gap", "approach_speed", "point_x", "point_y",
-              "point_z", "normal_x", "normal_y", "normal_z", "repeated", "position_excess",
-              "velocity_excess"}) {}
+              "point_z", "normal_x", "normal_y", "normal_z", "repeated", "already_touching",
+              "position_excess", "velocity_excess"}) {}
 
 void ContactLog::write(const Event& event) {
   const Cell cells[] = {event.time,
@@ -41,6 +41,7 @@ void ContactLog::write(const Event& event) {
                         event.normal.y,
                         event.normal.z,
                         event.repeated,
+                        event.already_touching,
                         event.position_excess,
                         event.velocity_excess};
   table_.write(cells);

@@ -168,7 +168,8 @@ separation_distance (length, > contact_tolerance; default 4 of it): a contact en
 this.
 contacts: which contact events the world reports. "all": a begin and an end for each contact, and a begin for
 each further approach in between (event.already_touching). "impacts", for what only bounces: a begin for each
-approach, and no ends. "begin_and_end", for contacts that are watched and not answered.
+approach, and no ends. "begin_and_end", for contacts that are watched: one begin and one end,
+and the first approach if the contact began without one or a response has parted the two.
 allow_overlap: when False, add() refuses a body that certainly overlaps another or a wall.
 zeno_interval (time, >= 0): contacts of a body that follow each other sooner are marked as repeated, and
 bounce() takes no energy from those; otherwise a ball that comes to rest would bounce infinitely often in a

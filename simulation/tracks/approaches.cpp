@@ -42,6 +42,7 @@ std::vector<Approach> approaches_in(const Scene& scene, const std::vector<Event>
   std::map<std::pair<BodyId, BodyId>, std::size_t> last;
   for (const Event& event : events) {
     const std::pair bodies{event.first, event.second};
+    if (event.already_touching) continue;
     if (event.kind == EventKind::contact_begin) {
       last[bodies] = approaches.size();
       approaches.push_back(begun(scene, event));

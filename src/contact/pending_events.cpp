@@ -110,8 +110,7 @@ bool PendingEvents::take_effect(ContactGraph& graph, Event& event, const Sphere&
       graph.note_contact(event);
       ContactState state = threshold.within ? threshold.state : ContactState{};
       const bool approaches = graph.rule().is_approach(event.gap, event.approach_speed, error);
-      const bool is_watched = wants_approaches(wanted) && !approaches;
-      state.approach = is_watched ? ApproachState::watched : ApproachState::reported;
+      state.approach = approaches ? ApproachState::reported : ApproachState::watched;
       // The begin itself says that the two overlap.
       state.guard_reported = state.guard_reported || event.gap < -graph.rule().tolerance();
       graph.set_state(event, state);

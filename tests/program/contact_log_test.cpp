@@ -51,9 +51,9 @@ TEST_F(ContactLogTest, WritesCsv) {
   EXPECT_EQ(lines[0],
             "time,kind,first,second,wall,gap,approach_speed,point_x,point_y,point_z,normal_x,normal_y,normal_"
             "z,repeated,"
-            "position_excess,velocity_excess");
-  EXPECT_EQ(lines[1], "0.1,contact_begin,3,7,,1e-07,0.3333333333333333,1,2,3,0,0,1,true,0,0");
-  EXPECT_EQ(lines[2], "2,wall_begin,3,,x_upper,0,0,0,0,0,1,0,0,false,0,0");
+            "already_touching,position_excess,velocity_excess");
+  EXPECT_EQ(lines[1], "0.1,contact_begin,3,7,,1e-07,0.3333333333333333,1,2,3,0,0,1,true,false,0,0");
+  EXPECT_EQ(lines[2], "2,wall_begin,3,,x_upper,0,0,0,0,0,1,0,0,false,false,0,0");
 }
 
 TEST_F(ContactLogTest, WritesJsonLines) {

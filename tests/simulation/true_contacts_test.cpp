@@ -77,6 +77,7 @@ std::map<Pair, std::vector<ContactInterval>> told_by_oracle(const Scene& scene) 
   std::map<Pair, std::vector<ContactInterval>> contacts;
   SimulationObserver observer;
   observer.on_event = [&](const Event& event) {
+    if (event.already_touching) return;
     auto& of_pair = contacts[std::minmax(event.first.index, event.second.index)];
     if (event.kind == EventKind::contact_begin) of_pair.push_back({.begin = event.time});
     if (event.kind == EventKind::contact_end) of_pair.back().end = event.time;
@@ -199,7 +200,9 @@ TEST(Comparison, of_many_short_tracks_takes_no_time_for_each_pair) {
   const Scene scene = many_short_tracks(4000);
   std::vector<Event> events;
   SimulationObserver observer;
-  observer.on_event = [&](const Event& event) { events.push_back(event); };
+  observer.on_event = [&](const Event& event) {
+    if (!event.already_touching) events.push_back(event);
+  };
   ASSERT_TRUE(simulate(scene, make_world_detector, observer));
   EXPECT_GT(events.size(), 100u);
   const std::clock_t begin = std::clock();

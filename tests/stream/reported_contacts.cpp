@@ -180,10 +180,16 @@ void ReportedContacts::appeared(BodyId id) {
   });
 }
 
+/// True if an approach of the two is reported: that of all contacts or, where the caller wants begins and
+/// ends alone, the first one of a contact that began without.
+bool ReportedContacts::is_watched(const Contact& contact, const ReportedState& state) const {
+  return wants_approaches(wanted(contact)) || (state.touching && !state.approached);
+}
+
 /// Resets the state of a contact: bouncing bodies may overlap deeply, as long as they separate.
 void ReportedContacts::look_again(const Contact& contact) {
   ReportedState& state = reported(contact);
-  if (!wants_approaches(wanted(contact)) || state.approached || !truth_.may_be_reported(contact)) return;
+  if (state.approached || !is_watched(contact, state) || !truth_.may_be_reported(contact)) return;
   state.due = true;
   // The Zeno guard may use an eighth of the tolerance more.
   state.floor = std::min(0.0, truth_.gap(contact) - 0.125 * rule_.tolerance() + rule_.tolerance());
@@ -209,7 +215,7 @@ void ReportedContacts::hear(const Event& event) {
       if (truth_.may_be_reported(contact)) {
         // Further approaches may be reported until then, or not.
         ReportedState& state = reported(contact);
-        if (!wants_approaches(wanted(contact)) && !state.opened)
+        if (!is_watched(contact, state) && !state.opened)
           fail("a Zeno guard, though no approach is watched", contact, event.gap);
         state.guarded = state.approached = state.opened = true;
       }
@@ -305,12 +311,11 @@ void ReportedContacts::begin(const Event& event, const Contact& contact) {
   const bool first = ends && !state.touching;
   if (!first && event.approach_speed <= 0.0) fail("an impact that does not approach", contact, gap);
   // The two must have parted since the last report of an approach, or a response has parted them.
-  if (!first && !state.opened && (state.approached || !wants_approaches(events)))
-    fail("a begin is reported twice", contact, gap);
+  if (!first && !state.opened && state.approached) fail("a begin is reported twice", contact, gap);
   const bool approaches = event.approach_speed > 0.0;
-  state = {.touching = ends, .approached = approaches || !wants_approaches(events), .guarded = state.guarded};
+  state = {.touching = ends, .approached = approaches || contact.sensed, .guarded = state.guarded};
   // Rounding alone may produce so slow an approach.
-  state.opened = wants_approaches(events) && approaches && event.approach_speed < 1e-9;
+  state.opened = event.approach_speed < 1e-9;
   if (!state.approached) look_again(contact);
 }
 
@@ -434,7 +439,7 @@ void ReportedContacts::check_contact(const Contact& contact, double until) {
       fail("they touch untold at " + std::to_string(*time), contact, truth_.gap(contact));
     return;
   }
-  if (wants_approaches(events)) check_approaches(contact, state, until);
+  if (is_watched(contact, state)) check_approaches(contact, state, until);
 }
 
 void ReportedContacts::check_approaches(const Contact& contact, ReportedState& state, double until) {

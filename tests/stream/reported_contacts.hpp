@@ -97,6 +97,7 @@ class ReportedContacts {
   void check_free(const Contact& contact, ReportedState& state, double from, double until) const;
   std::optional<double> reaches(const Contact& contact, LevelCrossing overlap, double level, double from,
                                 double until) const;
+  bool is_watched(const Contact& contact, const ReportedState& state) const;
   void look_again(const Contact& contact);
 
   ContactRule rule_;

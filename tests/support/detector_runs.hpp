@@ -59,10 +59,11 @@ inline Scene dense_scene(SceneResponse response, bool forces, std::uint64_t seed
 /// First body, second body (the first again for a wall), wall.
 using PairKey = std::tuple<std::uint32_t, std::uint32_t, Wall>;
 
+/// Returns the events of each pair, without begins of two that touch already.
 inline std::map<PairKey, std::vector<Event>> by_pair(const std::vector<Event>& events) {
   std::map<PairKey, std::vector<Event>> found;
   for (const Event& event : events)
-    found[{event.first.index, event.second.index, event.wall}].push_back(event);
+    if (!event.already_touching) found[{event.first.index, event.second.index, event.wall}].push_back(event);
   return found;
 }
 
