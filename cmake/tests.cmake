@@ -22,7 +22,8 @@ foreach(library kinesphere_test_headers kinesphere_test_headers_little)
 endforeach()
 kinesphere_optimise_little(kinesphere_test_headers_little)
 
-# Makes test_NAME of these sources, and a test NAME.* of each of its tests, with the label NAME.
+# Makes test_NAME of these sources, and a test NAME.* of each of its tests, with the label NAME. Those of an
+# instantiation that is named Long have the label `long` instead.
 function(kinesphere_add_tests name)
   set(test test_${name})
   add_executable(${test} ${ARGN})
@@ -43,6 +44,16 @@ function(kinesphere_add_tests name)
   gtest_discover_tests(
     ${test}
     TEST_PREFIX ${name}.
+    TEST_FILTER -Long*
     DISCOVERY_TIMEOUT 60
     PROPERTIES TIMEOUT 600 LABELS ${name} ENVIRONMENT RC_PARAMS=seed=2005)
+  if(name STREQUAL stream)
+    gtest_discover_tests(
+      ${test}
+      TEST_PREFIX ${name}.
+      TEST_FILTER Long*
+      TEST_LIST long_tests
+      DISCOVERY_TIMEOUT 60
+      PROPERTIES TIMEOUT 600 LABELS long ENVIRONMENT RC_PARAMS=seed=2005)
+  endif()
 endfunction()

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that are missing here. Where none is, it does nothing, without network.
-# Usage: setup.sh run | mpi | browser | python | research | prove | test | coverage
+# Usage: setup.sh run | mpi | browser | python | research | prove | test | all | coverage
 set -euo pipefail
 
 packages=(g++ cmake ninja-build libhwy-dev libcli11-dev libfmt-dev nlohmann-json3-dev libsimdjson-dev zlib1g-dev libgeographiclib-dev libexpat1-dev libnats-dev)
@@ -11,7 +11,7 @@ if ! command -v npm >/dev/null; then browser+=(npm); fi
 python=(python3-dev python3-pip python3-venv python3-setuptools python3-wheel python3-skbuild pybind11-dev python3-numpy)
 python_testing=(python3-pytest python3-pandas python3-matplotlib python3-scipy mypy black)
 proving=(coq libcoq-flocq)
-testing=("${proving[@]}" "${mpi[@]}" "${browser[@]}" "${python[@]}" "${python_testing[@]}" chromium libcpp-httplib-dev libgtest-dev libtbb-dev nats-server librapidcheck-dev clang libclang-rt-dev clang-format clang-tidy pkg-config valgrind)
+testing=("${mpi[@]}" "${python[@]}" "${python_testing[@]}" libcpp-httplib-dev libgtest-dev libtbb-dev nats-server librapidcheck-dev clang libclang-rt-dev clang-format clang-tidy pkg-config valgrind)
 case ${1:-} in
   run) ;;
   mpi) packages+=("${mpi[@]}") ;;
@@ -19,9 +19,10 @@ case ${1:-} in
   python) packages+=("${python[@]}") ;;
   research) packages+=(gnuplot-nox libbullet-dev libgtest-dev librapidcheck-dev clang clang-format clang-tidy black) ;;
   test) packages+=("${testing[@]}") ;;
+  all) packages+=("${testing[@]}" "${browser[@]}" chromium "${proving[@]}") ;;
   prove) packages=("${proving[@]}" g++ libgtest-dev) ;;
   coverage) packages+=("${testing[@]}" gcovr) ;;
-  *) echo "setup: usage: setup.sh run | mpi | browser | python | research | prove | test | coverage" >&2 && exit 2 ;;
+  *) echo "setup: usage: setup.sh run | mpi | browser | python | research | prove | test | all | coverage" >&2 && exit 2 ;;
 esac
 
 if ! command -v apt-get >/dev/null; then
