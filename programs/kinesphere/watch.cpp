@@ -30,11 +30,22 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
   command
       ->add_option(
           "--separation", options.separations,
-          "What is watched for, once or several times: sphere:50, cylinder:5NM:1000ft, ellipsoid:5NM:1000ft")
+          "What is watched for, once or several times: sphere:50, cylinder:5NM:1000ft, ellipsoid:5NM:1000ft; "
+          "with a time, as sphere:1NM:20min, also what is predicted for that time if all go straight on")
       ->required()
       ->expected(1)
       ->take_all()
-      ->type_name("SHAPE");
+      ->type_name("SHAPE[:TIME]");
+  command
+      ->add_option("--hold", options.hold,
+                   "A prediction ends once it has not held for so long; half of --silence when not given")
+      ->type_name("TIME");
+  command->add_option("--own", options.own, "Watch only the pairs with the track of this id")
+      ->type_name("ID");
+  command->add_option("--only", options.only, "Write only alerts of these kinds; all when not given")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"within", "predicted", "undecided", "tracks"}))
+      ->type_name("within,predicted,undecided,tracks");
   command
       ->add_option("--format", options.format, "The format, where the stream's first line does not show it")
       ->check(CLI::Validator(

@@ -16,6 +16,9 @@ struct WatchOptions {
   std::string format;  ///< empty: as the stream's beginning shows
   FormatChoices choices;
   std::vector<std::string> separations;
+  std::string hold;
+  std::string own;
+  std::vector<std::string> only;
   std::optional<int> dimensions;
   std::string acceleration, largest_speed;
   std::string position_error, velocity_error, stamp_error;

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "monitor/engine.hpp"
+#include "monitor/straight_pass.hpp"
 
 namespace kinesphere {
 
@@ -58,37 +59,20 @@ Result<PairAnswer> Monitor::Engine::answer(TrackId first, TrackId second, std::u
   answer.lower = std::max(0.0, between.lower);
   answer.upper = between.upper;
 
-  // Extrapolation: both tracks continue straight on from their current centres.
-  const auto ahead = [this](const KnownTrack& track) {
-    const ReachableSet& set = TrackEstimate::tightest(track.estimate.hypotheses().front(), time_);
-    return State{set.centre_at(time_), set.velocity_at(time_)};
-  };
-  const State x = ahead(one), y = ahead(other);
-  answer.likely_time = time_;
-  double leaves = infinity;
-  for (const Component& component : levels[level]) {
-    const Vec3 offset = component.part(x.position - y.position);
-    const Vec3 velocity = component.part(x.velocity - y.velocity);
-    const double v2 = norm_squared(velocity), xv = dot(offset, velocity);
-    const double nearest_after = v2 > 0.0 ? std::max(0.0, -xv / v2) : 0.0;
-    if (&component == &nearest) {
-      answer.closest_time = time_ + nearest_after;
-      answer.closest_distance = norm(offset + velocity * nearest_after);
-    }
-    const double c = norm_squared(offset) - component.limit * component.limit;
-    const double discriminant = xv * xv - v2 * c;
-    if (c > 0.0 && !(xv < 0.0 && discriminant >= 0.0)) {
-      answer.likely_time = infinity;
-      continue;
-    }
-    const double root = std::sqrt(std::max(0.0, discriminant));
-    if (c > 0.0) answer.likely_time = std::max(answer.likely_time, time_ + c / (root - xv));
-    if (v2 > 0.0) leaves = std::min(leaves, time_ + (root - xv) / v2);
-  }
-  if (answer.likely_time > leaves) answer.likely_time = infinity;
+  const StraightPass pass = straight_pass(straight_on(one), straight_on(other), levels[level], time_);
+  answer.likely_time = pass.begin;
+  answer.closest_time = pass.closest_time;
+  answer.closest_distance = pass.closest_distance;
+  answer.predicted = predictions_.is_predicted(a, b, level);
   answer.ask = is_less_certain(a, b) ? first : second;
   answer.ask_by = answer.verdict == Verdict::undecided ? time_ : answer.until;
   return answer;
+}
+
+/// Returns the state now of a track that goes straight on from its latest report.
+State Monitor::Engine::straight_on(const KnownTrack& track) const {
+  const ReachableSet& set = TrackEstimate::tightest(track.estimate.hypotheses().front(), time_);
+  return {set.centre_at(time_), set.velocity_at(time_)};
 }
 
 std::vector<OpenPair> Monitor::Engine::open_pairs() const {

@@ -67,6 +67,8 @@ Result<void> Monitor::Engine::ask(std::span<const std::uint32_t> numbers, const 
       if (Result<void> checked = check(ids[k], *reports[k], "advance"); !checked) return checked;
   for (std::size_t k = 0; k < ids.size(); ++k)
     if (reports[k]) take(ids[k], *reports[k], placing);
+  for (std::size_t k = 0; k < ids.size(); ++k)
+    if (reports[k]) predict(*tracks_.find(ids[k]));
   return {};
 }
 }  // namespace kinesphere

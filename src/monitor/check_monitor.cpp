@@ -26,6 +26,9 @@ Result<void> check_monitor(const MonitorDefinition& definition) {
                definition.stale_after)
       .require(definition.drop_after > 0.0, ErrorCode::out_of_range, {"drop_after"}, "must be > 0",
                definition.drop_after)
+      .not_negative({"prediction_hold"}, definition.prediction_hold)
+      .require(definition.prediction_hold <= limits::largest_time, ErrorCode::out_of_range,
+               {"prediction_hold"}, "must be at most", limits::largest_time, definition.prediction_hold)
       .require(!definition.classes.empty(), ErrorCode::out_of_range, {"classes"}, "must name at least one",
                definition.classes.size());
   const auto duration = [&check](std::string_view part, double value) {
@@ -79,6 +82,9 @@ Result<void> check_monitor(const MonitorDefinition& definition) {
     for (const Separation& level : rule.levels) {
       length("horizontal", level.horizontal);
       if (definition.dimensions == 3) length("vertical", level.vertical);
+      check.not_negative(subject("look_ahead"), level.look_ahead)
+          .require(level.look_ahead <= limits::largest_time, ErrorCode::out_of_range, subject("look_ahead"),
+                   "must be at most", limits::largest_time, level.look_ahead);
     }
     for (std::size_t other = 0; other < k; ++other) {
       const SeparationRule& before = definition.separations[other];

@@ -23,8 +23,10 @@ std::vector<TrackClass> classes_of(const MonitorDefinition& definition) {
   return classes;
 }
 
+/// Order of the events of one time. A track that starts anew does so before all that follows for it.
 auto order_of(const MonitorEvent& event) {
-  return std::tuple(event.kind, event.first, event.second, event.level);
+  return std::tuple(event.kind != MonitorEventKind::reclassified, event.kind, event.first, event.second,
+                    event.level);
 }
 
 }  // namespace
@@ -36,6 +38,7 @@ Monitor::Engine::Engine(const MonitorDefinition& definition)
       rung_(exponent_of(definition.window)),
       time_(definition.start_time.value_or(0.0)),
       has_started_(definition.start_time.has_value()),
+      predictions_(definition_, separations_),
       broad_phase_(space_of(definition)) {}
 
 bool Monitor::Engine::is_stale(const PairCertificate& pair) const {
@@ -57,11 +60,18 @@ Result<std::optional<MonitorEvent>> Monitor::Engine::advance(double until, const
   }
   for (;;) {
     queue_.open([this](const PairCertificate& pair) { return is_stale(pair); });
-    const double next = std::min(broad_phase_.next_end(), queue_.next_time());
+    const double next = std::min({broad_phase_.next_end(), queue_.next_time(), predictions_.next_time()});
     if (events_.empty() ? next > until : next > time_) break;
     time_ = std::max(time_, next);
-    const Result<void> done = broad_phase_.next_end() <= time_ ? start_windows(poll) : recheck(poll);
-    if (!done) return done.error();
+    if (broad_phase_.next_end() <= time_) {
+      if (const Result<void> done = start_windows(poll); !done) return done.error();
+    } else if (queue_.next_time() <= time_) {
+      if (const Result<void> done = recheck(poll); !done) return done.error();
+    } else {
+      std::vector<MonitorEvent> events;
+      predictions_.advance(time_, events);
+      queue_all(events);
+    }
   }
   if (events_.empty()) {
     time_ = std::max(time_, until);
@@ -77,6 +87,10 @@ void Monitor::Engine::queue(MonitorEvent event) {
       events_.begin(), events_.end(), event,
       [](const MonitorEvent& a, const MonitorEvent& b) { return order_of(a) < order_of(b); });
   events_.insert(at, event);
+}
+
+void Monitor::Engine::queue_all(const std::vector<MonitorEvent>& events) {
+  for (const MonitorEvent& event : events) queue(event);
 }
 
 /// Returns the bound of a hypothesis for the broad phase, with the margin of its class. A planned

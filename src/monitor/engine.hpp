@@ -16,6 +16,7 @@
 #include "broadphase/neighbour_search.hpp"
 #include "kinesphere/monitor/monitor.hpp"
 #include "monitor/pair_records.hpp"
+#include "monitor/predictions.hpp"
 #include "monitor/separation_forecast.hpp"
 #include "monitor/separation_table.hpp"
 #include "monitor/track_table.hpp"
@@ -49,6 +50,7 @@ class Monitor::Engine {
 
   Result<PairAnswer> answer(TrackId first, TrackId second, std::uint32_t level) const;
   std::vector<OpenPair> open_pairs() const;
+  std::vector<PredictedPair> predicted_pairs() const { return predictions_.predicted_pairs(time_); }
   std::size_t open_pair_count() const { return pair_records_.size(); }
   std::vector<TrackId> crowd(std::size_t pairs) const;
   std::vector<ReportRequest> needed(double until) const;
@@ -71,7 +73,8 @@ class Monitor::Engine {
   enum class Placing { now, later };
   void take(TrackId id, const TrackReport& report, Placing placing);
   void place(std::uint32_t number);
-  void drop(std::uint32_t number);
+  void drop(std::uint32_t number, MonitorEventKind kind);
+  void predict(std::uint32_t number);
   void expect_to_hear(std::uint32_t number);
   void is_due(std::uint32_t number);
 
@@ -98,6 +101,7 @@ class Monitor::Engine {
   std::optional<double> certified_until(std::uint32_t a, std::uint32_t b) const;
   bool is_decided(std::uint32_t a, std::uint32_t b);
   bool is_less_certain(std::uint32_t a, std::uint32_t b) const;
+  State straight_on(const KnownTrack& track) const;
   void find_pair(std::uint32_t a, std::uint32_t b);
   void decide(std::uint32_t a, std::uint32_t b);
   void close_records();
@@ -106,6 +110,7 @@ class Monitor::Engine {
   void decide_pairs_not_due(std::uint32_t number);
   void add_certificate(std::uint32_t a, std::uint32_t b, double time);
   void queue(MonitorEvent event);
+  void queue_all(const std::vector<MonitorEvent>& events);
   /// Broad-phase slot of a hypothesis; track_at() is its inverse with respect to the track.
   static std::uint32_t place_of(std::uint32_t number, const Hypothesis& hypothesis) {
     return number * TrackEstimate::slots + hypothesis.slot;
@@ -132,6 +137,7 @@ class Monitor::Engine {
   MonitorCounters counters_;
   TrackTable tracks_;
   PairRecords pair_records_;
+  Predictions predictions_;
   BroadPhase broad_phase_;
   CertificateQueue queue_;
   std::deque<MonitorEvent> events_;  ///< Events at time() that advance() has not returned yet, in order.

@@ -14,6 +14,10 @@ std::string_view name_of(MonitorEventKind kind) {
   switch (kind) {
     case MonitorEventKind::verdict:
       return "verdict";
+    case MonitorEventKind::predicted:
+      return "predicted";
+    case MonitorEventKind::prediction_ended:
+      return "prediction_ended";
     case MonitorEventKind::contradiction:
       return "contradiction";
     case MonitorEventKind::resolved:
@@ -24,6 +28,8 @@ std::string_view name_of(MonitorEventKind kind) {
       return "heard";
     case MonitorEventKind::dropped:
       return "left";
+    case MonitorEventKind::reclassified:
+      return "reclassified";
   }
   return "unknown";
 }
@@ -127,6 +133,9 @@ Result<PairAnswer> Monitor::answer(TrackId first, TrackId second, std::uint32_t 
   return engine("answer").answer(first, second, level);
 }
 std::vector<OpenPair> Monitor::open_pairs() const { return engine("open_pairs").open_pairs(); }
+std::vector<PredictedPair> Monitor::predicted_pairs() const {
+  return engine("predicted_pairs").predicted_pairs();
+}
 std::size_t Monitor::open_pair_count() const { return engine("open_pair_count").open_pair_count(); }
 std::vector<TrackId> Monitor::crowd(std::size_t pairs) const { return engine("crowd").crowd(pairs); }
 std::vector<ReportRequest> Monitor::needed(double until) const { return engine("needed").needed(until); }

@@ -47,27 +47,21 @@ struct PairRecord {
   }
 };
 
-/// PairRecords by the numbers of their two tracks. The order of the two arguments does not matter.
-class PairRecords {
+/// Records of pairs by the numbers of their two tracks. The order of the two arguments does not matter.
+template <class Record>
+class PairMap {
  public:
-  PairRecord* find(std::uint32_t a, std::uint32_t b) {
+  Record* find(std::uint32_t a, std::uint32_t b) {
     const auto at = records_.find(key(a, b));
     return at == records_.end() ? nullptr : &at->second;
   }
-  const PairRecord* find(std::uint32_t a, std::uint32_t b) const {
+  const Record* find(std::uint32_t a, std::uint32_t b) const {
     const auto at = records_.find(key(a, b));
     return at == records_.end() ? nullptr : &at->second;
   }
-  PairRecord& add(std::uint32_t a, std::uint32_t b, std::size_t levels) {
-    PairRecord& record = records_[key(a, b)];
-    record.levels.resize(levels);
-    return record;
-  }
+  Record& add(std::uint32_t a, std::uint32_t b) { return records_[key(a, b)]; }
   void remove(std::uint32_t a, std::uint32_t b) { records_.erase(key(a, b)); }
-  std::uint32_t fresh_version() { return ++last_version_; }
   std::size_t size() const { return records_.size(); }
-  std::uint32_t last_version() const { return last_version_; }
-  void start_versions_at(std::uint32_t version) { last_version_ = version; }
   /// Calls visit(a, b, record) with a < b for all records, in unspecified order.
   template <class Visit>
   void for_each(Visit visit) const {
@@ -80,7 +74,22 @@ class PairRecords {
     return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
   }
 
-  std::unordered_map<std::uint64_t, PairRecord> records_;
+  std::unordered_map<std::uint64_t, Record> records_;
+};
+
+/// The PairRecords of a monitor, and the versions given to them.
+class PairRecords : public PairMap<PairRecord> {
+ public:
+  PairRecord& add(std::uint32_t a, std::uint32_t b, std::size_t levels) {
+    PairRecord& record = PairMap::add(a, b);
+    record.levels.resize(levels);
+    return record;
+  }
+  std::uint32_t fresh_version() { return ++last_version_; }
+  std::uint32_t last_version() const { return last_version_; }
+  void start_versions_at(std::uint32_t version) { last_version_ = version; }
+
+ private:
   std::uint32_t last_version_ = 0;
 };
 

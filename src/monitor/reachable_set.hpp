@@ -86,9 +86,11 @@ struct Component {
 struct Components {
   Component parts[2];
   int count = 1;
+  double look_ahead = 0.0;  ///< Separation::look_ahead
 
   Components(const Separation& separation, int dimensions, double tolerance) {
-    const auto& [shape, horizontal, vertical] = separation;
+    const auto& [shape, horizontal, vertical, ahead] = separation;
+    look_ahead = ahead;
     if (shape == Separation::Shape::cylinder) {
       parts[0] = {Component::Axes::plane, 1.0, horizontal, tolerance};
       parts[1] = {Component::Axes::upright, 1.0, vertical, tolerance};

@@ -14,8 +14,19 @@ Result<void> Monitor::Engine::report(TrackId id, const TrackReport& report) {
   if (Result<void> checked = check(id, report, "report"); !checked) return checked;
   if (!has_started_) start_clock(report.timestamp);
   take(id, report, Placing::now);
-  decide_open_pairs(*tracks_.find(id));
+  const std::uint32_t number = *tracks_.find(id);
+  decide_open_pairs(number);
+  predict(number);
   return {};
+}
+
+/// Predicts from the present state of a track.
+void Monitor::Engine::predict(std::uint32_t number) {
+  const KnownTrack& track = tracks_[number];
+  if (!(separations_.look_ahead(track.track_class) > 0.0)) return;
+  std::vector<MonitorEvent> events;
+  predictions_.set_path(number, track.id, track.track_class, straight_on(track), time_, events);
+  queue_all(events);
 }
 
 Result<void> Monitor::Engine::check(TrackId id, const TrackReport& report, const char* call) const {
@@ -56,10 +67,6 @@ Result<void> Monitor::Engine::check(TrackId id, const TrackReport& report, const
       std::isfinite(track_class.largest_speed.total()) || (std::isfinite(report.velocity_error.total())),
       ErrorCode::out_of_range, subject("velocity_error"),
       "must be finite where the class has no largest speed", report.velocity_error.total());
-  if (const auto number = tracks_.find(id))
-    check.require(tracks_[*number].track_class == report.track_class, ErrorCode::out_of_range,
-                  subject("track_class"), "must be that of its first report,", tracks_[*number].track_class,
-                  report.track_class);
   return check.result();
 }
 
@@ -67,7 +74,11 @@ Result<void> Monitor::Engine::check(TrackId id, const TrackReport& report, const
 /// reports that arrive together are applied.
 void Monitor::Engine::take(TrackId id, const TrackReport& report, Placing placing) {
   const TrackClass& track_class = classes_[report.track_class];
-  const auto known = tracks_.find(id);
+  auto known = tracks_.find(id);
+  if (known && tracks_[*known].track_class != report.track_class) {
+    drop(*known, MonitorEventKind::reclassified);
+    known.reset();
+  }
   const std::uint32_t number = known ? *known : tracks_.add(id, report.track_class);
   KnownTrack& track = tracks_[number];
   TrackReport flat = report;
@@ -143,17 +154,24 @@ Result<void> Monitor::Engine::remove(TrackId id) {
   const auto number = tracks_.find(id);
   if (!number)
     return Error{ErrorCode::unknown_body, "id", no_body, "remove: there is no track " + std::to_string(id)};
-  drop(*number);
+  drop(*number, MonitorEventKind::dropped);
   return {};
 }
 
-void Monitor::Engine::drop(std::uint32_t number) {
+/// Removes a track, with an event of this kind.
+void Monitor::Engine::drop(std::uint32_t number, MonitorEventKind kind) {
   KnownTrack& track = tracks_[number];
+  predictions_.remove(number);
+  // A track that starts anew has no events from before.
+  if (kind == MonitorEventKind::reclassified)
+    std::erase_if(events_, [&](const MonitorEvent& event) {
+      return is_of_pair(event.kind) && (event.first == track.id || event.second == track.id);
+    });
   for (const std::uint32_t other : track.open) {
     pair_records_.remove(number, other);
     std::erase(tracks_[other].open, number);
   }
-  queue({.time = time_, .kind = MonitorEventKind::dropped, .first = track.id});
+  queue({.time = time_, .kind = kind, .first = track.id});
   for (std::uint32_t slot = 0; slot < TrackEstimate::slots; ++slot)
     if (const std::uint32_t place = number * TrackEstimate::slots + slot; broad_phase_.contains(place))
       broad_phase_.leave(place);
@@ -179,7 +197,7 @@ void Monitor::Engine::expect_to_hear(std::uint32_t number) {
 void Monitor::Engine::is_due(std::uint32_t number) {
   KnownTrack& track = tracks_[number];
   const double age = track.estimate.timestamp();
-  if (age + definition_.drop_after <= time_) return drop(number);
+  if (age + definition_.drop_after <= time_) return drop(number, MonitorEventKind::dropped);
   if (!track.stale && age + definition_.stale_after <= time_) {
     track.stale = true;
     queue({.time = time_, .kind = MonitorEventKind::stale, .first = track.id});

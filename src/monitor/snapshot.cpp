@@ -15,7 +15,7 @@ namespace {
 
 /// Raise the version when the fields change, or when the engine would continue differently from equal fields.
 constexpr Envelope monitor_envelope{{'K', 'i', 'n', 'M', 'o', 'n', '\r', '\n'},
-                                    5,
+                                    6,
                                     "monitor",
                                     "Monitor::restore",
                                     "snapshot",
@@ -33,7 +33,7 @@ bool is_blank(const KnownTrack& track) {
 template <class Self, class Archive>
 void Monitor::Engine::serialize(Self& self, Archive& archive) {
   archive(self.time_, self.has_started_, self.window_, self.quiet_windows_, self.counters_, self.tracks_,
-          self.broad_phase_);
+          self.broad_phase_, self.predictions_);
   std::vector<SavedRecord> records;
   std::vector<MonitorEvent> events;
   std::uint32_t last_version = 0;
@@ -83,6 +83,13 @@ Result<std::unique_ptr<Monitor::Engine>> Monitor::Engine::restore(std::span<cons
   if (const char* where = engine->tracks_.index() ? engine->first_invalid_part() : "tracks")
     return monitor_envelope.refusal(
         std::string("must hold a monitor that can be, but contradicts itself in its ") + where);
+  std::vector<std::optional<Predictions::TrackKey>> keys(engine->tracks_.numbers());
+  for (std::uint32_t number = 0; number < keys.size(); ++number)
+    if (const KnownTrack& track = engine->tracks_[number]; track.present)
+      keys[number] = {track.id, track.track_class};
+  if (!engine->predictions_.restore(keys, engine->time_))
+    return monitor_envelope.refusal(
+        "must hold a monitor that can be, but contradicts itself in its predictions");
   engine->queue_.add_all(engine->read_pairs_);
   return engine;
 }
@@ -151,7 +158,7 @@ const char* Monitor::Engine::first_invalid_part() const {
   };
   if (!std::all_of(read_pairs_.begin(), read_pairs_.end(), is_pair)) return "certificates";
   const auto is_event = [this](const MonitorEvent& event) {
-    return event.time == time_ && event.kind <= MonitorEventKind::dropped &&
+    return event.time == time_ && event.kind <= MonitorEventKind::reclassified &&
            event.verdict <= Verdict::within && event.before <= Verdict::within;
   };
   return std::all_of(events_.begin(), events_.end(), is_event) ? nullptr : "events";

@@ -151,8 +151,10 @@ class Sky {
     for (std::uint32_t k = 1 + choices_.below(2); k > 0; --k) {
       const double horizontal = 0.5 + 0.3 * size_ * choices_.part(),
                    vertical = horizontal * choices_.of({1.0, 0.1, 4.0, 30.0});
-      levels.push_back(choices_.one_in(3) ? Separation::cylinder(horizontal, std::max(0.4, vertical))
-                                          : Separation::ellipsoid(horizontal, std::max(0.4, vertical)));
+      const double look_ahead = choices_.of({0.0, 1.0, 4.0}) * unit_;
+      levels.push_back(choices_.one_in(3)
+                           ? Separation::cylinder(horizontal, std::max(0.4, vertical), look_ahead)
+                           : Separation::ellipsoid(horizontal, std::max(0.4, vertical), look_ahead));
     }
     definition_.separations = {{0, 0, levels}};
   }

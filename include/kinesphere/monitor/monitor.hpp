@@ -79,6 +79,9 @@ struct MonitorDefinition {
   /// and at which it is dropped (MonitorEventKind::dropped). Infinity, the default, disables them.
   double stale_after = std::numeric_limits<double>::infinity();
   double drop_after = std::numeric_limits<double>::infinity();
+  /// A prediction ends once it has not held for this long (time, >= 0), so that it does not come and go with
+  /// the errors of reports.
+  double prediction_hold = 0.0;
   /// Pairs that this monitor watches, if other monitors watch the remaining ones.
   Shard shard{};
 };
@@ -119,6 +122,8 @@ struct PairAnswer {
   /// the verdict to stay certain. For an undecided pair that time is now.
   TrackId ask = 0;
   double ask_by = 0.0;
+  /// True from MonitorEventKind::predicted to MonitorEventKind::prediction_ended.
+  bool predicted = false;
 };
 
 /// A pair that is not certainly apart at one separation level.
@@ -128,6 +133,18 @@ struct OpenPair {
   std::uint32_t level = 0;
   Verdict verdict = Verdict::undecided;
   double since = 0.0;
+};
+
+/// A pair that is predicted to come within a separation (MonitorEventKind::predicted).
+struct PredictedPair {
+  TrackId first = 0;
+  TrackId second = 0;
+  std::uint32_t level = 0;
+  double since = 0.0;  ///< Time of its event `predicted`.
+  // As in MonitorEvent, from now.
+  double likely_time = 0.0;
+  double closest_time = 0.0;
+  double closest_distance = 0.0;
 };
 
 /// A request for a report of `track` by time `by`. Without the report, a verdict about `track` and `other`
@@ -177,11 +194,12 @@ class Monitor {
   Monitor& operator=(Monitor&&) noexcept;
   ~Monitor();
 
-  /// Accepts a report that arrives at the current time. The first report of an id adds a track. The next
-  /// advance() emits the resulting events, at the current time. Errors: not_finite; out_of_range (a negative
-  /// error, an unknown class, a class that differs from the track's, a coordinate too large, no velocity
-  /// where the class has no largest speed). Cost: about that of a hash-table lookup, and a recheck of each
-  /// open pair of the track.
+  /// Accepts a report that arrives at the current time. The first report of an id adds a track, and one of
+  /// another class than before starts it anew (MonitorEventKind::reclassified). The next advance() emits the
+  /// resulting events, at the current time. Errors: not_finite; out_of_range (a negative error, an unknown
+  /// class, a coordinate too large, no velocity where the class has no largest speed). Cost: about that of a
+  /// hash-table lookup, and a recheck of each open pair of the track. With look-ahead times, also a recheck
+  /// of each track that may come near in that time.
   Result<void> report(TrackId id, const TrackReport& report);
   /// Removes a track; the next advance() emits its `dropped` event. Errors: unknown_body.
   Result<void> remove(TrackId id);
@@ -217,6 +235,8 @@ class Monitor {
   Result<PairAnswer> answer(TrackId first, TrackId second, std::uint32_t level = 0) const;
   /// Returns the pairs that are not certainly apart, in the order of their ids and levels.
   std::vector<OpenPair> open_pairs() const;
+  /// Returns the pairs that are predicted to come within a separation, in the order of their ids and levels.
+  std::vector<PredictedPair> predicted_pairs() const;
   /// Returns the number of pairs that are not certainly apart or were not at some time in the current window.
   /// Each of them takes about 150 bytes, in addition to the memory of the tracks. Reports count from the next
   /// advance() on. Cost: O(1).

@@ -14,6 +14,11 @@ using TrackId = std::uint64_t;
 enum class MonitorEventKind {
   /// The verdict about two tracks and a separation changes at this time.
   verdict,
+  /// If both go straight on, the closest approach of two tracks is within a separation and comes in its
+  /// look-ahead time, or they are within it now. A prediction, without a guarantee: tracks may turn.
+  predicted,
+  /// The two no longer do so: they have passed each other, or a report shows that they will not.
+  prediction_ended,
   /// A report contradicts the earlier ones: one of them has larger errors than stated, or the track moves in
   /// a way that its class rules out. The monitor keeps a hypothesis for each until later reports show which
   /// one is wrong.
@@ -27,8 +32,14 @@ enum class MonitorEventKind {
   /// A track was dropped: it was removed, or its latest report has reached the age
   /// MonitorDefinition::drop_after. Its open pairs remain undecided, and no more events about it follow.
   dropped,
+  /// A report has given the track another class. The track starts anew: its open pairs and predictions are
+  /// over, without events of their own, and it is decided again, with the limits and separations of its new
+  /// class. This event comes before all others of its time.
+  reclassified,
 };
 
+/// True for kinds of events about a pair of tracks; the others are about one track.
+constexpr bool is_of_pair(MonitorEventKind kind) { return kind <= MonitorEventKind::prediction_ended; }
 /// Returns the name of an event kind in lower case, for example "verdict".
 std::string_view name_of(MonitorEventKind kind);
 /// Returns "apart", "undecided" or "within".
@@ -37,16 +48,23 @@ std::string_view name_of(Verdict verdict);
 struct MonitorEvent {
   double time = 0.0;
   MonitorEventKind kind = MonitorEventKind::verdict;
-  /// The track that the event is about; for a verdict, the one with the lower id.
+  /// The track that the event is about; for a pair, the one with the lower id.
   TrackId first = 0;
-  TrackId second = 0;  ///< For a verdict: the track with the higher id.
+  TrackId second = 0;  ///< For a verdict or a prediction: the track with the higher id.
 
-  // For a verdict: the separation level, the new and the previous verdict.
-  std::uint32_t level = 0;
+  std::uint32_t level = 0;  ///< For a verdict or a prediction: the separation level.
+  // For a verdict: the new and the previous one.
   Verdict verdict = Verdict::apart;
   Verdict before = Verdict::apart;
-  double since =
-      0.0;  ///< Time at which the previous verdict began; -infinity if the pair was apart at all levels.
+  /// Time at which the previous verdict began, -infinity if the pair was apart at all levels; for a
+  /// prediction, time at which it began.
+  double since = 0.0;
+
+  // For a prediction: what happens if both tracks go straight on from now.
+  double likely_time =
+      0.0;  ///< The two come within the separation; now if they are, +infinity if they never are.
+  double closest_time = 0.0;      ///< Time of their closest approach.
+  double closest_distance = 0.0;  ///< Distance then (length); for a cylinder, that in the plane.
 
   /// For a contradiction: the distance of the reported position and velocity outside of what was possible
   /// (length, length / time).
@@ -57,8 +75,10 @@ struct MonitorEvent {
 
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive) {
-    auto& [time, kind, first, second, level, verdict, before, since, position_excess, velocity_excess] = self;
-    archive(time, kind, first, second, level, verdict, before, since, position_excess, velocity_excess);
+    auto& [time, kind, first, second, level, verdict, before, since, likely_time, closest_time,
+           closest_distance, position_excess, velocity_excess] = self;
+    archive(time, kind, first, second, level, verdict, before, since, likely_time, closest_time,
+            closest_distance, position_excess, velocity_excess);
   }
 };
 

@@ -120,8 +120,8 @@ struct TrackReport {
   };
   std::optional<Plan> plan{};
 
-  /// Class of the track, an index into MonitorDefinition::classes. All reports of a track have the same
-  /// class.
+  /// Class of the track, an index into MonitorDefinition::classes. A report with another class than those
+  /// before starts the track anew, for example when a vessel anchors.
   std::size_t track_class = 0;
 };
 

@@ -17,21 +17,27 @@ struct Separation {
   Shape shape = Shape::ellipsoid;
   double horizontal = 0.0;  ///< length, > 0
   double vertical = 0.0;    ///< length, > 0; ignored in two dimensions
+  /// Time for which tracks are predicted to go straight on (time, >= 0); with 0 nothing is predicted. The
+  /// monitor then also reports closest approaches within the separation that come in this time
+  /// (MonitorEventKind::predicted).
+  double look_ahead = 0.0;
 
-  static constexpr Separation sphere(double distance) { return {Shape::ellipsoid, distance, distance}; }
-  static constexpr Separation ellipsoid(double horizontal, double vertical) {
-    return {Shape::ellipsoid, horizontal, vertical};
+  static constexpr Separation sphere(double distance, double look_ahead = 0.0) {
+    return {Shape::ellipsoid, distance, distance, look_ahead};
   }
-  static constexpr Separation cylinder(double horizontal, double vertical) {
-    return {Shape::cylinder, horizontal, vertical};
+  static constexpr Separation ellipsoid(double horizontal, double vertical, double look_ahead = 0.0) {
+    return {Shape::ellipsoid, horizontal, vertical, look_ahead};
+  }
+  static constexpr Separation cylinder(double horizontal, double vertical, double look_ahead = 0.0) {
+    return {Shape::cylinder, horizontal, vertical, look_ahead};
   }
 
   friend constexpr bool operator==(const Separation&, const Separation&) = default;
 
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive) {
-    auto& [shape, horizontal, vertical] = self;
-    archive(shape, horizontal, vertical);
+    auto& [shape, horizontal, vertical, look_ahead] = self;
+    archive(shape, horizontal, vertical, look_ahead);
   }
 };
 

@@ -10,15 +10,20 @@
 namespace kinesphere::program {
 namespace {
 
-std::string verdict_fields(const AlertContext& context, const MonitorEvent& event) {
+/// Returns the fields of an alert about a pair: a verdict or a prediction.
+std::string pair_alert_fields(const AlertContext& context, const MonitorEvent& event) {
   const auto [first, second] = in_text_order(context.names, event.first, event.second);
-  std::string line = fmt::format(
-      R"("first": {}, "second": {}, "separation": {}, "level": {}, "verdict": "{}", "before": "{}", "since": {})",
-      json_text(context.names.text(first)), json_text(context.names.text(second)),
-      json_text(context.settings.separations[event.level].name), event.level, name_of(event.verdict),
-      name_of(event.before), json_time(context.times, event.since));
-  if (const auto answer = context.monitor.answer(event.first, event.second, event.level))
-    line += ", " + answer_fields(context, answer.value());
+  const auto answer = context.monitor.answer(event.first, event.second, event.level);
+  std::string line = fmt::format(R"("first": {}, "second": {}, "separation": {}, "level": {})",
+                                 json_text(context.names.text(first)), json_text(context.names.text(second)),
+                                 json_text(context.settings.separations[event.level].name), event.level);
+  if (event.kind == MonitorEventKind::verdict)
+    line +=
+        fmt::format(R"(, "verdict": "{}", "before": "{}")", name_of(event.verdict), name_of(event.before));
+  else if (answer)
+    line += fmt::format(R"(, "verdict": "{}")", name_of(answer->verdict));
+  line += fmt::format(R"(, "since": {})", json_time(context.times, event.since));
+  if (answer) line += ", " + answer_fields(context, answer.value());
   const NamedTrack* const one = context.names.find(first);
   const NamedTrack* const other = context.names.find(second);
   if (one != nullptr && other != nullptr)
@@ -72,7 +77,7 @@ std::string declarations_of(const NamedTrack& track) {
 std::string alert_line(const AlertContext& context, const MonitorEvent& event, bool is_dropped) {
   std::string line = fmt::format(R"({{"event": "{}", "time": {}, )", name_of(event.kind),
                                  json_time(context.times, event.time));
-  if (event.kind == MonitorEventKind::verdict) return line + verdict_fields(context, event) + "}\n";
+  if (is_of_pair(event.kind)) return line + pair_alert_fields(context, event) + "}\n";
   line += fmt::format(R"("track": {})", json_text(context.names.text(event.first)));
   const NamedTrack* const track = context.names.find(event.first);
   if (event.kind == MonitorEventKind::dropped)

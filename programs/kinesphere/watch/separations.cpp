@@ -26,20 +26,23 @@ std::vector<std::string_view> separation_parts(std::string_view text) {
 
 NamedSeparation parse_separation(const std::string& text) {
   const auto parts = separation_parts(text);
-  const auto length = [&](std::size_t place) {
-    const double value = parse_measure(parts[place], Measure::length, "--separation");
+  const auto positive = [&](std::size_t place, Measure measure) {
+    const double value = parse_measure(parts[place], measure, "--separation");
     if (value > 0.0) return value;
-    throw ProgramError(fmt::format("--separation: expected lengths > 0, but got '{}'", text));
+    throw ProgramError(fmt::format("--separation: expected lengths and times > 0, but got '{}'", text));
   };
   const std::string_view shape = parts.empty() ? "" : parts.front();
-  if (shape == "sphere" && parts.size() == 2) return {text, Separation::sphere(length(1))};
-  if (shape == "cylinder" && parts.size() == 3) return {text, Separation::cylinder(length(1), length(2))};
-  if (shape == "ellipsoid" && parts.size() == 3) return {text, Separation::ellipsoid(length(1), length(2))};
-  throw ProgramError(
-      fmt::format("--separation: expected sphere:RADIUS, cylinder:HORIZONTAL:VERTICAL or "
-                  "ellipsoid:HORIZONTAL:VERTICAL, but "
-                  "got '{}'",
-                  text));
+  const std::size_t lengths = shape == "sphere" ? 1 : shape == "cylinder" || shape == "ellipsoid" ? 2 : 0;
+  if (lengths == 0 || parts.size() < 1 + lengths || parts.size() > 2 + lengths)
+    throw ProgramError(
+        fmt::format("--separation: expected sphere:RADIUS, cylinder:HORIZONTAL:VERTICAL or "
+                    "ellipsoid:HORIZONTAL:VERTICAL, with or without :TIME behind it, but got '{}'",
+                    text));
+  const double horizontal = positive(1, Measure::length);
+  const double vertical = lengths == 2 ? positive(2, Measure::length) : horizontal;
+  const double look_ahead = parts.size() == 2 + lengths ? positive(1 + lengths, Measure::time) : 0.0;
+  return {text, shape == "cylinder" ? Separation::cylinder(horizontal, vertical, look_ahead)
+                                    : Separation::ellipsoid(horizontal, vertical, look_ahead)};
 }
 
 }  // namespace kinesphere::program

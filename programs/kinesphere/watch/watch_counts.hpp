@@ -34,7 +34,8 @@ struct WatchCounts {
       0;                      ///< reports that were taken, but have no height in a space of three dimensions
   std::uint64_t dropped = 0;  ///< tracks, because there were more open pairs than may be
   std::uint64_t alerts = 0;
-  std::array<std::uint64_t, 6> events{};  ///< indexed by MonitorEventKind
+  std::uint64_t held_back = 0;            ///< alerts that --only leaves out
+  std::array<std::uint64_t, 9> events{};  ///< indexed by MonitorEventKind
   /// Changes of the verdict of a separation: to undecided, to within, and back to apart.
   struct Turns {
     std::uint64_t apart = 0, undecided = 0, within = 0;

@@ -128,6 +128,14 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
   settings.velocity_age = defaults.velocity_age;
   settings.silence = positive_time(options.silence, "--silence", defaults.silence);
   settings.forget = positive_time(options.forget, "--forget", defaults.forget);
+  settings.hold = positive_time(options.hold, "--hold", 0.5 * settings.silence);
+  settings.own = options.own;
+  if (!options.only.empty()) {
+    const auto names = [&](std::string_view kind) {
+      return std::find(options.only.begin(), options.only.end(), kind) != options.only.end();
+    };
+    settings.kinds = {names("within"), names("predicted"), names("undecided"), names("tracks")};
+  }
   settings.window = defaults.window;
   // A track that is not yet silent may be the only one that reports.
   settings.leap = positive_time(options.leap, "--leap", std::max(settings.leap, settings.silence));
@@ -165,6 +173,9 @@ GivenOptions given_options(const WatchOptions& options) {
        {"--altitude", choices.altitude == FormatChoices::Altitude::geometric ? "geometric" : "barometric"},
        {"--silence", options.silence},
        {"--forget", options.forget},
+       {"--hold", options.hold},
+       {"--own", options.own},
+       {"--only", fmt::format("{}", fmt::join(options.only, ","))},
        {"--origin", options.origin},
        {"--radius", options.radius},
        {"--clock", options.clock},

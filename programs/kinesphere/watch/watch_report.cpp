@@ -42,7 +42,10 @@ std::vector<WatchCount> counts_of(const Watcher& watcher) {
       {"malformed", "", "malformed", counts.malformed},
       {"no_height", "", "of those taken without a height: it may be any", counts.no_height},
       {"alerts", "alerts", "", counts.alerts},
+      {"held_back", "", "others, held back by --only", counts.held_back},
       {"verdicts", "", "changes of what is certain", events(MonitorEventKind::verdict)},
+      {"predicted", "", "predicted", events(MonitorEventKind::predicted)},
+      {"predictions_ended", "", "predictions ended", events(MonitorEventKind::prediction_ended)},
       {"contradictions", "", "contradictions", events(MonitorEventKind::contradiction)},
       {"resolved", "", "contradictions resolved", events(MonitorEventKind::resolved)},
       {"silent", "", "tracks fell silent", events(MonitorEventKind::stale)},
@@ -130,17 +133,19 @@ void add_tracks(std::string& text, const Watcher& watcher) {
   }
 }
 
-void add_pairs(std::string& text, const Watcher& watcher) {
+/// Adds open pairs or predicted ones.
+template <class Pair>
+void add_pairs(std::string& text, const Watcher& watcher, const std::vector<Pair>& pairs) {
   const AlertContext context = watcher.context();
   const char* separator = "\n";
-  for (const OpenPair& pair : context.monitor.open_pairs()) {
+  for (const Pair& pair : pairs) {
     const auto [first, second] = in_text_order(context.names, pair.first, pair.second);
+    const PairAnswer answer = context.monitor.answer(pair.first, pair.second, pair.level).value();
     text += fmt::format(
         R"({}{{"first": {}, "second": {}, "separation": {}, "level": {}, "verdict": "{}", "since": {}, {}}})",
         separator, json_text(context.names.text(first)), json_text(context.names.text(second)),
-        json_text(context.settings.separations[pair.level].name), pair.level, name_of(pair.verdict),
-        json_time(context.times, pair.since),
-        answer_fields(context, context.monitor.answer(pair.first, pair.second, pair.level).value()));
+        json_text(context.settings.separations[pair.level].name), pair.level, name_of(answer.verdict),
+        json_time(context.times, pair.since), answer_fields(context, answer));
     separator = ",\n";
   }
 }
@@ -224,7 +229,9 @@ std::string watch_state_json(const Watcher& watcher) {
   text += ", " + setting_fields(watcher) + ",\n\"tracks\": [";
   if (watcher.monitor()) add_tracks(text, watcher);
   text += "],\n\"pairs\": [";
-  if (watcher.monitor()) add_pairs(text, watcher);
+  if (watcher.monitor()) add_pairs(text, watcher, watcher.monitor()->open_pairs());
+  text += "],\n\"predictions\": [";
+  if (watcher.monitor()) add_pairs(text, watcher, watcher.monitor()->predicted_pairs());
   text += "],\n\"needed\": [";
   if (watcher.monitor()) add_needs(text, watcher);
   return text + "]}\n";
@@ -252,6 +259,8 @@ std::string watch_metrics(const Watcher& watcher) {
   add("pairs_undecided", "gauge", "pairs and separations that are undecided", static_cast<double>(undecided));
   add("pairs_within", "gauge", "pairs and separations that are certainly within",
       static_cast<double>(within));
+  add("pairs_predicted", "gauge", "pairs and separations that are predicted",
+      static_cast<double>(watcher.monitor() ? watcher.monitor()->predicted_pairs().size() : 0));
   add("stream_seconds", "gauge", "time of the stream that has been watched", watcher.time_covered());
   return text;
 }

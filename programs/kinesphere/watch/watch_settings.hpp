@@ -20,8 +20,19 @@ struct MotionLimits {
   ErrorBound acceleration, largest_speed;
 };
 
+/// Kinds of alerts that a watch may write.
+struct AlertKinds {
+  bool within = true;     ///< verdicts that begin or end a certain `within`
+  bool predicted = true;  ///< predictions and their ends
+  bool undecided = true;  ///< verdicts between apart and undecided
+  bool tracks = true;     ///< alerts of single tracks
+};
+
 struct WatchSettings {
   std::vector<NamedSeparation> separations;
+  std::string own;  ///< id of the track whose pairs are watched; empty: all pairs are
+  AlertKinds kinds;
+  double hold = 0.0;              ///< MonitorDefinition::prediction_hold (seconds)
   Shard share{};                  ///< other watches have the other pairs
   std::optional<int> dimensions;  ///< empty: three if the first report has a height
   // Limits of tracks; infinite if there is none.

@@ -233,7 +233,22 @@ void Watcher::report(const MonitorEvent& event) {
   dropped_.erase(event.first);
 }
 
+/// Returns true for an alert of a kind that is asked for, and, with an own track, not of another single
+/// track.
+bool Watcher::is_selected(const MonitorEvent& event) const {
+  const AlertKinds& kinds = settings_.kinds;
+  if (event.kind == MonitorEventKind::verdict)
+    return event.verdict == Verdict::within || event.before == Verdict::within ? kinds.within
+                                                                               : kinds.undecided;
+  if (is_of_pair(event.kind)) return kinds.predicted;
+  return kinds.tracks && (settings_.own.empty() || track_id_of(settings_.own) == event.first);
+}
+
 void Watcher::count_and_report(const MonitorEvent& event) {
+  if (!is_selected(event)) {
+    ++counts_.held_back;
+    return;
+  }
   ++counts_.alerts;
   ++counts_.events[static_cast<std::size_t>(event.kind)];
   if (event.kind == MonitorEventKind::verdict) {
@@ -288,6 +303,7 @@ void Watcher::begin_monitor(const SourceReport& report) {
                                .window = settings_.window,
                                .stale_after = settings_.silence,
                                .drop_after = settings_.forget,
+                               .prediction_hold = settings_.hold,
                                .shard = settings_.share};
   double least = unbounded;
   SeparationRule rule;
@@ -311,10 +327,17 @@ void Watcher::begin_monitor(const SourceReport& report) {
     if (dimensions_ == 3) least = std::min(least, separation.vertical);
   }
   definition.tolerance = 1e-4 * least;
-  for (std::size_t first = 0; first < definition.classes.size(); ++first)
-    for (rule.first_class = first, rule.second_class = first; rule.second_class < definition.classes.size();
-         ++rule.second_class)
+  const std::size_t base = definition.classes.size();
+  if (!settings_.own.empty())
+    // The own track has classes of its own, whose pairs with others are the only ones.
+    for (std::size_t k = 0; k < base; ++k) definition.classes.push_back(TrackClass(definition.classes[k]));
+  for (std::size_t first = 0; first < base; ++first)
+    for (std::size_t second = settings_.own.empty() ? first : base; second < definition.classes.size();
+         ++second) {
+      rule.first_class = first;
+      rule.second_class = second;
       definition.separations.push_back(rule);
+    }
   monitor_.emplace(require(Monitor::create(definition)));
 }
 
@@ -401,6 +424,7 @@ double Watcher::velocity_age_of(const SourceReport& report) const {
 std::optional<TrackReport> Watcher::on_map(const SourceReport& report, NamedTrack& track) {
   TrackReport result{.timestamp = times_.seconds(report.stamp)};
   result.track_class = has_limits_of_aircraft(report) ? 1 : 0;
+  if (!settings_.own.empty() && report.id == settings_.own) result.track_class += settings_.aircraft ? 2 : 1;
   double added_velocity_error = 0.0;
   if (is_geographic_) {
     // The velocity was measured a little earlier or later, elsewhere on the map than the reported position.

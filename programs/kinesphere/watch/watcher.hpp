@@ -88,6 +88,7 @@ class Watcher final : public ReportSink {
   std::optional<TrackReport> on_map(const SourceReport& report, NamedTrack& track);
   void add_errors(const SourceReport& report, double added_velocity_error, TrackReport& result,
                   NamedTrack& track) const;
+  bool is_selected(const MonitorEvent& event) const;
   bool has_limits_of_aircraft(const SourceReport& report) const;
   MotionLimits limits_of(const SourceReport& report) const;
   double velocity_age_of(const SourceReport& report) const;

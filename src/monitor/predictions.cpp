@@ -1,0 +1,283 @@
+#include "monitor/predictions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace kinesphere {
+namespace {
+
+/// A home contains the path for this part of the look-ahead time longer: more makes larger homes, with more
+/// near tracks, less makes more searches.
+constexpr double look_ahead_to_spare = 0.25;
+/// Room for other paths, in parts of the length of the path.
+constexpr double room_beside_path = 0.1;
+
+void insert_sorted(std::vector<std::uint32_t>& numbers, std::uint32_t number) {
+  numbers.insert(std::lower_bound(numbers.begin(), numbers.end(), number), number);
+}
+
+void erase_sorted(std::vector<std::uint32_t>& numbers, std::uint32_t number) {
+  numbers.erase(std::lower_bound(numbers.begin(), numbers.end(), number));
+}
+
+}  // namespace
+
+std::span<const Components> Predictions::levels_of(const Track& a, const Track& b) const {
+  if (!definition_->shard.contains(std::min(a.id, b.id))) return {};
+  const std::span<const Components> levels = separations_->between(a.track_class, b.track_class);
+  const bool looks_ahead = std::any_of(levels.begin(), levels.end(),
+                                       [](const Components& level) { return level.look_ahead > 0.0; });
+  return looks_ahead ? levels : std::span<const Components>();
+}
+
+void Predictions::set_path(std::uint32_t number, TrackId id, std::size_t track_class, const State& state,
+                           double now, std::vector<MonitorEvent>& events) {
+  if (!(separations_->look_ahead(track_class) > 0.0)) return;
+  if (number >= tracks_.size()) tracks_.resize(number + 1);
+  Track& track = tracks_[number];
+  track.path = {now, state};
+  if (!track.present) {
+    track.present = true;
+    track.id = id;
+    track.track_class = track_class;
+    track.until = -infinity;
+    track.home = {};
+  }
+  if (!stays_home(track, now)) find_home(number, now);
+  decide_all(number, now, events);
+}
+
+void Predictions::remove(std::uint32_t number) {
+  if (number >= tracks_.size() || !tracks_[number].present) return;
+  while (!tracks_[number].near.empty()) part(number, tracks_[number].near.back());
+  homes_.remove(number, tracks_[number].home);
+  tracks_[number] = {};
+}
+
+/// True if the track's path from now until its look-ahead time after the home's end is in the home, which
+/// contains both ends only if it contains the path.
+bool Predictions::stays_home(const Track& track, double now) const {
+  if (!(now < track.until)) return false;
+  const double room = track.home.radius - separations_->margin(track.track_class);
+  const double end = track.until + separations_->look_ahead(track.track_class);
+  const auto is_inside = [&](double t) {
+    return norm(track.path.state_at(t).position - track.home.centre) <= room;
+  };
+  return is_inside(now) && is_inside(end);
+}
+
+/// Gives the track a home for its present path, and finds the tracks near it. A near pair with a prediction
+/// stays near until that has ended.
+void Predictions::find_home(std::uint32_t number, double now) {
+  Track& track = tracks_[number];
+  if (track.home.radius > 0.0) homes_.remove(number, track.home);
+  const double look_ahead = separations_->look_ahead(track.track_class);
+  const double margin = separations_->margin(track.track_class);
+  track.until = std::max(now + look_ahead_to_spare * look_ahead, std::nextafter(now, infinity));
+  const double half = 0.5 * (track.until - now + look_ahead);
+  const State middle = track.path.state_at(now + half);
+  const double radius = norm(middle.velocity) * half * (1.0 + room_beside_path) + 2.0 * margin;
+  track.home = {middle.position, radius};
+  due_.push({track.until, number, number});
+  const std::vector<std::uint32_t> touching = homes_.touching(track.home);
+  homes_.add(number, track.home);
+  const std::vector<std::uint32_t> before = track.near;
+  for (const std::uint32_t other : before)
+    if (!std::binary_search(touching.begin(), touching.end(), other) &&
+        !pairs_.find(number, other)->is_predicted())
+      part(number, other);
+  for (const std::uint32_t other : touching)
+    if (!std::binary_search(before.begin(), before.end(), other)) meet(number, other);
+}
+
+void Predictions::meet(std::uint32_t a, std::uint32_t b) {
+  const std::size_t levels = levels_of(tracks_[a], tracks_[b]).size();
+  if (levels == 0) return;
+  pairs_.add(a, b).levels.resize(levels);
+  insert_sorted(tracks_[a].near, b);
+  insert_sorted(tracks_[b].near, a);
+}
+
+void Predictions::part(std::uint32_t a, std::uint32_t b) {
+  pairs_.remove(a, b);
+  erase_sorted(tracks_[a].near, b);
+  erase_sorted(tracks_[b].near, a);
+}
+
+bool Predictions::homes_touch(std::uint32_t a, std::uint32_t b) const {
+  const HomeBall& one = tracks_[a].home;
+  const HomeBall& other = tracks_[b].home;
+  return norm(one.centre - other.centre) <= one.radius + other.radius;
+}
+
+void Predictions::decide_all(std::uint32_t number, double now, std::vector<MonitorEvent>& events) {
+  const std::vector<std::uint32_t> near = tracks_[number].near;
+  for (const std::uint32_t other : near) decide(number, other, now, events);
+}
+
+/// Updates the predictions of a near pair from the two paths, adds events for those that change, and sets the
+/// time at which time alone may change them.
+void Predictions::decide(std::uint32_t a, std::uint32_t b, double now, std::vector<MonitorEvent>& events) {
+  const Track& one = tracks_[a];
+  const Track& other = tracks_[b];
+  PairPrediction& pair = *pairs_.find(a, b);
+  const std::span<const Components> levels = levels_of(one, other);
+  const double hold = definition_->prediction_hold;
+  const double resolution = std::max(definition_->time_resolution, std::abs(now) * 0x1p-50);
+  double due = infinity;
+  for (std::uint32_t level = 0; level < levels.size(); ++level) {
+    const double look_ahead = levels[level].look_ahead;
+    if (!(look_ahead > 0.0)) continue;
+    LevelPrediction& state = pair.levels[level];
+    const StraightPass pass = pass_of(one, other, levels[level], now);
+    // They meet if their closest approach comes in the look-ahead time, or they are within the separation
+    // now. The times of one pass, computed at two times, differ by rounding.
+    const bool meet = pass.begin < infinity;
+    const double from = meet ? std::min(pass.begin, pass.closest_within() - look_ahead) : infinity;
+    const bool holds = from <= now + resolution && pass.end > now;
+    const auto [first, second] = std::minmax(one.id, other.id);
+    MonitorEvent event{.time = now,
+                       .kind = MonitorEventKind::predicted,
+                       .first = first,
+                       .second = second,
+                       .level = level,
+                       .since = state.since,
+                       .likely_time = pass.begin,
+                       .closest_time = pass.closest_time,
+                       .closest_distance = pass.closest_distance};
+    if (state.holds) state.held_until = now;
+    state.holds = holds;
+    if (holds && !state.predicted) {
+      state.predicted = true;
+      state.since = event.since = now;
+      events.push_back(event);
+    } else if (!holds && state.predicted && state.held_until + hold <= now) {
+      state.predicted = false;
+      event.kind = MonitorEventKind::prediction_ended;
+      events.push_back(event);
+    }
+    if (holds) {
+      due = std::min(due, std::max(pass.end, now + resolution));
+    } else {
+      if (meet) due = std::min(due, std::max(from, now + resolution));
+      if (state.predicted) due = std::min(due, std::max(state.held_until + hold, now + resolution));
+    }
+  }
+  if (!pair.is_predicted() && !homes_touch(a, b)) return part(a, b);
+  if (due != pair.due && due < infinity) due_.push({due, std::min(a, b), std::max(a, b)});
+  pair.due = due;
+}
+
+void Predictions::advance(double now, std::vector<MonitorEvent>& events) {
+  while (next_time() <= now) {
+    const auto [time, first, second] = due_.top();
+    due_.pop();
+    if (first == second) {
+      if (!tracks_[first].present || tracks_[first].until != time) continue;
+      find_home(first, now);
+      decide_all(first, now, events);
+    } else if (const PairPrediction* pair = pairs_.find(first, second);
+               pair != nullptr && pair->due == time) {
+      decide(first, second, now, events);
+    }
+  }
+}
+
+std::vector<Predictions::SavedPair> Predictions::saved_pairs() const {
+  std::vector<SavedPair> saved;
+  pairs_.for_each([&](std::uint32_t a, std::uint32_t b, const PairPrediction& pair) {
+    saved.push_back({a, b, pair});
+  });
+  std::sort(saved.begin(), saved.end(), [](const SavedPair& p, const SavedPair& q) {
+    return std::tie(p.first, p.second) < std::tie(q.first, q.second);
+  });
+  return saved;
+}
+
+bool Predictions::restore(std::span<const std::optional<TrackKey>> tracks, double now) {
+  if (tracks_.size() > tracks.size()) return false;
+  for (std::uint32_t number = 0; number < tracks.size(); ++number) {
+    const bool is_present = number < tracks_.size() && tracks_[number].present;
+    const std::optional<TrackKey>& key = tracks[number];
+    if ((key && separations_->look_ahead(key->track_class) > 0.0) != is_present) return false;
+    if (!is_present) continue;
+    tracks_[number].id = key->id;
+    tracks_[number].track_class = key->track_class;
+  }
+  if (!is_valid(now)) return false;
+  index();
+  return true;
+}
+
+bool Predictions::is_valid(double now) const {
+  const auto is_present = [&](std::uint32_t number) {
+    return number < tracks_.size() && tracks_[number].present;
+  };
+  std::size_t partners = 0;
+  for (std::uint32_t number = 0; number < tracks_.size(); ++number) {
+    const Track& track = tracks_[number];
+    if (!track.present) {
+      if (!track.near.empty()) return false;
+      continue;
+    }
+    // The indices of cells must be integers.
+    constexpr double most_radii = 0x1p60;
+    const bool is_sound =
+        track.path.time <= now && std::isfinite(track.path.time) && is_finite(track.path.state.position) &&
+        is_finite(track.path.state.velocity) && std::isfinite(track.home.radius) &&
+        track.home.radius >= separations_->margin(track.track_class) &&
+        norm(track.home.centre) <= most_radii * track.home.radius && std::isfinite(track.until);
+    if (!is_sound) return false;
+    partners += track.near.size();
+    for (std::size_t k = 0; k < track.near.size(); ++k) {
+      const std::uint32_t other = track.near[k];
+      if ((k > 0 && track.near[k - 1] >= other) || !is_present(other) || other == number ||
+          pairs_.find(number, other) == nullptr ||
+          !std::binary_search(tracks_[other].near.begin(), tracks_[other].near.end(), number))
+        return false;
+    }
+  }
+  bool valid = partners == 2 * pairs_.size();
+  pairs_.for_each([&](std::uint32_t a, std::uint32_t b, const PairPrediction& pair) {
+    valid = valid && a < b && is_present(a) && is_present(b) && !std::isnan(pair.due) &&
+            pair.levels.size() == levels_of(tracks_[a], tracks_[b]).size() &&
+            std::all_of(pair.levels.begin(), pair.levels.end(), [](const LevelPrediction& level) {
+              return !std::isnan(level.since) && !std::isnan(level.held_until);
+            });
+  });
+  return valid;
+}
+
+void Predictions::index() {
+  for (std::uint32_t number = 0; number < tracks_.size(); ++number) {
+    const Track& track = tracks_[number];
+    if (!track.present) continue;
+    homes_.add(number, track.home);
+    due_.push({track.until, number, number});
+  }
+  pairs_.for_each([&](std::uint32_t a, std::uint32_t b, const PairPrediction& pair) {
+    if (pair.due < infinity) due_.push({pair.due, a, b});
+  });
+}
+
+std::vector<PredictedPair> Predictions::predicted_pairs(double now) const {
+  std::vector<PredictedPair> predicted;
+  pairs_.for_each([&](std::uint32_t a, std::uint32_t b, const PairPrediction& pair) {
+    const Track& one = tracks_[a];
+    const Track& other = tracks_[b];
+    const auto [first, second] = std::minmax(one.id, other.id);
+    for (std::uint32_t level = 0; level < pair.levels.size(); ++level) {
+      if (!pair.levels[level].predicted) continue;
+      const StraightPass pass = pass_of(one, other, levels_of(one, other)[level], now);
+      predicted.push_back({first, second, level, pair.levels[level].since, pass.begin, pass.closest_time,
+                           pass.closest_distance});
+    }
+  });
+  std::sort(predicted.begin(), predicted.end(), [](const PredictedPair& p, const PredictedPair& q) {
+    return std::tie(p.first, p.second, p.level) < std::tie(q.first, q.second, q.level);
+  });
+  return predicted;
+}
+
+}  // namespace kinesphere

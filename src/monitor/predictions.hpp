@@ -1,0 +1,165 @@
+// Predictions: pairs of tracks whose closest approach comes in the look-ahead time of a separation, and
+// within it, if both go straight on.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <queue>
+#include <span>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "kinesphere/monitor/monitor.hpp"
+#include "monitor/home_balls.hpp"
+#include "monitor/pair_records.hpp"
+#include "monitor/separation_table.hpp"
+#include "monitor/straight_pass.hpp"
+
+namespace kinesphere {
+
+/// The path of a track that goes straight on from its state at `time`.
+struct StraightPath {
+  double time = 0.0;
+  State state{};
+
+  State state_at(double t) const { return {state.position + state.velocity * (t - time), state.velocity}; }
+  static void serialize(auto& self, auto& archive) {
+    auto& [time, state] = self;
+    archive(time, state);
+  }
+};
+
+/// The prediction of a pair at one level.
+struct LevelPrediction {
+  bool predicted = false;   ///< reported as predicted, and not yet as ended
+  bool holds = false;       ///< the two come as near, and in the look-ahead time
+  double since = 0.0;       ///< time of the report
+  double held_until = 0.0;  ///< if `predicted` and not `holds`: time until which it held
+
+  static void serialize(auto& self, auto& archive) {
+    auto& [predicted, holds, since, held_until] = self;
+    archive(predicted, holds, since, held_until);
+  }
+};
+
+struct PairPrediction {
+  double due = infinity;  ///< time at which time alone may change a prediction
+  std::vector<LevelPrediction> levels;
+
+  bool is_predicted() const {
+    return std::any_of(levels.begin(), levels.end(),
+                       [](const LevelPrediction& level) { return level.predicted; });
+  }
+  static void serialize(auto& self, auto& archive) {
+    auto& [due, levels] = self;
+    archive(due, levels);
+  }
+};
+
+/// Each track of a class with a look-ahead time has a home: a ball that contains its straight path from now
+/// until that time after `until`, with a margin of half of the widest separation. A pair whose homes do not
+/// touch comes within no separation in its look-ahead time, until one of the two homes ends. All other pairs
+/// are near, and have a PairPrediction.
+class Predictions {
+ public:
+  /// The arguments must outlive this object.
+  Predictions(const MonitorDefinition& definition, const SeparationTable& separations)
+      : definition_(&definition), separations_(&separations) {}
+
+  /// Sets the straight path of a track, new or known, and adds the events of predictions that change. Cost:
+  /// O(near tracks); where the path leaves the track's home, a search.
+  void set_path(std::uint32_t number, TrackId id, std::size_t track_class, const State& state, double now,
+                std::vector<MonitorEvent>& events);
+  /// Forgets a track. Its predictions end without events.
+  void remove(std::uint32_t number);
+  /// Returns a lower bound on the time at which time alone changes anything; +infinity if nothing does.
+  double next_time() const { return due_.empty() ? infinity : due_.top().time; }
+  /// Handles all that is due at `now`.
+  void advance(double now, std::vector<MonitorEvent>& events);
+
+  bool is_predicted(std::uint32_t a, std::uint32_t b, std::uint32_t level) const {
+    const PairPrediction* pair = pairs_.find(a, b);
+    return pair != nullptr && pair->levels[level].predicted;
+  }
+  std::vector<PredictedPair> predicted_pairs(double now) const;
+
+  struct TrackKey {
+    TrackId id = 0;
+    std::size_t track_class = 0;
+  };
+  /// Completes what serialize() has read with what it leaves out: the tracks by number (nothing stands for
+  /// none), and what follows from the rest. Returns false if the state is not one of these tracks.
+  bool restore(std::span<const std::optional<TrackKey>> tracks, double now);
+  static void serialize(auto& self, auto& archive) {
+    std::vector<SavedPair> pairs;
+    constexpr bool writes = std::is_const_v<std::remove_reference_t<decltype(self)>>;
+    if constexpr (writes) pairs = self.saved_pairs();
+    archive(self.tracks_, pairs);
+    if constexpr (!writes)
+      for (const SavedPair& saved : pairs) self.pairs_.add(saved.first, saved.second) = saved.pair;
+  }
+
+ private:
+  struct Track {
+    bool present = false;
+    TrackId id = 0;
+    std::size_t track_class = 0;
+    StraightPath path{};
+    HomeBall home{};
+    double until = 0.0;
+    std::vector<std::uint32_t> near;  ///< ascending
+
+    static void serialize(auto& self, auto& archive) {
+      auto& [present, id, track_class, path, home, until, near] = self;
+      archive(present, path, home, until, near);
+    }
+  };
+  /// A pair as stored in a snapshot.
+  struct SavedPair {
+    std::uint32_t first = 0;
+    std::uint32_t second = 0;
+    PairPrediction pair{};
+
+    static void serialize(auto& self, auto& archive) {
+      auto& [first, second, pair] = self;
+      archive(first, second, pair);
+    }
+  };
+  /// A time at which a pair or, if both numbers are equal, the home of a track is due. It is out of date
+  /// unless the pair or the track has this time.
+  struct Due {
+    double time;
+    std::uint32_t first, second;
+    bool operator>(const Due& other) const {
+      return std::tie(time, first, second) > std::tie(other.time, other.first, other.second);
+    }
+  };
+
+  std::vector<SavedPair> saved_pairs() const;
+  bool is_valid(double now) const;
+  void index();
+  std::span<const Components> levels_of(const Track& a, const Track& b) const;
+  bool stays_home(const Track& track, double now) const;
+  void find_home(std::uint32_t number, double now);
+  void meet(std::uint32_t a, std::uint32_t b);
+  void part(std::uint32_t a, std::uint32_t b);
+  bool homes_touch(std::uint32_t a, std::uint32_t b) const;
+  void decide_all(std::uint32_t number, double now, std::vector<MonitorEvent>& events);
+  void decide(std::uint32_t a, std::uint32_t b, double now, std::vector<MonitorEvent>& events);
+  StraightPass pass_of(const Track& a, const Track& b, const Components& level, double now) const {
+    return straight_pass(a.path.state_at(now), b.path.state_at(now), level, now);
+  }
+
+  const MonitorDefinition* definition_;
+  const SeparationTable* separations_;
+  std::vector<Track> tracks_;
+  PairMap<PairPrediction> pairs_;
+  HomeBalls homes_;
+  std::priority_queue<Due, std::vector<Due>, std::greater<>> due_;
+};
+
+}  // namespace kinesphere
