@@ -44,10 +44,11 @@ std::vector<MonitorEvent> drive(Monitor& monitor, int stretch) {
 }
 
 Monitor made() {
-  return Monitor::create({.classes = {{.acceleration_limit = 4.0, .largest_speed = 20.0}},
-                          .separations = {{0, 0, {Separation::sphere(5.0, 3.0), Separation::cylinder(3.0, 1.0)}}},
-                          .stale_after = 4.0,
-                          .drop_after = 9.0})
+  return Monitor::create(
+             {.classes = {{.acceleration_limit = 4.0, .largest_speed = 20.0}},
+              .separations = {{0, 0, {Separation::sphere(5.0, 3.0), Separation::cylinder(3.0, 1.0)}}},
+              .stale_after = 4.0,
+              .drop_after = 9.0})
       .value();
 }
 

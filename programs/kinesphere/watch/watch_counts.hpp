@@ -34,6 +34,7 @@ struct WatchCounts {
       0;                      ///< reports that were taken, but have no height in a space of three dimensions
   std::uint64_t dropped = 0;  ///< tracks, because there were more open pairs than may be
   std::uint64_t alerts = 0;
+  std::uint64_t of_own = 0;               ///< reports taken of the own track (--own)
   std::uint64_t held_back = 0;            ///< alerts that --only leaves out
   std::array<std::uint64_t, 9> events{};  ///< indexed by MonitorEventKind
   /// Changes of the verdict of a separation: to undecided, to within, and back to apart.

@@ -203,6 +203,7 @@ void WatchRun::run() {
     const auto guard = guarded();
     watcher_.finish();
   }
+  warn_of_own();
   alerts_->flush(source_->position(cutter_.waiting().size()));
 }
 
@@ -289,9 +290,18 @@ void WatchRun::warn() {
   // Fewer reports say little, such as those before a clock is confirmed.
   constexpr std::uint64_t least = 100;
   const std::uint64_t taken = watcher_.monitor_counters().reports;
+  constexpr std::uint64_t many = 1000;
+  if (taken >= many) warn_of_own();
   if (!has_warned_of_unusable_ && counts.unusable() >= least && counts.unusable() > taken)
     warn_once(has_warned_of_unusable_,
               fmt::format("most reports cannot be used: {} taken, {}", taken, reasons_text(watcher_)));
+}
+
+/// Warns if the own track is none of the stream's so far.
+void WatchRun::warn_of_own() {
+  if (options_.own.empty() || watcher_.counts().of_own > 0) return;
+  warn_once(has_warned_of_own_,
+            fmt::format("--own {}: no report of this track was taken, so no pair is watched", options_.own));
 }
 
 bool WatchRun::is_time_for_snapshot() const {

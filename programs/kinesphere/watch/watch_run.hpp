@@ -45,6 +45,7 @@ class WatchRun {
   FileTime now() const;
   void complain();
   void warn();
+  void warn_of_own();
   void warn_once(bool& has_warned, std::string_view warning);
   bool is_time_for_snapshot() const;
   void keep_snapshot();
@@ -61,6 +62,7 @@ class WatchRun {
   std::unique_ptr<StateServer> server_;
   std::size_t complaints_ = 0;
   bool has_warned_of_crowds_ = false, has_warned_of_unusable_ = false, has_warned_of_heights_ = false;
+  bool has_warned_of_own_ = false;
   std::chrono::duration<double> snapshot_interval_;
   std::optional<std::chrono::steady_clock::time_point> last_snapshot_;
   /// Opened last, so that no alert file is touched if another option is wrong.

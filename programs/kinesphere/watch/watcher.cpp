@@ -395,6 +395,7 @@ void Watcher::deliver(const SourceReport& report) {
   }
   if (const auto taken = monitor_->report(id, *on_map); !taken)
     return refuse(fmt::format("{}: {}", report.id, taken.error().message));
+  if (!settings_.own.empty() && report.id == settings_.own) ++counts_.of_own;
   if (lacks_height) ++counts_.no_height;
   NamedTrack& named = known != nullptr ? *known : names_.add(id, report.id);
   if (known == nullptr || seconds_between(named.stamp, report.stamp) >= 0.0) {

@@ -44,7 +44,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MalformedLine, line, reason)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WatchCounts::Turns, apart, undecided, within)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WatchCounts, repeated, stale, ahead, outside, no_position, on_ground,
                                    no_bound, no_velocity, filtered, crowded, malformed, first_malformed,
-                                   no_height, dropped, alerts, held_back, events, turns)
+                                   no_height, dropped, alerts, of_own, held_back, events, turns)
 
 namespace {
 
