@@ -17,6 +17,15 @@ void insert_sorted(std::vector<std::uint32_t>& numbers, std::uint32_t number) {
   numbers.insert(std::lower_bound(numbers.begin(), numbers.end(), number), number);
 }
 
+/// False if two that go straight on never come nearer than `reach` (length).
+bool may_meet(const State& first, const State& second, double reach) {
+  const Vec3 offset = first.position - second.position;
+  const Vec3 velocity = first.velocity - second.velocity;
+  const double x2 = norm_squared(offset), v2 = norm_squared(velocity), xv = dot(offset, velocity);
+  const double r2 = reach * reach;
+  return x2 <= r2 || (xv < 0.0 && v2 * (x2 - r2) <= xv * xv);
+}
+
 void erase_sorted(std::vector<std::uint32_t>& numbers, std::uint32_t number) {
   numbers.erase(std::lower_bound(numbers.begin(), numbers.end(), number));
 }
@@ -122,6 +131,13 @@ void Predictions::decide(std::uint32_t a, std::uint32_t b, double now, std::vect
   const Track& one = tracks_[a];
   const Track& other = tracks_[b];
   PairPrediction& pair = *pairs_.find(a, b);
+  const State first = one.path.state_at(now), second = other.path.state_at(now);
+  const bool was_predicted = pair.is_predicted();
+  const double reach = separations_->margin(one.track_class) + separations_->margin(other.track_class);
+  if (!was_predicted && !may_meet(first, second, reach)) {
+    pair.due = infinity;
+    return;
+  }
   const std::span<const Components> levels = levels_of(one, other);
   const double hold = definition_->prediction_hold;
   const double resolution = std::max(definition_->time_resolution, std::abs(now) * 0x1p-50);
@@ -130,32 +146,28 @@ void Predictions::decide(std::uint32_t a, std::uint32_t b, double now, std::vect
     const double look_ahead = levels[level].look_ahead;
     if (!(look_ahead > 0.0)) continue;
     LevelPrediction& state = pair.levels[level];
-    const StraightPass pass = pass_of(one, other, levels[level], now);
+    const StraightPass pass = straight_pass(first, second, levels[level], now);
     // They meet if their closest approach comes in the look-ahead time, or they are within the separation
     // now. The times of one pass, computed at two times, differ by rounding.
     const bool meet = pass.begin < infinity;
     const double from = meet ? std::min(pass.begin, pass.closest_within() - look_ahead) : infinity;
     const bool holds = from <= now + resolution && pass.end > now;
-    const auto [first, second] = std::minmax(one.id, other.id);
-    MonitorEvent event{.time = now,
-                       .kind = MonitorEventKind::predicted,
-                       .first = first,
-                       .second = second,
-                       .level = level,
-                       .since = state.since,
-                       .likely_time = pass.begin,
-                       .closest_time = pass.closest_time,
-                       .closest_distance = pass.closest_distance};
     if (state.holds) state.held_until = now;
     state.holds = holds;
-    if (holds && !state.predicted) {
-      state.predicted = true;
-      state.since = event.since = now;
-      events.push_back(event);
-    } else if (!holds && state.predicted && state.held_until + hold <= now) {
-      state.predicted = false;
-      event.kind = MonitorEventKind::prediction_ended;
-      events.push_back(event);
+    const bool begins = holds && !state.predicted;
+    const bool ends = !holds && state.predicted && state.held_until + hold <= now;
+    if (begins) state.since = now;
+    if (begins || ends) {
+      state.predicted = begins;
+      events.push_back({.time = now,
+                        .kind = begins ? MonitorEventKind::predicted : MonitorEventKind::prediction_ended,
+                        .first = std::min(one.id, other.id),
+                        .second = std::max(one.id, other.id),
+                        .level = level,
+                        .since = state.since,
+                        .likely_time = pass.begin,
+                        .closest_time = pass.closest_time,
+                        .closest_distance = pass.closest_distance});
     }
     if (holds) {
       due = std::min(due, std::max(pass.end, now + resolution));
@@ -164,7 +176,8 @@ void Predictions::decide(std::uint32_t a, std::uint32_t b, double now, std::vect
       if (state.predicted) due = std::min(due, std::max(state.held_until + hold, now + resolution));
     }
   }
-  if (!pair.is_predicted() && !homes_touch(a, b)) return part(a, b);
+  // The homes may have parted while the pair was predicted.
+  if (was_predicted && !pair.is_predicted() && !homes_touch(a, b)) return part(a, b);
   if (due != pair.due && due < infinity) due_.push({due, std::min(a, b), std::max(a, b)});
   pair.due = due;
 }

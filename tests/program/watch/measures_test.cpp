@@ -38,11 +38,13 @@ TEST(Measures, AreBallsOrCylinders) {
 
 TEST(Separations, AreShapesWithLengths) {
   EXPECT_EQ(parse_separation("sphere:50").separation, Separation::sphere(50.0));
+  EXPECT_EQ(parse_separation("sphere:1NM:20min").separation, Separation::sphere(1852.0, 1200.0));
+  EXPECT_EQ(parse_separation("cylinder:5NM:300m:60").separation, Separation::cylinder(9260.0, 300.0, 60.0));
   EXPECT_EQ(parse_separation("sphere 50m").name, "sphere 50m");
   EXPECT_EQ(parse_separation("cylinder:5NM:1000ft").separation, Separation::cylinder(9260.0, 304.8));
   EXPECT_EQ(parse_separation("cylinder 5NM 1000ft").separation, Separation::cylinder(9260.0, 304.8));
   EXPECT_EQ(parse_separation("ellipsoid:10:5").separation, Separation::ellipsoid(10.0, 5.0));
-  for (const char* const text : {"", "50", "cube:50", "sphere", "sphere:0", "cylinder:5", "sphere:1:2"})
+  for (const char* const text : {"", "50", "cube:50", "sphere", "sphere:0", "cylinder:5", "sphere:1:2:3"})
     EXPECT_NE(error_of([&] { parse_separation(text); }).find("--separation"), std::string::npos) << text;
 }
 
