@@ -1,5 +1,5 @@
 // Two aircraft and a drone report at irregular times, with errors, late, and one of them stops reporting.
-// What is certain about their separation, and which report is needed?
+// What is certain about their separation, what is predicted a minute ahead, and which report is needed?
 #include <kinesphere/kinesphere.hpp>
 
 #include <cstdio>
@@ -7,9 +7,10 @@
 using namespace kinesphere;
 
 int main() {
-  // Units: metres and seconds. Aircraft turn with at most 0.5 g, and keep 1000 m apart or 100 m in height.
+  // Units: metres and seconds. Aircraft turn with at most 0.5 g, and keep 1000 m apart or 100 m in height. A
+  // closest approach that breaks this is predicted 60 s ahead.
   Monitor sky = Monitor::create({.classes = {{.acceleration_limit = 5.0, .largest_speed = 80.0}},
-                                 .separations = {{0, 0, {Separation::cylinder(1000.0, 100.0)}}},
+                                 .separations = {{0, 0, {Separation::cylinder(1000.0, 100.0, 60.0)}}},
                                  .stale_after = 10.0})
                     .value();
   const auto tell = [&](double until) {
@@ -17,6 +18,13 @@ int main() {
       if (event.kind == MonitorEventKind::verdict)
         std::printf("%6.2f s  %llu and %llu: %s\n", event.time, (unsigned long long)event.first,
                     (unsigned long long)event.second, name_of(event.verdict).data());
+      else if (event.kind == MonitorEventKind::predicted)
+        std::printf("%6.2f s  %llu and %llu: if they go on, %.0f m at %.1f s\n", event.time,
+                    (unsigned long long)event.first, (unsigned long long)event.second, event.closest_distance,
+                    event.closest_time);
+      else if (is_of_pair(event.kind))
+        std::printf("%6.2f s  %llu and %llu: %s\n", event.time, (unsigned long long)event.first,
+                    (unsigned long long)event.second, name_of(event.kind).data());
       else
         std::printf("%6.2f s  %llu: %s\n", event.time, (unsigned long long)event.first,
                     name_of(event.kind).data());
