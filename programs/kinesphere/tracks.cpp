@@ -2,6 +2,7 @@
 #include "tracks.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -61,6 +62,15 @@ void add_approaches(Summary& summary, double distance, const std::vector<Approac
                                       number(longest->end - longest->begin)));
 }
 
+void add_left_out(Summary& summary, const ApproachChoice& choice, const LeftOut& left_out) {
+  if (!choice.only.empty())
+    summary.row("left out", grouped(left_out.by_ids),
+                fmt::format("approaches without {}", fmt::join(choice.only, ",")));
+  if (choice.min_duration)
+    summary.row("left out", grouped(left_out.by_duration),
+                fmt::format("approaches shorter than {} s", *choice.min_duration));
+}
+
 std::string closest_approaches(const std::vector<Approach>& approaches, const Recording& recording) {
   constexpr std::size_t shown = 10;
   std::string text = fmt::format("\n{:>24}  {:>12}  {:>14}  {:>12}    {}\n", "closest at", "distance",
@@ -74,7 +84,7 @@ std::string closest_approaches(const std::vector<Approach>& approaches, const Re
                         approach.ends_with_track ? "> " : "  ", recording.tracks[approach.first].id,
                         recording.tracks[approach.second].id);
   }
-  text += "< close from a track's first sample on, > close until a track's last sample\n";
+  text += "< close from a track's first sample (or --from) on, > until a track's last sample (or --until)\n";
   if (approaches.size() > shown) {
     text += fmt::format("and {} more: --contacts FILE has them all\n", grouped(approaches.size() - shown));
   }
@@ -149,6 +159,7 @@ CLI::App* add_tracks_command(CLI::App& program, TracksOptions& options) {
       ->type_name("FILE");
   add_reading_options(*command, options.files, options.reading);
   add_interpolation_option(*command, options.reading);
+  add_choice_options(*command, options.choice);
   command->add_flag("--verify", options.verify, "Compare with the exact oracle on the same curves");
   command->add_flag("--quiet", options.quiet, "No progress bar and no summary");
   return command;
@@ -160,9 +171,12 @@ int tracks(const TracksOptions& options) {
   const Recording recording = read_tracks(options.files, options.reading);
   check_unit_of_distance(options.distance, recording);
   files.check(recording);
-  const TrackScene scene_and_notes = scene_of(
-      recording,
-      {.distance = distance, .tolerance = options.tolerance, .interpolation = options.reading.interpolation});
+  const ApproachFilter filter(options.choice, recording);
+  const TrackScene scene_and_notes = scene_of(recording, {.distance = distance,
+                                                          .tolerance = options.tolerance,
+                                                          .interpolation = options.reading.interpolation,
+                                                          .from = filter.window().from,
+                                                          .until = filter.window().until});
   const Scene& scene = scene_and_notes.scene;
   for (const std::string& warning : warnings_of(recording, scene_and_notes))
     print_message("kinesphere: warning: {}\n", warning);
@@ -181,12 +195,14 @@ int tracks(const TracksOptions& options) {
   progress.reset();
 
   std::vector<Approach> approaches = approaches_in(scene, events);
+  const LeftOut left_out = filter.apply(approaches);
   find_closest(*scene.motion, approaches);
   files.write(recording, scene, approaches, distance);
   Summary summary;
   add_recording(summary, options.files, recording, scene_and_notes);
   summary.space();
   add_approaches(summary, distance, approaches);
+  add_left_out(summary, options.choice, left_out);
   summary.row("probes", grouped(result.counters.probes),
               fmt::format("for {} samples: {}", grouped(recording.samples),
                           percent(static_cast<double>(result.counters.probes),

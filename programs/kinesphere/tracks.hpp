@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tracks/approach_choice.hpp"
 #include "tracks/reading_policy.hpp"
 
 namespace kinesphere::program {
@@ -15,6 +16,7 @@ struct TracksOptions {
   std::string distance;  ///< a number, and perhaps a unit
   std::optional<double> tolerance;
   TrackOptions reading;
+  ApproachChoice choice;
   std::string contacts, pairs, plot;  ///< files to write; empty for none
   bool verify = false;
   bool quiet = false;

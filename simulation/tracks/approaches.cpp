@@ -14,12 +14,13 @@ namespace {
 Approach begun(const Scene& scene, const Event& event) {
   const SceneBody& first = scene.bodies[event.first.index];
   const SceneBody& second = scene.bodies[event.second.index];
-  return {.first = event.first.index,
-          .second = event.second.index,
-          .begin = event.time,
-          .end = std::min({first.vanishes, second.vanishes, scene.end_time}),
-          .begins_with_track = event.time <= std::max(first.appears, second.appears),
-          .ends_with_track = true};
+  return {
+      .first = event.first.index,
+      .second = event.second.index,
+      .begin = event.time,
+      .end = std::min({first.vanishes, second.vanishes, scene.end_time}),
+      .begins_with_track = event.time <= std::max({first.appears, second.appears, scene.world.start_time}),
+      .ends_with_track = true};
 }
 
 ClosestApproach closest_in(const Motion& motion, const Approach& approach) {

@@ -21,9 +21,11 @@ struct ClosestApproach {
 struct Approach {
   std::uint32_t first = 0, second = 0;  ///< numbers of the tracks
   double begin = 0.0, end = 0.0;
-  bool begins_with_track = false;  ///< the two were close at the first sample of one of them
-  bool ends_with_track = false;    ///< the two were close at the last sample of one of them
-  ClosestApproach closest{};       ///< within [begin, end]; set by find_closest()
+  bool begins_with_track =
+      false;  ///< the two were close at the first sample of one of them or at the start of the scene
+  bool ends_with_track =
+      false;  ///< the two were close at the last sample of one of them or at the end of the scene
+  ClosestApproach closest{};  ///< within [begin, end]; set by find_closest()
 };
 
 /// Returns the approaches that a run of `scene` reported, sorted by begin. An approach without an end event

@@ -67,10 +67,11 @@ void ApproachFile::check(const Recording& recording) const {
   if (!geojson_) return;
   const Vec3& somewhere = recording.tracks.front().samples.front().position;
   if (recording.coordinates.geographic(somewhere)) return;
-  throw ProgramError(fmt::format(
-      "{}: expected longitudes and latitudes for a .geojson file (--from lonlat, or --from utm with "
-      "its zone), but positions are plain coordinates: write .csv or .jsonl",
-      geojson_->path()));
+  throw ProgramError(
+      fmt::format("{}: expected longitudes and latitudes for a .geojson file (--positions lonlat, or "
+                  "--positions utm with "
+                  "its zone), but positions are plain coordinates: write .csv or .jsonl",
+                  geojson_->path()));
 }
 
 void ApproachFile::write(const std::vector<Approach>& approaches, const Recording& recording) {

@@ -159,7 +159,7 @@ Vec3 geographic_from_utm(const UtmZone& zone, const Vec3& position) {
   try {
     GeographicLib::UTMUPS::Reverse(zone.number, zone.north, position.x, position.y, result.y, result.x);
   } catch (const GeographicLib::GeographicErr& error) {
-    throw ProgramError(fmt::format("--from utm: {}", error.what()));
+    throw ProgramError(fmt::format("--positions utm: {}", error.what()));
   }
   return result;
 }

@@ -28,7 +28,8 @@ struct Tally {
 struct Recording {
   std::string format;  ///< recognised format
   TimeScale times;
-  double frame_rate = 0.0;  ///< frames per second; 0 where no frames are counted
+  DateOrder dates = DateOrder::unknown;  ///< order of dates such as 03/04/2025
+  double frame_rate = 0.0;               ///< frames per second; 0 where no frames are counted
   Coordinates coordinates;
   bool in_metres = false;             ///< unit of lengths; if false, it is unknown
   bool is_plane = false;              ///< nothing leaves the plane z = 0

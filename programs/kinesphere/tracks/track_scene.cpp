@@ -122,6 +122,8 @@ TrackScene scene_of(const Recording& recording, const ApproachQuestion& question
   if (!scene) refuse(recording, scene.error());
   TrackScene result{.scene = std::move(*scene)};
   result.scene.world.contact_tolerance = tolerance;
+  result.scene.world.start_time = std::max(result.scene.world.start_time, question.from);
+  result.scene.end_time = std::min(result.scene.end_time, question.until);
   result.scene.world.contacts = ContactEvents::begin_and_end;
   result.scene.world.dimensions = recording.is_plane ? 2 : 3;
   if (question.interpolation == Interpolation::spline)

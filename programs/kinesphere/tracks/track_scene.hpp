@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -17,6 +18,8 @@ struct ApproachQuestion {
   std::optional<double>
       tolerance;  ///< tolerance of that distance; if empty, a millionth of it, or 2^-40 of the extent
   Interpolation interpolation = Interpolation::spline;
+  /// Seconds of the recording. The curves are those of all samples, whatever the window.
+  double from = -std::numeric_limits<double>::infinity(), until = std::numeric_limits<double>::infinity();
 };
 
 /// Splines that swing out far beyond their samples: by more than the distance of an approach and more than
@@ -38,8 +41,9 @@ struct TrackScene {
 RecordedTracks splines_through(const Recording& recording);
 
 /// Returns a scene with a body for each track, with half the distance as radius, present from its first
-/// sample to its last. Throws ProgramError naming the option or the id: for a tolerance that does not fit the
-/// distance or is too fine for the recording's extent, and if a curve overflows.
+/// sample to its last, and a span that is the window. Throws ProgramError naming the option or the id: for a
+/// tolerance that does not fit the distance or is too fine for the recording's extent, and if a curve
+/// overflows.
 TrackScene scene_of(const Recording& recording, const ApproachQuestion& question);
 
 }  // namespace kinesphere::program
