@@ -23,6 +23,8 @@
 #include "table_file.hpp"
 #include "tracks/approach_files.hpp"
 #include "tracks/approach_plot.hpp"
+#include "tracks/implied_speeds.hpp"
+#include "tracks/minima_table.hpp"
 #include "tracks/reading_options.hpp"
 #include "tracks/reading_summary.hpp"
 #include "tracks/track_file.hpp"
@@ -75,16 +77,25 @@ std::string closest_approaches(const std::vector<Approach>& approaches, const Re
   constexpr std::size_t shown = 10;
   std::string text = fmt::format("\n{:>24}  {:>12}  {:>14}  {:>12}    {}\n", "closest at", "distance",
                                  "relative speed", "duration", "ids");
+  const ImpliedSpeeds speeds(recording);
+  bool any_absurd = false;
+  const auto marked = [&](std::uint32_t track, double time) {
+    const bool is_absurd = speeds.is_absurd_at(track, time);
+    any_absurd = any_absurd || is_absurd;
+    return recording.tracks[track].id + (is_absurd ? " (?)" : "");
+  };
   for (const std::size_t k : closest_of(approaches, shown)) {
     const Approach& approach = approaches[k];
     const ClosestApproach& closest = approach.closest;
     text += fmt::format("{:>24}  {:>12}  {:>14}  {}{:>11}{}  {} {}\n", recording.times.text(closest.time, 6),
                         number(closest.distance), number(closest.relative_speed),
                         approach.begins_with_track ? "<" : " ", number(approach.end - approach.begin),
-                        approach.ends_with_track ? "> " : "  ", recording.tracks[approach.first].id,
-                        recording.tracks[approach.second].id);
+                        approach.ends_with_track ? "> " : "  ", marked(approach.first, closest.time),
+                        marked(approach.second, closest.time));
   }
   text += "< close from a track's first sample (or --from) on, > until a track's last sample (or --until)\n";
+  if (any_absurd)
+    text += "(?) samples around that time imply a speed more than 10 times the usual one: see --max-speed\n";
   if (approaches.size() > shown) {
     text += fmt::format("and {} more: --contacts FILE has them all\n", grouped(approaches.size() - shown));
   }
@@ -103,12 +114,15 @@ ComparisonProgress shown(const TracksOptions& options, const Scene& scene) {
 class TracksFiles {
  public:
   explicit TracksFiles(const TracksOptions& options) {
-    const OutputPath outputs[] = {
-        {"--contacts", options.contacts}, {"--pairs", options.pairs}, {"--plot", options.plot}};
+    const OutputPath outputs[] = {{"--contacts", options.contacts},
+                                  {"--minima", options.minima},
+                                  {"--pairs", options.pairs},
+                                  {"--plot", options.plot}};
     check_outputs(outputs, options.files);
     if (!options.plot.empty() && std::filesystem::path(options.plot).extension() != ".svg")
       throw ProgramError(fmt::format("{}: expected a name that ends in .svg", options.plot));
     if (!options.contacts.empty()) contacts_.emplace(options.contacts);
+    if (!options.minima.empty()) minima_.emplace(options.minima, minima_columns());
     if (!options.pairs.empty()) pairs_.emplace(options.pairs, pair_columns());
     if (!options.plot.empty()) plot_.emplace(options.plot);
   }
@@ -119,18 +133,20 @@ class TracksFiles {
   void write(const Recording& recording, const Scene& scene, const std::vector<Approach>& approaches,
              double distance) {
     if (contacts_) contacts_->write(approaches, recording);
+    if (minima_) write_minima(*minima_, minima_in(*scene.motion, approaches), approaches, recording);
     if (pairs_) write_pairs(*pairs_, pairs_in(approaches, recording), recording);
     if (plot_) plot_->write(plot_of(recording, scene, approaches, distance));
   }
   void commit() {
     if (contacts_) contacts_->commit();
+    if (minima_) minima_->commit();
     if (pairs_) pairs_->commit();
     if (plot_) plot_->commit();
   }
 
  private:
   std::optional<ApproachFile> contacts_;
-  std::optional<TableFile> pairs_;
+  std::optional<TableFile> minima_, pairs_;
   std::optional<OutputFile> plot_;
 };
 
@@ -151,6 +167,10 @@ CLI::App* add_tracks_command(CLI::App& program, TracksOptions& options) {
       ->add_option(
           "--contacts", options.contacts,
           "Write every approach to this .csv, .jsonl or (where positions are on the earth) .geojson file")
+      ->type_name("FILE");
+  command
+      ->add_option("--minima", options.minima,
+                   "Write every local minimum of the distance during approaches to this .csv or .jsonl file")
       ->type_name("FILE");
   command
       ->add_option("--pairs", options.pairs, "Write a line for each pair of ids to this .csv or .jsonl file")

@@ -35,6 +35,18 @@ std::vector<Approach> approaches_in(const Scene& scene, const std::vector<Event>
 /// Sets `closest` of each approach. Cost: proportional to the pieces of the two curves during the approach.
 void find_closest(const Motion& motion, std::vector<Approach>& approaches);
 
+/// A local minimum of the distance during an approach.
+struct DistanceMinimum {
+  std::size_t approach = 0;  ///< index
+  ClosestApproach closest{};
+  Vec3 first_velocity, second_velocity;  ///< at a sudden turn those after it
+  bool is_cut_off = false;               ///< the distance still falls toward a begin or end of a track
+};
+
+/// Returns all local minima of the distance (GapCourse::minima()) in each approach, by approach and time;
+/// each approach has at least one. Cost: proportional to the pieces of the two curves during the approach.
+std::vector<DistanceMinimum> minima_in(const Motion& motion, const std::vector<Approach>& approaches);
+
 /// Returns the indices of at most `most` approaches, the closest first; equal ones in their order.
 std::vector<std::size_t> closest_of(const std::vector<Approach>& approaches, std::size_t most);
 

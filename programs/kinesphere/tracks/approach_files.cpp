@@ -10,27 +10,15 @@
 #include <utility>
 
 #include "program_error.hpp"
+#include "tracks/recording_cells.hpp"
 
 namespace kinesphere::program {
 namespace {
-
-Cell time_cell(const TimeScale& times, double time) {
-  std::string text = times.text(time);
-  if (times.is_number()) return DecimalText{std::move(text)};
-  return text;
-}
 
 std::vector<std::string> approach_columns() {
   return {"begin",           "end",          "first",    "second",   "begins_with_track",
           "ends_with_track", "closest_time", "distance", "first_x",  "first_y",
           "first_z",         "second_x",     "second_y", "second_z", "relative_speed"};
-}
-
-/// Adds x, y and z in the file's coordinates; z is empty if the file has none.
-void add_position(std::vector<Cell>& cells, const Vec3& local, const Recording& recording) {
-  const Vec3 position = recording.coordinates.as_in_file(local);
-  cells.insert(cells.end(), {position.x, position.y});
-  cells.push_back(recording.is_plane ? Cell() : Cell(position.z));
 }
 
 bool ends_in_geojson(const std::string& path) {
