@@ -11,18 +11,19 @@
 #include <memory>
 #include <utility>
 
-#include "columns/units.hpp"
 #include "number_text.hpp"
 #include "output_paths.hpp"
 #include "program_error.hpp"
 #include "progress.hpp"
 #include "simulation/oracle/comparison.hpp"
 #include "simulation/tracks/approaches.hpp"
+#include "simulation/tracks/cylinder_approaches.hpp"
 #include "standard_output.hpp"
 #include "summary.hpp"
 #include "table_file.hpp"
 #include "tracks/approach_files.hpp"
 #include "tracks/approach_plot.hpp"
+#include "tracks/closeness.hpp"
 #include "tracks/implied_speeds.hpp"
 #include "tracks/minima_table.hpp"
 #include "tracks/reading_options.hpp"
@@ -35,27 +36,11 @@
 namespace kinesphere::program {
 namespace {
 
-/// Returns a distance in metres or, without a unit, in the unit of the recording's lengths.
-double parse_distance(const std::string& text) {
-  const double distance = parse_measure(text, Measure::length, "--distance");
-  if (distance > 0) return distance;
-  throw ProgramError(fmt::format("--distance: expected a distance > 0, but got '{}'", text));
-}
-
-void check_unit_of_distance(const std::string& text, const Recording& recording) {
-  if (recording.in_metres || parse_number(text)) return;
-  throw ProgramError(
-      fmt::format("--distance: expected a number without a unit, because the unit of lengths is not known, "
-                  "but got '{}': say "
-                  "--unit",
-                  text));
-}
-
-void add_approaches(Summary& summary, double distance, const std::vector<Approach>& approaches) {
+void add_approaches(Summary& summary, const Closeness& closeness, const std::vector<Approach>& approaches) {
   const auto cut = std::count_if(approaches.begin(), approaches.end(),
                                  [](const Approach& approach) { return approach.ends_with_track; });
   summary.row("approaches", grouped(approaches.size()),
-              fmt::format("below {}, {} of them until a track's end", distance,
+              fmt::format("{}, {} of them until a track's end", closeness.text,
                           grouped(static_cast<std::uint64_t>(cut))));
   if (approaches.empty()) return;
   const auto shorter = [](const Approach& a, const Approach& b) { return a.end - a.begin < b.end - b.begin; };
@@ -73,9 +58,14 @@ void add_left_out(Summary& summary, const ApproachChoice& choice, const LeftOut&
                 fmt::format("approaches shorter than {} s", *choice.min_duration));
 }
 
-std::string closest_approaches(const std::vector<Approach>& approaches, const Recording& recording) {
+std::string closest_approaches(const std::vector<Approach>& approaches, const Recording& recording,
+                               bool by_cylinder) {
   constexpr std::size_t shown = 10;
-  std::string text = fmt::format("\n{:>24}  {:>12}  {:>14}  {:>12}    {}\n", "closest at", "distance",
+  const auto distances = [&](const std::string& one, const std::string& two) {
+    return by_cylinder ? fmt::format("{:>12}  {:>12}", one, two) : fmt::format("{:>12}", one);
+  };
+  std::string text = fmt::format("\n{:>24}  {}  {:>14}  {:>12}    {}\n", "closest at",
+                                 distances(by_cylinder ? "horizontally" : "distance", "vertically"),
                                  "relative speed", "duration", "ids");
   const ImpliedSpeeds speeds(recording);
   bool any_absurd = false;
@@ -87,11 +77,13 @@ std::string closest_approaches(const std::vector<Approach>& approaches, const Re
   for (const std::size_t k : closest_of(approaches, shown)) {
     const Approach& approach = approaches[k];
     const ClosestApproach& closest = approach.closest;
-    text += fmt::format("{:>24}  {:>12}  {:>14}  {}{:>11}{}  {} {}\n", recording.times.text(closest.time, 6),
-                        number(closest.distance), number(closest.relative_speed),
-                        approach.begins_with_track ? "<" : " ", number(approach.end - approach.begin),
-                        approach.ends_with_track ? "> " : "  ", marked(approach.first, closest.time),
-                        marked(approach.second, closest.time));
+    text += fmt::format(
+        "{:>24}  {}  {:>14}  {}{:>11}{}  {} {}\n", recording.times.text(closest.time, 6),
+        by_cylinder ? distances(number(horizontal_distance(closest)), number(vertical_distance(closest)))
+                    : distances(number(closest.distance), ""),
+        number(closest.relative_speed), approach.begins_with_track ? "<" : " ",
+        number(approach.end - approach.begin), approach.ends_with_track ? "> " : "  ",
+        marked(approach.first, closest.time), marked(approach.second, closest.time));
   }
   text += "< close from a track's first sample (or --from) on, > until a track's last sample (or --until)\n";
   if (any_absurd)
@@ -121,7 +113,8 @@ class TracksFiles {
     check_outputs(outputs, options.files);
     if (!options.plot.empty() && std::filesystem::path(options.plot).extension() != ".svg")
       throw ProgramError(fmt::format("{}: expected a name that ends in .svg", options.plot));
-    if (!options.contacts.empty()) contacts_.emplace(options.contacts);
+    if (!options.contacts.empty())
+      contacts_.emplace(options.contacts, options.separation.starts_with("cylinder"));
     if (!options.minima.empty()) minima_.emplace(options.minima, minima_columns());
     if (!options.pairs.empty()) pairs_.emplace(options.pairs, pair_columns());
     if (!options.plot.empty()) plot_.emplace(options.plot);
@@ -157,8 +150,12 @@ CLI::App* add_tracks_command(CLI::App& program, TracksOptions& options) {
   command
       ->add_option("--distance", options.distance,
                    "How close counts as an approach: a number, and perhaps a unit, such as 500m, 5NM, 2um")
-      ->type_name("LENGTH")
-      ->required();
+      ->type_name("LENGTH");
+  command
+      ->add_option("--separation", options.separation,
+                   "Instead of --distance: cylinder:HORIZONTAL:VERTICAL, such as cylinder:5NM:1000ft, or "
+                   "sphere:LENGTH")
+      ->type_name("SHAPE");
   command
       ->add_option("--tolerance", options.tolerance,
                    "Tolerance of that distance; when not given a millionth of it, or 1e-12 of the extent")
@@ -186,18 +183,20 @@ CLI::App* add_tracks_command(CLI::App& program, TracksOptions& options) {
 }
 
 int tracks(const TracksOptions& options) {
-  const double distance = parse_distance(options.distance);
+  const Closeness closeness = closeness_of(options.distance, options.separation);
   TracksFiles files(options);
-  const Recording recording = read_tracks(options.files, options.reading);
-  check_unit_of_distance(options.distance, recording);
+  const Recording recording = read_tracks(options.files, reading_for(closeness, options.reading));
+  check_closeness(closeness, recording);
   files.check(recording);
   const ApproachFilter filter(options.choice, recording);
-  const TrackScene scene_and_notes = scene_of(recording, {.distance = distance,
+  const TrackScene scene_and_notes = scene_of(recording, {.distance = closeness.distance,
+                                                          .vertical = closeness.vertical,
                                                           .tolerance = options.tolerance,
                                                           .interpolation = options.reading.interpolation,
                                                           .from = filter.window().from,
                                                           .until = filter.window().until});
   const Scene& scene = scene_and_notes.scene;
+  const Scene& searched = scene_and_notes.searched();
   for (const std::string& warning : warnings_of(recording, scene_and_notes))
     print_message("kinesphere: warning: {}\n", warning);
 
@@ -210,18 +209,23 @@ int tracks(const TracksOptions& options) {
     observer.between_events = [&](const Detector& detector) { progress->show(detector.time()); };
   }
   const auto started = std::chrono::steady_clock::now();
-  const SimulationResult result = require(simulate(scene, make_world_detector, observer));
+  const SimulationResult result = require(simulate(searched, make_world_detector, observer));
   const std::chrono::duration<double> real_time = std::chrono::steady_clock::now() - started;
   progress.reset();
 
-  std::vector<Approach> approaches = approaches_in(scene, events);
+  std::vector<Approach> approaches = approaches_in(searched, events);
+  if (closeness.vertical)
+    approaches = approaches_within({.horizontal = closeness.distance,
+                                    .vertical = *closeness.vertical,
+                                    .tolerance = scene.world.contact_tolerance},
+                                   *scene.motion, approaches);
   const LeftOut left_out = filter.apply(approaches);
   find_closest(*scene.motion, approaches);
-  files.write(recording, scene, approaches, distance);
+  files.write(recording, scene, approaches, closeness.distance);
   Summary summary;
   add_recording(summary, options.files, recording, scene_and_notes);
   summary.space();
-  add_approaches(summary, distance, approaches);
+  add_approaches(summary, closeness, approaches);
   add_left_out(summary, options.choice, left_out);
   summary.row("probes", grouped(result.counters.probes),
               fmt::format("for {} samples: {}", grouped(recording.samples),
@@ -229,7 +233,8 @@ int tracks(const TracksOptions& options) {
                                   static_cast<double>(recording.samples))));
   int exit_code = exit_fine;
   if (options.verify) {
-    const ContactComparison comparison = require(compare_with_oracle(scene, events, shown(options, scene)));
+    const ContactComparison comparison =
+        require(compare_with_oracle(searched, events, shown(options, searched)));
     summary.space();
     add_comparison(summary, comparison);
     if (!comparison.agrees()) exit_code = exit_disagreement;
@@ -239,7 +244,8 @@ int tracks(const TracksOptions& options) {
   add_speed(summary, result.simulated_time, real_time.count());
   if (!options.quiet) {
     print("{}", summary.text());
-    if (!approaches.empty()) print("{}", closest_approaches(approaches, recording));
+    if (!approaches.empty())
+      print("{}", closest_approaches(approaches, recording, closeness.vertical.has_value()));
   }
   // The commit comes last: a full disk must not suppress the summary.
   files.commit();

@@ -13,7 +13,8 @@ namespace kinesphere::program {
 
 struct TracksOptions {
   std::vector<std::string> files;
-  std::string distance;  ///< a number, and perhaps a unit
+  std::string distance;    ///< a number, and perhaps a unit
+  std::string separation;  ///< sphere:LENGTH or cylinder:LENGTH:LENGTH, instead of `distance`
   std::optional<double> tolerance;
   TrackOptions reading;
   ApproachChoice choice;

@@ -15,10 +15,13 @@
 namespace kinesphere::program {
 namespace {
 
-std::vector<std::string> approach_columns() {
-  return {"begin",           "end",          "first",    "second",   "begins_with_track",
-          "ends_with_track", "closest_time", "distance", "first_x",  "first_y",
-          "first_z",         "second_x",     "second_y", "second_z", "relative_speed"};
+std::vector<std::string> approach_columns(bool by_cylinder) {
+  std::vector<std::string> columns{
+      "begin",           "end",          "first",    "second",   "begins_with_track",
+      "ends_with_track", "closest_time", "distance", "first_x",  "first_y",
+      "first_z",         "second_x",     "second_y", "second_z", "relative_speed"};
+  if (by_cylinder) columns.insert(columns.end(), {"horizontal_distance", "vertical_distance"});
+  return columns;
 }
 
 bool ends_in_geojson(const std::string& path) {
@@ -40,7 +43,16 @@ nlohmann::ordered_json point_on_map(const Recording& recording, const Vec3& loca
 
 }  // namespace
 
-ApproachFile::ApproachFile(const std::string& path) {
+double horizontal_distance(const ClosestApproach& closest) {
+  const Vec3 way = closest.second - closest.first;
+  return std::hypot(way.x, way.y);
+}
+
+double vertical_distance(const ClosestApproach& closest) {
+  return std::abs(closest.second.z - closest.first.z);
+}
+
+ApproachFile::ApproachFile(const std::string& path, bool by_cylinder) : by_cylinder_(by_cylinder) {
   if (ends_in_geojson(path)) {
     geojson_.emplace(path);
     return;
@@ -48,7 +60,7 @@ ApproachFile::ApproachFile(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();
   if (ending != ".csv" && ending != ".jsonl")
     throw ProgramError(fmt::format("{}: expected a name that ends in .csv, .jsonl or .geojson", path));
-  table_.emplace(path, approach_columns());
+  table_.emplace(path, approach_columns(by_cylinder));
 }
 
 void ApproachFile::check(const Recording& recording) const {
@@ -77,6 +89,7 @@ void ApproachFile::write(const std::vector<Approach>& approaches, const Recordin
     add_position(cells, closest.first, recording);
     add_position(cells, closest.second, recording);
     cells.emplace_back(closest.relative_speed);
+    if (by_cylinder_) cells.insert(cells.end(), {horizontal_distance(closest), vertical_distance(closest)});
     table_->write(cells);
   }
 }
@@ -86,7 +99,7 @@ void ApproachFile::write_geojson(const std::vector<Approach>& approaches, const 
   const char* separator = "\n";
   for (const Approach& approach : approaches) {
     const ClosestApproach& closest = approach.closest;
-    const nlohmann::ordered_json feature{
+    nlohmann::ordered_json feature{
         {"type", "Feature"},
         {"geometry",
          {{"type", "MultiPoint"},
@@ -102,6 +115,10 @@ void ApproachFile::write_geojson(const std::vector<Approach>& approaches, const 
           {"closest_time", time_json(recording.times, closest.time)},
           {"distance", closest.distance},
           {"relative_speed", closest.relative_speed}}}};
+    if (by_cylinder_) {
+      feature["properties"]["horizontal_distance"] = horizontal_distance(closest);
+      feature["properties"]["vertical_distance"] = vertical_distance(closest);
+    }
     geojson_->write(separator);
     geojson_->write(feature.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
     separator = ",\n";

@@ -13,12 +13,16 @@
 
 namespace kinesphere::program {
 
+double horizontal_distance(const ClosestApproach& closest);
+double vertical_distance(const ClosestApproach& closest);
+
 /// Every approach, as a table (.csv, .jsonl) or as points on a map (.geojson). The constructor opens the
 /// file, so that a wrong path fails before a long run; the file appears with commit(). Throws ProgramError
 /// like TableFile and OutputFile.
 class ApproachFile {
  public:
-  explicit ApproachFile(const std::string& path);
+  /// `by_cylinder` adds the horizontal and the vertical distance.
+  ApproachFile(const std::string& path, bool by_cylinder);
 
   /// Throws ProgramError if the file needs longitudes and latitudes and the recording has none.
   void check(const Recording& recording) const;
@@ -28,6 +32,7 @@ class ApproachFile {
  private:
   void write_geojson(const std::vector<Approach>& approaches, const Recording& recording);
 
+  bool by_cylinder_;
   std::optional<TableFile> table_;
   std::optional<OutputFile> geojson_;
 };

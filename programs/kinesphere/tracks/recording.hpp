@@ -32,6 +32,7 @@ struct Recording {
   double frame_rate = 0.0;               ///< frames per second; 0 where no frames are counted
   Coordinates coordinates;
   bool in_metres = false;             ///< unit of lengths; if false, it is unknown
+  bool has_heights = false;           ///< the files have a column of heights
   bool is_plane = false;              ///< nothing leaves the plane z = 0
   std::vector<RecordedTrack> tracks;  ///< without interruption, by the first sample's place in the file
   std::size_t ids = 0;

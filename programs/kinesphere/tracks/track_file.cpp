@@ -126,6 +126,7 @@ class Reading {
     recording_.coordinates = coordinates_of(raw, options);
     recording_.in_metres = raw.columns().in_metres;
     recording_.format = raw.columns().format;
+    recording_.has_heights = raw.columns().z().has_value();
     recording_.is_plane = !raw.columns().z() && recording_.coordinates.are_plane();
     if (recording_.times.kind() == TimeKind::frames) recording_.frame_rate = recording_.times.rate();
     recording_.ids = raw.tracks().size();

@@ -14,7 +14,8 @@
 namespace kinesphere::program {
 
 struct ApproachQuestion {
-  double distance = 0.0;  ///< largest distance of an approach; > 0
+  double distance = 0.0;           ///< largest distance of an approach, or the largest horizontal one; > 0
+  std::optional<double> vertical;  ///< largest vertical distance, of a cylinder
   std::optional<double>
       tolerance;  ///< tolerance of that distance; if empty, a millionth of it, or 2^-40 of the extent
   Interpolation interpolation = Interpolation::spline;
@@ -32,8 +33,14 @@ struct Overshoots {
 };
 
 struct TrackScene {
+  /// The curves of the recording, with spheres of the (horizontal) distance.
   Scene scene;
+  /// What the engine runs to find the approaches of cylinders: the recording stretched along z, with spheres
+  /// around the cylinders.
+  std::optional<Scene> enclosing;
   Overshoots overshoots;
+
+  const Scene& searched() const { return enclosing ? *enclosing : scene; }
 };
 
 /// Returns smooth curves through the samples, one for each track. Throws ProgramError naming the id if a
