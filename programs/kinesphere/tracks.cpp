@@ -161,9 +161,9 @@ CLI::App* add_tracks_command(CLI::App& program, TracksOptions& options) {
                    "Tolerance of that distance; when not given a millionth of it, or 1e-12 of the extent")
       ->check(finite_number());
   command
-      ->add_option(
-          "--contacts", options.contacts,
-          "Write every approach to this .csv, .jsonl or (where positions are on the earth) .geojson file")
+      ->add_option("--contacts", options.contacts,
+                   "Write every approach to this .csv or .jsonl file or, where positions are on the earth, "
+                   ".geojson, .gpx or .kml file")
       ->type_name("FILE");
   command
       ->add_option("--minima", options.minima,

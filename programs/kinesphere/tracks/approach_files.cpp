@@ -6,13 +6,22 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "program_error.hpp"
 #include "tracks/recording_cells.hpp"
 
 namespace kinesphere::program {
+
+double horizontal_distance(const ClosestApproach& closest) {
+  const Vec3 way = closest.second - closest.first;
+  return std::hypot(way.x, way.y);
+}
+
+double vertical_distance(const ClosestApproach& closest) {
+  return std::abs(closest.second.z - closest.first.z);
+}
+
 namespace {
 
 std::vector<std::string> approach_columns(bool by_cylinder) {
@@ -24,58 +33,52 @@ std::vector<std::string> approach_columns(bool by_cylinder) {
   return columns;
 }
 
-bool ends_in_geojson(const std::string& path) {
-  return std::filesystem::path(path).extension() == ".geojson";
-}
-
-nlohmann::ordered_json time_json(const TimeScale& times, double time) {
-  const std::string text = times.text(time);
-  return times.is_number() ? nlohmann::ordered_json::parse(text) : nlohmann::ordered_json(text);
-}
-
-/// Returns a point with longitude and latitude, in the order of RFC 7946.
-nlohmann::ordered_json point_on_map(const Recording& recording, const Vec3& local) {
-  const Vec3 place = recording.coordinates.geographic(local).value();
-  nlohmann::ordered_json point{place.x, place.y};
-  if (!recording.is_plane) point.push_back(place.z);
-  return point;
+/// Returns the values of an approach besides the positions, in the order of maps.
+MapProperties map_properties(const Approach& approach, const Recording& recording, bool by_cylinder) {
+  const ClosestApproach& closest = approach.closest;
+  MapProperties properties{{"first", recording.tracks[approach.first].id},
+                           {"second", recording.tracks[approach.second].id},
+                           {"begin", time_cell(recording.times, approach.begin)},
+                           {"end", time_cell(recording.times, approach.end)},
+                           {"begins_with_track", approach.begins_with_track},
+                           {"ends_with_track", approach.ends_with_track},
+                           {"closest_time", time_cell(recording.times, closest.time)},
+                           {"distance", closest.distance},
+                           {"relative_speed", closest.relative_speed}};
+  if (by_cylinder) {
+    properties.emplace_back("horizontal_distance", horizontal_distance(closest));
+    properties.emplace_back("vertical_distance", vertical_distance(closest));
+  }
+  return properties;
 }
 
 }  // namespace
 
-double horizontal_distance(const ClosestApproach& closest) {
-  const Vec3 way = closest.second - closest.first;
-  return std::hypot(way.x, way.y);
-}
-
-double vertical_distance(const ClosestApproach& closest) {
-  return std::abs(closest.second.z - closest.first.z);
-}
-
-ApproachFile::ApproachFile(const std::string& path, bool by_cylinder) : by_cylinder_(by_cylinder) {
-  if (ends_in_geojson(path)) {
-    geojson_.emplace(path);
+ApproachFile::ApproachFile(const std::string& path, bool by_cylinder)
+    : by_cylinder_(by_cylinder), map_format_(map_format_of(path)) {
+  if (map_format_) {
+    map_.emplace(path);
     return;
   }
   const std::string ending = std::filesystem::path(path).extension().string();
   if (ending != ".csv" && ending != ".jsonl")
-    throw ProgramError(fmt::format("{}: expected a name that ends in .csv, .jsonl or .geojson", path));
+    throw ProgramError(
+        fmt::format("{}: expected a name that ends in .csv, .jsonl, .geojson, .gpx or .kml", path));
   table_.emplace(path, approach_columns(by_cylinder));
 }
 
 void ApproachFile::check(const Recording& recording) const {
-  if (!geojson_) return;
+  if (!map_) return;
   const Vec3& somewhere = recording.tracks.front().samples.front().position;
   if (recording.coordinates.geographic(somewhere)) return;
-  throw ProgramError(
-      fmt::format("{}: expected longitudes and latitudes for a .geojson file (--positions lonlat, or "
-                  "--positions utm with "
-                  "its zone), but positions are plain coordinates: write .csv or .jsonl",
-                  geojson_->path()));
+  throw ProgramError(fmt::format(
+      "{}: expected longitudes and latitudes for a {} file (--positions lonlat, or --positions utm with its "
+      "zone), but positions are plain coordinates: write .csv or .jsonl",
+      map_->path(), std::filesystem::path(map_->path()).extension().string()));
 }
 
 void ApproachFile::write(const std::vector<Approach>& approaches, const Recording& recording) {
-  if (geojson_) return write_geojson(approaches, recording);
+  if (map_) return write_map(approaches, recording);
   for (const Approach& approach : approaches) {
     const ClosestApproach& closest = approach.closest;
     std::vector<Cell> cells{time_cell(recording.times, approach.begin),
@@ -94,41 +97,20 @@ void ApproachFile::write(const std::vector<Approach>& approaches, const Recordin
   }
 }
 
-void ApproachFile::write_geojson(const std::vector<Approach>& approaches, const Recording& recording) {
-  geojson_->write(R"({"type": "FeatureCollection", "features": [)");
-  const char* separator = "\n";
+void ApproachFile::write_map(const std::vector<Approach>& approaches, const Recording& recording) {
+  map_->write(map_begin(*map_format_));
+  bool is_first = true;
   for (const Approach& approach : approaches) {
-    const ClosestApproach& closest = approach.closest;
-    nlohmann::ordered_json feature{
-        {"type", "Feature"},
-        {"geometry",
-         {{"type", "MultiPoint"},
-          {"coordinates",
-           {point_on_map(recording, closest.first), point_on_map(recording, closest.second)}}}},
-        {"properties",
-         {{"first", recording.tracks[approach.first].id},
-          {"second", recording.tracks[approach.second].id},
-          {"begin", time_json(recording.times, approach.begin)},
-          {"end", time_json(recording.times, approach.end)},
-          {"begins_with_track", approach.begins_with_track},
-          {"ends_with_track", approach.ends_with_track},
-          {"closest_time", time_json(recording.times, closest.time)},
-          {"distance", closest.distance},
-          {"relative_speed", closest.relative_speed}}}};
-    if (by_cylinder_) {
-      feature["properties"]["horizontal_distance"] = horizontal_distance(closest);
-      feature["properties"]["vertical_distance"] = vertical_distance(closest);
-    }
-    geojson_->write(separator);
-    geojson_->write(feature.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
-    separator = ",\n";
+    map_->write(map_feature(*map_format_, approach, map_properties(approach, recording, by_cylinder_),
+                            recording, is_first));
+    is_first = false;
   }
-  geojson_->write("\n]}\n");
+  map_->write(map_end(*map_format_));
 }
 
 void ApproachFile::commit() {
   if (table_) table_->commit();
-  if (geojson_) geojson_->commit();
+  if (map_) map_->commit();
 }
 
 std::vector<PairSummary> pairs_in(const std::vector<Approach>& approaches, const Recording& recording) {

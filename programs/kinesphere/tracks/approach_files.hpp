@@ -9,6 +9,7 @@
 #include "output_file.hpp"
 #include "simulation/tracks/approaches.hpp"
 #include "table_file.hpp"
+#include "tracks/approach_map.hpp"
 #include "tracks/recording.hpp"
 
 namespace kinesphere::program {
@@ -16,9 +17,9 @@ namespace kinesphere::program {
 double horizontal_distance(const ClosestApproach& closest);
 double vertical_distance(const ClosestApproach& closest);
 
-/// Every approach, as a table (.csv, .jsonl) or as points on a map (.geojson). The constructor opens the
-/// file, so that a wrong path fails before a long run; the file appears with commit(). Throws ProgramError
-/// like TableFile and OutputFile.
+/// Every approach, as a table (.csv, .jsonl) or as points on a map (.geojson, .gpx, .kml). The constructor
+/// opens the file, so that a wrong path fails before a long run; the file appears with commit(). Throws
+/// ProgramError like TableFile and OutputFile.
 class ApproachFile {
  public:
   /// `by_cylinder` adds the horizontal and the vertical distance.
@@ -30,11 +31,12 @@ class ApproachFile {
   void commit();
 
  private:
-  void write_geojson(const std::vector<Approach>& approaches, const Recording& recording);
+  void write_map(const std::vector<Approach>& approaches, const Recording& recording);
 
   bool by_cylinder_;
   std::optional<TableFile> table_;
-  std::optional<OutputFile> geojson_;
+  std::optional<MapFormat> map_format_;
+  std::optional<OutputFile> map_;
 };
 
 /// The approaches of two ids, summed up.
