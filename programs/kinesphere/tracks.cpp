@@ -116,7 +116,7 @@ class TracksFiles {
     if (!options.contacts.empty())
       contacts_.emplace(options.contacts, options.separation.starts_with("cylinder"));
     if (!options.minima.empty()) minima_.emplace(options.minima, minima_columns());
-    if (!options.pairs.empty()) pairs_.emplace(options.pairs, pair_columns());
+    if (!options.pairs.empty()) pairs_.emplace(options.pairs, pair_columns(options.reading.hints.sizes));
     if (!options.plot.empty()) plot_.emplace(options.plot);
   }
 
@@ -126,8 +126,10 @@ class TracksFiles {
   void write(const Recording& recording, const Scene& scene, const std::vector<Approach>& approaches,
              double distance) {
     if (contacts_) contacts_->write(approaches, recording);
-    if (minima_) write_minima(*minima_, minima_in(*scene.motion, approaches), approaches, recording);
-    if (pairs_) write_pairs(*pairs_, pairs_in(approaches, recording), recording);
+    if (minima_)
+      write_minima(*minima_, minima_in(*scene.motion, approaches, radii_of(recording)), approaches,
+                   recording);
+    if (pairs_) write_pairs(*pairs_, pairs_in(approaches, recording, *scene.motion), recording);
     if (plot_) plot_->write(plot_of(recording, scene, approaches, distance));
   }
   void commit() {
@@ -176,6 +178,10 @@ CLI::App* add_tracks_command(CLI::App& program, TracksOptions& options) {
       ->type_name("FILE");
   add_reading_options(*command, options.files, options.reading);
   add_interpolation_option(*command, options.reading);
+  command->add_flag(
+      "--sizes", options.reading.hints.sizes,
+      "Distances are between discs (in 3D spheres) around bodies of the columns length and width, and "
+      "--pairs has times to collision");
   add_choice_options(*command, options.choice);
   command->add_flag("--verify", options.verify, "Compare with the exact oracle on the same curves");
   command->add_flag("--quiet", options.quiet, "No progress bar and no summary");
@@ -220,7 +226,7 @@ int tracks(const TracksOptions& options) {
                                     .tolerance = scene.world.contact_tolerance},
                                    *scene.motion, approaches);
   const LeftOut left_out = filter.apply(approaches);
-  find_closest(*scene.motion, approaches);
+  find_closest(*scene.motion, approaches, radii_of(recording));
   files.write(recording, scene, approaches, closeness.distance);
   Summary summary;
   add_recording(summary, options.files, recording, scene_and_notes);

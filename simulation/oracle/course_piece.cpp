@@ -93,8 +93,8 @@ Coefficients CoursePiece::slope_over(double lower, double upper, double& error) 
   return power;
 }
 
-/// Returns the centre's power coefficients over [0, 1], for the way from s = lower to s = upper. They are
-/// expanded anew at `lower` instead of subdivided, which makes the error shrink with the distance.
+// The powers are expanded anew at `lower` instead of subdivided, which makes the error shrink with the
+// distance.
 CubicPosition CoursePiece::centre_over(double lower, double upper) const {
   const double length = upper - lower;
   const auto expanded = [&](const auto& c) {

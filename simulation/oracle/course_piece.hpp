@@ -43,8 +43,7 @@ struct CoursePiece {
   /// Returns slope() times (upper - lower) in the same way, for a pair. The bound includes the rounding of
   /// the centre's coefficients.
   Coefficients slope_over(double lower, double upper, double& error) const;
-
- private:
+  /// Returns the centre in powers over [0, 1], for the way from s = lower to s = upper.
   CubicPosition centre_over(double lower, double upper) const;
 };
 

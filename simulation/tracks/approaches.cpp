@@ -26,19 +26,20 @@ Approach begun(const Scene& scene, const Event& event) {
 /// The curves of two tracks during an approach.
 class ApproachCourse {
  public:
-  ApproachCourse(const Motion& motion, const Approach& approach)
+  ApproachCourse(const Motion& motion, const Approach& approach, const std::vector<double>& radii)
       : approach_(approach),
+        radii_(radii.empty() ? 0.0 : radii[approach.first] + radii[approach.second]),
         first_(motion.trajectory(approach.first, approach.begin, approach.end)),
         second_(motion.trajectory(approach.second, approach.begin, approach.end)) {}
 
   ClosestApproach closest() const {
-    const GapCourse::Least least = GapCourse(first_, second_, 0.0).least(approach_.begin, approach_.end);
+    const GapCourse::Least least = GapCourse(first_, second_, radii_).least(approach_.begin, approach_.end);
     return minimum(least.time, least.gap).closest;
   }
 
   std::vector<DistanceMinimum> minima() const {
     std::vector<DistanceMinimum> result;
-    for (const auto& each : GapCourse(first_, second_, 0.0).minima(approach_.begin, approach_.end)) {
+    for (const auto& each : GapCourse(first_, second_, radii_).minima(approach_.begin, approach_.end)) {
       const bool is_cut_off = (each.time == approach_.begin && approach_.begins_with_track) ||
                               (each.time == approach_.end && approach_.ends_with_track);
       result.push_back(minimum(each.time, each.gap));
@@ -61,6 +62,7 @@ class ApproachCourse {
   }
 
   const Approach& approach_;
+  double radii_;
   Trajectory first_, second_;
 };
 
@@ -85,14 +87,15 @@ std::vector<Approach> approaches_in(const Scene& scene, const std::vector<Event>
   return approaches;
 }
 
-void find_closest(const Motion& motion, std::vector<Approach>& approaches) {
-  for (Approach& approach : approaches) approach.closest = ApproachCourse(motion, approach).closest();
+void find_closest(const Motion& motion, std::vector<Approach>& approaches, const std::vector<double>& radii) {
+  for (Approach& approach : approaches) approach.closest = ApproachCourse(motion, approach, radii).closest();
 }
 
-std::vector<DistanceMinimum> minima_in(const Motion& motion, const std::vector<Approach>& approaches) {
+std::vector<DistanceMinimum> minima_in(const Motion& motion, const std::vector<Approach>& approaches,
+                                       const std::vector<double>& radii) {
   std::vector<DistanceMinimum> all;
   for (std::size_t k = 0; k < approaches.size(); ++k) {
-    for (DistanceMinimum& minimum : ApproachCourse(motion, approaches[k]).minima()) {
+    for (DistanceMinimum& minimum : ApproachCourse(motion, approaches[k], radii).minima()) {
       minimum.approach = k;
       all.push_back(minimum);
     }

@@ -12,7 +12,7 @@ namespace kinesphere {
 /// The least distance of two tracks during an approach, along their exact curves.
 struct ClosestApproach {
   double time = 0.0;
-  double distance = 0.0;  ///< distance of the centres
+  double distance = 0.0;  ///< distance of the centres, less the radii
   Vec3 first, second;     ///< positions at that time
   double relative_speed = 0.0;
 };
@@ -32,8 +32,10 @@ struct Approach {
 /// ends with the track that ends first.
 std::vector<Approach> approaches_in(const Scene& scene, const std::vector<Event>& events);
 
-/// Sets `closest` of each approach. Cost: proportional to the pieces of the two curves during the approach.
-void find_closest(const Motion& motion, std::vector<Approach>& approaches);
+/// Sets `closest` of each approach. `radii` (lengths, by track) are those of the bodies; empty for points.
+/// Cost: proportional to the pieces of the two curves during the approach.
+void find_closest(const Motion& motion, std::vector<Approach>& approaches,
+                  const std::vector<double>& radii = {});
 
 /// A local minimum of the distance during an approach.
 struct DistanceMinimum {
@@ -43,9 +45,11 @@ struct DistanceMinimum {
   bool is_cut_off = false;               ///< the distance still falls toward a begin or end of a track
 };
 
-/// Returns all local minima of the distance (GapCourse::minima()) in each approach, by approach and time;
-/// each approach has at least one. Cost: proportional to the pieces of the two curves during the approach.
-std::vector<DistanceMinimum> minima_in(const Motion& motion, const std::vector<Approach>& approaches);
+/// Returns all local minima of the distance (GapCourse::minima()) in each approach, by approach and time.
+/// `radii` is as for find_closest(). Each approach has at least one. Cost: proportional to the pieces of the
+/// two curves during the approach.
+std::vector<DistanceMinimum> minima_in(const Motion& motion, const std::vector<Approach>& approaches,
+                                       const std::vector<double>& radii = {});
 
 /// Returns the indices of at most `most` approaches, the closest first; equal ones in their order.
 std::vector<std::size_t> closest_of(const std::vector<Approach>& approaches, std::size_t most);

@@ -196,11 +196,30 @@ bool is_position(Quantity quantity) {
   return std::find(std::begin(positions), std::end(positions), quantity) != std::end(positions);
 }
 
+bool is_size(Quantity quantity) { return quantity == Quantity::length || quantity == Quantity::width; }
+
+bool is_used(Quantity quantity, const ColumnHints& hints, ColumnUse use) {
+  if (is_size(quantity)) return hints.sizes;
+  return use == ColumnUse::reports || is_position(quantity);
+}
+
 /// Leaves out what is not read.
-void keep_used(ColumnUse use, TableColumns& columns) {
-  if (use == ColumnUse::reports) return;
+void keep_used(const ColumnHints& hints, ColumnUse use, TableColumns& columns) {
   for (std::size_t k = 0; k < quantity_count; ++k)
-    if (!is_position(static_cast<Quantity>(k))) columns.of[k].reset();
+    if (!is_used(static_cast<Quantity>(k), hints, use)) columns.of[k].reset();
+}
+
+void require_sizes(const TableHead& head, const TableColumns& columns) {
+  if (!columns[Quantity::length] || !columns[Quantity::width])
+    throw ProgramError(
+        fmt::format("{}: expected columns of length and width for --sizes, by their names or --columns "
+                    "length=...,width=...; it has {}",
+                    head.file, head.text()));
+  if (columns.is_ais)
+    throw ProgramError(
+        fmt::format("{}: expected positions of the middle for --sizes, but those of AIS are of the "
+                    "antenna, anywhere on the ship",
+                    head.file));
 }
 
 TableColumns preset_columns(const TableHead& head, const Preset& preset) {
@@ -226,7 +245,7 @@ class UsualColumns {
   UsualColumns(const TableHead& head, const ColumnHints& hints, ColumnUse use) : head_(head) {
     for (std::size_t place = 0; place < head.names.size(); ++place) {
       const auto meaning = meaning_of(head.names[place]);
-      if (!meaning || (use == ColumnUse::positions && !is_position(meaning->quantity))) continue;
+      if (!meaning || !is_used(meaning->quantity, hints, use)) continue;
       places_[static_cast<std::size_t>(meaning->quantity)].push_back(place);
     }
     // If the file has both kinds of columns, an option must choose one.
@@ -568,7 +587,7 @@ TableColumns find_columns(const TableHead& head, const ColumnHints& hints, Colum
     throw ProgramError(fmt::format(
         "--positions: expected lonlat, plane or a UTM zone such as utm:33N, but got '{}'", hints.positions));
   TableColumns columns = recognised(head, hints, use);
-  keep_used(use, columns);
+  keep_used(hints, use, columns);
   columns.decimal_comma = has_decimal_commas(head.separator);
   understand_places(head, hints, columns);
   require_columns(head, hints, columns);
@@ -590,6 +609,7 @@ TableColumns find_columns(const TableHead& head, const ColumnHints& hints, Colum
   list_unused(head, columns);
   columns.is_ais = columns[Quantity::id] && !head.names.empty() &&
                    same_name(head.names[columns[Quantity::id]->place], "MMSI");
+  if (hints.sizes) require_sizes(head, columns);
   return columns;
 }
 

@@ -23,6 +23,7 @@ struct ColumnHints {
   std::string positions;             ///< plane, lonlat or utm:33N
   std::string where;                 ///< rows that count
   DateOrder dates = DateOrder::unknown;
+  bool sizes = false;  ///< length and width are read
 };
 
 /// What is read: positions alone, or also velocities, errors and times of arrival.

@@ -8,8 +8,10 @@
 #include <map>
 #include <utility>
 
+#include "number/infinity.hpp"
 #include "program_error.hpp"
 #include "tracks/recording_cells.hpp"
+#include "tracks/track_scene.hpp"
 
 namespace kinesphere::program {
 
@@ -113,17 +115,27 @@ void ApproachFile::commit() {
   if (map_) map_->commit();
 }
 
-std::vector<PairSummary> pairs_in(const std::vector<Approach>& approaches, const Recording& recording) {
+std::vector<PairSummary> pairs_in(const std::vector<Approach>& approaches, const Recording& recording,
+                                  const Motion& motion) {
+  const std::vector<double> radii = radii_of(recording);
   std::vector<PairSummary> pairs;
   std::map<std::pair<std::string, std::string>, std::size_t> known;
   for (const Approach& approach : approaches) {
     const std::string& first = recording.tracks[approach.first].id;
     const std::string& second = recording.tracks[approach.second].id;
     const auto [at, is_new] = known.try_emplace(std::minmax(first, second), pairs.size());
-    if (is_new) pairs.push_back({.first = first, .second = second, .closest = approach.closest});
+    if (is_new)
+      pairs.push_back({.first = first,
+                       .second = second,
+                       .closest = approach.closest,
+                       .to_collision = {approach.closest.time, infinity}});
     PairSummary& pair = pairs[at->second];
     ++pair.approaches;
     pair.duration += approach.end - approach.begin;
+    if (recording.has_sizes) {
+      const LeastTimeToCollision least = least_time_to_collision(motion, approach, radii);
+      if (least.seconds < pair.to_collision.seconds) pair.to_collision = least;
+    }
     if (approach.closest.distance < pair.closest.distance) pair.closest = approach.closest;
   }
   std::stable_sort(pairs.begin(), pairs.end(), [](const PairSummary& a, const PairSummary& b) {
@@ -132,15 +144,23 @@ std::vector<PairSummary> pairs_in(const std::vector<Approach>& approaches, const
   return pairs;
 }
 
-std::vector<std::string> pair_columns() {
-  return {"first", "second", "approaches", "duration", "least_distance", "closest_time"};
+std::vector<std::string> pair_columns(bool with_sizes) {
+  std::vector<std::string> columns{"first",    "second",         "approaches",
+                                   "duration", "least_distance", "closest_time"};
+  if (with_sizes) columns.insert(columns.end(), {"least_time_to_collision", "time_of_that"});
+  return columns;
 }
 
 void write_pairs(TableFile& table, const std::vector<PairSummary>& pairs, const Recording& recording) {
   for (const PairSummary& pair : pairs) {
-    const Cell cells[] = {
+    std::vector<Cell> cells{
         pair.first,    pair.second,           pair.approaches,
         pair.duration, pair.closest.distance, time_cell(recording.times, pair.closest.time)};
+    const LeastTimeToCollision& least = pair.to_collision;
+    if (recording.has_sizes && least.seconds < infinity)
+      cells.insert(cells.end(), {least.seconds, time_cell(recording.times, least.at)});
+    else if (recording.has_sizes)
+      cells.insert(cells.end(), 2, Cell());
     table.write(cells);
   }
 }

@@ -8,6 +8,7 @@
 
 #include "output_file.hpp"
 #include "simulation/tracks/approaches.hpp"
+#include "simulation/tracks/time_to_collision.hpp"
 #include "table_file.hpp"
 #include "tracks/approach_map.hpp"
 #include "tracks/recording.hpp"
@@ -45,13 +46,16 @@ struct PairSummary {
   std::uint64_t approaches = 0;
   double duration = 0.0;      ///< sum of the durations
   ClosestApproach closest{};  ///< closest of all approaches
+  LeastTimeToCollision to_collision{};
 };
 
-/// Returns the pairs, the one with the closest approach first.
-std::vector<PairSummary> pairs_in(const std::vector<Approach>& approaches, const Recording& recording);
+/// Returns the pairs, the one with the closest approach first. Their times to collision are found if the
+/// recording has sizes.
+std::vector<PairSummary> pairs_in(const std::vector<Approach>& approaches, const Recording& recording,
+                                  const Motion& motion);
 
-/// Returns the columns of a table of pairs.
-std::vector<std::string> pair_columns();
+/// Returns the columns of a table of pairs; with sizes also those of the time to collision.
+std::vector<std::string> pair_columns(bool with_sizes);
 void write_pairs(TableFile& table, const std::vector<PairSummary>& pairs, const Recording& recording);
 
 }  // namespace kinesphere::program

@@ -216,7 +216,8 @@ class Picture {
 
   double distance_at(const Approach& approach, double time) const {
     return norm(scene_.motion->state(approach.first, time).position -
-                scene_.motion->state(approach.second, time).position);
+                scene_.motion->state(approach.second, time).position) -
+           recording_.tracks[approach.first].radius - recording_.tracks[approach.second].radius;
   }
 
   /// Returns the typical duration of the drawn approaches, shown on each side of the closest.

@@ -60,6 +60,8 @@ Closeness closeness_of(const std::string& distance_text, const std::string& sepa
 }
 
 void check_closeness(const Closeness& closeness, const Recording& recording) {
+  if (closeness.vertical && recording.has_sizes)
+    throw ProgramError("--sizes: expected --distance or a sphere, because a cylinder is about points");
   if (closeness.has_unit && !recording.in_metres)
     throw ProgramError(
         fmt::format("{}: expected numbers without a unit, because the unit of lengths is not known, but got "

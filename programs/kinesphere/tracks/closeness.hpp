@@ -21,8 +21,8 @@ struct Closeness {
 
 /// Parses the texts of --distance and --separation, of which one is empty. Throws ProgramError.
 Closeness closeness_of(const std::string& distance_text, const std::string& separation_text);
-/// Throws ProgramError if a length has a unit although that of the recording is unknown, and if a cylinder
-/// has no heights.
+/// Throws ProgramError if a length has a unit although that of the recording is unknown, and for a cylinder
+/// without heights or with sizes.
 void check_closeness(const Closeness& closeness, const Recording& recording);
 /// Returns how files are read: a cylinder needs vertical heights, so on the earth it stands on a plane.
 /// Throws ProgramError if another projection is asked for.

@@ -15,6 +15,7 @@ namespace kinesphere::program {
 struct RecordedTrack {
   std::string id;                    ///< spelled like in the file; 3.0 and 3.000000e+00 are 3
   std::vector<TrackSample> samples;  ///< at least 2, by time
+  double radius = 0.0;               ///< of a disc or sphere around the body; 0 for a point
 };
 
 /// Count of dropped items, and where the first ones stand.
@@ -33,6 +34,7 @@ struct Recording {
   Coordinates coordinates;
   bool in_metres = false;             ///< unit of lengths; if false, it is unknown
   bool has_heights = false;           ///< the files have a column of heights
+  bool has_sizes = false;             ///< sizes were asked for
   bool is_plane = false;              ///< nothing leaves the plane z = 0
   std::vector<RecordedTrack> tracks;  ///< without interruption, by the first sample's place in the file
   std::size_t ids = 0;

@@ -114,6 +114,7 @@ void ask_about_row_numbers(const RawRecording& raw) {
 /// The pieces of one id, before they are split at gaps.
 struct Body {
   std::string id;
+  double radius;
   std::vector<Piece> pieces;
   std::vector<double> breaks;
 };
@@ -126,6 +127,7 @@ class Reading {
     recording_.coordinates = coordinates_of(raw, options);
     recording_.in_metres = raw.columns().in_metres;
     recording_.format = raw.columns().format;
+    recording_.has_sizes = options.hints.sizes;
     recording_.has_heights = raw.columns().z().has_value();
     recording_.is_plane = !raw.columns().z() && recording_.coordinates.are_plane();
     if (recording_.times.kind() == TimeKind::frames) recording_.frame_rate = recording_.times.rate();
@@ -153,7 +155,7 @@ class Reading {
 
  private:
   Body cleaned(const RawTrack& track) {
-    Body body{track.id, {}, {}};
+    Body body{track.id, track.radius, {}, {}};
     Piece samples;
     samples.reserve(track.samples.size());
     for (const RawSample& sample : track.samples) {
@@ -193,6 +195,7 @@ class Reading {
         recording_.samples += piece.size();
         RecordedTrack& track = recording_.tracks.emplace_back();
         track.id = body.id;
+        track.radius = body.radius;
         for (const PlacedSample& sample : piece) track.samples.push_back(sample.sample);
       }
     }

@@ -119,6 +119,8 @@ Scene scene_with(const Recording& recording, const ApproachQuestion& question, d
                  double distance, double tolerance) {
   auto scene = scene_of_tracks(samples_of(recording, stretch), distance, question.interpolation);
   if (!scene) refuse(recording, scene.error());
+  for (std::size_t k = 0; k < recording.tracks.size(); ++k)
+    scene->bodies[k].radius += recording.tracks[k].radius;
   scene->world.contact_tolerance = tolerance;
   scene->world.start_time = std::max(scene->world.start_time, question.from);
   scene->end_time = std::min(scene->end_time, question.until);
@@ -128,6 +130,12 @@ Scene scene_with(const Recording& recording, const ApproachQuestion& question, d
 }
 
 }  // namespace
+
+std::vector<double> radii_of(const Recording& recording) {
+  std::vector<double> radii;
+  for (const RecordedTrack& track : recording.tracks) radii.push_back(track.radius);
+  return radii;
+}
 
 RecordedTracks splines_through(const Recording& recording) {
   auto curves = RecordedTracks::create(samples_of(recording));

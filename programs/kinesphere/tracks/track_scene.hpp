@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "kinesphere/motion/recorded_tracks.hpp"
 #include "simulation/scene/scene.hpp"
@@ -42,6 +43,9 @@ struct TrackScene {
 
   const Scene& searched() const { return enclosing ? *enclosing : scene; }
 };
+
+/// Returns the radii of the bodies, by track.
+std::vector<double> radii_of(const Recording& recording);
 
 /// Returns smooth curves through the samples, one for each track. Throws ProgramError naming the id if a
 /// curve overflows.
