@@ -2,6 +2,7 @@
 #include "tracks.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -10,18 +11,21 @@
 #include <memory>
 #include <utility>
 
-#include "columns/units.hpp"
 #include "number_text.hpp"
 #include "output_paths.hpp"
 #include "program_error.hpp"
 #include "progress.hpp"
 #include "simulation/oracle/comparison.hpp"
 #include "simulation/tracks/approaches.hpp"
+#include "simulation/tracks/cylinder_approaches.hpp"
 #include "standard_output.hpp"
 #include "summary.hpp"
 #include "table_file.hpp"
 #include "tracks/approach_files.hpp"
 #include "tracks/approach_plot.hpp"
+#include "tracks/closeness.hpp"
+#include "tracks/implied_speeds.hpp"
+#include "tracks/minima_table.hpp"
 #include "tracks/reading_options.hpp"
 #include "tracks/reading_summary.hpp"
 #include "tracks/track_file.hpp"
@@ -32,27 +36,11 @@
 namespace kinesphere::program {
 namespace {
 
-/// Returns a distance in metres or, without a unit, in the unit of the recording's lengths.
-double parse_distance(const std::string& text) {
-  const double distance = parse_measure(text, Measure::length, "--distance");
-  if (distance > 0) return distance;
-  throw ProgramError(fmt::format("--distance: expected a distance > 0, but got '{}'", text));
-}
-
-void check_unit_of_distance(const std::string& text, const Recording& recording) {
-  if (recording.in_metres || parse_number(text)) return;
-  throw ProgramError(
-      fmt::format("--distance: expected a number without a unit, because the unit of lengths is not known, "
-                  "but got '{}': say "
-                  "--unit",
-                  text));
-}
-
-void add_approaches(Summary& summary, double distance, const std::vector<Approach>& approaches) {
+void add_approaches(Summary& summary, const Closeness& closeness, const std::vector<Approach>& approaches) {
   const auto cut = std::count_if(approaches.begin(), approaches.end(),
                                  [](const Approach& approach) { return approach.ends_with_track; });
   summary.row("approaches", grouped(approaches.size()),
-              fmt::format("below {}, {} of them until a track's end", distance,
+              fmt::format("{}, {} of them until a track's end", closeness.text,
                           grouped(static_cast<std::uint64_t>(cut))));
   if (approaches.empty()) return;
   const auto shorter = [](const Approach& a, const Approach& b) { return a.end - a.begin < b.end - b.begin; };
@@ -61,20 +49,45 @@ void add_approaches(Summary& summary, double distance, const std::vector<Approac
                                       number(longest->end - longest->begin)));
 }
 
-std::string closest_approaches(const std::vector<Approach>& approaches, const Recording& recording) {
+void add_left_out(Summary& summary, const ApproachChoice& choice, const LeftOut& left_out) {
+  if (!choice.only.empty())
+    summary.row("left out", grouped(left_out.by_ids),
+                fmt::format("approaches without {}", fmt::join(choice.only, ",")));
+  if (choice.min_duration)
+    summary.row("left out", grouped(left_out.by_duration),
+                fmt::format("approaches shorter than {} s", *choice.min_duration));
+}
+
+std::string closest_approaches(const std::vector<Approach>& approaches, const Recording& recording,
+                               bool by_cylinder) {
   constexpr std::size_t shown = 10;
-  std::string text = fmt::format("\n{:>24}  {:>12}  {:>14}  {:>12}    {}\n", "closest at", "distance",
+  const auto distances = [&](const std::string& one, const std::string& two) {
+    return by_cylinder ? fmt::format("{:>12}  {:>12}", one, two) : fmt::format("{:>12}", one);
+  };
+  std::string text = fmt::format("\n{:>24}  {}  {:>14}  {:>12}    {}\n", "closest at",
+                                 distances(by_cylinder ? "horizontally" : "distance", "vertically"),
                                  "relative speed", "duration", "ids");
+  const ImpliedSpeeds speeds(recording);
+  bool any_absurd = false;
+  const auto marked = [&](std::uint32_t track, double time) {
+    const bool is_absurd = speeds.is_absurd_at(track, time);
+    any_absurd = any_absurd || is_absurd;
+    return recording.tracks[track].id + (is_absurd ? " (?)" : "");
+  };
   for (const std::size_t k : closest_of(approaches, shown)) {
     const Approach& approach = approaches[k];
     const ClosestApproach& closest = approach.closest;
-    text += fmt::format("{:>24}  {:>12}  {:>14}  {}{:>11}{}  {} {}\n", recording.times.text(closest.time, 6),
-                        number(closest.distance), number(closest.relative_speed),
-                        approach.begins_with_track ? "<" : " ", number(approach.end - approach.begin),
-                        approach.ends_with_track ? "> " : "  ", recording.tracks[approach.first].id,
-                        recording.tracks[approach.second].id);
+    text += fmt::format(
+        "{:>24}  {}  {:>14}  {}{:>11}{}  {} {}\n", recording.times.text(closest.time, 6),
+        by_cylinder ? distances(number(horizontal_distance(closest)), number(vertical_distance(closest)))
+                    : distances(number(closest.distance), ""),
+        number(closest.relative_speed), approach.begins_with_track ? "<" : " ",
+        number(approach.end - approach.begin), approach.ends_with_track ? "> " : "  ",
+        marked(approach.first, closest.time), marked(approach.second, closest.time));
   }
-  text += "< close from a track's first sample on, > close until a track's last sample\n";
+  text += "< close from a track's first sample (or --from) on, > until a track's last sample (or --until)\n";
+  if (any_absurd)
+    text += "(?) samples around that time imply a speed more than 10 times the usual one: see --max-speed\n";
   if (approaches.size() > shown) {
     text += fmt::format("and {} more: --contacts FILE has them all\n", grouped(approaches.size() - shown));
   }
@@ -93,13 +106,17 @@ ComparisonProgress shown(const TracksOptions& options, const Scene& scene) {
 class TracksFiles {
  public:
   explicit TracksFiles(const TracksOptions& options) {
-    const OutputPath outputs[] = {
-        {"--contacts", options.contacts}, {"--pairs", options.pairs}, {"--plot", options.plot}};
+    const OutputPath outputs[] = {{"--contacts", options.contacts},
+                                  {"--minima", options.minima},
+                                  {"--pairs", options.pairs},
+                                  {"--plot", options.plot}};
     check_outputs(outputs, options.files);
     if (!options.plot.empty() && std::filesystem::path(options.plot).extension() != ".svg")
       throw ProgramError(fmt::format("{}: expected a name that ends in .svg", options.plot));
-    if (!options.contacts.empty()) contacts_.emplace(options.contacts);
-    if (!options.pairs.empty()) pairs_.emplace(options.pairs, pair_columns());
+    if (!options.contacts.empty())
+      contacts_.emplace(options.contacts, options.separation.starts_with("cylinder"));
+    if (!options.minima.empty()) minima_.emplace(options.minima, minima_columns());
+    if (!options.pairs.empty()) pairs_.emplace(options.pairs, pair_columns(options.reading.hints.sizes));
     if (!options.plot.empty()) plot_.emplace(options.plot);
   }
 
@@ -109,18 +126,22 @@ class TracksFiles {
   void write(const Recording& recording, const Scene& scene, const std::vector<Approach>& approaches,
              double distance) {
     if (contacts_) contacts_->write(approaches, recording);
-    if (pairs_) write_pairs(*pairs_, pairs_in(approaches, recording), recording);
+    if (minima_)
+      write_minima(*minima_, minima_in(*scene.motion, approaches, radii_of(recording)), approaches,
+                   recording);
+    if (pairs_) write_pairs(*pairs_, pairs_in(approaches, recording, *scene.motion), recording);
     if (plot_) plot_->write(plot_of(recording, scene, approaches, distance));
   }
   void commit() {
     if (contacts_) contacts_->commit();
+    if (minima_) minima_->commit();
     if (pairs_) pairs_->commit();
     if (plot_) plot_->commit();
   }
 
  private:
   std::optional<ApproachFile> contacts_;
-  std::optional<TableFile> pairs_;
+  std::optional<TableFile> minima_, pairs_;
   std::optional<OutputFile> plot_;
 };
 
@@ -131,16 +152,24 @@ CLI::App* add_tracks_command(CLI::App& program, TracksOptions& options) {
   command
       ->add_option("--distance", options.distance,
                    "How close counts as an approach: a number, and perhaps a unit, such as 500m, 5NM, 2um")
-      ->type_name("LENGTH")
-      ->required();
+      ->type_name("LENGTH");
+  command
+      ->add_option("--separation", options.separation,
+                   "Instead of --distance: cylinder:HORIZONTAL:VERTICAL, such as cylinder:5NM:1000ft, or "
+                   "sphere:LENGTH")
+      ->type_name("SHAPE");
   command
       ->add_option("--tolerance", options.tolerance,
                    "Tolerance of that distance; when not given a millionth of it, or 1e-12 of the extent")
       ->check(finite_number());
   command
-      ->add_option(
-          "--contacts", options.contacts,
-          "Write every approach to this .csv, .jsonl or (where positions are on the earth) .geojson file")
+      ->add_option("--contacts", options.contacts,
+                   "Write every approach to this .csv or .jsonl file or, where positions are on the earth, "
+                   ".geojson, .gpx or .kml file")
+      ->type_name("FILE");
+  command
+      ->add_option("--minima", options.minima,
+                   "Write every local minimum of the distance during approaches to this .csv or .jsonl file")
       ->type_name("FILE");
   command
       ->add_option("--pairs", options.pairs, "Write a line for each pair of ids to this .csv or .jsonl file")
@@ -149,21 +178,31 @@ CLI::App* add_tracks_command(CLI::App& program, TracksOptions& options) {
       ->type_name("FILE");
   add_reading_options(*command, options.files, options.reading);
   add_interpolation_option(*command, options.reading);
+  command->add_flag(
+      "--sizes", options.reading.hints.sizes,
+      "Distances are between discs (in 3D spheres) around bodies of the columns length and width, and "
+      "--pairs has times to collision");
+  add_choice_options(*command, options.choice);
   command->add_flag("--verify", options.verify, "Compare with the exact oracle on the same curves");
   command->add_flag("--quiet", options.quiet, "No progress bar and no summary");
   return command;
 }
 
 int tracks(const TracksOptions& options) {
-  const double distance = parse_distance(options.distance);
+  const Closeness closeness = closeness_of(options.distance, options.separation);
   TracksFiles files(options);
-  const Recording recording = read_tracks(options.files, options.reading);
-  check_unit_of_distance(options.distance, recording);
+  const Recording recording = read_tracks(options.files, reading_for(closeness, options.reading));
+  check_closeness(closeness, recording);
   files.check(recording);
-  const TrackScene scene_and_notes = scene_of(
-      recording,
-      {.distance = distance, .tolerance = options.tolerance, .interpolation = options.reading.interpolation});
+  const ApproachFilter filter(options.choice, recording);
+  const TrackScene scene_and_notes = scene_of(recording, {.distance = closeness.distance,
+                                                          .vertical = closeness.vertical,
+                                                          .tolerance = options.tolerance,
+                                                          .interpolation = options.reading.interpolation,
+                                                          .from = filter.window().from,
+                                                          .until = filter.window().until});
   const Scene& scene = scene_and_notes.scene;
+  const Scene& searched = scene_and_notes.searched();
   for (const std::string& warning : warnings_of(recording, scene_and_notes))
     print_message("kinesphere: warning: {}\n", warning);
 
@@ -176,24 +215,32 @@ int tracks(const TracksOptions& options) {
     observer.between_events = [&](const Detector& detector) { progress->show(detector.time()); };
   }
   const auto started = std::chrono::steady_clock::now();
-  const SimulationResult result = require(simulate(scene, make_world_detector, observer));
+  const SimulationResult result = require(simulate(searched, make_world_detector, observer));
   const std::chrono::duration<double> real_time = std::chrono::steady_clock::now() - started;
   progress.reset();
 
-  std::vector<Approach> approaches = approaches_in(scene, events);
-  find_closest(*scene.motion, approaches);
-  files.write(recording, scene, approaches, distance);
+  std::vector<Approach> approaches = approaches_in(searched, events);
+  if (closeness.vertical)
+    approaches = approaches_within({.horizontal = closeness.distance,
+                                    .vertical = *closeness.vertical,
+                                    .tolerance = scene.world.contact_tolerance},
+                                   *scene.motion, approaches);
+  const LeftOut left_out = filter.apply(approaches);
+  find_closest(*scene.motion, approaches, radii_of(recording));
+  files.write(recording, scene, approaches, closeness.distance);
   Summary summary;
   add_recording(summary, options.files, recording, scene_and_notes);
   summary.space();
-  add_approaches(summary, distance, approaches);
+  add_approaches(summary, closeness, approaches);
+  add_left_out(summary, options.choice, left_out);
   summary.row("probes", grouped(result.counters.probes),
               fmt::format("for {} samples: {}", grouped(recording.samples),
                           percent(static_cast<double>(result.counters.probes),
                                   static_cast<double>(recording.samples))));
   int exit_code = exit_fine;
   if (options.verify) {
-    const ContactComparison comparison = require(compare_with_oracle(scene, events, shown(options, scene)));
+    const ContactComparison comparison =
+        require(compare_with_oracle(searched, events, shown(options, searched)));
     summary.space();
     add_comparison(summary, comparison);
     if (!comparison.agrees()) exit_code = exit_disagreement;
@@ -203,7 +250,8 @@ int tracks(const TracksOptions& options) {
   add_speed(summary, result.simulated_time, real_time.count());
   if (!options.quiet) {
     print("{}", summary.text());
-    if (!approaches.empty()) print("{}", closest_approaches(approaches, recording));
+    if (!approaches.empty())
+      print("{}", closest_approaches(approaches, recording, closeness.vertical.has_value()));
   }
   // The commit comes last: a full disk must not suppress the summary.
   files.commit();

@@ -6,16 +6,19 @@
 #include <string>
 #include <vector>
 
+#include "tracks/approach_choice.hpp"
 #include "tracks/reading_policy.hpp"
 
 namespace kinesphere::program {
 
 struct TracksOptions {
   std::vector<std::string> files;
-  std::string distance;  ///< a number, and perhaps a unit
+  std::string distance;    ///< a number, and perhaps a unit
+  std::string separation;  ///< sphere:LENGTH or cylinder:LENGTH:LENGTH, instead of `distance`
   std::optional<double> tolerance;
   TrackOptions reading;
-  std::string contacts, pairs, plot;  ///< files to write; empty for none
+  ApproachChoice choice;
+  std::string contacts, minima, pairs, plot;  ///< files to write; empty for none
   bool verify = false;
   bool quiet = false;
 };

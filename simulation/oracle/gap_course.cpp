@@ -1,88 +1,14 @@
 #include "simulation/oracle/gap_course.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
 
+#include "simulation/oracle/course_piece.hpp"
+
 namespace kinesphere {
 namespace {
-
-constexpr int degree = 6;
-/// Power or Bernstein coefficients of a polynomial over [0, 1].
-using Coefficients = std::array<double, degree + 1>;
-
-Coefficients to_bernstein(const Coefficients& power) {
-  static constexpr std::array<std::array<double, degree + 1>, degree + 1> binomial{
-      {{1},
-       {1, 1},
-       {1, 2, 1},
-       {1, 3, 3, 1},
-       {1, 4, 6, 4, 1},
-       {1, 5, 10, 10, 5, 1},
-       {1, 6, 15, 20, 15, 6, 1}}};
-  Coefficients bernstein{};
-  for (std::size_t i = 0; i <= degree; ++i)
-    for (std::size_t k = 0; k <= i; ++k) bernstein[i] += binomial[i][k] / binomial[degree][k] * power[k];
-  return bernstein;
-}
-
-/// The motion in one piece, in s = t - begin, and what it takes to find where the gap reaches a level.
-struct CoursePiece {
-  double begin, end;
-  std::array<Vec3, 4> centre;  ///< power coefficients of the position difference (pair) or position (wall)
-  bool is_pair;
-  HalfSpace wall;
-  double radius;
-
-  double gap(double s) const {
-    const Vec3 at = centre[0] + (centre[1] + (centre[2] + centre[3] * s) * s) * s;
-    return is_pair ? norm(at) - radius : dot(wall.normal, at) - wall.offset - radius;
-  }
-
-  /// Returns half the derivative of the squared distance of a pair.
-  double slope(double s) const {
-    const Vec3 at = centre[0] + (centre[1] + (centre[2] + centre[3] * s) * s) * s;
-    return dot(at, centre[1] + (centre[2] * 2.0 + centre[3] * (3.0 * s)) * s);
-  }
-
-  /// Returns a polynomial over [0, 1], for the way from s = lower to s = upper, that is positive where the
-  /// gap is larger than `level`. Sets `error` to a bound on the rounding in its coefficients.
-  Coefficients above(double level, double lower, double upper, double& error) const {
-    const std::array<Vec3, 4> c = centre_over(lower, upper);
-    Coefficients power{};
-    double size = 0.0;
-    if (is_pair) {
-      for (std::size_t i = 0; i < 4; ++i)
-        for (std::size_t k = 0; k < 4; ++k) {
-          power[i + k] += dot(c[i], c[k]);
-          size += std::abs(dot(c[i], c[k]));
-        }
-      const double reach = std::max(0.0, radius + level);
-      power[0] -= reach * reach;
-      size += reach * reach;
-    } else {
-      for (std::size_t i = 0; i < 4; ++i) power[i] = dot(wall.normal, c[i]);
-      for (const double p : power) size += std::abs(p);
-      power[0] -= wall.offset + radius + level;
-      size += std::abs(wall.offset) + radius + std::abs(level);
-    }
-    error = 0x1p-46 * size;
-    return power;
-  }
-
- private:
-  /// Returns the centre's power coefficients over [0, 1], for the way from s = lower to s = upper. They are
-  /// expanded anew at `lower` instead of subdivided, which makes the error shrink with the distance.
-  std::array<Vec3, 4> centre_over(double lower, double upper) const {
-    const double length = upper - lower;
-    const Vec3 value = centre[0] + (centre[1] + (centre[2] + centre[3] * lower) * lower) * lower;
-    const Vec3 slope = centre[1] + (centre[2] * 2.0 + centre[3] * (3.0 * lower)) * lower;
-    const Vec3 curvature = centre[2] + centre[3] * (3.0 * lower);
-    return {value, slope * length, curvature * (length * length), centre[3] * (length * length * length)};
-  }
-};
 
 /// Finds the first time in one piece at which the gap reaches a level.
 class RootSearch {
@@ -117,7 +43,7 @@ class RootSearch {
   static bool is_monotone(const Coefficients& c, double error) {
     bool rises = true;
     bool falls = true;
-    for (std::size_t i = 0; i < degree; ++i) {
+    for (std::size_t i = 0; i < course_degree; ++i) {
       rises = rises && c[i + 1] - c[i] > 2.0 * error;
       falls = falls && c[i] - c[i + 1] > 2.0 * error;
     }
@@ -165,7 +91,7 @@ class LeastSearch {
     const double distance = least_.gap + piece_->radius;
     if (*std::min_element(c.begin(), c.end()) + error >= distance * distance) return;
     bool rises = true, falls = true, is_convex = true;
-    for (std::size_t i = 0; i < degree; ++i) {
+    for (std::size_t i = 0; i < course_degree; ++i) {
       rises = rises && c[i + 1] >= c[i];
       falls = falls && c[i] >= c[i + 1];
       is_convex = is_convex && (i == 0 || c[i + 1] - c[i] >= c[i] - c[i - 1]);
@@ -192,12 +118,6 @@ class LeastSearch {
   GapCourse::Least least_{0.0, std::numeric_limits<double>::infinity()};
 };
 
-/// Returns the coefficients of a segment's position in powers of t - begin, for a `begin` within the segment.
-std::array<Vec3, 4> position_from(const Segment& segment, double begin) {
-  const State state = segment.state_at(begin);
-  return {state.position, state.velocity, segment.acceleration_at(begin) * 0.5, segment.jerk / 6.0};
-}
-
 }  // namespace
 
 const Segment& segment_at(const Trajectory& trajectory, double t) {
@@ -213,8 +133,7 @@ double GapCourse::gap_at(double t) const {
 }
 
 /// Visits the pieces of [from, to] in which each motion is one cubic, until `visit` returns true.
-template <class Visit>
-void GapCourse::for_each_piece(double from, double to, const Visit& visit) const {
+void GapCourse::for_each_piece(double from, double to, const PieceVisitor& visit) const {
   const auto index_at = [&](const Trajectory& trajectory) {
     return static_cast<std::size_t>(&segment_at(trajectory, from) - trajectory.data());
   };
@@ -225,13 +144,12 @@ void GapCourse::for_each_piece(double from, double to, const Visit& visit) const
     const Segment& a = (*a_)[ia];
     const double a_end = ia + 1 < a_->size() ? a.end : to;
     double end = std::min(a_end, to);
-    CoursePiece piece{begin, end, position_from(a, begin), b_ != nullptr, wall_, radius_};
+    CoursePiece piece{begin, end, CubicPosition::of(a, begin), b_ != nullptr, wall_, radius_};
     if (b_ != nullptr) {
       const Segment& b = (*b_)[ib];
       const double b_end = ib + 1 < b_->size() ? b.end : to;
       piece.end = end = std::min(end, b_end);
-      const std::array<Vec3, 4> other = position_from(b, begin);
-      for (std::size_t k = 0; k < 4; ++k) piece.centre[k] -= other[k];
+      piece.centre -= CubicPosition::of(b, begin);
       if (end >= b_end && ib + 1 < b_->size()) ++ib;
     }
     if (visit(piece) || end >= to) return;

@@ -8,11 +8,14 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "kinesphere/bound.hpp"
 #include "kinesphere/motion/trajectory.hpp"
 
 namespace kinesphere {
+
+struct CoursePiece;
 
 /// The direction in which the gap passes a level.
 enum class LevelCrossing { falls_to, rises_to };
@@ -38,9 +41,21 @@ class GapCourse {
   /// has it. Precondition: the course is that of two bodies.
   Least least(double from, double to) const;
 
+  struct Minimum {
+    double time;
+    double gap;
+    bool is_at_end;  ///< at `from` or `to`, with the gap still falling toward it
+  };
+  /// Returns the local minima of the gap of two bodies in [from, to], by time: where it stops falling and
+  /// then rises, at once or after it has stayed the same. The first time is one if the gap rises from there
+  /// on, and the last if it falls until there; so there is at least one. None is left out whose depth below
+  /// the gap around it exceeds rounding, and rounding invents none. Precondition: as for least(). Cost: a few
+  /// polynomials for each piece and each turning point.
+  std::vector<Minimum> minima(double from, double to) const;
+
  private:
-  template <class Visit>
-  void for_each_piece(double from, double to, const Visit& visit) const;
+  using PieceVisitor = std::function<bool(const CoursePiece&)>;
+  void for_each_piece(double from, double to, const PieceVisitor& visit) const;
 
   const Trajectory* a_;
   const Trajectory* b_ = nullptr;

@@ -14,26 +14,57 @@ namespace {
 Approach begun(const Scene& scene, const Event& event) {
   const SceneBody& first = scene.bodies[event.first.index];
   const SceneBody& second = scene.bodies[event.second.index];
-  return {.first = event.first.index,
-          .second = event.second.index,
-          .begin = event.time,
-          .end = std::min({first.vanishes, second.vanishes, scene.end_time}),
-          .begins_with_track = event.time <= std::max(first.appears, second.appears),
-          .ends_with_track = true};
+  return {
+      .first = event.first.index,
+      .second = event.second.index,
+      .begin = event.time,
+      .end = std::min({first.vanishes, second.vanishes, scene.end_time}),
+      .begins_with_track = event.time <= std::max({first.appears, second.appears, scene.world.start_time}),
+      .ends_with_track = true};
 }
 
-ClosestApproach closest_in(const Motion& motion, const Approach& approach) {
-  const Trajectory first = motion.trajectory(approach.first, approach.begin, approach.end);
-  const Trajectory second = motion.trajectory(approach.second, approach.begin, approach.end);
-  const GapCourse::Least least = GapCourse(first, second, 0.0).least(approach.begin, approach.end);
-  const State a = segment_at(first, least.time).state_at(least.time);
-  const State b = segment_at(second, least.time).state_at(least.time);
-  return {.time = least.time,
-          .distance = least.gap,
-          .first = a.position,
-          .second = b.position,
-          .relative_speed = norm(a.velocity - b.velocity)};
-}
+/// The curves of two tracks during an approach.
+class ApproachCourse {
+ public:
+  ApproachCourse(const Motion& motion, const Approach& approach, const std::vector<double>& radii)
+      : approach_(approach),
+        radii_(radii.empty() ? 0.0 : radii[approach.first] + radii[approach.second]),
+        first_(motion.trajectory(approach.first, approach.begin, approach.end)),
+        second_(motion.trajectory(approach.second, approach.begin, approach.end)) {}
+
+  ClosestApproach closest() const {
+    const GapCourse::Least least = GapCourse(first_, second_, radii_).least(approach_.begin, approach_.end);
+    return minimum(least.time, least.gap).closest;
+  }
+
+  std::vector<DistanceMinimum> minima() const {
+    std::vector<DistanceMinimum> result;
+    for (const auto& each : GapCourse(first_, second_, radii_).minima(approach_.begin, approach_.end)) {
+      const bool is_cut_off = (each.time == approach_.begin && approach_.begins_with_track) ||
+                              (each.time == approach_.end && approach_.ends_with_track);
+      result.push_back(minimum(each.time, each.gap));
+      result.back().is_cut_off = each.is_at_end && is_cut_off;
+    }
+    return result;
+  }
+
+ private:
+  DistanceMinimum minimum(double time, double distance) const {
+    const State a = segment_at(first_, time).state_at(time);
+    const State b = segment_at(second_, time).state_at(time);
+    return {.closest = {.time = time,
+                        .distance = distance,
+                        .first = a.position,
+                        .second = b.position,
+                        .relative_speed = norm(a.velocity - b.velocity)},
+            .first_velocity = a.velocity,
+            .second_velocity = b.velocity};
+  }
+
+  const Approach& approach_;
+  double radii_;
+  Trajectory first_, second_;
+};
 
 }  // namespace
 
@@ -56,8 +87,20 @@ std::vector<Approach> approaches_in(const Scene& scene, const std::vector<Event>
   return approaches;
 }
 
-void find_closest(const Motion& motion, std::vector<Approach>& approaches) {
-  for (Approach& approach : approaches) approach.closest = closest_in(motion, approach);
+void find_closest(const Motion& motion, std::vector<Approach>& approaches, const std::vector<double>& radii) {
+  for (Approach& approach : approaches) approach.closest = ApproachCourse(motion, approach, radii).closest();
+}
+
+std::vector<DistanceMinimum> minima_in(const Motion& motion, const std::vector<Approach>& approaches,
+                                       const std::vector<double>& radii) {
+  std::vector<DistanceMinimum> all;
+  for (std::size_t k = 0; k < approaches.size(); ++k) {
+    for (DistanceMinimum& minimum : ApproachCourse(motion, approaches[k], radii).minima()) {
+      minimum.approach = k;
+      all.push_back(minimum);
+    }
+  }
+  return all;
 }
 
 std::vector<std::size_t> closest_of(const std::vector<Approach>& approaches, std::size_t most) {

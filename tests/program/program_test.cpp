@@ -286,7 +286,7 @@ TEST_F(ProgramTest, WritesApproachesOnAMap) {
   const std::string ships =
       "id,time,lon,lat\na,0,8.00,54.0\na,600,8.02,54.0\nb,0,8.02,54.0001\nb,600,8.00,54.0001\n";
   const ProgramRun result = run("tracks " + write("s.csv", ships) +
-                                " --from lonlat --distance 100 --contacts " + path("a.geojson"));
+                                " --positions lonlat --distance 100 --contacts " + path("a.geojson"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto map = nlohmann::json::parse(read_text(path("a.geojson")));
   EXPECT_EQ(map["type"], "FeatureCollection");
@@ -300,7 +300,7 @@ TEST_F(ProgramTest, WritesApproachesOnAMap) {
   EXPECT_NEAR(feature["properties"]["closest_time"].get<double>(), 300.0, 1e-3);
   EXPECT_NEAR(feature["properties"]["distance"].get<double>(), 11.13, 0.02);
   expect_wrong_input("tracks " + write("t.csv", meeting) + " --distance 2 --contacts " + path("b.geojson"),
-                     {"b.geojson", "--from lonlat"});
+                     {"b.geojson", "--positions lonlat"});
 }
 
 TEST_F(ProgramTest, DrawsApproaches) {

@@ -43,7 +43,9 @@ constexpr QuantityNames quantities[quantity_count] = {
     {Quantity::height_error, "height_error", Measure::length, "heighterror"},
     {Quantity::velocity_error, "velocity_error", Measure::speed, "velocityerror"},
     {Quantity::climb_error, "climb_error", Measure::speed, "climberror"},
-    {Quantity::stamp_error, "stamp_error", Measure::time, "stamperror"}};
+    {Quantity::stamp_error, "stamp_error", Measure::time, "stamperror"},
+    {Quantity::length, "length", Measure::length, "vehiclelength objectlength"},
+    {Quantity::width, "width", Measure::length, "vehiclewidth objectwidth"}};
 
 const QuantityNames& names_of(Quantity quantity) { return quantities[static_cast<std::size_t>(quantity)]; }
 

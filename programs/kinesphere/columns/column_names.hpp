@@ -32,8 +32,10 @@ enum class Quantity {
   velocity_error,
   climb_error,
   stamp_error,
+  length,
+  width,
 };
-inline constexpr std::size_t quantity_count = static_cast<std::size_t>(Quantity::stamp_error) + 1;
+inline constexpr std::size_t quantity_count = static_cast<std::size_t>(Quantity::width) + 1;
 
 Measure measure_of(Quantity quantity);
 /// Returns the key of --columns: id, time, lon and so on.

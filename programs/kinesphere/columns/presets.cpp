@@ -48,13 +48,15 @@ constexpr Preset presets[] = {
      "id=id,frame=frame,x=x:m,y=y:m,vx?=xVelocity:m/s,vy?=yVelocity:m/s",
      "frame,id,x,y,width,height,xVelocity,yVelocity", 25.0},
     {"ind", "inD, rounD, exiD",
-     "id=trackId,frame=frame,x=xCenter:m,y=yCenter:m,vx?=xVelocity:m/s,vy?=yVelocity:m/s",
+     "id=trackId,frame=frame,x=xCenter:m,y=yCenter:m,vx?=xVelocity:m/s,vy?=yVelocity:m/"
+     "s,length?=length:m,width?=width:m",
      "recordingId,trackId,frame,xCenter,yCenter", 25.0},
     {"ngsim", "NGSIM", "id=Vehicle_ID,time=Global_Time:ms,x=Local_X:ft,y=Local_Y:ft",
      "Vehicle_ID,Global_Time,Local_X,Local_Y"},
     {"argoverse", "Argoverse", "id=TRACK_ID,time=TIMESTAMP:s,x=X:m,y=Y:m",
      "TIMESTAMP,TRACK_ID,OBJECT_TYPE,X,Y"},
-    {"interaction", "INTERACTION", "id=track_id,time=timestamp_ms:ms,x=x:m,y=y:m,vx?=vx:m/s,vy?=vy:m/s",
+    {"interaction", "INTERACTION",
+     "id=track_id,time=timestamp_ms:ms,x=x:m,y=y:m,vx?=vx:m/s,vy?=vy:m/s,length?=length:m,width?=width:m",
      "track_id,frame_id,timestamp_ms,agent_type,x,y"},
     // Its positions may be longitudes and latitudes.
     {"sumo", "SUMO FCD", "id=vehicle_id,time=timestep_time:s,x=vehicle_x,y=vehicle_y",

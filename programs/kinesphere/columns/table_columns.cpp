@@ -196,11 +196,30 @@ bool is_position(Quantity quantity) {
   return std::find(std::begin(positions), std::end(positions), quantity) != std::end(positions);
 }
 
+bool is_size(Quantity quantity) { return quantity == Quantity::length || quantity == Quantity::width; }
+
+bool is_used(Quantity quantity, const ColumnHints& hints, ColumnUse use) {
+  if (is_size(quantity)) return hints.sizes;
+  return use == ColumnUse::reports || is_position(quantity);
+}
+
 /// Leaves out what is not read.
-void keep_used(ColumnUse use, TableColumns& columns) {
-  if (use == ColumnUse::reports) return;
+void keep_used(const ColumnHints& hints, ColumnUse use, TableColumns& columns) {
   for (std::size_t k = 0; k < quantity_count; ++k)
-    if (!is_position(static_cast<Quantity>(k))) columns.of[k].reset();
+    if (!is_used(static_cast<Quantity>(k), hints, use)) columns.of[k].reset();
+}
+
+void require_sizes(const TableHead& head, const TableColumns& columns) {
+  if (!columns[Quantity::length] || !columns[Quantity::width])
+    throw ProgramError(
+        fmt::format("{}: expected columns of length and width for --sizes, by their names or --columns "
+                    "length=...,width=...; it has {}",
+                    head.file, head.text()));
+  if (columns.is_ais)
+    throw ProgramError(
+        fmt::format("{}: expected positions of the middle for --sizes, but those of AIS are of the "
+                    "antenna, anywhere on the ship",
+                    head.file));
 }
 
 TableColumns preset_columns(const TableHead& head, const Preset& preset) {
@@ -226,13 +245,14 @@ class UsualColumns {
   UsualColumns(const TableHead& head, const ColumnHints& hints, ColumnUse use) : head_(head) {
     for (std::size_t place = 0; place < head.names.size(); ++place) {
       const auto meaning = meaning_of(head.names[place]);
-      if (!meaning || (use == ColumnUse::positions && !is_position(meaning->quantity))) continue;
+      if (!meaning || !is_used(meaning->quantity, hints, use)) continue;
       places_[static_cast<std::size_t>(meaning->quantity)].push_back(place);
     }
     // If the file has both kinds of columns, an option must choose one.
     const bool has_degrees = !places(Quantity::longitude).empty() && !places(Quantity::latitude).empty();
-    if (has_degrees && (hints.from == "lonlat" || hints.unit == "deg")) forget({Quantity::x, Quantity::y});
-    if (hints.from == "plane" || hints.from.starts_with("utm"))
+    if (has_degrees && (hints.positions == "lonlat" || hints.unit == "deg"))
+      forget({Quantity::x, Quantity::y});
+    if (hints.positions == "plane" || hints.positions.starts_with("utm"))
       forget({Quantity::longitude, Quantity::latitude});
     // Frame numbers are not needed if there are times.
     if (!places(Quantity::time).empty() || use == ColumnUse::reports) forget({Quantity::frame});
@@ -361,34 +381,34 @@ void understand_places(const TableHead& head, const ColumnHints& hints, TableCol
     const auto meaning = meaning_of(head.names[column->place]);
     return meaning && (meaning->quantity == angle || unit_named(meaning->unit, Measure::angle).has_value());
   };
-  const bool said = hints.from == "lonlat" || hints.unit == "deg";
+  const bool said = hints.positions == "lonlat" || hints.unit == "deg";
   const bool by_name = is_angle(x, Quantity::longitude) && is_angle(y, Quantity::latitude);
   const bool swapped = is_angle(x, Quantity::latitude) && is_angle(y, Quantity::longitude) && !by_name;
-  if (swapped && hints.from.empty())
+  if (swapped && hints.positions.empty())
     throw ProgramError(fmt::format(
         "--columns: expected a longitude as x and a latitude as y, but got '{}' and '{}': say lon={},lat={}",
         head.names[x->place], head.names[y->place], column_word(head, y->place),
         column_word(head, x->place)));
   const bool one_alone = is_angle(x, Quantity::longitude) != is_angle(y, Quantity::latitude);
-  if (x && y && one_alone && !swapped && !said && hints.from != "plane")
+  if (x && y && one_alone && !swapped && !said && hints.positions != "plane")
     throw ProgramError(
-        fmt::format("{}: {} are degrees, but {} are not said to be: say --from lonlat or plane", head.file,
-                    column_text(head, is_angle(x, Quantity::longitude) ? x->place : y->place),
+        fmt::format("{}: {} are degrees, but {} are not said to be: say --positions lonlat or plane",
+                    head.file, column_text(head, is_angle(x, Quantity::longitude) ? x->place : y->place),
                     column_text(head, is_angle(x, Quantity::longitude) ? y->place : x->place)));
-  if (x && y && !lon && !lat && hints.from != "plane" && (said || by_name)) {
+  if (x && y && !lon && !lat && hints.positions != "plane" && (said || by_name)) {
     lon = std::exchange(x, std::nullopt);
     lat = std::exchange(y, std::nullopt);
     take_unit_of_column(head, Quantity::longitude, *lon);
     take_unit_of_column(head, Quantity::latitude, *lat);
   }
   if (lon && lat && !x && !y) {
-    if (hints.from == "plane") {
+    if (hints.positions == "plane") {
       x = Column{.place = std::exchange(lon, std::nullopt)->place};
       y = Column{.place = std::exchange(lat, std::nullopt)->place};
     }
     columns.positions_said = true;
   }
-  if (!hints.from.empty() || !hints.unit.empty()) columns.positions_said = true;
+  if (!hints.positions.empty() || !hints.unit.empty()) columns.positions_said = true;
   columns.geographic = lon.has_value();
 }
 
@@ -461,7 +481,7 @@ void understand_lengths(const TableHead& head, const ColumnHints& hints, TableCo
     (column.has_unit ? with : without) = (column.has_unit ? with : without).value_or(quantity);
   }
   // Heights and speeds of places on the earth are metres and seconds.
-  const bool zone = hints.from.starts_with("utm");
+  const bool zone = hints.positions.starts_with("utm");
   columns.in_metres = columns.geographic || zone || with.has_value();
   if (columns.geographic || !with || !without) return;
   throw ProgramError(fmt::format("{}: {} does not say its unit, but {} does: say {}={}:UNIT with --columns{}",
@@ -562,12 +582,12 @@ void list_unused(const TableHead& head, TableColumns& columns) {
 }  // namespace
 
 TableColumns find_columns(const TableHead& head, const ColumnHints& hints, ColumnUse use) {
-  if (!(hints.from.empty() || hints.from == "lonlat" || hints.from == "plane" ||
-        hints.from.starts_with("utm:")))
+  if (!(hints.positions.empty() || hints.positions == "lonlat" || hints.positions == "plane" ||
+        hints.positions.starts_with("utm:")))
     throw ProgramError(fmt::format(
-        "--from: expected lonlat, plane or a UTM zone such as utm:33N, but got '{}'", hints.from));
+        "--positions: expected lonlat, plane or a UTM zone such as utm:33N, but got '{}'", hints.positions));
   TableColumns columns = recognised(head, hints, use);
-  keep_used(use, columns);
+  keep_used(hints, use, columns);
   columns.decimal_comma = has_decimal_commas(head.separator);
   understand_places(head, hints, columns);
   require_columns(head, hints, columns);
@@ -589,6 +609,7 @@ TableColumns find_columns(const TableHead& head, const ColumnHints& hints, Colum
   list_unused(head, columns);
   columns.is_ais = columns[Quantity::id] && !head.names.empty() &&
                    same_name(head.names[columns[Quantity::id]->place], "MMSI");
+  if (hints.sizes) require_sizes(head, columns);
   return columns;
 }
 

@@ -20,9 +20,10 @@ struct ColumnHints {
   std::optional<double> frame_rate;  ///< frames per second: the time column counts frames
   std::string time_unit;             ///< s, ms, us, ns, min, h, d or frames
   std::string unit;                  ///< unit of lengths without one; or deg
-  std::string from;                  ///< plane, lonlat or utm:33N
+  std::string positions;             ///< plane, lonlat or utm:33N
   std::string where;                 ///< rows that count
   DateOrder dates = DateOrder::unknown;
+  bool sizes = false;  ///< length and width are read
 };
 
 /// What is read: positions alone, or also velocities, errors and times of arrival.

@@ -8,17 +8,23 @@
 
 #include "output_file.hpp"
 #include "simulation/tracks/approaches.hpp"
+#include "simulation/tracks/time_to_collision.hpp"
 #include "table_file.hpp"
+#include "tracks/approach_map.hpp"
 #include "tracks/recording.hpp"
 
 namespace kinesphere::program {
 
-/// Every approach, as a table (.csv, .jsonl) or as points on a map (.geojson). The constructor opens the
-/// file, so that a wrong path fails before a long run; the file appears with commit(). Throws ProgramError
-/// like TableFile and OutputFile.
+double horizontal_distance(const ClosestApproach& closest);
+double vertical_distance(const ClosestApproach& closest);
+
+/// Every approach, as a table (.csv, .jsonl) or as points on a map (.geojson, .gpx, .kml). The constructor
+/// opens the file, so that a wrong path fails before a long run; the file appears with commit(). Throws
+/// ProgramError like TableFile and OutputFile.
 class ApproachFile {
  public:
-  explicit ApproachFile(const std::string& path);
+  /// `by_cylinder` adds the horizontal and the vertical distance.
+  ApproachFile(const std::string& path, bool by_cylinder);
 
   /// Throws ProgramError if the file needs longitudes and latitudes and the recording has none.
   void check(const Recording& recording) const;
@@ -26,10 +32,12 @@ class ApproachFile {
   void commit();
 
  private:
-  void write_geojson(const std::vector<Approach>& approaches, const Recording& recording);
+  void write_map(const std::vector<Approach>& approaches, const Recording& recording);
 
+  bool by_cylinder_;
   std::optional<TableFile> table_;
-  std::optional<OutputFile> geojson_;
+  std::optional<MapFormat> map_format_;
+  std::optional<OutputFile> map_;
 };
 
 /// The approaches of two ids, summed up.
@@ -38,13 +46,16 @@ struct PairSummary {
   std::uint64_t approaches = 0;
   double duration = 0.0;      ///< sum of the durations
   ClosestApproach closest{};  ///< closest of all approaches
+  LeastTimeToCollision to_collision{};
 };
 
-/// Returns the pairs, the one with the closest approach first.
-std::vector<PairSummary> pairs_in(const std::vector<Approach>& approaches, const Recording& recording);
+/// Returns the pairs, the one with the closest approach first. Their times to collision are found if the
+/// recording has sizes.
+std::vector<PairSummary> pairs_in(const std::vector<Approach>& approaches, const Recording& recording,
+                                  const Motion& motion);
 
-/// Returns the columns of a table of pairs.
-std::vector<std::string> pair_columns();
+/// Returns the columns of a table of pairs; with sizes also those of the time to collision.
+std::vector<std::string> pair_columns(bool with_sizes);
 void write_pairs(TableFile& table, const std::vector<PairSummary>& pairs, const Recording& recording);
 
 }  // namespace kinesphere::program

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "xml_text.hpp"
+
 namespace kinesphere::program {
 namespace {
 
@@ -31,23 +33,8 @@ struct Panel {
   double y(double value) const { return top + height - (value - low_y) / (high_y - low_y) * height; }
 };
 
-std::string escaped(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '<') {
-      safe += "&lt;";
-    } else if (c == '&') {
-      safe += "&amp;";
-    } else {
-      // XML does not allow control characters.
-      safe += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return safe;
-}
-
 std::string text_at(double x, double y, std::string_view text, std::string_view more = "") {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, more, escaped(text));
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, more, xml_text(text));
 }
 
 std::string polyline(const std::vector<Point>& points, std::string_view style) {
@@ -229,7 +216,8 @@ class Picture {
 
   double distance_at(const Approach& approach, double time) const {
     return norm(scene_.motion->state(approach.first, time).position -
-                scene_.motion->state(approach.second, time).position);
+                scene_.motion->state(approach.second, time).position) -
+           recording_.tracks[approach.first].radius - recording_.tracks[approach.second].radius;
   }
 
   /// Returns the typical duration of the drawn approaches, shown on each side of the closest.

@@ -8,6 +8,7 @@
 
 #include "kinesphere/body.hpp"
 #include "kinesphere/shape.hpp"
+#include "tracks/own_frame.hpp"
 #include "tracks/projection.hpp"
 
 namespace kinesphere::program {
@@ -32,6 +33,8 @@ class Coordinates {
   /// Returns longitude, latitude (degrees) and height (metres) if the file has them or its UTM zone was
   /// given; else nothing. Throws ProgramError for positions outside the zone's range.
   std::optional<Vec3> geographic(const Vec3& local) const;
+  /// Returns east, north and up at a place on the earth; else the axes of the file.
+  Axes axes_at(const Vec3& local) const;
   /// True if motion without heights stays in the plane z = 0.
   bool are_plane() const { return !projection_ || projection_->is_plane(); }
   /// Text about the projection and its accuracy; empty without a projection.

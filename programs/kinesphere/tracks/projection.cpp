@@ -146,6 +146,13 @@ std::shared_ptr<const Projection> project(std::span<const Vec3> geographic, bool
   auto plane = std::make_shared<Plane>(geographic);
   if (choice == ProjectionChoice::automatic && !(plane->distortion() <= largest_distortion))
     return std::make_shared<Earth>(geographic);
+  if (choice == ProjectionChoice::ground && !(plane->distortion() <= largest_distortion)) {
+    throw ProgramError(fmt::format(
+        "--projection: expected places at most 490 km from their middle for a cylinder, but some are "
+        "farther, and lengths between them are up to {:.2g} % too long: say --projection plane to take "
+        "them so",
+        100 * plane->distortion()));
+  }
   if (!(plane->distortion() <= 0.5)) {
     throw ProgramError(
         "--projection plane: expected points on one side of the Earth, but they are all around it: use "
@@ -159,7 +166,7 @@ Vec3 geographic_from_utm(const UtmZone& zone, const Vec3& position) {
   try {
     GeographicLib::UTMUPS::Reverse(zone.number, zone.north, position.x, position.y, result.y, result.x);
   } catch (const GeographicLib::GeographicErr& error) {
-    throw ProgramError(fmt::format("--from utm: {}", error.what()));
+    throw ProgramError(fmt::format("--positions utm: {}", error.what()));
   }
   return result;
 }

@@ -26,6 +26,7 @@ class Projection {
 
 enum class ProjectionChoice {
   automatic,  ///< plane where points are on the ground and that makes no length wrong by more than 0.1 %
+  ground,     ///< plane with heights as z; fails where that makes a length wrong by more than 0.1 %
   plane,
   earth,
 };

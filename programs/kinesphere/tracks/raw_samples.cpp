@@ -53,6 +53,7 @@ class RawRecording::FileReader {
     const auto position = reader_.position();
     if (time && position && (reader_.has_height() || !columns().z())) {
       track.samples.push_back({time->time, *position, place});
+      track.radius = std::max(track.radius, radius());
       return;
     }
     const auto& missing = *reader_.missing();
@@ -61,6 +62,15 @@ class RawRecording::FileReader {
                        " (see --missing)");
     recording_.count(recording_.missing_, place);
     if (time && recording_.options_.missing == MissingPolicy::split) track.breaks.push_back(time->time);
+  }
+
+  /// Returns half the diagonal of length and width; 0 if one of them is not known, which is also said by 0.
+  double radius() {
+    const auto length = reader_.number(Quantity::length), width = reader_.number(Quantity::width);
+    if (!length || !width || !(*length > 0.0) || !(*width > 0.0)) return 0.0;
+    return std::hypot(*length * columns()[Quantity::length]->unit,
+                      *width * columns()[Quantity::width]->unit) /
+           2;
   }
 
   /// Checks that all times are of one kind.
@@ -87,7 +97,7 @@ class RawRecording::FileReader {
 
   RawTrack& track_named(std::string_view id) const {
     const auto [place, is_new] = recording_.track_of_.emplace(id, recording_.tracks_.size());
-    if (is_new) recording_.tracks_.push_back({place->first, {}, {}});
+    if (is_new) recording_.tracks_.push_back({place->first, {}, 0.0, {}});
     return recording_.tracks_[place->second];
   }
 

@@ -32,6 +32,7 @@ struct RawSample {
 struct RawTrack {
   std::string id;
   std::vector<RawSample> samples;  ///< in the order of the rows
+  double radius = 0.0;             ///< of a disc that covers the body (metres); 0 where no size is known
   std::vector<FileTime> breaks;    ///< times at which the track does not go on (MissingPolicy::split)
 };
 

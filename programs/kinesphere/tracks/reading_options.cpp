@@ -69,7 +69,9 @@ CLI::Option* add_reading_options(CLI::App& command, std::vector<std::string>& fi
                   "Unit of the file's lengths; all other lengths are then in metres")
       ->type_name("m|km|cm|mm|um|ft|nmi|yd|mi|deg")
       ->group(group);
-  command.add_option("--from", options.hints.from, "What the positions are: longitude and latitude, or UTM")
+  command
+      .add_option("--positions", options.hints.positions,
+                  "What the positions are: longitude and latitude, or UTM")
       ->type_name("plane|lonlat|utm:ZONE")
       ->group(group);
   add_choice(command, "--projection", options.projection,

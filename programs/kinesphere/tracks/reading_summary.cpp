@@ -69,6 +69,15 @@ void add_recording(Summary& summary, const std::vector<std::string>& files, cons
   summary.row(
       "samples", grouped(recording.samples),
       fmt::format("every {} s, of {} rows", number(recording.sample_interval), grouped(recording.rows)));
+  if (recording.has_sizes) {
+    const auto is_sized = [](const RecordedTrack& track) { return track.radius > 0.0; };
+    const auto smaller = [](const RecordedTrack& a, const RecordedTrack& b) { return a.radius < b.radius; };
+    const auto& tracks = recording.tracks;
+    summary.row("sizes",
+                grouped(static_cast<std::uint64_t>(std::count_if(tracks.begin(), tracks.end(), is_sized))),
+                fmt::format("of the tracks, the largest of radius {}; the others are points",
+                            number(std::max_element(tracks.begin(), tracks.end(), smaller)->radius)));
+  }
   if (!recording.filter.empty())
     summary.row("left out", grouped(recording.filtered.count),
                 fmt::format("rows for which not: {}", recording.filter));

@@ -15,6 +15,7 @@ namespace kinesphere::program {
 struct RecordedTrack {
   std::string id;                    ///< spelled like in the file; 3.0 and 3.000000e+00 are 3
   std::vector<TrackSample> samples;  ///< at least 2, by time
+  double radius = 0.0;               ///< of a disc or sphere around the body; 0 for a point
 };
 
 /// Count of dropped items, and where the first ones stand.
@@ -28,9 +29,12 @@ struct Tally {
 struct Recording {
   std::string format;  ///< recognised format
   TimeScale times;
-  double frame_rate = 0.0;  ///< frames per second; 0 where no frames are counted
+  DateOrder dates = DateOrder::unknown;  ///< order of dates such as 03/04/2025
+  double frame_rate = 0.0;               ///< frames per second; 0 where no frames are counted
   Coordinates coordinates;
   bool in_metres = false;             ///< unit of lengths; if false, it is unknown
+  bool has_heights = false;           ///< the files have a column of heights
+  bool has_sizes = false;             ///< sizes were asked for
   bool is_plane = false;              ///< nothing leaves the plane z = 0
   std::vector<RecordedTrack> tracks;  ///< without interruption, by the first sample's place in the file
   std::size_t ids = 0;

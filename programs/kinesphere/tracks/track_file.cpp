@@ -57,8 +57,8 @@ void ask_about_degrees(const RawRecording& raw, const Box& extent) {
   });
   if (all_whole) return;
   throw ProgramError(fmt::format(
-      "{}: x ({:.9g} to {:.9g}) and y ({:.9g} to {:.9g}) may be degrees: say --from lonlat if they are "
-      "longitude and latitude, or --from plane if they are lengths",
+      "{}: x ({:.9g} to {:.9g}) and y ({:.9g} to {:.9g}) may be degrees: say --positions lonlat if they are "
+      "longitude and latitude, or --positions plane if they are lengths",
       raw.head().file, extent.lower.x, extent.upper.x, extent.lower.y, extent.upper.y));
 }
 
@@ -85,8 +85,8 @@ Coordinates coordinates_of(const RawRecording& raw, const TrackOptions& options)
   if (!(extent.lower.x <= extent.upper.x)) return {};
   if (!columns.positions_said && !columns.x().has_unit) ask_about_degrees(raw, extent);
   std::optional<UtmZone> zone;
-  if (options.hints.from.starts_with("utm:"))
-    zone = parse_utm_zone(std::string_view(options.hints.from).substr(4), "--from utm");
+  if (options.hints.positions.starts_with("utm:"))
+    zone = parse_utm_zone(std::string_view(options.hints.positions).substr(4), "--positions utm");
   return Coordinates(extent, units, zone);
 }
 
@@ -114,6 +114,7 @@ void ask_about_row_numbers(const RawRecording& raw) {
 /// The pieces of one id, before they are split at gaps.
 struct Body {
   std::string id;
+  double radius;
   std::vector<Piece> pieces;
   std::vector<double> breaks;
 };
@@ -122,9 +123,12 @@ class Reading {
  public:
   Reading(const RawRecording& raw, const TrackOptions& options) : raw_(raw), options_(options) {
     recording_.times = time_scale_of(raw);
+    recording_.dates = raw.columns().dates;
     recording_.coordinates = coordinates_of(raw, options);
     recording_.in_metres = raw.columns().in_metres;
     recording_.format = raw.columns().format;
+    recording_.has_sizes = options.hints.sizes;
+    recording_.has_heights = raw.columns().z().has_value();
     recording_.is_plane = !raw.columns().z() && recording_.coordinates.are_plane();
     if (recording_.times.kind() == TimeKind::frames) recording_.frame_rate = recording_.times.rate();
     recording_.ids = raw.tracks().size();
@@ -151,7 +155,7 @@ class Reading {
 
  private:
   Body cleaned(const RawTrack& track) {
-    Body body{track.id, {}, {}};
+    Body body{track.id, track.radius, {}, {}};
     Piece samples;
     samples.reserve(track.samples.size());
     for (const RawSample& sample : track.samples) {
@@ -191,6 +195,7 @@ class Reading {
         recording_.samples += piece.size();
         RecordedTrack& track = recording_.tracks.emplace_back();
         track.id = body.id;
+        track.radius = body.radius;
         for (const PlacedSample& sample : piece) track.samples.push_back(sample.sample);
       }
     }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "program_error.hpp"
+#include "simulation/tracks/cylinder_approaches.hpp"
 #include "simulation/tracks/scene_of_tracks.hpp"
 
 namespace kinesphere::program {
@@ -23,12 +24,13 @@ struct Furthest {
   std::string id;
 };
 
-Furthest furthest_of(const Recording& recording) {
+Furthest furthest_of(const Recording& recording, double stretch = 1.0) {
   Furthest furthest;
   for (const RecordedTrack& track : recording.tracks) {
     for (const TrackSample& sample : track.samples) {
       const Vec3& position = sample.position;
-      const double size = std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)});
+      const double size =
+          std::max({std::abs(position.x), std::abs(position.y), std::abs(stretch * position.z)});
       if (size > furthest.coordinate) furthest = {size, track.id};
     }
   }
@@ -94,10 +96,14 @@ Overshoots overshoots_of(const Recording& recording, const Motion& motion, doubl
   return overshoots;
 }
 
-std::vector<Track> samples_of(const Recording& recording) {
+/// Returns the samples, with z stretched.
+std::vector<Track> samples_of(const Recording& recording, double stretch = 1.0) {
   std::vector<Track> tracks;
   tracks.reserve(recording.tracks.size());
-  for (const RecordedTrack& track : recording.tracks) tracks.push_back(track.samples);
+  for (const RecordedTrack& track : recording.tracks) {
+    tracks.push_back(track.samples);
+    for (TrackSample& sample : tracks.back()) sample.position.z *= stretch;
+  }
   return tracks;
 }
 
@@ -108,7 +114,28 @@ std::vector<Track> samples_of(const Recording& recording) {
       fmt::format("id '{}': {}", is_known ? recording.tracks[error.body.index].id : "", error.message));
 }
 
+/// Returns a scene of the recording stretched along z.
+Scene scene_with(const Recording& recording, const ApproachQuestion& question, double stretch,
+                 double distance, double tolerance) {
+  auto scene = scene_of_tracks(samples_of(recording, stretch), distance, question.interpolation);
+  if (!scene) refuse(recording, scene.error());
+  for (std::size_t k = 0; k < recording.tracks.size(); ++k)
+    scene->bodies[k].radius += recording.tracks[k].radius;
+  scene->world.contact_tolerance = tolerance;
+  scene->world.start_time = std::max(scene->world.start_time, question.from);
+  scene->end_time = std::min(scene->end_time, question.until);
+  scene->world.contacts = ContactEvents::begin_and_end;
+  scene->world.dimensions = recording.is_plane ? 2 : 3;
+  return std::move(*scene);
+}
+
 }  // namespace
+
+std::vector<double> radii_of(const Recording& recording) {
+  std::vector<double> radii;
+  for (const RecordedTrack& track : recording.tracks) radii.push_back(track.radius);
+  return radii;
+}
 
 RecordedTracks splines_through(const Recording& recording) {
   auto curves = RecordedTracks::create(samples_of(recording));
@@ -118,12 +145,19 @@ RecordedTracks splines_through(const Recording& recording) {
 
 TrackScene scene_of(const Recording& recording, const ApproachQuestion& question) {
   const double tolerance = tolerance_of(recording, question);
-  auto scene = scene_of_tracks(samples_of(recording), question.distance, question.interpolation);
-  if (!scene) refuse(recording, scene.error());
-  TrackScene result{.scene = std::move(*scene)};
-  result.scene.world.contact_tolerance = tolerance;
-  result.scene.world.contacts = ContactEvents::begin_and_end;
-  result.scene.world.dimensions = recording.is_plane ? 2 : 3;
+  TrackScene result{.scene = scene_with(recording, question, 1.0, question.distance, tolerance)};
+  if (question.vertical) {
+    const CylinderEnclosure enclosure = enclosure_of(
+        {.horizontal = question.distance, .vertical = *question.vertical, .tolerance = tolerance});
+    const double finest = furthest_of(recording, enclosure.stretch).coordinate / tolerances_in_extent;
+    const double coarse = std::max(1e-6 * enclosure.distance, finest);
+    if (coarse >= enclosure.distance)
+      throw ProgramError(fmt::format(
+          "--separation: expected lengths above {:.3g}, because of the recording's extent", finest));
+    // The margin is far above what the engine and the rounding of curves take.
+    result.enclosing =
+        scene_with(recording, question, enclosure.stretch, enclosure.distance + 4.0 * coarse, coarse);
+  }
   if (question.interpolation == Interpolation::spline)
     result.overshoots = overshoots_of(recording, *result.scene.motion, question.distance);
   return result;

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "kinesphere/motion/recorded_tracks.hpp"
 #include "simulation/scene/scene.hpp"
@@ -13,10 +15,13 @@
 namespace kinesphere::program {
 
 struct ApproachQuestion {
-  double distance = 0.0;  ///< largest distance of an approach; > 0
+  double distance = 0.0;           ///< largest distance of an approach, or the largest horizontal one; > 0
+  std::optional<double> vertical;  ///< largest vertical distance, of a cylinder
   std::optional<double>
       tolerance;  ///< tolerance of that distance; if empty, a millionth of it, or 2^-40 of the extent
   Interpolation interpolation = Interpolation::spline;
+  /// Seconds of the recording. The curves are those of all samples, whatever the window.
+  double from = -std::numeric_limits<double>::infinity(), until = std::numeric_limits<double>::infinity();
 };
 
 /// Splines that swing out far beyond their samples: by more than the distance of an approach and more than
@@ -29,17 +34,27 @@ struct Overshoots {
 };
 
 struct TrackScene {
+  /// The curves of the recording, with spheres of the (horizontal) distance.
   Scene scene;
+  /// What the engine runs to find the approaches of cylinders: the recording stretched along z, with spheres
+  /// around the cylinders.
+  std::optional<Scene> enclosing;
   Overshoots overshoots;
+
+  const Scene& searched() const { return enclosing ? *enclosing : scene; }
 };
+
+/// Returns the radii of the bodies, by track.
+std::vector<double> radii_of(const Recording& recording);
 
 /// Returns smooth curves through the samples, one for each track. Throws ProgramError naming the id if a
 /// curve overflows.
 RecordedTracks splines_through(const Recording& recording);
 
 /// Returns a scene with a body for each track, with half the distance as radius, present from its first
-/// sample to its last. Throws ProgramError naming the option or the id: for a tolerance that does not fit the
-/// distance or is too fine for the recording's extent, and if a curve overflows.
+/// sample to its last, and a span that is the window. Throws ProgramError naming the option or the id: for a
+/// tolerance that does not fit the distance or is too fine for the recording's extent, and if a curve
+/// overflows.
 TrackScene scene_of(const Recording& recording, const ApproachQuestion& question);
 
 }  // namespace kinesphere::program

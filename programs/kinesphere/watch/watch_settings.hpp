@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kinesphere/monitor/monitor.hpp"
-#include "watch/separations.hpp"
+#include "separations.hpp"
 
 namespace kinesphere::program {
 

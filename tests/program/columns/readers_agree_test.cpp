@@ -51,7 +51,7 @@ class AnyTable {
     if (chance(0.5))
       add(one_of({"z", "alt", "Altitude", "elevation"}) + one_of({"", "_m", "_ft", " (feet)", "_furlong"}),
           [](int body, int) { return fmt::format("{}.5", 7 * body); });
-    for (const char* extra : {"note", "geoaltitude", "valid", "frame", "x", "timestamp"})
+    for (const char* extra : {"note", "geoaltitude", "valid", "frame", "x", "timestamp", "length", "width_m"})
       if (chance(0.08)) add(extra, [](int, int step) { return fmt::format("{}", step + 1); });
     std::vector<std::size_t> order(names_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});

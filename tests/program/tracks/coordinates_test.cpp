@@ -33,12 +33,12 @@ TEST(Coordinates, AreMetresOfOtherUnits) {
 }
 
 TEST(UtmZone, IsANumberAndALetter) {
-  EXPECT_EQ(parse_utm_zone("33N", "--from utm").number, 33);
-  EXPECT_TRUE(parse_utm_zone("5n", "--from utm").north);
-  EXPECT_FALSE(parse_utm_zone("60S", "--from utm").north);
+  EXPECT_EQ(parse_utm_zone("33N", "--positions utm").number, 33);
+  EXPECT_TRUE(parse_utm_zone("5n", "--positions utm").north);
+  EXPECT_FALSE(parse_utm_zone("60S", "--positions utm").north);
   for (const char* wrong : {"", "33", "N", "0N", "61N", "33X", "33NN", "-3N"}) {
-    EXPECT_EQ(error_of([&] { parse_utm_zone(wrong, "--from utm"); }),
-              std::string("--from utm: expected a UTM zone such as 33N or 5S, but got '") + wrong + "'");
+    EXPECT_EQ(error_of([&] { parse_utm_zone(wrong, "--positions utm"); }),
+              std::string("--positions utm: expected a UTM zone such as 33N or 5S, but got '") + wrong + "'");
   }
 }
 

@@ -143,7 +143,7 @@ WrittenTracks utm(Original& original) {
     text += original.has_z() ? fmt::format(",{}\n", row.position.z) : "\n";
   }
   WrittenTracks reported{{{"t.csv", text}}, {}};
-  reported.options.hints.from = "utm:33N";
+  reported.options.hints.positions = "utm:33N";
   return reported;
 }
 

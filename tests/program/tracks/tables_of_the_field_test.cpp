@@ -89,10 +89,10 @@ TEST_F(TablesOfTheField, DegreesAreNoLengths) {
       "id;t;X;Y\nu;0;8.391305;47.898573\nu;2;8.391317;47.898617\nv;0;8.390928;47.898613\n"
       "v;2;8.390833;47.898635\n";
   const std::string asked = approaches(plain, "--distance 50");
-  EXPECT_NE(asked.find("may be degrees: say --from lonlat"), std::string::npos) << asked;
-  EXPECT_EQ(approaches(plain, "--distance 50 --from lonlat"), "1");
-  EXPECT_EQ(approaches(plain, "--distance 20 --from lonlat"), "0");
-  EXPECT_EQ(approaches(plain, "--distance 50 --from plane"), "1");
+  EXPECT_NE(asked.find("may be degrees: say --positions lonlat"), std::string::npos) << asked;
+  EXPECT_EQ(approaches(plain, "--distance 50 --positions lonlat"), "1");
+  EXPECT_EQ(approaches(plain, "--distance 20 --positions lonlat"), "0");
+  EXPECT_EQ(approaches(plain, "--distance 50 --positions plane"), "1");
   EXPECT_EQ(approaches("id,t,x_deg,y_deg\nu,0,8,47\nu,1,8,47\nv,0,8,47.5\nv,1,8,47.5\n", "--distance 100"),
             "0");
   EXPECT_EQ(

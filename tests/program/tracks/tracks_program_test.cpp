@@ -69,7 +69,8 @@ TEST_F(TracksProgram, LinesOrCurves) {
   EXPECT_NE(lines.out.find("detector and oracle agree"), std::string::npos);
   expect_wrong_input("tracks " + file + " --distance 2 --interpolate cubic",
                      {"--interpolate", "linear|spline", "'cubic'"});
-  expect_wrong_input("tracks " + file + " --distance 2 --from mars", {"--from", "lonlat", "'mars'"});
+  expect_wrong_input("tracks " + file + " --distance 2 --positions mars",
+                     {"--positions", "lonlat", "'mars'"});
   expect_wrong_input("tracks " + file + " --distance 2 --unit furlong", {"--unit", "NM", "'furlong'"});
 }
 

@@ -7,8 +7,8 @@
 
 #include "kinesphere/random.hpp"
 #include "program/support.hpp"
+#include "separations.hpp"
 #include "watch/report_format.hpp"
-#include "watch/separations.hpp"
 #include "watch/watcher.hpp"
 
 namespace kinesphere::program::damaged_streams_test {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "program/support.hpp"
-#include "watch/separations.hpp"
+#include "separations.hpp"
 
 namespace kinesphere::program::measures_test {
 namespace {

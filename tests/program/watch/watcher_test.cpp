@@ -11,8 +11,8 @@
 #include <tuple>
 
 #include "kinesphere/random.hpp"
+#include "separations.hpp"
 #include "watch/json_reading.hpp"
-#include "watch/separations.hpp"
 
 #ifdef KINESPHERE_WITH_GEOGRAPHICLIB
 #include <GeographicLib/Geodesic.hpp>

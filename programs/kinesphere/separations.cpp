@@ -1,12 +1,12 @@
 // Separations of the command line.
-#include "watch/separations.hpp"
+#include "separations.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "columns/units.hpp"
 #include "program_error.hpp"
-#include "watch/measures.hpp"
 
 namespace kinesphere::program {
 namespace {

@@ -1,0 +1,145 @@
+// Which approaches of a recording are wanted.
+#include "tracks/approach_choice.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <set>
+#include <string_view>
+
+#include "columns/time_text.hpp"
+#include "program_error.hpp"
+#include "validators.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+std::string_view kind_text(TimeKind kind) {
+  switch (kind) {
+    case TimeKind::number:
+      return "a number";
+    case TimeKind::frames:
+      return "a number of a frame";
+    case TimeKind::date:
+      return "a date without a zone";
+    case TimeKind::utc:
+      return "a date with a zone, such as 2024-05-01T08:00:00Z";
+  }
+  return "";
+}
+
+/// Returns seconds of the recording.
+double window_time(const std::string& text, std::string_view option, const Recording& recording) {
+  const auto time = time_field(text, recording.dates);
+  const bool counts_frames = recording.times.kind() == TimeKind::frames;
+  const TimeKind kind = counts_frames ? TimeKind::number : recording.times.kind();
+  if (time && time->kind == kind) return recording.times.seconds(time->time);
+  throw ProgramError(fmt::format("{}: expected a time as in the file, {}, but got '{}'", option,
+                                 kind_text(recording.times.kind()), text));
+}
+
+TimeWindow span_of(const Recording& recording) {
+  const RecordedTrack& any = recording.tracks.front();
+  TimeWindow span{any.samples.front().time, any.samples.back().time};
+  for (const RecordedTrack& track : recording.tracks) {
+    span.from = std::min(span.from, track.samples.front().time);
+    span.until = std::max(span.until, track.samples.back().time);
+  }
+  return span;
+}
+
+TimeWindow chosen_window(const ApproachChoice& choice, const Recording& recording) {
+  const TimeWindow span = span_of(recording);
+  TimeWindow window = span;
+  if (!choice.from.empty()) window.from = std::max(span.from, window_time(choice.from, "--from", recording));
+  if (!choice.until.empty())
+    window.until = std::min(span.until, window_time(choice.until, "--until", recording));
+  if (window.from >= span.until && !choice.from.empty())
+    throw ProgramError(fmt::format("--from: expected a time before the recording's end {}, but got '{}'",
+                                   recording.times.text(span.until), choice.from));
+  if (window.until <= span.from && !choice.until.empty())
+    throw ProgramError(fmt::format("--until: expected a time after the recording's begin {}, but got '{}'",
+                                   recording.times.text(span.from), choice.until));
+  if (window.from >= window.until && !choice.from.empty())
+    throw ProgramError(
+        fmt::format("--until: expected a time after --from {}, but got '{}'", choice.from, choice.until));
+  return window;
+}
+
+/// Returns the ids of `text`, which is one id or several joined by commas.
+std::vector<std::string> listed_ids(const std::string& text, const std::set<std::string_view>& known) {
+  if (known.contains(text)) return {text};
+  std::vector<std::string> ids;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    ids.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return ids;
+}
+
+std::vector<bool> chosen_tracks(const ApproachChoice& choice, const Recording& recording) {
+  if (choice.only.empty()) return {};
+  std::set<std::string_view> known;
+  for (const RecordedTrack& track : recording.tracks) known.insert(track.id);
+  std::set<std::string> chosen;
+  for (const std::string& text : choice.only) {
+    for (const std::string& id : listed_ids(text, known)) {
+      if (!known.contains(id))
+        throw ProgramError(fmt::format("--only: expected an id that has a track, such as '{}', but got '{}'",
+                                       *known.begin(), id));
+      chosen.insert(id);
+    }
+  }
+  std::vector<bool> tracks;
+  for (const RecordedTrack& track : recording.tracks) tracks.push_back(chosen.contains(track.id));
+  return tracks;
+}
+
+double least_duration(const ApproachChoice& choice) {
+  const double duration = choice.min_duration.value_or(0.0);
+  if (duration >= 0.0) return duration;
+  throw ProgramError(fmt::format("--min-duration: expected a number >= 0, but got {}", duration));
+}
+
+}  // namespace
+
+void add_choice_options(CLI::App& command, ApproachChoice& choice) {
+  constexpr const char* group = "Which approaches";
+  command.add_option("--from", choice.from, "From this time on: a number or a date, as in the file")
+      ->type_name("TIME")
+      ->group(group);
+  command.add_option("--until", choice.until, "Until this time: a number or a date, as in the file")
+      ->type_name("TIME")
+      ->group(group);
+  command
+      .add_option("--only", choice.only, "Only approaches of these ids, with each other and with all others")
+      ->type_name("ID[,ID...]")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group(group);
+  command
+      .add_option("--min-duration", choice.min_duration,
+                  "Only approaches that last as long (seconds) or longer")
+      ->check(finite_number())
+      ->group(group);
+}
+
+ApproachFilter::ApproachFilter(const ApproachChoice& choice, const Recording& recording)
+    : window_(chosen_window(choice, recording)),
+      only_(chosen_tracks(choice, recording)),
+      min_duration_(least_duration(choice)) {}
+
+LeftOut ApproachFilter::apply(std::vector<Approach>& approaches) const {
+  LeftOut left_out;
+  if (!only_.empty())
+    left_out.by_ids = std::erase_if(approaches, [this](const Approach& approach) {
+      return !only_[approach.first] && !only_[approach.second];
+    });
+  left_out.by_duration = std::erase_if(
+      approaches, [this](const Approach& approach) { return approach.end - approach.begin < min_duration_; });
+  return left_out;
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,166 @@
+// Approaches as features of a map.
+#include "tracks/approach_map.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "xml_text.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+nlohmann::ordered_json json_value(const Cell& cell) {
+  return std::visit(
+      [](const auto& value) -> nlohmann::ordered_json {
+        using Value = std::decay_t<decltype(value)>;
+        if constexpr (std::is_same_v<Value, std::monostate>) {
+          return nullptr;
+        } else if constexpr (std::is_same_v<Value, DecimalText>) {
+          return nlohmann::ordered_json::parse(value.digits);
+        } else {
+          return value;
+        }
+      },
+      cell);
+}
+
+std::string plain_value(const Cell& cell) {
+  const nlohmann::ordered_json value = json_value(cell);
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+/// Returns longitude, latitude and height.
+Vec3 geographic_place(const Recording& recording, const Vec3& local) {
+  return recording.coordinates.geographic(local).value();
+}
+
+/// Returns a point in the order of RFC 7946.
+nlohmann::ordered_json geojson_point(const Recording& recording, const Vec3& local) {
+  const Vec3 place = geographic_place(recording, local);
+  nlohmann::ordered_json point{place.x, place.y};
+  if (!recording.is_plane) point.push_back(place.z);
+  return point;
+}
+
+std::string geojson_feature(const Approach& approach, const MapProperties& properties,
+                            const Recording& recording, bool is_first) {
+  nlohmann::ordered_json feature{{"type", "Feature"},
+                                 {"geometry",
+                                  {{"type", "MultiPoint"},
+                                   {"coordinates",
+                                    {geojson_point(recording, approach.closest.first),
+                                     geojson_point(recording, approach.closest.second)}}}},
+                                 {"properties", nlohmann::ordered_json::object()}};
+  for (const auto& [name, value] : properties) feature["properties"][std::string(name)] = json_value(value);
+  return (is_first ? "\n" : ",\n") + feature.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// Nine decimals of a degree are a tenth of a millimetre. XML's decimal numbers have no exponent.
+std::string degrees_text(double degrees) { return fmt::format("{:.9f}", degrees); }
+
+std::string gpx_point(const Approach& approach, const Recording& recording, bool is_second,
+                      const std::string& description) {
+  const std::string& first = recording.tracks[approach.first].id;
+  const std::string& second = recording.tracks[approach.second].id;
+  const Vec3 place =
+      geographic_place(recording, is_second ? approach.closest.second : approach.closest.first);
+  std::string text = fmt::format("<wpt lat=\"{}\" lon=\"{}\">", degrees_text(place.y), degrees_text(place.x));
+  if (!recording.is_plane) text += fmt::format("<ele>{:.4f}</ele>", place.z);
+  if (recording.times.kind() == TimeKind::utc)
+    text += fmt::format("<time>{}</time>", recording.times.text(approach.closest.time));
+  return text + fmt::format("<name>{}</name><desc>{}</desc></wpt>\n",
+                            xml_text(is_second ? second + " by " + first : first + " by " + second),
+                            description);
+}
+
+std::string gpx_feature(const Approach& approach, const MapProperties& properties,
+                        const Recording& recording) {
+  std::string description;
+  for (const auto& [name, value] : properties)
+    description +=
+        fmt::format("{}{}: {}", description.empty() ? "" : "; ", name, xml_text(plain_value(value)));
+  return gpx_point(approach, recording, false, description) +
+         gpx_point(approach, recording, true, description);
+}
+
+std::string kml_feature(const Approach& approach, const MapProperties& properties,
+                        const Recording& recording) {
+  std::string text = fmt::format(
+      "<Placemark><name>{}</name>",
+      xml_text(recording.tracks[approach.first].id + " by " + recording.tracks[approach.second].id));
+  if (recording.times.kind() == TimeKind::utc)
+    text += fmt::format("<TimeSpan><begin>{}</begin><end>{}</end></TimeSpan>",
+                        recording.times.text(approach.begin), recording.times.text(approach.end));
+  text += "<ExtendedData>";
+  for (const auto& [name, value] : properties)
+    text += fmt::format("<Data name=\"{}\"><value>{}</value></Data>", name, xml_text(plain_value(value)));
+  text += "</ExtendedData><MultiGeometry>";
+  const auto coordinates = [&](const Vec3& local) {
+    const Vec3 place = geographic_place(recording, local);
+    return fmt::format("{},{}{}", degrees_text(place.x), degrees_text(place.y),
+                       recording.is_plane ? "" : fmt::format(",{:.4f}", place.z));
+  };
+  const std::string first = coordinates(approach.closest.first);
+  const std::string second = coordinates(approach.closest.second);
+  const std::string_view mode = recording.is_plane ? "" : "<altitudeMode>absolute</altitudeMode>";
+  text += fmt::format(
+      "<Point>{0}<coordinates>{1}</coordinates></Point><Point>{0}<coordinates>{2}</coordinates></Point>"
+      "<LineString>{0}<coordinates>{1} {2}</coordinates></LineString>",
+      mode, first, second);
+  return text + "</MultiGeometry></Placemark>\n";
+}
+
+}  // namespace
+
+std::optional<MapFormat> map_format_of(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending == ".geojson") return MapFormat::geojson;
+  if (ending == ".gpx") return MapFormat::gpx;
+  if (ending == ".kml") return MapFormat::kml;
+  return std::nullopt;
+}
+
+std::string_view map_begin(MapFormat format) {
+  switch (format) {
+    case MapFormat::geojson:
+      return R"({"type": "FeatureCollection", "features": [)";
+    case MapFormat::gpx:
+      return R"(<?xml version="1.0" encoding="UTF-8"?>
+<gpx version="1.1" creator="kinesphere" xmlns="http://www.topografix.com/GPX/1/1">
+)";
+    case MapFormat::kml:
+      return R"(<?xml version="1.0" encoding="UTF-8"?>
+<kml xmlns="http://www.opengis.net/kml/2.2"><Document>
+)";
+  }
+  return "";
+}
+
+std::string_view map_end(MapFormat format) {
+  switch (format) {
+    case MapFormat::geojson:
+      return "\n]}\n";
+    case MapFormat::gpx:
+      return "</gpx>\n";
+    case MapFormat::kml:
+      return "</Document></kml>\n";
+  }
+  return "";
+}
+
+std::string map_feature(MapFormat format, const Approach& approach, const MapProperties& properties,
+                        const Recording& recording, bool is_first) {
+  switch (format) {
+    case MapFormat::geojson:
+      return geojson_feature(approach, properties, recording, is_first);
+    case MapFormat::gpx:
+      return gpx_feature(approach, properties, recording);
+    case MapFormat::kml:
+      return kml_feature(approach, properties, recording);
+  }
+  return "";
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,84 @@
+// How close counts as an approach: --distance or --separation.
+#include "tracks/closeness.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "columns/units.hpp"
+#include "number_text.hpp"
+#include "program_error.hpp"
+#include "separations.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+/// True if one of the lengths of "1000:300ft" has a unit.
+bool any_has_unit(std::string_view lengths) {
+  for (std::size_t begin = 0; begin < lengths.size();) {
+    const std::size_t end = std::min(lengths.find_first_of(": ", begin), lengths.size());
+    if (end > begin && !parse_number(lengths.substr(begin, end - begin))) return true;
+    begin = end + 1;
+  }
+  return false;
+}
+
+}  // namespace
+
+Closeness closeness_of(const std::string& distance_text, const std::string& separation_text) {
+  if (distance_text.empty() == separation_text.empty())
+    throw ProgramError("expected either --distance LENGTH or --separation cylinder:HORIZONTAL:VERTICAL");
+  if (!distance_text.empty()) {
+    const double distance = parse_measure(distance_text, Measure::length, "--distance");
+    if (distance > 0)
+      return {.distance = distance,
+              .vertical = {},
+              .has_unit = !parse_number(distance_text),
+              .option = "--distance",
+              .given = distance_text,
+              .text = fmt::format("below {}", distance)};
+    throw ProgramError(fmt::format("--distance: expected a distance > 0, but got '{}'", distance_text));
+  }
+  const NamedSeparation named = parse_separation(separation_text);
+  const Separation& separation = named.separation;
+  const std::string_view lengths = std::string_view(named.name).substr(named.name.find_first_of(": ") + 1);
+  Closeness closeness{.distance = separation.horizontal,
+                      .vertical = {},
+                      .has_unit = any_has_unit(lengths),
+                      .option = "--separation",
+                      .given = named.name,
+                      .text = fmt::format("below {}", separation.horizontal)};
+  if (named.name.starts_with("sphere")) return closeness;
+  if (named.name.starts_with("cylinder")) {
+    closeness.vertical = separation.vertical;
+    closeness.text = "within " + named.name;
+    return closeness;
+  }
+  throw ProgramError(fmt::format(
+      "--separation: expected sphere:RADIUS or cylinder:HORIZONTAL:VERTICAL, but got '{}'", named.name));
+}
+
+void check_closeness(const Closeness& closeness, const Recording& recording) {
+  if (closeness.vertical && recording.has_sizes)
+    throw ProgramError("--sizes: expected --distance or a sphere, because a cylinder is about points");
+  if (closeness.has_unit && !recording.in_metres)
+    throw ProgramError(
+        fmt::format("{}: expected numbers without a unit, because the unit of lengths is not known, but got "
+                    "'{}': say --unit",
+                    closeness.option, closeness.given));
+  if (closeness.vertical && !recording.has_heights)
+    throw ProgramError(
+        "--separation: expected a column of heights (z or alt) for a cylinder, but there is none");
+}
+
+TrackOptions reading_for(const Closeness& closeness, TrackOptions reading) {
+  if (!closeness.vertical) return reading;
+  if (reading.projection == ProjectionChoice::earth)
+    throw ProgramError(
+        "--projection: expected plane with a cylinder, because z is not vertical in the earth's space");
+  if (reading.projection == ProjectionChoice::automatic) reading.projection = ProjectionChoice::ground;
+  return reading;
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,76 @@
+// A table of all local minima of distance.
+#include "tracks/minima_table.hpp"
+
+#include "tracks/own_frame.hpp"
+#include "tracks/recording_cells.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+/// Adds a vector's components in the frame of a body; those that the frame does not have are empty.
+void add_in_frame(std::vector<Cell>& cells, const Vec3& vector, const std::optional<OwnFrame>& frame,
+                  bool is_plane) {
+  const auto component = [&](const std::optional<Vec3>& axis) {
+    return axis ? Cell(dot(vector, *axis)) : Cell();
+  };
+  if (!frame) {
+    cells.insert(cells.end(), 3, Cell());
+    return;
+  }
+  cells.push_back(component(frame->along));
+  cells.push_back(component(frame->right));
+  cells.push_back(is_plane ? Cell() : component(frame->up));
+}
+
+std::vector<Cell> minimum_row(const DistanceMinimum& minimum, const Approach& approach,
+                              const Recording& recording) {
+  const ClosestApproach& closest = minimum.closest;
+  std::vector<Cell> cells{std::uint64_t{minimum.approach + 1},
+                          time_cell(recording.times, closest.time),
+                          recording.tracks[approach.first].id,
+                          recording.tracks[approach.second].id,
+                          closest.distance,
+                          closest.relative_speed,
+                          minimum.is_cut_off};
+  add_position(cells, closest.first, recording);
+  add_position(cells, closest.second, recording);
+  const Vec3 way = closest.second - closest.first;
+  const Vec3 velocity = minimum.second_velocity - minimum.first_velocity;
+  const Axes axes = recording.coordinates.axes_at(closest.first);
+  add_components(cells, axes.components(way), recording);
+  add_components(cells, axes.components(velocity), recording);
+  const auto add_view = [&](const Vec3& own_velocity, const Vec3& place, double sign) {
+    const Vec3 vertical = recording.coordinates.axes_at(place).z;
+    const auto frame = own_frame(own_velocity, vertical, closest.relative_speed);
+    add_in_frame(cells, sign * way, frame, recording.is_plane);
+    add_in_frame(cells, sign * velocity, frame, recording.is_plane);
+  };
+  add_view(minimum.first_velocity, closest.first, 1.0);
+  add_view(minimum.second_velocity, closest.second, -1.0);
+  return cells;
+}
+
+}  // namespace
+
+std::vector<std::string> minima_columns() {
+  std::vector<std::string> columns{"approach", "time",           "first",  "second",
+                                   "distance", "relative_speed", "cut_off"};
+  const auto add = [&](const std::string& prefix, const std::vector<std::string>& names) {
+    for (const std::string& name : names) columns.push_back(prefix + name);
+  };
+  add("first_", {"x", "y", "z"});
+  add("second_", {"x", "y", "z"});
+  add("relative_", {"x", "y", "z", "vx", "vy", "vz"});
+  const std::vector<std::string> view{"along", "right", "up", "v_along", "v_right", "v_up"};
+  add("from_first_", view);
+  add("from_second_", view);
+  return columns;
+}
+
+void write_minima(TableFile& table, const std::vector<DistanceMinimum>& minima,
+                  const std::vector<Approach>& approaches, const Recording& recording) {
+  for (const DistanceMinimum& minimum : minima)
+    table.write(minimum_row(minimum, approaches[minimum.approach], recording));
+}
+
+}  // namespace kinesphere::program

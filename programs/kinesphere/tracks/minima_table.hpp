@@ -1,0 +1,19 @@
+// A table of all local minima of distance (--minima).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "simulation/tracks/approaches.hpp"
+#include "table_file.hpp"
+#include "tracks/recording.hpp"
+
+namespace kinesphere::program {
+
+/// Returns the columns: when, who, how far, where, relative position and velocity, and both as each of the
+/// two sees them (own_frame.hpp).
+std::vector<std::string> minima_columns();
+void write_minima(TableFile& table, const std::vector<DistanceMinimum>& minima,
+                  const std::vector<Approach>& approaches, const Recording& recording);
+
+}  // namespace kinesphere::program
