@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "columns/degree_check.hpp"
 #include "columns/presets.hpp"
 #include "columns/row_reader.hpp"
 #include "program_error.hpp"
@@ -48,10 +49,15 @@ class CsvFormat final : public ReportFormat {
     throw ProgramError(fmt::format("{}:{}: {}", head_.head().file, record.line, question.what()));
   }
 
+  /// A short stream is asked about at its end.
+  void finish(ReportSink& /*sink*/) override { ask_about_degrees(); }
+
   nlohmann::json save() const override { return lines_; }
   void restore(const nlohmann::json& state) override {
     for (const std::string line : state) is_first_row(line);
     has_handed_over_ = reader_.has_value();
+    // The earlier run has asked.
+    if (reader_) unchecked_ = 0;
   }
 
  private:
@@ -131,7 +137,24 @@ class CsvFormat final : public ReportFormat {
     report.climb_error = error(Quantity::climb_error);
     report.stamp_error = number(Quantity::stamp_error);
     has_handed_over_ = true;
+    if (unchecked_ > 0) check_degrees(*position);
     sink.take(report);
+  }
+
+  /// Gathers the first positions, and asks before the last of them is taken.
+  void check_degrees(const Vec3& position) {
+    degree_check_.add(position.x, position.y);
+    if (--unchecked_ == 0) ask_about_degrees();
+  }
+  /// Asks about lengths that may be degrees.
+  void ask_about_degrees() const {
+    if (!reader_) return;
+    const TableColumns& columns = reader_->columns();
+    const std::string suspicion = degree_check_.suspicion();
+    if (columns.positions_said || columns.x().has_unit || suspicion.empty()) return;
+    throw UnusableStream(fmt::format(
+        "{}: say --from lonlat if they are longitude and latitude, or --from plane if they are lengths",
+        suspicion));
   }
 
   void read_velocity(SourceReport& report) {
@@ -156,6 +179,10 @@ class CsvFormat final : public ReportFormat {
   std::optional<RowReader> reader_;  ///< empty before the first row of values
   bool has_handed_over_ = false;
   std::size_t columns_needed_ = 0;
+  /// Positions that are still to be checked. More would delay the question; fewer would ask about more rooms,
+  /// of which they show a small part.
+  int unchecked_ = 20;
+  DegreeCheck degree_check_;
   RowSplitter row_;
   std::vector<std::string_view> fields_;
 };

@@ -152,6 +152,7 @@ GivenOptions given_options(const WatchOptions& options) {
       given.end(),
       {{"--columns", choices.hints.columns},
        {"--where", choices.hints.where},
+       {"--from", choices.hints.from},
        {"--dates", fmt::to_string(static_cast<int>(choices.hints.dates))},
        {"--dimensions", options.dimensions ? fmt::to_string(*options.dimensions) : ""},
        {"--acceleration", options.acceleration},
