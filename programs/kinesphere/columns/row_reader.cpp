@@ -27,6 +27,14 @@ bool is_one_of(std::string_view value, std::string_view words) {
   return false;
 }
 
+/// True for YYYYMMDDhhmmss of the years 1900 to 2199.
+bool is_packed_date(std::int64_t number) {
+  const std::int64_t clock = number % 1'000'000, date = number / 1'000'000;
+  return clock < 240'000 && clock / 100 % 100 < 60 && clock % 100 < 60 && date / 10'000 >= 1900 &&
+         date / 10'000 < 2200 && date / 100 % 100 >= 1 && date / 100 % 100 <= 12 && date % 100 >= 1 &&
+         date % 100 <= 31;
+}
+
 }  // namespace
 
 RowReader::RowReader(const TableHead& head, TableColumns columns)
@@ -160,6 +168,9 @@ std::optional<TimeField> RowReader::time(Quantity quantity) {
 /// of our time as milliseconds since 1970 is that.
 void RowReader::check_size(const FileTime& time) {
   if (std::abs(time.whole) <= last_likely_second) return;
+  if (is_packed_date(time.whole))
+    throw OpenQuestion(wrong_text(columns_[Quantity::time]->place, "a time") +
+                       ", which may be a date without separators: these are read as 20240131T123015");
   constexpr std::int64_t year_1990 = 631'152'000'000, year_2100 = 4'102'444'800'000;
   if (!columns_.geographic || has_time_ || time.whole < year_1990 || time.whole > year_2100)
     throw OpenQuestion(wrong_text(columns_[Quantity::time]->place, "seconds as time") + ": say " +

@@ -480,7 +480,8 @@ std::vector<Quantity> measured(const TableColumns& columns) {
 }
 
 /// Gives a unit to lengths and speeds without one. Asks where only some have one.
-void understand_lengths(const TableHead& head, const ColumnHints& hints, TableColumns& columns) {
+void understand_lengths(const TableHead& head, const ColumnHints& hints, ColumnUse use,
+                        TableColumns& columns) {
   const bool unit_is_said = !hints.unit.empty() && hints.unit != "deg";
   const double said =
       unit_is_said && hints.unit != "nm" ? unit_named(hints.unit, Measure::length).value_or(0.0) : 0.0;
@@ -513,11 +514,11 @@ void understand_lengths(const TableHead& head, const ColumnHints& hints, TableCo
   const bool zone = hints.from.starts_with("utm");
   columns.in_metres = columns.geographic || zone || with.has_value();
   if (columns.geographic || !with || !without) return;
-  throw ProgramError(fmt::format("{}: {} does not say its unit, but {} does: say {}={}:UNIT with --columns{}",
-                                 head.file, column_text(head, columns[*without]->place),
-                                 column_text(head, columns[*with]->place), key_of(*without),
-                                 column_word(head, columns[*without]->place),
-                                 measure_of(*without) == Measure::length ? ", or --unit" : ""));
+  throw ProgramError(fmt::format(
+      "{}: {} does not say its unit, but {} does: say {}={}:UNIT with --columns{}", head.file,
+      column_text(head, columns[*without]->place), column_text(head, columns[*with]->place), key_of(*without),
+      column_word(head, columns[*without]->place),
+      use == ColumnUse::positions && measure_of(*without) == Measure::length ? ", or --unit" : ""));
 }
 
 // Times.
@@ -625,7 +626,7 @@ TableColumns find_columns(const TableHead& head, const ColumnHints& hints, Colum
   require_columns(head, hints, columns);
   if (hints.columns.empty() && !columns.has_own_heights) ask_for_heights(head, columns);
   if (columns.format == "table") ask_for_fractions(head, columns);
-  understand_lengths(head, hints, columns);
+  understand_lengths(head, hints, use, columns);
   understand_time(head, use, columns);
   apply_time_hints(hints, columns);
   if (hints.dates != DateOrder::unknown) columns.dates = hints.dates;

@@ -105,6 +105,26 @@ void ask_about_row_numbers(const RawRecording& raw) {
       head.text()));
 }
 
+/// Asks about numbers that are all clock times, as 101530 is 10:15:30.
+void ask_about_clock_times(const RawRecording& raw) {
+  if (raw.columns().time_unit_said || raw.time_scale().kind() != TimeKind::number) return;
+  bool is_clock = true, has_seconds = false;
+  std::int64_t least = 240'000, largest = 0;
+  for_each_sample(raw, [&](const RawSample& sample) {
+    const std::int64_t time = sample.time.whole;
+    is_clock = is_clock && time >= 0 && time < 240'000 && time % 100 < 60 && time / 100 % 100 < 60;
+    has_seconds = has_seconds || time % 100 != 0;
+    least = std::min(least, time);
+    largest = std::max(largest, time);
+  });
+  // Seconds that last longer have 60 to 99 as last digits, too.
+  if (!is_clock || !has_seconds || largest < 10'000 || largest - least < 100) return;
+  throw ProgramError(fmt::format(
+      "{}: the times {} to {} may be those of a clock (hhmmss): write them as in 2024-01-31T12:30:15, "
+      "or say --time-unit s if they are seconds",
+      raw.head().file, least, largest));
+}
+
 /// The pieces of one id, before they are split at gaps.
 struct Body {
   std::string id;
@@ -214,9 +234,13 @@ Recording parse_tracks(std::vector<NamedText> texts, const TrackOptions& options
     raw.read(std::move(text.text), text.file);
   }
   ask_about_row_numbers(raw);
+  ask_about_clock_times(raw);
   raw.ask_about_scenes();
   Recording recording = Reading(raw, options).run();
   if (recording.tracks.empty()) {
+    if (recording.rows > 0 && recording.filtered.count == recording.rows)
+      throw ProgramError(fmt::format("{}: expected rows for which this holds: {}; but there are none",
+                                     fmt::join(files, ", "), recording.filter));
     if (const auto time = only_time(raw))
       throw ProgramError(fmt::format("{}: expected samples at two times or more, but all are at {}",
                                      fmt::join(files, ", "),

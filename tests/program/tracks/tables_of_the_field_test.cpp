@@ -262,6 +262,9 @@ TEST_F(TablesOfTheField, RowsThatMeanNothingBecomeNoTracks) {
       "id,t,x,y,lost\nu,0,0,0,0\nu,1,0,0,0\nv,0,5,0,0\nv,1,5,0,0\nv,2,0,0,1\nu,2,0,0,0\n";
   EXPECT_NE(approaches(flagged, "--distance 1").find("--where 'lost != 1'"), std::string::npos);
   EXPECT_EQ(approaches(flagged, "--distance 1 --where 'lost != 1'"), "0");
+  EXPECT_NE(
+      approaches(flagged, "--distance 1 --where 'lost = 2'").find("rows for which this holds: lost = 2; but"),
+      std::string::npos);
   EXPECT_EQ(approaches(flagged, "--distance 1 --interpolate linear --where 'lost != none'"), "1");
   EXPECT_NE(approaches("id,t,x,y\nu,0,0,0\nu,1,0,0\nNone,0,0,0\nNone,1,0,0\n", "--distance 1")
                 .find(":4: the id None is that of nobody in most files: leave its rows out with --where 'id "
@@ -316,6 +319,20 @@ TEST_F(TablesOfTheField, NumbersAndTimesOfOtherHabits) {
       "0");
   EXPECT_NE(approaches("id,t,x,y\n,s,(furlong),m\nu,0,0,0\n", "--distance 1")
                 .find("'furlong', which is no known unit"),
+            std::string::npos);
+}
+
+TEST_F(TablesOfTheField, ClockTimesAreNoSeconds) {
+  const std::string clock =
+      "id,utc,x,y\nu,101530,0,0\nu,101600,0,0\nu,101630,0,0\nv,101530.5,0,0\nv,101600.5,0,0\n";
+  EXPECT_NE(approaches(clock, "--distance 1")
+                .find("the times 101530 to 101630 may be those of a clock (hhmmss): write them as in "
+                      "2024-01-31T12:30:15, or say --time-unit s"),
+            std::string::npos);
+  EXPECT_EQ(approaches(clock, "--distance 1 --time-unit s"), "1");
+  EXPECT_EQ(approaches("id,t,x,y\nu,101530,0,0\nu,101660,0,0\nv,101530,0,0\nv,101660,0,0\n", "--distance 1"),
+            "1");
+  EXPECT_NE(approaches("id,t,x,y\nu,20240131101530,0,0\n", "--distance 1").find("read as 20240131T123015"),
             std::string::npos);
 }
 
