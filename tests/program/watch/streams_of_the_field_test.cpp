@@ -183,12 +183,16 @@ TEST_F(StreamsOfTheField, TablesMeanWhatTheySay) {
   EXPECT_EQ(summary_["filtered"], 1);
   EXPECT_EQ(verdicts("id;time;x;y\nu;0,5;0;0\nv;0,5;0,25;0\n", promises).substr(0, 7), "within ");
   EXPECT_EQ(verdicts("# id,time,x,y\nu,0,0,0\nv,0,3,0\n", promises).substr(0, 7), "within ");
+  // Rows that end before the last body's column are malformed.
+  EXPECT_EQ(verdicts("time,x1,y1,z1,x2,y2,z2\n0,0,0,0,3,0,0\n1,0,0,0,3,0\n", promises).substr(0, 7),
+            "within ");
+  EXPECT_EQ(summary_["malformed"], 1);
   expect_refused(std::string("\xFF\xFEi\0d\0,\0", 8), promises, {"UTF-16"});
   expect_refused("<?xml version=\"1.0\"?><gpx></gpx>", promises, {"GPX"});
   expect_refused("{\"id\":\"a\",\"time\":0,\"x\":0,\"y\":0}\n", promises, {"JSON"});
 }
 
-TEST_F(StreamsOfTheField, DegreesAreNoLengths) {
+TEST_F(StreamsOfTheField, DegreesAreNoLengthsAndRowNumbersNoIds) {
   // Two animals 55 km apart.
   const std::string animals = "id,time,X,Y\nu,0,8.01,47.00\nv,0,8.01,47.05\nu,1,8.02,47.00\nv,1,8.02,47.05\n";
   const ProgramRun asked = run("watch " + write("stream", animals) + promises);
@@ -203,6 +207,13 @@ TEST_F(StreamsOfTheField, DegreesAreNoLengths) {
   expect_refused(animals, promises + "--from utm:33N", {"--from: expected lonlat or plane"});
   expect_refused(head_on("aircraft", 0.0, R"("gs":450)", R"("gs":450)"), cylinder + " --from plane",
                  {"--from: expected a table"});
+  // Ids that are numbers of rows; three bodies may be so called at one time.
+  const std::string rows = "id,time,x,y\n1,0,0,0\n2,0,9,0\n3,{},0,0\n";
+  const ProgramRun numbered = run("watch " + write("stream", fmt::format(fmt::runtime(rows), 1)) + promises);
+  EXPECT_NE(numbered.err.find("each row has an id of its own in column 1"), std::string::npos)
+      << numbered.err;
+  verdicts(fmt::format(fmt::runtime(rows), 1), promises + "--where 'id != none'");
+  verdicts(fmt::format(fmt::runtime(rows), 0), promises);
   // A stream is asked about before it ends.
   std::string stream = "id,time,X,Y\n";
   for (int k = 0; k < 30; ++k) stream += fmt::format("u,{},8.{:03},47\n", k, k);
