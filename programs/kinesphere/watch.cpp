@@ -62,6 +62,9 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
                    "id=...,time=...,lat=...,alt=NAME:ft")
       ->type_name("LIST");
   add_row_options(*command, options.choices.hints, "Reading");
+  command->add_option("--positions", options.choices.hints.positions, "Of csv: what x and y are")
+      ->type_name("plane|lonlat")
+      ->group("Reading");
   command->add_option("--dimensions", options.dimensions, "2 or 3; else as the format has heights or not")
       ->check(CLI::Range(2, 3));
   const auto measure = [command](const std::string& name, std::string& value, const std::string& description,

@@ -60,6 +60,7 @@ from .events import Events
 from .ids import BodyId, index_of
 from .kinds import EventKind, Senses, Wall
 from .recordings import RecordedRun, read_recording
+from .track_files import tracks_in
 
 __all__ = [
     "Approaches",
@@ -113,5 +114,6 @@ __all__ = [
     "scene_names",
     "settle",
     "tracks",
+    "tracks_in",
     "zone_class",
 ]

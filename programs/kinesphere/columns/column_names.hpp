@@ -60,10 +60,18 @@ std::optional<ColumnMeaning> meaning_of(std::string_view column_name);
 /// Returns the unit of this measure at the end of a name such as east_cm or "up [ft]"; empty if there is
 /// none.
 std::string_view unit_in_name(std::string_view column_name, Measure measure);
-/// True for a name that has a word for heights: geoaltitude, z_raw, elev.
+/// True for a name that has a word for heights: geoaltitude, z_raw, altGeom, floor.
 bool looks_like_height(std::string_view column_name);
+/// True for a column that may have the fractions of a time in whole seconds: nanosec, header.stamp.nsecs.
+bool is_fraction_of_time(std::string_view column_name);
+/// True for a name that has a word for longitudes or latitudes, as `angle` says: geo_lon, X_WGS84.
+bool looks_like_angle(std::string_view column_name, Quantity angle);
 /// Returns the values with which a column says that its row means nothing, such as "true 1" of `lost`; empty
 /// for other columns.
 std::string_view void_values_of(std::string_view column_name);
+/// True for a column that says to which scene, trial or match a row belongs: scene_id, case, gameId.
+bool is_scene(std::string_view column_name);
+/// True for an id that is nobody in most files: missing, negative, unknown, noise; 0 for MMSI and ICAO 24.
+bool is_nobody(std::string_view column_name, std::string_view id);
 
 }  // namespace kinesphere::program

@@ -26,8 +26,9 @@ std::optional<double> number_field(std::string_view text, bool decimal_comma) {
 }
 
 bool is_missing(std::string_view field) {
-  constexpr std::string_view names[] = {"",         "nan",       "-nan", "inf", "-inf", "+inf",
-                                        "infinity", "-infinity", "na",   "n/a", "null", "none"};
+  constexpr std::string_view names[] = {"",          "nan",  "-nan", "inf",  "-inf", "+inf", "infinity",
+                                        "-infinity", "na",   "n/a",  "#n/a", "<na>", "nat",  "null",
+                                        "nil",       "none", "\\N",  "-",    "--",   "?"};
   return std::any_of(std::begin(names), std::end(names),
                      [field](std::string_view name) { return same_name(field, name); });
 }

@@ -15,7 +15,8 @@ std::string_view with_decimal_point(std::string_view text, std::string& buffer);
 /// True for a table whose numbers may have decimal commas: one with this separator.
 constexpr bool has_decimal_commas(char separator) { return separator == ';' || separator == '\t'; }
 
-/// True for what stands for no value: nothing, NaN, inf, NA, N/A, null, none, in any case.
+/// True for what stands for no value: nothing, NaN, NaT, inf, NA, N/A, #N/A, <NA>, null, nil, none, \N, -, --
+/// and ?, in any case.
 bool is_missing(std::string_view field);
 /// Returns the field on one line and shortened, for messages: in quotes, or the word nothing.
 std::string shown_field(std::string_view field);

@@ -24,6 +24,7 @@ struct Preset {
   std::string_view where{};  ///< rows that count
   TableColumns::Film film = TableColumns::Film::none;
   std::size_t least_columns = 0;  ///< of a table without a header
+  bool has_own_heights = false;   ///< its heights are those of the bodies themselves, not of their places
 };
 
 /// Returns the preset of --format; null for another name.

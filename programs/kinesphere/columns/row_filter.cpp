@@ -183,4 +183,12 @@ bool RowFilter::mentions(std::size_t column) const {
   return std::find(mentioned_.begin(), mentioned_.end(), column) != mentioned_.end();
 }
 
+std::string name_in_filter(const std::string& text) {
+  const bool is_word = !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+    return (lower_case(c) >= 'a' && lower_case(c) <= 'z') || (c >= '0' && c <= '9') ||
+           std::string_view("_-.:/").find(c) != std::string_view::npos;
+  });
+  return is_word ? text : fmt::format("\"{}\"", text);
+}
+
 }  // namespace kinesphere::program

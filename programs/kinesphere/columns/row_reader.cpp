@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <utility>
@@ -26,13 +27,12 @@ bool is_one_of(std::string_view value, std::string_view words) {
   return false;
 }
 
-/// Returns the name as --where takes it: in quotes where it has other signs than those of a word.
-std::string word_of(const std::string& name) {
-  const bool is_word = std::all_of(name.begin(), name.end(), [](char c) {
-    return (lower_case(c) >= 'a' && lower_case(c) <= 'z') || (c >= '0' && c <= '9') ||
-           std::string_view("_-.:/").find(c) != std::string_view::npos;
-  });
-  return is_word ? name : fmt::format("\"{}\"", name);
+/// True for YYYYMMDDhhmmss of the years 1900 to 2199.
+bool is_packed_date(std::int64_t number) {
+  const std::int64_t clock = number % 1'000'000, date = number / 1'000'000;
+  return clock < 240'000 && clock / 100 % 100 < 60 && clock % 100 < 60 && date / 10'000 >= 1900 &&
+         date / 10'000 < 2200 && date / 100 % 100 >= 1 && date / 100 % 100 <= 12 && date % 100 >= 1 &&
+         date % 100 <= 31;
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ void RowReader::set_row(const std::vector<std::string_view>& fields) {
 void RowReader::check_void_columns() const {
   for (const auto& [place, values] : void_columns_) {
     if (place >= fields_->size() || !is_one_of(field(place), values)) continue;
-    const std::string name = word_of(head_.names[place]);
+    const std::string name = name_in_filter(head_.names[place]);
     throw OpenQuestion(
         fmt::format("'{}' as {} may mean that there is no such position: leave such rows out with --where "
                     "'{} != {}', or keep "
@@ -90,6 +90,7 @@ void RowReader::set_body(std::size_t body) {
   if (columns_.bodies.empty()) return;
   columns_[Quantity::x]->place = columns_.bodies[body].x;
   columns_[Quantity::y]->place = columns_.bodies[body].y;
+  if (const auto& z = columns_.bodies[body].z) columns_[Quantity::z]->place = *z;
 }
 
 std::string_view RowReader::id() {
@@ -97,19 +98,42 @@ std::string_view RowReader::id() {
   if (columns_.id_is_file) return file_id_;
   const std::size_t column = columns_[Quantity::id]->place;
   const std::string_view text = field(column);
-  if (text.empty()) throw WrongInput(wrong_text(column, "an id"));
   const auto number = text.find('.') != std::string_view::npos ? parse_number(text) : std::nullopt;
   const bool whole = number && std::floor(*number) == *number && std::abs(*number) < 1e15;
   if (whole) id_ = fmt::format("{}", static_cast<long long>(*number));
   const std::string_view id = whole ? std::string_view(id_) : text;
-  if ((id == "-1" || is_missing(id)) && !filter_.mentions(column)) {
-    const std::string name = head_.names.empty() ? "id" : word_of(head_.names[column]);
+  if (text.empty())
+    throw WrongInput(fmt::format("{} (--where '{} != \"\"' leaves such rows out)",
+                                 wrong_text(column, "an id"), where_name(Quantity::id)));
+  if (is_nobody(head_.names.empty() ? "" : head_.names[column], id) && !filter_.mentions(column)) {
+    const std::string name = where_name(Quantity::id);
     throw OpenQuestion(fmt::format(
-        "the id {} is that of nobody in most files: leave its rows out with --where '{} != {}', or keep "
-        "them with --where '{} != \"\"'",
-        id, name, id, name));
+        "the id {0} is that of nobody in most files: leave its rows out with --where '{1} != {2}', or keep "
+        "them with --where '{1} != \"\"'",
+        id, name, name_in_filter(std::string(id))));
   }
   return id;
+}
+
+/// Returns the column's name as --where takes it.
+std::string RowReader::where_name(Quantity quantity) const {
+  return head_.names.empty() ? std::string(key_of(quantity))
+                             : name_in_filter(head_.names[columns_[quantity]->place]);
+}
+
+/// Asks about numbers that stand for no position: 0 and 0 as degrees, and -999, 9999 and the like.
+void RowReader::check_place(double x, double y) const {
+  if (x != y) return;
+  constexpr double none[] = {-999.0, -9999.0, -99999.0, -999999.0, 9999.0, 99999.0, 999999.0};
+  const bool is_none =
+      columns_.geographic ? x == 0.0 : std::find(std::begin(none), std::end(none), x) != std::end(none);
+  const Quantity along = columns_.geographic ? Quantity::longitude : Quantity::x;
+  const Quantity across = columns_.geographic ? Quantity::latitude : Quantity::y;
+  if (!is_none || filter_.mentions(columns_[along]->place)) return;
+  throw OpenQuestion(
+      fmt::format("{0} as {1} and {2} is no position in most files: leave such rows out with --where '{3} != "
+                  "{0} or {4} != {0}', or keep them with --where '{3} != none'",
+                  x, name_of(along), name_of(across), where_name(along), where_name(across)));
 }
 
 std::optional<TimeField> RowReader::time(Quantity quantity) {
@@ -144,6 +168,9 @@ std::optional<TimeField> RowReader::time(Quantity quantity) {
 /// of our time as milliseconds since 1970 is that.
 void RowReader::check_size(const FileTime& time) {
   if (std::abs(time.whole) <= last_likely_second) return;
+  if (is_packed_date(time.whole))
+    throw OpenQuestion(wrong_text(columns_[Quantity::time]->place, "a time") +
+                       ", which may be a date without separators: these are read as 20240131T123015");
   constexpr std::int64_t year_1990 = 631'152'000'000, year_2100 = 4'102'444'800'000;
   if (!columns_.geographic || has_time_ || time.whole < year_1990 || time.whole > year_2100)
     throw OpenQuestion(wrong_text(columns_[Quantity::time]->place, "seconds as time") + ": say " +
@@ -171,6 +198,7 @@ std::optional<Vec3> RowReader::position() {
   const auto x = number(along), y = number(across), z = number(Quantity::z);
   has_height_ = z.has_value();
   if (!x || !y) return std::nullopt;
+  check_place(*x, *y);
   if (geographic) {
     const double longitude = *x * columns_.x().unit, latitude = *y * columns_.y().unit;
     if (longitude == 181.0 || latitude == 91.0) {

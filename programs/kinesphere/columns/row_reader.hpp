@@ -77,6 +77,8 @@ class RowReader {
   std::string_view field(std::size_t column) const { return (*fields_)[column]; }
   std::string_view name_of(Quantity quantity) const;
   void check_size(const FileTime& time);
+  void check_place(double x, double y) const;
+  std::string where_name(Quantity quantity) const;
 
   const TableHead& head_;
   TableColumns columns_;

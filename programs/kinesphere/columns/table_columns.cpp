@@ -228,6 +228,7 @@ TableColumns preset_columns(const TableHead& head, const Preset& preset) {
                                    head.file, preset.least_columns, preset.name, head.text()));
   TableColumns columns = SaidColumns(head, preset.columns, &preset).read();
   columns.format = preset.title;
+  columns.has_own_heights = preset.has_own_heights;
   columns.film = preset.film;
   columns.dates = preset.dates;
   columns.where = preset.where;
@@ -290,37 +291,83 @@ class UsualColumns {
   std::array<std::vector<std::size_t>, quantity_count> places_;
 };
 
-/// Finds a pair of columns for each body: x1, y1, x2, y2, as idtracker.ai writes them.
-void find_pairs(const TableHead& head, TableColumns& columns) {
+/// Finds a pair of columns for each body: x1, y1, x2, y2, as idtracker.ai writes them; or three, with z.
+void find_pairs(const TableHead& head, const ColumnHints& hints, TableColumns& columns) {
   if (columns[Quantity::id] || columns[Quantity::x] || columns[Quantity::longitude]) return;
   const auto place_of_plain = [&](const std::string& name) -> std::optional<std::size_t> {
     for (std::size_t place = 0; place < head.names.size(); ++place)
       if (plain_name(head.names[place]) == name) return place;
     return std::nullopt;
   };
+  std::size_t heights = 0;
   for (std::size_t number = 0; number <= head.names.size(); ++number) {
     const auto x = place_of_plain(fmt::format("x{}", number)), y = place_of_plain(fmt::format("y{}", number));
-    if (x && y) columns.bodies.push_back({fmt::format("{}", number), *x, *y});
+    if (!x || !y) continue;
+    const auto z = place_of_plain(fmt::format("z{}", number));
+    heights += z ? 1 : 0;
+    columns.bodies.push_back({fmt::format("{}", number), *x, *y, z});
   }
-  if (columns.bodies.empty()) return;
-  columns.format = fmt::format("{} pairs of columns", columns.bodies.size());
-  columns[Quantity::x] = Column{.place = columns.bodies.front().x};
-  columns[Quantity::y] = Column{.place = columns.bodies.front().y};
+  auto& bodies = columns.bodies;
+  if (bodies.empty()) return;
+  if (heights != 0 && heights != bodies.size())
+    throw ProgramError(fmt::format("{}: expected a z for each pair of x and y or for none; it has {}",
+                                   head.file, head.text()));
+  // Of the bodies, as x1 is, or the time.
+  const auto is_usual = [&](const std::string& name) {
+    const auto meaning = meaning_of(name);
+    return name.ends_with('1') || name.ends_with('2') ||
+           (meaning && (meaning->quantity == Quantity::time || meaning->quantity == Quantity::frame));
+  };
+  if (bodies.size() == 2 && heights == 0 && hints.format != "table" &&
+      !std::all_of(head.names.begin(), head.names.end(), is_usual))
+    throw ProgramError(fmt::format(
+        "{}: {}, {}, {} and {} may be two bodies or the corners of boxes: say --format table if they are two "
+        "bodies, else say the columns with --columns",
+        head.file, head.names[bodies[0].x], head.names[bodies[0].y], head.names[bodies[1].x],
+        head.names[bodies[1].y]));
+  columns.format = fmt::format("{} {} of columns", bodies.size(), heights == 0 ? "pairs" : "triples");
+  columns[Quantity::x] = Column{.place = bodies.front().x};
+  columns[Quantity::y] = Column{.place = bodies.front().y};
+  if (bodies.front().z) columns[Quantity::z] = Column{.place = *bodies.front().z};
+}
+
+/// Asks about a second column of the time, as ROS has them.
+void ask_for_fractions(const TableHead& head, const TableColumns& columns) {
+  const auto& time = columns[Quantity::time];
+  if (!time) return;
+  for (std::size_t place = 0; place < head.names.size(); ++place)
+    if (place != time->place && is_fraction_of_time(head.names[place]))
+      throw ProgramError(fmt::format(
+          "{}: {} may have the fractions of {}: write both as one column of times, or say --columns {} to "
+          "use "
+          "whole seconds",
+          head.file, column_text(head, place), column_text(head, time->place), columns_text(head, columns)));
+}
+
+/// True where a column of widths has the same name: height and width, bb_h and bb_w.
+bool is_height_of_box(const TableHead& head, std::string_view name) {
+  const std::string plain = plain_name(name);
+  return std::any_of(head.names.begin(), head.names.end(), [&](const std::string& other) {
+    std::string width = plain_name(other);
+    if (const std::size_t at = width.find("width"); at != std::string::npos) {
+      width.replace(at, 5, "height");
+    } else if (width.ends_with('w')) {
+      width.back() = 'h';
+    }
+    return width == plain && plain_name(other) != plain;
+  });
 }
 
 /// Asks about a column that may be a height, where no column is known to be one.
 void ask_for_heights(const TableHead& head, const TableColumns& columns) {
   if (columns.z()) return;
-  const auto has = [&](std::string_view name) { return column_named(head, name).has_value(); };
   std::vector<std::string> heights;
   std::size_t first = 0;
   for (std::size_t place = 0; place < head.names.size(); ++place) {
     const std::string& name = head.names[place];
     const bool is_known = std::any_of(columns.of.begin(), columns.of.end(),
                                       [&](const auto& column) { return column && column->place == place; });
-    // Width and height are those of a box.
-    const bool is_of_box = same_name(name, "height") && has("width");
-    if (is_known || is_of_box || !looks_like_height(name)) continue;
+    if (is_known || is_height_of_box(head, name) || !looks_like_height(name)) continue;
     if (heights.empty()) first = place;
     heights.push_back(fmt::format("'{}'", name));
   }
@@ -366,7 +413,7 @@ TableColumns recognised(const TableHead& head, const ColumnHints& hints, ColumnU
     if (use == ColumnUse::positions && looks_like_obsmat(head)) return unlabelled_obsmat(head);
   }
   TableColumns columns = UsualColumns(head, hints, use).found();
-  find_pairs(head, columns);
+  find_pairs(head, hints, columns);
   return columns;
 }
 
@@ -378,7 +425,9 @@ void understand_places(const TableHead& head, const ColumnHints& hints, TableCol
   auto &lon = columns[Quantity::longitude], &lat = columns[Quantity::latitude];
   const auto is_angle = [&](const std::optional<Column>& column, Quantity angle) {
     if (!column || head.names.empty()) return false;
-    const auto meaning = meaning_of(head.names[column->place]);
+    const std::string& name = head.names[column->place];
+    if (looks_like_angle(name, angle)) return true;
+    const auto meaning = meaning_of(name);
     return meaning && (meaning->quantity == angle || unit_named(meaning->unit, Measure::angle).has_value());
   };
   const bool said = hints.positions == "lonlat" || hints.unit == "deg";
@@ -451,7 +500,8 @@ std::vector<Quantity> measured(const TableColumns& columns) {
 }
 
 /// Gives a unit to lengths and speeds without one. Asks where only some have one.
-void understand_lengths(const TableHead& head, const ColumnHints& hints, TableColumns& columns) {
+void understand_lengths(const TableHead& head, const ColumnHints& hints, ColumnUse use,
+                        TableColumns& columns) {
   const bool unit_is_said = !hints.unit.empty() && hints.unit != "deg";
   const double said =
       unit_is_said && hints.unit != "nm" ? unit_named(hints.unit, Measure::length).value_or(0.0) : 0.0;
@@ -484,11 +534,11 @@ void understand_lengths(const TableHead& head, const ColumnHints& hints, TableCo
   const bool zone = hints.positions.starts_with("utm");
   columns.in_metres = columns.geographic || zone || with.has_value();
   if (columns.geographic || !with || !without) return;
-  throw ProgramError(fmt::format("{}: {} does not say its unit, but {} does: say {}={}:UNIT with --columns{}",
-                                 head.file, column_text(head, columns[*without]->place),
-                                 column_text(head, columns[*with]->place), key_of(*without),
-                                 column_word(head, columns[*without]->place),
-                                 measure_of(*without) == Measure::length ? ", or --unit" : ""));
+  throw ProgramError(fmt::format(
+      "{}: {} does not say its unit, but {} does: say {}={}:UNIT with --columns{}", head.file,
+      column_text(head, columns[*without]->place), column_text(head, columns[*with]->place), key_of(*without),
+      column_word(head, columns[*without]->place),
+      use == ColumnUse::positions && measure_of(*without) == Measure::length ? ", or --unit" : ""));
 }
 
 // Times.
@@ -573,8 +623,9 @@ void list_unused(const TableHead& head, TableColumns& columns) {
   for (std::size_t place = 0; place < head.columns(); ++place) {
     const bool is_used = std::any_of(columns.of.begin(), columns.of.end(),
                                      [&](const auto& column) { return column && column->place == place; }) ||
-                         std::any_of(columns.bodies.begin(), columns.bodies.end(),
-                                     [&](const auto& body) { return body.x == place || body.y == place; });
+                         std::any_of(columns.bodies.begin(), columns.bodies.end(), [&](const auto& body) {
+                           return body.x == place || body.y == place || body.z == place;
+                         });
     if (!is_used) columns.unused.push_back(place);
   }
 }
@@ -582,17 +633,20 @@ void list_unused(const TableHead& head, TableColumns& columns) {
 }  // namespace
 
 TableColumns find_columns(const TableHead& head, const ColumnHints& hints, ColumnUse use) {
+  const bool may_be_zone = use == ColumnUse::positions;
   if (!(hints.positions.empty() || hints.positions == "lonlat" || hints.positions == "plane" ||
-        hints.positions.starts_with("utm:")))
-    throw ProgramError(fmt::format(
-        "--positions: expected lonlat, plane or a UTM zone such as utm:33N, but got '{}'", hints.positions));
+        (may_be_zone && hints.positions.starts_with("utm:"))))
+    throw ProgramError(fmt::format("--positions: expected lonlat{}, but got '{}'",
+                                   may_be_zone ? ", plane or a UTM zone such as utm:33N" : " or plane",
+                                   hints.positions));
   TableColumns columns = recognised(head, hints, use);
   keep_used(hints, use, columns);
   columns.decimal_comma = has_decimal_commas(head.separator);
   understand_places(head, hints, columns);
   require_columns(head, hints, columns);
-  if (columns.format == "table") ask_for_heights(head, columns);
-  understand_lengths(head, hints, columns);
+  if (hints.columns.empty() && !columns.has_own_heights) ask_for_heights(head, columns);
+  if (columns.format == "table") ask_for_fractions(head, columns);
+  understand_lengths(head, hints, use, columns);
   understand_time(head, use, columns);
   apply_time_hints(hints, columns);
   if (hints.dates != DateOrder::unknown) columns.dates = hints.dates;

@@ -54,16 +54,18 @@ struct TableColumns {
   /// every sixth at 15 or tenth at 25 frames/s (ETH).
   enum class Film { none, ucy, eth } film = Film::none;
 
-  bool geographic = false;      ///< x and y are longitude and latitude
-  bool in_metres = false;       ///< the unit of lengths is known
-  bool positions_said = false;  ///< an option, a name or a preset says whether positions are degrees
-  bool is_ais = false;          ///< speeds of 102.3 kt and courses of 360 degrees are unknown
-  std::string where;            ///< rows that count, by the preset and by --where
-  bool id_is_file = false;      ///< the file has one body, called like it
-  /// Bodies with a pair of columns each; empty where each row is one body.
+  bool geographic = false;       ///< x and y are longitude and latitude
+  bool in_metres = false;        ///< the unit of lengths is known
+  bool positions_said = false;   ///< an option, a name or a preset says whether positions are degrees
+  bool is_ais = false;           ///< speeds of 102.3 kt and courses of 360 degrees are unknown
+  std::string where;             ///< rows that count, by the preset and by --where
+  bool id_is_file = false;       ///< the file has one body, called like it
+  bool has_own_heights = false;  ///< heights in the file are those of the bodies themselves
+  /// Bodies with a pair of columns each, or three; empty where each row is one body.
   struct Body {
     std::string id;
     std::size_t x, y;
+    std::optional<std::size_t> z;
   };
   std::vector<Body> bodies;
   std::vector<std::size_t> unused;  ///< columns that are not read

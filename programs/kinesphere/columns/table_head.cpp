@@ -66,7 +66,7 @@ bool TableHeadReader::row(const std::vector<std::string_view>& fields) {
 bool TableHeadReader::is_below_header(const std::vector<std::string_view>& fields) const {
   if (fields.size() != head_.names.size()) return false;
   const auto is_value = [](std::string_view field) {
-    return parse_date_time(field, DateOrder::any) || (!field.empty() && is_missing(field));
+    return parse_date_time(field, DateOrder::any) || (!field.empty() && field != "-" && is_missing(field));
   };
   if (std::any_of(fields.begin(), fields.end(), is_value)) return false;
   for (std::size_t column = 0; column < fields.size(); ++column)

@@ -35,6 +35,10 @@ enum class DateOrder {
 /// 1700000000.123 loses nothing to its whole part.
 std::optional<FileTime> parse_decimal_time(std::string_view text);
 
+constexpr bool is_earlier(const FileTime& a, const FileTime& b) {
+  return a.whole != b.whole ? a.whole < b.whole : a.fraction < b.fraction;
+}
+
 struct DateTime {
   FileTime time;
   bool has_offset = false;  ///< it ended in Z or an offset such as +02:00; otherwise it is taken as UTC

@@ -29,7 +29,10 @@ constexpr NamedUnit lengths[] = {{"m metre metres meter meters", 1.0},
                                  {"ft feet foot", foot},
                                  {"NM nmi", 1852.0},
                                  {"mi mile miles", 1609.344},
-                                 {"yd yard yards", 0.9144}};
+                                 {"yd yard yards", 0.9144},
+                                 {"inch inches", 0.0254},
+                                 {"FL hft", 100.0 * foot},
+                                 {"kft", 1000.0 * foot}};
 constexpr NamedUnit speeds[] = {{"m/s mps m_s ms-1", 1.0},
                                 {"kt kts kn knot knots", knot},
                                 {"km/h kmh kph km_h", 1.0 / 3.6},

@@ -42,6 +42,10 @@ Closeness closeness_of(const std::string& distance_text, const std::string& sepa
   }
   const NamedSeparation named = parse_separation(separation_text);
   const Separation& separation = named.separation;
+  if (separation.look_ahead > 0.0)
+    throw ProgramError(
+        fmt::format("--separation: expected no time, which a recording needs no prediction for, but got '{}'",
+                    named.name));
   const std::string_view lengths = std::string_view(named.name).substr(named.name.find_first_of(": ") + 1);
   Closeness closeness{.distance = separation.horizontal,
                       .vertical = {},

@@ -26,7 +26,12 @@ bool is_date(TimeKind kind) { return kind == TimeKind::date || kind == TimeKind:
 class RawRecording::FileReader {
  public:
   FileReader(RawRecording& recording, const TextTable& table, TableColumns columns)
-      : recording_(recording), table_(table), reader_(table.head(), std::move(columns)) {}
+      : recording_(recording), table_(table), reader_(table.head(), std::move(columns)) {
+    const auto& names = table.head().names;
+    for (const std::size_t place : reader_.columns().unused)
+      if (place < names.size() && is_scene(names[place]) && !reader_.filter().mentions(place))
+        scene_columns_.push_back(place);
+  }
 
   const TableColumns& columns() const { return reader_.columns(); }
 
@@ -36,7 +41,7 @@ class RawRecording::FileReader {
     reader_.set_row(row.fields);
     for (std::size_t body = 0; body < reader_.bodies(); ++body) {
       reader_.set_body(body);
-      add_sample(place);
+      add_sample(place, row);
     }
   } catch (const WrongInput& error) {
     throw ProgramError(fmt::format("{}:{}: {}", table_.file(), row.line, error.what()));
@@ -46,7 +51,7 @@ class RawRecording::FileReader {
   }
 
  private:
-  void add_sample(const Place& place) {
+  void add_sample(const Place& place, const TableRow& row) {
     RawTrack& track = track_named(reader_.id());
     const auto time = reader_.time();
     if (time) agree_on(time->kind, place);
@@ -54,6 +59,8 @@ class RawRecording::FileReader {
     if (time && position && (reader_.has_height() || !columns().z())) {
       track.samples.push_back({time->time, *position, place});
       track.radius = std::max(track.radius, radius());
+      for (const std::size_t column : scene_columns_)
+        recording_.scenes_.add(table_.head().names[column], row.fields[column], time->time);
       return;
     }
     const auto& missing = *reader_.missing();
@@ -104,6 +111,7 @@ class RawRecording::FileReader {
   RawRecording& recording_;
   const TextTable& table_;
   RowReader reader_;
+  std::vector<std::size_t> scene_columns_;
 };
 
 void RawRecording::read(std::string text, const std::string& file) {

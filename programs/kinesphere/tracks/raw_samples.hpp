@@ -13,6 +13,7 @@
 #include "kinesphere/vec3.hpp"
 #include "tracks/reading_policy.hpp"
 #include "tracks/recording.hpp"
+#include "tracks/scene_check.hpp"
 
 namespace kinesphere::program {
 
@@ -58,6 +59,8 @@ class RawRecording {
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// Returns "file:line".
   std::string name(const Place& place) const;
+  /// Throws ProgramError if the files have scenes that may not belong together.
+  void ask_about_scenes() const { scenes_.ask(head_.file); }
   /// Increments the tally.
   void count(Tally& tally, const Place& place) const;
 
@@ -82,6 +85,7 @@ class RawRecording {
   std::size_t rows_ = 0;
   Tally missing_, filtered_;
   std::vector<std::string> warnings_;
+  SceneCheck scenes_;
 };
 
 }  // namespace kinesphere::program

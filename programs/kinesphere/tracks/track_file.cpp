@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "columns/degree_check.hpp"
 #include "input_file.hpp"
 #include "program_error.hpp"
 #include "tracks/cleaning.hpp"
@@ -23,43 +24,37 @@ void for_each_sample(const RawRecording& raw, Visitor visit) {
     for (const RawSample& sample : track.samples) visit(sample);
 }
 
-bool earlier(const FileTime& a, const FileTime& b) {
-  return a.whole != b.whole ? a.whole < b.whole : a.fraction < b.fraction;
+/// Returns the time of all samples; nothing if there are several or no samples.
+std::optional<FileTime> only_time(const RawRecording& raw) {
+  std::optional<FileTime> time;
+  bool is_only = true;
+  for_each_sample(raw, [&](const RawSample& sample) {
+    if (!time) time = sample.time;
+    is_only = is_only && !is_earlier(*time, sample.time) && !is_earlier(sample.time, *time);
+  });
+  return is_only ? time : std::nullopt;
 }
 
 TimeScale time_scale_of(const RawRecording& raw) {
   TimeScale scale = raw.time_scale();
   std::optional<FileTime> first, last;
   for_each_sample(raw, [&](const RawSample& sample) {
-    if (!first || earlier(sample.time, *first)) first = sample.time;
-    if (!last || earlier(*last, sample.time)) last = sample.time;
+    if (!first || is_earlier(sample.time, *first)) first = sample.time;
+    if (!last || is_earlier(*last, sample.time)) last = sample.time;
   });
   if (first) scale.set_origin(*first, *last);
   return scale;
 }
 
-/// Asks about lengths that may be degrees: both in their range, not all whole, a few of them wide, and far
-/// from zero. Where the origin lies among the positions or beside them, they are lengths.
-void ask_about_degrees(const RawRecording& raw, const Box& extent) {
-  const Vec3 size = extent.upper - extent.lower;
-  const Vec3 middle = extent.lower + size / 2;
-  const double spread = std::max(size.x, size.y);
-  const double offset = std::max(std::abs(middle.x), std::abs(middle.y));
-  // A lower ratio would ask about rooms and roads near their origin; a higher one would miss wide regions.
-  constexpr double largest_spread = 5.0, least_ratio = 8.0, least_offset = 1.0;
-  const bool in_range = std::abs(extent.lower.x) <= 180.0 && std::abs(extent.upper.x) <= 180.0 &&
-                        std::abs(extent.lower.y) <= 90.0 && std::abs(extent.upper.y) <= 90.0;
-  if (!in_range || spread > largest_spread || offset < std::max(least_ratio * spread, least_offset)) return;
-  bool all_whole = true;
-  for_each_sample(raw, [&](const RawSample& sample) {
-    const Vec3& at = sample.position;
-    all_whole = all_whole && at.x == std::floor(at.x) && at.y == std::floor(at.y);
-  });
-  if (all_whole) return;
-  throw ProgramError(fmt::format(
-      "{}: x ({:.9g} to {:.9g}) and y ({:.9g} to {:.9g}) may be degrees: say --positions lonlat if they are "
-      "longitude and latitude, or --positions plane if they are lengths",
-      raw.head().file, extent.lower.x, extent.upper.x, extent.lower.y, extent.upper.y));
+/// Asks about lengths that may be degrees.
+void ask_about_degrees(const RawRecording& raw) {
+  DegreeCheck check;
+  for_each_sample(raw, [&](const RawSample& sample) { check.add(sample.position.x, sample.position.y); });
+  if (const std::string suspicion = check.suspicion(); !suspicion.empty())
+    throw ProgramError(
+        fmt::format("{}: {}: say --positions lonlat if they are longitude and latitude, or --positions plane "
+                    "if they are lengths",
+                    raw.head().file, suspicion));
 }
 
 Coordinates coordinates_of(const RawRecording& raw, const TrackOptions& options) {
@@ -83,7 +78,7 @@ Coordinates coordinates_of(const RawRecording& raw, const TrackOptions& options)
     }
   });
   if (!(extent.lower.x <= extent.upper.x)) return {};
-  if (!columns.positions_said && !columns.x().has_unit) ask_about_degrees(raw, extent);
+  if (!columns.positions_said && !columns.x().has_unit) ask_about_degrees(raw);
   std::optional<UtmZone> zone;
   if (options.hints.positions.starts_with("utm:"))
     zone = parse_utm_zone(std::string_view(options.hints.positions).substr(4), "--positions utm");
@@ -98,7 +93,7 @@ void ask_about_row_numbers(const RawRecording& raw) {
   // One frame has each id once.
   const auto has_other_time = [&](const RawTrack& track) {
     const auto& first = raw.tracks().front().samples;
-    return !track.samples.empty() && !first.empty() && earlier(first[0].time, track.samples[0].time);
+    return !track.samples.empty() && !first.empty() && is_earlier(first[0].time, track.samples[0].time);
   };
   if (std::none_of(raw.tracks().begin(), raw.tracks().end(), has_other_time)) return;
   const std::size_t column = raw.columns()[Quantity::id]->place;
@@ -109,6 +104,26 @@ void ask_about_row_numbers(const RawRecording& raw) {
       head.names.empty() ? fmt::format("column {}", column + 1)
                          : fmt::format("column '{}'", head.names[column]),
       head.text()));
+}
+
+/// Asks about numbers that are all clock times, as 101530 is 10:15:30.
+void ask_about_clock_times(const RawRecording& raw) {
+  if (raw.columns().time_unit_said || raw.time_scale().kind() != TimeKind::number) return;
+  bool is_clock = true, has_seconds = false;
+  std::int64_t least = 240'000, largest = 0;
+  for_each_sample(raw, [&](const RawSample& sample) {
+    const std::int64_t time = sample.time.whole;
+    is_clock = is_clock && time >= 0 && time < 240'000 && time % 100 < 60 && time / 100 % 100 < 60;
+    has_seconds = has_seconds || time % 100 != 0;
+    least = std::min(least, time);
+    largest = std::max(largest, time);
+  });
+  // Seconds that last longer have 60 to 99 as last digits, too.
+  if (!is_clock || !has_seconds || largest < 10'000 || largest - least < 100) return;
+  throw ProgramError(fmt::format(
+      "{}: the times {} to {} may be those of a clock (hhmmss): write them as in 2024-01-31T12:30:15, "
+      "or say --time-unit s if they are seconds",
+      raw.head().file, least, largest));
 }
 
 /// The pieces of one id, before they are split at gaps.
@@ -225,8 +240,17 @@ Recording parse_tracks(std::vector<NamedText> texts, const TrackOptions& options
     raw.read(std::move(text.text), text.file);
   }
   ask_about_row_numbers(raw);
+  ask_about_clock_times(raw);
+  raw.ask_about_scenes();
   Recording recording = Reading(raw, options).run();
   if (recording.tracks.empty()) {
+    if (recording.rows > 0 && recording.filtered.count == recording.rows)
+      throw ProgramError(fmt::format("{}: expected rows for which this holds: {}; but there are none",
+                                     fmt::join(files, ", "), recording.filter));
+    if (const auto time = only_time(raw))
+      throw ProgramError(fmt::format("{}: expected samples at two times or more, but all are at {}",
+                                     fmt::join(files, ", "),
+                                     recording.times.text(recording.times.seconds(*time))));
     throw ProgramError(
         fmt::format("{}: expected an id with two samples at most {} s apart, but there is none",
                     fmt::join(files, ", "), recording.largest_max_gap));

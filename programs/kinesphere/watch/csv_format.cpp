@@ -7,8 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "columns/degree_check.hpp"
 #include "columns/presets.hpp"
 #include "columns/row_reader.hpp"
+#include "number_text.hpp"
 #include "program_error.hpp"
 #include "watch/ground_speed.hpp"
 #include "watch/json_reading.hpp"
@@ -48,10 +50,15 @@ class CsvFormat final : public ReportFormat {
     throw ProgramError(fmt::format("{}:{}: {}", head_.head().file, record.line, question.what()));
   }
 
+  /// A short stream is asked about at its end.
+  void finish(ReportSink& /*sink*/) override { ask(); }
+
   nlohmann::json save() const override { return lines_; }
   void restore(const nlohmann::json& state) override {
     for (const std::string line : state) is_first_row(line);
     has_handed_over_ = reader_.has_value();
+    // The earlier run has asked.
+    if (reader_) checked_ = most_checked;
   }
 
  private:
@@ -80,7 +87,7 @@ class CsvFormat final : public ReportFormat {
     if (is_ais_ && hints.columns.empty() && recognised_preset(head) == nullptr) hints.format = "ais";
     reader_.emplace(head, find_columns(head, hints, ColumnUse::reports));
     for (const TableColumns::Body& body : reader_->columns().bodies)
-      columns_needed_ = std::max({columns_needed_, body.x + 1, body.y + 1});
+      columns_needed_ = std::max({columns_needed_, body.x + 1, body.y + 1, body.z.value_or(0) + 1});
     for (const auto& column : reader_->columns().of)
       if (column) columns_needed_ = std::max(columns_needed_, column->place + 1);
     return true;
@@ -131,7 +138,44 @@ class CsvFormat final : public ReportFormat {
     report.climb_error = error(Quantity::climb_error);
     report.stamp_error = number(Quantity::stamp_error);
     has_handed_over_ = true;
+    if (checked_ < most_checked) check_first(*position, report);
     sink.take(report);
+  }
+
+  /// Gathers the first reports, and asks before the last of them is taken.
+  void check_first(const Vec3& position, const SourceReport& report) {
+    degree_check_.add(position.x, position.y);
+    const auto number = parse_number(report.id);
+    counts_rows_ = counts_rows_ && number && (!last_number_ || *number == *last_number_ + 1.0);
+    last_number_ = number;
+    if (!first_stamp_) first_stamp_ = report.stamp;
+    has_later_ = has_later_ || is_earlier(*first_stamp_, report.stamp);
+    ++checked_;
+    if (checked_ == most_checked) ask();
+  }
+  void ask() const {
+    if (!reader_) return;
+    ask_about_row_numbers();
+    ask_about_degrees();
+  }
+  /// Asks about ids that are one more in each row.
+  void ask_about_row_numbers() const {
+    const auto& id = reader_->columns()[Quantity::id];
+    if (!id || checked_ < 3 || !counts_rows_ || !has_later_ || reader_->filter().mentions(id->place)) return;
+    throw UnusableStream(fmt::format(
+        "each row has an id of its own in column {}, up to {}, as a row number is: say id=... with "
+        "--columns, or keep it with --where 'id != none'",
+        id->place + 1, *last_number_));
+  }
+  /// Asks about lengths that may be degrees.
+  void ask_about_degrees() const {
+    const TableColumns& columns = reader_->columns();
+    const std::string suspicion = degree_check_.suspicion();
+    if (columns.positions_said || columns.x().has_unit || suspicion.empty()) return;
+    throw UnusableStream(
+        fmt::format("{}: say --positions lonlat if they are longitude and latitude, or --positions plane if "
+                    "they are lengths",
+                    suspicion));
   }
 
   void read_velocity(SourceReport& report) {
@@ -156,6 +200,15 @@ class CsvFormat final : public ReportFormat {
   std::optional<RowReader> reader_;  ///< empty before the first row of values
   bool has_handed_over_ = false;
   std::size_t columns_needed_ = 0;
+  /// Reports that are checked. More would delay the question; fewer would ask about more rooms, of which they
+  /// show a small part.
+  static constexpr int most_checked = 20;
+  int checked_ = 0;
+  DegreeCheck degree_check_;
+  bool counts_rows_ = true;  ///< ids are one more in each row
+  bool has_later_ = false;   ///< a report is later than the first
+  std::optional<double> last_number_;
+  std::optional<FileTime> first_stamp_;
   RowSplitter row_;
   std::vector<std::string_view> fields_;
 };

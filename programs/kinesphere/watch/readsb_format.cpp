@@ -119,7 +119,13 @@ class ReadsbFormat final : public ReportFormat {
     ondemand::array list;
     auto error = all["aircraft"].get(list);
     // After another error the document must not be read on.
-    if (error == simdjson::NO_SUCH_FIELD) error = all["ac"].get(list);
+    if (error == simdjson::NO_SUCH_FIELD) {
+      ondemand::value others;
+      error = all["ac"].get(others);
+      // Where no aircraft is near.
+      if (!error && others.is_null()) return;
+      if (!error) error = others.get(list);
+    }
     if (error) throw MalformedRecord("expected \"aircraft\": a list");
     for (ondemand::value element : list) {
       ondemand::object object;

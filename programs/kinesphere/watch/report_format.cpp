@@ -138,12 +138,20 @@ RecordCutter::Kind records_of(StreamFormat format) {
                                                                            : RecordCutter::Kind::lines;
 }
 
+std::string_view first_line(std::string_view beginning) {
+  beginning.remove_prefix(std::min(beginning.find_first_not_of(" \t\r\n"), beginning.size()));
+  std::size_t begin = 0;
+  if (beginning.starts_with('{')) begin = beginning.find('"');
+  const std::size_t end = begin < beginning.size() ? beginning.find('\n', begin) : std::string_view::npos;
+  return end == std::string_view::npos ? std::string_view() : beginning.substr(0, end);
+}
+
 std::optional<StreamFormat> recognised_format(std::string_view beginning) {
   if (beginning.starts_with("\xEF\xBB\xBF")) beginning.remove_prefix(3);
   const std::size_t first = beginning.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return std::nullopt;
-  std::string_view line = beginning.substr(first);
-  line = line.substr(0, line.find('\n'));
+  std::string_view line = first_line(beginning);
+  if (line.empty()) line = beginning.substr(first);
   if (line.ends_with('\r')) line.remove_suffix(1);
   if (looks_like_nmea(line) || (!line.starts_with('{') && has_ais_sentence(beginning.substr(0, 4096))))
     return StreamFormat::nmea;
@@ -163,7 +171,7 @@ std::optional<StreamFormat> recognised_format(std::string_view beginning) {
   const bool has_letters =
       std::any_of(line.begin(), line.end(), [](char c) { return ('a' <= (c | 32) && (c | 32) <= 'z'); });
   if (has_letters && line.find_first_of(",;\t") != std::string_view::npos && !line.starts_with('!') &&
-      !line.starts_with('$') && !line.starts_with('\\'))
+      !line.starts_with('[') && !line.starts_with('$') && !line.starts_with('\\'))
     return StreamFormat::csv;
   return std::nullopt;
 }

@@ -46,6 +46,8 @@ struct WatchCounts {
   /// Reports that cannot be used for what they lack; not those without a position, which receivers of
   /// aircraft have many of, nor those that are meant to be left out.
   std::uint64_t unusable() const { return stale + ahead + outside + no_bound + no_velocity + malformed; }
+  /// Reports without a position, and those that are left out as they should be.
+  std::uint64_t meant_to_be_left_out() const { return no_position + on_ground + filtered; }
 };
 
 }  // namespace kinesphere::program

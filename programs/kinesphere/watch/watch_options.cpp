@@ -160,6 +160,7 @@ GivenOptions given_options(const WatchOptions& options) {
       given.end(),
       {{"--columns", choices.hints.columns},
        {"--where", choices.hints.where},
+       {"--positions", choices.hints.positions},
        {"--dates", fmt::to_string(static_cast<int>(choices.hints.dates))},
        {"--dimensions", options.dimensions ? fmt::to_string(*options.dimensions) : ""},
        {"--acceleration", options.acceleration},

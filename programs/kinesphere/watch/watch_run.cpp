@@ -84,10 +84,8 @@ std::optional<StreamFormat> format_of(const WatchOptions& options,
   constexpr std::size_t enough = 4096;
   while (!has_ended && !stop.asked()) {
     const std::string_view waiting = cutter.waiting();
-    const std::size_t begin = waiting.find_first_not_of(" \t\r\n");
-    if (begin != std::string_view::npos &&
-        (waiting.find('\n', begin) != std::string_view::npos || waiting.size() > enough))
-      break;
+    const bool has_begun = waiting.find_first_not_of(" \t\r\n") != std::string_view::npos;
+    if (!first_line(waiting).empty() || (has_begun && waiting.size() > enough)) break;
     const auto outcome = source.next(std::chrono::milliseconds(1000), text);
     has_ended = outcome == ReportSource::Outcome::end;
     if (outcome == ReportSource::Outcome::text) cutter.feed(text);
@@ -111,8 +109,11 @@ std::optional<StreamFormat> format_of(const WatchOptions& options,
 
 FormatChoices choices_of(const WatchOptions& options, StreamFormat format, const ReportSource& source) {
   FormatChoices choices = options.choices;
-  if (!choices.hints.where.empty() && format != StreamFormat::csv && format != StreamFormat::ais)
-    throw ProgramError(fmt::format("--where: expected a table, but {} has no columns", source.name()));
+  const bool is_table = format == StreamFormat::csv || format == StreamFormat::ais;
+  for (const auto& [option, given] :
+       {std::pair("--where", choices.hints.where), std::pair("--positions", choices.hints.positions)})
+    if (!given.empty() && !is_table)
+      throw ProgramError(fmt::format("{}: expected a table, but {} has no columns", option, source.name()));
   choices.source = source.name();
   choices.position_error_is_said = !options.position_error.empty();
   return choices;
@@ -292,7 +293,8 @@ void WatchRun::warn() {
   const std::uint64_t taken = watcher_.monitor_counters().reports;
   constexpr std::uint64_t many = 1000;
   if (taken >= many) warn_of_own();
-  if (!has_warned_of_unusable_ && counts.unusable() >= least && counts.unusable() > taken)
+  const std::uint64_t unusable = counts.unusable() + (taken == 0 ? counts.meant_to_be_left_out() : 0);
+  if (!has_warned_of_unusable_ && unusable >= least && unusable > taken)
     warn_once(has_warned_of_unusable_,
               fmt::format("most reports cannot be used: {} taken, {}", taken, reasons_text(watcher_)));
 }

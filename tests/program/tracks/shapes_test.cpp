@@ -11,9 +11,11 @@
 #include <tuple>
 #include <utility>
 
+#include "columns/presets.hpp"
 #include "contact/contact_rule.hpp"
 #include "kinesphere/random.hpp"
 #include "program/support.hpp"
+#include "program/tracks/preset_shapes.hpp"
 #include "program/tracks/simulated_events.hpp"
 #include "simulation/oracle/comparison.hpp"
 #include "tracks/projection.hpp"
@@ -30,6 +32,7 @@ struct Source {
   const char* file;
   const char* format;
   double distance;
+  double seconds = 1e9;  ///< of the recording, from its begin
 };
 
 constexpr Source sources[] = {
@@ -237,12 +240,56 @@ WrittenTracks several_files(Original& original) {
   return {{{"a.csv", texts[0]}, {"b.csv", texts[1]}, {"c.csv", texts[2]}}, {}};
 }
 
+std::string date(const std::string& day, std::int64_t milliseconds) {
+  const std::int64_t seconds = milliseconds / 1000;
+  return fmt::format("{} {:02}:{:02}:{:02}.{:03}", day, seconds / 3600, seconds / 60 % 60, seconds % 60,
+                     milliseconds % 1000);
+}
+
+/// A preset's files, without an option that is not needed.
+WrittenTracks in_preset(const PresetShape& shape, const Original& original) {
+  const bool has_heights = shape.heights == with_heights;
+  const Vec3 somewhere{11.5, 54.25, 0};
+  const auto projection = project(std::span(&somewhere, 1), has_heights, ProjectionChoice::automatic);
+  std::map<std::string, std::string> texts;
+  for (const Row& row : original.rows) {
+    const Vec3 place = projection->geographic(row.position);
+    const std::int64_t ms = row.milliseconds;
+    std::string& text = texts[shape.one_body_a_file ? row.id + ".csv" : "t.csv"];
+    if (text.empty()) text = shape.header;
+    for (const char* line : {shape.row, shape.void_row}) {
+      text += fmt::format(
+          fmt::runtime(line), fmt::arg("id", row.id), fmt::arg("s", in_seconds(row)), fmt::arg("ms", ms),
+          fmt::arg("us", 1000 * ms), fmt::arg("frame", ms / 40), fmt::arg("date", date("2024-02-29", ms)),
+          fmt::arg("day_first", date("29/02/2024", ms)),
+          fmt::arg("unix", fmt::format("{}.{:03}", 1600000000 + ms / 1000, ms % 1000)),
+          fmt::arg("x", row.position.x / shape.unit), fmt::arg("y", row.position.y / shape.unit),
+          fmt::arg("lon", fmt::format("{:.14f}", place.x)), fmt::arg("lat", fmt::format("{:.14f}", place.y)),
+          fmt::arg("alt", fmt::format("{:.10f}", place.z)),
+          fmt::arg("alt_ft", fmt::format("{:.10f}", place.z / 0.3048)));
+    }
+  }
+  WrittenTracks written;
+  for (auto& [name, text] : texts) written.files.push_back({name, std::move(text)});
+  const std::string option = shape.options;
+  if (option == "25") written.options.hints.frame_rate = 25.0;
+  if (option == "ucy" || option == "eth") written.options.hints.format = option;
+  return written;
+}
+
 struct Shape {
   const char* name;
-  WrittenTracks (*write)(Original&);
+  std::function<WrittenTracks(Original&)> write;
 };
 
-constexpr Shape shapes[] = {
+std::vector<Shape> shapes_of_presets() {
+  std::vector<Shape> shapes;
+  for (const PresetShape& shape : preset_shapes)
+    shapes.push_back({shape.preset, [&shape](Original& original) { return in_preset(shape, original); }});
+  return shapes;
+}
+
+const Shape shapes[] = {
     {"plain", plain},
     {"quoted", quoted},
     {"dates", dates},
@@ -289,6 +336,15 @@ Pairs pairs_of(const std::vector<Event>& events) {
   return pairs;
 }
 
+/// Cuts the recording off so many seconds after its begin.
+void keep_first(double seconds, Recording& recording) {
+  double begin = recording.tracks.front().samples.front().time;
+  for (const RecordedTrack& track : recording.tracks) begin = std::min(begin, track.samples.front().time);
+  for (RecordedTrack& track : recording.tracks)
+    std::erase_if(track.samples, [&](const TrackSample& sample) { return sample.time > begin + seconds; });
+  std::erase_if(recording.tracks, [](const RecordedTrack& track) { return track.samples.size() < 2; });
+}
+
 class Shapes : public ::testing::TestWithParam<std::tuple<Source, Shape>> {};
 
 TEST_P(Shapes, HaveTheSameApproaches) {
@@ -298,6 +354,7 @@ TEST_P(Shapes, HaveTheSameApproaches) {
   TrackOptions options;
   options.hints.format = source.format;
   Original original{read_tracks({file}, options), {}, source.distance};
+  keep_first(source.seconds, original.recording);
   for (const RecordedTrack& track : original.recording.tracks) {
     for (const TrackSample& sample : track.samples)
       original.rows.push_back({track.id, std::llround(1000 * sample.time), sample.position});
@@ -342,6 +399,19 @@ INSTANTIATE_TEST_SUITE_P(All, Shapes,
                            return fmt::format("{}_{}", std::get<0>(each.param).name,
                                               std::get<1>(each.param).name);
                          });
+
+constexpr Source slice{"ucy", "ucy_students03/ucy_students03_obsmat.txt.gz", "ucy", 0.4, 60.0};
+
+INSTANTIATE_TEST_SUITE_P(Presets, Shapes,
+                         ::testing::Combine(::testing::Values(slice),
+                                            ::testing::ValuesIn(shapes_of_presets())),
+                         [](const auto& each) { return std::string(std::get<1>(each.param).name); });
+
+TEST(PresetShapes, AreThoseOfAllPresets) {
+  std::string names;
+  for (const PresetShape& shape : preset_shapes) names += shape.preset + std::string("|");
+  EXPECT_EQ(names + "table", preset_names());
+}
 
 }  // namespace
 }  // namespace kinesphere::program::shapes_test

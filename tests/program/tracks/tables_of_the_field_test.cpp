@@ -1,7 +1,9 @@
 // Tables as their owners have them: what a file means is known, asked for or refused.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
+#include <tuple>
 
 #include "program/support.hpp"
 #include "tracks/track_file.hpp"
@@ -33,13 +35,19 @@ TEST_F(TablesOfTheField, UnitsInNamesCountInEveryColumn) {
   const std::string flight =
       "id,time,lon,lat,{}\nu,0,8,47,33000\nu,10,8,47,33000\nu,20,8,47,33000\n"
       "v,0,8,47,34000\nv,10,8,47,34000\nv,20,8,47,34000\n";
-  for (const char* name : {"altitude_ft", "alt [feet]", "\"alt, ft\"", "altitudeFt", "z (ft)", "alt/ft"}) {
+  for (const char* name : {"altitude_ft", "alt [feet]", "\"alt, ft\"", "altitudeFt", "z (ft)", "alt/ft",
+                           "Altitude..ft.", "alt-ft", "zpos{ft}"}) {
     EXPECT_EQ(approaches(fmt::format(fmt::runtime(flight), name), "--distance 305"), "1") << name;
     EXPECT_EQ(approaches(fmt::format(fmt::runtime(flight), name), "--distance 304"), "0") << name;
   }
   const std::string space = "id,time,{}\nu,0,0,0,0\nu,1,0,0,0\nv,0,0,0,10\nv,1,0,0,10\n";
   EXPECT_EQ(approaches(fmt::format(fmt::runtime(space), "x_m,y_m,z_ft"), "--distance 3.1"), "1");
   EXPECT_EQ(approaches(fmt::format(fmt::runtime(space), "x_m,y_m,z_ft"), "--distance 3"), "0");
+  const std::string levels = "id,time,lon,lat,{}\nu,0,8,47,330\nu,10,8,47,330\nv,0,8,47,340\nv,10,8,47,340\n";
+  for (const char* name : {"FL", "Flight Level", "altitude_hft"}) {
+    EXPECT_EQ(approaches(fmt::format(fmt::runtime(levels), name), "--distance 305"), "1") << name;
+    EXPECT_EQ(approaches(fmt::format(fmt::runtime(levels), name), "--distance 304"), "0") << name;
+  }
   // In metres nothing flies at 33000.
   const std::string unit = approaches(fmt::format(fmt::runtime(flight), "alt"), "--distance 305");
   EXPECT_NE(unit.find("z=alt:ft"), std::string::npos) << unit;
@@ -67,9 +75,9 @@ TEST_F(TablesOfTheField, DistancesMayHaveUnits) {
   const std::string plain = "id,t,x,y\nu,0,0,0\nu,1,0,0\nv,0,10,0\nv,1,10,0\n";
   EXPECT_NE(approaches(plain, "--distance 11um").find("the unit of lengths is not known"), std::string::npos);
   EXPECT_EQ(approaches(plain, "--distance 0.011mm --unit um"), "1");
-  EXPECT_NE(
-      approaches(plain, "--distance 3parsec").find("perhaps a unit (m, km, cm, mm, um, ft, NM, mi, yd)"),
-      std::string::npos);
+  EXPECT_NE(approaches(plain, "--distance 3parsec")
+                .find("perhaps a unit (m, km, cm, mm, um, ft, NM, mi, yd, inch, FL, kft)"),
+            std::string::npos);
 }
 
 TEST_F(TablesOfTheField, DegreesAreNoLengths) {
@@ -84,6 +92,17 @@ TEST_F(TablesOfTheField, DegreesAreNoLengths) {
   const std::string swapped =
       approaches(animals, "--distance 100 --columns id=who,time=timestamp,x=location-lat,y=location-long");
   EXPECT_NE(swapped.find("lon=location-long,lat=location-lat"), std::string::npos) << swapped;
+  // Names that have a word for them, with numbers that may be anything.
+  const std::string birds = "id,time,{0},{1}\nu,0,8,47\nu,600,18,47\nv,0,8,47.5\nv,600,18,47.5\n";
+  for (const auto& [x, y] :
+       std::initializer_list<std::pair<const char*, const char*>>{{"start_long", "start_lat"},
+                                                                  {"X_WGS84", "Y_WGS84"},
+                                                                  {"gpsLon", "gpsLat"},
+                                                                  {"Longitud", "Latitud"}})
+    EXPECT_EQ(approaches(fmt::format(fmt::runtime(birds), x, y),
+                         fmt::format("--distance 100 --columns id=id,time=time,x={},y={}", x, y)),
+              "0")
+        << x;
   // Names that say nothing: the numbers do.
   const std::string plain =
       "id;t;X;Y\nu;0;8.391305;47.898573\nu;2;8.391317;47.898617\nv;0;8.390928;47.898613\n"
@@ -122,6 +141,113 @@ TEST_F(TablesOfTheField, HeightsAreAskedAboutAndUnusedColumnsNamed) {
   EXPECT_NE(out_.find("columns geoaltitude, squawk"), std::string::npos) << out_;
 }
 
+TEST_F(TablesOfTheField, HeightsUnderOtherNamesAreAskedAbout) {
+  const auto asked = [&](const std::string& header) {
+    std::string text = "id,time,x,y," + header + "\n";
+    const auto extra = std::count(header.begin(), header.end(), ',');
+    for (const char* row : {"u,0,0,0", "u,1,0,0", "v,0,0,0", "v,1,0,0"}) {
+      text += row;
+      for (auto k = extra; k >= 0; --k) text += ",10";
+      text += "\n";
+    }
+    const std::string answer = approaches(text, "--distance 1");
+    EXPECT_TRUE(answer == "1" || answer.find(" may be ") != std::string::npos) << answer;
+    return answer != "1";
+  };
+  for (const char* name : {"altGeom", "baroAlt", "alt_baro", "GPSAlt", "h", "H\xC3\xB6he [m]",
+                           "H\xF6"
+                           "he",
+                           "floor", "level", "up", "hae", "modeC", "galt", "Altura"})
+    EXPECT_TRUE(asked(name)) << name;
+  for (const char* name : {"w,h", "width,height", "bb_w,bb_h", "battery_level", "vertical_rate", "heading"})
+    EXPECT_FALSE(asked(name)) << name;
+  const std::string movebank =
+      "timestamp,location-long,location-lat,height-above-ellipsoid,individual-local-identifier\n"
+      "2021-02-11 17:30:00,8,47,100,u\n2021-02-11 17:31:00,8,47,100,u\n"
+      "2021-02-11 17:30:00,8,47,900,v\n2021-02-11 17:31:00,8,47,900,v\n";
+  EXPECT_EQ(approaches(movebank, "--distance 100"), "0");
+  EXPECT_EQ(approaches("time,x1,y1,z1,x2,y2,z2\n0,0,0,0,0,0,9\n1,0,0,0,0,0,9\n", "--distance 1"), "0");
+  EXPECT_NE(approaches("time,x1,y1,z1,x2,y2\n0,0,0,0,0,0\n", "--distance 1").find("a z for each pair"),
+            std::string::npos);
+}
+
+TEST_F(TablesOfTheField, CornersOfBoxesAreNoBodies) {
+  const std::string boxes = "label,time,x1,y1,x2,y2\na,0,0,0,0,1\na,1,0,0,0,1\n";
+  EXPECT_NE(approaches(boxes, "--distance 2").find("the corners of boxes: say --format table"),
+            std::string::npos);
+  EXPECT_EQ(approaches(boxes, "--distance 2 --format table"), "1");
+  EXPECT_EQ(approaches("seconds,x1,y1,p1,x2,y2,p2\n0,0,0,1,0,1,1\n1,0,0,1,0,1,1\n", "--distance 2"), "1");
+}
+
+TEST_F(TablesOfTheField, NobodyIsNoTrack) {
+  for (const char* id : {"-2", "-999", "unknown", "UNK", "noise", "?", "-", "<NA>", "4294967295"})
+    EXPECT_NE(
+        approaches(fmt::format("id,t,x,y\nu,0,0,0\nu,1,0,0\n{0},0,0,0\n{0},1,0,0\n", id), "--distance 1")
+            .find("is that of nobody in most files"),
+        std::string::npos)
+        << id;
+  for (const char* name : {"MMSI", "icao24"})
+    EXPECT_NE(approaches(fmt::format("{},t,x,y\n0,0,0,0\n0,1,0,0\n", name), "--distance 1").find("of nobody"),
+              std::string::npos);
+  EXPECT_EQ(approaches("id,t,x,y\n0,0,0,0\n0,1,0,0\n1,0,0,0\n1,1,0,0\n", "--distance 1"), "1");
+  EXPECT_NE(
+      approaches("id,t,x,y\n,0,0,0\n", "--distance 1").find("--where 'id != \"\"' leaves such rows out"),
+      std::string::npos);
+}
+
+TEST_F(TablesOfTheField, PlacesThatAreNone) {
+  const std::string far = "id,t,{}\nu,0,{}\nu,1,{}\nv,0,{}\nv,1,{}\n";
+  const auto text = [&](const char* names, const char* u, const char* v, const char* none) {
+    return fmt::format(fmt::runtime(far), names, u, none, v, none);
+  };
+  const std::string unfixed = text("lon,lat", "8,47", "9,47", "0,0.000");
+  EXPECT_NE(
+      approaches(unfixed, "--distance 1")
+          .find(":3: 0 as longitude and latitude is no position in most files: leave such rows out with "
+                "--where 'lon != 0 or lat != 0', or keep them with --where 'lon != none'"),
+      std::string::npos);
+  EXPECT_EQ(approaches(unfixed, "--distance 1 --where 'lon != none'"), "1");
+  const std::string marked = text("x,y", "1,2", "8,9", "-9999,-9999");
+  EXPECT_NE(approaches(marked, "--distance 1").find("--where 'x != -9999 or y != -9999'"), std::string::npos);
+  for (const char* none : {"-,-", "?,?", "#N/A,#N/A", "<NA>,<NA>", "\\N,\\N", "nil,NaT"}) {
+    const std::string gone = text("x,y", "1,2", "8,9", none);
+    EXPECT_NE(approaches(gone, "--distance 1").find("(see --missing)"), std::string::npos) << none;
+  }
+}
+
+TEST_F(TablesOfTheField, ScenesOfOneTableAreAskedAbout) {
+  const std::string cases =
+      "case_id,track_id,frame_id,timestamp_ms,agent_type,x,y\n1,7,1,100,car,0,0\n1,7,2,200,car,0,0\n"
+      "2,8,1,100,car,0,0\n2,8,2,200,car,0,0\n";
+  const std::string asked = approaches(cases, "--distance 1");
+  EXPECT_NE(
+      asked.find("the rows with case_id as '1' and '2' have the same times, so that they may be different "
+                 "scenes: take one with --where 'case_id = 1', or all as one with --where 'case_id != none'"),
+      std::string::npos)
+      << asked;
+  EXPECT_EQ(approaches(cases, "--distance 1 --where 'case_id != none'"), "1");
+  EXPECT_EQ(approaches(cases, "--distance 1 --where 'case_id = 2'"), "0");
+  const std::string trials = "trial,id,t,x,y\n1,u,0,0,0\n1,u,1,0,0\n2,u,2,0,0\n2,u,3,0,0\n";
+  EXPECT_EQ(approaches(trials, "--distance 1"), "0");
+}
+
+TEST_F(TablesOfTheField, ColumnsThatMarkVoidRows) {
+  for (const auto& [name, bad, good] :
+       std::initializer_list<std::tuple<const char*, const char*, const char*>>{
+           {"is_lost", "True", "False"},
+           {"import-marked-outlier", "true", ""},
+           {"missing", "1", "0"},
+           {"Valid", "N", "Y"},
+           {"detected", "0", "1"},
+           {"inView", "false", "true"},
+           {"fix_type", "0", "3"}})
+    EXPECT_NE(
+        approaches(fmt::format("id,t,x,y,{0}\nu,0,0,0,{2}\nu,1,0,0,{1}\n", name, bad, good), "--distance 1")
+            .find(fmt::format("--where '{} != {}'", name, bad)),
+        std::string::npos)
+        << name;
+}
+
 TEST_F(TablesOfTheField, RowsThatMeanNothingBecomeNoTracks) {
   const std::string noise = "0 0 0 0\n0 0 0 1\n-1 0.5 0 0\n-1 9 9 0\n-1 0.4 0 1\n-1 8 8 1\n";
   const std::string columns = "--distance 1 --columns id=1,x=2,y=3,frame=4 --frame-rate 1 ";
@@ -136,6 +262,9 @@ TEST_F(TablesOfTheField, RowsThatMeanNothingBecomeNoTracks) {
       "id,t,x,y,lost\nu,0,0,0,0\nu,1,0,0,0\nv,0,5,0,0\nv,1,5,0,0\nv,2,0,0,1\nu,2,0,0,0\n";
   EXPECT_NE(approaches(flagged, "--distance 1").find("--where 'lost != 1'"), std::string::npos);
   EXPECT_EQ(approaches(flagged, "--distance 1 --where 'lost != 1'"), "0");
+  EXPECT_NE(
+      approaches(flagged, "--distance 1 --where 'lost = 2'").find("rows for which this holds: lost = 2; but"),
+      std::string::npos);
   EXPECT_EQ(approaches(flagged, "--distance 1 --interpolate linear --where 'lost != none'"), "1");
   EXPECT_NE(approaches("id,t,x,y\nu,0,0,0\nu,1,0,0\nNone,0,0,0\nNone,1,0,0\n", "--distance 1")
                 .find(":4: the id None is that of nobody in most files: leave its rows out with --where 'id "
@@ -162,6 +291,9 @@ TEST_F(TablesOfTheField, NumbersAndTimesOfOtherHabits) {
                       "--missing)"),
             std::string::npos);
   EXPECT_EQ(approaches(infinite, "--distance 1 --missing skip"), "1");
+  EXPECT_NE(approaches("id,sec,nanosec,x,y\nu,1,900000000,0,0\nu,2,0,0,0\n", "--distance 1")
+                .find("column 'nanosec' may have the fractions of column 'sec'"),
+            std::string::npos);
   const std::string dates =
       "id,time,x,y\nu,03/04/2025 10:00,0,0\nu,03/04/2025 10:01,0,0\nv,04/03/2025 10:00,0,0\n"
       "v,04/03/2025 10:01,0,0\n";
@@ -187,6 +319,20 @@ TEST_F(TablesOfTheField, NumbersAndTimesOfOtherHabits) {
       "0");
   EXPECT_NE(approaches("id,t,x,y\n,s,(furlong),m\nu,0,0,0\n", "--distance 1")
                 .find("'furlong', which is no known unit"),
+            std::string::npos);
+}
+
+TEST_F(TablesOfTheField, ClockTimesAreNoSeconds) {
+  const std::string clock =
+      "id,utc,x,y\nu,101530,0,0\nu,101600,0,0\nu,101630,0,0\nv,101530.5,0,0\nv,101600.5,0,0\n";
+  EXPECT_NE(approaches(clock, "--distance 1")
+                .find("the times 101530 to 101630 may be those of a clock (hhmmss): write them as in "
+                      "2024-01-31T12:30:15, or say --time-unit s"),
+            std::string::npos);
+  EXPECT_EQ(approaches(clock, "--distance 1 --time-unit s"), "1");
+  EXPECT_EQ(approaches("id,t,x,y\nu,101530,0,0\nu,101660,0,0\nv,101530,0,0\nv,101660,0,0\n", "--distance 1"),
+            "1");
+  EXPECT_NE(approaches("id,t,x,y\nu,20240131101530,0,0\n", "--distance 1").find("read as 20240131T123015"),
             std::string::npos);
 }
 

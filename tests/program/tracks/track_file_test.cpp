@@ -115,14 +115,17 @@ TEST(TrackFile, NamesTheLineOfAWrongRow) {
             "t.txt:3: expected a number as time (column 2), but got 'soon'");
   EXPECT_EQ(error_in("id,time,x,y\na,0,1,2\n\na,1,nan,2\n"),
             "t.txt:4: expected a number as x (column 3), but got 'nan' (see --missing)");
-  EXPECT_EQ(error_in("id,time,x,y\na,0,1,2\n,1,1,2\n"),
-            "t.txt:3: expected an id (column 1), but got nothing");
+  EXPECT_EQ(
+      error_in("id,time,x,y\na,0,1,2\n,1,1,2\n"),
+      "t.txt:3: expected an id (column 1), but got nothing (--where 'id != \"\"' leaves such rows out)");
   EXPECT_EQ(error_in("id,time,x,y\na,0,1,2\nb,0,1,2\na,1,1,2\na,0,3,4\n"),
             "t.txt:5: expected one sample of id 'a' at each time, but t.txt:2 has the same time (see "
             "--duplicates)");
   EXPECT_EQ(error_in("id,time,x,y\na,0,1,2\na,1,1\n"), "t.txt:3: expected 4 columns, but got 3");
   EXPECT_EQ(error_in("id,time,x,y\na,0,1,2\nb,1,1,2\n"),
             "t.txt: expected an id with two samples at most 0 s apart, but there is none");
+  EXPECT_EQ(error_in("id,time,x,y\na,7,1,2\nb,7,1,2\n"),
+            "t.txt: expected samples at two times or more, but all are at 7");
 }
 
 TEST(TrackFile, NamesWhatItDoesNotRecognise) {

@@ -347,6 +347,8 @@ TEST(StreamFormats, AreRecognised) {
   EXPECT_EQ(recognised_format("id,time,x,y\n1,2,3,4"), StreamFormat::csv);
   EXPECT_EQ(recognised_format(R"({"id":"a","stamp":1,"position":[0,0]})"), StreamFormat::jsonl);
   EXPECT_EQ(recognised_format(R"({"id":"a","note":{"now":1}})"), std::nullopt);
+  EXPECT_EQ(recognised_format(R"([{"hex":"a","lat":1},{"hex":"b"}])"), std::nullopt);
+  EXPECT_EQ(recognised_format("{\n\"now\": 1,\n\"aircraft\": []"), StreamFormat::readsb);
   EXPECT_EQ(recognised_format("1,2,3,4"), std::nullopt);
   EXPECT_EQ(recognised_format(""), std::nullopt);
 }

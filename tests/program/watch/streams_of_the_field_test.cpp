@@ -64,6 +64,13 @@ TEST_F(StreamsOfTheField, AircraftInOtherShapes) {
                      cylinder),
             "undecided ");
   EXPECT_EQ(summary_["from"], 1717430000.123);
+  // Over several lines, and without an aircraft.
+  std::string lines;
+  for (const char c : head_on("ac", 1717430001000, R"("rc":186,"alt_baro":30000,"gs":450)",
+                              R"("rc":186,"alt_baro":30200,"gs":450)"))
+    lines += c == ',' || c == '{' ? std::string{c, '\n'} : std::string{c};
+  EXPECT_EQ(verdicts(lines + "{\"ac\":null,\"now\":1717430002000}\n", cylinder), "undecided ");
+  EXPECT_EQ(summary_["malformed"], 0);
 }
 
 TEST_F(StreamsOfTheField, WhatHasNoHeightIsUndecidedAndToldOnce) {
@@ -136,6 +143,13 @@ TEST_F(StreamsOfTheField, AStreamOfWhichNothingCanBeUsedIsAnError) {
         k % 3 == 0 ? R"("rc":186,"alt_baro":30000,"gs":450)" : R"("nac_p":0,"alt_baro":30000,"gs":450)");
   verdicts(mostly, cylinder);
   EXPECT_NE(err_.find("most reports cannot be used"), std::string::npos) << err_;
+  // Before it ends, too, where no report has a position.
+  std::string nowhere = "id,time,x,y\n";
+  for (int k = 0; k < 101; ++k) nowhere += fmt::format("u,{},,\n", k);
+  const ProgramRun blind = run("watch " + write("stream", nowhere) + promises);
+  EXPECT_NE(blind.err.find("most reports cannot be used: 0 taken, 100 without a position or its time"),
+            std::string::npos)
+      << blind.err;
 }
 
 TEST_F(StreamsOfTheField, PositionsAloneNeedALargestSpeed) {
@@ -169,9 +183,44 @@ TEST_F(StreamsOfTheField, TablesMeanWhatTheySay) {
   EXPECT_EQ(summary_["filtered"], 1);
   EXPECT_EQ(verdicts("id;time;x;y\nu;0,5;0;0\nv;0,5;0,25;0\n", promises).substr(0, 7), "within ");
   EXPECT_EQ(verdicts("# id,time,x,y\nu,0,0,0\nv,0,3,0\n", promises).substr(0, 7), "within ");
+  // Rows that end before the last body's column are malformed.
+  EXPECT_EQ(verdicts("time,x1,y1,z1,x2,y2,z2\n0,0,0,0,3,0,0\n1,0,0,0,3,0\n", promises).substr(0, 7),
+            "within ");
+  EXPECT_EQ(summary_["malformed"], 1);
   expect_refused(std::string("\xFF\xFEi\0d\0,\0", 8), promises, {"UTF-16"});
   expect_refused("<?xml version=\"1.0\"?><gpx></gpx>", promises, {"GPX"});
   expect_refused("{\"id\":\"a\",\"time\":0,\"x\":0,\"y\":0}\n", promises, {"JSON"});
+}
+
+TEST_F(StreamsOfTheField, DegreesAreNoLengthsAndRowNumbersNoIds) {
+  // Two animals 55 km apart.
+  const std::string animals = "id,time,X,Y\nu,0,8.01,47.00\nv,0,8.01,47.05\nu,1,8.02,47.00\nv,1,8.02,47.05\n";
+  const ProgramRun asked = run("watch " + write("stream", animals) + promises);
+  EXPECT_EQ(asked.exit_code, 2);
+  EXPECT_NE(asked.err.find("x (8.01 to 8.02) and y (47 to 47.05) may be degrees: say --positions lonlat"),
+            std::string::npos)
+      << asked.err;
+  EXPECT_EQ(verdicts(animals, promises + "--positions lonlat"), "");
+  EXPECT_EQ(verdicts(animals, promises + "--positions plane").substr(0, 7), "within ");
+  EXPECT_EQ(verdicts(animals, promises + "--columns id=id,time=time,x=X:m,y=Y:m").substr(0, 7), "within ");
+  EXPECT_EQ(verdicts("id,time,x,y\nu,0,3.5,2.5\nv,0,4.5,2.5\n", promises).substr(0, 7), "within ");
+  expect_refused(animals, promises + "--positions utm:33N", {"--positions: expected lonlat or plane"});
+  expect_refused(head_on("aircraft", 0.0, R"("gs":450)", R"("gs":450)"), cylinder + " --positions plane",
+                 {"--positions: expected a table"});
+  // Ids that are numbers of rows; three bodies may be so called at one time.
+  const std::string rows = "id,time,x,y\n1,0,0,0\n2,0,9,0\n3,{},0,0\n";
+  const ProgramRun numbered = run("watch " + write("stream", fmt::format(fmt::runtime(rows), 1)) + promises);
+  EXPECT_NE(numbered.err.find("each row has an id of its own in column 1"), std::string::npos)
+      << numbered.err;
+  verdicts(fmt::format(fmt::runtime(rows), 1), promises + "--where 'id != none'");
+  verdicts(fmt::format(fmt::runtime(rows), 0), promises);
+  // A stream is asked about before it ends.
+  std::string stream = "id,time,X,Y\n";
+  for (int k = 0; k < 30; ++k) stream += fmt::format("u,{},8.{:03},47\n", k, k);
+  const ProgramRun result = run("watch " + write("stream", stream + "damaged\n") + promises);
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("may be degrees"), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("expected 4 columns"), std::string::npos) << result.err;
 }
 
 }  // namespace

@@ -1,0 +1,63 @@
+"""Approaches in files, read by the program."""
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import kinesphere as ks
+
+pytestmark = pytest.mark.skipif(
+    not os.environ.get("KINESPHERE_PROGRAM"), reason="KINESPHERE_PROGRAM does not say where the program is"
+)
+program = os.environ.get("KINESPHERE_PROGRAM")
+
+
+def written(folder: Path, text: str) -> Path:
+    file = folder / "t.csv"
+    file.write_text(text)
+    return file
+
+
+walk = "id,t,x,y\nu,0,0,0\nu,1,1,0\nu,2,2,0\nv,0,2,0.5\nv,1,1,0.5\nv,2,0,0.5\n"
+
+
+def test_files_and_arrays_have_the_same_approaches(tmp_path: Path) -> None:
+    found = ks.tracks_in(written(tmp_path, walk), 1, interpolate="linear", program=program)
+    ids, t, x, y = np.array([line.split(",") for line in walk.splitlines()[1:]]).T
+    same = ks.tracks(t.astype(float), x.astype(float), y.astype(float), None, ids, 1.0, interpolate="linear")
+    assert len(found) == 1 and found.probes > 0
+    assert (found["first"][0], found["second"][0]) == ("u", "v")
+    for column in ("begin", "end", "closest_time", "closest_distance", "relative_speed"):
+        assert found[column][0] == pytest.approx(same[column][0], abs=1e-6)
+    assert found["first_position"][0][:2] == pytest.approx(same["first_position"][0][:2], abs=1e-6)
+    assert np.isnan(found["first_position"][0][2]) and not found["begins_with_track"][0]
+
+
+def test_every_option_of_reading_reaches_the_program(tmp_path: Path) -> None:
+    rows = "".join(
+        f"{body};{day}/04/2025;{8 + 0.01 * body};47;{body}\n" for body in (1, 2) for day in (3, 4, 5)
+    )
+    file = written(tmp_path, "who;when;a;b;keep\n" + rows + "3;03/04/2025;;47;0\n3;03/04/2025;8;47;1\n")
+    with pytest.warns(UserWarning, match="alone between two gaps"):
+        found = ks.tracks_in(
+            [file], "1km", format="table", columns="id=who,time=when,x=a,y=b", where="keep != 0",
+            dates="day-first", positions="lonlat", projection="plane", missing="skip", duplicates="first",
+            max_speed=1e3, max_gap=1e6, interpolate="spline", tolerance=0.01, program=program,
+        )  # fmt: skip
+    assert len(found) == 1 and found["begin"][0] == np.datetime64("2025-04-03")
+    frames = written(tmp_path, "id frame x y\n1 0 0 0\n1 25 0 0\n2 0 90 0\n2 25 90 0\n")
+    assert ks.tracks_in(frames, 1, frame_rate=25, unit="cm", program=program)["end"][0] == 1.0
+    assert len(ks.tracks_in(frames, 1, time_unit="frames", frame_rate=25, program=program)) == 0
+    assert len(ks.tracks_in(frames, 95, columns="id=1,time=2,x=3,y=4", time_unit="ms", program=program)) == 1
+
+
+def test_questions_are_errors_and_warnings_are_warnings(tmp_path: Path) -> None:
+    with pytest.raises(ks.InvalidValue, match="the id -1 is that of nobody"):
+        ks.tracks_in(written(tmp_path, "id,t,x,y\n-1,0,0,0\n"), 1, program=program)
+    half = written(tmp_path, walk + "u,3,,\n")
+    with pytest.warns(UserWarning, match="have no time or no position"):
+        ks.tracks_in(half, 1, missing="skip", program=program)
+    with pytest.raises(FileNotFoundError):
+        ks.tracks_in(half, 1, program=tmp_path / "none")
