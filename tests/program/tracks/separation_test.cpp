@@ -69,6 +69,7 @@ TEST_F(SeparationOf, WhatIsMissingIsAskedFor) {
   expect_wrong_input(plane + " --separation cylinder:1:1", {"--separation", "heights (z or alt)"});
   expect_wrong_input(plane + " --separation sphere:1km", {"--separation", "'sphere:1km'", "--unit"});
   expect_wrong_input(plane + " --separation ellipsoid:1:1", {"--separation", "'ellipsoid:1:1'"});
+  expect_wrong_input(plane + " --separation sphere:1:60", {"--separation", "no time", "'sphere:1:60'"});
   expect_wrong_input(plane + " --separation cube:1", {"--separation", "'cube:1'"});
   const std::string far = "tracks " + write("f.csv",
                                             "id,time,lat,lon,alt_ft\na,0,48,0,0\na,10,48,0.01,0\n"
