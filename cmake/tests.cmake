@@ -22,8 +22,14 @@ foreach(library kinesphere_test_headers kinesphere_test_headers_little)
 endforeach()
 kinesphere_optimise_little(kinesphere_test_headers_little)
 
-# Makes test_NAME of these sources, and a test NAME.* of each of its tests, with the label NAME. Those of an
-# instantiation that is named Long have the label `long` instead.
+# Tests that take long and repeat themselves over more streams, scenes or bytes than others, or mostly wait: filters of
+# GoogleTest by executable. They have the label `long` (scripts/test.sh --all).
+set(kinesphere_long_stream Long/*:*RandomCrowds*:AnyReports.OtherSmall*:Mended.StrangeNumbers*)
+set(kinesphere_long_world PlainGap.*:ClustersThatWereInterrupted.*)
+set(kinesphere_long_simulation Pile.Thousand*)
+set(kinesphere_long_program WatchNats.*)
+
+# Makes test_NAME of these sources, and a test NAME.* of each of its tests, with the label NAME or `long`.
 function(kinesphere_add_tests name)
   set(test test_${name})
   add_executable(${test} ${ARGN})
@@ -41,19 +47,11 @@ function(kinesphere_add_tests name)
   endif()
   # With a fixed seed RapidCheck draws equal cases in every run.
   set_target_properties(${test} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
-  gtest_discover_tests(
-    ${test}
-    TEST_PREFIX ${name}.
-    TEST_FILTER -Long*
-    DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT 600 LABELS ${name} ENVIRONMENT RC_PARAMS=seed=2005)
-  if(name STREQUAL stream)
-    gtest_discover_tests(
-      ${test}
-      TEST_PREFIX ${name}.
-      TEST_FILTER Long*
-      TEST_LIST long_tests
-      DISCOVERY_TIMEOUT 60
-      PROPERTIES TIMEOUT 600 LABELS long ENVIRONMENT RC_PARAMS=seed=2005)
+  set(common DISCOVERY_TIMEOUT 60 TEST_PREFIX ${name}.)
+  set(properties TIMEOUT 600 ENVIRONMENT RC_PARAMS=seed=2005)
+  set(long "${kinesphere_long_${name}}")
+  gtest_discover_tests(${test} ${common} TEST_FILTER "-${long}" PROPERTIES ${properties} LABELS ${name})
+  if(long)
+    gtest_discover_tests(${test} ${common} TEST_FILTER "${long}" TEST_LIST long_tests PROPERTIES ${properties} LABELS long)
   endif()
 endfunction()
