@@ -1,11 +1,8 @@
 // Serialization of the public structs of a monitor.
 #pragma once
 
-#include <cstdint>
-
 #include "archive/fields.hpp"
 #include "kinesphere/monitor/monitor.hpp"
-#include "monitor/pair_records.hpp"
 
 namespace kinesphere {
 
@@ -35,17 +32,5 @@ void serialize(Some<MonitorCounters> auto& self, auto& archive) {
   auto& [reports, late, repeated, contradictions, polls, windows, searches, near_pairs, looks] = self;
   archive(reports, late, repeated, contradictions, polls, windows, searches, near_pairs, looks);
 }
-
-/// A PairRecord with the numbers of its tracks, as stored in a snapshot.
-struct SavedRecord {
-  std::uint32_t first = 0;
-  std::uint32_t second = 0;
-  PairRecord record{};
-
-  static void serialize(auto& self, auto& archive) {
-    auto& [first, second, record] = self;
-    archive(first, second, record);
-  }
-};
 
 }  // namespace kinesphere

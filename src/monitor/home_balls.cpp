@@ -43,8 +43,7 @@ std::vector<std::uint32_t> HomeBalls::touching(const HomeBall& ball) const {
   std::vector<std::uint32_t> numbers;
   const auto add_touching = [&](const std::vector<Entry>& entries) {
     for (const Entry& entry : entries)
-      if (norm(entry.ball.centre - ball.centre) <= entry.ball.radius + ball.radius)
-        numbers.push_back(entry.number);
+      if (touch(entry.ball, ball)) numbers.push_back(entry.number);
   };
   for (const auto& [level, cells] : levels_) {
     const double edge = power_of_two(level);

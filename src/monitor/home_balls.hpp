@@ -21,6 +21,9 @@ struct HomeBall {
     archive(centre, radius);
   }
 };
+inline bool touch(const HomeBall& a, const HomeBall& b) {
+  return norm(a.centre - b.centre) <= a.radius + b.radius;
+}
 
 /// Numbered balls in a hierarchy of grids. A ball is in the level whose cells are once or twice as wide as
 /// it, in the cell of its centre.

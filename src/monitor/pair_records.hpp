@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -47,6 +48,19 @@ struct PairRecord {
   }
 };
 
+/// A record with the numbers of its two tracks, as stored in a snapshot.
+template <class Record>
+struct SavedPair {
+  std::uint32_t first = 0;
+  std::uint32_t second = 0;
+  Record record{};
+
+  static void serialize(auto& self, auto& archive) {
+    auto& [first, second, record] = self;
+    archive(first, second, record);
+  }
+};
+
 /// Records of pairs by the numbers of their two tracks. The order of the two arguments does not matter.
 template <class Record>
 class PairMap {
@@ -61,6 +75,17 @@ class PairMap {
   }
   Record& add(std::uint32_t a, std::uint32_t b) { return records_[key(a, b)]; }
   void remove(std::uint32_t a, std::uint32_t b) { records_.erase(key(a, b)); }
+  /// Returns all records in the order of their pairs.
+  std::vector<SavedPair<Record>> sorted() const {
+    std::vector<SavedPair<Record>> sorted;
+    for_each([&](std::uint32_t a, std::uint32_t b, const Record& record) {
+      sorted.push_back({a, b, record});
+    });
+    std::sort(sorted.begin(), sorted.end(), [](const SavedPair<Record>& p, const SavedPair<Record>& q) {
+      return std::tie(p.first, p.second) < std::tie(q.first, q.second);
+    });
+    return sorted;
+  }
   std::size_t size() const { return records_.size(); }
   /// Calls visit(a, b, record) with a < b for all records, in unspecified order.
   template <class Visit>

@@ -17,6 +17,10 @@ void insert_sorted(std::vector<std::uint32_t>& numbers, std::uint32_t number) {
   numbers.insert(std::lower_bound(numbers.begin(), numbers.end(), number), number);
 }
 
+void erase_sorted(std::vector<std::uint32_t>& numbers, std::uint32_t number) {
+  numbers.erase(std::lower_bound(numbers.begin(), numbers.end(), number));
+}
+
 /// False if two that go straight on never come nearer than `reach` (length).
 bool may_meet(const State& first, const State& second, double reach) {
   const Vec3 offset = first.position - second.position;
@@ -24,10 +28,6 @@ bool may_meet(const State& first, const State& second, double reach) {
   const double x2 = norm_squared(offset), v2 = norm_squared(velocity), xv = dot(offset, velocity);
   const double r2 = reach * reach;
   return x2 <= r2 || (xv < 0.0 && v2 * (x2 - r2) <= xv * xv);
-}
-
-void erase_sorted(std::vector<std::uint32_t>& numbers, std::uint32_t number) {
-  numbers.erase(std::lower_bound(numbers.begin(), numbers.end(), number));
 }
 
 }  // namespace
@@ -42,7 +42,6 @@ std::span<const Components> Predictions::levels_of(const Track& a, const Track& 
 
 void Predictions::set_path(std::uint32_t number, TrackId id, std::size_t track_class, const State& state,
                            double now, std::vector<MonitorEvent>& events) {
-  if (!(separations_->look_ahead(track_class) > 0.0)) return;
   if (number >= tracks_.size()) tracks_.resize(number + 1);
   Track& track = tracks_[number];
   track.path = {now, state};
@@ -88,7 +87,7 @@ void Predictions::find_home(std::uint32_t number, double now) {
   const State middle = track.path.state_at(now + half);
   const double radius = norm(middle.velocity) * half * (1.0 + room_beside_path) + 2.0 * margin;
   track.home = {middle.position, radius};
-  due_.push({track.until, number, number});
+  add_due({track.until, number, number});
   const std::vector<std::uint32_t> touching = homes_.touching(track.home);
   homes_.add(number, track.home);
   const std::vector<std::uint32_t> before = track.near;
@@ -112,12 +111,6 @@ void Predictions::part(std::uint32_t a, std::uint32_t b) {
   pairs_.remove(a, b);
   erase_sorted(tracks_[a].near, b);
   erase_sorted(tracks_[b].near, a);
-}
-
-bool Predictions::homes_touch(std::uint32_t a, std::uint32_t b) const {
-  const HomeBall& one = tracks_[a].home;
-  const HomeBall& other = tracks_[b].home;
-  return norm(one.centre - other.centre) <= one.radius + other.radius;
 }
 
 void Predictions::decide_all(std::uint32_t number, double now, std::vector<MonitorEvent>& events) {
@@ -177,9 +170,10 @@ void Predictions::decide(std::uint32_t a, std::uint32_t b, double now, std::vect
     }
   }
   // The homes may have parted while the pair was predicted.
-  if (was_predicted && !pair.is_predicted() && !homes_touch(a, b)) return part(a, b);
-  if (due != pair.due && due < infinity) due_.push({due, std::min(a, b), std::max(a, b)});
+  if (was_predicted && !pair.is_predicted() && !touch(one.home, other.home)) return part(a, b);
+  if (due == pair.due) return;
   pair.due = due;
+  if (due < infinity) add_due({due, std::min(a, b), std::max(a, b)});
 }
 
 void Predictions::advance(double now, std::vector<MonitorEvent>& events) {
@@ -197,17 +191,6 @@ void Predictions::advance(double now, std::vector<MonitorEvent>& events) {
   }
 }
 
-std::vector<Predictions::SavedPair> Predictions::saved_pairs() const {
-  std::vector<SavedPair> saved;
-  pairs_.for_each([&](std::uint32_t a, std::uint32_t b, const PairPrediction& pair) {
-    saved.push_back({a, b, pair});
-  });
-  std::sort(saved.begin(), saved.end(), [](const SavedPair& p, const SavedPair& q) {
-    return std::tie(p.first, p.second) < std::tie(q.first, q.second);
-  });
-  return saved;
-}
-
 bool Predictions::restore(std::span<const std::optional<TrackKey>> tracks, double now) {
   if (tracks_.size() > tracks.size()) return false;
   for (std::uint32_t number = 0; number < tracks.size(); ++number) {
@@ -219,7 +202,9 @@ bool Predictions::restore(std::span<const std::optional<TrackKey>> tracks, doubl
     tracks_[number].track_class = key->track_class;
   }
   if (!is_valid(now)) return false;
-  index();
+  for (std::uint32_t number = 0; number < tracks_.size(); ++number)
+    if (tracks_[number].present) homes_.add(number, tracks_[number].home);
+  index_due();
   return true;
 }
 
@@ -262,13 +247,19 @@ bool Predictions::is_valid(double now) const {
   return valid;
 }
 
-void Predictions::index() {
-  for (std::uint32_t number = 0; number < tracks_.size(); ++number) {
-    const Track& track = tracks_[number];
-    if (!track.present) continue;
-    homes_.add(number, track.home);
-    due_.push({track.until, number, number});
-  }
+/// Adds a time to the queue. Where most of the queue is out of date, makes it anew: reports that change a far
+/// time again and again would fill it. Precondition: the track or the pair has this time.
+void Predictions::add_due(const Due& due) {
+  constexpr std::size_t least = 64;
+  if (due_.size() > least + 2 * (tracks_.size() + pairs_.size())) return index_due();
+  due_.push(due);
+}
+
+/// Makes the queue from the times of the tracks and pairs.
+void Predictions::index_due() {
+  due_ = {};
+  for (std::uint32_t number = 0; number < tracks_.size(); ++number)
+    if (tracks_[number].present) due_.push({tracks_[number].until, number, number});
   pairs_.for_each([&](std::uint32_t a, std::uint32_t b, const PairPrediction& pair) {
     if (pair.due < infinity) due_.push({pair.due, a, b});
   });
@@ -282,7 +273,8 @@ std::vector<PredictedPair> Predictions::predicted_pairs(double now) const {
     const auto [first, second] = std::minmax(one.id, other.id);
     for (std::uint32_t level = 0; level < pair.levels.size(); ++level) {
       if (!pair.levels[level].predicted) continue;
-      const StraightPass pass = pass_of(one, other, levels_of(one, other)[level], now);
+      const StraightPass pass =
+          straight_pass(one.path.state_at(now), other.path.state_at(now), levels_of(one, other)[level], now);
       predicted.push_back({first, second, level, pair.levels[level].since, pass.begin, pass.closest_time,
                            pass.closest_distance});
     }

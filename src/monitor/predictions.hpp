@@ -36,8 +36,8 @@ struct StraightPath {
 /// The prediction of a pair at one level.
 struct LevelPrediction {
   bool predicted = false;   ///< reported as predicted, and not yet as ended
-  bool holds = false;       ///< the two come as near, and in the look-ahead time
-  double since = 0.0;       ///< time of the report
+  bool holds = false;       ///< the condition of MonitorEventKind::predicted was met when last decided
+  double since = 0.0;       ///< time of the event `predicted`
   double held_until = 0.0;  ///< if `predicted` and not `holds`: time until which it held
 
   static void serialize(auto& self, auto& archive) {
@@ -71,7 +71,8 @@ class Predictions {
       : definition_(&definition), separations_(&separations) {}
 
   /// Sets the straight path of a track, new or known, and adds the events of predictions that change. Cost:
-  /// O(near tracks); where the path leaves the track's home, a search.
+  /// O(near tracks); where the path leaves the track's home, a search. Precondition: the class has a
+  /// look-ahead time.
   void set_path(std::uint32_t number, TrackId id, std::size_t track_class, const State& state, double now,
                 std::vector<MonitorEvent>& events);
   /// Forgets a track. Its predictions end without events.
@@ -95,12 +96,12 @@ class Predictions {
   /// none), and what follows from the rest. Returns false if the state is not one of these tracks.
   bool restore(std::span<const std::optional<TrackKey>> tracks, double now);
   static void serialize(auto& self, auto& archive) {
-    std::vector<SavedPair> pairs;
+    std::vector<SavedPair<PairPrediction>> pairs;
     constexpr bool writes = std::is_const_v<std::remove_reference_t<decltype(self)>>;
-    if constexpr (writes) pairs = self.saved_pairs();
+    if constexpr (writes) pairs = self.pairs_.sorted();
     archive(self.tracks_, pairs);
     if constexpr (!writes)
-      for (const SavedPair& saved : pairs) self.pairs_.add(saved.first, saved.second) = saved.pair;
+      for (const auto& [first, second, pair] : pairs) self.pairs_.add(first, second) = pair;
   }
 
  private:
@@ -118,17 +119,6 @@ class Predictions {
       archive(present, path, home, until, near);
     }
   };
-  /// A pair as stored in a snapshot.
-  struct SavedPair {
-    std::uint32_t first = 0;
-    std::uint32_t second = 0;
-    PairPrediction pair{};
-
-    static void serialize(auto& self, auto& archive) {
-      auto& [first, second, pair] = self;
-      archive(first, second, pair);
-    }
-  };
   /// A time at which a pair or, if both numbers are equal, the home of a track is due. It is out of date
   /// unless the pair or the track has this time.
   struct Due {
@@ -139,20 +129,16 @@ class Predictions {
     }
   };
 
-  std::vector<SavedPair> saved_pairs() const;
   bool is_valid(double now) const;
-  void index();
+  void add_due(const Due& due);
+  void index_due();
   std::span<const Components> levels_of(const Track& a, const Track& b) const;
   bool stays_home(const Track& track, double now) const;
   void find_home(std::uint32_t number, double now);
   void meet(std::uint32_t a, std::uint32_t b);
   void part(std::uint32_t a, std::uint32_t b);
-  bool homes_touch(std::uint32_t a, std::uint32_t b) const;
   void decide_all(std::uint32_t number, double now, std::vector<MonitorEvent>& events);
   void decide(std::uint32_t a, std::uint32_t b, double now, std::vector<MonitorEvent>& events);
-  StraightPass pass_of(const Track& a, const Track& b, const Components& level, double now) const {
-    return straight_pass(a.path.state_at(now), b.path.state_at(now), level, now);
-  }
 
   const MonitorDefinition* definition_;
   const SeparationTable* separations_;

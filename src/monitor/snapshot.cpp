@@ -1,7 +1,6 @@
 // Snapshots of a monitor: its complete state as bytes, and back.
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "archive/archive.hpp"
 #include "archive/envelope.hpp"
@@ -34,16 +33,11 @@ template <class Self, class Archive>
 void Monitor::Engine::serialize(Self& self, Archive& archive) {
   archive(self.time_, self.has_started_, self.window_, self.quiet_windows_, self.counters_, self.tracks_,
           self.broad_phase_, self.predictions_);
-  std::vector<SavedRecord> records;
+  std::vector<SavedPair<PairRecord>> records;
   std::vector<MonitorEvent> events;
   std::uint32_t last_version = 0;
   if constexpr (std::is_const_v<Self>) {
-    self.pair_records_.for_each([&](std::uint32_t a, std::uint32_t b, const PairRecord& record) {
-      records.push_back({a, b, record});
-    });
-    std::sort(records.begin(), records.end(), [](const SavedRecord& p, const SavedRecord& q) {
-      return std::tie(p.first, p.second) < std::tie(q.first, q.second);
-    });
+    records = self.pair_records_.sorted();
     events.assign(self.events_.begin(), self.events_.end());
     last_version = self.pair_records_.last_version();
     std::vector<PairCertificate> pairs;
@@ -54,7 +48,7 @@ void Monitor::Engine::serialize(Self& self, Archive& archive) {
     archive(records, last_version, events, pairs);
   } else {
     archive(records, last_version, events, self.read_pairs_);
-    for (const SavedRecord& saved : records)
+    for (const SavedPair<PairRecord>& saved : records)
       self.pair_records_.add(saved.first, saved.second, 0) = saved.record;
     self.pair_records_.start_versions_at(last_version);
     self.events_.assign(events.begin(), events.end());
