@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "columns/units.hpp"
 #include "program_error.hpp"
@@ -22,27 +23,62 @@ std::vector<std::string_view> separation_parts(std::string_view text) {
   return parts;
 }
 
+/// Alerts of DO-365 for aircraft en route, with the figures of DAIDALUS 2.0.4's DO_365B_no_SUM.conf
+/// (DWC_Phase_I): DTHR, ZTHR, TTHR and alerting_time of alerts 1 to 3.
+struct NamedVolume {
+  std::string_view name, separation;
+};
+constexpr NamedVolume named_volumes[] = {{"do365:preventive", "well-clear:0.66NM:700ft:35s:55s"},
+                                         {"do365:corrective", "well-clear:0.66NM:450ft:35s:55s"},
+                                         {"do365:warning", "well-clear:0.66NM:450ft:35s:25s"}};
+
+/// Returns the definition of a named separation; any other text as it is.
+std::string_view without_name(std::string_view text) {
+  for (const auto& [name, separation] : named_volumes)
+    if (text == name) return separation;
+  return text;
+}
+
+/// What the parts of a separation are, in the order in which they are given.
+struct SeparationForm {
+  std::string_view shape;
+  std::size_t lengths, times;  ///< number of each; one more time is the look-ahead
+};
+constexpr SeparationForm separation_forms[] = {
+    {"sphere", 1, 0}, {"cylinder", 2, 0}, {"ellipsoid", 2, 0}, {"well-clear", 2, 1}};
+
 }  // namespace
 
 NamedSeparation parse_separation(const std::string& text) {
-  const auto parts = separation_parts(text);
-  const auto positive = [&](std::size_t place, Measure measure) {
-    const double value = parse_measure(parts[place], measure, "--separation");
-    if (value > 0.0) return value;
-    throw ProgramError(fmt::format("--separation: expected lengths and times > 0, but got '{}'", text));
+  const auto parts = separation_parts(without_name(text));
+  const auto wrong = [&](std::string_view expected) {
+    return ProgramError(fmt::format("--separation: expected {}, but got '{}'", expected, text));
   };
-  const std::string_view shape = parts.empty() ? "" : parts.front();
-  const std::size_t lengths = shape == "sphere" ? 1 : shape == "cylinder" || shape == "ellipsoid" ? 2 : 0;
-  if (lengths == 0 || parts.size() < 1 + lengths || parts.size() > 2 + lengths)
-    throw ProgramError(
-        fmt::format("--separation: expected sphere:RADIUS, cylinder:HORIZONTAL:VERTICAL or "
-                    "ellipsoid:HORIZONTAL:VERTICAL, with or without :TIME behind it, but got '{}'",
-                    text));
-  const double horizontal = positive(1, Measure::length);
-  const double vertical = lengths == 2 ? positive(2, Measure::length) : horizontal;
-  const double look_ahead = parts.size() == 2 + lengths ? positive(1 + lengths, Measure::time) : 0.0;
-  return {text, shape == "cylinder" ? Separation::cylinder(horizontal, vertical, look_ahead)
-                                    : Separation::ellipsoid(horizontal, vertical, look_ahead)};
+  const auto* form =
+      std::find_if(std::begin(separation_forms), std::end(separation_forms),
+                   [&](const SeparationForm& one) { return !parts.empty() && one.shape == parts.front(); });
+  if (form == std::end(separation_forms) || parts.size() < 1 + form->lengths + form->times ||
+      parts.size() > 2 + form->lengths + form->times)
+    throw wrong(
+        "sphere:RADIUS, cylinder:HORIZONTAL:VERTICAL, ellipsoid:HORIZONTAL:VERTICAL or "
+        "well-clear:HORIZONTAL:VERTICAL:MODIFIED_TAU, with or without :TIME behind it, or do365:preventive, "
+        "do365:corrective or do365:warning");
+  const auto measure = [&](std::size_t place, Measure unit, bool may_be_zero = false) {
+    const double value = parse_measure(parts[place], unit, "--separation");
+    if (value > 0.0 || (may_be_zero && value == 0.0)) return value;
+    throw wrong("lengths and times > 0");
+  };
+  Separation separation;
+  separation.horizontal = measure(1, Measure::length);
+  separation.vertical = form->lengths == 2 ? measure(2, Measure::length) : separation.horizontal;
+  if (form->shape == "cylinder") separation.shape = Separation::Shape::cylinder;
+  if (form->times == 1) {
+    separation.shape = Separation::Shape::well_clear;
+    separation.modified_tau = measure(3, Measure::time, true);
+  }
+  if (const std::size_t last = 1 + form->lengths + form->times; parts.size() > last)
+    separation.look_ahead = measure(last, Measure::time);
+  return {text, separation};
 }
 
 }  // namespace kinesphere::program

@@ -14,8 +14,9 @@ struct NamedSeparation {
   Separation separation;
 };
 
-/// Parses "sphere:50", "cylinder:5NM:1000ft", "ellipsoid:5NM:1000ft"; blanks may replace colons. Throws
-/// ProgramError.
+/// Parses "sphere:50", "cylinder:5NM:1000ft", "ellipsoid:5NM:1000ft", "well-clear:0.66NM:450ft:35s", each
+/// with or without ":60s" behind it for the look-ahead time, and "do365:preventive", "do365:corrective" and
+/// "do365:warning"; blanks may replace colons. Throws ProgramError.
 NamedSeparation parse_separation(const std::string& text);
 
 }  // namespace kinesphere::program

@@ -30,8 +30,9 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
   command
       ->add_option(
           "--separation", options.separations,
-          "What is watched for, once or several times: sphere:50, cylinder:5NM:1000ft, ellipsoid:5NM:1000ft; "
-          "with a time, as sphere:1NM:20min, also what is predicted for that time if all go straight on")
+          "What is watched for, once or several times: sphere:50, cylinder:5NM:1000ft, ellipsoid:5NM:1000ft, "
+          "well-clear:0.66NM:450ft:35s, do365:corrective; with a time, as sphere:1NM:20min, also what is "
+          "predicted for that time if all go straight on")
       ->required()
       ->expected(1)
       ->take_all()

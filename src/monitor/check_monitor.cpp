@@ -85,6 +85,12 @@ Result<void> check_monitor(const MonitorDefinition& definition) {
       check.not_negative(subject("look_ahead"), level.look_ahead)
           .require(level.look_ahead <= limits::largest_time, ErrorCode::out_of_range, subject("look_ahead"),
                    "must be at most", limits::largest_time, level.look_ahead);
+      check.not_negative(subject("modified_tau"), level.modified_tau)
+          .require(level.modified_tau <= limits::largest_time, ErrorCode::out_of_range,
+                   subject("modified_tau"), "must be at most", limits::largest_time, level.modified_tau)
+          .require(level.modified_tau == 0.0 || level.shape == Separation::Shape::well_clear,
+                   ErrorCode::out_of_range, subject("modified_tau"), "must be 0 without the shape well_clear",
+                   level.modified_tau);
     }
     for (std::size_t other = 0; other < k; ++other) {
       const SeparationRule& before = definition.separations[other];

@@ -93,7 +93,8 @@ void Monitor::Engine::queue_all(const std::vector<MonitorEvent>& events) {
   for (const MonitorEvent& event : events) queue(event);
 }
 
-/// Returns the bound of a hypothesis for the broad phase, with the margin of its class. A planned
+/// Returns the bound of a hypothesis for the broad phase, with the margin of its class and, for well clear,
+/// the way that it may go in the modified tau. A planned
 /// acceleration is replaced by a straight path: for d in [0, T],  1/2 g d^2  is within  |g| T^2 / 16  of  1/2
 /// g (T d - T^2 / 8). This is tighter than the first tangent.
 InflatedBound Monitor::Engine::inflated_bound(std::uint32_t number, const Hypothesis& hypothesis,
@@ -106,7 +107,12 @@ InflatedBound Monitor::Engine::inflated_bound(std::uint32_t number, const Hypoth
     moved.radius += norm(moved.acceleration) * (sixteenth * (1.0 + 0x1p-47));
     moved.acceleration = {};
   }
-  return {moved, separations_.margin(tracks_[number].track_class)};
+  const std::size_t track_class = tracks_[number].track_class;
+  const double modified_tau = separations_.modified_tau(track_class);
+  double margin = separations_.margin(track_class);
+  if (modified_tau > 0.0)
+    margin += modified_tau * TrackEstimate::largest_speed(hypothesis, time_, end) * (1.0 + 0x1p-40);
+  return {moved, margin};
 }
 
 /// Returns the window that starts now. Its length doubles with every 8 windows that start without a report,

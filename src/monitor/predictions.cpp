@@ -63,11 +63,18 @@ void Predictions::remove(std::uint32_t number) {
   tracks_[number] = {};
 }
 
+/// Returns half of the largest distance of two tracks, if they are alike, at the closest approach of a pair
+/// that is predicted. Well clear may be lost up to the modified tau before, at another vertical distance.
+double Predictions::margin(const Track& track) const {
+  return separations_->margin(track.track_class) +
+         separations_->modified_tau(track.track_class) * std::abs(track.path.state.velocity.z);
+}
+
 /// True if the track's path from now until its look-ahead time after the home's end is in the home, which
 /// contains both ends only if it contains the path.
 bool Predictions::stays_home(const Track& track, double now) const {
   if (!(now < track.until)) return false;
-  const double room = track.home.radius - separations_->margin(track.track_class);
+  const double room = track.home.radius - margin(track);
   const double end = track.until + separations_->look_ahead(track.track_class);
   const auto is_inside = [&](double t) {
     return norm(track.path.state_at(t).position - track.home.centre) <= room;
@@ -81,11 +88,10 @@ void Predictions::find_home(std::uint32_t number, double now) {
   Track& track = tracks_[number];
   if (track.home.radius > 0.0) homes_.remove(number, track.home);
   const double look_ahead = separations_->look_ahead(track.track_class);
-  const double margin = separations_->margin(track.track_class);
   track.until = std::max(now + look_ahead_to_spare * look_ahead, std::nextafter(now, infinity));
   const double half = 0.5 * (track.until - now + look_ahead);
   const State middle = track.path.state_at(now + half);
-  const double radius = norm(middle.velocity) * half * (1.0 + room_beside_path) + 2.0 * margin;
+  const double radius = norm(middle.velocity) * half * (1.0 + room_beside_path) + 2.0 * margin(track);
   track.home = {middle.position, radius};
   add_due({track.until, number, number});
   const std::vector<std::uint32_t> touching = homes_.touching(track.home);
@@ -126,7 +132,7 @@ void Predictions::decide(std::uint32_t a, std::uint32_t b, double now, std::vect
   PairPrediction& pair = *pairs_.find(a, b);
   const State first = one.path.state_at(now), second = other.path.state_at(now);
   const bool was_predicted = pair.is_predicted();
-  const double reach = separations_->margin(one.track_class) + separations_->margin(other.track_class);
+  const double reach = margin(one) + margin(other);
   if (!was_predicted && !may_meet(first, second, reach)) {
     pair.due = infinity;
     return;
@@ -140,10 +146,11 @@ void Predictions::decide(std::uint32_t a, std::uint32_t b, double now, std::vect
     if (!(look_ahead > 0.0)) continue;
     LevelPrediction& state = pair.levels[level];
     const StraightPass pass = straight_pass(first, second, levels[level], now);
-    // They meet if their closest approach comes in the look-ahead time, or they are within the separation
-    // now. The times of one pass, computed at two times, differ by rounding.
+    // They meet if their closest approach (or the loss of well clear) comes in the look-ahead time, or they
+    // are within the separation now. The times of one pass, computed at two times, differ by rounding.
     const bool meet = pass.begin < infinity;
-    const double from = meet ? std::min(pass.begin, pass.closest_within() - look_ahead) : infinity;
+    const double entry = levels[level].predicts_entry ? pass.begin : pass.closest_within();
+    const double from = meet ? std::min(pass.begin, entry - look_ahead) : infinity;
     const bool holds = from <= now + resolution && pass.end > now;
     if (state.holds) state.held_until = now;
     state.holds = holds;

@@ -61,7 +61,8 @@ struct PairPrediction {
 };
 
 /// Each track of a class with a look-ahead time has a home: a ball that contains its straight path from now
-/// until that time after `until`, with a margin of half of the widest separation. A pair whose homes do not
+/// until that time (and the modified tau) after `until`, with a margin of half of the widest separation, and
+/// of the height that it may gain in the modified tau. A pair whose homes do not
 /// touch comes within no separation in its look-ahead time, until one of the two homes ends. All other pairs
 /// are near, and have a PairPrediction.
 class Predictions {
@@ -133,6 +134,7 @@ class Predictions {
   void add_due(const Due& due);
   void index_due();
   std::span<const Components> levels_of(const Track& a, const Track& b) const;
+  double margin(const Track& track) const;
   bool stays_home(const Track& track, double now) const;
   void find_home(std::uint32_t number, double now);
   void meet(std::uint32_t a, std::uint32_t b);

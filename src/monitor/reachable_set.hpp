@@ -1,4 +1,5 @@
-// Sets of positions that a track can reach after a report, and the distances that a separation compares.
+// Sets of positions and velocities that a track can reach after a report, and the distances that a separation
+// compares.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +14,9 @@
 namespace kinesphere {
 
 /// A ball that contains the track from `time` until `end`. With s = t - time, its centre is position +
-/// velocity s + 1/2 acceleration s^2, and its radius is radius + speed s + 1/2 growth s^2.
+/// velocity s + 1/2 acceleration s^2, and its radius is radius + speed s + 1/2 growth s^2. The velocity of
+/// the track differs from velocity + acceleration s by at most speed + growth s (docs/monitoring.md, Lemma
+/// 5).
 struct ReachableSet {
   double time = 0.0;
   double end = infinity;
@@ -70,6 +73,7 @@ struct Component {
   /// A point whose measured distance exceeds `limit` by at most this length is outside of the separation by
   /// at most the tolerance of the monitor (docs/monitoring.md, Lemma 4).
   double tolerance = 0.0;
+  double modified_tau = 0.0;  ///< Separation::modified_tau; for the plane alone.
 
   double length(const ErrorBound& error) const {
     if (axes == Axes::plane) return error.horizontal();
@@ -87,12 +91,16 @@ struct Components {
   Component parts[2];
   int count = 1;
   double look_ahead = 0.0;  ///< Separation::look_ahead
+  /// True if predictions are about the time at which two first are within the separation; else about that of
+  /// their closest approach.
+  bool predicts_entry = false;
 
   Components(const Separation& separation, int dimensions, double tolerance) {
-    const auto& [shape, horizontal, vertical, ahead] = separation;
+    const auto& [shape, horizontal, vertical, ahead, modified_tau] = separation;
     look_ahead = ahead;
-    if (shape == Separation::Shape::cylinder) {
-      parts[0] = {Component::Axes::plane, 1.0, horizontal, tolerance};
+    predicts_entry = shape == Separation::Shape::well_clear;
+    if (shape != Separation::Shape::ellipsoid) {
+      parts[0] = {Component::Axes::plane, 1.0, horizontal, tolerance, modified_tau};
       parts[1] = {Component::Axes::upright, 1.0, vertical, tolerance};
       count = dimensions == 2 ? 1 : 2;
     } else {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bound/rounding.hpp"
+#include "monitor/well_clear_course.hpp"
 
 namespace kinesphere {
 namespace {
@@ -36,21 +37,19 @@ struct View {
   }
 };
 
-/// The distance between two reachable sets along one component, at time `now`.
+/// The distance between two reachable sets along one component, at time `now`. Both hold then.
 class ReachableSetsMeeting {
  public:
   ReachableSetsMeeting(const ReachableSet& a, const ReachableSet& b, const Component& component, double now)
       : a_(a, component),
         b_(b, component),
         now_(now),
-        begin_(std::max(a.time, b.time)),
         end_(std::min(a.end, b.end)),
         errors_(rounding::sum_up(a_.error, b_.error)),
         limit_(component.limit),
         outer_limit_(rounding::sum_down(component.limit, component.tolerance)),
         gap_(gap_limits(a_.path, b_.path, now)) {}
 
-  bool holds() const { return begin_ <= now_ && now_ < end_; }
   double lower() const { return rounding::sum_down(gap_.lower, -errors_); }
   double upper() const { return rounding::sum_up(gap_.upper, errors_); }
   bool is_apart() const { return lower() > limit_; }
@@ -78,19 +77,63 @@ class ReachableSetsMeeting {
   double growth() const { return a_.growth_at(now_) + b_.growth_at(now_); }
 
   View a_, b_;
-  double now_, begin_, end_;
+  double now_, end_;
   double errors_, limit_, outer_limit_;
   GapLimits gap_;
 };
 
-/// Calls visit(meeting) for each pair of reachable sets that hold now, until it returns false.
+/// Two reachable sets and well clear with modified tau, at time `now`. Both hold then. The two are clear if
+/// they are farther apart than the limit, and modified tau does not count. They have lost well clear if they
+/// are within the limit, or by modified tau.
+class WellClearMeeting {
+ public:
+  WellClearMeeting(const ReachableSet& a, const ReachableSet& b, const Component& component, double now,
+                   double least)
+      : distance_(a, b, component, now), course_(a, b, component, now, least), end_(std::min(a.end, b.end)) {}
+
+  double lower() const { return distance_.lower(); }
+  double upper() const { return distance_.upper(); }
+  bool is_apart() const { return distance_.is_apart() && course_.is_clear(); }
+  bool is_within() const { return distance_.is_within() || course_.is_lost(); }
+
+  double apart_until(double horizon) const {
+    return std::min({end_, distance_.apart_until(horizon), course_.clear_until(horizon)});
+  }
+  double within_until(double horizon) const {
+    const double until = course_.lost_until(horizon);
+    return std::min(end_, distance_.is_within() ? std::max(until, distance_.within_until(horizon)) : until);
+  }
+  double may_be_apart(double horizon) const {
+    const double from = distance_.may_be_apart(horizon);
+    return from < infinity ? std::max(from, course_.may_be_clear(horizon)) : from;
+  }
+  double may_be_within(double horizon) const { return course_.may_be_lost(horizon); }
+
+ private:
+  ReachableSetsMeeting distance_;
+  WellClearCourse course_;
+  double end_;
+};
+
+/// Calls visit(meeting) for each pair of reachable sets that hold now, until it returns false. `least` is the
+/// resolution of times.
 template <class Visit>
 void for_each_meeting(const Hypothesis& a, const Hypothesis& b, const Component& component, double now,
-                      Visit visit) {
-  for (const ReachableSet& one : a.sets)
-    for (const ReachableSet& other : b.sets)
-      if (const ReachableSetsMeeting meeting(one, other, component, now); meeting.holds())
-        if (!visit(meeting)) return;
+                      double least, Visit visit) {
+  const auto visit_all = [&](auto meeting_of) {
+    for (const ReachableSet& one : a.sets)
+      for (const ReachableSet& other : b.sets)
+        if (std::max(one.time, other.time) <= now && now < std::min(one.end, other.end))
+          if (!visit(meeting_of(one, other))) return;
+  };
+  if (component.modified_tau > 0.0)
+    visit_all([&](const ReachableSet& one, const ReachableSet& other) {
+      return WellClearMeeting(one, other, component, now, least);
+    });
+  else
+    visit_all([&](const ReachableSet& one, const ReachableSet& other) {
+      return ReachableSetsMeeting(one, other, component, now);
+    });
 }
 
 /// Times until which two hypotheses prove the pair apart or within; -infinity if they do not prove it now.
@@ -100,11 +143,11 @@ struct Certain {
 };
 
 Certain certain_of(const Hypothesis& a, const Hypothesis& b, const Components& components, double now,
-                   double horizon) {
+                   double horizon, double least) {
   Certain certain;
   for (const Component& component : components) {
     double within = -infinity;
-    for_each_meeting(a, b, component, now, [&](const ReachableSetsMeeting& meeting) {
+    for_each_meeting(a, b, component, now, least, [&](const auto& meeting) {
       if (meeting.is_apart()) certain.apart = std::max(certain.apart, meeting.apart_until(horizon));
       if (meeting.is_within()) within = std::max(within, meeting.within_until(horizon));
       // No other pair of sets can give a later time.
@@ -125,14 +168,15 @@ double next_begin(const Hypothesis& hypothesis, double now) {
 
 /// Returns the earliest time at which time alone may decide a pair that two hypotheses leave open.
 double decided_from(const Hypothesis& a, const Hypothesis& b, const Components& components, double now,
-                    double horizon) {
+                    double horizon, double least) {
   double apart = infinity;
   double within = -infinity;
   for (const Component& component : components) {
     double one_within = infinity;
-    for_each_meeting(a, b, component, now, [&](const ReachableSetsMeeting& meeting) {
-      apart = std::min(apart, meeting.may_be_apart(horizon));
-      one_within = std::min(one_within, meeting.is_within() ? now : meeting.may_be_within(horizon));
+    for_each_meeting(a, b, component, now, least, [&](const auto& meeting) {
+      apart = std::min(apart, meeting.may_be_apart(std::min(horizon, apart)));
+      one_within = std::min(one_within,
+                            meeting.is_within() ? now : meeting.may_be_within(std::min(horizon, one_within)));
       return true;
     });
     within = std::max(within, one_within);
@@ -147,7 +191,7 @@ SeparationForecast forecast_of(const TrackEstimate& a, const TrackEstimate& b, c
   Certain all{infinity, infinity};
   for (const Hypothesis& one : a.hypotheses())
     for (const Hypothesis& other : b.hypotheses()) {
-      const Certain certain = certain_of(one, other, separation, now, horizon);
+      const Certain certain = certain_of(one, other, separation, now, horizon, least);
       all.apart = std::min(all.apart, certain.apart);
       all.within = std::min(all.within, certain.within);
     }
@@ -157,8 +201,8 @@ SeparationForecast forecast_of(const TrackEstimate& a, const TrackEstimate& b, c
   double until = enough;
   // If a track has several hypotheses, the next report decides the pair again, and time alone does not.
   if (a.hypotheses().size() == 1 && b.hypotheses().size() == 1)
-    until = std::max(until,
-                     decided_from(a.hypotheses().front(), b.hypotheses().front(), separation, now, infinity));
+    until = std::max(until, decided_from(a.hypotheses().front(), b.hypotheses().front(), separation, now,
+                                         infinity, least));
   else
     until = infinity;
   return {Verdict::undecided, until};
@@ -170,7 +214,7 @@ DistanceBetween distance_between(const TrackEstimate& a, const TrackEstimate& b,
   for (const Hypothesis& one : a.hypotheses())
     for (const Hypothesis& other : b.hypotheses()) {
       DistanceBetween between;
-      for_each_meeting(one, other, component, now, [&](const ReachableSetsMeeting& meeting) {
+      for_each_meeting(one, other, component, now, 0.0, [&](const auto& meeting) {
         between.lower = std::max(between.lower, meeting.lower());
         between.upper = std::min(between.upper, meeting.upper());
         return true;

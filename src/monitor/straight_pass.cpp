@@ -4,6 +4,21 @@
 #include <cmath>
 
 namespace kinesphere {
+namespace {
+
+/// Returns the time until two that go straight on and meet are within the limit of a component, or lose well
+/// clear. With the offset x and the velocity v, c = x.x - limit^2 > 0, and root^2 = (x.v)^2 - v.v c. With a
+/// modified tau T, well clear is lost where  v.v t^2 + (2 x.v + T v.v) t + c + T x.v  falls to zero, which is
+/// before the limit is reached.
+double entry_after(double c, double xv, double v2, double root, double modified_tau) {
+  if (modified_tau == 0.0) return c / (root - xv);
+  const double constant = c + modified_tau * xv;
+  if (constant <= 0.0) return 0.0;
+  const double slope = 2.0 * xv + modified_tau * v2;
+  return 2.0 * constant / (std::hypot(modified_tau * v2, 2.0 * root) - slope);
+}
+
+}  // namespace
 
 StraightPass straight_pass(const State& first, const State& second, const Components& separation,
                            double now) {
@@ -25,7 +40,8 @@ StraightPass straight_pass(const State& first, const State& second, const Compon
       continue;
     }
     const double root = std::sqrt(std::max(0.0, discriminant));
-    if (c > 0.0) pass.begin = std::max(pass.begin, now + c / (root - xv));
+    if (c > 0.0)
+      pass.begin = std::max(pass.begin, now + entry_after(c, xv, v2, root, component.modified_tau));
     if (v2 > 0.0) pass.end = std::min(pass.end, now + (root - xv) / v2);
   }
   if (pass.begin > pass.end) pass.begin = infinity;

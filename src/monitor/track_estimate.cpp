@@ -340,6 +340,24 @@ Bound TrackEstimate::bound(const Hypothesis& hypothesis, double now, double end)
   return tightest(hypothesis, now, end).moved_to(now).bound();
 }
 
+double TrackEstimate::largest_speed(const Hypothesis& hypothesis, double now, double end) {
+  double least = infinity;
+  for (const ReachableSet& set : hypothesis.sets) {
+    if (set.time > now || set.end < end) continue;
+    const auto speed_at = [&](double time) {
+      const Vec3 velocity = set.velocity_at(time);
+      return std::hypot(velocity.x, velocity.y);
+    };
+    // The speed of the centre is a convex function of time.
+    const double centre = std::max(speed_at(now), speed_at(end));
+    const double rounding =
+        rounding::margin * (norm_one(set.velocity) + norm_one(set.acceleration) * (end - set.time));
+    const double error = set.speed.horizontal() + set.growth.horizontal() * (end - set.time);
+    least = std::min(least, centre + error + rounding);
+  }
+  return least;
+}
+
 double TrackEstimate::worth_asking(double time) const {
   double largest = 0.0;
   for (const Hypothesis& hypothesis : hypotheses_)

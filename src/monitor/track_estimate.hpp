@@ -77,6 +77,9 @@ class TrackEstimate {
   }
   /// Returns a bound that contains the track from `now` until `end` if the hypothesis is true.
   static Bound bound(const Hypothesis& hypothesis, double now, double end);
+  /// Returns an upper limit of the horizontal speed of the track from `now` until `end` if the hypothesis is
+  /// true.
+  static double largest_speed(const Hypothesis& hypothesis, double now, double end);
   /// Returns the priority of the track for polling: its radius times the age of its latest report. Of two
   /// tracks, the one with the larger value is polled. If two tracks with the acceleration limits A and B have
   /// to keep a given sum of radii, the fewest reports are needed where their ages are as A^(-1/3) : B^(-1/3).

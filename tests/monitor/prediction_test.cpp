@@ -226,7 +226,8 @@ TEST(Predictions, GoOnAfterASnapshotAsWithoutIt) {
   const auto events_of = [](bool is_restored) {
     MonitorDefinition made = definition(1.0);
     made.classes.push_back({.acceleration_limit = 5.0});
-    made.separations.push_back({0, 1, {Separation::cylinder(8.0, 4.0, 6.0)}});
+    made.separations.push_back(
+        {0, 1, {Separation::cylinder(8.0, 4.0, 6.0), Separation::well_clear(6.0, 4.0, 1.0, 3.0)}});
     Monitor monitor = Monitor::create(made).value();
     Random random(3);
     std::vector<MonitorEvent> events;

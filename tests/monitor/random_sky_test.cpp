@@ -85,8 +85,19 @@ class RandomSky : public testing::TestWithParam<Sky> {
     return all;
   }
 
-  static bool is_within(const Separation& separation, int dimensions, const Vec3& way, double tolerance) {
+  /// `way` and `speed` are the position and velocity of one relative to the other.
+  static bool is_within(const Separation& separation, int dimensions, const Vec3& way, const Vec3& speed,
+                        double tolerance) {
     const double flat = std::hypot(way.x, way.y);
+    if (separation.shape == Separation::Shape::well_clear) {
+      if (dimensions == 3 && std::abs(way.z) > separation.vertical + tolerance) return false;
+      const double distance = separation.horizontal + tolerance;
+      const double closing = way.x * speed.x + way.y * speed.y;
+      return flat <= distance ||
+             (closing < 0.0 &&
+              std::abs(way.x * speed.y - way.y * speed.x) <= distance * std::hypot(speed.x, speed.y) &&
+              (distance * distance - flat * flat) / closing <= separation.modified_tau);
+    }
     if (dimensions == 2) return flat <= separation.horizontal + tolerance;
     if (separation.shape == Separation::Shape::cylinder)
       return flat <= separation.horizontal + tolerance && std::abs(way.z) <= separation.vertical + tolerance;
@@ -145,10 +156,10 @@ TEST_P(RandomSky, IsNeverWrongWhereItIsCertain) {
             const auto at = verdicts.find({id, other, level});
             const Verdict verdict = at == verdicts.end() ? Verdict::apart : at->second;
             ++seen_verdicts[verdict];
-            const Vec3 way = x.position - y.position;
+            const Vec3 way = x.position - y.position, speed = x.velocity - y.velocity;
             if (const auto promised = promises.find({id, other, level});
                 promised != promises.end() && time < promised->second.until) {
-              EXPECT_EQ(is_within(separation, sky.dimensions, way,
+              EXPECT_EQ(is_within(separation, sky.dimensions, way, speed,
                                   promised->second.verdict == Verdict::apart ? -1e-9 : 1.01e-3),
                         promised->second.verdict == Verdict::within)
                   << id << " and " << other << " at " << time;
@@ -157,11 +168,11 @@ TEST_P(RandomSky, IsNeverWrongWhereItIsCertain) {
               promises[{id, other, level}] = {answer.verdict, answer.until};
             }
             if (verdict == Verdict::apart) {
-              EXPECT_FALSE(is_within(separation, sky.dimensions, way, -1e-9))
+              EXPECT_FALSE(is_within(separation, sky.dimensions, way, speed, -1e-9))
                   << id << " and " << other << " at " << time << ", " << norm(way) << " apart";
             }
             if (verdict == Verdict::within) {
-              EXPECT_TRUE(is_within(separation, sky.dimensions, way, 1.01e-3))
+              EXPECT_TRUE(is_within(separation, sky.dimensions, way, speed, 1.01e-3))
                   << id << " and " << other << " at " << time << ", " << norm(way) << " apart";
             }
             if (separation == Separation::sphere(separation.horizontal) && verdict == Verdict::undecided) {
@@ -201,15 +212,27 @@ TEST_P(RandomSky, IsNeverWrongWhereItIsCertain) {
 
 INSTANTIATE_TEST_SUITE_P(
     , RandomSky,
-    testing::Values(Sky{.name = "spheres"}, Sky{.name = "plane", .dimensions = 2, .tracks = 25},
-                    Sky{.name = "fast", .speed = 30.0, .limit = 10.0, .delay = 0.2},
-                    Sky{.name = "dense", .tracks = 80, .size = 30.0, .speed = 2.0, .limit = 0.5},
-                    Sky{.name = "long_windows", .window = 9.0}, Sky{.name = "short_windows", .window = 0.1},
-                    Sky{.name = "cylinders",
-                        .levels = {Separation::cylinder(8.0, 4.0), Separation::cylinder(5.0, 2.0)}},
-                    Sky{.name = "ellipsoids",
-                        .levels = {Separation::ellipsoid(8.0, 4.0), Separation::ellipsoid(3.0, 6.0)}},
-                    Sky{.name = "exact", .error = 0.0, .velocity_error = 0.0, .interval = 0.4, .delay = 0.6}),
+    testing::Values(
+        Sky{.name = "spheres"}, Sky{.name = "plane", .dimensions = 2, .tracks = 25},
+        Sky{.name = "fast", .speed = 30.0, .limit = 10.0, .delay = 0.2},
+        Sky{.name = "dense", .tracks = 80, .size = 30.0, .speed = 2.0, .limit = 0.5},
+        Sky{.name = "long_windows", .window = 9.0}, Sky{.name = "short_windows", .window = 0.1},
+        Sky{.name = "cylinders", .levels = {Separation::cylinder(8.0, 4.0), Separation::cylinder(5.0, 2.0)}},
+        Sky{.name = "ellipsoids",
+            .levels = {Separation::ellipsoid(8.0, 4.0), Separation::ellipsoid(3.0, 6.0)}},
+        Sky{.name = "well_clear",
+            .levels = {Separation::well_clear(6.0, 4.0, 1.5), Separation::well_clear(3.0, 3.0, 0.5)}},
+        Sky{.name = "well_clear_in_the_plane",
+            .dimensions = 2,
+            .tracks = 25,
+            .speed = 12.0,
+            .error = 0.01,
+            .velocity_error = 0.01,
+            .interval = 0.4,
+            .delay = 0.1,
+            .window = 0.3,
+            .levels = {Separation::well_clear(4.0, 4.0, 2.0)}},
+        Sky{.name = "exact", .error = 0.0, .velocity_error = 0.0, .interval = 0.4, .delay = 0.6}),
     [](const auto& sky) { return sky.param.name; });
 
 }  // namespace

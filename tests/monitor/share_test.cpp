@@ -12,17 +12,19 @@
 namespace kinesphere::share_test {
 namespace {
 
-MonitorDefinition definition(Shard share) {
+const std::vector<Separation> two_levels{Separation::sphere(5.0, 3.0), Separation::cylinder(3.0, 1.0)};
+
+MonitorDefinition definition(Shard share, const std::vector<Separation>& levels = two_levels) {
   return {.classes = {{.acceleration_limit = 4.0, .largest_speed = 20.0}},
-          .separations = {{0, 0, {Separation::sphere(5.0, 3.0), Separation::cylinder(3.0, 1.0)}}},
+          .separations = {{0, 0, levels}},
           .stale_after = 4.0,
           .drop_after = 9.0,
           .shard = share};
 }
 
 /// Returns the events of a share for equal reports: late ones, wrong ones, dropped tracks.
-std::vector<MonitorEvent> watch(Shard share) {
-  Monitor monitor = Monitor::create(definition(share)).value();
+std::vector<MonitorEvent> watch(Shard share, const std::vector<Separation>& levels = two_levels) {
+  Monitor monitor = Monitor::create(definition(share, levels)).value();
   Random random(11);
   std::vector<MonitorEvent> events;
   for (int k = 0; k < 3000; ++k) {
@@ -69,6 +71,15 @@ TEST(MonitorShare, SharesTellTogetherWhatOneTells) {
   std::copy_if(all.begin(), all.end(), std::back_inserter(expected),
                [&](const MonitorEvent& event) { return several.contains(event.first); });
   EXPECT_EQ(watch(several), expected);
+}
+
+TEST(MonitorShare, SharesTellTogetherOfWellClearWhatOneTells) {
+  const std::vector<Separation> levels{Separation::well_clear(3.0, 2.0, 0.5, 1.0)};
+  std::vector<MonitorEvent> together = watch({.of = 2, .first = 0}, levels);
+  for (const MonitorEvent& event : watch({.of = 2, .first = 1}, levels)) together.push_back(event);
+  const std::vector<MonitorEvent> all = watch({}, levels);
+  EXPECT_GT(all.size(), 1000u);
+  EXPECT_TRUE(std::is_permutation(together.begin(), together.end(), all.begin(), all.end()));
 }
 
 TEST(MonitorShare, AnswersForItsOwnPairsAlone) {

@@ -15,7 +15,8 @@ enum class MonitorEventKind {
   /// The verdict about two tracks and a separation changes at this time.
   verdict,
   /// If both go straight on, the closest approach of two tracks is within a separation and comes in its
-  /// look-ahead time, or they are within it now. A prediction, without a guarantee: tracks may turn.
+  /// look-ahead time, or they are within it now. For Separation::Shape::well_clear, it is the loss of well
+  /// clear that comes in the look-ahead time. A prediction, without a guarantee: tracks may turn.
   predicted,
   /// The two no longer do so: they have passed each other, or a report shows that they will not.
   prediction_ended,

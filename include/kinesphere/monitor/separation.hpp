@@ -8,19 +8,27 @@
 namespace kinesphere {
 
 /// A region around a track. Two tracks are *within* a separation if the position of one lies in this region
-/// around the position of the other.
+/// around the position of the other. For well_clear the region depends on their velocities.
 struct Separation {
   enum class Shape {
     ellipsoid,  ///< (horizontal distance / horizontal)^2 + (vertical distance / vertical)^2 <= 1
     cylinder,   ///< horizontal distance <= horizontal, and vertical distance <= vertical
+    /// Loss of well clear with the modified tau of RTCA DO-365, which counts velocities, too: vertical
+    /// distance <= vertical, and one of two conditions in the plane. Either the horizontal distance is at
+    /// most `horizontal`. Or the two close in, would pass at most `horizontal` from each other if they went
+    /// straight on, and have 0 <= (horizontal^2 - s.s) / (s.v) <= modified_tau, where s and v are the
+    /// horizontal position and velocity of one relative to the other. The tolerance of Verdict::within
+    /// applies to `horizontal` and to `vertical`.
+    well_clear,
   };
   Shape shape = Shape::ellipsoid;
   double horizontal = 0.0;  ///< length, > 0
   double vertical = 0.0;    ///< length, > 0; ignored in two dimensions
   /// Time for which tracks are predicted to go straight on (time, >= 0); with 0 nothing is predicted. The
   /// monitor then also reports closest approaches within the separation that come in this time
-  /// (MonitorEventKind::predicted).
+  /// (MonitorEventKind::predicted). For well_clear, losses of well clear that come in this time.
   double look_ahead = 0.0;
+  double modified_tau = 0.0;  ///< Time, >= 0; 0 for shapes other than well_clear.
 
   static constexpr Separation sphere(double distance, double look_ahead = 0.0) {
     return {Shape::ellipsoid, distance, distance, look_ahead};
@@ -31,13 +39,19 @@ struct Separation {
   static constexpr Separation cylinder(double horizontal, double vertical, double look_ahead = 0.0) {
     return {Shape::cylinder, horizontal, vertical, look_ahead};
   }
+  /// For example DO-365's en-route volume, in metres and seconds, 55 s ahead:
+  ///   Separation::well_clear(1222.32, 137.16, 35.0, 55.0)
+  static constexpr Separation well_clear(double horizontal, double vertical, double modified_tau,
+                                         double look_ahead = 0.0) {
+    return {Shape::well_clear, horizontal, vertical, look_ahead, modified_tau};
+  }
 
   friend constexpr bool operator==(const Separation&, const Separation&) = default;
 
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive) {
-    auto& [shape, horizontal, vertical, look_ahead] = self;
-    archive(shape, horizontal, vertical, look_ahead);
+    auto& [shape, horizontal, vertical, look_ahead, modified_tau] = self;
+    archive(shape, horizontal, vertical, look_ahead, modified_tau);
   }
 };
 

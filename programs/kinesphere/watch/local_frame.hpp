@@ -83,7 +83,8 @@ class LocalFrame {
   /// Returns the limits on the map of a class with these limits on the earth.
   TrackClass promise(const ErrorBound& acceleration, const ErrorBound& largest_speed) const;
   /// Returns a separation on the map; if it certainly does not hold there, `separation` does not hold on the
-  /// earth.
+  /// earth. The modified tau of well clear is that of the map: products of relative positions and velocities
+  /// differ there by at most the factor kappa^2 - 1 of the product of their lengths.
   Separation separation(const Separation& separation) const;
 
  private:

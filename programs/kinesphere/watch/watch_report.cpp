@@ -86,10 +86,16 @@ std::string setting_fields(const Watcher& watcher) {
                       json_number(settings.forget));
   const char* separator = "";
   for (const NamedSeparation& named : settings.separations) {
-    const bool is_cylinder = named.separation.shape == Separation::Shape::cylinder;
-    text += fmt::format(R"({}{{"name": {}, "shape": "{}", "horizontal": {}, "vertical": {}}})", separator,
-                        json_text(named.name), is_cylinder ? "cylinder" : "ellipsoid",
+    const Separation::Shape shape = named.separation.shape;
+    text += fmt::format(R"({}{{"name": {}, "shape": "{}", "horizontal": {}, "vertical": {})", separator,
+                        json_text(named.name),
+                        shape == Separation::Shape::cylinder     ? "cylinder"
+                        : shape == Separation::Shape::well_clear ? "well_clear"
+                                                                 : "ellipsoid",
                         json_number(named.separation.horizontal), json_number(named.separation.vertical));
+    if (shape == Separation::Shape::well_clear)
+      text += fmt::format(R"(, "modified_tau": {})", json_number(named.separation.modified_tau));
+    text += "}";
     separator = ", ";
   }
   text += R"(], "counts": {)";

@@ -44,7 +44,14 @@ TEST(Separations, AreShapesWithLengths) {
   EXPECT_EQ(parse_separation("cylinder:5NM:1000ft").separation, Separation::cylinder(9260.0, 304.8));
   EXPECT_EQ(parse_separation("cylinder 5NM 1000ft").separation, Separation::cylinder(9260.0, 304.8));
   EXPECT_EQ(parse_separation("ellipsoid:10:5").separation, Separation::ellipsoid(10.0, 5.0));
-  for (const char* const text : {"", "50", "cube:50", "sphere", "sphere:0", "cylinder:5", "sphere:1:2:3"})
+  const Separation volume = Separation::well_clear(0.66 * 1852.0, 450.0 * foot, 35.0, 55.0);
+  EXPECT_EQ(parse_separation("well-clear:0.66NM:450ft:35s:55s").separation, volume);
+  EXPECT_EQ(parse_separation("well-clear:10:5:0").separation, Separation::well_clear(10.0, 5.0, 0.0));
+  EXPECT_EQ(parse_separation("do365:corrective").separation, volume);
+  EXPECT_EQ(parse_separation("do365:corrective").name, "do365:corrective");
+  for (const char* const text :
+       {"", "50", "cube:50", "sphere", "sphere:0", "cylinder:5", "sphere:1:2:3", "well-clear:10:5",
+        "well-clear:10:0:1", "well-clear:10:5:1:0", "do365:other"})
     EXPECT_NE(error_of([&] { parse_separation(text); }).find("--separation"), std::string::npos) << text;
 }
 
