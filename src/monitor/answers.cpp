@@ -59,10 +59,23 @@ Result<PairAnswer> Monitor::Engine::answer(TrackId first, TrackId second, std::u
   answer.lower = std::max(0.0, between.lower);
   answer.upper = between.upper;
 
-  const StraightPass pass = straight_pass(straight_on(one), straight_on(other), levels[level], time_);
+  const State first_state = straight_on(one), second_state = straight_on(other);
+  const StraightPass pass = straight_pass(first_state, second_state, levels[level], time_);
   answer.likely_time = pass.begin;
   answer.closest_time = pass.closest_time;
   answer.closest_distance = pass.closest_distance;
+  const Vec3 velocity = first_state.velocity - second_state.velocity;
+  const Vec3 closest = first_state.position - second_state.position + velocity * (pass.closest_time - time_);
+  answer.closest_horizontal = std::hypot(closest.x, closest.y);
+  answer.closest_vertical = std::abs(closest.z);
+  answer.relative_speed = norm(velocity);
+  answer.inevitable_by =
+      answer.verdict == Verdict::within
+          ? time_
+          : certain_within_by(one.estimate, other.estimate, levels[level], time_, resolution());
+  answer.avoidable_until =
+      avoidable_until(first_state, second_state, acceleration_limit(one) + acceleration_limit(other),
+                      levels[level], pass, time_);
   answer.predicted = predictions_.is_predicted(a, b, level);
   answer.ask = is_less_certain(a, b) ? first : second;
   answer.ask_by = answer.verdict == Verdict::undecided ? time_ : answer.until;
@@ -73,6 +86,11 @@ Result<PairAnswer> Monitor::Engine::answer(TrackId first, TrackId second, std::u
 State Monitor::Engine::straight_on(const KnownTrack& track) const {
   const ReachableSet& set = TrackEstimate::tightest(track.estimate.hypotheses().front(), time_);
   return {set.centre_at(time_), set.velocity_at(time_)};
+}
+
+/// Returns the limit of a track's acceleration now: that of its class, or of plans beyond it.
+ErrorBound Monitor::Engine::acceleration_limit(const KnownTrack& track) const {
+  return track.estimate.hypotheses().front().plans.limit_from(time_, classes_[track.track_class]);
 }
 
 std::vector<OpenPair> Monitor::Engine::open_pairs() const {

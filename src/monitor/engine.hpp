@@ -102,6 +102,7 @@ class Monitor::Engine {
   bool is_decided(std::uint32_t a, std::uint32_t b);
   bool is_less_certain(std::uint32_t a, std::uint32_t b) const;
   State straight_on(const KnownTrack& track) const;
+  ErrorBound acceleration_limit(const KnownTrack& track) const;
   void find_pair(std::uint32_t a, std::uint32_t b);
   void decide(std::uint32_t a, std::uint32_t b);
   void close_records();

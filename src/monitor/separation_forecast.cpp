@@ -54,6 +54,15 @@ class ReachableSetsMeeting {
   double upper() const { return rounding::sum_up(gap_.upper, errors_); }
   bool is_apart() const { return lower() > limit_; }
   bool is_within() const { return upper() <= outer_limit_; }
+  /// Returns about how long it takes at least until the two certainly are within, at their largest relative
+  /// speed; 0 if they are. +infinity if the radii alone are too large for that.
+  double time_to_within() const {
+    if (is_within()) return 0.0;
+    if (errors_ + growth() > outer_limit_) return infinity;
+    const double speed =
+        norm(a_.path.velocity_at(now_) - b_.path.velocity_at(now_)) + growth_speed(a_) + growth_speed(b_);
+    return (upper() - outer_limit_) / speed;
+  }
 
   double apart_until(double horizon) const {
     return std::min(end_,
@@ -75,6 +84,9 @@ class ReachableSetsMeeting {
 
  private:
   double growth() const { return a_.growth_at(now_) + b_.growth_at(now_); }
+  double growth_speed(const View& view) const {
+    return view.path.growth_speed + view.path.growth_acceleration * (now_ - view.path.time);
+  }
 
   View a_, b_;
   double now_, end_;
@@ -95,6 +107,7 @@ class WellClearMeeting {
   double upper() const { return distance_.upper(); }
   bool is_apart() const { return distance_.is_apart() && course_.is_clear(); }
   bool is_within() const { return distance_.is_within() || course_.is_lost(); }
+  double time_to_within() const { return distance_.time_to_within(); }
 
   double apart_until(double horizon) const {
     return std::min({end_, distance_.apart_until(horizon), course_.clear_until(horizon)});
@@ -184,7 +197,38 @@ double decided_from(const Hypothesis& a, const Hypothesis& b, const Components& 
   return std::min({apart, within, next_begin(a, now), next_begin(b, now)});
 }
 
+/// certain_within_by() of two hypotheses: advances by about the time that it takes at least.
+double certain_within_by(const Hypothesis& a, const Hypothesis& b, const Components& components, double now,
+                         double least) {
+  constexpr int rounds = 64;
+  double time = now;
+  for (int round = 0; round < rounds; ++round) {
+    double longest = 0.0;
+    for (const Component& component : components) {
+      double shortest = infinity;
+      for_each_meeting(a, b, component, time, least, [&](const auto& meeting) {
+        shortest = std::min(shortest, meeting.time_to_within());
+        return shortest > 0.0;
+      });
+      longest = std::max(longest, shortest);
+    }
+    if (longest == 0.0) return time;
+    time += std::max(longest, least);
+    if (!(time < infinity)) break;
+  }
+  return infinity;
+}
+
 }  // namespace
+
+double certain_within_by(const TrackEstimate& a, const TrackEstimate& b, const Components& separation,
+                         double now, double least) {
+  double latest = now;
+  for (const Hypothesis& one : a.hypotheses())
+    for (const Hypothesis& other : b.hypotheses())
+      latest = std::max(latest, certain_within_by(one, other, separation, now, least));
+  return latest;
+}
 
 SeparationForecast forecast_of(const TrackEstimate& a, const TrackEstimate& b, const Components& separation,
                                double now, double horizon, double least) {

@@ -49,4 +49,32 @@ StraightPass straight_pass(const State& first, const State& second, const Compon
   return pass;
 }
 
+double avoidable_until(const State& first, const State& second, const ErrorBound& limit,
+                       const Components& separation, const StraightPass& pass, double now) {
+  if (pass.begin == infinity || separation.predicts_entry) return infinity;
+  if (pass.begin <= now) return now;
+  // Returns the latest start from which all places of time t are within: t - s, if the two can go at most
+  // 1/2 limit s^2 in a component, and have that room. A convex function of t, as the distance is.
+  const auto latest_start = [&](double t) {
+    double least = infinity;
+    for (const Component& component : separation) {
+      const Vec3 offset = component.part(first.position - second.position) +
+                          component.part(first.velocity - second.velocity) * (t - now);
+      const double room = component.limit - norm(offset);
+      least = std::min(least, room > 0.0 ? std::sqrt(2.0 * room / component.length(limit)) : 0.0);
+    }
+    return t - least;
+  };
+  double low = pass.begin, high = pass.end;
+  constexpr int rounds = 40;
+  for (int round = 0; round < rounds; ++round) {
+    const double left = low + (high - low) / 3.0, right = high - (high - low) / 3.0;
+    if (latest_start(left) < latest_start(right))
+      high = right;
+    else
+      low = left;
+  }
+  return std::max(now, latest_start(0.5 * (low + high)));
+}
+
 }  // namespace kinesphere

@@ -115,9 +115,24 @@ struct PairAnswer {
   /// estimate, not a bound. For a cylinder, the distance is that in the plane.
   double closest_distance = 0.0;
   double closest_time = 0.0;
+  /// Horizontal and vertical part of the distance at that time (length), also if they continue straight on.
+  double closest_horizontal = 0.0;
+  double closest_vertical = 0.0;
+  /// Speed of one relative to the other now (length / time). An estimate, not a bound.
+  double relative_speed = 0.0;
   /// Time at which the tracks first are within the separation if they continue straight on from now;
   /// +infinity if they never are. An estimate, not a bound.
   double likely_time = 0.0;
+  /// The pair certainly is within the separation (as for Verdict::within) at some time up to this one, now or
+  /// ahead, whatever the tracks do within their limits: an inevitable collision state. +infinity if nothing
+  /// certain is in sight. For Separation::Shape::well_clear, losses ahead are found only by the horizontal
+  /// distance. Short stays within, of about MonitorDefinition::time_resolution, may be overlooked.
+  double inevitable_by = 0.0;
+  /// If both continue straight on until this time, no accelerations within their limits keep them out of the
+  /// separation after it; now if it is too late already. +infinity if straight paths do not meet, and always
+  /// for Separation::Shape::well_clear. An estimate, not a bound: errors of reports, largest speeds and
+  /// planned accelerations do not count, and an evasion shortly before this time may still fail.
+  double avoidable_until = 0.0;
   /// The track whose report would tighten the bounds most, and the time by which that report is needed for
   /// the verdict to stay certain. For an undecided pair that time is now.
   TrackId ask = 0;

@@ -52,12 +52,18 @@ std::string answer_fields(const AlertContext& context, const PairAnswer& answer)
   const auto length = [](double value) {
     return std::isfinite(value) ? fmt::format("{:.6g}", value) : "null";
   };
-  return fmt::format(
+  std::string line = fmt::format(
       R"("distance": [{}, {}], "until": {}, "closest_distance": {}, "closest_time": {}, "likely_time": {}, "ask": {}, "ask_by": {})",
       length(answer.lower / context.stretch), length(answer.upper), json_time(context.times, answer.until),
       length(answer.closest_distance), json_time(context.times, answer.closest_time),
       json_time(context.times, answer.likely_time), json_text(context.names.text(answer.ask)),
       json_time(context.times, answer.ask_by));
+  return line +
+         fmt::format(
+             R"(, "closest_horizontal": {}, "closest_vertical": {}, "relative_speed": {}, "avoidable_until": {}, "inevitable_by": {})",
+             length(answer.closest_horizontal), length(answer.closest_vertical),
+             length(answer.relative_speed), json_time(context.times, answer.avoidable_until),
+             json_time(context.times, answer.inevitable_by));
 }
 
 std::string declarations_of(const NamedTrack& track) {
