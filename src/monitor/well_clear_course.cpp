@@ -96,7 +96,7 @@ double WellClearCourse::may_be_clear(double horizon) const {
 }
 
 double WellClearCourse::may_be_lost(double horizon) const {
-  return advance_while_positive(now_, horizon, least_,
+  return advance_while_positive(now_ + least_, horizon, least_,
                                 [&](double time) { return -lost_for(least_discs_at(time), outer_limits_); });
 }
 

@@ -23,8 +23,8 @@ class WellClearCourse {
   /// Returns a time before which the above holds, or +infinity if it holds up to the horizon.
   double clear_until(double horizon) const;
   double lost_until(double horizon) const;
-  /// Returns a time before which time alone cannot prove the above: errors are taken not to grow from now on.
-  /// Or +infinity, if that time is after the horizon.
+  /// Returns a time before which time alone cannot prove the above, but for the next `least`: errors are
+  /// taken not to grow from now on. Or +infinity, if that time is after the horizon.
   double may_be_clear(double horizon) const;
   double may_be_lost(double horizon) const;
 

@@ -155,6 +155,9 @@ class Sky {
       levels.push_back(choices_.one_in(3)
                            ? Separation::cylinder(horizontal, std::max(0.4, vertical), look_ahead)
                            : Separation::ellipsoid(horizontal, std::max(0.4, vertical), look_ahead));
+      if (choices_.one_in(4))
+        levels.back() = Separation::well_clear(std::max(0.4, 0.3 * horizontal), std::max(0.4, vertical),
+                                               choices_.of({0.5, 0.0, 3.0, 50.0}) * unit_, look_ahead);
     }
     definition_.separations = {{0, 0, levels}};
   }
@@ -308,15 +311,30 @@ class Sky {
     if (counters.windows > 200'000 || counters.rechecks > 20'000'000) fail("too many steps");
   }
 
-  /// Returns true if the vector between two tracks is within the separation, enlarged by `more`.
-  bool is_within(const Separation& separation, const Place& way, long double more) const {
+  /// Returns true if two tracks are within the separation, enlarged by `more`. `way` and `speed` are the
+  /// position and velocity of one relative to the other.
+  bool is_within(const Separation& separation, const Place& way, const Place& speed, long double more) const {
     const long double flat = std::sqrt(way.x * way.x + way.y * way.y);
+    if (separation.shape == Separation::Shape::well_clear) {
+      const long double distance = separation.horizontal + more;
+      if (definition_.dimensions == 3 && std::abs(way.z) > separation.vertical + more) return false;
+      if (flat <= distance) return true;
+      const long double closing = way.x * speed.x + way.y * speed.y;
+      const long double cross = way.x * speed.y - way.y * speed.x;
+      return closing < 0.0L && std::abs(cross) <= distance * std::hypot(speed.x, speed.y) &&
+             (distance * distance - flat * flat) / closing <= separation.modified_tau;
+    }
     if (definition_.dimensions == 2) return flat <= separation.horizontal + more;
     if (separation.shape == Separation::Shape::cylinder)
       return flat <= separation.horizontal + more && std::abs(way.z) <= separation.vertical + more;
     const long double stretch = static_cast<long double>(separation.horizontal) / separation.vertical;
     return std::sqrt(flat * flat + stretch * stretch * way.z * way.z) <=
            separation.horizontal + more * std::min(1.0L, stretch);
+  }
+
+  bool has_plans_beyond(std::size_t track) const {
+    const std::vector<FiledPlan>& plans = truths_[track].plans;
+    return std::any_of(plans.begin(), plans.end(), [](const FiledPlan& filed) { return filed.is_beyond; });
   }
 
   void hold(const char* who, Verdict verdict, bool apart_is_wrong, bool within_is_wrong, std::size_t a,
@@ -335,11 +353,15 @@ class Sky {
     for (const std::size_t a : known_)
       for (const std::size_t b : known_) {
         if (b <= a) continue;
+        const auto is_within_at = [&](double t, const Separation& level, long double more) {
+          return is_within(level, truths_[a].position(t) - truths_[b].position(t),
+                           truths_[a].velocity(t) - truths_[b].velocity(t), more);
+        };
         const Place way = truths_[a].position(time) - truths_[b].position(time);
         for (std::uint32_t level = 0; level < levels.size(); ++level) {
-          const bool apart_is_wrong = is_within(levels[level], way, 0.0L);
-          const bool within_is_wrong =
-              !is_within(levels[level], way, definition_.tolerance * (1.0L + 1e-12L));
+          const long double tolerance = definition_.tolerance * (1.0L + 1e-12L);
+          const bool apart_is_wrong = is_within_at(time, levels[level], 0.0L);
+          const bool within_is_wrong = !is_within_at(time, levels[level], tolerance);
           const auto at = told_.find({a, b, level});
           const Verdict reported = at == told_.end() ? Verdict::apart : at->second;
           hold("reported", reported, apart_is_wrong, within_is_wrong, a, b, time);
@@ -349,10 +371,22 @@ class Sky {
             fail("answer " + std::string(name_of(answer->verdict)) + " after " +
                  std::string(name_of(reported)) + " was reported");
           if (!(answer->until >= time)) fail("an answer ends before now");
+          if (!(answer->inevitable_by >= time)) fail("something was inevitable before now");
+          // With one hypothesis each, the pair is within at that time. Plans beyond the class may not be
+          // known yet.
+          const auto is_plain = [&](std::size_t track) {
+            return !has_plans_beyond(track) && monitor_->track(track)->places.size() == 1;
+          };
+          if (answer->inevitable_by <= start_ + unit_ * segments && is_plain(a) && is_plain(b)) {
+            ++watched_.inevitable;
+            if (!is_within_at(answer->inevitable_by, levels[level], tolerance))
+              fail("the inevitable did not come");
+          }
           const bool is_space = levels[level].shape == Separation::Shape::ellipsoid &&
                                 levels[level].horizontal == levels[level].vertical;
           const long double distance = is_space ? length(way) : std::sqrt(way.x * way.x + way.y * way.y);
-          if (is_space || levels[level].shape == Separation::Shape::cylinder || definition_.dimensions == 2) {
+          if (is_space || levels[level].shape != Separation::Shape::ellipsoid ||
+              definition_.dimensions == 2) {
             if (answer->lower > distance || answer->upper < distance) fail("limits do not hold the distance");
           }
           Promised& promised = promises_[{a, b, level}];

@@ -14,10 +14,11 @@ struct WatchedSky {
   std::optional<std::string> failure;  ///< forbidden behaviour of the monitor
   std::size_t reports = 0;
   std::size_t events = 0;
-  std::size_t certain = 0;   ///< checked verdicts that were not `undecided`
-  std::size_t promised = 0;  ///< verdicts that an earlier answer had certified
-  std::size_t plans = 0;     ///< plans beyond the limits of the class
-  std::size_t wrong = 0;     ///< reports that were wrong
+  std::size_t certain = 0;     ///< checked verdicts that were not `undecided`
+  std::size_t promised = 0;    ///< verdicts that an earlier answer had certified
+  std::size_t inevitable = 0;  ///< answers by when the two certainly are within
+  std::size_t plans = 0;       ///< plans beyond the limits of the class
+  std::size_t wrong = 0;       ///< reports that were wrong
 };
 
 /// The bytes choose a definition, the true motion of up to six tracks, and a course: reports that are noisy,

@@ -35,14 +35,16 @@ TEST(AnyReports, OfRandomSkiesAreNeverTakenWrongly) {
     all.events += watched.events;
     all.certain += watched.certain;
     all.promised += watched.promised;
+    all.inevitable += watched.inevitable;
     all.plans += watched.plans;
     all.wrong += watched.wrong;
   }
-  std::printf("%zu reports, %zu events, %zu certain, %zu promised, %zu plans, %zu wrong\n", all.reports,
-              all.events, all.certain, all.promised, all.plans, all.wrong);
+  std::printf("%zu reports, %zu events, %zu certain, %zu promised, %zu inevitable, %zu plans, %zu wrong\n",
+              all.reports, all.events, all.certain, all.promised, all.inevitable, all.plans, all.wrong);
   EXPECT_GT(all.events, 10 * skies());
   EXPECT_GT(all.certain, 1000 * skies());
   EXPECT_GT(all.promised, 100 * skies());
+  EXPECT_GT(all.inevitable, skies() / 10);
   EXPECT_GT(all.plans, skies());
   EXPECT_GT(all.wrong, skies());
 }
