@@ -63,10 +63,10 @@ NamedSeparation parse_separation(const std::string& text) {
         "sphere:RADIUS, cylinder:HORIZONTAL:VERTICAL, ellipsoid:HORIZONTAL:VERTICAL or "
         "well-clear:HORIZONTAL:VERTICAL:MODIFIED_TAU, with or without :TIME behind it, or do365:preventive, "
         "do365:corrective or do365:warning");
-  const auto measure = [&](std::size_t place, Measure unit, bool may_be_zero = false) {
+  const auto measure = [&](std::size_t place, Measure unit) {
     const double value = parse_measure(parts[place], unit, "--separation");
-    if (value > 0.0 || (may_be_zero && value == 0.0)) return value;
-    throw wrong("lengths and times > 0");
+    if (value > 0.0 || (unit == Measure::time && value == 0.0)) return value;
+    throw wrong("lengths > 0 and times >= 0");
   };
   Separation separation;
   separation.horizontal = measure(1, Measure::length);
@@ -74,11 +74,12 @@ NamedSeparation parse_separation(const std::string& text) {
   if (form->shape == "cylinder") separation.shape = Separation::Shape::cylinder;
   if (form->times == 1) {
     separation.shape = Separation::Shape::well_clear;
-    separation.modified_tau = measure(3, Measure::time, true);
+    separation.modified_tau = measure(3, Measure::time);
   }
-  if (const std::size_t last = 1 + form->lengths + form->times; parts.size() > last)
-    separation.look_ahead = measure(last, Measure::time);
-  return {text, separation};
+  const std::size_t last = 1 + form->lengths + form->times;
+  const bool has_time = parts.size() > last;
+  if (has_time) separation.look_ahead = measure(last, Measure::time);
+  return {text, separation, has_time};
 }
 
 }  // namespace kinesphere::program

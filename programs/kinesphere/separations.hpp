@@ -12,10 +12,11 @@ namespace kinesphere::program {
 struct NamedSeparation {
   std::string name;  ///< spelled like in the option
   Separation separation;
+  bool has_time = false;  ///< its text says the look-ahead time, perhaps 0
 };
 
 /// Parses "sphere:50", "cylinder:5NM:1000ft", "ellipsoid:5NM:1000ft", "well-clear:0.66NM:450ft:35s", each
-/// with or without ":60s" behind it for the look-ahead time, and "do365:preventive", "do365:corrective" and
+/// with or without ":60s" behind it for the look-ahead time (>= 0), and "do365:preventive", "do365:corrective" and
 /// "do365:warning"; blanks may replace colons. Throws ProgramError.
 NamedSeparation parse_separation(const std::string& text);
 

@@ -31,22 +31,37 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
       ->add_option(
           "--separation", options.separations,
           "What is watched for, once or several times: sphere:50, cylinder:5NM:1000ft, ellipsoid:5NM:1000ft, "
-          "well-clear:0.66NM:450ft:35s, do365:corrective; with a time, as sphere:1NM:20min, also what is "
-          "predicted for that time if all go straight on")
+          "well-clear:0.66NM:450ft:35s, do365:corrective; "
+          "and the look-ahead time of predictions, as sphere:1NM:20min; else that of the format")
       ->required()
       ->expected(1)
       ->take_all()
       ->type_name("SHAPE[:TIME]");
   command
       ->add_option("--hold", options.hold,
-                   "A prediction ends once it has not held for so long; half of --silence when not given")
+                   "A prediction ends once it has not held for so long; 60 s when not given")
       ->type_name("TIME");
   command->add_option("--own", options.own, "Watch only the pairs with the track of this id")
       ->type_name("ID");
-  command->add_option("--only", options.only, "Write only alerts of these kinds; all when not given")
+  command
+      ->add_option(
+          "--only", options.only,
+          "Write alerts of these kinds; within,predicted,lost when not given: at most three for each "
+          "encounter. With undecided, each change of a verdict")
       ->delimiter(',')
-      ->check(CLI::IsMember({"within", "predicted", "undecided", "tracks"}))
-      ->type_name("within,predicted,undecided,tracks");
+      ->check(CLI::IsMember({"within", "predicted", "lost", "undecided", "tracks", "all"}))
+      ->type_name("KINDS");
+  command
+      ->add_option("--area", options.areas,
+                   "Write only alerts about pairs with a track in this circle, or in one of several")
+      ->expected(1)
+      ->take_all()
+      ->type_name("LAT,LON,RADIUS|X,Y,RADIUS");
+  command
+      ->add_option(
+          "--most-alerts", options.most_alerts,
+          "At most so many alerts in a second, and one that counts the others; any number when not given")
+      ->check(whole_number(std::uint64_t{1} << 53, 1));
   command
       ->add_option("--format", options.format, "The format, where the stream's first line does not show it")
       ->check(CLI::Validator(

@@ -3,6 +3,7 @@
 
 #include <CLI/App.hpp>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,7 +19,8 @@ struct WatchOptions {
   std::vector<std::string> separations;
   std::string hold;
   std::string own;
-  std::vector<std::string> only;
+  std::vector<std::string> only, areas;
+  std::optional<std::uint64_t> most_alerts;
   std::optional<int> dimensions;
   std::string acceleration, largest_speed;
   std::string position_error, velocity_error, stamp_error;

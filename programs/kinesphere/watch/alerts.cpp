@@ -80,6 +80,28 @@ std::string declarations_of(const NamedTrack& track) {
   return text;
 }
 
+std::string lost_line(const AlertContext& context, const MonitorEvent& event, const AlertPolicy::Key& key,
+                      const Encounter& encounter) {
+  const auto [first, second] = in_text_order(context.names, key.first, key.second);
+  return fmt::format(
+      R"({{"event": "lost", "time": {}, "track": {}, "reason": "{}", "first": {}, "second": {}, )"
+      R"("separation": {}, "level": {}, "predicted": {}, "within": {}, "closest_distance": {:.6g}, )"
+      R"("closest_time": {}}})"
+      "\n",
+      json_time(context.times, event.time), json_text(context.names.text(event.first)),
+      event.kind == MonitorEventKind::stale ? "silent" : "left", json_text(context.names.text(first)),
+      json_text(context.names.text(second)), json_text(context.settings.separations[key.level].name),
+      key.level, encounter.predicted, encounter.within, encounter.loss->closest_distance,
+      json_time(context.times, encounter.loss->closest_time));
+}
+
+std::string refused_line(const AlertContext& context, const AlertPolicy::Refused& refused) {
+  return fmt::format(R"({{"event": "held_back", "time": {}, "since": {}, "alerts": {}}})"
+                     "\n",
+                     json_time(context.times, refused.since + 1.0), json_time(context.times, refused.since),
+                     refused.alerts);
+}
+
 std::string alert_line(const AlertContext& context, const MonitorEvent& event, bool is_dropped) {
   std::string line = fmt::format(R"({{"event": "{}", "time": {}, )", name_of(event.kind),
                                  json_time(context.times, event.time));

@@ -6,6 +6,7 @@
 
 #include "columns/time_scale.hpp"
 #include "kinesphere/monitor/monitor.hpp"
+#include "watch/alert_policy.hpp"
 #include "watch/track_names.hpp"
 #include "watch/watch_settings.hpp"
 
@@ -35,6 +36,11 @@ OrderedPair in_text_order(const TrackNames& names, TrackId a, TrackId b);
 std::string answer_fields(const AlertContext& context, const PairAnswer& answer);
 /// Returns the sources of the declared bounds of a track.
 std::string declarations_of(const NamedTrack& track);
+/// Returns the line of an alert that the track of the event was lost in an encounter.
+std::string lost_line(const AlertContext& context, const MonitorEvent& event, const AlertPolicy::Key& key,
+                      const Encounter& encounter);
+/// Returns the line of an alert about alerts that were not written.
+std::string refused_line(const AlertContext& context, const AlertPolicy::Refused& refused);
 /// Returns one line. Precondition: the monitor is at the time of the event. `is_dropped`: the track was
 /// dropped because of too many open pairs.
 std::string alert_line(const AlertContext& context, const MonitorEvent& event, bool is_dropped);

@@ -32,7 +32,8 @@ FormatDefaults of_aircraft() {
           .velocity_age = 2.0,
           .silence = 15.0,
           .forget = 60.0,
-          .window = 1.0};
+          .window = 1.0,
+          .look_ahead = 60.0};
 }
 
 FormatDefaults of_vessels() {
@@ -47,7 +48,8 @@ FormatDefaults of_vessels() {
           .stamp_error = 1.0,
           .silence = 210.0,
           .forget = 600.0,
-          .window = 16.0};
+          .window = 16.0,
+          .look_ahead = 60.0};
 }
 
 /// Sentences of AIS say whether a position is within 10 m or worse. 100 m (95 %) is what IMO MSC.112(73) asks

@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <vector>
 
 #include "kinesphere/monitor/monitor.hpp"
+#include "watch/alert_policy.hpp"
 
 namespace kinesphere::program {
 
@@ -35,14 +37,19 @@ struct WatchCounts {
   std::uint64_t dropped = 0;  ///< tracks, because there were more open pairs than may be
   std::uint64_t alerts = 0;
   std::uint64_t of_own = 0;               ///< reports taken of the own track (--own)
-  std::uint64_t held_back = 0;            ///< alerts that --only leaves out
-  std::array<std::uint64_t, 9> events{};  ///< indexed by MonitorEventKind
+  std::uint64_t lost = 0;                 ///< alerts `lost`
+  std::array<std::uint64_t, 9> events{};  ///< written alerts, indexed by MonitorEventKind
+  std::array<std::uint64_t, alert_fates> fates{};  ///< events, indexed by AlertFate
   /// Changes of the verdict of a separation: to undecided, to within, and back to apart.
   struct Turns {
     std::uint64_t apart = 0, undecided = 0, within = 0;
   };
   std::vector<Turns> turns;
 
+  /// Events that are not written.
+  std::uint64_t held_back() const {
+    return std::accumulate(fates.begin() + 1, fates.end(), std::uint64_t{0});
+  }
   /// Reports that cannot be used for what they lack; not those without a position, which receivers of
   /// aircraft have many of, nor those that are meant to be left out.
   std::uint64_t unusable() const { return stale + ahead + outside + no_bound + no_velocity + malformed; }

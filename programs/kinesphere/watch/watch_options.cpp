@@ -53,6 +53,22 @@ WatchSettings::Origin parse_origin(const std::string& text) {
   return {*latitude, *longitude};
 }
 
+/// Parses LAT,LON,LENGTH or X,Y,LENGTH.
+WatchedArea parse_area(const std::string& text) {
+  const std::size_t one = std::min(text.find(','), text.size());
+  const std::size_t two = std::min(text.find(',', std::min(one + 1, text.size())), text.size());
+  const auto first = parse_number(std::string_view(text).substr(0, one));
+  const auto second =
+      parse_number(std::string_view(text).substr(std::min(one + 1, text.size()), two - one - 1));
+  const std::string length = text.substr(std::min(two + 1, text.size()));
+  if (!first || !second || length.empty())
+    throw ProgramError(
+        fmt::format("--area: expected LATITUDE,LONGITUDE,RADIUS or X,Y,RADIUS, but got '{}'", text));
+  const double radius = parse_measure(length, Measure::length, "--area");
+  if (radius > 0.0) return {*first, *second, radius};
+  throw ProgramError(fmt::format("--area: expected a radius > 0, but got '{}'", text));
+}
+
 /// Parses "2/4" and "1-8/16"; returns all shares for an empty text.
 Shard parse_share(const std::string& text) {
   if (text.empty()) return {};
@@ -89,7 +105,10 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
   const FormatDefaults defaults = defaults_of(format);
   WatchSettings settings;
   settings.source = source;
-  for (const std::string& text : options.separations) settings.separations.push_back(parse_separation(text));
+  for (const std::string& text : options.separations) {
+    NamedSeparation& named = settings.separations.emplace_back(parse_separation(text));
+    if (!named.has_time) named.separation.look_ahead = defaults.look_ahead;
+  }
   settings.dimensions = options.dimensions;
   if (!settings.dimensions && defaults.geographic) settings.dimensions = defaults.dimensions;
   const auto promised = [&](const std::string& given, Measure measure, std::string_view option,
@@ -128,14 +147,21 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
   settings.velocity_age = defaults.velocity_age;
   settings.silence = positive_time(options.silence, "--silence", defaults.silence);
   settings.forget = positive_time(options.forget, "--forget", defaults.forget);
-  settings.hold = positive_time(options.hold, "--hold", 0.5 * settings.silence);
+  settings.hold = positive_time(options.hold, "--hold", 60.0);
   settings.own = options.own;
   if (!options.only.empty()) {
     const auto names = [&](std::string_view kind) {
-      return std::find(options.only.begin(), options.only.end(), kind) != options.only.end();
+      return std::any_of(options.only.begin(), options.only.end(),
+                         [kind](const std::string& name) { return name == kind || name == "all"; });
     };
-    settings.kinds = {names("within"), names("predicted"), names("undecided"), names("tracks")};
+    settings.kinds = {.within = names("within"),
+                      .predicted = names("predicted"),
+                      .lost = names("lost"),
+                      .undecided = names("undecided"),
+                      .tracks = names("tracks")};
   }
+  for (const std::string& text : options.areas) settings.areas.push_back(parse_area(text));
+  if (options.most_alerts) settings.most_alerts = *options.most_alerts;
   settings.window = defaults.window;
   // A track that is not yet silent may be the only one that reports.
   settings.leap = positive_time(options.leap, "--leap", std::max(settings.leap, settings.silence));
@@ -177,6 +203,8 @@ GivenOptions given_options(const WatchOptions& options) {
        {"--hold", options.hold},
        {"--own", options.own},
        {"--only", fmt::format("{}", fmt::join(options.only, ","))},
+       {"--area", fmt::format("{}", fmt::join(options.areas, " "))},
+       {"--most-alerts", options.most_alerts ? fmt::to_string(*options.most_alerts) : ""},
        {"--origin", options.origin},
        {"--radius", options.radius},
        {"--clock", options.clock},

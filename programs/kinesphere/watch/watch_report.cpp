@@ -25,6 +25,7 @@ std::vector<WatchCount> counts_of(const Watcher& watcher) {
   const WatchCounts& counts = watcher.counts();
   const MonitorCounters monitor = watcher.monitor_counters();
   const auto events = [&](MonitorEventKind kind) { return counts.events[static_cast<std::size_t>(kind)]; };
+  const auto fates = [&](AlertFate fate) { return counts.fates[static_cast<std::size_t>(fate)]; };
   return {
       {"reports", "reports", "taken", monitor.reports},
       {"late", "", "of them late: older than one before of the same track", monitor.late},
@@ -42,7 +43,15 @@ std::vector<WatchCount> counts_of(const Watcher& watcher) {
       {"malformed", "", "malformed", counts.malformed},
       {"no_height", "", "of those taken without a height: it may be any", counts.no_height},
       {"alerts", "alerts", "", counts.alerts},
-      {"held_back", "", "others, held back by --only", counts.held_back},
+      {"lost", "", "tracks lost in an encounter", counts.lost},
+      {"held_back", "", "events that are no alerts:", counts.held_back()},
+      {"held_back_undecided", "", "turned undecided, or apart again (--only undecided)",
+       fates(AlertFate::undecided)},
+      {"held_back_of_tracks", "", "of single tracks (--only tracks)", fates(AlertFate::of_track)},
+      {"held_back_other_kinds", "", "of other kinds (--only)", fates(AlertFate::other_kind)},
+      {"held_back_of_encounters", "", "of encounters that other alerts tell", fates(AlertFate::encounter)},
+      {"held_back_elsewhere", "", "outside of --area", fates(AlertFate::elsewhere)},
+      {"held_back_as_too_many", "", "more than --most-alerts", fates(AlertFate::too_many)},
       {"verdicts", "", "changes of what is certain", events(MonitorEventKind::verdict)},
       {"predicted", "", "predicted", events(MonitorEventKind::predicted)},
       {"predictions_ended", "", "predictions ended", events(MonitorEventKind::prediction_ended)},

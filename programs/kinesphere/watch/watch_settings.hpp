@@ -1,6 +1,8 @@
 // The settings of a watch.
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,16 +24,25 @@ struct MotionLimits {
 
 /// Kinds of alerts that a watch may write.
 struct AlertKinds {
-  bool within = true;     ///< verdicts that begin or end a certain `within`
-  bool predicted = true;  ///< predictions and their ends
-  bool undecided = true;  ///< verdicts between apart and undecided
-  bool tracks = true;     ///< alerts of single tracks
+  bool within = true;      ///< verdicts that begin or end a certain `within`
+  bool predicted = true;   ///< predictions and their ends
+  bool lost = true;        ///< tracks that became stale in an encounter (AlertPolicy)
+  bool undecided = false;  ///< verdicts between apart and undecided, and each other one
+  bool tracks = false;     ///< alerts of single tracks
+};
+
+/// A circle around a place: latitude and longitude, or x and y; and its radius.
+struct WatchedArea {
+  double first = 0.0, second = 0.0;
+  double radius = 0.0;  ///< length, > 0
 };
 
 struct WatchSettings {
   std::vector<NamedSeparation> separations;
   std::string own;  ///< id of the track whose pairs are watched; empty: all pairs are
   AlertKinds kinds;
+  std::vector<WatchedArea> areas;  ///< alerts are about pairs with a track in one of them; empty: all are
+  std::uint64_t most_alerts = std::numeric_limits<std::uint64_t>::max();  ///< alerts in a second
   double hold = 0.0;              ///< MonitorDefinition::prediction_hold (seconds)
   Shard share{};                  ///< other watches have the other pairs
   std::optional<int> dimensions;  ///< empty: three if the first report has a height

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kinesphere/monitor/monitor.hpp"
+#include "watch/alert_policy.hpp"
 #include "watch/alerts.hpp"
 #include "watch/local_frame.hpp"
 #include "watch/source_report.hpp"
@@ -88,7 +89,13 @@ class Watcher final : public ReportSink {
   std::optional<TrackReport> on_map(const SourceReport& report, NamedTrack& track);
   void add_errors(const SourceReport& report, double added_velocity_error, TrackReport& result,
                   NamedTrack& track) const;
-  bool is_selected(const MonitorEvent& event) const;
+  AlertFate fate_of(MonitorEvent& event);
+  bool is_in_area(TrackId track) const;
+  void begin_areas();
+  void write(std::uint64_t share, std::string_view line);
+  void write_refused(double time);
+  void report_lost(const MonitorEvent& event);
+  void enter_area(TrackId track);
   bool has_limits_of_aircraft(const SourceReport& report) const;
   MotionLimits limits_of(const SourceReport& report) const;
   double velocity_age_of(const SourceReport& report) const;
@@ -99,10 +106,11 @@ class Watcher final : public ReportSink {
   /// Removes the tracks in most open pairs if there are too many open pairs, until half of the limit is left.
   void drop_crowd();
   void report(const MonitorEvent& event);
-  void count_and_report(const MonitorEvent& event);
+  void count_and_report(MonitorEvent event);
 
   WatchSettings settings_;
   AlertFn alert_;
+  AlertPolicy policy_;
   StreamClock clock_;
   bool clock_is_chosen_;
   std::vector<HeldReport> held_;
@@ -111,6 +119,11 @@ class Watcher final : public ReportSink {
   double first_time_ = 0.0;
   std::optional<Monitor> monitor_;
   std::optional<LocalFrame> frame_;
+  struct Circle {
+    Vec3 centre{};
+    double radius = 0.0;
+  };
+  std::vector<Circle> areas_;  ///< WatchSettings::areas in the plane of the monitor
   bool is_geographic_ = false;
   int dimensions_ = 3;
   TrackNames names_;

@@ -44,7 +44,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MalformedLine, line, reason)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WatchCounts::Turns, apart, undecided, within)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WatchCounts, repeated, stale, ahead, outside, no_position, on_ground,
                                    no_bound, no_velocity, filtered, crowded, malformed, first_malformed,
-                                   no_height, dropped, alerts, of_own, held_back, events, turns)
+                                   no_height, dropped, alerts, of_own, lost, events, fates, turns)
 
 namespace {
 
@@ -142,7 +142,8 @@ Json Watcher::save() const {
              {"held", Json::array()},     {"time_kind", times_.kind()},
              {"first", first_},           {"geographic", is_geographic_},
              {"dimensions", dimensions_}, {"counts", counts_},
-             {"monitor", nullptr},        {"map", nullptr}};
+             {"monitor", nullptr},        {"map", nullptr},
+             {"policy", policy_.save()}};
   for (const HeldReport& held : held_) state["held"].push_back({held.id, saved(held.report)});
   if (monitor_) state["monitor"] = saved(*monitor_);
   state["tracks"] = saved(names_);
@@ -174,11 +175,13 @@ void Watcher::restore(const Json& state) {
     }
   }
   counts_ = state.at("counts");
+  policy_.restore(state.at("policy"));
   if (const Json& map = state.at("map"); !map.is_null()) begin_map({map.at(0), map.at(1)});
   if (const Json& monitor = state.at("monitor"); !monitor.is_null()) {
     auto restored = Monitor::restore(std::as_bytes(std::span(monitor.get_binary())));
     if (!restored) throw ProgramError(restored.error().message);
     monitor_.emplace(std::move(*restored));
+    begin_areas();
   }
 }
 

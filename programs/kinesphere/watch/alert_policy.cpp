@@ -1,0 +1,160 @@
+#include "watch/alert_policy.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace kinesphere::program {
+namespace {
+
+bool is_verdict(const MonitorEvent& event) { return event.kind == MonitorEventKind::verdict; }
+
+/// Returns true if the event begins `predicted` or `within` of an encounter.
+bool begins(const MonitorEvent& event, const Encounter& encounter) {
+  return is_verdict(event) ? event.verdict == Verdict::within && !encounter.within
+                           : event.kind == MonitorEventKind::predicted;
+}
+
+}  // namespace
+
+AlertFate AlertPolicy::take(MonitorEvent& event, bool is_in_area) {
+  const Key key{event.first, event.second, event.level};
+  const auto found = encounters_.find(key);
+  Encounter encounter = found == encounters_.end() ? Encounter{} : found->second;
+  AlertFate fate = fate_of(event, encounter);
+  if (fate == AlertFate::written && !is_in_area) fate = AlertFate::elsewhere;
+  if (fate == AlertFate::written && !has_room(event.time)) fate = AlertFate::too_many;
+  if (begins(event, encounter)) {
+    (is_verdict(event) ? encounter.within_since : encounter.predicted_since) = event.time;
+    if (fate == AlertFate::elsewhere) set_elsewhere(key, true);
+    if (fate == AlertFate::written) {
+      (is_verdict(event) ? encounter.within_told : encounter.predicted_told) = true;
+      set_elsewhere(key, false);
+    }
+  } else if (is_verdict(event) && encounter.within && !kinds_.undecided) {
+    event.before = Verdict::within;
+    event.since = encounter.within_since;
+  }
+  if (!is_verdict(event))
+    encounter.predicted = event.kind == MonitorEventKind::predicted;
+  else if (event.verdict != Verdict::undecided)
+    encounter.within = event.verdict == Verdict::within;
+  if (encounter.predicted || encounter.within) {
+    encounters_.insert_or_assign(key, encounter);
+  } else if (found != encounters_.end()) {
+    encounters_.erase(found);
+    set_elsewhere(key, false);
+  }
+  return fate;
+}
+
+/// Precondition: the encounter is as before the event.
+AlertFate AlertPolicy::fate_of(const MonitorEvent& event, const Encounter& encounter) const {
+  const bool is_asked_for = is_verdict(event) ? kinds_.within : kinds_.predicted;
+  if (kinds_.undecided) {
+    const bool is_of_within = event.verdict == Verdict::within || event.before == Verdict::within;
+    return is_asked_for || (is_verdict(event) && !is_of_within) ? AlertFate::written : AlertFate::other_kind;
+  }
+  const bool begin = begins(event, encounter);
+  if (is_verdict(event) && !begin && !encounter.within) return AlertFate::undecided;
+  if (!is_asked_for) return AlertFate::other_kind;
+  bool is_new;
+  if (begin)
+    is_new = !encounter.within_told && (is_verdict(event) || !encounter.predicted_told);
+  else if (is_verdict(event))
+    is_new = event.verdict == Verdict::apart && !(encounter.predicted && kinds_.predicted);
+  else
+    is_new = !(encounter.within && kinds_.within);
+  return is_new && (begin || encounter.is_told()) ? AlertFate::written : AlertFate::encounter;
+}
+
+std::vector<MonitorEvent> AlertPolicy::enter_area(TrackId track, double time) {
+  std::vector<MonitorEvent> events;
+  for (auto at = elsewhere_.lower_bound({track, Key{}}); at != elsewhere_.end() && at->first == track;) {
+    const Key key = at->second;
+    ++at;
+    Encounter& encounter = encounters_.at(key);
+    if (!has_room(time)) break;
+    MonitorEvent event{.time = time, .first = key.first, .second = key.second, .level = key.level};
+    if (encounter.within && kinds_.within) {
+      event.verdict = Verdict::within;
+      event.since = encounter.within_since;
+      encounter.within_told = true;
+    } else {
+      event.kind = MonitorEventKind::predicted;
+      encounter.predicted_told = true;
+      event.since = encounter.predicted_since;
+    }
+    events.push_back(event);
+  }
+  for (const MonitorEvent& event : events) set_elsewhere({event.first, event.second, event.level}, false);
+  return events;
+}
+
+void AlertPolicy::set_elsewhere(const Key& key, bool is_elsewhere) {
+  for (const TrackId track : {key.first, key.second})
+    if (is_elsewhere)
+      elsewhere_.insert({track, key});
+    else
+      elsewhere_.erase({track, key});
+}
+
+std::vector<AlertPolicy::Key> AlertPolicy::encounters_of(TrackId track) const {
+  std::vector<Key> keys;
+  for (const auto& [key, encounter] : encounters_)
+    if (key.first == track || key.second == track) keys.push_back(key);
+  return keys;
+}
+
+void AlertPolicy::forget(TrackId track) {
+  for (const Key& key : encounters_of(track)) {
+    encounters_.erase(key);
+    set_elsewhere(key, false);
+  }
+}
+
+bool AlertPolicy::has_room(double time) {
+  if (!(time < second_ + 1.0)) {
+    second_ = std::floor(time);
+    written_ = 0;
+  }
+  if (written_ < most_) {
+    ++written_;
+    return true;
+  }
+  ++refused_;
+  return false;
+}
+
+std::optional<AlertPolicy::Refused> AlertPolicy::refused_before(double time) {
+  if (refused_ == 0 || time < second_ + 1.0) return std::nullopt;
+  const Refused refused{second_, refused_};
+  refused_ = 0;
+  return refused;
+}
+
+nlohmann::json AlertPolicy::save() const {
+  nlohmann::json encounters = nlohmann::json::array();
+  for (const auto& [key, encounter] : encounters_) {
+    nlohmann::json loss = nullptr;
+    if (encounter.loss) loss = {encounter.loss->closest_time, encounter.loss->closest_distance};
+    encounters.push_back({key.first, key.second, key.level, encounter.predicted, encounter.within,
+                          encounter.predicted_since, encounter.within_since, encounter.predicted_told,
+                          encounter.within_told, elsewhere_.contains({key.first, key}), loss});
+  }
+  return {{"encounters", encounters}, {"second", second_}, {"written", written_}, {"refused", refused_}};
+}
+
+void AlertPolicy::restore(const nlohmann::json& state) {
+  for (const nlohmann::json& saved : state.at("encounters")) {
+    const Key key{saved.at(0), saved.at(1), saved.at(2)};
+    Encounter encounter{saved.at(3), saved.at(4), saved.at(5), saved.at(6), saved.at(7), saved.at(8)};
+    if (const nlohmann::json& loss = saved.at(10); !loss.is_null()) encounter.loss = {loss.at(0), loss.at(1)};
+    encounters_.emplace(key, encounter);
+    if (saved.at(9)) set_elsewhere(key, true);
+  }
+  second_ = state.at("second");
+  written_ = state.at("written");
+  refused_ = state.at("refused");
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,101 @@
+// Selects the events of a monitor that are written as alerts: few for each encounter of two tracks.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "kinesphere/monitor/monitor.hpp"
+#include "watch/watch_settings.hpp"
+
+namespace kinesphere::program {
+
+/// Whether an event is written, or why it is not.
+enum class AlertFate {
+  written,
+  undecided,   ///< the verdict changes between apart and undecided, which is not asked for
+  of_track,    ///< it is about a single track, which is not asked for
+  other_kind,  ///< another kind that is not asked for
+  encounter,   ///< another alert of the same encounter tells it
+  elsewhere,   ///< neither track is in an area (--area)
+  too_many,    ///< there were too many alerts in this second (--most-alerts)
+};
+inline constexpr std::size_t alert_fates = 7;
+
+/// Two tracks at one separation, from the event that they come within it until it is over: until they are no
+/// longer predicted to, and, if they certainly were within it, are certainly apart.
+struct Encounter {
+  bool predicted = false;
+  bool within = false;  ///< it was certain, and `apart` has not been since
+  double predicted_since = 0.0, within_since = 0.0;
+  /// An alert has told `predicted`, or that it certainly is within.
+  bool predicted_told = false, within_told = false;
+  bool is_told() const { return predicted_told || within_told; }
+  /// When one of the two became stale: the closest approach that was expected then.
+  struct Loss {
+    double closest_time = 0.0, closest_distance = 0.0;
+  };
+  std::optional<Loss> loss{};
+};
+
+/// The policy. If changes of `undecided` are asked for, every event of a kind that is asked for is written.
+/// Otherwise an encounter has at most three alerts: that it is predicted, unless it is within already; that
+/// it certainly is within; and that it is over.
+///
+/// Apart from AlertFate::too_many, the fate of an event depends on the events of its pair alone. So the
+/// shards of a watch write the same alerts as a watch of all pairs.
+class AlertPolicy {
+ public:
+  struct Key {
+    TrackId first = 0, second = 0;
+    std::uint32_t level = 0;
+    friend auto operator<=>(const Key&, const Key&) = default;
+  };
+
+  AlertPolicy(const AlertKinds& kinds, std::uint64_t most_alerts) : kinds_(kinds), most_(most_alerts) {}
+
+  /// Takes the next event of a pair. `is_in_area`: one of its tracks is in an area, or there are no areas.
+  /// Where the event is written, `before` and `since` of a verdict are set to what alerts have told.
+  AlertFate take(MonitorEvent& event, bool is_in_area);
+  /// Returns the events that tell of encounters of a track which begin for the reader when the track enters
+  /// an area. Cost: O(log(encounters) + encounters of the track outside of areas).
+  std::vector<MonitorEvent> enter_area(TrackId track, double time);
+  /// Returns the encounters of a track. Cost: O(encounters).
+  std::vector<Key> encounters_of(TrackId track) const;
+  /// Precondition: there is this encounter.
+  Encounter& encounter(const Key& key) { return encounters_.at(key); }
+  /// Ends the encounters of a track without an event. Cost: O(encounters).
+  void forget(TrackId track);
+
+  /// Counts one more alert at this time. Returns false if there are too many in its second.
+  bool has_room(double time);
+  /// Alerts that has_room() has refused in one second.
+  struct Refused {
+    double since = 0.0;
+    std::uint64_t alerts = 0;
+  };
+  /// Returns, once, what has been refused in a second that is over at this time.
+  std::optional<Refused> refused_before(double time);
+
+  nlohmann::json save() const;
+  void restore(const nlohmann::json& state);
+
+ private:
+  AlertFate fate_of(const MonitorEvent& event, const Encounter& encounter) const;
+  void set_elsewhere(const Key& key, bool is_elsewhere);
+
+  AlertKinds kinds_;
+  std::uint64_t most_;  ///< alerts per second
+  std::map<Key, Encounter> encounters_;
+  std::set<std::pair<TrackId, Key>> elsewhere_;  ///< encounters that are not told for that, by both tracks
+  double second_ = 0.0;                          ///< begin of the second that is counted
+  std::uint64_t written_ = 0, refused_ = 0;      ///< in that second
+};
+
+}  // namespace kinesphere::program
