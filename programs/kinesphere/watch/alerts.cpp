@@ -95,6 +95,13 @@ std::string lost_line(const AlertContext& context, const MonitorEvent& event, co
       json_time(context.times, encounter.loss->closest_time));
 }
 
+std::string group_line(const AlertContext& context, double time, const std::string& name,
+                       std::size_t tracks) {
+  return fmt::format(R"({{"event": "group", "time": {}, "track": {}, "tracks": {}}})"
+                     "\n",
+                     json_time(context.times, time), json_text(name), tracks);
+}
+
 std::string refused_line(const AlertContext& context, const AlertPolicy::Refused& refused) {
   return fmt::format(R"({{"event": "held_back", "time": {}, "since": {}, "alerts": {}}})"
                      "\n",
@@ -102,14 +109,13 @@ std::string refused_line(const AlertContext& context, const AlertPolicy::Refused
                      refused.alerts);
 }
 
-std::string alert_line(const AlertContext& context, const MonitorEvent& event, bool is_dropped) {
+std::string alert_line(const AlertContext& context, const MonitorEvent& event, std::string_view left_for) {
   std::string line = fmt::format(R"({{"event": "{}", "time": {}, )", name_of(event.kind),
                                  json_time(context.times, event.time));
   if (is_of_pair(event.kind)) return line + pair_alert_fields(context, event) + "}\n";
   line += fmt::format(R"("track": {})", json_text(context.names.text(event.first)));
   const NamedTrack* const track = context.names.find(event.first);
-  if (event.kind == MonitorEventKind::dropped)
-    line += is_dropped ? R"(, "reason": "crowd")" : R"(, "reason": "silence")";
+  if (event.kind == MonitorEventKind::dropped) line += fmt::format(R"(, "reason": "{}")", left_for);
   if (event.kind == MonitorEventKind::contradiction) {
     line += fmt::format(R"(, "position_excess": {}, "velocity_excess": {})",
                         json_number(event.position_excess), json_number(event.velocity_excess));

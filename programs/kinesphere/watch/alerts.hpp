@@ -41,8 +41,10 @@ std::string lost_line(const AlertContext& context, const MonitorEvent& event, co
                       const Encounter& encounter);
 /// Returns the line of an alert about alerts that were not written.
 std::string refused_line(const AlertContext& context, const AlertPolicy::Refused& refused);
-/// Returns one line. Precondition: the monitor is at the time of the event. `is_dropped`: the track was
-/// dropped because of too many open pairs.
-std::string alert_line(const AlertContext& context, const MonitorEvent& event, bool is_dropped);
+/// Returns the line of an alert that tracks are watched as a group from now on.
+std::string group_line(const AlertContext& context, double time, const std::string& name, std::size_t tracks);
+/// Returns one line. Precondition: the monitor is at the time of the event. `left_for`: why a dropped track
+/// was removed.
+std::string alert_line(const AlertContext& context, const MonitorEvent& event, std::string_view left_for);
 
 }  // namespace kinesphere::program

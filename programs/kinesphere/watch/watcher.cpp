@@ -200,7 +200,12 @@ void Watcher::begin_times(const FileTime& first, TimeKind kind) {
 void Watcher::go_on(const FileTime& time) {
   clock_.interrupt();
   clock_.go_on(time);
-  if (monitor_) advance(std::max(monitor_->time(), times_.seconds(clock_.now())));
+  if (!monitor_) return;
+  advance(std::max(monitor_->time(), times_.seconds(clock_.now())));
+  if (monitor_->time() < next_forgetting_) return;
+  next_forgetting_ = monitor_->time() + settings_.forget;
+  for (const TrackGroups::Cell& group : groups_->forget_before(monitor_->time() - settings_.forget))
+    end_group(group);
 }
 
 void Watcher::advance(double until) {
@@ -220,10 +225,14 @@ bool Watcher::has_room() const {
 void Watcher::drop_crowd() {
   if (monitor_->open_pair_count() <= settings_.most_pairs) return;
   for (const TrackId id : monitor_->crowd(settings_.most_pairs / 2)) {
-    require(monitor_->remove(id));
-    dropped_.insert(id);
+    remove(id, "crowd");
     ++counts_.dropped;
   }
+}
+
+void Watcher::remove(TrackId track, std::string_view reason) {
+  require(monitor_->remove(track));
+  removed_.insert_or_assign(track, reason);
 }
 
 void Watcher::report(const MonitorEvent& event) {
@@ -239,7 +248,11 @@ void Watcher::report(const MonitorEvent& event) {
   if (event.kind != MonitorEventKind::dropped) return;
   policy_.forget(event.first);
   names_.remove(event.first);
-  dropped_.erase(event.first);
+  removed_.erase(event.first);
+  if (const auto group = group_tracks_.find(event.first); group != group_tracks_.end()) {
+    groups_->dissolve(group->second);
+    group_tracks_.erase(group);
+  }
 }
 
 AlertFate Watcher::fate_of(MonitorEvent& event) {
@@ -287,7 +300,7 @@ void Watcher::enter_area(TrackId track) {
   for (const MonitorEvent& event : policy_.enter_area(track, monitor_->time())) {
     ++counts_.alerts;
     ++counts_.events[static_cast<std::size_t>(event.kind)];
-    write(event.first, alert_line(context(), event, false));
+    write(event.first, alert_line(context(), event, ""));
   }
 }
 
@@ -328,7 +341,8 @@ void Watcher::count_and_report(MonitorEvent event) {
   if (fate != AlertFate::written) return;
   ++counts_.alerts;
   ++counts_.events[static_cast<std::size_t>(event.kind)];
-  write(event.first, alert_line(context(), event, dropped_.contains(event.first)));
+  const auto removed = removed_.find(event.first);
+  write(event.first, alert_line(context(), event, removed == removed_.end() ? "silence" : removed->second));
 }
 
 AlertContext Watcher::context() const {
@@ -411,6 +425,7 @@ void Watcher::begin_monitor(const SourceReport& report) {
     }
   monitor_.emplace(require(Monitor::create(definition)));
   begin_areas();
+  groups_.emplace(cutting());
 }
 
 void Watcher::deliver(const SourceReport& report) {
@@ -465,6 +480,7 @@ void Watcher::deliver(const SourceReport& report) {
     ++counts_.outside;
     return;
   }
+  if (watch_as_group(report, id, *on_map, track)) return;
   if (const auto taken = monitor_->report(id, *on_map); !taken)
     return refuse(fmt::format("{}: {}", report.id, taken.error().message));
   if (!settings_.own.empty() && report.id == settings_.own) ++counts_.of_own;
@@ -480,6 +496,83 @@ void Watcher::deliver(const SourceReport& report) {
     named.climb_by = track.climb_by;
   }
   enter_area(id);
+}
+
+// Groups.
+
+/// Returns cells so small that two tracks in one are within the smallest separation, with room for errors.
+TrackGroups::Cutting Watcher::cutting() const {
+  TrackGroups::Cutting cutting{.edge = unbounded};
+  constexpr double part = 0.25;
+  double height = unbounded;
+  for (const NamedSeparation& named : settings_.separations) {
+    cutting.edge = std::min(cutting.edge, part * named.separation.horizontal);
+    height = std::min(height, part * named.separation.vertical);
+  }
+  if (dimensions_ == 3) cutting.height = height;
+  cutting.slow = cutting.edge / settings_.silence;
+  constexpr double walking_pace = 1.0;  // metres per second
+  if (is_geographic_) cutting.slow = std::min(cutting.slow, walking_pace);
+  return cutting;
+}
+
+std::string Watcher::group_name(const TrackGroups::Cell& group) const {
+  const Vec3 centre = groups_->centre_of(group);
+  if (!frame_) return fmt::format("group at {:.6g},{:.6g},{:.6g}", centre.x, centre.y, centre.z);
+  const Vec3 at = frame_->geographic(centre);
+  return fmt::format("group at {:.5f},{:.5f},{:.0f}", at.y, at.x, at.z);
+}
+
+/// Returns true for a report of a track that is watched in a group. Then the track that stands for the group
+/// gets it, as a report of the cell's centre with an error that reaches all of the cell.
+bool Watcher::watch_as_group(const SourceReport& report, TrackId id, const TrackReport& on_map,
+                             const NamedTrack& track) {
+  if (report.id == settings_.own) return false;
+  std::optional<double> speed;
+  if (report.velocity) speed = norm(*report.velocity);
+  const auto outcome = groups_->take(id, on_map.state.position, speed, on_map.timestamp);
+  if (outcome.dissolved) end_group(*outcome.dissolved);
+  if (!outcome.group) return false;
+  if (outcome.is_new) begin_group(outcome);
+  for (const TrackId member : outcome.joined)
+    if (monitor_->contains(member)) remove(member, "group");
+  if (!groups_->is_due(*outcome.group, on_map.timestamp, 0.5 * settings_.window)) {
+    ++counts_.grouped;
+    return true;
+  }
+  const auto [edge, height, slow] = groups_->cutting();
+  TrackReport of_group = on_map;
+  of_group.state = {groups_->centre_of(*outcome.group), {}};
+  if (height == 0.0) of_group.state.position.z = on_map.state.position.z;
+  of_group.position_error = on_map.position_error + ErrorBound::cylinder(std::sqrt(0.5) * edge, 0.5 * height);
+  if (std::isfinite(on_map.velocity_error.total()))
+    of_group.velocity_error = on_map.velocity_error + ErrorBound(slow);
+  const std::string name = group_name(*outcome.group);
+  const TrackId group_id = track_id_of(name);
+  if (!monitor_->report(group_id, of_group)) return true;
+  group_tracks_[group_id] = *outcome.group;
+  NamedTrack* const known = names_.find(group_id);
+  NamedTrack& named = known != nullptr ? *known : names_.add(group_id, name);
+  named = track;
+  named.text = name;
+  named.stamp = report.stamp;
+  named.position = report.position;
+  return true;
+}
+
+void Watcher::begin_group(const TrackGroups::Outcome& outcome) {
+  ++counts_.groups;
+  const std::string name = group_name(*outcome.group);
+  const TrackId id = track_id_of(name);
+  if (!settings_.share.contains(id)) return;
+  ++counts_.alerts;
+  write(id, group_line(context(), monitor_->time(), name, outcome.joined.size()));
+}
+
+void Watcher::end_group(const TrackGroups::Cell& group) {
+  const TrackId id = track_id_of(group_name(group));
+  group_tracks_.erase(id);
+  if (monitor_->contains(id)) remove(id, "dissolved");
 }
 
 bool Watcher::has_limits_of_aircraft(const SourceReport& report) const {

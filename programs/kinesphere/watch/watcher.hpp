@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
@@ -15,6 +16,7 @@
 #include "watch/local_frame.hpp"
 #include "watch/source_report.hpp"
 #include "watch/stream_clock.hpp"
+#include "watch/track_groups.hpp"
 #include "watch/track_names.hpp"
 #include "watch/watch_counts.hpp"
 #include "watch/watch_settings.hpp"
@@ -96,6 +98,13 @@ class Watcher final : public ReportSink {
   void write_refused(double time);
   void report_lost(const MonitorEvent& event);
   void enter_area(TrackId track);
+  TrackGroups::Cutting cutting() const;
+  bool watch_as_group(const SourceReport& report, TrackId id, const TrackReport& on_map,
+                      const NamedTrack& track);
+  void begin_group(const TrackGroups::Outcome& outcome);
+  void end_group(const TrackGroups::Cell& group);
+  std::string group_name(const TrackGroups::Cell& group) const;
+  void remove(TrackId track, std::string_view reason);
   bool has_limits_of_aircraft(const SourceReport& report) const;
   MotionLimits limits_of(const SourceReport& report) const;
   double velocity_age_of(const SourceReport& report) const;
@@ -127,7 +136,11 @@ class Watcher final : public ReportSink {
   bool is_geographic_ = false;
   int dimensions_ = 3;
   TrackNames names_;
-  std::set<TrackId> dropped_;  ///< dropped tracks without an alert so far
+  /// Why tracks were removed whose alerts are still to come.
+  std::map<TrackId, std::string_view> removed_;
+  std::optional<TrackGroups> groups_;  ///< from the first report on
+  double next_forgetting_ = 0.0;       ///< time at which the silent members of groups are forgotten
+  std::map<TrackId, TrackGroups::Cell> group_tracks_;  ///< the tracks that stand for groups
   WatchCounts counts_;
   std::size_t line_ = 0;
   std::set<std::string, std::less<>> declarations_;  ///< texts restored from a snapshot

@@ -44,7 +44,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MalformedLine, line, reason)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WatchCounts::Turns, apart, undecided, within)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WatchCounts, repeated, stale, ahead, outside, no_position, on_ground,
                                    no_bound, no_velocity, filtered, crowded, malformed, first_malformed,
-                                   no_height, dropped, alerts, of_own, lost, events, fates, turns)
+                                   no_height, dropped, alerts, of_own, lost, groups, grouped, events, fates,
+                                   turns)
 
 namespace {
 
@@ -138,14 +139,24 @@ Json saved(const Monitor& monitor) {
 }  // namespace
 
 Json Watcher::save() const {
-  Json state{{"clock", clock_.memory()},  {"clock_is_chosen", clock_is_chosen_},
-             {"held", Json::array()},     {"time_kind", times_.kind()},
-             {"first", first_},           {"geographic", is_geographic_},
-             {"dimensions", dimensions_}, {"counts", counts_},
-             {"monitor", nullptr},        {"map", nullptr},
-             {"policy", policy_.save()}};
+  Json state{{"clock", clock_.memory()},
+             {"clock_is_chosen", clock_is_chosen_},
+             {"held", Json::array()},
+             {"time_kind", times_.kind()},
+             {"first", first_},
+             {"geographic", is_geographic_},
+             {"dimensions", dimensions_},
+             {"counts", counts_},
+             {"monitor", nullptr},
+             {"map", nullptr},
+             {"policy", policy_.save()},
+             {"groups", nullptr},
+             {"next_forgetting", next_forgetting_}};
   for (const HeldReport& held : held_) state["held"].push_back({held.id, saved(held.report)});
-  if (monitor_) state["monitor"] = saved(*monitor_);
+  if (monitor_) {
+    state["monitor"] = saved(*monitor_);
+    state["groups"] = {groups_->save(), group_tracks_};
+  }
   state["tracks"] = saved(names_);
   if (frame_) state["map"] = {frame_->latitude(), frame_->longitude()};
   return state;
@@ -182,6 +193,10 @@ void Watcher::restore(const Json& state) {
     if (!restored) throw ProgramError(restored.error().message);
     monitor_.emplace(std::move(*restored));
     begin_areas();
+    groups_.emplace(cutting());
+    groups_->restore(state.at("groups").at(0));
+    state.at("groups").at(1).get_to(group_tracks_);
+    next_forgetting_ = state.at("next_forgetting");
   }
 }
 
