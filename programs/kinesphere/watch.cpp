@@ -31,12 +31,17 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
       ->add_option(
           "--separation", options.separations,
           "What is watched for, once or several times: sphere:50, cylinder:5NM:1000ft, ellipsoid:5NM:1000ft, "
-          "well-clear:0.66NM:450ft:35s, do365:corrective; "
-          "and the look-ahead time of predictions, as sphere:1NM:20min; else that of the format")
+          "well-clear:0.66NM:450ft:35s, do365:corrective; with or without a look-ahead time of its own, as "
+          "sphere:1NM:20min")
       ->required()
       ->expected(1)
       ->take_all()
       ->type_name("SHAPE[:TIME]");
+  command
+      ->add_option("--look-ahead", options.look_ahead,
+                   "How far ahead predictions reach where a separation has no time of its own; 60 s when not "
+                   "given, of csv and jsonl 10 s; with 0 nothing is predicted")
+      ->type_name("TIME");
   command
       ->add_option("--hold", options.hold,
                    "A prediction ends once it has not held for so long; 60 s when not given")
@@ -191,6 +196,7 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
                    "Serve a map, the state and metrics on this port of 127.0.0.1; 0 for any that is free")
       ->check(CLI::Range(0, 65535))
       ->type_name("PORT");
+  command->add_flag("--text", options.text, "Alerts are short lines to read, instead of JSON");
   command->add_flag("--quiet", options.quiet, "No summary and no warnings on standard error");
   return command;
 }

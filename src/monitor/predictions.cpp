@@ -124,6 +124,14 @@ void Predictions::decide_all(std::uint32_t number, double now, std::vector<Monit
   for (const std::uint32_t other : near) decide(number, other, now, events);
 }
 
+/// Returns how the two pass each other at the separation that decides whether they are predicted: the
+/// enlarged one if they are. `pass` is that at the separation itself.
+StraightPass Predictions::judge(const State& first, const State& second, const Components& level,
+                                const StraightPass& pass, bool is_predicted, double now) const {
+  const double margin = definition_->prediction_margin;
+  return is_predicted && margin > 0.0 ? straight_pass(first, second, level.enlarged(margin), now) : pass;
+}
+
 /// Updates the predictions of a near pair from the two paths, adds events for those that change, and sets the
 /// time at which time alone may change them.
 void Predictions::decide(std::uint32_t a, std::uint32_t b, double now, std::vector<MonitorEvent>& events) {
@@ -146,12 +154,15 @@ void Predictions::decide(std::uint32_t a, std::uint32_t b, double now, std::vect
     if (!(look_ahead > 0.0)) continue;
     LevelPrediction& state = pair.levels[level];
     const StraightPass pass = straight_pass(first, second, levels[level], now);
+    const StraightPass judged = judge(first, second, levels[level], pass, state.predicted, now);
     // They meet if their closest approach (or the loss of well clear) comes in the look-ahead time, or they
     // are within the separation now. The times of one pass, computed at two times, differ by rounding.
-    const bool meet = pass.begin < infinity;
-    const double entry = levels[level].predicts_entry ? pass.begin : pass.closest_within();
-    const double from = meet ? std::min(pass.begin, entry - look_ahead) : infinity;
-    const bool holds = from <= now + resolution && pass.end > now;
+    const auto from_of = [&](const StraightPass& straight) {
+      if (straight.begin == infinity) return infinity;
+      const double entry = levels[level].predicts_entry ? straight.begin : straight.closest_within();
+      return std::min(straight.begin, entry - look_ahead);
+    };
+    const bool holds = from_of(judged) <= now + resolution && judged.end > now;
     if (state.holds) state.held_until = now;
     state.holds = holds;
     const bool begins = holds && !state.predicted;
@@ -170,9 +181,10 @@ void Predictions::decide(std::uint32_t a, std::uint32_t b, double now, std::vect
                         .closest_distance = pass.closest_distance});
     }
     if (holds) {
-      due = std::min(due, std::max(pass.end, now + resolution));
+      const StraightPass next = judge(first, second, levels[level], pass, state.predicted, now);
+      due = std::min(due, std::max(next.end, now + resolution));
     } else {
-      if (meet) due = std::min(due, std::max(from, now + resolution));
+      due = std::min(due, std::max(from_of(state.predicted ? judged : pass), now + resolution));
       if (state.predicted) due = std::min(due, std::max(state.held_until + hold, now + resolution));
     }
   }

@@ -140,6 +140,8 @@ class Predictions {
   void meet(std::uint32_t a, std::uint32_t b);
   void part(std::uint32_t a, std::uint32_t b);
   void decide_all(std::uint32_t number, double now, std::vector<MonitorEvent>& events);
+  StraightPass judge(const State& first, const State& second, const Components& level,
+                     const StraightPass& pass, bool is_predicted, double now) const;
   void decide(std::uint32_t a, std::uint32_t b, double now, std::vector<MonitorEvent>& events);
 
   const MonitorDefinition* definition_;

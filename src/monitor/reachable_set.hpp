@@ -108,6 +108,12 @@ struct Components {
       parts[0] = {Component::Axes::space, stretch, horizontal, std::min(1.0, stretch) * tolerance};
     }
   }
+  /// Returns this separation enlarged by a part of it (ratio, >= 0).
+  Components enlarged(double part) const {
+    Components enlarged = *this;
+    for (Component& component : enlarged.parts) component.limit *= 1.0 + part;
+    return enlarged;
+  }
   const Component* begin() const { return parts; }
   const Component* end() const { return parts + count; }
 };

@@ -105,6 +105,32 @@ TEST(Predictions, HoldOnWhileReportsWaver) {
   }
 }
 
+TEST(Predictions, AMarginKeepsWhoHoversAtTheSeparation) {
+  for (const double margin : {0.0, 0.1}) {
+    MonitorDefinition made = definition();
+    made.prediction_margin = margin;
+    Monitor monitor = Monitor::create(made).value();
+    monitor.report(1, at(0.0, {0, 0, 0})).value();
+    std::size_t changes = 0;
+    for (int k = 0; k < 10; ++k) {
+      changes += predictions_of(monitor.events(k)).size();
+      monitor.report(2, at(k, {k % 2 == 0 ? 9.5 : 10.5, 0, 0}, {0, 0, 0})).value();
+    }
+    EXPECT_EQ(changes, margin > 0.0 ? 1u : 9u);
+    EXPECT_EQ(predictions_of(monitor.events(9.0)).size(), margin > 0.0 ? 0u : 1u);
+    monitor.report(2, at(10.0, {12, 0, 0}, {0, 0, 0})).value();
+    EXPECT_EQ(predictions_of(monitor.events(10.0)).size(), margin > 0.0 ? 1u : 0u) << "beyond the margin";
+    // What begins a prediction is the separation itself.
+    monitor.report(2, at(10.0, {10.5, 0, 0}, {0, 0, 0})).value();
+    EXPECT_TRUE(predictions_of(monitor.events(11.0)).empty());
+    // It ends by time alone when the two leave the enlarged separation.
+    monitor.report(2, at(11.0, {9, 0, 0}, {1, 0, 0})).value();
+    const auto events = predictions_of(monitor.events(20.0));
+    ASSERT_EQ(events.size(), 2u);
+    EXPECT_NEAR(events[1].time, 11.0 + (10.0 * (1.0 + margin) - 9.0), 2e-3);
+  }
+}
+
 /// Ratio of the distance to the separation: at most 1 within it.
 double gauge(const Separation& separation, const Vec3& offset, int dimensions) {
   const double flat = std::hypot(offset.x, offset.y) / separation.horizontal;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "json_text.hpp"
+#include "watch/alert_text.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -82,6 +83,7 @@ std::string declarations_of(const NamedTrack& track) {
 
 std::string lost_line(const AlertContext& context, const MonitorEvent& event, const AlertPolicy::Key& key,
                       const Encounter& encounter) {
+  if (context.settings.text) return lost_text(context, event, key, encounter);
   const auto [first, second] = in_text_order(context.names, key.first, key.second);
   return fmt::format(
       R"({{"event": "lost", "time": {}, "track": {}, "reason": "{}", "first": {}, "second": {}, )"
@@ -97,12 +99,14 @@ std::string lost_line(const AlertContext& context, const MonitorEvent& event, co
 
 std::string group_line(const AlertContext& context, double time, const std::string& name,
                        std::size_t tracks) {
+  if (context.settings.text) return group_text(context, time, name, tracks);
   return fmt::format(R"({{"event": "group", "time": {}, "track": {}, "tracks": {}}})"
                      "\n",
                      json_time(context.times, time), json_text(name), tracks);
 }
 
 std::string refused_line(const AlertContext& context, const AlertPolicy::Refused& refused) {
+  if (context.settings.text) return refused_text(context, refused);
   return fmt::format(R"({{"event": "held_back", "time": {}, "since": {}, "alerts": {}}})"
                      "\n",
                      json_time(context.times, refused.since + 1.0), json_time(context.times, refused.since),
@@ -110,6 +114,7 @@ std::string refused_line(const AlertContext& context, const AlertPolicy::Refused
 }
 
 std::string alert_line(const AlertContext& context, const MonitorEvent& event, std::string_view left_for) {
+  if (context.settings.text) return alert_text(context, event, left_for);
   std::string line = fmt::format(R"({{"event": "{}", "time": {}, )", name_of(event.kind),
                                  json_time(context.times, event.time));
   if (is_of_pair(event.kind)) return line + pair_alert_fields(context, event) + "}\n";

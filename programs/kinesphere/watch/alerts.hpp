@@ -1,4 +1,4 @@
-// Alerts as JSON lines.
+// Alerts as JSON lines, or as lines of text if WatchSettings::text says so.
 #pragma once
 
 #include <optional>
@@ -24,6 +24,7 @@ struct AlertContext {
   const TrackNames& names;
   const Monitor& monitor;
   double stretch = 1.0;  ///< distances of the monitor are at most so many times too long
+  bool is_geographic = false;
 };
 
 /// Two tracks in the order of their ids as texts, as in alerts.

@@ -4,6 +4,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "program_error.hpp"
+
 namespace kinesphere::program {
 
 Vec3 TrackGroups::centre_of(const Cell& cell) const {
@@ -111,8 +113,10 @@ void TrackGroups::restore(const nlohmann::json& state) {
     const Cell cell = saved.at(0);
     Place& place = places_[cell];
     for (const nlohmann::json& track : saved.at(1)) {
-      place.tracks.insert(track.at(0).get<TrackId>());
-      standing_[track.at(0).get<TrackId>()] = {cell, track.at(1)};
+      const TrackId id = track.at(0);
+      if (!standing_.emplace(id, Standing{cell, track.at(1)}).second)
+        throw ProgramError("a track stands at two places");
+      place.tracks.insert(id);
     }
     place.latest = {saved.at(2), saved.at(3), saved.at(4)};
     place.is_group = saved.at(5);

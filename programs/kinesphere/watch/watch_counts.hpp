@@ -40,7 +40,7 @@ struct WatchCounts {
   std::uint64_t lost = 0;                 ///< alerts `lost`
   std::uint64_t groups = 0;               ///< groups that have begun
   std::uint64_t grouped = 0;              ///< reports of members of groups that the monitor has not got
-  std::array<std::uint64_t, 9> events{};  ///< written alerts, indexed by MonitorEventKind
+  std::array<std::uint64_t, 9> events{};  ///< indexed by MonitorEventKind
   std::array<std::uint64_t, alert_fates> fates{};  ///< events, indexed by AlertFate
   /// Changes of the verdict of a separation: to undecided, to within, and back to apart.
   struct Turns {

@@ -105,9 +105,14 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
   const FormatDefaults defaults = defaults_of(format);
   WatchSettings settings;
   settings.source = source;
+  const double look_ahead = options.look_ahead.empty()
+                                ? defaults.look_ahead
+                                : parse_measure(options.look_ahead, Measure::time, "--look-ahead");
+  if (look_ahead < 0.0)
+    throw ProgramError(fmt::format("--look-ahead: expected a time >= 0, but got '{}'", options.look_ahead));
   for (const std::string& text : options.separations) {
     NamedSeparation& named = settings.separations.emplace_back(parse_separation(text));
-    if (!named.has_time) named.separation.look_ahead = defaults.look_ahead;
+    if (!named.has_time) named.separation.look_ahead = look_ahead;
   }
   settings.dimensions = options.dimensions;
   if (!settings.dimensions && defaults.geographic) settings.dimensions = defaults.dimensions;
@@ -160,6 +165,7 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
                       .undecided = names("undecided"),
                       .tracks = names("tracks")};
   }
+  settings.text = options.text;
   for (const std::string& text : options.areas) settings.areas.push_back(parse_area(text));
   if (options.most_alerts) settings.most_alerts = *options.most_alerts;
   settings.window = defaults.window;
@@ -200,10 +206,12 @@ GivenOptions given_options(const WatchOptions& options) {
        {"--altitude", choices.altitude == FormatChoices::Altitude::geometric ? "geometric" : "barometric"},
        {"--silence", options.silence},
        {"--forget", options.forget},
+       {"--look-ahead", options.look_ahead},
        {"--hold", options.hold},
        {"--own", options.own},
        {"--only", fmt::format("{}", fmt::join(options.only, ","))},
        {"--area", fmt::format("{}", fmt::join(options.areas, " "))},
+       {"--text", options.text ? "yes" : ""},
        {"--most-alerts", options.most_alerts ? fmt::to_string(*options.most_alerts) : ""},
        {"--origin", options.origin},
        {"--radius", options.radius},

@@ -299,7 +299,6 @@ void Watcher::enter_area(TrackId track) {
   if (areas_.empty() || !is_in_area(track)) return;
   for (const MonitorEvent& event : policy_.enter_area(track, monitor_->time())) {
     ++counts_.alerts;
-    ++counts_.events[static_cast<std::size_t>(event.kind)];
     write(event.first, alert_line(context(), event, ""));
   }
 }
@@ -330,6 +329,7 @@ void Watcher::write(std::uint64_t share, std::string_view line) {
 }
 
 void Watcher::count_and_report(MonitorEvent event) {
+  ++counts_.events[static_cast<std::size_t>(event.kind)];
   if (event.kind == MonitorEventKind::verdict) {
     auto& turns = counts_.turns[event.level];
     ++(event.verdict == Verdict::apart       ? turns.apart
@@ -340,13 +340,12 @@ void Watcher::count_and_report(MonitorEvent event) {
   ++counts_.fates[static_cast<std::size_t>(fate)];
   if (fate != AlertFate::written) return;
   ++counts_.alerts;
-  ++counts_.events[static_cast<std::size_t>(event.kind)];
   const auto removed = removed_.find(event.first);
   write(event.first, alert_line(context(), event, removed == removed_.end() ? "silence" : removed->second));
 }
 
 AlertContext Watcher::context() const {
-  return {settings_, times_, names_, *monitor_, frame_ ? frame_->stretch() : 1.0};
+  return {settings_, times_, names_, *monitor_, frame_ ? frame_->stretch() : 1.0, is_geographic_};
 }
 
 std::string Watcher::first_time() const {
@@ -389,6 +388,7 @@ void Watcher::begin_monitor(const SourceReport& report) {
                                .stale_after = settings_.silence,
                                .drop_after = settings_.forget,
                                .prediction_hold = settings_.hold,
+                               .prediction_margin = 0.1,
                                .shard = settings_.share};
   double least = unbounded;
   SeparationRule rule;

@@ -78,7 +78,7 @@ inline std::string stream_of(LineOf line_of, int reports) {
 inline std::uint64_t share_of_alert(const std::string& line, std::uint64_t of) {
   const auto alert = nlohmann::json::parse(line);
   const auto id = [&](const char* key) { return track_id_of(alert[key].get<std::string>()); };
-  return (alert.contains("track") ? id("track") : std::min(id("first"), id("second"))) % of;
+  return (alert.contains("first") ? std::min(id("first"), id("second")) : id("track")) % of;
 }
 
 /// Alerts by share, in their order.

@@ -12,10 +12,13 @@ namespace {
 
 using Json = nlohmann::json;
 
-const std::string at_rest = " --separation sphere:30 --acceleration 1 --position-error 1 --velocity-error 1 ";
+const std::string at_rest =
+    " --separation sphere:30 --acceleration 1 --position-error 1 --velocity-error 1 --only all --look-ahead "
+    "0 ";
 
+/// The tracks move, so that they are no group (TrackGroups).
 std::string report_line(const std::string& id, double stamp, double x) {
-  return fmt::format("{{\"id\": \"{}\", \"stamp\": {}, \"position\": [{}, 0, 0], \"velocity\": [0, 0, 0]}}\n",
+  return fmt::format("{{\"id\": \"{}\", \"stamp\": {}, \"position\": [{}, 0, 0], \"velocity\": [1, 0, 0]}}\n",
                      id, stamp, x);
 }
 

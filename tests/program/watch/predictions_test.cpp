@@ -79,7 +79,7 @@ TEST_F(WatchPredictions, ComeAheadByTheTimeOfTheSeparation) {
 }
 
 TEST_F(WatchPredictions, AreOfTheOwnTrackAlone) {
-  const std::string separation = "--separation sphere:0.25NM:12min ";
+  const std::string separation = "--separation sphere:0.25NM:12min --only all ";
   const auto pairs_with = [](const std::vector<Json>& lines, const char* id) {
     return std::count_if(lines.begin(), lines.end(), [&](const Json& line) {
       return line.contains("second") && (line["first"] == id || line["second"] == id);
@@ -106,11 +106,11 @@ TEST_F(WatchPredictions, AlertsAreOfTheKindsAskedFor) {
   };
   EXPECT_EQ(kinds("undecided"), (std::set<std::string>{"apart>undecided", "undecided>apart"}));
   EXPECT_EQ(kinds("within,predicted"),
-            (std::set<std::string>{"undecided>within", "within>undecided", "predicted", "prediction_ended"}));
+            (std::set<std::string>{"undecided>within", "predicted", "prediction_ended"}));
 }
 
 TEST_F(WatchPredictions, RefuseTimesThatAreNone) {
-  for (const char* separation : {"sphere:5:0", "sphere:5:-1min", "sphere:5:10km", "cylinder:5:10:1min:2"})
+  for (const char* separation : {"sphere:5:-1min", "sphere:5:10km", "cylinder:5:10:1min:2"})
     expect_wrong_input(
         fmt::format("watch {} {} --separation {}", write("ships.csv", ships()), limits, separation),
         {"--separation"});

@@ -38,9 +38,10 @@ class StreamsOfTheField : public ProgramTest {
   std::string err_;
 };
 
-const std::string cylinder = "--separation cylinder:5NM:1000ft";
+const std::string cylinder = "--separation cylinder:5NM:1000ft --only all --look-ahead 0";
 const std::string promises =
-    " --separation sphere:5 --largest-speed 1 --acceleration 1 --position-error 0.1 ";
+    " --separation sphere:5 --largest-speed 1 --acceleration 1 --position-error 0.1 --only all --look-ahead "
+    "0 ";
 
 /// Two aircraft that fly towards each other, with these keys.
 std::string head_on(std::string_view list, double now, std::string_view first, std::string_view second) {

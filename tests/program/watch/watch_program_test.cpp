@@ -43,7 +43,8 @@ std::string head_on(double seconds = 20) {
   return text.str();
 }
 
-const std::string promises = " --acceleration 1 --position-error 0.5 --velocity-error 0.1 ";
+const std::string promises =
+    " --acceleration 1 --position-error 0.5 --velocity-error 0.1 --only all --look-ahead 0 ";
 
 class WatchProgram : public ProgramTest {
  protected:
@@ -168,7 +169,7 @@ TEST_F(WatchProgram, TellsWhatAMonitorTells) {
   for (const Json& line :
        alerts(write("s.jsonl", text.str()) +
               " --separation sphere:12 --separation sphere:6 --acceleration 1 --position-error 0.25 "
-              "--velocity-error 0.125 --silence 3 --forget 5")) {
+              "--velocity-error 0.125 --silence 3 --forget 5 --only all --look-ahead 0")) {
     std::string each = line["event"].get<std::string>() + " " +
                        Json(std::round(line["time"].get<double>() * 1e6) / 1e6).dump() + " ";
     if (line["event"] == "verdict")

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -158,9 +159,11 @@ TEST_F(AisDay, IsTakenAndToldWholly) {
     if (line.is_report && written.find(sentence) != std::string::npos) ++whole;
     text += written + "\n";
   }
-  const ProgramRun run =
-      this->run("watch '" + write("day.nmea", text) + "' --separation sphere:500m --origin 53.5,8 " +
-                "--radius 100km --acceleration 0.2 --quiet --summary '" + path("summary.json") + "'");
+  const std::string command = "watch '" + write("day.nmea", text) +
+                              "' --separation sphere:500m --origin 53.5,8 --radius 100km --acceleration 0.2 "
+                              "--quiet --summary '" +
+                              path("summary.json") + "'";
+  const ProgramRun run = this->run(command + " --only all");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const nlohmann::json summary = nlohmann::json::parse(read_text(path("summary.json")));
   EXPECT_EQ(summary["reports"], whole) << summary.dump();
@@ -168,6 +171,7 @@ TEST_F(AisDay, IsTakenAndToldWholly) {
 
   // Verdicts are compared with the true distances each ten seconds.
   std::array<std::array<Told, ships>, ships> told{};
+  std::set<std::pair<std::string, std::string>> near_pairs;
   std::istringstream alerts(run.out);
   std::string line;
   nlohmann::json alert;
@@ -195,6 +199,7 @@ TEST_F(AisDay, IsTakenAndToldWholly) {
         const bool is_near = distance < 499.9;
         if (is_near) {
           ++near;
+          near_pairs.insert({std::to_string(211'000'001 + a), std::to_string(211'000'001 + b)});
           if (!was_near[a][b]) ++approaches;
           ASSERT_NE(told[a][b], Told::apart)
               << a << " and " << b << " at " << time << " are within " << distance;
@@ -207,6 +212,21 @@ TEST_F(AisDay, IsTakenAndToldWholly) {
     }
   }
   EXPECT_GT(approaches, 20);
+
+  // By default each of these pairs has alerts, and few.
+  std::filesystem::remove(path("summary.json"));
+  std::istringstream by_default(this->run(command).out);
+  std::map<std::pair<std::string, std::string>, int> alerts_of;
+  while (std::getline(by_default, line)) {
+    alert = nlohmann::json::parse(line);
+    if (alert.contains("second")) ++alerts_of[{alert["first"], alert["second"]}];
+  }
+  int in_all = 0;
+  for (const auto& [pair, count] : alerts_of) in_all += count;
+  RecordProperty("alerts", in_all);
+  for (const auto& pair : near_pairs)
+    EXPECT_TRUE(alerts_of.contains(pair)) << pair.first << " " << pair.second;
+  EXPECT_LE(in_all, 3 * approaches) << near_pairs.size() << " pairs, " << alerts_of.size() << " with alerts";
   RecordProperty("reports", static_cast<int>(whole));
   RecordProperty("near", near);
 }

@@ -129,7 +129,7 @@ TEST_F(AisProgram, TellsTheSizeItCounts) {
         "\n";
   }
   const ProgramRun run =
-      this->run("watch " + write("a.nmea", text) + " --separation sphere:500m --position-error 1");
+      this->run("watch " + write("a.nmea", text) + " --separation sphere:500m --position-error 1 --only all");
   EXPECT_NE(run.out.find("extent: 401.1"), std::string::npos) << run.out;
   EXPECT_EQ(pairs_told(run.out).size(), 1u);
 }
@@ -170,7 +170,7 @@ int udp_port_of(const LiveWatch& watch) {
 
 /// Without times of their own, datagrams have that at which they are read.
 TEST_F(AisProgram, ReadsAUdpPort) {
-  LiveWatch watch("udp://127.0.0.1:0 --separation sphere:500m --alerts '" + path("alerts") + "'",
+  LiveWatch watch("udp://127.0.0.1:0 --separation sphere:500m --only all --alerts '" + path("alerts") + "'",
                   path("err"));
   const UdpSender sender(udp_port_of(watch));
   const auto ship = [](std::uint32_t mmsi) {
