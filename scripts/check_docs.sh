@@ -2,6 +2,8 @@
 # Fails unless the docs are true:
 # - The C++ example of README.md is examples/first_contact.cpp, word for word, and prints the quoted output; so does the
 #   main job, timings aside.
+# - The three examples of docs/watch.md print what follows them, its table counts the alerts of their streams, and
+#   make_streams.py makes these streams.
 # - Each line of C++ in the guides (docs/worlds.md, running.md, recipes.md, from-box2d.md, distributed.md) is in an example,
 #   and examples/sensors.cpp prints its output in docs/worlds.md.
 # - Each mark "proved" or "tested" in docs/guarantee.md names an existing theorem or test, and the tables of
@@ -19,9 +21,12 @@ sed 's/⟨/\n⟨/g; s/⟩/\n/g' docs/guarantee.md | grep '^⟨' | grep -oE '`[^`
 done
 diff <(awk -F'|' '!/^\|/ {on = 0} on {print $2} /^\| theorem / {on = 1}' proof/README.md | grep -oE '`[^`]*`' | tr -d '`' | sort) - <<<"$theorems"
 
-# The lines of the first block in a file after a line that matches a pattern.
+# The lines of a block in a file after a line that matches a pattern: of the first one, or of the given number.
 block_after() {
-  awk -v pattern="$2" '$0 ~ pattern {near = 1; next} near && /^```/ {if (on) exit; on = 1; next} on {print}' "$1"
+  awk -v pattern="$2" -v wanted="${3:-1}" '
+    $0 ~ pattern {near = 1; next}
+    near && /^```/ {if (on && count == wanted) exit; on = !on; count += on; next}
+    on && count == wanted {print}' "$1"
 }
 # The width of the columns depends on the timings too.
 untimed() { grep -v '^real' | tr -s ' '; }
@@ -33,6 +38,17 @@ printed=$("$3" run paper1)
 diff <(block_after README.md '^`scripts.run.sh` prints' | untimed) <(untimed <<<"$printed")
 printed=$("$2")
 diff <(block_after docs/worlds.md '^Sensors see fast bodies') - <<<"$printed"
+
+# The examples of watch print what they are said to print, and count as many alerts.
+export PATH=${3%/*}:$PATH
+for who in sailor receiver operator; do
+  diff <(block_after docs/watch.md "^[*][*]An? $who" 2) <(bash -c "$(block_after docs/watch.md "^[*][*]An? $who")")
+done
+diff <(grep -A4 '^| stream | options | alerts' docs/watch.md) <(python3 examples/streams/count_alerts.py "$3")
+made=$(mktemp -d)
+trap 'rm -r "$made"' EXIT
+python3 examples/streams/make_streams.py "$made"
+for stream in "$made"/*; do cmp "$stream" "examples/streams/${stream##*/}"; done
 
 # Each line of C++ in the guides stands in an example.
 for page in docs/worlds.md docs/running.md docs/recipes.md docs/from-box2d.md docs/distributed.md; do

@@ -16,8 +16,8 @@ struct NamedSeparation {
 };
 
 /// Parses "sphere:50", "cylinder:5NM:1000ft", "ellipsoid:5NM:1000ft", "well-clear:0.66NM:450ft:35s", each
-/// with or without ":60s" behind it for the look-ahead time (>= 0), and "do365:preventive", "do365:corrective" and
-/// "do365:warning"; blanks may replace colons. Throws ProgramError.
+/// with or without ":60s" behind it for the look-ahead time (>= 0), and "do365:preventive",
+/// "do365:corrective" and "do365:warning"; blanks may replace colons. Throws ProgramError.
 NamedSeparation parse_separation(const std::string& text);
 
 }  // namespace kinesphere::program

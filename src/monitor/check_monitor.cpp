@@ -30,6 +30,9 @@ Result<void> check_monitor(const MonitorDefinition& definition) {
       .not_negative({"prediction_margin"}, definition.prediction_margin)
       .require(definition.prediction_margin <= 1.0, ErrorCode::out_of_range, {"prediction_margin"},
                "must be at most", 1.0, definition.prediction_margin)
+      .not_negative({"prediction_error_part"}, definition.prediction_error_part)
+      .require(definition.prediction_error_part <= 1.0, ErrorCode::out_of_range, {"prediction_error_part"},
+               "must be at most", 1.0, definition.prediction_error_part)
       .require(definition.prediction_hold <= limits::largest_time, ErrorCode::out_of_range,
                {"prediction_hold"}, "must be at most", limits::largest_time, definition.prediction_hold)
       .require(!definition.classes.empty(), ErrorCode::out_of_range, {"classes"}, "must name at least one",

@@ -41,10 +41,10 @@ std::span<const Components> Predictions::levels_of(const Track& a, const Track& 
 }
 
 void Predictions::set_path(std::uint32_t number, TrackId id, std::size_t track_class, const State& state,
-                           double now, std::vector<MonitorEvent>& events) {
+                           const ErrorBound& error, double now, std::vector<MonitorEvent>& events) {
   if (number >= tracks_.size()) tracks_.resize(number + 1);
   Track& track = tracks_[number];
-  track.path = {now, state};
+  track.path = {now, state, error * definition_->prediction_error_part};
   if (!track.present) {
     track.present = true;
     track.id = id;
@@ -67,7 +67,12 @@ void Predictions::remove(std::uint32_t number) {
 /// that is predicted. Well clear may be lost up to the modified tau before, at another vertical distance.
 double Predictions::margin(const Track& track) const {
   return separations_->margin(track.track_class) +
-         separations_->modified_tau(track.track_class) * std::abs(track.path.state.velocity.z);
+         separations_->modified_tau(track.track_class) * std::abs(track.path.state.velocity.z) +
+         track.path.error.total(separations_->stretch(track.track_class));
+}
+
+Components Predictions::with_errors(const Components& level, const Track& a, const Track& b) const {
+  return definition_->prediction_error_part > 0.0 ? level.enlarged(a.path.error + b.path.error) : level;
 }
 
 /// True if the track's path from now until its look-ahead time after the home's end is in the home, which
@@ -153,13 +158,14 @@ void Predictions::decide(std::uint32_t a, std::uint32_t b, double now, std::vect
     const double look_ahead = levels[level].look_ahead;
     if (!(look_ahead > 0.0)) continue;
     LevelPrediction& state = pair.levels[level];
-    const StraightPass pass = straight_pass(first, second, levels[level], now);
-    const StraightPass judged = judge(first, second, levels[level], pass, state.predicted, now);
+    const Components separation = with_errors(levels[level], one, other);
+    const StraightPass pass = straight_pass(first, second, separation, now);
+    const StraightPass judged = judge(first, second, separation, pass, state.predicted, now);
     // They meet if their closest approach (or the loss of well clear) comes in the look-ahead time, or they
     // are within the separation now. The times of one pass, computed at two times, differ by rounding.
     const auto from_of = [&](const StraightPass& straight) {
       if (straight.begin == infinity) return infinity;
-      const double entry = levels[level].predicts_entry ? straight.begin : straight.closest_within();
+      const double entry = separation.predicts_entry ? straight.begin : straight.closest_within();
       return std::min(straight.begin, entry - look_ahead);
     };
     const bool holds = from_of(judged) <= now + resolution && judged.end > now;
@@ -181,7 +187,7 @@ void Predictions::decide(std::uint32_t a, std::uint32_t b, double now, std::vect
                         .closest_distance = pass.closest_distance});
     }
     if (holds) {
-      const StraightPass next = judge(first, second, levels[level], pass, state.predicted, now);
+      const StraightPass next = judge(first, second, separation, pass, state.predicted, now);
       due = std::min(due, std::max(next.end, now + resolution));
     } else {
       due = std::min(due, std::max(from_of(state.predicted ? judged : pass), now + resolution));
@@ -242,8 +248,10 @@ bool Predictions::is_valid(double now) const {
     constexpr double most_radii = 0x1p60;
     const bool is_sound =
         track.path.time <= now && std::isfinite(track.path.time) && is_finite(track.path.state.position) &&
-        is_finite(track.path.state.velocity) && std::isfinite(track.home.radius) &&
-        track.home.radius >= separations_->margin(track.track_class) &&
+        is_finite(track.path.state.velocity) && track.path.error.total() >= 0.0 &&
+        track.path.error.horizontal() >= 0.0 && track.path.error.vertical() >= 0.0 &&
+        std::isfinite(track.path.error.total(separations_->stretch(track.track_class))) &&
+        std::isfinite(track.home.radius) && track.home.radius >= separations_->margin(track.track_class) &&
         norm(track.home.centre) <= most_radii * track.home.radius && std::isfinite(track.until);
     if (!is_sound) return false;
     partners += track.near.size();
@@ -292,8 +300,8 @@ std::vector<PredictedPair> Predictions::predicted_pairs(double now) const {
     const auto [first, second] = std::minmax(one.id, other.id);
     for (std::uint32_t level = 0; level < pair.levels.size(); ++level) {
       if (!pair.levels[level].predicted) continue;
-      const StraightPass pass =
-          straight_pass(one.path.state_at(now), other.path.state_at(now), levels_of(one, other)[level], now);
+      const StraightPass pass = straight_pass(one.path.state_at(now), other.path.state_at(now),
+                                              with_errors(levels_of(one, other)[level], one, other), now);
       predicted.push_back({first, second, level, pair.levels[level].since, pass.begin, pass.closest_time,
                            pass.closest_distance});
     }

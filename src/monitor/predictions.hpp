@@ -25,11 +25,12 @@ namespace kinesphere {
 struct StraightPath {
   double time = 0.0;
   State state{};
+  ErrorBound error{};  ///< the part of the position error that counts
 
   State state_at(double t) const { return {state.position + state.velocity * (t - time), state.velocity}; }
   static void serialize(auto& self, auto& archive) {
-    auto& [time, state] = self;
-    archive(time, state);
+    auto& [time, state, error] = self;
+    archive(time, state, error);
   }
 };
 
@@ -71,11 +72,11 @@ class Predictions {
   Predictions(const MonitorDefinition& definition, const SeparationTable& separations)
       : definition_(&definition), separations_(&separations) {}
 
-  /// Sets the straight path of a track, new or known, and adds the events of predictions that change. Cost:
-  /// O(near tracks); where the path leaves the track's home, a search. Precondition: the class has a
-  /// look-ahead time.
-  void set_path(std::uint32_t number, TrackId id, std::size_t track_class, const State& state, double now,
-                std::vector<MonitorEvent>& events);
+  /// Sets the straight path of a track, new or known, with the position error of its report, and adds the
+  /// events of predictions that change. Cost: O(near tracks); where the path leaves the track's home, a
+  /// search. Precondition: the class has a look-ahead time.
+  void set_path(std::uint32_t number, TrackId id, std::size_t track_class, const State& state,
+                const ErrorBound& error, double now, std::vector<MonitorEvent>& events);
   /// Forgets a track. Its predictions end without events.
   void remove(std::uint32_t number);
   /// Returns a lower bound on the time at which time alone changes anything; +infinity if nothing does.
@@ -134,6 +135,7 @@ class Predictions {
   void add_due(const Due& due);
   void index_due();
   std::span<const Components> levels_of(const Track& a, const Track& b) const;
+  Components with_errors(const Components& level, const Track& a, const Track& b) const;
   double margin(const Track& track) const;
   bool stays_home(const Track& track, double now) const;
   void find_home(std::uint32_t number, double now);

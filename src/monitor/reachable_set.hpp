@@ -108,6 +108,12 @@ struct Components {
       parts[0] = {Component::Axes::space, stretch, horizontal, std::min(1.0, stretch) * tolerance};
     }
   }
+  /// Returns this separation enlarged by a distance.
+  Components enlarged(const ErrorBound& distance) const {
+    Components enlarged = *this;
+    for (Component& component : enlarged.parts) component.limit += component.length(distance);
+    return enlarged;
+  }
   /// Returns this separation enlarged by a part of it (ratio, >= 0).
   Components enlarged(double part) const {
     Components enlarged = *this;

@@ -25,7 +25,8 @@ void Monitor::Engine::predict(std::uint32_t number) {
   const KnownTrack& track = tracks_[number];
   if (!(separations_.look_ahead(track.track_class) > 0.0)) return;
   std::vector<MonitorEvent> events;
-  predictions_.set_path(number, track.id, track.track_class, straight_on(track), time_, events);
+  const ErrorBound& error = TrackEstimate::tightest(track.estimate.hypotheses().front(), time_).radius;
+  predictions_.set_path(number, track.id, track.track_class, straight_on(track), error, time_, events);
   queue_all(events);
 }
 

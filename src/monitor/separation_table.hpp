@@ -18,6 +18,7 @@ class SeparationTable {
         of_pairs_(classes_ * classes_),
         margins_(classes_),
         modified_taus_(classes_),
+        stretches_(classes_, 1.0),
         look_aheads_(classes_) {
     for (const SeparationRule& rule : definition.separations) {
       const auto [a, b, levels] = rule;
@@ -29,6 +30,7 @@ class SeparationTable {
         for (const std::size_t of : {a, b}) {
           margins_[of] = std::max(margins_[of], margin);
           modified_taus_[of] = std::max(modified_taus_[of], level.modified_tau);
+          stretches_[of] = std::max(stretches_[of], components.back().begin()->stretch);
           look_aheads_[of] = std::max(look_aheads_[of], look_ahead);
         }
       }
@@ -44,6 +46,8 @@ class SeparationTable {
   double margin(std::size_t track_class) const { return margins_[track_class]; }
   /// Returns the largest modified tau of all separations of a class.
   double modified_tau(std::size_t track_class) const { return modified_taus_[track_class]; }
+  /// Returns the largest Component::stretch of all separations of a class, at least 1.
+  double stretch(std::size_t track_class) const { return stretches_[track_class]; }
   /// Returns the longest look-ahead time of all separations of a class, each with its modified tau: if two
   /// that go straight on lose well clear, their horizontal distance falls to Separation::horizontal at most
   /// that much later.
@@ -61,6 +65,7 @@ class SeparationTable {
   std::vector<std::vector<Components>> of_pairs_;
   std::vector<double> margins_;
   std::vector<double> modified_taus_;
+  std::vector<double> stretches_;
   std::vector<double> look_aheads_;
 };
 

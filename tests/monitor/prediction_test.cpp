@@ -118,6 +118,7 @@ TEST(Predictions, AMarginKeepsWhoHoversAtTheSeparation) {
     }
     EXPECT_EQ(changes, margin > 0.0 ? 1u : 9u);
     EXPECT_EQ(predictions_of(monitor.events(9.0)).size(), margin > 0.0 ? 0u : 1u);
+    EXPECT_TRUE(predictions_of(monitor.events(10.0)).empty());
     monitor.report(2, at(10.0, {12, 0, 0}, {0, 0, 0})).value();
     EXPECT_EQ(predictions_of(monitor.events(10.0)).size(), margin > 0.0 ? 1u : 0u) << "beyond the margin";
     // What begins a prediction is the separation itself.
@@ -128,6 +129,33 @@ TEST(Predictions, AMarginKeepsWhoHoversAtTheSeparation) {
     const auto events = predictions_of(monitor.events(20.0));
     ASSERT_EQ(events.size(), 2u);
     EXPECT_NEAR(events[1].time, 11.0 + (10.0 * (1.0 + margin) - 9.0), 2e-3);
+  }
+}
+
+TEST(Predictions, MayCountTheErrorsOfPositions) {
+  for (const bool counts : {false, true}) {
+    MonitorDefinition made = definition();
+    made.separations = {{0, 0, {Separation::ellipsoid(10.0, 5.0, 20.0)}}};
+    made.prediction_error_part = counts ? 0.5 : 0.0;
+    Monitor monitor = Monitor::create(made).value();
+    TrackReport first = at(0.0, {0, 0, 0}), second = at(0.0, {12.5, 0, 0}, {0, 0, 0});
+    first.position_error = 2.0;
+    second.position_error = 4.0;
+    monitor.report(1, first).value();
+    monitor.report(2, second).value();
+    EXPECT_EQ(predictions_of(monitor.events(0.0)).size(), counts ? 1u : 0u);
+    // Heights count twice, and so do their errors.
+    TrackReport third = at(0.0, {0, 0, 500}), fourth = at(0.0, {0, 0, 507.5}, {0, 0, 0});
+    third.position_error = ErrorBound::cylinder(0.0, 2.0);
+    fourth.position_error = ErrorBound::cylinder(0.0, 4.0);
+    monitor.report(3, third).value();
+    monitor.report(4, fourth).value();
+    EXPECT_EQ(predictions_of(monitor.events(0.0)).size(), counts ? 1u : 0u);
+    fourth.state = {{0, 0, 508.5}, {0, 0, 0}};
+    fourth.timestamp = 1.0;
+    EXPECT_TRUE(predictions_of(monitor.events(1.0)).empty());
+    monitor.report(4, fourth).value();
+    EXPECT_EQ(predictions_of(monitor.events(1.0)).size(), counts ? 1u : 0u) << "beyond them it has ended";
   }
 }
 

@@ -85,6 +85,10 @@ struct MonitorDefinition {
   /// A prediction that has begun goes on while its closest approach is within the separation enlarged by this
   /// part of it (ratio, in [0, 1]), so that tracks about as far apart as the separation do not come and go.
   double prediction_margin = 0.0;
+  /// Separations are enlarged for predictions by this part of the position errors of the latest reports of
+  /// both tracks (ratio, in [0, 1]), so that two may come within the separation as far as their positions are
+  /// known. With 0, reported positions count as they are.
+  double prediction_error_part = 0.0;
   /// Pairs that this monitor watches, if other monitors watch the remaining ones.
   Shard shard{};
 };

@@ -127,7 +127,7 @@ class WatchSoak : public ProgramTest {
 TEST_F(WatchSoak, TheProgramMissesNothingEither) {
   const std::string soak = "soak --reports 150000 --tracks 1500 --width 7000 --seed 5";
   const ProgramRun watched =
-      watch("--separation sphere:60 --acceleration 1 > '" + path("alerts.jsonl") + "'",
+      watch("--separation sphere:60 --acceleration 1 --only all --look-ahead 0 > '" + path("alerts.jsonl") + "'",
             "'" KINESPHERE_PROGRAM "' " + soak + " --write 2>'" + path("faults.txt") + "' | ");
   EXPECT_EQ(watched.exit_code, 0) << watched.err;
   EXPECT_NE(read_text(path("faults.txt")).find(" 150 malformed lines"), std::string::npos);
@@ -140,7 +140,7 @@ TEST_F(WatchSoak, TheProgramMissesNothingEither) {
 TEST_F(WatchSoak, AlertsMayComeInAnyOrderOfPairs) {
   const std::string soak = "soak --reports 20000 --tracks 200 --width 2500 --seed 5";
   const std::string write_to = "'" KINESPHERE_PROGRAM "' " + soak + " --write 2>/dev/null | ";
-  const std::string question = "--separation sphere:60 --acceleration 1";
+  const std::string question = "--separation sphere:60 --acceleration 1 --only all --look-ahead 0";
   const std::string one = watch(question, write_to).out;
   const std::string several =
       watch(question + " --share 1/2", write_to).out + watch(question + " --share 2/2", write_to).out;
