@@ -89,6 +89,7 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
   const FormatDefaults defaults = defaults_of(format);
   WatchSettings settings;
   settings.source = source;
+  settings.format = name_of(format);
   for (const std::string& text : options.separations) settings.separations.push_back(parse_separation(text));
   settings.dimensions = options.dimensions;
   if (!settings.dimensions && defaults.geographic) settings.dimensions = defaults.dimensions;
