@@ -24,7 +24,8 @@ node_tests() {
 }
 pages() {
   cd browser/viewer/test
-  node --test viewer.test.mjs served.test.mjs hashes.test.mjs dragging.test.mjs pictures.test.mjs map.test.mjs
+  node --test viewer.test.mjs served.test.mjs hashes.test.mjs dragging.test.mjs pictures.test.mjs map.test.mjs \
+    fields.test.mjs
 }
 
 case ${2:-all} in

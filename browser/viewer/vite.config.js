@@ -2,6 +2,7 @@
 import { resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { defineConfig } from "vite";
+import { coast } from "./coast.js";
 
 const here = fileURLToPath(new URL(".", import.meta.url));
 // The folder of the built npm package, as it lies in the build folder of the preset "browser".
@@ -9,6 +10,7 @@ const library = resolve(here, process.env.KINESPHERE_PACKAGE ?? "../../build/bro
 
 export default defineConfig({
   base: "./",
+  plugins: [coast()],
   resolve: { alias: { kinesphere: resolve(library, "dist/index.js") } },
   server: { fs: { allow: [here, library] } },
   build: {

@@ -1,11 +1,10 @@
 // The map of `kinesphere watch --serve` in use: the program, KINESPHERE_PROGRAM, reads a stream that stays open, and
 // serves the page of KINESPHERE_VIEWER.
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
-import { createInterface } from "node:readline";
 import { after, before, describe, test } from "node:test";
 
 import { browserForTests } from "./page.mjs";
+import { at, coloursAt, difference, isDrawn, isNoMissingServer, namedColour, number, texts, Watch } from "./watch.mjs";
 
 const inBrowser = browserForTests({
   viewport: { width: 1200, height: 800 },
@@ -14,43 +13,9 @@ const inBrowser = browserForTests({
 });
 const { complaints } = inBrowser;
 
-/** A watch of a stream that lasts until `end`. */
-class Watch {
-  constructor(...options) {
-    this.process = spawn(process.env.KINESPHERE_PROGRAM, ["watch", "--format", "jsonl", "--quiet", ...(options.includes("--serve") ? [] : ["--serve", "0"]), ...options],
-                         { stdio: ["pipe", "ignore", "pipe"] });
-    this.address = new Promise((resolve) => createInterface(this.process.stderr).once("line",
-      (line) => resolve(/http:\S+/.exec(line)[0])));
-  }
-  report(...reports) {
-    for (const report of reports) this.process.stdin.write(`${JSON.stringify(report)}\n`);
-  }
-  /** Ends the stream; returns the exit code. */
-  end() {
-    const gone = new Promise((done) => this.process.once("exit", done));
-    this.process.stdin.end();
-    return gone;
-  }
-}
-
-const at = (id, stamp, x, y, velocity = [0, 0, 0]) => ({ id, stamp, position: [x, y, 0], velocity });
 const hostile = `<img src=x onerror="window.wasRun = true">\u202e&amp;`;
 /** The hostile id is shown as one name in one line. */
 const shownHostile = `<img src=x onerror="window.wasRun = true">\ufffd&amp;`;
-
-/** Returns colours of the picture at places of the screen. Range: 0 to 255. */
-const coloursAt = (page, places) => page.evaluate((places) => {
-  const canvas = document.querySelector("#picture");
-  const { data, width } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-  const ratio = width / canvas.clientWidth;
-  return places.map(([x, y]) => 4 * (Math.floor(y * ratio) * width + Math.floor(x * ratio))).map((at) => [...data.slice(at, at + 3)]);
-}, places);
-/** Returns a colour of the map, from the style sheet. */
-const namedColour = (page, name) => page.evaluate((name) => {
-  const text = getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
-  return [1, 3, 5].map((k) => parseInt(text.slice(k, k + 2), 16));
-}, name);
-const difference = (a, b) => Math.max(...a.map((value, k) => Math.abs(value - b[k])));
 
 /** Returns the part of the line between two tracks, or of a piece in its middle, that has a colour. */
 async function shareOfLine(page, first, second, name, part = 0.5) {
@@ -64,12 +29,6 @@ async function shareOfLine(page, first, second, name, part = 0.5) {
   return (await coloursAt(page, places)).filter((found) => difference(found, colour) < 40).length / places.length;
 }
 
-const texts = (page, selector) => page.$$eval(selector, (found) => found.map((each) => each.textContent));
-const number = (page, name) => page.textContent(`#numbers [data-name="${name}"] dd`);
-/** The browser reports every unanswered request. */
-const isNoMissingServer = (complaint) => !complaint.startsWith("Failed to load resource: net::ERR_CONNECTION");
-/** Resolves when the picture is up to date: no flight is going on. */
-const isDrawn = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 const calmly = { reducedMotion: "reduce" };
 
 describe("a stream with x and y", () => {
@@ -97,12 +56,16 @@ describe("a stream with x and y", () => {
     assert.equal(await page.textContent("#about"), "standard input");
   });
 
-  test("pairs and needs are reported in words", async () => {
+  test("pairs are reported in words, and needs on request", async () => {
     const [within, undecided, ...others] = await texts(page, "#pairs li");
     assert.deepEqual(others, []);
-    assert.match(within, /within.*sphere:30 · 1\d[.]?\d* to 2\d/s);
+    assert.match(within, /within.*now 1\d[.]?\d* to 2\d.*sphere:30/s);
     assert.match(within, /certain for/);
-    assert.match(undecided, /^east–west.*undecided.*ask (east|west) now/s);
+    assert.match(undecided, /^east–west.*undecided/s);
+    assert.doesNotMatch(undecided, /ask/);
+    assert.equal(await page.isHidden("#needs-section") && await page.isHidden('#numbers [data-name="needed"]'), true);
+    await page.keyboard.press("r");
+    assert.match((await texts(page, "#pairs li"))[1], /ask (east|west) now/);
     const needs = await texts(page, "#needs li");
     assert.ok(needs.some((text) => /^(east|west)now/.test(text)), needs.join("; "));
     assert.equal(await number(page, "needed"), String(needs.length));
@@ -125,6 +88,9 @@ describe("a stream with x and y", () => {
     assert.ok(places.length > 0);
     const need = await namedColour(page, "need");
     for (const colour of await coloursAt(page, places)) assert.ok(difference(colour, need) < 60, `${colour}`);
+    await page.keyboard.press("r");
+    await isDrawn(page);
+    for (const colour of await coloursAt(page, places)) assert.ok(difference(colour, need) >= 60, `${colour}`);
   });
 
   test("an id is nothing but text", async () => {
@@ -211,11 +177,11 @@ describe("a stream with longitudes and latitudes", () => {
     });
     for (const { metres, degrees } of errors) assert.ok(metres < 20 && degrees < 1e-3, JSON.stringify(errors));
     await isDrawn(page);
-    assert.match(await page.textContent("#scale-text"), /^\d+ km$/);
+    assert.match(await page.textContent("#scale-text"), /^\d+ NM$/);
     assert.match(await page.textContent("#pairs-more"), /certainly apart/);
     await page.fill("#find-text", "north-east");
     await page.keyboard.press("Enter");
-    assert.match(await page.textContent("#details-rows"), /61°30′00\.0″N 12°00′00\.0″E, 1000 m/);
+    assert.match(await page.textContent("#details-rows"), /61°30′00\.0″N 12°00′00\.0″E, 3,300 ft/);
   });
 
   test("its colours differ for the colour-blind, and from the ground", async () => {
@@ -223,12 +189,13 @@ describe("a stream with longitudes and latitudes", () => {
     for (const theme of ["dark", "bright"]) {
       await page.evaluate((theme) => void (document.documentElement.dataset.theme = theme), theme);
       const named = {};
-      for (const name of ["ground", "undecided", "within", "need", "track", "silent"]) named[name] = await namedColour(page, name);
+      for (const name of ["ground", "land", "undecided", "predicted", "within", "need", "track", "silent"]) named[name] = await namedColour(page, name);
       for (const [name, colour] of Object.entries(named))
-        if (name !== "ground") assert.ok(contrast(colour, named.ground) >= 3, `${theme}: ${name} on the ground`);
+        if (name !== "ground" && name !== "land")
+          for (const below of ["ground", "land"]) assert.ok(contrast(colour, named[below]) >= 3, `${theme}: ${name} on the ${below}`);
       for (const [sight, matrix] of Object.entries(sights)) {
-        const seen = ["undecided", "within", "need"].map((name) => lab(matrix, named[name]));
-        for (const [a, b] of [[0, 1], [0, 2], [1, 2]])
+        const seen = ["undecided", "within", "need", "predicted"].map((name) => lab(matrix, named[name]));
+        for (const [a, b] of [[0, 1], [0, 2], [1, 2], [0, 3], [1, 3], [2, 3]])
           assert.ok(Math.hypot(...seen[a].map((value, k) => value - seen[b][k])) > 25, `${theme}, ${sight}: ${a} and ${b}`);
       }
     }

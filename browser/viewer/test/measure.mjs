@@ -51,7 +51,7 @@ function crowdedState(trackCount, pairCount) {
   let seed = 1;
   const random = () => (seed = (seed * 48271) % 2147483647) / 2147483647;
   const tracks = Array.from({ length: trackCount }, (_, k) => ({
-    id: `F${k}`, stamp: 0, silent: k % 3 === 0,
+    id: `F${k}`, name: null, stamp: 0, silent: k % 3 === 0,
     places: [{ x: 5e5 * (random() - 0.5), y: 5e5 * (random() - 0.5), z: 300 * (k % 40), velocity: [400 * (random() - 0.5), 400 * (random() - 0.5), 0], radius: [4000 * random(), 100] }],
   }));
   const { x, y } = tracks[0].places[0];
@@ -61,8 +61,8 @@ function crowdedState(trackCount, pairCount) {
     distance: [1000, 9000], until: 20, closest_distance: 500, closest_time: 30, likely_time: k, ask: tracks[2 * k].id, ask_by: 12,
   }));
   return {
-    time: 10, stream: "measured", geographic: false, dimensions: 3, origin: null, silence: 15, forget: 60, counts: { reports: 6000 },
-    separations: [{ name: "cylinder:5NM:1000ft", shape: "cylinder", horizontal: 9260, vertical: 304.8 }], tracks, pairs,
+    time: 10, stream: "measured", format: "jsonl", own: null, geographic: false, dimensions: 3, origin: null, silence: 15, forget: 60, counts: { reports: 6000 },
+    separations: [{ name: "cylinder:5NM:1000ft", shape: "cylinder", horizontal: 9260, vertical: 304.8 }], tracks, pairs, predictions: [],
     needed: pairs.map(({ first, second }) => ({ track: first, by: 12, other: second })),
   };
 }

@@ -50,7 +50,7 @@ const hasViewerDrawn = () => window.kinesphereViewer?.firstPicture != null;
  * A browser that is there for the tests of a file. `open()` loads the page, here or at another server's address, and
  * waits until `isReady` is true there: of the viewer, for its first picture.
  * `complaints` is whatever pages complained of, and addresses that they asked for elsewhere; `graphics` are options
- * of the browser.
+ * of the browser. `open(where, { prepare })` runs a function in the page before its own code.
  */
 export function browserForTests({ given = {}, viewport = { width: 900, height: 700 }, isReady = hasViewerDrawn, graphics = softwareGraphics } = {}) {
   const found = { complaints: [], page: undefined, address: undefined, open: undefined };
@@ -69,7 +69,7 @@ export function browserForTests({ given = {}, viewport = { width: 900, height: 7
     await browser?.close();
     server?.close();
   });
-  found.open = async (where = "", options = {}) => {
+  found.open = async (where = "", { prepare, ...options } = {}) => {
     if (browser === undefined) await start();
     await current?.close();
     const page = await browser.newPage({ viewport, colorScheme: "dark", ...options });
@@ -77,6 +77,7 @@ export function browserForTests({ given = {}, viewport = { width: 900, height: 7
     page.on("console", (message) => {
       if (message.type() === "error") found.complaints.push(message.text());
     });
+    if (prepare !== undefined) await page.addInitScript(prepare);
     const address = where.startsWith("http") ? where : found.address + where;
     page.on("request", (request) => {
       const url = request.url();

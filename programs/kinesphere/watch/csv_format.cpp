@@ -90,7 +90,20 @@ class CsvFormat final : public ReportFormat {
       columns_needed_ = std::max({columns_needed_, body.x + 1, body.y + 1, body.z.value_or(0) + 1});
     for (const auto& column : reader_->columns().of)
       if (column) columns_needed_ = std::max(columns_needed_, column->place + 1);
+    name_column_ = column_of_names(head);
     return true;
+  }
+
+  /// Returns the column with callsigns or ships' names. Such names may be ids elsewhere, so one that is read
+  /// as an id does not count.
+  std::optional<std::size_t> column_of_names(const TableHead& head) const {
+    const auto& id = reader_->columns()[Quantity::id];
+    for (const std::string_view wanted : {"vesselname", "shipname", "callsign", "flight", "name"}) {
+      if (wanted == "name" && !is_ais_) continue;
+      for (std::size_t place = 0; place < head.names.size(); ++place)
+        if (plain_name(head.names[place]) == wanted && !(id && id->place == place)) return place;
+    }
+    return std::nullopt;
   }
 
   /// Returns a number in metres and seconds.
@@ -120,6 +133,7 @@ class CsvFormat final : public ReportFormat {
   void hand_over(ReportSink& sink) {
     const TableColumns& columns = reader_->columns();
     SourceReport report{.id = reader_->id()};
+    if (name_column_ && *name_column_ < fields_.size()) report.name = fields_[*name_column_];
     const auto stamp = time(Quantity::time);
     if (const auto arrival = time(Quantity::arrival)) report.arrival = arrival->time;
     const auto position = reader_->position();
@@ -200,6 +214,7 @@ class CsvFormat final : public ReportFormat {
   std::optional<RowReader> reader_;  ///< empty before the first row of values
   bool has_handed_over_ = false;
   std::size_t columns_needed_ = 0;
+  std::optional<std::size_t> name_column_;
   /// Reports that are checked. More would delay the question; fewer would ask about more rooms, of which they
   /// show a small part.
   static constexpr int most_checked = 20;

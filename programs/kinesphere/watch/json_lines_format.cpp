@@ -33,7 +33,7 @@ class JsonLinesFormat final : public ReportFormat {
 
  private:
   struct Fields {
-    std::string id;
+    std::string id, name;
     std::optional<TimeField> stamp, arrival;
     std::optional<double> lat, lon, alt, stamp_error;
     std::optional<Vec3> position, velocity;
@@ -48,6 +48,10 @@ class JsonLinesFormat final : public ReportFormat {
   void read_field(std::string_view key, ondemand::value value) {
     if (key == "id") {
       read_id(value);
+    } else if (key == "name") {
+      const char* wrong = nullptr;
+      fields_.name = text_in(value, "name", wrong).value_or("");
+      if (wrong != nullptr) fail("name", "a text");
     } else if (key == "stamp") {
       fields_.stamp = time_in(value, key);
     } else if (key == "arrival") {
@@ -69,10 +73,10 @@ class JsonLinesFormat final : public ReportFormat {
     } else if (key == "alt") {
       fields_.alt = number_of(value, key);
     } else {
-      throw MalformedRecord(
-          fmt::format("expected id, stamp, arrival, position, velocity, position_error, velocity_error, "
-                      "stamp_error, lat, lon or alt, but got \"{}\"",
-                      key.substr(0, 40)));
+      throw MalformedRecord(fmt::format(
+          "expected id, name, stamp, arrival, position, velocity, position_error, velocity_error, "
+          "stamp_error, lat, lon or alt, but got \"{}\"",
+          key.substr(0, 40)));
     }
   }
 
@@ -151,7 +155,10 @@ class JsonLinesFormat final : public ReportFormat {
   void hand_over(ReportSink& sink) const {
     if (fields_.id.empty()) fail("id", "a text or a number");
     if (!fields_.stamp) fail("stamp", "a time");
-    SourceReport report{.id = fields_.id, .stamp = fields_.stamp->time, .time_kind = fields_.stamp->kind};
+    SourceReport report{.id = fields_.id,
+                        .name = fields_.name,
+                        .stamp = fields_.stamp->time,
+                        .time_kind = fields_.stamp->kind};
     if (fields_.arrival) report.arrival = fields_.arrival->time;
     report.geographic = fields_.lat && fields_.lon;
     if (report.geographic == fields_.position.has_value()) {

@@ -12,9 +12,9 @@ namespace {
 
 /// Places in a state vector, as the documentation of OpenSky's REST API numbers them.
 namespace state_vector {
-constexpr std::size_t icao24 = 0, time_position = 3, longitude = 5, latitude = 6, baro_altitude = 7,
-                      on_ground = 8, velocity = 9, true_track = 10, vertical_rate = 11, geo_altitude = 13,
-                      position_source = 16, count = 17;
+constexpr std::size_t icao24 = 0, callsign = 1, time_position = 3, longitude = 5, latitude = 6,
+                      baro_altitude = 7, on_ground = 8, velocity = 9, true_track = 10, vertical_rate = 11,
+                      geo_altitude = 13, position_source = 16, count = 17;
 }
 
 class OpenskyFormat final : public ReportFormat {
@@ -46,16 +46,17 @@ class OpenskyFormat final : public ReportFormat {
  private:
   void read_state(ondemand::array vector, const FileTime& arrival, std::size_t line, ReportSink& sink) {
     namespace at = state_vector;
-    std::optional<std::string_view> id;
+    std::optional<std::string_view> id, callsign;
     std::array<std::optional<double>, at::count> numbers;
     std::size_t place = 0;
     bool on_ground = false;
     const char* ignored = nullptr;
     for (ondemand::value value : vector) {
       if (place == at::icao24) id = text_in(value, "icao24", ignored);
+      if (place == at::callsign) callsign = text_in(value, "callsign", ignored);
       if (place == at::on_ground && value.type() == ondemand::json_type::boolean)
         on_ground = value.get_bool();
-      if (place > at::icao24 && place < at::count) numbers[place] = number_in(value, "", ignored);
+      if (place > at::callsign && place < at::count) numbers[place] = number_in(value, "", ignored);
       ++place;
     }
     if (!id || id->empty() || place <= at::geo_altitude)
@@ -71,6 +72,7 @@ class OpenskyFormat final : public ReportFormat {
     if (numbers[at::position_source].value_or(0.0) != 0.0 && !choices_.position_error_is_said)
       return sink.pass_over(Passed::no_bound);
     SourceReport report{.id = *id, .stamp = time_of(*time), .arrival = arrival};
+    report.name = callsign.value_or("");
     report.geographic = true;
     report.position = {*longitude, *latitude, 0.0};
     const auto& height = numbers[choices_.altitude == FormatChoices::Altitude::barometric ? at::baro_altitude

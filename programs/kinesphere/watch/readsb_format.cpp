@@ -33,7 +33,7 @@ double accuracy(const std::array<double, count>& accuracies, double category) {
 
 /// One object of the list "aircraft", in its own units.
 struct AircraftEntry {
-  std::optional<std::string_view> hex;
+  std::optional<std::string_view> hex, flight;
   std::optional<double> lat, lon, alt_baro, alt_geom, gs, track, baro_rate, geom_rate, seen_pos, rc, nac_p,
       nac_v, gva, sil, nuc_p;
   bool on_ground = false;
@@ -47,6 +47,9 @@ struct AircraftEntry {
       ondemand::value value = field.value();
       if (key == "hex") {
         hex = text_in(value, "hex", wrong);
+      } else if (key == "flight") {
+        const char* ignored = nullptr;
+        flight = text_in(value, "flight", ignored);
       } else if (key == "type") {
         const char* ignored = nullptr;
         const auto type = text_in(value, "type", ignored);
@@ -153,6 +156,7 @@ class ReadsbFormat final : public ReportFormat {
               "expected a latitude, a longitude and seen_pos >= 0 of aircraft {}, but got {}, {} and {}",
               *entry.hex, *entry.lat, *entry.lon, *entry.seen_pos));
     SourceReport report{.id = *entry.hex, .stamp = later_by(arrival, -*entry.seen_pos), .arrival = arrival};
+    report.name = entry.flight.value_or("");
     report.geographic = true;
     report.position = {*entry.lon, *entry.lat, 0.0};
     // A repeated position appears up to a tenth of a second earlier or later.

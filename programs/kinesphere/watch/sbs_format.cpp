@@ -1,5 +1,5 @@
 // SBS-1 BaseStation messages, as dump1090 and readsb send them on port 30003. A message has either the
-// position or the velocity of an aircraft; this format joins them.
+// position, the velocity or the callsign of an aircraft; this format joins them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include "columns/row_splitter.hpp"
 #include "number_text.hpp"
 #include "watch/json_reading.hpp"
+#include "watch/known_names.hpp"
 #include "watch/measures.hpp"
 #include "watch/report_format.hpp"
 
@@ -21,8 +22,8 @@ namespace {
 /// Places of fields.
 namespace sbs {
 constexpr std::size_t message = 0, type = 1, hex = 4, made_date = 6, made_time = 7, logged_date = 8,
-                      logged_time = 9, altitude = 11, speed = 12, course = 13, latitude = 14, longitude = 15,
-                      climb = 16, count = 17, on_ground = 21;
+                      logged_time = 9, callsign = 10, altitude = 11, speed = 12, course = 13, latitude = 14,
+                      longitude = 15, climb = 16, count = 17, on_ground = 21;
 }
 
 double seconds_after(const FileTime& later, const FileTime& earlier) {
@@ -47,6 +48,8 @@ class SbsFormat final : public ReportFormat {
       throw MalformedRecord(fmt::format("expected 22 fields, but got {}", fields_.size()));
     const std::string_view type = fields_[sbs::type];
     const bool is_position = type == "2" || type == "3", is_velocity = type == "4";
+    if (!fields_[sbs::hex].empty() && !fields_[sbs::callsign].empty())
+      callsigns_.set(fields_[sbs::hex], fields_[sbs::callsign]);
     if (!is_position && !is_velocity) return;
     if (fields_[sbs::hex].empty()) throw MalformedRecord("expected the address of an aircraft (field 5)");
     const TimeField made = time_at(sbs::made_date, sbs::made_time);
@@ -63,10 +66,11 @@ class SbsFormat final : public ReportFormat {
     for (const auto& [hex, known] : velocities_)
       velocities.push_back({hex, known.time.whole, known.time.fraction, known.velocity.x, known.velocity.y,
                             known.velocity.z, known.has_climb, known.velocity_spread});
-    return velocities;
+    return {{"velocities", velocities}, {"callsigns", callsigns_.save()}};
   }
   void restore(const nlohmann::json& state) override {
-    for (const auto& known : state)
+    callsigns_.restore(state.at("callsigns"));
+    for (const auto& known : state.at("velocities"))
       velocities_[known.at(0)] = {
           {known.at(1), known.at(2)}, {known.at(3), known.at(4), known.at(5)}, known.at(6), known.at(7)};
   }
@@ -117,6 +121,7 @@ class SbsFormat final : public ReportFormat {
   SourceReport report_at(const TimeField& made, const FileTime& logged) {
     SourceReport report{
         .id = fields_[sbs::hex], .stamp = made.time, .arrival = logged, .time_kind = made.kind};
+    report.name = callsigns_.name_of(report.id);
     report.geographic = true;
     report.position = {number_at(sbs::longitude, "a longitude"), number_at(sbs::latitude, "a latitude"), 0.0};
     if (!is_place(report.position.x, report.position.y))
@@ -155,6 +160,7 @@ class SbsFormat final : public ReportFormat {
   std::vector<std::string_view> fields_;
   std::string text_;
   std::unordered_map<std::string, Velocity> velocities_;
+  KnownNames callsigns_;
   std::uint64_t messages_ = 0;
 };
 

@@ -20,6 +20,7 @@ struct DeclaredError {
 /// Lengths and times are in the units of the stream: metres and seconds if it has units.
 struct SourceReport {
   std::string_view id{};              ///< the stream's spelling; valid during the call
+  std::string_view name{};            ///< callsign or ship's name; empty: unknown; valid during the call
   FileTime stamp{};                   ///< when it was so, in seconds
   std::optional<FileTime> arrival{};  ///< when it came in, where the stream says so
   TimeKind time_kind = TimeKind::number;

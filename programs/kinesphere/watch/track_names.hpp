@@ -15,9 +15,14 @@ namespace kinesphere::program {
 /// pairs; TrackNames detects it.
 TrackId track_id_of(std::string_view text);
 
+/// Returns a callsign or name of a stream without blanks at its ends, cut to at most 40 bytes between
+/// characters of UTF-8. It is still text of a stranger: whoever writes it has to escape it.
+std::string_view shown_name(std::string_view name);
+
 /// State of a track that the monitor does not hold.
 struct NamedTrack {
   std::string text;
+  std::string name;     ///< callsign or ship's name as shown_name() of the latest that came; empty: none came
   FileTime stamp{};     ///< timestamp of its latest report
   Vec3 position{};      ///< in the stream's own words
   double extent = 0.0;  ///< of its latest report

@@ -105,6 +105,7 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
   const FormatDefaults defaults = defaults_of(format);
   WatchSettings settings;
   settings.source = source;
+  settings.format = name_of(format);
   const double look_ahead = options.look_ahead.empty()
                                 ? defaults.look_ahead
                                 : parse_measure(options.look_ahead, Measure::time, "--look-ahead");

@@ -87,9 +87,11 @@ std::string setting_fields(const Watcher& watcher) {
   const WatchSettings& settings = watcher.settings();
   const auto& monitor = watcher.monitor();
   const auto& frame = watcher.frame();
-  std::string text = fmt::format(R"("stream": {}, "geographic": {}, "dimensions": {}, "origin": )",
-                                 json_text(settings.source), monitor ? frame ? "true" : "false" : "null",
-                                 monitor ? std::to_string(monitor->definition().dimensions) : "null");
+  std::string text = fmt::format(
+      R"("stream": {}, "format": {}, "own": {}, "geographic": {}, "dimensions": {}, "origin": )",
+      json_text(settings.source), json_text(settings.format),
+      settings.own.empty() ? "null" : json_text(settings.own), monitor ? frame ? "true" : "false" : "null",
+      monitor ? std::to_string(monitor->definition().dimensions) : "null");
   text += frame ? fmt::format(R"({{"lon": {}, "lat": {}, "radius": {}}})", json_number(frame->longitude()),
                               json_number(frame->latitude()), json_number(frame->radius()))
                 : "null";
@@ -137,9 +139,11 @@ void add_tracks(std::string& text, const Watcher& watcher) {
   const char* separator = "\n";
   for (const TrackId id : context.monitor.tracks()) {
     const TrackView view = context.monitor.track(id).value();
-    text +=
-        fmt::format(R"({}{{"id": {}, "stamp": {}, "silent": {}, "places": [)", separator,
-                    json_text(context.names.text(id)), json_time(context.times, view.timestamp), view.stale);
+    const NamedTrack* const named = context.names.find(id);
+    text += fmt::format(R"({}{{"id": {}, "name": {}, "stamp": {}, "silent": {}, "places": [)", separator,
+                        json_text(context.names.text(id)),
+                        named != nullptr && !named->name.empty() ? json_text(named->name) : "null",
+                        json_time(context.times, view.timestamp), view.stale);
     const char* between = "";
     for (const TrackView::Place& place : view.places) {
       text += between + place_fields(watcher, place);

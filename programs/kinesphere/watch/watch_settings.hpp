@@ -74,6 +74,7 @@ struct WatchSettings {
   std::size_t most_tracks = 50'000;
   std::size_t most_pairs = 1'000'000;  ///< maximum pairs that are not certainly apart
   std::string source;                  ///< the stream's name, for messages
+  std::string format;                  ///< of the stream, for its state
 };
 
 }  // namespace kinesphere::program

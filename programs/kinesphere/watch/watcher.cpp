@@ -145,7 +145,7 @@ void Watcher::hold(const SourceReport& report) {
     ++counts_.ahead;
     return;
   }
-  held_.push_back({std::string(report.id), report});
+  held_.push_back({std::string(report.id), std::string(shown_name(report.name)), report});
 }
 
 void Watcher::drop_held() {
@@ -160,6 +160,7 @@ void Watcher::deliver_held() {
   held_.clear();
   for (HeldReport& held : reports) {
     held.report.id = held.id;
+    held.report.name = held.name;
     const bool by_arrival = clock_.source() == StreamClock::Source::arrivals;
     go_on(by_arrival ? *held.report.arrival : held.report.stamp);
     deliver(held.report);
@@ -488,6 +489,7 @@ void Watcher::deliver(const SourceReport& report) {
   if (!settings_.own.empty() && report.id == settings_.own) ++counts_.of_own;
   if (lacks_height) ++counts_.no_height;
   NamedTrack& named = known != nullptr ? *known : names_.add(id, report.id);
+  if (const std::string_view name = shown_name(report.name); !name.empty()) named.name = name;
   if (known == nullptr || seconds_between(named.stamp, report.stamp) >= 0.0) {
     named.stamp = report.stamp;
     named.position = report.position;

@@ -71,7 +71,7 @@ class Watcher final : public ReportSink {
 
  private:
   struct HeldReport {
-    std::string id;
+    std::string id, name;
     SourceReport report;
   };
 

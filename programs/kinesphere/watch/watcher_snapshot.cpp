@@ -60,9 +60,9 @@ std::optional<DeclaredError> restored_error(const Json& saved, const KeepText& k
 }
 
 Json saved(const SourceReport& report) {
-  const auto& [id, stamp, arrival, time_kind, geographic, position, has_height, may_have_height, on_ground,
-               velocity, has_climb, position_error, height_error, velocity_error, climb_error, stamp_error,
-               velocity_age, velocity_spread, extent, is_aircraft, same_within] = report;
+  const auto& [id, name, stamp, arrival, time_kind, geographic, position, has_height, may_have_height,
+               on_ground, velocity, has_climb, position_error, height_error, velocity_error, climb_error,
+               stamp_error, velocity_age, velocity_spread, extent, is_aircraft, same_within] = report;
   return {{"stamp", stamp},
           {"arrival", arrival},
           {"time_kind", time_kind},
@@ -109,8 +109,8 @@ SourceReport restored_report(const Json& saved, const KeepText& keep) {
 }
 
 Json saved(const NamedTrack& track) {
-  const auto& [text, stamp, position, extent, position_by, height_by, velocity_by, climb_by] = track;
-  return {text, stamp, position, position_by, height_by, velocity_by, climb_by, extent};
+  const auto& [text, name, stamp, position, extent, position_by, height_by, velocity_by, climb_by] = track;
+  return {text, stamp, position, position_by, height_by, velocity_by, climb_by, extent, name};
 }
 
 /// Arrays of tracks are packed into CBOR: as JSON in memory they would take ten times as much.
@@ -152,7 +152,7 @@ Json Watcher::save() const {
              {"policy", policy_.save()},
              {"groups", nullptr},
              {"next_forgetting", next_forgetting_}};
-  for (const HeldReport& held : held_) state["held"].push_back({held.id, saved(held.report)});
+  for (const HeldReport& held : held_) state["held"].push_back({held.id, held.name, saved(held.report)});
   if (monitor_) {
     state["monitor"] = saved(*monitor_);
     state["groups"] = {groups_->save(), group_tracks_};
@@ -168,7 +168,8 @@ void Watcher::restore(const Json& state) {
   };
   clock_.recall(state.at("clock"));
   clock_is_chosen_ = state.at("clock_is_chosen");
-  for (const Json& held : state.at("held")) held_.push_back({held.at(0), restored_report(held.at(1), keep)});
+  for (const Json& held : state.at("held"))
+    held_.push_back({held.at(0), held.at(1), restored_report(held.at(2), keep)});
   if (clock_.has_begun()) begin_times(state.at("first"), state.at("time_kind"));
   is_geographic_ = state.at("geographic");
   dimensions_ = state.at("dimensions");
@@ -183,6 +184,7 @@ void Watcher::restore(const Json& state) {
       track.velocity_by = keep(saved.at(5));
       track.climb_by = keep(saved.at(6));
       track.extent = saved.at(7);
+      track.name = saved.at(8);
     }
   }
   counts_ = state.at("counts");

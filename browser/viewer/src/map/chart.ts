@@ -1,13 +1,15 @@
-// The picture: graticule, bounds, tracks, pairs, names.
+// The picture: coast, graticule, bounds, tracks, pairs, closest approaches, names.
+import { Coast } from "./coast.ts";
 import type { EarthPlane } from "./earth.ts";
 import { graticule } from "./graticule.ts";
-import { type DrawnPair, type DrawnTrack, placesOf, type Scene } from "./scene.ts";
+import { type Approach, type Concern, type DrawnPair, type DrawnTrack, knowsHeight, placesOf, type Scene, type Spot } from "./scene.ts";
 import type { Place } from "./state.ts";
-import { lengthText, shortName } from "./text.ts";
+import { durationText, shortName } from "./text.ts";
+import { Units } from "./units.ts";
 import type { View } from "./view.ts";
 
 /** The colours of a theme, from the style sheet. */
-const colourNames = ["ground", "grid", "grid-ink", "track", "silent", "undecided", "within", "need", "chosen", "ink"] as const;
+const colourNames = ["ground", "land", "shore", "grid", "grid-ink", "track", "silent", "undecided", "predicted", "within", "need", "chosen", "ink"] as const;
 export type Colours = Record<(typeof colourNames)[number], string>;
 
 export function coloursOfPage(): Colours {
@@ -30,14 +32,22 @@ const fullTurn = 2 * Math.PI;
 /** Seconds that the lines ahead of tracks may stand for. */
 const lookAheads = [1200, 600, 300, 120, 60, 30, 20, 10, 5, 2, 1, 0.5, 0.2, 0.1];
 
-type Kind = "silent" | "track" | "undecided" | "within";
-const kindOf = ({ track, verdict }: DrawnTrack): Kind => (track.silent ? "silent" : verdict ?? "track");
+const kinds = ["silent", "track", "undecided", "predicted", "within"] as const;
+type Kind = (typeof kinds)[number];
+const kindOf = ({ track, concern }: DrawnTrack): Kind => (track.silent ? "silent" : concern ?? "track");
+/** Order in which names find room. */
+const ranks: Record<Concern, number> = { within: 1, predicted: 2, undecided: 3 };
+/** Maximum pairs with a text at their lines. */
+const mostTexts = 40;
 
 export class Chart {
   colours: Colours = coloursOfPage();
   /** Seconds that lines extend ahead of tracks. */
   lookAhead = 0;
   showNames = true;
+  showNeeds = false;
+  units = new Units("plain");
+  readonly coast: Coast;
   private dotSize = 3.5;
   /** About how many pixels lie between neighbours. */
   private room = Infinity;
@@ -47,7 +57,9 @@ export class Chart {
   private readonly context: CanvasRenderingContext2D;
   private readonly widths = new Map<string, number>();
 
-  constructor(readonly canvas: HTMLCanvasElement) {
+  /** `redraw` is called when there is more to be drawn. */
+  constructor(readonly canvas: HTMLCanvasElement, redraw: () => void) {
+    this.coast = new Coast(redraw);
     this.context = canvas.getContext("2d", { alpha: false })!;
   }
 
@@ -73,18 +85,22 @@ export class Chart {
     const taken = new Taken();
     this.room = roomOf(view, scene);
     this.dotSize = this.room < 12 ? 1.8 : this.room < 30 ? 2.7 : 3.5;
+    if (plane !== null) this.coast.draw(context, view, plane, colours);
     this.drawGrid(view, plane, taken);
     if (scene === null) return;
     const chosenPair = scene.pairs.find(({ key }) => key === chosen.pair) ?? null;
-    const kinds: Record<Kind, DrawnTrack[]> = { silent: [], track: [], undecided: [], within: [] };
-    for (const drawn of scene.tracks.values()) kinds[kindOf(drawn)].push(drawn);
-    for (const kind of ["silent", "track", "undecided", "within"] as const) this.drawBounds(view, kinds[kind], colours[kind]);
+    const byKind: Record<Kind, DrawnTrack[]> = { silent: [], track: [], undecided: [], predicted: [], within: [] };
+    for (const drawn of scene.tracks.values()) byKind[kindOf(drawn)].push(drawn);
+    for (const kind of kinds) this.drawBounds(view, byKind[kind], colours[kind]);
     this.drawSeparations(view, scene, chosen);
     this.drawPairs(view, scene.pairs, chosenPair);
     this.drawLookAhead(view, scene);
-    for (const kind of ["silent", "track", "undecided", "within"] as const) this.drawDots(view, kinds[kind], kind);
-    this.drawNeeds(view, scene);
+    this.drawApproaches(view, scene.pairs, chosenPair);
+    for (const kind of kinds) this.drawDots(view, byKind[kind], kind);
+    if (this.showNeeds) this.drawNeeds(view, scene);
     this.drawChosen(view, scene, chosen, chosenPair);
+    const texts = chosenPair === null ? scene.pairs : [chosenPair, ...scene.pairs.filter((pair) => pair !== chosenPair)];
+    this.drawTexts(view, texts.slice(0, mostTexts), taken);
     if (this.showNames) this.drawNames(view, scene, chosen, chosenPair, taken);
   }
 
@@ -171,7 +187,7 @@ export class Chart {
     const path = (drawn: DrawnPair) => {
       if (drawn.places !== null) addLine(context, view, drawn.places[0], drawn.places[1]);
     };
-    if (chosenPair !== null) {
+    if (chosenPair !== null && chosenPair.pair.verdict !== "apart") {
       // A light band with a dark one inside: two lines, one on each side of the pair's own.
       context.beginPath();
       path(chosenPair);
@@ -195,6 +211,87 @@ export class Chart {
     }
     context.globalAlpha = 1;
     context.setLineDash([]);
+  }
+
+  /** Draws where predicted pairs, and the chosen one, come closest if they go straight on: both ways, both places, and the line between. */
+  private drawApproaches(view: View, pairs: DrawnPair[], chosenPair: DrawnPair | null): void {
+    const { context, colours } = this;
+    const drawn = pairs.filter((pair) => pair.isPredicted || pair === chosenPair);
+    // Many are fainter, so that what lies below them is seen.
+    context.globalAlpha = Math.max(0.3, Math.min(1, 60 / drawn.length));
+    for (const pair of drawn) {
+      const { places, approach, concern } = pair;
+      if (places === null || approach === null) continue;
+      context.strokeStyle = colours[concern];
+      context.beginPath();
+      for (const k of [0, 1] as const) addLine(context, view, places[k], approach.places[k]);
+      context.lineWidth = 1.5;
+      context.setLineDash([2, 4]);
+      context.stroke();
+      context.setLineDash([]);
+      context.beginPath();
+      addLine(context, view, ...approach.places);
+      if (pair === chosenPair) {
+        context.strokeStyle = colours.chosen;
+        context.lineWidth = 7;
+        context.stroke();
+        context.strokeStyle = colours[concern];
+      }
+      context.lineWidth = 3;
+      context.stroke();
+      context.lineWidth = 1.5;
+      context.fillStyle = colours.ground;
+      for (const { x, y } of approach.places) {
+        const [atX, atY] = view.toScreen(x, y);
+        if (isFar(view, atX, atY, 8)) continue;
+        context.beginPath();
+        context.moveTo(atX, atY - 6);
+        for (const [dx, dy] of [[6, 0], [0, 6], [-6, 0]] as const) context.lineTo(atX + dx, atY + dy);
+        context.closePath();
+        context.fill();
+        context.stroke();
+      }
+    }
+    context.globalAlpha = 1;
+  }
+
+  /** Writes distance and time to go at closest approaches, and vertical distances at the lines of open pairs. */
+  private drawTexts(view: View, pairs: readonly DrawnPair[], taken: Taken): void {
+    const { context, colours, units } = this;
+    context.font = smallFont;
+    context.lineJoin = "round";
+    context.textBaseline = "middle";
+    for (const drawn of pairs) {
+      const { places, approach, isPredicted, concern } = drawn;
+      if (places === null) continue;
+      if (approach !== null && (isPredicted || drawn === pairs[0]))
+        this.write(view, approach.places, `CPA ${approachText(approach, units)}`, colours[concern], taken, places);
+      if (drawn.above !== null && drawn.pair.verdict !== "apart")
+        this.write(view, places, units.above(drawn.above.difference, drawn.above.rate), colours[drawn.pair.verdict], taken);
+    }
+    context.textBaseline = "alphabetic";
+  }
+
+  /** Writes a text beside the middle of a line, if there is room; best where it hides no way to `ends`. */
+  private write(view: View, [one, other]: readonly [Spot, Spot], text: string, colour: string, taken: Taken, ends: readonly Spot[] = []): void {
+    const { context, colours } = this;
+    const [x, y] = view.toScreen((one.x + other.x) / 2, (one.y + other.y) / 2);
+    if (isFar(view, x, y, 0)) return;
+    const width = this.widthOf(text);
+    const ways = ends.map((end) => view.toScreen(end.x, end.y)).map(([endX, endY]) => [(endX - x) / Math.hypot(endX - x, endY - y), (endY - y) / Math.hypot(endX - x, endY - y)] as const);
+    /** Cosine of the angle to the nearest way. */
+    const hidden = ([, , sideX, sideY]: readonly [number, number, number, number]): number =>
+      Math.max(-1, ...ways.map(([wayX, wayY]) => wayX * sideX + wayY * sideY));
+    const spots: (readonly [number, number, number, number])[] =
+      [[10, 0, 1, 0], [-10 - width, 0, -1, 0], [-width / 2, -19, 0, -1], [-width / 2, 19, 0, 1], [14, 17, 0.9, 0.4], [14, -17, 0.9, -0.4]];
+    const spot = spots.sort((a, b) => hidden(a) - hidden(b))
+      .find(([dx, dy]) => isBetweenPanels(view, x + dx, width) && taken.take(x + dx - 2, y + dy - 7, width + 4, 14));
+    if (spot === undefined) return;
+    context.strokeStyle = colours.ground;
+    context.lineWidth = 3.5;
+    context.strokeText(text, x + spot[0], y + spot[1]);
+    context.fillStyle = colour;
+    context.fillText(text, x + spot[0], y + spot[1]);
   }
 
   private drawLookAhead(view: View, scene: Scene): void {
@@ -228,7 +325,7 @@ export class Chart {
     const { context, colours } = this;
     const colour = colours[kind];
     const isHollow = kind === "silent";
-    const isOpen = kind === "undecided" || kind === "within";
+    const isOpen = kind !== "silent" && kind !== "track";
     context.beginPath();
     for (const { track: { places } } of tracks) {
       for (let k = 1; k < places.length; ++k) addLine(context, view, places[k - 1]!, places[k]!);
@@ -273,6 +370,15 @@ export class Chart {
   private drawChosen(view: View, scene: Scene, chosen: Chosen, chosenPair: DrawnPair | null): void {
     const { context, colours } = this;
     const ids = new Set([chosen.track, chosen.hovered, chosenPair?.pair.first, chosenPair?.pair.second]);
+    context.strokeStyle = colours.ink;
+    context.lineWidth = 1.5;
+    // The own ship or aircraft has the two circles of a radar.
+    for (const place of scene.tracks.get(scene.state.own ?? "")?.track.places ?? []) {
+      const [x, y] = view.toScreen(place.x, place.y);
+      context.beginPath();
+      context.arc(x, y, 10, 0, fullTurn);
+      context.stroke();
+    }
     context.strokeStyle = colours.chosen;
     for (const id of ids) {
       const drawn = scene.tracks.get(id ?? "");
@@ -289,9 +395,9 @@ export class Chart {
   /** Draws the names of the most important tracks first, while there is room. */
   private drawNames(view: View, scene: Scene, chosen: Chosen, chosenPair: DrawnPair | null, taken: Taken): void {
     const { context, colours } = this;
-    const important = new Set([chosen.track, chosen.hovered, chosenPair?.pair.first, chosenPair?.pair.second]);
-    const rank = ({ track, verdict, need }: DrawnTrack) =>
-      important.has(track.id) ? 0 : verdict === "within" ? 1 : verdict === "undecided" ? 2 : need !== null ? 3 : track.silent ? 5 : 4;
+    const important = new Set([chosen.track, chosen.hovered, chosenPair?.pair.first, chosenPair?.pair.second, scene.state.own]);
+    const rank = ({ track, concern, need }: DrawnTrack) =>
+      important.has(track.id) ? 0 : concern !== null ? ranks[concern] : need !== null && this.showNeeds ? 4 : track.silent ? 6 : 5;
     const dots = new Taken();
     const inSight: { drawn: DrawnTrack; x: number; y: number; rank: number }[] = [];
     for (const drawn of scene.tracks.values()) {
@@ -308,18 +414,19 @@ export class Chart {
     const first = scene.state.tracks[0]?.places[0]?.z;
     // In a crowd names alone are more readable.
     const hasHeights = this.room > 25 && scene.state.dimensions === 3 && scene.state.tracks.some(({ places }) => places.some(({ z }) => z !== first));
-    const right = view.width - view.insets.right;
     let left = mostNames;
     for (const { drawn, x, y, rank } of inSight) {
       if (--left < 0) break;
-      const name = shortName(drawn.track.id);
-      const height = hasHeights ? `  ${heightText(drawn.track.places[0]!, scene.state.geographic === true)}` : "";
+      const name = shortName(drawn.label);
+      const place = drawn.track.places[0]!;
+      const height = hasHeights && knowsHeight(place, scene.state) ? `  ${this.units.altitude(place.alt ?? place.z)}` : "";
       const width = this.widthOf(name) + (height === "" ? 0 : this.widthOf(height));
       const sides = headingOf(drawn, chosenPair) > 0 ? [-12 - width, 12] as const : [12, -12 - width] as const;
-      const spot = ([[sides[0], 0], [sides[1], 0], [-width / 2, -19], [-width / 2, 19], [10, -14], [10, 14]] as const)
-        // Names of unimportant tracks must not hide a dot.
-        .find(([dx, dy]) => x + dx > 0 && x + dx + width < right && (rank < 2 || dots.isFree(x + dx, y + dy - 7, width, 14)) &&
-          taken.take(x + dx, y + dy - 7, width, 14, rank === 0));
+      const spots = ([[sides[0], 0], [-width / 2, -19], [-width / 2, 19], [sides[1], 0], [10, -14], [10, 14]] as const)
+        .filter(([dx]) => isBetweenPanels(view, x + dx, width));
+      // Names of unimportant tracks must not hide a dot; those of important ones are there anyway.
+      const spot = spots.find(([dx, dy]) => (rank < 3 || dots.isFree(x + dx, y + dy - 7, width, 14)) && taken.take(x + dx, y + dy - 7, width, 14)) ??
+        (rank === 0 ? spots[0] : undefined);
       if (spot === undefined) continue;
       const [atX, atY] = [x + spot[0], y + spot[1]];
       context.strokeStyle = colours.ground;
@@ -389,15 +496,22 @@ function roomOf(view: View, scene: Scene | null): number {
   return Math.sqrt(width * height / inSight);
 }
 
-const heightText = (place: Place, isMetres: boolean): string =>
-  isMetres ? `${Math.round(place.alt ?? 0)} m` : lengthText(place.z, false);
+/** Returns distance, vertical distance and time to go. */
+export function approachText({ distance, above, seconds }: Approach, units: Units): string {
+  const vertical = above === null ? "" : `, ${units.above(above, 0)}`;
+  return `${units.length(distance)}${vertical} · ${durationText(seconds)}`;
+}
+
+/** Returns true if a text that begins there is not covered by the panels at the sides. */
+const isBetweenPanels = (view: View, x: number, width: number): boolean =>
+  x >= view.insets.left && x + width < view.width - view.insets.right;
 
 function isFar(view: View, x: number, y: number, margin: number): boolean {
   return x < -margin || y < -margin || x > view.width + margin || y > view.height + margin;
 }
 
 /** Returns the visible part of a line between two places, as two places of the screen; null if there is none. */
-function lineInSight(view: View, from: Place, to: Place): [[number, number], [number, number]] | null {
+function lineInSight(view: View, from: Spot, to: Spot): [[number, number], [number, number]] | null {
   const a = view.toScreen(from.x, from.y);
   const b = view.toScreen(to.x, to.y);
   const margin = 20;
@@ -416,7 +530,7 @@ function lineInSight(view: View, from: Place, to: Place): [[number, number], [nu
 }
 
 /** Adds only the visible part: the dashes of a line that goes far beyond would take a browser long. */
-function addLine(context: CanvasRenderingContext2D, view: View, from: Place, to: Place): void {
+function addLine(context: CanvasRenderingContext2D, view: View, from: Spot, to: Spot): void {
   const line = lineInSight(view, from, to);
   if (line === null) return;
   context.moveTo(...line[0]);
@@ -442,9 +556,9 @@ function crossing(view: View, points: number[], axis: 0 | 1, at: number): number
 class Taken {
   private readonly squares = new Set<number>();
 
-  /** Takes a rectangle. Returns false, without taking it, if a part is taken already, unless `anyway`. */
-  take(x: number, y: number, width: number, height: number, anyway = false): boolean {
-    if (!anyway && !this.isFree(x, y, width, height)) return false;
+  /** Takes a rectangle. Returns false, without taking it, if a part is taken already. */
+  take(x: number, y: number, width: number, height: number): boolean {
+    if (!this.isFree(x, y, width, height)) return false;
     this.occupy(x, y, width, height);
     return true;
   }

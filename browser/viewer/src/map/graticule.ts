@@ -2,6 +2,7 @@
 import type { EarthPlane } from "./earth.ts";
 import type { Bounds } from "./scene.ts";
 import { latitudeText, longitudeText } from "./text.ts";
+import type { Units } from "./units.ts";
 import type { View } from "./view.ts";
 
 export interface GridLine {
@@ -102,9 +103,10 @@ export function graticule(view: View, plane: EarthPlane | null): GridLine[] {
 }
 
 /** Returns the longest bar of a round length that is at most `most` pixels long. */
-export function scaleBar(scale: number, most: number): { length: number; pixels: number } {
-  const longest = most / scale;
+export function scaleBar(scale: number, most: number, units: Units): { length: number; pixels: number } {
+  const unit = units.unitOfBar(most / scale);
+  const longest = most / scale / unit;
   const power = 10 ** Math.floor(Math.log10(longest));
-  const length = power * ([5, 2, 1].find((step) => step * power <= longest * (1 + 1e-9)) ?? 1);
+  const length = unit * power * ([5, 2, 1].find((step) => step * power <= longest * (1 + 1e-9)) ?? 1);
   return { length, pixels: length * scale };
 }

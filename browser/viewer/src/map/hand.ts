@@ -4,7 +4,7 @@ import type { View } from "./view.ts";
 export interface HandActions {
   /** Called when the user has moved the view. */
   moved(): void;
-  chooseAt(x: number, y: number): void;
+  chooseAt(x: number, y: number, isFinger: boolean): void;
   hoverAt(x: number, y: number): void;
 }
 
@@ -42,7 +42,7 @@ export function followPointers(canvas: HTMLCanvasElement, view: View, actions: H
   const release = (event: PointerEvent) => {
     if (!pointers.delete(event.pointerId)) return;
     canvas.classList.toggle("holding", pointers.size > 0);
-    if (event.type === "pointerup" && way < stillness) actions.chooseAt(event.clientX, event.clientY);
+    if (event.type === "pointerup" && way < stillness) actions.chooseAt(event.clientX, event.clientY, event.pointerType === "touch");
   };
   canvas.addEventListener("pointerup", release);
   canvas.addEventListener("pointercancel", release);

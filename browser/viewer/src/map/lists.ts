@@ -1,9 +1,11 @@
-// The lists next to the map: numbers, open pairs, report requests, and all about the chosen track.
+// The lists next to the map: numbers, closest approaches, report requests, and all about the chosen track.
 import { Numbers, put, whole } from "../numbers.ts";
 import { KeyedList, part } from "./keyed_list.ts";
-import type { DrawnPair, Scene } from "./scene.ts";
-import type { Need, Pair, StreamTime } from "./state.ts";
-import { durationBetween, durationText, lengthText, placeText, rangeText, shownName, timeText, unbroken, velocityText, whenText } from "./text.ts";
+import { compareByDistance, compareByTime, type DrawnPair, knowsHeight, labelOf, type Scene } from "./scene.ts";
+import type { Settings } from "./settings.ts";
+import type { Need, StreamTime } from "./state.ts";
+import { durationBetween, durationText, placeText, rangeText, shownName, timeText, unbroken, velocityText, whenText } from "./text.ts";
+import { Units } from "./units.ts";
 
 const element = (id: string): HTMLElement => document.querySelector<HTMLElement>(`#${id}`)!;
 
@@ -22,10 +24,14 @@ export interface ListActions {
 }
 
 export class Lists {
+  units = new Units("plain");
+  /** The track whose pairs are the only ones in the list; null for all. */
+  only: string | null = null;
   private readonly numbers = new Numbers(element("numbers"));
   private readonly time = this.numbers.row("time", "Time of the stream; red with how long it has stood still");
   private readonly tracks = this.numbers.row("tracks", "Tracks that are watched");
   private readonly within = this.numbers.row("within", "Pairs and separations that are certainly within");
+  private readonly predicted = this.numbers.row("predicted", "Pairs and separations that are predicted");
   private readonly undecided = this.numbers.row("undecided", "Pairs and separations that the reports leave open");
   private readonly needed = this.numbers.row("needed", "Tracks whose reports are needed next");
   private readonly reports = this.numbers.row("reports", "Reports that were taken; repeated ones and those refused are not");
@@ -35,8 +41,9 @@ export class Lists {
   private scene: Scene | null = null;
   private latest: { time: StreamTime | null; seenAt: number } = { time: null, seenAt: performance.now() };
 
-  constructor(private readonly actions: ListActions) {
+  constructor(private readonly actions: ListActions, private readonly settings: Settings) {
     this.within.row.classList.add("within");
+    this.predicted.row.classList.add("predicted");
     this.undecided.row.classList.add("undecided");
     this.needed.row.classList.add("need");
     this.pairs = new KeyedList(element("pairs"), (button, key) => this.makePair(button, key));
@@ -46,12 +53,17 @@ export class Lists {
   show(scene: Scene, chosenTrack: string | null, chosenPair: string | null): void {
     this.scene = scene;
     this.showNumbers(scene);
-    showCounted("pairs", scene.pairs.length);
-    this.pairs.show(scene.pairs.slice(0, mostShown), ({ key }) => key);
-    showCounted("needs", scene.needs.length);
-    this.needs.show(scene.needs.slice(0, mostShown), ({ track }) => track);
-    if (scene.pairs.length === 0) element("pairs-more").textContent = scene.state.time === null ? "No report has come yet." : "All tracks are certainly apart.";
-    if (scene.state.time !== null && scene.needs.length === 0) element("needs-more").textContent = "No report is needed yet.";
+    const pairs = this.shownPairs;
+    showCounted("pairs", pairs.length);
+    this.pairs.show(pairs.slice(0, mostShown), ({ key }) => key);
+    if (pairs.length === 0) element("pairs-more").textContent = scene.state.time === null ? "No report has come yet."
+      : scene.pairs.length > 0 ? `No pair of ${labelOf(scene, this.only!)} is predicted or open.` : "No pair is predicted, and all tracks are certainly apart.";
+    element("needs-section").hidden = !this.settings.needs;
+    if (this.settings.needs) {
+      showCounted("needs", scene.needs.length);
+      this.needs.show(scene.needs.slice(0, mostShown), ({ track }) => track);
+      if (scene.state.time !== null && scene.needs.length === 0) element("needs-more").textContent = "No report is needed yet.";
+    }
     this.showChosen(chosenTrack, chosenPair);
   }
 
@@ -59,12 +71,35 @@ export class Lists {
     for (const button of document.querySelectorAll("#lists li button[aria-pressed='true']")) button.setAttribute("aria-pressed", "false");
     if (pair !== null) this.pairs.button(pair)?.setAttribute("aria-pressed", "true");
     if (track !== null) this.needs.button(track)?.setAttribute("aria-pressed", "true");
+    this.showOnly(track);
     element("details").hidden = track === null;
     if (track !== null && this.scene !== null) this.showDetails(this.scene, track);
   }
 
-  private get isMetric(): boolean {
-    return this.scene?.state.geographic === true;
+  /** The pairs of the list, in its order. */
+  get shownPairs(): DrawnPair[] {
+    const pairs = (this.scene?.pairs ?? []).filter(({ ids }) => this.only === null || ids.includes(this.only));
+    return pairs.sort(this.settings.order === "time" ? compareByTime : compareByDistance);
+  }
+
+  /** Returns the track whose pairs alone can be listed: the listed one, else the chosen one, else the own one. */
+  onlyCandidate(chosenTrack: string | null): string | null {
+    return this.only ?? chosenTrack ?? this.scene?.state.own ?? null;
+  }
+
+  /** Returns what an alarm says about a pair. */
+  wordsOf(drawn: DrawnPair): { title: string; text: string } {
+    const [one, other] = this.labelsOf(drawn);
+    return { title: `${drawn.concern === "within" ? "Within" : "Predicted"}: ${one} – ${other}`, text: `${shownName(drawn.pair.separation)}; ${this.approachLine(drawn)}` };
+  }
+
+  private showOnly(chosenTrack: string | null): void {
+    const candidate = this.onlyCandidate(chosenTrack);
+    const button = element("only");
+    button.hidden = candidate === null;
+    button.setAttribute("aria-pressed", String(this.only !== null));
+    button.textContent = candidate === null || this.scene === null ? "" : `only ${labelOf(this.scene, candidate)}`;
+    for (const order of ["time", "distance"] as const) element(`order-${order}`).setAttribute("aria-pressed", String(this.settings.order === order));
   }
 
   private showNumbers({ state, pairs, needs }: Scene): void {
@@ -77,14 +112,20 @@ export class Lists {
     this.time.row.classList.toggle("bad", stillFor >= longestQuiet);
     const silent = state.tracks.filter((track) => track.silent).length;
     put(this.tracks, whole.format(state.tracks.length), silent > 0 ? `${whole.format(silent)} silent` : "");
-    const within = pairs.filter(({ pair }) => pair.verdict === "within").length;
-    put(this.within, whole.format(within), "");
-    put(this.undecided, whole.format(pairs.length - within), "");
+    const count = (is: (pair: DrawnPair) => boolean) => whole.format(pairs.filter(is).length);
+    put(this.within, count(({ pair }) => pair.verdict === "within"), "");
+    put(this.predicted, count(({ isPredicted }) => isPredicted), "");
+    put(this.undecided, count(({ pair }) => pair.verdict === "undecided"), "");
+    this.needed.row.hidden = !this.settings.needs;
     put(this.needed, whole.format(needs.length), "");
     const refused = refusals.reduce((sum, name) => sum + (counts[name] ?? 0), 0);
     put(this.reports, whole.format(counts["reports"] ?? 0), refused > 0 ? `${whole.format(refused)} refused` : "");
     const contradictions = counts["contradictions"] ?? 0;
     put(this.alerts, whole.format(counts["alerts"] ?? 0), contradictions > 0 ? `${whole.format(contradictions)} contradiction${contradictions === 1 ? "" : "s"}` : "");
+  }
+
+  private labelsOf({ ids: [one, other] }: DrawnPair): [string, string] {
+    return this.scene === null ? [one, other] : [labelOf(this.scene, one), labelOf(this.scene, other)];
   }
 
   private makePair(button: HTMLButtonElement, key: string): (drawn: DrawnPair) => void {
@@ -94,40 +135,45 @@ export class Lists {
     const first = part(ids, "");
     part(ids, "between")("–");
     const second = part(ids, "");
-    const verdict = part(ids, "verdict");
+    const concern = part(ids, "verdict");
+    const approach = part(button, "approach");
     const distance = part(button, "said");
     const times = part(button, "said");
-    const next = part(button, "said");
-    button.title = "Go there. The distance lies between these limits; the closest approach is that of two who go straight on.";
     button.setAttribute("aria-pressed", "false");
     button.addEventListener("click", () => this.actions.choosePair(key));
-    return ({ pair }) => {
-      button.className = pair.verdict;
-      first(shownName(pair.first));
-      second(shownName(pair.second));
-      verdict(pair.verdict);
-      distance(unbroken(this.distanceText(pair)));
-      times(unbroken(this.timesText(pair)));
-      next(unbroken(this.nextText(pair)));
+    return (drawn) => {
+      button.className = drawn.concern;
+      button.title = `${drawn.ids.map(shownName).join(" and ")}: go there. The closest approach is that of two who go straight on.`;
+      const labels = this.labelsOf(drawn);
+      first(labels[0]);
+      second(labels[1]);
+      concern(drawn.concern);
+      approach(unbroken(this.approachLine(drawn)));
+      distance(unbroken(this.distanceLine(drawn)));
+      times(unbroken(this.timesLine(drawn)));
     };
   }
 
-  private distanceText({ separation, distance: [lower, upper] }: Pair): string {
-    return `${shownName(separation)} · ${rangeText(lower ?? 0, upper, this.isMetric)}`;
+  private approachLine({ approach, pair }: DrawnPair): string {
+    if (approach === null) return pair.closest_distance === null ? "" : "closest now";
+    const { above, distance, seconds } = approach;
+    return `CPA ${this.units.length(distance)}${above === null ? "" : `, ${this.units.above(above, 0)}`} · in ${durationText(seconds)}`;
   }
 
-  private timesText(pair: Pair): string {
+  /** Returns the present distance: horizontal, or what the separation measures, and vertical. */
+  private distanceLine({ pair: { distance: [lower, upper] }, above }: DrawnPair): string {
+    return `now ${rangeText(lower ?? 0, upper, this.units)}${above === null ? "" : ` · ${this.units.above(above.difference, above.rate)}`}`;
+  }
+
+  private timesLine({ pair, isPredicted }: DrawnPair): string {
     const now = this.scene?.state.time ?? null;
     const since = pair.since === null || now === null ? "from the start" : `for ${durationBetween(pair.since, now)}`;
-    if (pair.verdict === "undecided") return `${since} · ask ${shownName(pair.ask)} now`;
-    return `${since} · certain ${pair.until === null || now === null ? "for ever" : `for ${durationBetween(now, pair.until)} more`}`;
-  }
-
-  private nextText(pair: Pair): string {
-    const now = this.scene?.state.time ?? null;
-    const parts: string[] = [];
-    if (pair.verdict === "within" && pair.ask_by !== null) parts.push(`ask ${shownName(pair.ask)} ${whenText(pair.ask_by, now)}`);
-    if (pair.closest_distance !== null) parts.push(`closest ${lengthText(pair.closest_distance, this.isMetric)} ${whenText(pair.closest_time, now)}`);
+    const parts = [shownName(pair.separation)];
+    if (pair.verdict === "apart") parts.push(since);
+    if (pair.verdict === "undecided") parts.push(`${isPredicted ? "undecided " : ""}${since}`);
+    if (pair.verdict === "within") parts.push(since, `certain ${pair.until === null || now === null ? "for ever" : `for ${durationBetween(now, pair.until)} more`}`);
+    if (this.settings.needs && pair.ask_by !== null && this.scene !== null)
+      parts.push(`ask ${labelOf(this.scene, pair.ask)} ${pair.verdict === "undecided" ? "now" : whenText(pair.ask_by, now)}`);
     return parts.join(" · ");
   }
 
@@ -142,33 +188,38 @@ export class Lists {
     button.setAttribute("aria-pressed", "false");
     button.addEventListener("click", () => this.actions.chooseTrack(id));
     return (need) => {
-      name(shownName(need.track));
+      name(labelOf(this.scene!, need.track));
       by(whenText(need.by, this.scene?.state.time ?? null));
-      other(`because of ${shownName(need.other)}`);
+      other(`because of ${labelOf(this.scene!, need.other)}`);
     };
   }
 
-  private showDetails({ state, tracks, pairs }: Scene, id: string): void {
-    element("details-title").textContent = shownName(id);
+  private showDetails(scene: Scene, id: string): void {
+    const { state, tracks, pairs } = scene;
+    const { units } = this;
     const drawn = tracks.get(id);
+    element("details-title").textContent = labelOf(scene, id);
     const rows: [string, string][] = [];
     if (drawn === undefined) {
       rows.push(["", "It has left: nothing was heard of it for too long."]);
     } else {
       const { track, need } = drawn;
       const isFlat = state.dimensions === 2;
+      if (track.name !== null) rows.push(["id", shownName(id)]);
+      if (id === state.own) rows.push(["", "The own one: only its pairs are watched."]);
       rows.push(["last report", `${whenText(track.stamp, state.time)}${track.silent ? ", silent since" : ""}`]);
       if (track.places.length > 1) rows.push(["", `Reports contradict each other: it is in one of ${track.places.length} places.`]);
       for (const place of track.places) {
         const [horizontal, vertical] = place.radius;
-        rows.push(["place", placeText(place, isFlat)]);
-        rows.push(["bound", `within ${lengthText(horizontal, this.isMetric)} of there${isFlat ? "" : `, ${lengthText(vertical, this.isMetric)} in height`}`]);
-        rows.push(["velocity", velocityText(place, this.isMetric, isFlat)]);
+        const hasNoHeight = isFlat || !knowsHeight(place, state);
+        rows.push(["place", placeText(place, units, hasNoHeight)]);
+        rows.push(["bound", `within ${units.length(horizontal)} of there${isFlat ? "" : hasNoHeight ? ", at any height" : `, ${units.height(vertical)} in height`}`]);
+        rows.push(["velocity", velocityText(place, units, hasNoHeight)]);
       }
-      if (need !== null) rows.push(["needed", `${whenText(need.by, state.time)}, because of ${shownName(need.other)}`]);
-      for (const { pair } of pairs) {
+      if (need !== null && this.settings.needs) rows.push(["needed", `${whenText(need.by, state.time)}, because of ${labelOf(scene, need.other)}`]);
+      for (const { pair, concern } of pairs) {
         if (pair.first !== id && pair.second !== id) continue;
-        rows.push([pair.verdict, `${shownName(pair.first === id ? pair.second : pair.first)}, ${shownName(pair.separation)}`]);
+        rows.push([concern, `${labelOf(scene, pair.first === id ? pair.second : pair.first)}, ${shownName(pair.separation)}`]);
       }
     }
     element("details-rows").replaceChildren(...rows.map(([name, value]) => {

@@ -1,14 +1,17 @@
 // The map of a watch: fetches its state, and shows it.
 import { applyTheme, calmQuery, darkQuery, type Theme } from "../theme.ts";
+import { Alarm } from "./alarm.ts";
 import { Chart, type Chosen, coloursOfPage } from "./chart.ts";
 import { EarthPlane } from "./earth.ts";
 import { scaleBar } from "./graticule.ts";
 import { followPointers } from "./hand.ts";
 import { Lists } from "./lists.ts";
 import { type Lost, Polling } from "./polling.ts";
-import { boundsOf, placesOf, type Scene, sceneOf } from "./scene.ts";
+import { boundsOf, labelOf, placesOf, type Scene, sceneOf, type Spot } from "./scene.ts";
+import { keepSettings, keptSettings, type Settings } from "./settings.ts";
 import type { WatchState } from "./state.ts";
-import { durationText, lengthText, shownName, timeText } from "./text.ts";
+import { durationText, timeText } from "./text.ts";
+import { fieldOf, Units } from "./units.ts";
 import { View } from "./view.ts";
 import "../base.css";
 import "./style.css";
@@ -16,16 +19,17 @@ import "./style.css";
 const element = <E extends HTMLElement>(id: string): E => document.querySelector<E>(`#${id}`)!;
 
 const canvas = element<HTMLCanvasElement>("picture");
-const chart = new Chart(canvas);
+const settings = keptSettings();
+const chart = new Chart(canvas, redraw);
 const view = new View();
 const chosen: Chosen = { track: null, pair: null, hovered: null };
 let scene: Scene | null = null;
 let plane: EarthPlane | null = null;
-let theme: Theme = "system";
 /** True if the view follows the tracks, until the user moves it. */
 let isFollowing = true;
 
-const lists = new Lists({ choosePair, chooseTrack: (id) => chooseTrack(id, true) });
+const lists = new Lists({ choosePair, chooseTrack: (id) => chooseTrack(id, true) }, settings);
+const alarm = new Alarm({ wordsOf: (pair) => lists.wordsOf(pair), choose: choosePair });
 
 // Drawing.
 
@@ -46,14 +50,14 @@ function redraw(): void {
 }
 
 function showScale(): void {
-  const { length, pixels } = scaleBar(view.look.scale, 150);
+  const { length, pixels } = scaleBar(view.look.scale, 150, chart.units);
   element("scale-bar").style.width = `${pixels}px`;
-  element("scale-text").textContent = scene === null ? "" : lengthText(length, scene.state.geographic === true);
+  element("scale-text").textContent = scene === null ? "" : chart.units.length(length).replace(/\.00(?= )|(?<=\.\d)0(?= )/, "");
   element("look-ahead").textContent = chart.lookAhead > 0 ? `; line: straight on for ${chart.lookAhead < 60 ? `${chart.lookAhead} s` : durationText(chart.lookAhead)}` : "";
 }
 
 function repaint(): void {
-  applyTheme(theme);
+  applyTheme(settings.theme);
   chart.colours = coloursOfPage();
   redraw();
 }
@@ -79,8 +83,8 @@ function leastWidth(): number {
   return width;
 }
 
-function fly(ids: readonly string[], margin: number): boolean {
-  const bounds = boundsOf(placesOf(ids.map((id) => scene?.tracks.get(id))));
+function fly(ids: readonly string[], margin: number, others: readonly Spot[] = []): boolean {
+  const bounds = boundsOf([...placesOf(ids.map((id) => scene?.tracks.get(id))), ...others]);
   if (bounds === null) return false;
   view.flyTo(view.lookAt(bounds, margin), calmQuery.matches ? 0 : 0.35);
   redraw();
@@ -136,19 +140,20 @@ function choosePair(key: string): void {
   chosen.track = null;
   showChosen();
   follow(false);
-  fly([drawn.pair.first, drawn.pair.second], leastWidth());
+  fly(drawn.ids, leastWidth(), drawn.approach?.places);
 }
 
 function nextPair(): void {
-  if (scene === null || scene.pairs.length === 0) return;
-  const at = scene.pairs.findIndex(({ key }) => key === chosen.pair);
-  choosePair(scene.pairs[(at + 1) % scene.pairs.length]!.key);
+  const pairs = lists.shownPairs;
+  if (pairs.length === 0) return;
+  const at = pairs.findIndex(({ key }) => key === chosen.pair);
+  choosePair(pairs[(at + 1) % pairs.length]!.key);
 }
 
-/** Returns the track with the dot nearest to a place of the screen, if one is near. */
-function trackAt(x: number, y: number): string | null {
+/** Returns the track with the dot nearest to a place of the screen, if one is near; a finger is wider than a mouse. */
+function trackAt(x: number, y: number, isFinger = false): string | null {
   let nearest: string | null = null;
-  let least = 14;
+  let least = isFinger ? 24 : 14;
   for (const [id, { track }] of scene?.tracks ?? []) {
     for (const place of track.places) {
       const [atX, atY] = view.toScreen(place.x, place.y);
@@ -161,13 +166,13 @@ function trackAt(x: number, y: number): string | null {
   return nearest;
 }
 
-function pairAt(x: number, y: number): string | null {
+function pairAt(x: number, y: number, isFinger = false): string | null {
   for (const { key, places } of scene?.pairs ?? []) {
     if (places === null) continue;
     const [a, b] = places.map((place) => view.toScreen(place.x, place.y)) as [[number, number], [number, number]];
     const length2 = (b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2;
     const part = length2 === 0 ? 0 : Math.max(0, Math.min(1, ((x - a[0]) * (b[0] - a[0]) + (y - a[1]) * (b[1] - a[1])) / length2));
-    if (Math.hypot(a[0] + part * (b[0] - a[0]) - x, a[1] + part * (b[1] - a[1]) - y) < 6) return key;
+    if (Math.hypot(a[0] + part * (b[0] - a[0]) - x, a[1] + part * (b[1] - a[1]) - y) < (isFinger ? 16 : 6)) return key;
   }
   return null;
 }
@@ -177,9 +182,9 @@ followPointers(canvas, view, {
     follow(false);
     redraw();
   },
-  chooseAt: (x, y) => {
-    chosen.track = trackAt(x, y);
-    chosen.pair = chosen.track === null ? pairAt(x, y) : null;
+  chooseAt: (x, y, isFinger) => {
+    chosen.track = trackAt(x, y, isFinger);
+    chosen.pair = chosen.track === null ? pairAt(x, y, isFinger) : null;
     showChosen();
   },
   hoverAt: (x, y) => {
@@ -194,12 +199,53 @@ followPointers(canvas, view, {
 element("find").addEventListener("submit", (event) => {
   event.preventDefault();
   const wanted = element<HTMLInputElement>("find-text").value.trim().toLowerCase();
-  const ids = [...scene?.tracks.keys() ?? []];
-  const found = wanted === "" ? [] : ids.filter((id) => id.toLowerCase().includes(wanted));
-  const id = found.find((each) => each.toLowerCase() === wanted) ?? found[0];
+  const tracks = [...scene?.tracks ?? []];
+  const found = wanted === "" ? [] : tracks.filter(([id, { label }]) => id.toLowerCase().includes(wanted) || label.toLowerCase().includes(wanted));
+  const [id] = found.find(([each, { label }]) => each.toLowerCase() === wanted || label.toLowerCase() === wanted) ?? found[0] ?? [];
   element("find-answer").textContent = wanted === "" ? "" : found.length === 0 ? "No track is called so."
-    : found.length > 1 ? `${found.length} tracks; this is ${shownName(id!)}` : "";
+    : found.length > 1 ? `${found.length} tracks; this is ${labelOf(scene!, id!)}` : "";
   if (id !== undefined) chooseTrack(id, true);
+});
+
+// Settings.
+
+/** Applies all settings to the page, and keeps them. */
+function applySettings(): void {
+  keepSettings(settings);
+  const field = scene === null ? "plain" : fieldOf(scene.state);
+  chart.units = lists.units = new Units(settings.units === "metric" && field !== "plain" ? "metric" : field);
+  chart.showNames = settings.names;
+  chart.showNeeds = settings.needs;
+  for (const name of ["names", "needs"] as const) element<HTMLInputElement>(`set-${name}`).checked = settings[name];
+  for (const name of ["units", "theme"] as const) element<HTMLSelectElement>(`set-${name}`).value = settings[name];
+  element("needs-legend").hidden = !settings.needs;
+  element("alarm").setAttribute("aria-pressed", String(alarm.isOn));
+  element("alarm").title = `Sound and notification of new pairs (A). ${alarm.text}`;
+  element("alarm-text").textContent = alarm.text;
+  if (scene !== null) lists.show(scene, chosen.track, chosen.pair);
+  repaint();
+}
+
+function set<Name extends keyof Settings>(name: Name, value: Settings[Name]): void {
+  settings[name] = value;
+  applySettings();
+}
+
+/** Call it in answer to the user alone. */
+function switchAlarm(): void {
+  if (alarm.isOn) alarm.turnOff();
+  else void alarm.turnOn().then(applySettings);
+  set("alarm", alarm.isOn);
+}
+
+element("set-units").addEventListener("change", (event) => set("units", (event.target as HTMLSelectElement).value as Settings["units"]));
+element("set-theme").addEventListener("change", (event) => set("theme", (event.target as HTMLSelectElement).value as Theme));
+for (const name of ["names", "needs"] as const)
+  element(`set-${name}`).addEventListener("change", (event) => set(name, (event.target as HTMLInputElement).checked));
+for (const order of ["time", "distance"] as const) element(`order-${order}`).addEventListener("click", () => set("order", order));
+element("only").addEventListener("click", () => {
+  lists.only = lists.only === null ? lists.onlyCandidate(chosen.track) : null;
+  if (scene !== null) lists.show(scene, chosen.track, chosen.pair);
 });
 
 // Keys and buttons.
@@ -216,20 +262,17 @@ const keys: Record<string, () => void> = {
   f: () => fit(true),
   p: nextPair,
   "/": () => element("find-text").focus(),
-  n: () => {
-    chart.showNames = !chart.showNames;
-    element("names").setAttribute("aria-pressed", String(chart.showNames));
-    redraw();
-  },
-  t: () => {
-    theme = document.documentElement.dataset["theme"] === "dark" ? "bright" : "dark";
-    repaint();
-  },
+  a: switchAlarm,
+  n: () => set("names", !settings.names),
+  r: () => set("needs", !settings.needs),
+  s: () => element<HTMLDialogElement>("settings").showModal(),
+  t: () => set("theme", document.documentElement.dataset["theme"] === "dark" ? "bright" : "dark"),
+  u: () => set("units", settings.units === "field" ? "metric" : "field"),
   escape: () => chooseTrack(null, false),
   "?": () => element<HTMLDialogElement>("help").showModal(),
 };
 addEventListener("keydown", (event) => {
-  if (event.ctrlKey || event.metaKey || event.altKey || element<HTMLDialogElement>("help").open) return;
+  if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]") !== null) return;
   const target = event.target as HTMLElement;
   if (target.matches("input")) {
     if (event.key === "Escape") canvas.focus();
@@ -242,7 +285,7 @@ addEventListener("keydown", (event) => {
   event.preventDefault();
   action();
 });
-for (const [id, key] of [["zoom-in", "+"], ["zoom-out", "-"], ["fit", "f"], ["names", "n"], ["theme", "t"], ["help-open", "?"], ["details-close", "escape"]] as const)
+for (const [id, key] of [["zoom-in", "+"], ["zoom-out", "-"], ["fit", "f"], ["alarm", "a"], ["settings-open", "s"], ["help-open", "?"], ["details-close", "escape"]] as const)
   element(id).addEventListener("click", keys[key]!);
 darkQuery.addEventListener("change", repaint);
 new ResizeObserver(resize).observe(canvas);
@@ -258,6 +301,7 @@ function planeOf({ origin }: WatchState): EarthPlane | null {
 function meetAgain({ tracks, pairs }: Scene): void {
   if (chosen.track !== null && !tracks.has(chosen.track)) chosen.track = null;
   if (chosen.pair !== null && !pairs.some(({ key }) => key === chosen.pair)) chosen.pair = null;
+  if (lists.only !== null && !tracks.has(lists.only)) lists.only = null;
   const { left, right, bottom, top } = view.bounds;
   if (![...placesOf(tracks.values())].some(({ x, y }) => x > left && x < right && y > bottom && y < top)) follow(true);
 }
@@ -271,7 +315,9 @@ function show(state: WatchState): void {
   plane = planeOf(state);
   const bounds = boundsOf(placesOf(scene.tracks.values()));
   if ((isFirst || wasLost) && bounds !== null) meetAgain(scene);
-  lists.show(scene, chosen.track, chosen.pair);
+  if (chart.units.kind === "plain" || isFirst || wasLost) applySettings();
+  else lists.show(scene, chosen.track, chosen.pair);
+  alarm.take(scene.pairs);
   if (isFollowing && bounds !== null && (isFirst || !view.suits(bounds, leastWidth()))) fit(!isFirst);
   map.states += 1;
   redraw();
@@ -294,6 +340,9 @@ const map = {
   get plane(): EarthPlane | null { return plane; },
   view,
   chosen,
+  settings,
+  alarm,
+  get coastSize(): number { return chart.coast.size; },
   /** Shows another state than the watch's. */
   show,
   redraw,
@@ -307,7 +356,8 @@ declare global {
 }
 window.kinesphereMap = map;
 
-repaint();
+if (settings.alarm) alarm.restore();
+applySettings();
 resize();
 const polling = new Polling("state.json", show, lose);
 void polling.ask();

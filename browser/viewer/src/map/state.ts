@@ -18,20 +18,22 @@ export interface Place {
 
 export interface Track {
   id: string;
+  /** Callsign or ship's name; null if none came. */
+  name: string | null;
   stamp: StreamTime | null;
   silent: boolean;
   /** The track certainly is in one of these. */
   places: Place[];
 }
 
-export type OpenVerdict = "undecided" | "within";
+export type Verdict = "apart" | "undecided" | "within";
 
 export interface Pair {
   first: string;
   second: string;
   separation: string;
   level: number;
-  verdict: OpenVerdict;
+  verdict: Verdict;
   since: StreamTime | null;
   distance: [number | null, number | null];
   until: StreamTime | null;
@@ -60,6 +62,10 @@ export interface WatchState {
   /** Null before the first report. */
   time: StreamTime | null;
   stream: string;
+  /** readsb, sbs, opensky, ais, nmea, csv or jsonl. */
+  format: string;
+  /** The track whose pairs are the only ones; null if all are watched. */
+  own: string | null;
   geographic: boolean | null;
   dimensions: 2 | 3 | null;
   origin: { lon: number; lat: number; radius: number } | null;
@@ -68,6 +74,9 @@ export interface WatchState {
   separations: Separation[];
   counts: Record<string, number>;
   tracks: Track[];
+  /** The pairs that are not certainly apart. */
   pairs: Pair[];
+  /** The predicted pairs, which may be certainly apart now. */
+  predictions: Pair[];
   needed: Need[];
 }

@@ -1,5 +1,6 @@
 // Names, times, lengths and places in words.
 import type { Place, StreamTime } from "./state.ts";
+import { digits, type Units } from "./units.ts";
 
 /** Invisible characters, and characters that change the direction of text. */
 const unseen = /[\u0000-\u001f\u007f-\u009f\u00ad\u061c\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff]/g;
@@ -21,9 +22,6 @@ export function secondsOf(time: StreamTime): number {
   // Dates without a zone are taken as UTC.
   return Date.parse(/(Z|[+-]\d\d:?\d\d)$/.test(time) ? time : `${time}Z`) / 1000;
 }
-
-const digits = (value: number, most: number): string =>
-  value.toLocaleString("en", { maximumSignificantDigits: most, useGrouping: false });
 
 export function durationText(seconds: number): string {
   if (seconds < 60) return `${seconds < 9.95 ? seconds.toFixed(1) : seconds.toFixed(0)} s`;
@@ -55,22 +53,14 @@ export function timeText(time: StreamTime | null): { text: string; date: string 
   return { text: `${clock}.${tenths ?? "0"}`, date: `${date} ${zone === "Z" ? "UTC" : zone}`.trim() };
 }
 
-/** Unit: metres, or the stream's own unit, which has no name. */
-export function lengthText(length: number | null, isMetres: boolean): string {
-  if (length === null) return "any";
-  if (!isMetres) return digits(length, 3);
-  if (length >= 9995) return `${digits(length / 1000, 3)} km`;
-  return `${length >= 99.5 ? length.toFixed(0) : digits(length, 3)} m`;
-}
-
-export function rangeText(lower: number, upper: number | null, isMetres: boolean): string {
-  const [from, to] = [lengthText(lower, isMetres), lengthText(upper, isMetres)];
+export function rangeText(lower: number, upper: number | null, units: Units): string {
+  const [from, to] = [units.length(lower), units.length(upper)];
   const [number, unit] = from.split(" ");
   return unit !== undefined && to.endsWith(` ${unit}`) ? `${number} to ${to}` : `${from} to ${to}`;
 }
 
 /** Keeps numbers and their units in one line. */
-export const unbroken = (text: string): string => text.replace(/(\d) (k?m|s|min|h)\b/g, "$1\u00a0$2");
+export const unbroken = (text: string): string => text.replace(/(\d) (k?m|s|min|h|NM|ft|kt)\b/g, "$1\u00a0$2");
 
 /** Returns degrees, minutes and seconds, as far as `step` (degrees) needs them. */
 export function angleText(degrees: number, step: number, hemispheres: readonly [string, string]): string {
@@ -86,19 +76,18 @@ export function angleText(degrees: number, step: number, hemispheres: readonly [
 export const longitudeText = (degrees: number, step: number): string => angleText(degrees, step, ["E", "W"]);
 export const latitudeText = (degrees: number, step: number): string => angleText(degrees, step, ["N", "S"]);
 
-export function placeText(place: Place, isFlat: boolean): string {
+export function placeText(place: Place, units: Units, isFlat: boolean): string {
   if (place.lon !== undefined && place.lat !== undefined) {
-    const height = isFlat ? "" : `, ${Math.round(place.alt ?? 0)} m`;
+    const height = isFlat ? "" : `, ${units.altitude(place.alt ?? 0)}`;
     return `${latitudeText(place.lat, 1 / 36_000)} ${longitudeText(place.lon, 1 / 36_000)}${height}`;
   }
   return (isFlat ? [place.x, place.y] : [place.x, place.y, place.z]).map((value) => digits(value, 6)).join(", ");
 }
 
 /** Returns speed, course and climb. */
-export function velocityText({ velocity: [x, y, z] }: Place, isMetres: boolean, isFlat: boolean): string {
+export function velocityText({ velocity: [x, y, z] }: Place, units: Units, isFlat: boolean): string {
   const speed = Math.hypot(x, y);
   const course = (Math.atan2(x, y) * 180 / Math.PI + 360) % 360;
-  const unit = isMetres ? " m/s" : "";
-  const climb = isFlat || Math.abs(z) < 1e-9 ? "" : `, ${z < 0 ? "↓" : "↑"} ${digits(Math.abs(z), 3)}${unit}`;
-  return `${digits(speed, 3)}${unit}${speed > 0 ? ` to ${(Math.round(course) % 360).toString().padStart(3, "0")}°` : ""}${climb}`;
+  const climb = isFlat || Math.abs(z) < 1e-9 ? "" : `, ${z < 0 ? "↓" : "↑"} ${units.climb(Math.abs(z))}`;
+  return `${units.speed(speed)}${speed > 0 ? ` to ${(Math.round(course) % 360).toString().padStart(3, "0")}°` : ""}${climb}`;
 }

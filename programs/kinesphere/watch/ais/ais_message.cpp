@@ -107,6 +107,18 @@ ShipDimensions dimensions_at(const AisBits& bits, std::size_t at) {
   return {distance(at, 9), distance(at + 9, 9), distance(at + 18, 6), distance(at + 24, 6)};
 }
 
+/// Reads a name of 20 characters; @ ends it.
+std::string name_at(const AisBits& bits, std::size_t at) {
+  std::string name;
+  for (std::size_t k = 0; k < 20 && at + 6 * (k + 1) <= bits.size(); ++k) {
+    const std::uint32_t six = bits.number(at + 6 * k, 6);
+    if (six == 0) break;
+    name += static_cast<char>(six < 32 ? six + 64 : six);
+  }
+  name.erase(name.find_last_not_of(' ') + 1);
+  return name;
+}
+
 /// Returns true for the MMSI of a craft of a mother ship, 98XXXXXXX: its message 24 has that ship's MMSI in
 /// place of dimensions.
 bool is_craft_of_a_ship(std::uint32_t mmsi) { return mmsi / 10'000'000 == 98; }
@@ -134,6 +146,7 @@ std::optional<AisMessage> ais_message_of(const AisBits& bits) {
       break;
     case 5:
       require_bits(bits, 270, message.type);
+      message.name = name_at(bits, 112);
       message.dimensions = dimensions_at(bits, 240);
       break;
     case 9:
@@ -147,15 +160,18 @@ std::optional<AisMessage> ais_message_of(const AisBits& bits) {
     case 19:
       require_bits(bits, 306, message.type);
       message.position = class_b_position(bits);
+      message.name = name_at(bits, 143);
       message.dimensions = dimensions_at(bits, 271);
       break;
     case 21:
       require_bits(bits, 270, message.type);
       message.position = aid_position(bits);
+      message.name = name_at(bits, 43);
       message.dimensions = dimensions_at(bits, 219);
       break;
     case 24:
       require_bits(bits, head + 2, message.type);
+      if (bits.number(head, 2) == 0) message.name = name_at(bits, 40);
       if (bits.number(head, 2) != 1 || is_craft_of_a_ship(message.mmsi)) break;
       require_bits(bits, 162, message.type);
       message.dimensions = dimensions_at(bits, 132);

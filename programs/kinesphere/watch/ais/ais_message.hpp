@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "watch/ais/ais_bits.hpp"
 
@@ -41,6 +42,9 @@ struct AisMessage {
   int type = 0;
   std::uint32_t mmsi = 0;
   std::optional<AisPosition> position;
+  /// Messages 5, 19, 21, and 24 part A: of the characters of six-bit ASCII (table 47), without the blanks
+  /// at its end; empty: not available.
+  std::string name;
   std::optional<ShipDimensions> dimensions;  ///< messages 5, 19, 21, and 24 part B
 };
 

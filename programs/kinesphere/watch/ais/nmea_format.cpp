@@ -14,6 +14,7 @@
 #include "watch/ais/ship_sizes.hpp"
 #include "watch/ground_speed.hpp"
 #include "watch/json_reading.hpp"
+#include "watch/known_names.hpp"
 #include "watch/report_format.hpp"
 #include "watch/stream_clock.hpp"
 
@@ -74,6 +75,7 @@ class NmeaFormat final : public ReportFormat {
     for (const Untimed& each : untimed_) untimed.push_back({each.bits.digits(), each.line});
     return {{"sentences", assembler_.save()},
             {"sizes", sizes_.save()},
+            {"names", names_.save()},
             {"group", group_},
             {"group_time", saved(group_time_)},
             {"announced", saved(announced_)},
@@ -84,6 +86,7 @@ class NmeaFormat final : public ReportFormat {
   void restore(const nlohmann::json& state) override {
     assembler_.restore(state.at("sentences"));
     sizes_.restore(state.at("sizes"));
+    names_.restore(state.at("names"));
     group_ = state.at("group");
     group_time_ = restored(state.at("group_time"));
     announced_ = restored(state.at("announced"));
@@ -152,7 +155,7 @@ class NmeaFormat final : public ReportFormat {
   void keep_untimed(const AisBits& bits, std::size_t line, ReportSink& sink) {
     const auto message = ais_message_of(bits);
     if (!message) return;
-    if (!message->position) return take_size(*message);
+    if (!message->position) return take_ship(*message);
     // A recording may begin in the middle of a group.
     constexpr std::size_t most_at_begin = 10, most = 1000;
     if (untimed_.size() == most) return refuse_without_time(line, sink);
@@ -175,11 +178,13 @@ class NmeaFormat final : public ReportFormat {
   void take(const AisBits& bits, const TimeField& received, double earlier, ReportSink& sink) {
     const auto message = ais_message_of(bits);
     if (!message) return;
-    take_size(*message);
+    take_ship(*message);
     if (message->position) report(*message, *message->position, received, earlier, sink);
   }
 
-  void take_size(const AisMessage& message) {
+  /// Remembers what a message says about the ship itself.
+  void take_ship(const AisMessage& message) {
+    if (!message.name.empty()) names_.set(fmt::format("{:09}", message.mmsi), message.name);
     const double radius = message.dimensions ? message.dimensions->radius() : 0.0;
     if (radius > 0.0) sizes_.set(message.mmsi, radius);
   }
@@ -200,6 +205,7 @@ class NmeaFormat final : public ReportFormat {
     report.is_aircraft = position.station == AisStation::search_aircraft;
     if (position.is_accurate && position.origin == AisPosition::Origin::sensor)
       report.position_error = DeclaredError{accuracy_bound_, accuracy_declaration_};
+    report.name = names_.name_of(id_);
     report.extent = sizes_.radius_of(message.mmsi);
     if (position.is_coarse) report.extent += std::hypot(coarse_step, coarse_step);
     add_velocity(position, report);
@@ -228,6 +234,7 @@ class NmeaFormat final : public ReportFormat {
   std::string accuracy_declaration_;
   SentenceAssembler assembler_;
   ShipSizes sizes_;
+  KnownNames names_;
   std::string id_;
   // The group of lines of the latest tag block that has one, and its time.
   std::string group_;
