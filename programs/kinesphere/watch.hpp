@@ -21,6 +21,8 @@ struct WatchOptions {
   std::vector<std::string> only;
   std::optional<int> dimensions;
   std::string acceleration, largest_speed;
+  std::vector<std::string> classes;
+  bool no_classes = false;
   std::string position_error, velocity_error, stamp_error;
   std::string silence, forget, leap;
   std::string clock = "stream";

@@ -85,12 +85,14 @@ class Watcher final : public ReportSink {
   void deliver(const SourceReport& report);
   void begin_monitor(const SourceReport& report);
   void begin_map(const WatchSettings::Origin& origin);
+  /// `track` has the class of the report.
   std::optional<TrackReport> on_map(const SourceReport& report, NamedTrack& track);
   void add_errors(const SourceReport& report, double added_velocity_error, TrackReport& result,
                   NamedTrack& track) const;
   bool is_selected(const MonitorEvent& event) const;
-  bool has_limits_of_aircraft(const SourceReport& report) const;
-  MotionLimits limits_of(const SourceReport& report) const;
+  const MotionLimits& limits_of(const NamedTrack& track) const {
+    return settings_.classes[track.motion_class].limits;
+  }
   double velocity_age_of(const SourceReport& report) const;
   double needed_bound(const FallbackError& fallback, const char* option) const;
   void advance(double until);
