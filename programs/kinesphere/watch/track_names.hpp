@@ -23,6 +23,8 @@ struct NamedTrack {
   Vec3 position{};               ///< in the stream's own words
   double extent = 0.0;           ///< of its latest report
   std::size_t motion_class = 0;  ///< an index of TrackClasses
+  /// Timestamp of the report that has changed the class; empty: none has.
+  std::optional<FileTime> class_since{};
   /// Timestamp of the latest report that said that the craft is at rest, with a speed that contradicts it.
   std::optional<FileTime> contradicted_rest{};
   /// Sources of the declared bounds of the latest report.

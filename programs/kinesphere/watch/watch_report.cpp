@@ -37,7 +37,7 @@ std::vector<WatchCount> counts_of(const Watcher& watcher) {
       {"no_bound", "", "of unknown accuracy", counts.no_bound},
       {"no_velocity", "", "without a velocity, where --largest-speed is not given", counts.no_velocity},
       {"filtered", "", "left out by --where", counts.filtered},
-      {"superseded", "", "older than one that gave their track another class", counts.superseded},
+      {"superseded", "", "from before their track had its present class", counts.superseded},
       {"crowded", "", "of new tracks when there was no room for more (--most-tracks, --most-pairs)",
        counts.crowded},
       {"malformed", "", "malformed", counts.malformed},

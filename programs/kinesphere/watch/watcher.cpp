@@ -378,8 +378,7 @@ void Watcher::deliver(const SourceReport& report) {
       ++counts_.repeated;
       return;
     }
-    // It would start the track anew from its past.
-    if (known->motion_class != track.motion_class && is_earlier(report.stamp, known->stamp)) {
+    if (is_superseded(report, *known, track.motion_class)) {
       ++counts_.superseded;
       return;
     }
@@ -402,6 +401,7 @@ void Watcher::deliver(const SourceReport& report) {
     named.stamp = report.stamp;
     named.position = report.position;
     named.extent = report.extent;
+    if (known != nullptr && named.motion_class != track.motion_class) named.class_since = report.stamp;
     named.motion_class = track.motion_class;
     if (settings_.classes.contradicts_rest(report)) named.contradicted_rest = report.stamp;
     named.position_by = track.position_by;
@@ -409,6 +409,11 @@ void Watcher::deliver(const SourceReport& report) {
     named.velocity_by = track.velocity_by;
     named.climb_by = track.climb_by;
   }
+}
+
+bool Watcher::is_superseded(const SourceReport& report, const NamedTrack& known, std::size_t motion_class) {
+  if (known.class_since && is_earlier(report.stamp, *known.class_since)) return true;
+  return motion_class != known.motion_class && is_earlier(report.stamp, known.stamp);
 }
 
 double Watcher::velocity_age_of(const SourceReport& report) const {

@@ -94,6 +94,8 @@ class Watcher final : public ReportSink {
     return settings_.classes[track.motion_class].limits;
   }
   double velocity_age_of(const SourceReport& report) const;
+  /// True if the report is from before its track had its present class, or would change it from the past.
+  static bool is_superseded(const SourceReport& report, const NamedTrack& known, std::size_t motion_class);
   double needed_bound(const FallbackError& fallback, const char* option) const;
   void advance(double until);
   /// Returns true if the limits allow another track.

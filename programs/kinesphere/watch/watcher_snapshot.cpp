@@ -116,10 +116,10 @@ SourceReport restored_report(const Json& saved, const KeepText& keep) {
 }
 
 Json saved(const NamedTrack& track) {
-  const auto& [text, stamp, position, extent, motion_class, contradicted_rest, position_by, height_by,
-               velocity_by, climb_by] = track;
-  return {text,        stamp,    position, position_by,  height_by,
-          velocity_by, climb_by, extent,   motion_class, contradicted_rest};
+  const auto& [text, stamp, position, extent, motion_class, class_since, contradicted_rest, position_by,
+               height_by, velocity_by, climb_by] = track;
+  return {text,     stamp,  position,     position_by, height_by,        velocity_by,
+          climb_by, extent, motion_class, class_since, contradicted_rest};
 }
 
 /// Arrays of tracks are packed into CBOR: as JSON in memory they would take ten times as much.
@@ -189,7 +189,8 @@ void Watcher::restore(const Json& state) {
       track.climb_by = keep(saved.at(6));
       track.extent = saved.at(7);
       track.motion_class = saved.at(8);
-      track.contradicted_rest = saved.at(9).get<std::optional<FileTime>>();
+      track.class_since = saved.at(9).get<std::optional<FileTime>>();
+      track.contradicted_rest = saved.at(10).get<std::optional<FileTime>>();
       if (track.motion_class >= settings_.classes.size())
         throw ProgramError("expected a class of each track in the snapshot");
     }

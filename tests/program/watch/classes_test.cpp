@@ -225,10 +225,11 @@ TEST(TrackClasses, AreNotChangedByLateReports) {
   watch.read(
       "MMSI,BaseDateTime,LAT,LON,SOG,COG,Status\n1,2023-01-01T00:00:00,54,8,2,10,0\n"
       "1,2023-01-01T00:02:00,54,8,0,10,1\n1,2023-01-01T00:01:00,54,8,1,10,0\n"
-      "1,2023-01-01T00:01:50,54,8,0,10,1\n");
+      "1,2023-01-01T00:02:30,54,8,0,10,1\n1,2023-01-01T00:02:10,54,8,0,10,1\n"
+      "1,2023-01-01T00:02:20,54,8,2,10,0\n1,2023-01-01T00:00:30,54,8,0,10,1\n");
   EXPECT_EQ(watch.class_of("1"), "vessel-at-rest");
-  EXPECT_EQ(watch.watcher.counts().superseded, 1u);
-  EXPECT_EQ(watch.watcher.monitor_counters().reports, 3u);
+  EXPECT_EQ(watch.watcher.counts().superseded, 3u);
+  EXPECT_EQ(watch.watcher.monitor_counters().reports, 4u);
 }
 
 TEST(TrackClasses, AreThoseOfTheUser) {
