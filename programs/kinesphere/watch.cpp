@@ -97,6 +97,20 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
           "No acceleration is larger: one number, or horizontal:vertical", "NUMBER[:NUMBER]", promises);
   measure("--largest-speed", options.largest_speed, "No speed is larger: one number, or horizontal:vertical",
           "NUMBER[:NUMBER]", promises);
+  command
+      ->add_option(
+          "--class", options.classes,
+          "Tracks with other limits, once or several times; the first that holds counts: a preset or "
+          "limits of acceleration and speed (5:2,40:10), and who has them: an expression as in "
+          "--where, or a file with an id in each line")
+      ->expected(1)
+      ->take_all()
+      ->type_name("CLASS=EXPRESSION|@FILE")
+      ->group(promises);
+  command
+      ->add_flag("--no-classes", options.no_classes,
+                 "No classes by what the stream says: status, ship type, emitter category")
+      ->group(promises);
   measure("--silence", options.silence, "A track of which nothing is heard for so long is told of", "TIME",
           promises);
   measure("--forget", options.forget, "A track of which nothing is heard for so long leaves", "TIME",

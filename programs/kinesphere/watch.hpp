@@ -23,6 +23,8 @@ struct WatchOptions {
   std::optional<std::uint64_t> most_alerts;
   std::optional<int> dimensions;
   std::string acceleration, largest_speed;
+  std::vector<std::string> classes;
+  bool no_classes = false;
   std::string position_error, velocity_error, stamp_error;
   std::string silence, forget, leap;
   std::string clock = "stream";

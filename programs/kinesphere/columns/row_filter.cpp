@@ -51,8 +51,8 @@ struct RowFilter::Node {
 /// Reads an expression from left to right; `or` binds least.
 class RowFilter::Parser {
  public:
-  Parser(RowFilter& filter, const TableHead& head, const TableColumns& columns)
-      : filter_(filter), head_(head), columns_(columns), rest_(filter.text_) {}
+  Parser(RowFilter& filter, const TableHead& head, const TableColumns& columns, std::string_view option)
+      : filter_(filter), head_(head), columns_(columns), option_(option), rest_(filter.text_) {}
 
   Node whole() {
     Node node = any();
@@ -67,7 +67,7 @@ class RowFilter::Parser {
   };
 
   [[noreturn]] void fail(std::string_view expected) {
-    throw ProgramError(fmt::format("--where: expected {} {}, but got '{}'", expected,
+    throw ProgramError(fmt::format("{}: expected {} {}, but got '{}'", option_, expected,
                                    rest_.empty() ? "at the end" : fmt::format("at '{}'", rest_.substr(0, 30)),
                                    filter_.text_));
   }
@@ -166,13 +166,15 @@ class RowFilter::Parser {
   RowFilter& filter_;
   const TableHead& head_;
   const TableColumns& columns_;
+  std::string_view option_;
   std::string_view rest_;
   int depth_ = 0;
 };
 
-RowFilter::RowFilter(const std::string& text, const TableHead& head, const TableColumns& columns)
+RowFilter::RowFilter(const std::string& text, const TableHead& head, const TableColumns& columns,
+                     std::string_view option)
     : text_(text) {
-  if (!text.empty()) root_ = std::make_shared<Node>(Parser(*this, head, columns).whole());
+  if (!text.empty()) root_ = std::make_shared<Node>(Parser(*this, head, columns, option).whole());
 }
 
 bool RowFilter::takes(const std::vector<std::string_view>& fields) const {

@@ -20,8 +20,9 @@ struct TableColumns;
 class RowFilter {
  public:
   RowFilter() = default;
-  /// Throws ProgramError naming --where and what was expected. An empty text takes all rows.
-  RowFilter(const std::string& text, const TableHead& head, const TableColumns& columns);
+  /// Throws ProgramError naming `option` and what was expected. An empty text takes all rows.
+  RowFilter(const std::string& text, const TableHead& head, const TableColumns& columns,
+            std::string_view option = "--where");
 
   bool takes(const std::vector<std::string_view>& fields) const;
   /// True if the expression compares this column.

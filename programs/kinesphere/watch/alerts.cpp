@@ -30,7 +30,7 @@ std::string pair_alert_fields(const AlertContext& context, const MonitorEvent& e
   if (one != nullptr && other != nullptr)
     line += fmt::format(R"(, "rests_on": {{"first": {}, "second": {}, "both": {}}})",
                         json_text(declarations_of(*one)), json_text(declarations_of(*other)),
-                        json_text(context.settings.promise));
+                        json_text(context.settings.classes.promise(one->motion_class, other->motion_class)));
   return line;
 }
 
@@ -126,8 +126,10 @@ std::string alert_line(const AlertContext& context, const MonitorEvent& event, s
                         json_number(event.position_excess), json_number(event.velocity_excess));
     if (track != nullptr)
       line += fmt::format(R"(, "rests_on": {{"track": {}, "both": {}}})", json_text(declarations_of(*track)),
-                          json_text(context.settings.promise));
+                          json_text(context.settings.classes.promise(track->motion_class)));
   }
+  if (event.kind == MonitorEventKind::reclassified && track != nullptr)
+    line += fmt::format(R"(, "class": {})", json_text(context.settings.classes.promise(track->motion_class)));
   return line + "}\n";
 }
 

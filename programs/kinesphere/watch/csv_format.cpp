@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "columns/row_reader.hpp"
 #include "number_text.hpp"
 #include "program_error.hpp"
+#include "watch/class_rules.hpp"
 #include "watch/ground_speed.hpp"
 #include "watch/json_reading.hpp"
 #include "watch/report_format.hpp"
@@ -91,6 +93,7 @@ class CsvFormat final : public ReportFormat {
     for (const auto& column : reader_->columns().of)
       if (column) columns_needed_ = std::max(columns_needed_, column->place + 1);
     name_column_ = column_of_names(head);
+    find_class_columns(head);
     return true;
   }
 
@@ -151,6 +154,7 @@ class CsvFormat final : public ReportFormat {
     report.velocity_error = error(Quantity::velocity_error);
     report.climb_error = error(Quantity::climb_error);
     report.stamp_error = number(Quantity::stamp_error);
+    add_class(report);
     has_handed_over_ = true;
     if (checked_ < most_checked) check_first(*position, report);
     sink.take(report);
@@ -204,6 +208,35 @@ class CsvFormat final : public ReportFormat {
     set_velocity(report, speed, course, upward);
     if (const auto vx = number(Quantity::vx), vy = number(Quantity::vy); vx && vy)
       report.velocity = Vec3{*vx, *vy, upward.value_or(0.0)};
+    if (report.velocity && !report.ground_speed)
+      report.ground_speed = std::hypot(report.velocity->x, report.velocity->y);
+  }
+
+  /// Finds the columns that say what a track is; tables of AIS have such.
+  void find_class_columns(const TableHead& head) {
+    rules_ = ClassRules(choices_.class_rules, head, reader_->columns());
+    if (!is_ais_ && !reader_->columns().is_ais) return;
+    for (std::size_t place = 0; place < head.names.size(); ++place) {
+      const std::string name = plain_name(head.names[place]);
+      if (name == "status" || name == "navigationalstatus" || name == "navstatus") status_ = place;
+      if (name == "vesseltype" || name == "shiptype") type_ = place;
+      if (name == "typeofmobile") mobile_ = place;
+    }
+    if (status_) sayable_.push_back(MotionPreset::vessel_at_rest);
+    if (type_)
+      sayable_.insert(sayable_.end(), {MotionPreset::high_speed_craft, MotionPreset::wing_in_ground});
+    if (mobile_)
+      sayable_.insert(sayable_.end(), {MotionPreset::search_aircraft, MotionPreset::aid_to_navigation});
+  }
+  void add_class(SourceReport& report) const {
+    const auto text = [&](const std::optional<std::size_t>& place) {
+      return place && *place < fields_.size() ? fields_[*place] : std::string_view();
+    };
+    report.ruled_class = rules_.class_of(report.id, fields_);
+    report.said_status = preset_of_status(text(status_));
+    report.said_kind = preset_of_mobile(text(mobile_));
+    if (!report.said_kind) report.said_kind = preset_of_ship_type(text(type_));
+    report.sayable = sayable_;
   }
 
   FormatChoices choices_;
@@ -215,6 +248,9 @@ class CsvFormat final : public ReportFormat {
   bool has_handed_over_ = false;
   std::size_t columns_needed_ = 0;
   std::optional<std::size_t> name_column_;
+  ClassRules rules_;
+  std::optional<std::size_t> status_, type_, mobile_;  ///< columns
+  std::vector<MotionPreset> sayable_;
   /// Reports that are checked. More would delay the question; fewer would ask about more rooms, of which they
   /// show a small part.
   static constexpr int most_checked = 20;

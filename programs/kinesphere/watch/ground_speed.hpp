@@ -19,6 +19,7 @@ inline void set_velocity(SourceReport& report, std::optional<double> speed, std:
                          std::optional<double> climb) {
   report.has_climb = climb.has_value();
   if (!speed) return;
+  report.ground_speed = std::abs(*speed);
   report.velocity =
       course ? going(*speed, *course, climb.value_or(0.0)) : Vec3{0.0, 0.0, climb.value_or(0.0)};
   report.velocity_spread = course ? 0.0 : std::abs(*speed);

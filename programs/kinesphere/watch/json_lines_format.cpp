@@ -1,6 +1,8 @@
 // JSON lines with the library's own names: one TrackReport in each line.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "watch/json_reading.hpp"
 #include "watch/report_format.hpp"
 
@@ -177,6 +179,7 @@ class JsonLinesFormat final : public ReportFormat {
       report.has_height = fields_.has_z;
     }
     report.velocity = fields_.velocity;
+    if (report.velocity) report.ground_speed = std::hypot(report.velocity->x, report.velocity->y);
     report.has_climb = fields_.velocity && fields_.has_vz;
     constexpr std::string_view said = "said by the stream";
     const auto declare = [&](const std::optional<double>& error, std::optional<DeclaredError>& into) {

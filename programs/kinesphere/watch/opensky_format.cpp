@@ -14,7 +14,7 @@ namespace {
 namespace state_vector {
 constexpr std::size_t icao24 = 0, callsign = 1, time_position = 3, longitude = 5, latitude = 6,
                       baro_altitude = 7, on_ground = 8, velocity = 9, true_track = 10, vertical_rate = 11,
-                      geo_altitude = 13, position_source = 16, count = 17;
+                      geo_altitude = 13, position_source = 16, category = 17, count = 18;
 }
 
 class OpenskyFormat final : public ReportFormat {
@@ -80,6 +80,9 @@ class OpenskyFormat final : public ReportFormat {
     report.has_height = height.has_value();
     report.position.z = height.value_or(0.0);
     report.on_ground = on_ground;
+    report.category = emitter_of_opensky(static_cast<int>(numbers[at::category].value_or(0.0)));
+    report.said_kind = preset_of_emitter(report.category);
+    report.sayable = emitter_presets;
     set_velocity(report, numbers[at::velocity], numbers[at::true_track], numbers[at::vertical_rate]);
     sink.take(report);
   }

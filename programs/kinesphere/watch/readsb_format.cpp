@@ -33,7 +33,7 @@ double accuracy(const std::array<double, count>& accuracies, double category) {
 
 /// One object of the list "aircraft", in its own units.
 struct AircraftEntry {
-  std::optional<std::string_view> hex, flight;
+  std::optional<std::string_view> hex, flight, category, designator;
   std::optional<double> lat, lon, alt_baro, alt_geom, gs, track, baro_rate, geom_rate, seen_pos, rc, nac_p,
       nac_v, gva, sil, nuc_p;
   bool on_ground = false;
@@ -54,6 +54,9 @@ struct AircraftEntry {
         const char* ignored = nullptr;
         const auto type = text_in(value, "type", ignored);
         if (type && !type->starts_with("adsb") && !type->starts_with("adsr")) is_from_aircraft = false;
+      } else if (key == "category" || key == "t") {
+        const char* ignored = nullptr;
+        (key == "t" ? designator : category) = text_in(value, "", ignored);
       } else if (key == "mlat" || key == "tisb") {
         // Names of the fields of that source.
         ondemand::array names;
@@ -202,6 +205,10 @@ class ReadsbFormat final : public ReportFormat {
     if (!climb) climb = barometric ? entry.geom_rate : entry.baro_rate;
     if (climb) *climb *= foot / 60.0;
     report.on_ground = entry.on_ground;
+    report.category = entry.category.value_or("");
+    report.craft_type = entry.designator.value_or("");
+    report.said_kind = preset_of_emitter(report.category);
+    report.sayable = emitter_presets;
     set_velocity(report, entry.gs ? std::optional(*entry.gs * knot) : std::nullopt, entry.track, climb);
   }
 

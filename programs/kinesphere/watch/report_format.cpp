@@ -7,6 +7,7 @@
 
 #include "ascii_text.hpp"
 #include "watch/ais/nmea_line.hpp"
+#include "watch/class_rules.hpp"
 #include "watch/measures.hpp"
 
 namespace kinesphere::program {
@@ -22,8 +23,9 @@ constexpr std::pair<std::string_view, StreamFormat> stream_formats[] = {
 /// resolution of height reports.
 FormatDefaults of_aircraft() {
   constexpr double declared = 2.5;
-  return {.acceleration = ErrorBound::cylinder(6.0, 3.0),
-          .largest_speed = ErrorBound::cylinder(400.0, 60.0),
+  const MotionLimits limits = motion_class(MotionPreset::airliner).limits;
+  return {.acceleration = limits.acceleration,
+          .largest_speed = limits.largest_speed,
           .position_error = declared * 92.6,
           .height_error = 75.0 + 12.5 * foot,
           .velocity_error = declared * 10.0,
@@ -38,9 +40,10 @@ FormatDefaults of_aircraft() {
 
 FormatDefaults of_vessels() {
   constexpr double declared = 2.5;
+  const MotionLimits limits = motion_class(MotionPreset::vessel).limits;
   return {.dimensions = 2,
-          .acceleration = ErrorBound(0.3),
-          .largest_speed = ErrorBound(30.0),
+          .acceleration = limits.acceleration,
+          .largest_speed = limits.largest_speed,
           .position_error = declared * 10.0,
           .height_error = 0.0,
           .velocity_error = declared * 0.5,
@@ -56,10 +59,8 @@ FormatDefaults of_vessels() {
 /// of ships' receivers of GPS; since GPS is no longer degraded on purpose it is declared to contain all
 /// errors.
 FormatDefaults of_stations() {
-  const FormatDefaults aircraft = of_aircraft();
   FormatDefaults defaults = of_vessels();
   defaults.position_error = 100.0;
-  defaults.aircraft = MotionLimits{*aircraft.acceleration, *aircraft.largest_speed};
   return defaults;
 }
 
@@ -81,6 +82,14 @@ bool has_key(std::string_view line, std::string_view key) {
     }
   }
   return false;
+}
+
+std::unique_ptr<ReportFormat> without_columns(StreamFormat format, const FormatChoices& choices) {
+  if (format == StreamFormat::readsb) return make_readsb_format(choices);
+  if (format == StreamFormat::sbs) return make_sbs_format(choices);
+  if (format == StreamFormat::opensky) return make_opensky_format(choices);
+  if (format == StreamFormat::nmea) return make_nmea_format(choices);
+  return make_json_lines_format(choices);
 }
 
 bool has_column(std::string_view header, std::string_view name) {
@@ -179,23 +188,12 @@ std::optional<StreamFormat> recognised_format(std::string_view beginning) {
 }
 
 std::unique_ptr<ReportFormat> make_format(StreamFormat format, const FormatChoices& choices) {
-  switch (format) {
-    case StreamFormat::readsb:
-      return make_readsb_format(choices);
-    case StreamFormat::sbs:
-      return make_sbs_format(choices);
-    case StreamFormat::opensky:
-      return make_opensky_format(choices);
-    case StreamFormat::ais:
-      return make_ais_format(choices);
-    case StreamFormat::nmea:
-      return make_nmea_format(choices);
-    case StreamFormat::csv:
-      return make_csv_format(choices);
-    case StreamFormat::jsonl:
-      break;
-  }
-  return make_json_lines_format(choices);
+  // Tables have their own columns for expressions.
+  if (format == StreamFormat::ais) return make_ais_format(choices);
+  if (format == StreamFormat::csv) return make_csv_format(choices);
+  auto made = without_columns(format, choices);
+  if (choices.class_rules.empty()) return made;
+  return make_ruled_format(std::move(made), choices.class_rules);
 }
 
 }  // namespace kinesphere::program

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "columns/row_splitter.hpp"
 #include "columns/table_columns.hpp"
@@ -56,7 +57,6 @@ struct FormatDefaults {
   bool geographic = true;  ///< always; otherwise the stream may have either
   std::optional<ErrorBound> acceleration{};
   std::optional<ErrorBound> largest_speed{};
-  std::optional<MotionLimits> aircraft{};  ///< of the aircraft among other tracks
   std::optional<double> position_error{}, height_error{}, velocity_error{}, climb_error{};
   double stamp_error = 0.0;
   double velocity_age = 0.0;
@@ -68,7 +68,8 @@ struct FormatDefaults {
 FormatDefaults defaults_of(StreamFormat format);
 
 struct FormatChoices {
-  ColumnHints hints;   ///< for csv and ais
+  ColumnHints hints;  ///< for csv and ais
+  std::vector<ClassRule> class_rules;
   std::string source;  ///< the stream's name, for messages
   enum class Altitude { barometric, geometric } altitude = Altitude::barometric;
   enum class PositionBound {

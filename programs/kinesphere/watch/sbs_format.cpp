@@ -141,6 +141,8 @@ class SbsFormat final : public ReportFormat {
         report.velocity = known->second.velocity;
         report.has_climb = known->second.has_climb;
         report.velocity_spread = known->second.velocity_spread;
+        // One of the two is 0.
+        report.ground_speed = std::hypot(report.velocity->x, report.velocity->y) + report.velocity_spread;
         report.velocity_age = age;
       }
     }

@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "columns/time_scale.hpp"
 #include "kinesphere/vec3.hpp"
+#include "watch/motion_classes.hpp"
 
 namespace kinesphere::program {
 
@@ -49,8 +51,16 @@ struct SourceReport {
   /// for each offset u of at most this length the path of the position + u keeps all limits and enlarged
   /// errors.
   double extent = 0.0;
-  /// The track has the limits of aircraft, where the format has others for most tracks.
-  bool is_aircraft = false;
+  /// Speed over ground as reported, whatever the course. Unit: metres per second.
+  std::optional<double> ground_speed{};
+  // What the stream says that the track is, which gives it a class (TrackClasses): by its status, and by its
+  // kind.
+  std::optional<MotionPreset> said_status{}, said_kind{};
+  /// All that may come as one of the two; lives as long as the format.
+  std::span<const MotionPreset> sayable{};
+  std::size_t ruled_class = 0;  ///< index of the class of the first --class that holds; 0: none
+  // Texts for expressions of --class, valid during the call.
+  std::string_view category{}, craft_type{}, status{};
   /// Two reports of one place with timestamps this close are one report. Unit: seconds.
   double same_within = 0.0;
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -26,6 +27,11 @@ struct NamedTrack {
   FileTime stamp{};     ///< timestamp of its latest report
   Vec3 position{};      ///< in the stream's own words
   double extent = 0.0;  ///< of its latest report
+  std::size_t motion_class = 0;  ///< an index of TrackClasses
+  /// Timestamp of the report that has changed the class; empty: none has.
+  std::optional<FileTime> class_since{};
+  /// Timestamp of the latest report that said that the craft is at rest, with a speed that contradicts it.
+  std::optional<FileTime> contradicted_rest{};
   /// Sources of the declared bounds of the latest report.
   std::string_view position_by, height_by, velocity_by, climb_by;
 };

@@ -28,6 +28,7 @@ struct WatchCounts {
   std::uint64_t no_bound = 0;
   std::uint64_t no_velocity = 0;  ///< neither it nor the largest speed is known
   std::uint64_t filtered = 0;     ///< left out by --where
+  std::uint64_t superseded = 0;   ///< from before their track had its present class
   std::uint64_t crowded = 0;      ///< reports of new tracks at the limit of tracks or open pairs
   std::uint64_t malformed = 0;
   std::vector<MalformedLine> first_malformed;  ///< ten at most

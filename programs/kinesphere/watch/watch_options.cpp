@@ -8,6 +8,7 @@
 
 #include "number_text.hpp"
 #include "program_error.hpp"
+#include "watch/class_rules.hpp"
 #include "watch/local_frame.hpp"
 #include "watch/measures.hpp"
 
@@ -15,13 +16,6 @@ namespace kinesphere::program {
 namespace {
 
 constexpr double no_promise = std::numeric_limits<double>::infinity();
-
-std::string spread_text(const ErrorBound& spread) {
-  if (!std::isfinite(spread.total())) return "any";
-  return spread.horizontal() == spread.vertical()
-             ? fmt::format("{:.4g}", spread.horizontal())
-             : fmt::format("{:.4g}:{:.4g}", spread.horizontal(), spread.vertical());
-}
 
 /// Parses "3" or "3:1".
 void set_errors(const std::string& given, Measure measure, std::string_view option, FallbackError& flat,
@@ -121,21 +115,16 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
                             const std::optional<ErrorBound>& otherwise) {
     return given.empty() ? otherwise.value_or(ErrorBound(no_promise)) : parse_spread(given, measure, option);
   };
-  settings.acceleration =
-      promised(options.acceleration, Measure::acceleration, "--acceleration", defaults.acceleration);
-  settings.largest_speed =
-      promised(options.largest_speed, Measure::speed, "--largest-speed", defaults.largest_speed);
-  if (!std::isfinite(settings.acceleration.total()) && !std::isfinite(settings.largest_speed.total()))
+  const MotionLimits limits{
+      promised(options.acceleration, Measure::acceleration, "--acceleration", defaults.acceleration),
+      promised(options.largest_speed, Measure::speed, "--largest-speed", defaults.largest_speed)};
+  if (!std::isfinite(limits.acceleration.total()) && !std::isfinite(limits.largest_speed.total()))
     throw ProgramError(fmt::format(
         "--acceleration, --largest-speed: expected one of them, because {} does not say how tracks move",
         name_of(format)));
-  settings.promise = fmt::format("acceleration: {}; speed: {}", spread_text(settings.acceleration),
-                                 spread_text(settings.largest_speed));
-  settings.aircraft = defaults.aircraft;
-  if (settings.aircraft)
-    settings.promise +=
-        fmt::format("; aircraft: acceleration: {}; speed: {}", spread_text(settings.aircraft->acceleration),
-                    spread_text(settings.aircraft->largest_speed));
+  settings.classes = TrackClasses(limits);
+  settings.class_rules = parse_class_rules(options.classes, settings.classes);
+  settings.has_automatic_classes = !options.no_classes;
   const auto by_default = [&](const std::optional<double>& bound) {
     return FallbackError{bound, bound ? fmt::format("{:.4g} (default of {})", *bound, name_of(format)) : ""};
   };
@@ -198,6 +187,8 @@ GivenOptions given_options(const WatchOptions& options) {
        {"--dimensions", options.dimensions ? fmt::to_string(*options.dimensions) : ""},
        {"--acceleration", options.acceleration},
        {"--largest-speed", options.largest_speed},
+       {"--class", fmt::format("{}", fmt::join(options.classes, "\n"))},
+       {"--no-classes", options.no_classes ? "true" : ""},
        {"--containment", fmt::to_string(choices.containment)},
        {"--position-error", options.position_error},
        {"--velocity-error", options.velocity_error},

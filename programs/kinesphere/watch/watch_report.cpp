@@ -38,6 +38,7 @@ std::vector<WatchCount> counts_of(const Watcher& watcher) {
       {"no_bound", "", "of unknown accuracy", counts.no_bound},
       {"no_velocity", "", "without a velocity, where --largest-speed is not given", counts.no_velocity},
       {"filtered", "", "left out by --where", counts.filtered},
+      {"superseded", "", "from before their track had its present class", counts.superseded},
       {"crowded", "", "of new tracks when there was no room for more (--most-tracks, --most-pairs)",
        counts.crowded},
       {"malformed", "", "malformed", counts.malformed},
@@ -61,6 +62,7 @@ std::vector<WatchCount> counts_of(const Watcher& watcher) {
       {"resolved", "", "contradictions resolved", events(MonitorEventKind::resolved)},
       {"silent", "", "tracks fell silent", events(MonitorEventKind::stale)},
       {"heard", "", "were heard again", events(MonitorEventKind::resumed)},
+      {"reclassified", "", "changed their class", events(MonitorEventKind::reclassified)},
       {"left", "", "left", events(MonitorEventKind::dropped)},
       {"dropped", "", "of them dropped: more pairs were open than --most-pairs", counts.dropped},
   };
@@ -68,9 +70,9 @@ std::vector<WatchCount> counts_of(const Watcher& watcher) {
 
 /// Reasons for which reports were not taken; the counts above without those of tracks and alerts.
 bool is_reason(const WatchCount& count) {
-  constexpr std::string_view reasons[] = {"repeated",    "stale",     "ahead",    "outside",
-                                          "no_position", "on_ground", "no_bound", "no_velocity",
-                                          "filtered",    "crowded",   "malformed"};
+  constexpr std::string_view reasons[] = {"repeated",    "stale",      "ahead",    "outside",
+                                          "no_position", "on_ground",  "no_bound", "no_velocity",
+                                          "filtered",    "superseded", "crowded",  "malformed"};
   return count.count > 0 &&
          std::find(std::begin(reasons), std::end(reasons), count.name) != std::end(reasons);
 }
@@ -134,16 +136,23 @@ std::string place_fields(const Watcher& watcher, const TrackView::Place& place) 
                             json_number(place.radius.vertical()));
 }
 
+/// Returns the name of the track's class as JSON; null for the default.
+std::string class_text(const AlertContext& context, TrackId id) {
+  const NamedTrack* const track = context.names.find(id);
+  if (track == nullptr || track->motion_class == 0) return "null";
+  return json_text(context.settings.classes[track->motion_class].name);
+}
+
 void add_tracks(std::string& text, const Watcher& watcher) {
   const AlertContext context = watcher.context();
   const char* separator = "\n";
   for (const TrackId id : context.monitor.tracks()) {
     const TrackView view = context.monitor.track(id).value();
     const NamedTrack* const named = context.names.find(id);
-    text += fmt::format(R"({}{{"id": {}, "name": {}, "stamp": {}, "silent": {}, "places": [)", separator,
-                        json_text(context.names.text(id)),
+    text += fmt::format(R"({}{{"id": {}, "name": {}, "stamp": {}, "silent": {}, "class": {}, "places": [)",
+                        separator, json_text(context.names.text(id)),
                         named != nullptr && !named->name.empty() ? json_text(named->name) : "null",
-                        json_time(context.times, view.timestamp), view.stale);
+                        json_time(context.times, view.timestamp), view.stale, class_text(context, id));
     const char* between = "";
     for (const TrackView::Place& place : view.places) {
       text += between + place_fields(watcher, place);

@@ -107,8 +107,10 @@ std::optional<StreamFormat> format_of(const WatchOptions& options,
                                  stream_format_names));
 }
 
-FormatChoices choices_of(const WatchOptions& options, StreamFormat format, const ReportSource& source) {
+FormatChoices choices_of(const WatchOptions& options, StreamFormat format, const ReportSource& source,
+                         const std::vector<ClassRule>& class_rules) {
   FormatChoices choices = options.choices;
+  choices.class_rules = class_rules;
   const bool is_table = format == StreamFormat::csv || format == StreamFormat::ais;
   for (const auto& [option, given] :
        {std::pair("--where", choices.hints.where), std::pair("--positions", choices.hints.positions)})
@@ -130,7 +132,7 @@ WatchRun::WatchRun(const WatchOptions& options)
       format_(known_format_.value_or(StreamFormat::readsb)),
       watcher_(settings_of(options, format_, source_->name()),
                [this](std::uint64_t share, std::string_view line) { alerts_->write(share, line); }),
-      reader_(make_format(format_, choices_of(options, format_, *source_))),
+      reader_(make_format(format_, choices_of(options, format_, *source_, watcher_.settings().class_rules))),
       snapshot_interval_(snapshot_interval(options)) {
   cutter_.set_kind(records_of(format_));
   if (begun_from_) go_on_from(*begun_from_);

@@ -9,6 +9,7 @@
 
 #include "kinesphere/monitor/monitor.hpp"
 #include "separations.hpp"
+#include "watch/track_classes.hpp"
 
 namespace kinesphere::program {
 
@@ -16,10 +17,6 @@ namespace kinesphere::program {
 struct FallbackError {
   std::optional<double> bound{};
   std::string declaration{};
-};
-
-struct MotionLimits {
-  ErrorBound acceleration, largest_speed;
 };
 
 /// Kinds of alerts that a watch may write.
@@ -47,12 +44,9 @@ struct WatchSettings {
   double hold = 0.0;              ///< MonitorDefinition::prediction_hold (seconds)
   Shard share{};                  ///< other watches have the other pairs
   std::optional<int> dimensions;  ///< empty: three if the first report has a height
-  // Limits of tracks; infinite if there is none.
-  ErrorBound acceleration = std::numeric_limits<double>::infinity();
-  ErrorBound largest_speed = std::numeric_limits<double>::infinity();
-  /// Limits of SourceReport::is_aircraft; empty: those above.
-  std::optional<MotionLimits> aircraft;
-  std::string promise;  ///< text of the limits in alerts
+  TrackClasses classes;           ///< with the limits of tracks
+  std::vector<ClassRule> class_rules;
+  bool has_automatic_classes = true;  ///< the stream may give classes
   FallbackError position_error, height_error, velocity_error, climb_error;
   double stamp_error = 0.0;
   double velocity_age = 0.0;

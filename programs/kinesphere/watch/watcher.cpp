@@ -140,6 +140,7 @@ void Watcher::finish() {
 // Reports with unaccepted times.
 
 void Watcher::hold(const SourceReport& report) {
+  if (!monitor_ && settings_.has_automatic_classes) settings_.classes.begin(report.sayable);
   if (clock_.in_a_row() == 1) drop_held();
   if (held_.size() == most_held) {
     ++counts_.ahead;
@@ -363,14 +364,11 @@ double Watcher::time_covered() const {
 
 void Watcher::begin_map(const WatchSettings::Origin& origin) {
   // A track is dropped before it gets farther than this beyond the radius.
-  double margin = settings_.largest_speed.horizontal() * settings_.forget;
-  if (settings_.aircraft)
-    margin = std::max(margin, settings_.aircraft->largest_speed.horizontal() * settings_.forget);
+  const double margin = settings_.classes.fastest() * settings_.forget;
   if (!std::isfinite(margin))
     throw ProgramError(
-        "--largest-speed, --forget: expected finite ones, which latitudes and longitudes need: the error "
-        "of the "
-        "map rests upon them");
+        "--largest-speed, --forget: expected finite ones, also for each --class, which latitudes and "
+        "longitudes need: the error of the map rests upon them");
   if (settings_.radius + margin > LocalFrame::largest_radius)
     throw ProgramError(
         fmt::format("--radius: expected a radius that is, together with the way that a track goes at its "
@@ -395,18 +393,13 @@ void Watcher::begin_monitor(const SourceReport& report) {
                                .shard = settings_.share};
   double least = unbounded;
   SeparationRule rule;
-  if (is_geographic_) {
+  if (is_geographic_)
     begin_map(settings_.origin.value_or(WatchSettings::Origin{report.position.y, report.position.x}));
-    definition.classes = {frame_->promise(settings_.acceleration, settings_.largest_speed)};
-    if (settings_.aircraft)
-      definition.classes.push_back(
-          frame_->promise(settings_.aircraft->acceleration, settings_.aircraft->largest_speed));
-  } else {
-    definition.classes = {
-        {.acceleration_limit = settings_.acceleration, .largest_speed = settings_.largest_speed}};
-    if (settings_.aircraft)
-      definition.classes.push_back({.acceleration_limit = settings_.aircraft->acceleration,
-                                    .largest_speed = settings_.aircraft->largest_speed});
+  for (std::size_t k = 0; k < settings_.classes.size(); ++k) {
+    const auto& [acceleration, largest_speed] = settings_.classes[k].limits;
+    definition.classes.push_back(
+        frame_ ? frame_->promise(acceleration, largest_speed)
+               : TrackClass{.acceleration_limit = acceleration, .largest_speed = largest_speed});
   }
   for (const NamedSeparation& named : settings_.separations) {
     const Separation& separation = named.separation;
@@ -443,7 +436,12 @@ void Watcher::deliver(const SourceReport& report) {
   }
   const bool knows_velocity =
       report.velocity && !(report.velocity_error && !std::isfinite(report.velocity_error->bound));
-  if (!knows_velocity && !std::isfinite(limits_of(report).largest_speed.total())) {
+  if (!monitor_ && settings_.has_automatic_classes) settings_.classes.begin(report.sayable);
+  const TrackId id = track_id_of(report.id);
+  NamedTrack* const known = names_.find(id);
+  NamedTrack track;
+  track.motion_class = settings_.classes.choose(report, known);
+  if (!knows_velocity && !std::isfinite(limits_of(track).largest_speed.total())) {
     if (!monitor_ || monitor_->counters().reports == 0)
       throw ProgramError(
           fmt::format("--largest-speed: expected it, because {} has positions without velocities: an "
@@ -462,8 +460,6 @@ void Watcher::deliver(const SourceReport& report) {
     ++counts_.on_ground;
     return;
   }
-  const TrackId id = track_id_of(report.id);
-  NamedTrack* const known = names_.find(id);
   if (known != nullptr) {
     if (known->text != report.id)
       return refuse(fmt::format("the ids {} and {} cannot be told apart", known->text, report.id));
@@ -472,12 +468,15 @@ void Watcher::deliver(const SourceReport& report) {
       ++counts_.repeated;
       return;
     }
+    if (is_superseded(report, *known, track.motion_class)) {
+      ++counts_.superseded;
+      return;
+    }
   }
   if (known == nullptr && !has_room()) {
     ++counts_.crowded;
     return;
   }
-  NamedTrack track;
   const auto on_map = this->on_map(report, track);
   if (!on_map) {
     ++counts_.outside;
@@ -494,6 +493,9 @@ void Watcher::deliver(const SourceReport& report) {
     named.stamp = report.stamp;
     named.position = report.position;
     named.extent = report.extent;
+    if (known != nullptr && named.motion_class != track.motion_class) named.class_since = report.stamp;
+    named.motion_class = track.motion_class;
+    if (settings_.classes.contradicts_rest(report)) named.contradicted_rest = report.stamp;
     named.position_by = track.position_by;
     named.height_by = track.height_by;
     named.velocity_by = track.velocity_by;
@@ -546,6 +548,8 @@ bool Watcher::watch_as_group(const SourceReport& report, TrackId id, const Track
   }
   const auto [edge, height, slow] = groups_->cutting();
   TrackReport of_group = on_map;
+  // Members may have several classes.
+  of_group.track_class = 0;
   of_group.state = {groups_->centre_of(*outcome.group), {}};
   if (height == 0.0) of_group.state.position.z = on_map.state.position.z;
   of_group.position_error = on_map.position_error + ErrorBound::cylinder(std::sqrt(0.5) * edge, 0.5 * height);
@@ -558,6 +562,7 @@ bool Watcher::watch_as_group(const SourceReport& report, TrackId id, const Track
   NamedTrack* const known = names_.find(group_id);
   NamedTrack& named = known != nullptr ? *known : names_.add(group_id, name);
   named = track;
+  named.motion_class = 0;
   named.text = name;
   named.stamp = report.stamp;
   named.position = report.position;
@@ -579,13 +584,9 @@ void Watcher::end_group(const TrackGroups::Cell& group) {
   if (monitor_->contains(id)) remove(id, "dissolved");
 }
 
-bool Watcher::has_limits_of_aircraft(const SourceReport& report) const {
-  return report.is_aircraft && settings_.aircraft;
-}
-
-MotionLimits Watcher::limits_of(const SourceReport& report) const {
-  if (has_limits_of_aircraft(report)) return *settings_.aircraft;
-  return {settings_.acceleration, settings_.largest_speed};
+bool Watcher::is_superseded(const SourceReport& report, const NamedTrack& known, std::size_t motion_class) {
+  if (known.class_since && is_earlier(report.stamp, *known.class_since)) return true;
+  return motion_class != known.motion_class && is_earlier(report.stamp, known.stamp);
 }
 
 double Watcher::velocity_age_of(const SourceReport& report) const {
@@ -594,8 +595,8 @@ double Watcher::velocity_age_of(const SourceReport& report) const {
 
 std::optional<TrackReport> Watcher::on_map(const SourceReport& report, NamedTrack& track) {
   TrackReport result{.timestamp = times_.seconds(report.stamp)};
-  result.track_class = has_limits_of_aircraft(report) ? 1 : 0;
-  if (!settings_.own.empty() && report.id == settings_.own) result.track_class += settings_.aircraft ? 2 : 1;
+  result.track_class = track.motion_class;
+  if (!settings_.own.empty() && report.id == settings_.own) result.track_class += settings_.classes.size();
   double added_velocity_error = 0.0;
   if (is_geographic_) {
     // The velocity was measured a little earlier or later, elsewhere on the map than the reported position.
@@ -603,7 +604,7 @@ std::optional<TrackReport> Watcher::on_map(const SourceReport& report, NamedTrac
         report.position_error ? report.position_error->bound : settings_.position_error.bound.value_or(0.0);
     const double time = report.stamp_error.value_or(settings_.stamp_error) + velocity_age_of(report);
     const auto placed = frame_->place(report.position, report.has_height, report.velocity.value_or(Vec3{}),
-                                      error + limits_of(report).largest_speed.horizontal() * time);
+                                      error + limits_of(track).largest_speed.horizontal() * time);
     if (!placed) return std::nullopt;
     result.state = placed->state;
     added_velocity_error = placed->velocity_error;
@@ -646,7 +647,7 @@ void Watcher::add_errors(const SourceReport& report, double added_velocity_error
   }
   auto turning = said(report.velocity_error, settings_.velocity_error, track.velocity_by);
   if (!turning) turning = needed_bound(settings_.velocity_error, "--velocity-error");
-  const MotionLimits limits = limits_of(report);
+  const MotionLimits& limits = limits_of(track);
   auto climbing = said(report.climb_error, settings_.climb_error, track.climb_by);
   if (!report.has_climb) {
     climbing = dimensions_ == 2 ? 0.0 : limits.largest_speed.vertical();

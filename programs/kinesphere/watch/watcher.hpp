@@ -88,6 +88,7 @@ class Watcher final : public ReportSink {
   void deliver(const SourceReport& report);
   void begin_monitor(const SourceReport& report);
   void begin_map(const WatchSettings::Origin& origin);
+  /// `track` has the class of the report.
   std::optional<TrackReport> on_map(const SourceReport& report, NamedTrack& track);
   void add_errors(const SourceReport& report, double added_velocity_error, TrackReport& result,
                   NamedTrack& track) const;
@@ -105,9 +106,12 @@ class Watcher final : public ReportSink {
   void end_group(const TrackGroups::Cell& group);
   std::string group_name(const TrackGroups::Cell& group) const;
   void remove(TrackId track, std::string_view reason);
-  bool has_limits_of_aircraft(const SourceReport& report) const;
-  MotionLimits limits_of(const SourceReport& report) const;
+  const MotionLimits& limits_of(const NamedTrack& track) const {
+    return settings_.classes[track.motion_class].limits;
+  }
   double velocity_age_of(const SourceReport& report) const;
+  /// True if the report is from before its track had its present class, or would change it from the past.
+  static bool is_superseded(const SourceReport& report, const NamedTrack& known, std::size_t motion_class);
   double needed_bound(const FallbackError& fallback, const char* option) const;
   void advance(double until);
   /// Returns true if the limits allow another track.

@@ -43,9 +43,9 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StreamClock::Memory, source, has_begun, now, 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MalformedLine, line, reason)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WatchCounts::Turns, apart, undecided, within)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WatchCounts, repeated, stale, ahead, outside, no_position, on_ground,
-                                   no_bound, no_velocity, filtered, crowded, malformed, first_malformed,
-                                   no_height, dropped, alerts, of_own, lost, groups, grouped, events, fates,
-                                   turns)
+                                   no_bound, no_velocity, filtered, superseded, crowded, malformed,
+                                   first_malformed, no_height, dropped, alerts, of_own, lost, groups, grouped,
+                                   events, fates, turns)
 
 namespace {
 
@@ -62,7 +62,8 @@ std::optional<DeclaredError> restored_error(const Json& saved, const KeepText& k
 Json saved(const SourceReport& report) {
   const auto& [id, name, stamp, arrival, time_kind, geographic, position, has_height, may_have_height,
                on_ground, velocity, has_climb, position_error, height_error, velocity_error, climb_error,
-               stamp_error, velocity_age, velocity_spread, extent, is_aircraft, same_within] = report;
+               stamp_error, velocity_age, velocity_spread, extent, ground_speed, said_status, said_kind,
+               sayable, ruled_class, category, craft_type, status, same_within] = report;
   return {{"stamp", stamp},
           {"arrival", arrival},
           {"time_kind", time_kind},
@@ -81,7 +82,10 @@ Json saved(const SourceReport& report) {
           {"velocity_age", velocity_age},
           {"velocity_spread", velocity_spread},
           {"extent", extent},
-          {"is_aircraft", is_aircraft},
+          {"ground_speed", ground_speed},
+          {"said_status", said_status},
+          {"said_kind", said_kind},
+          {"ruled_class", ruled_class},
           {"same_within", same_within}};
 }
 
@@ -104,13 +108,18 @@ SourceReport restored_report(const Json& saved, const KeepText& keep) {
           .velocity_age = saved.at("velocity_age"),
           .velocity_spread = saved.at("velocity_spread"),
           .extent = saved.at("extent"),
-          .is_aircraft = saved.at("is_aircraft"),
+          .ground_speed = saved.at("ground_speed").get<std::optional<double>>(),
+          .said_status = saved.at("said_status").get<std::optional<MotionPreset>>(),
+          .said_kind = saved.at("said_kind").get<std::optional<MotionPreset>>(),
+          .ruled_class = saved.at("ruled_class"),
           .same_within = saved.at("same_within")};
 }
 
 Json saved(const NamedTrack& track) {
-  const auto& [text, name, stamp, position, extent, position_by, height_by, velocity_by, climb_by] = track;
-  return {text, stamp, position, position_by, height_by, velocity_by, climb_by, extent, name};
+  const auto& [text, name, stamp, position, extent, motion_class, class_since, contradicted_rest, position_by,
+               height_by, velocity_by, climb_by] = track;
+  return {text,     stamp,  position,     position_by, height_by,         velocity_by,
+          climb_by, extent, motion_class, class_since, contradicted_rest, name};
 }
 
 /// Arrays of tracks are packed into CBOR: as JSON in memory they would take ten times as much.
@@ -149,6 +158,7 @@ Json Watcher::save() const {
              {"counts", counts_},
              {"monitor", nullptr},
              {"map", nullptr},
+             {"classes", settings_.classes.save()},
              {"policy", policy_.save()},
              {"groups", nullptr},
              {"next_forgetting", next_forgetting_}};
@@ -173,6 +183,7 @@ void Watcher::restore(const Json& state) {
   if (clock_.has_begun()) begin_times(state.at("first"), state.at("time_kind"));
   is_geographic_ = state.at("geographic");
   dimensions_ = state.at("dimensions");
+  settings_.classes.restore(state.at("classes"));
   for (const Json& packed : state.at("tracks")) {
     for (const Json& saved : Json::from_cbor(packed.get_binary())) {
       const std::string text = saved.at(0);
@@ -184,7 +195,12 @@ void Watcher::restore(const Json& state) {
       track.velocity_by = keep(saved.at(5));
       track.climb_by = keep(saved.at(6));
       track.extent = saved.at(7);
-      track.name = saved.at(8);
+      track.motion_class = saved.at(8);
+      track.class_since = saved.at(9).get<std::optional<FileTime>>();
+      track.contradicted_rest = saved.at(10).get<std::optional<FileTime>>();
+      if (track.motion_class >= settings_.classes.size())
+        throw ProgramError("expected a class of each track in the snapshot");
+      track.name = saved.at(11);
     }
   }
   counts_ = state.at("counts");

@@ -91,16 +91,16 @@ class DamagedStream : public testing::TestWithParam<StreamFormat> {};
 
 TEST_P(DamagedStream, IsReadAsFarAsItGoes) {
   const StreamFormat format = GetParam();
-  const WatchSettings settings{.separations = {parse_separation("cylinder:5NM:1000ft")},
-                               .acceleration = ErrorBound::cylinder(6.0, 3.0),
-                               .largest_speed = ErrorBound::cylinder(400.0, 60.0),
-                               .position_error = {100.0, "test"},
-                               .height_error = {80.0, "test"},
-                               .velocity_error = {25.0, "test"},
-                               .climb_error = {25.0, "test"},
-                               .silence = 15.0,
-                               .forget = 60.0,
-                               .source = "test"};
+  const WatchSettings settings{
+      .separations = {parse_separation("cylinder:5NM:1000ft")},
+      .classes = TrackClasses({ErrorBound::cylinder(6.0, 3.0), ErrorBound::cylinder(400.0, 60.0)}),
+      .position_error = {100.0, "test"},
+      .height_error = {80.0, "test"},
+      .velocity_error = {25.0, "test"},
+      .climb_error = {25.0, "test"},
+      .silence = 15.0,
+      .forget = 60.0,
+      .source = "test"};
   Watcher watcher(settings, [](std::uint64_t, std::string_view) {});
   CountingSink sink(watcher);
   const auto reader = make_format(format, {});

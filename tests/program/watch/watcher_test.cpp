@@ -63,8 +63,7 @@ TEST_P(FlightsOverTheEarth, AreToldOfWithCertainty) {
   WatchSettings settings{
       .separations = {parse_separation("cylinder:5NM:1000ft"), parse_separation("cylinder:3NM:700ft")},
       .dimensions = 3,
-      .acceleration = ErrorBound::cylinder(5.0, 1.0),
-      .largest_speed = ErrorBound::cylinder(300.0, 30.0),
+      .classes = TrackClasses({ErrorBound::cylinder(5.0, 1.0), ErrorBound::cylinder(300.0, 30.0)}),
       .position_error = {error, "test"},
       .height_error = {height_error, "test"},
       .velocity_error = {velocity_error, "test"},

@@ -83,6 +83,7 @@ AisPosition class_b_position(const AisBits& bits) {
 AisPosition aid_position(const AisBits& bits) {
   AisPosition position{.station = AisStation::aid_to_navigation};
   read_place(bits, {.accuracy = 163, .longitude = 164, .second = 253}, position);
+  position.is_off_position = bits.flag(259);
   return position;
 }
 
@@ -148,6 +149,7 @@ std::optional<AisMessage> ais_message_of(const AisBits& bits) {
       require_bits(bits, 270, message.type);
       message.name = name_at(bits, 112);
       message.dimensions = dimensions_at(bits, 240);
+      message.ship_type = static_cast<int>(bits.number(232, 8));
       break;
     case 9:
       require_bits(bits, 148, message.type);
@@ -162,6 +164,7 @@ std::optional<AisMessage> ais_message_of(const AisBits& bits) {
       message.position = class_b_position(bits);
       message.name = name_at(bits, 143);
       message.dimensions = dimensions_at(bits, 271);
+      message.ship_type = static_cast<int>(bits.number(263, 8));
       break;
     case 21:
       require_bits(bits, 270, message.type);
@@ -175,6 +178,7 @@ std::optional<AisMessage> ais_message_of(const AisBits& bits) {
       if (bits.number(head, 2) != 1 || is_craft_of_a_ship(message.mmsi)) break;
       require_bits(bits, 162, message.type);
       message.dimensions = dimensions_at(bits, 132);
+      message.ship_type = static_cast<int>(bits.number(40, 8));
       break;
     case 27:
       require_bits(bits, 95, message.type);

@@ -26,6 +26,7 @@ struct AisPosition {
   bool is_coarse = false;  ///< message 27: steps of 1/10 minute, 1 knot and 1 degree
   /// Message 27: the position was less than 5 s old when it was sent.
   bool is_prompt = false;
+  bool is_off_position = false;  ///< message 21: the aid is not where it belongs
 };
 
 /// Distances of the ends of a ship from the antenna whose position it reports. Unit: metres, rounded to whole
@@ -46,6 +47,7 @@ struct AisMessage {
   /// at its end; empty: not available.
   std::string name;
   std::optional<ShipDimensions> dimensions;  ///< messages 5, 19, 21, and 24 part B
+  int ship_type = 0;  ///< type of ship and cargo of messages 5, 19, and 24 part B; 0: not available
 };
 
 /// Returns the message; nothing for types other than 1, 2, 3, 5, 9, 18, 19, 21, 24 and 27. Throws

@@ -10,8 +10,8 @@
 #include "columns/units.hpp"
 #include "watch/ais/ais_message.hpp"
 #include "watch/ais/nmea_line.hpp"
+#include "watch/ais/recent_ships.hpp"
 #include "watch/ais/sentence_assembler.hpp"
-#include "watch/ais/ship_sizes.hpp"
 #include "watch/ground_speed.hpp"
 #include "watch/json_reading.hpp"
 #include "watch/known_names.hpp"
@@ -37,6 +37,11 @@ FileTime time_with_second(const FileTime& arrival, int second) {
   if (late >= minute - most_ahead) late -= minute;
   return {arrival.whole - late, 0.0};
 }
+
+/// Presets that messages may say.
+constexpr MotionPreset nmea_presets[] = {MotionPreset::vessel_at_rest, MotionPreset::high_speed_craft,
+                                         MotionPreset::wing_in_ground, MotionPreset::aid_to_navigation,
+                                         MotionPreset::search_aircraft};
 
 class NmeaFormat final : public ReportFormat {
  public:
@@ -76,6 +81,7 @@ class NmeaFormat final : public ReportFormat {
     return {{"sentences", assembler_.save()},
             {"sizes", sizes_.save()},
             {"names", names_.save()},
+            {"types", types_.save()},
             {"group", group_},
             {"group_time", saved(group_time_)},
             {"announced", saved(announced_)},
@@ -87,6 +93,7 @@ class NmeaFormat final : public ReportFormat {
     assembler_.restore(state.at("sentences"));
     sizes_.restore(state.at("sizes"));
     names_.restore(state.at("names"));
+    types_.restore(state.at("types"));
     group_ = state.at("group");
     group_time_ = restored(state.at("group_time"));
     announced_ = restored(state.at("announced"));
@@ -185,6 +192,7 @@ class NmeaFormat final : public ReportFormat {
   /// Remembers what a message says about the ship itself.
   void take_ship(const AisMessage& message) {
     if (!message.name.empty()) names_.set(fmt::format("{:09}", message.mmsi), message.name);
+    if (message.ship_type > 0) types_.set(message.mmsi, message.ship_type);
     const double radius = message.dimensions ? message.dimensions->radius() : 0.0;
     if (radius > 0.0) sizes_.set(message.mmsi, radius);
   }
@@ -202,13 +210,13 @@ class NmeaFormat final : public ReportFormat {
       report.stamp_error = earlier + (position.is_prompt ? prompt : unknown_second);
     report.geographic = true;
     report.position = {*position.longitude, *position.latitude, 0.0};
-    report.is_aircraft = position.station == AisStation::search_aircraft;
     if (position.is_accurate && position.origin == AisPosition::Origin::sensor)
       report.position_error = DeclaredError{accuracy_bound_, accuracy_declaration_};
     report.name = names_.name_of(id_);
-    report.extent = sizes_.radius_of(message.mmsi);
+    report.extent = sizes_.value_of(message.mmsi);
     if (position.is_coarse) report.extent += std::hypot(coarse_step, coarse_step);
     add_velocity(position, report);
+    add_class(message, position, report);
     sink.take(report);
   }
 
@@ -218,6 +226,36 @@ class NmeaFormat final : public ReportFormat {
     if (position.origin == AisPosition::Origin::sensor || choices_.position_error_is_said) return true;
     return position.station == AisStation::aid_to_navigation &&
            position.origin == AisPosition::Origin::manual;
+  }
+
+  void add_class(const AisMessage& message, const AisPosition& position, SourceReport& report) {
+    report.sayable = nmea_presets;
+    const int type = types_.value_of(message.mmsi);
+    if (position.station == AisStation::search_aircraft)
+      report.said_kind = MotionPreset::search_aircraft;
+    else if (position.station != AisStation::aid_to_navigation)
+      report.said_kind = preset_of_ship_type(type);
+    else if (!position.is_off_position)
+      report.said_kind = MotionPreset::aid_to_navigation;
+    if (position.status) report.said_status = preset_of_status(*position.status);
+    type_text_ = type > 0 ? fmt::format("{}", type) : "";
+    status_text_ = position.status ? fmt::format("{}", *position.status) : "";
+    report.craft_type = type_text_;
+    report.status = status_text_;
+    report.category = category_of(position.station);
+  }
+  static std::string_view category_of(AisStation station) {
+    switch (station) {
+      case AisStation::class_a:
+        return "A";
+      case AisStation::class_b:
+        return "B";
+      case AisStation::search_aircraft:
+        return "search aircraft";
+      case AisStation::aid_to_navigation:
+        break;
+    }
+    return "aid to navigation";
   }
 
   static void add_velocity(const AisPosition& position, SourceReport& report) {
@@ -233,9 +271,10 @@ class NmeaFormat final : public ReportFormat {
   double accuracy_bound_;
   std::string accuracy_declaration_;
   SentenceAssembler assembler_;
-  ShipSizes sizes_;
+  RecentShips<double> sizes_;  ///< radii of ships, in metres
+  RecentShips<int> types_;     ///< types of ship and cargo
   KnownNames names_;
-  std::string id_;
+  std::string id_, type_text_, status_text_;
   // The group of lines of the latest tag block that has one, and its time.
   std::string group_;
   std::optional<TimeField> group_time_;

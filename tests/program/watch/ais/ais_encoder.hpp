@@ -34,6 +34,8 @@ struct EncodedStation {
   int accuracy = 0;
   int status = 15;
   int bow = 0, stern = 0, port = 0, starboard = 0;  ///< metres
+  int ship_type = 0;
+  int off_position = 0;  ///< of an aid to navigation
 };
 
 inline std::int64_t encoded_degrees(double degrees) { return std::llround(degrees * 600'000.0); }
@@ -59,7 +61,7 @@ inline std::string class_a_message(const EncodedStation& s, int type = 1) {
 
 inline std::string static_message(const EncodedStation& s) {
   AisWriter writer;
-  writer.add(6, 5).spare(2).add(30, s.mmsi).spare(2 + 30 + 42 + 120 + 8);
+  writer.add(6, 5).spare(2).add(30, s.mmsi).spare(2 + 30 + 42 + 120).add(8, s.ship_type);
   writer.add(9, s.bow).add(9, s.stern).add(6, s.port).add(6, s.starboard);
   return writer.spare(4 + 20 + 8 + 120 + 2).text();
 }
@@ -111,7 +113,8 @@ inline std::string extended_class_b_message(const EncodedStation& s) {
       .add(12, s.course)
       .add(9, 511)
       .add(6, s.second)
-      .spare(4 + 120 + 8)
+      .spare(4 + 120)
+      .add(8, s.ship_type)
       .add(9, s.bow)
       .add(9, s.stern)
       .add(6, s.port)
@@ -135,7 +138,8 @@ inline std::string aid_to_navigation_message(const EncodedStation& s) {
       .add(6, s.starboard)
       .spare(4)
       .add(6, s.second)
-      .spare(1 + 8 + 1 + 1 + 1 + 1)
+      .add(1, s.off_position)
+      .spare(8 + 1 + 1 + 1 + 1)
       .text();
 }
 
@@ -146,7 +150,8 @@ inline std::string class_b_static_message(const EncodedStation& s) {
       .spare(2)
       .add(30, s.mmsi)
       .add(2, 1)
-      .spare(8 + 42 + 42)
+      .add(8, s.ship_type)
+      .spare(42 + 42)
       .add(9, s.bow)
       .add(9, s.stern)
       .add(6, s.port)

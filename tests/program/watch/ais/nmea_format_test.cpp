@@ -9,8 +9,8 @@
 
 #include "columns/units.hpp"
 #include "program/watch/ais/ais_encoder.hpp"
+#include "watch/ais/recent_ships.hpp"
 #include "watch/ais/sentence_assembler.hpp"
-#include "watch/ais/ship_sizes.hpp"
 #include "watch/report_format.hpp"
 
 namespace kinesphere::program::nmea_format_test {
@@ -244,16 +244,17 @@ TEST(SentenceAssembler, KeepsFewSentencesOnly) {
   }
 }
 
-TEST(ShipSizes, AreBounded) {
-  ShipSizes sizes;
+TEST(RecentShips, AreBounded) {
+  using Sizes = RecentShips<double>;
+  Sizes sizes;
   sizes.set(1, 10.0);
-  for (std::uint32_t mmsi = 2; mmsi < 10 * ShipSizes::most; ++mmsi) {
+  for (std::uint32_t mmsi = 2; mmsi < 10 * Sizes::most; ++mmsi) {
     sizes.set(mmsi, 1.0);
-    ASSERT_EQ(sizes.radius_of(1), 10.0) << "it is in use";
+    ASSERT_EQ(sizes.value_of(1), 10.0) << "it is in use";
   }
-  EXPECT_EQ(sizes.radius_of(2), 0.0);
+  EXPECT_EQ(sizes.value_of(2), 0.0);
   const auto saved = sizes.save();
-  EXPECT_LE(saved["recent"].size() + saved["earlier"].size(), 2 * ShipSizes::most);
+  EXPECT_LE(saved["recent"].size() + saved["earlier"].size(), 2 * Sizes::most);
 }
 
 TEST(NmeaFormat, KnowsNoMoreThanItIsTold) {
@@ -315,7 +316,7 @@ TEST(NmeaFormat, CountsSizesAndSteps) {
   EXPECT_NEAR(kept.reports[3].velocity_spread, knot * (1.0 + 10.0 * 3.14159265 / 180.0), 1e-6);
   read(search_aircraft_message(
       {.mmsi = 111'232'511, .longitude = 0, .latitude = 0, .speed = 100, .course = 0}));
-  EXPECT_TRUE(kept.reports.at(4).is_aircraft);
+  EXPECT_EQ(kept.reports.at(4).said_kind, MotionPreset::search_aircraft);
   EXPECT_NEAR(kept.reports[4].velocity->y, 100.0 * knot, 1e-9);
 }
 

@@ -1,0 +1,121 @@
+// Classes by the user's word: --class NAME=EXPRESSION and NAME=@FILE.
+#include "watch/class_rules.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "ascii_text.hpp"
+#include "input_file.hpp"
+#include "program_error.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+using Ids = std::unordered_set<std::string>;
+
+std::string in_lower_case(std::string_view text) {
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(), lower_case);
+  return lower;
+}
+
+/// Returns the first field of each line, in lower case; blank lines and those that begin with # have none.
+std::shared_ptr<const Ids> ids_in(const std::string& path) {
+  const std::string text = read_input(path);
+  const auto ids = std::make_shared<Ids>();
+  for (std::string_view rest = text; !rest.empty();) {
+    std::string_view line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+    if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
+    line = trimmed(line.substr(0, line.find_first_of(",;\t")));
+    if (line.size() > 1 && line.front() == '"' && line.back() == '"') line = line.substr(1, line.size() - 2);
+    if (!line.empty() && !line.starts_with('#')) ids->insert(in_lower_case(line));
+  }
+  if (ids->empty()) throw ProgramError(fmt::format("--class: expected ids in {}, but it has none", path));
+  return ids;
+}
+
+ClassRule parse_class_rule(const std::string& text, TrackClasses& classes) {
+  const std::size_t equal = text.find('=');
+  if (equal == std::string::npos || trimmed(std::string_view(text).substr(equal + 1)).empty())
+    throw ProgramError(fmt::format("--class: expected CLASS=EXPRESSION or CLASS=@FILE, but got '{}'", text));
+  ClassRule rule;
+  rule.motion_class =
+      classes.add(parse_motion_class(std::string(trimmed(std::string_view(text).substr(0, equal)))));
+  rule.expression = trimmed(std::string_view(text).substr(equal + 1));
+  if (rule.expression.starts_with('@')) rule.ids = ids_in(std::exchange(rule.expression, {}).substr(1));
+  return rule;
+}
+
+/// The fields of reports that expressions may name.
+TableHead report_head() {
+  const std::vector<std::string> names{"id", "category", "type", "status", "speed"};
+  return {.file = {}, .comments = {}, .names = names, .units = {}, .first = names, .separator = ','};
+}
+
+class RuledFormat final : public ReportFormat, private ReportSink {
+ public:
+  RuledFormat(std::unique_ptr<ReportFormat> format, const std::vector<ClassRule>& rules)
+      : format_(std::move(format)), rules_(rules, report_head(), {}) {}
+
+  void read(const Record& record, ReportSink& sink) override {
+    sink_ = &sink;
+    format_->read(record, *this);
+  }
+  void finish(ReportSink& sink) override {
+    sink_ = &sink;
+    format_->finish(*this);
+  }
+  nlohmann::json save() const override { return format_->save(); }
+  void restore(const nlohmann::json& state) override { format_->restore(state); }
+
+ private:
+  void take(const SourceReport& report) override {
+    SourceReport ruled = report;
+    speed_ = report.ground_speed ? fmt::format("{}", *report.ground_speed) : "";
+    fields_ = {report.id, report.category, report.craft_type, report.status, speed_};
+    ruled.ruled_class = rules_.class_of(report.id, fields_);
+    sink_->take(ruled);
+  }
+  void time_is(const FileTime& arrival, TimeKind kind) override { sink_->time_is(arrival, kind); }
+  void pass_over(Passed reason) override { sink_->pass_over(reason); }
+  void refuse(std::size_t line, const std::string& reason) override { sink_->refuse(line, reason); }
+
+  std::unique_ptr<ReportFormat> format_;
+  ClassRules rules_;
+  ReportSink* sink_ = nullptr;
+  std::string speed_;
+  std::vector<std::string_view> fields_;
+};
+
+}  // namespace
+
+std::vector<ClassRule> parse_class_rules(const std::vector<std::string>& texts, TrackClasses& classes) {
+  std::vector<ClassRule> rules;
+  for (const std::string& text : texts) rules.push_back(parse_class_rule(text, classes));
+  return rules;
+}
+
+ClassRules::ClassRules(const std::vector<ClassRule>& rules, const TableHead& head,
+                       const TableColumns& columns) {
+  for (const ClassRule& rule : rules)
+    rules_.push_back({rule.motion_class, rule.ids,
+                      rule.ids ? RowFilter() : RowFilter(rule.expression, head, columns, "--class")});
+}
+
+std::size_t ClassRules::class_of(std::string_view id, const std::vector<std::string_view>& fields) const {
+  for (const Rule& rule : rules_)
+    if (rule.ids ? rule.ids->contains(in_lower_case(id)) : rule.filter.takes(fields))
+      return rule.motion_class;
+  return 0;
+}
+
+std::unique_ptr<ReportFormat> make_ruled_format(std::unique_ptr<ReportFormat> format,
+                                                const std::vector<ClassRule>& rules) {
+  return std::make_unique<RuledFormat>(std::move(format), rules);
+}
+
+}  // namespace kinesphere::program
