@@ -43,9 +43,15 @@ std::string length_text(const AlertContext& context, double length) {
   return length < 10e3 ? fmt::format("{:.0f} m", length) : fmt::format("{:.1f} km", length / 1e3);
 }
 
+/// Returns the name of a track, or its id if it has none.
+std::string name_in_text(const AlertContext& context, TrackId id) {
+  const NamedTrack* const track = context.names.find(id);
+  return track != nullptr && !track->name.empty() ? track->name : context.names.text(id);
+}
+
 std::string pair_text(const AlertContext& context, TrackId one, TrackId other) {
   const auto [first, second] = in_text_order(context.names, one, other);
-  return fmt::format("{} and {}", context.names.text(first), context.names.text(second));
+  return fmt::format("{} and {}", name_in_text(context, first), name_in_text(context, second));
 }
 
 std::string line_of(const AlertContext& context, double time, std::string_view what, std::string_view whom,
@@ -54,7 +60,7 @@ std::string line_of(const AlertContext& context, double time, std::string_view w
                      more.empty() ? "" : ": ", more);
 }
 
-std::string_view name_in_text(const MonitorEvent& event) {
+std::string_view what_of(const MonitorEvent& event) {
   if (event.kind == MonitorEventKind::verdict)
     return event.verdict == Verdict::apart && event.before == Verdict::within ? "over"
                                                                               : name_of(event.verdict);
@@ -72,24 +78,24 @@ std::string text_of_pair(const AlertContext& context, const MonitorEvent& event)
       more += fmt::format(", closest {} in {}", length_text(context, answer->closest_distance),
                           duration_text(to_go));
   }
-  return line_of(context, event.time, name_in_text(event), pair_text(context, event.first, event.second),
-                 more);
+  return line_of(context, event.time, what_of(event), pair_text(context, event.first, event.second), more);
 }
 
 }  // namespace
 
 std::string alert_text(const AlertContext& context, const MonitorEvent& event, std::string_view left_for) {
   if (is_of_pair(event.kind)) return text_of_pair(context, event);
-  return line_of(context, event.time, name_of(event.kind), context.names.text(event.first),
+  return line_of(context, event.time, name_of(event.kind), name_in_text(context, event.first),
                  event.kind == MonitorEventKind::dropped ? left_for : "");
 }
 
 std::string lost_text(const AlertContext& context, const MonitorEvent& event, const AlertPolicy::Key& key,
                       const Encounter& encounter) {
-  const std::string more = fmt::format("{} {}; closest {}, expected at {}", context.names.text(event.first),
-                                       event.kind == MonitorEventKind::stale ? "is silent" : "has left",
-                                       length_text(context, encounter.loss->closest_distance),
-                                       clock_text(context.times, encounter.loss->closest_time));
+  const std::string more =
+      fmt::format("{} {}; closest {}, expected at {}", name_in_text(context, event.first),
+                  event.kind == MonitorEventKind::stale ? "is silent" : "has left",
+                  length_text(context, encounter.loss->closest_distance),
+                  clock_text(context.times, encounter.loss->closest_time));
   return line_of(context, event.time, "lost", pair_text(context, key.first, key.second), more);
 }
 
