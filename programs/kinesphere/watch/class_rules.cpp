@@ -95,12 +95,14 @@ class RuledFormat final : public ReportFormat, private ReportSink {
 
 std::vector<ClassRule> parse_class_rules(const std::vector<std::string>& texts, TrackClasses& classes) {
   std::vector<ClassRule> rules;
+  rules.reserve(texts.size());
   for (const std::string& text : texts) rules.push_back(parse_class_rule(text, classes));
   return rules;
 }
 
 ClassRules::ClassRules(const std::vector<ClassRule>& rules, const TableHead& head,
                        const TableColumns& columns) {
+  rules_.reserve(rules.size());
   for (const ClassRule& rule : rules)
     rules_.push_back({rule.motion_class, rule.ids,
                       rule.ids ? RowFilter() : RowFilter(rule.expression, head, columns, "--class")});

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "watch/stream_clock.hpp"
+
 namespace kinesphere::program {
 namespace {
 
