@@ -132,6 +132,27 @@ describe("a stream of the air", () => {
     for (const colour of land) assert.ok(difference(colour, await namedColour(page, "land")) <= 2, `${colour}`);
   });
 
+  test("the coast is right also where the opposite point of the earth is land", async () => {
+    // China is opposite to Argentina, and its coast turns the other way round on the plane.
+    const [land, sea] = await page.evaluate(async () => {
+      const map = window.kinesphereMap;
+      const own = map.scene.state;
+      map.show({ ...own, origin: { lon: -62, lat: -34, radius: 5e5 }, tracks: [], pairs: [], predictions: [], needed: [] });
+      map.view.look = { x: 0, y: 0, scale: 1e-4 };
+      map.redraw();
+      await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+      const canvas = document.querySelector("#picture");
+      const found = [[-61.3, -33.1], [-47.3, -41.3]].map(([lon, lat]) => {
+        const [x, y] = map.view.toScreen(...map.plane.toPlane(lon, lat));
+        return [...canvas.getContext("2d").getImageData(Math.round(x), Math.round(y), 1, 1).data.slice(0, 3)];
+      });
+      map.show(own);
+      return found;
+    });
+    assert.ok(difference(land, await namedColour(page, "land")) <= 2, `land: ${land}`);
+    assert.ok(difference(sea, await namedColour(page, "ground")) <= 2, `sea: ${sea}`);
+  });
+
   test("nothing sounds and nobody is asked, but after a click", async () => {
     const said = () => page.evaluate(() => ({ asked: window.asked, sounded: window.kinesphereMap.alarm.sounded, shown: window.notifications.length }));
     assert.deepEqual(await said(), { asked: 0, sounded: 0, shown: 0 });
