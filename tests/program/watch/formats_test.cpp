@@ -330,7 +330,7 @@ TEST(JsonLinesFormat, ReadsTheLibrarysOwnNames) {
   EXPECT_TRUE(kept.reports[1].report.geographic);
   EXPECT_EQ(kept.passed, (std::vector{Passed::no_position}));
   ASSERT_EQ(kept.refused.size(), 6u);
-  EXPECT_NE(kept.refused[0].find("5: expected id, stamp"), std::string::npos) << kept.refused[0];
+  EXPECT_NE(kept.refused[0].find("5: expected id, name, stamp"), std::string::npos) << kept.refused[0];
   EXPECT_EQ(kept.refused[1], "6: expected [x, y] or [x, y, z] as \"position\"");
   EXPECT_EQ(kept.refused[2], "7: expected a time as \"stamp\"");
   EXPECT_EQ(kept.refused[3], "8: expected one JSON object in a line, but there is more");
