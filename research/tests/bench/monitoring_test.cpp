@@ -126,9 +126,9 @@ class WatchSoak : public ProgramTest {
 
 TEST_F(WatchSoak, TheProgramMissesNothingEither) {
   const std::string soak = "soak --reports 150000 --tracks 1500 --width 7000 --seed 5";
-  const ProgramRun watched =
-      watch("--separation sphere:60 --acceleration 1 --only all --look-ahead 0 > '" + path("alerts.jsonl") + "'",
-            "'" KINESPHERE_PROGRAM "' " + soak + " --write 2>'" + path("faults.txt") + "' | ");
+  const ProgramRun watched = watch(
+      "--separation sphere:60 --acceleration 1 --only all --look-ahead 0 > '" + path("alerts.jsonl") + "'",
+      "'" KINESPHERE_PROGRAM "' " + soak + " --write 2>'" + path("faults.txt") + "' | ");
   EXPECT_EQ(watched.exit_code, 0) << watched.err;
   EXPECT_NE(read_text(path("faults.txt")).find(" 150 malformed lines"), std::string::npos);
   const ProgramRun compared = run(soak + " --alerts '" + path("alerts.jsonl") + "'");

@@ -53,7 +53,7 @@ export interface Need {
 
 export interface Separation {
   name: string;
-  shape: "ellipsoid" | "cylinder";
+  shape: "ellipsoid" | "cylinder" | "well_clear";
   horizontal: number;
   vertical: number;
 }
