@@ -29,7 +29,7 @@ fi
 # Names that the glossary has replaced. The CHANGELOG may use them.
 retired='Islands|KickComparison|LatePairs|PartSize|BodyKick|KeptContacts|Answerer|Agenda|HotPair|Unsettled|FoundPairs|Outlook'
 retired+='|Judgement|Horizons|ContactBook|RecentContacts|WhileTrue|StillDue|WindowLayer|Capsule|CapsuleTable|RoomyBound|Tempo|Pacing'
-retired+='|MovedBound|Encounter|SizeLevels|KnownSpace|Parcel|Outbox|LocalWorld|PhasePart|DanglingLinks|PairShare|ReportNeed'
+retired+='|MovedBound|SizeLevels|KnownSpace|Parcel|Outbox|LocalWorld|PhasePart|DanglingLinks|PairShare|ReportNeed'
 retired+='|ScopedFlag|UntoldEvents|OpenRecord|FixedDefinition|add_fixed|tell_violations|report_violations|refuse_violations|refilter|set_timing|FramesDefinition|SteeredDefinition'
 # A plain search: in a clone of another user git refuses to search, which would pass for success.
 if grep -rnwE "$retired" . --include='*.'{cpp,hpp,md,v,py,ts} --exclude=CHANGELOG.md \

@@ -43,6 +43,10 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
                    "given, of csv and jsonl 10 s; with 0 nothing is predicted")
       ->type_name("TIME");
   command
+      ->add_option("--confirm", options.confirm,
+                   "A prediction begins once it has held for so long; at once when not given")
+      ->type_name("TIME");
+  command
       ->add_option("--hold", options.hold,
                    "A prediction ends once it has not held for so long; 60 s when not given")
       ->type_name("TIME");

@@ -17,7 +17,7 @@ struct WatchOptions {
   std::string format;  ///< empty: as the stream's beginning shows
   FormatChoices choices;
   std::vector<std::string> separations;
-  std::string look_ahead, hold;
+  std::string look_ahead, confirm, hold;
   std::string own;
   std::vector<std::string> only, areas;
   std::optional<std::uint64_t> most_alerts;

@@ -27,6 +27,10 @@ Result<void> check_monitor(const MonitorDefinition& definition) {
       .require(definition.drop_after > 0.0, ErrorCode::out_of_range, {"drop_after"}, "must be > 0",
                definition.drop_after)
       .not_negative({"prediction_hold"}, definition.prediction_hold)
+      .not_negative({"prediction_confirmation"}, definition.prediction_confirmation)
+      .require(definition.prediction_confirmation <= limits::largest_time, ErrorCode::out_of_range,
+               {"prediction_confirmation"}, "must be at most", limits::largest_time,
+               definition.prediction_confirmation)
       .not_negative({"prediction_margin"}, definition.prediction_margin)
       .require(definition.prediction_margin <= 1.0, ErrorCode::out_of_range, {"prediction_margin"},
                "must be at most", 1.0, definition.prediction_margin)

@@ -23,9 +23,11 @@ void serialize(Some<Shard> auto& self, auto& archive) {
 
 void serialize(Some<MonitorDefinition> auto& self, auto& archive) {
   auto& [dimensions, start_time, classes, separations, tolerance, time_resolution, window, stale_after,
-         drop_after, prediction_hold, prediction_margin, prediction_error_part, share] = self;
+         drop_after, prediction_hold, prediction_confirmation, prediction_margin, prediction_error_part,
+         share] = self;
   archive(dimensions, start_time, classes, separations, tolerance, time_resolution, window, stale_after,
-          drop_after, prediction_hold, prediction_margin, prediction_error_part, share);
+          drop_after, prediction_hold, prediction_confirmation, prediction_margin, prediction_error_part,
+          share);
 }
 
 void serialize(Some<MonitorCounters> auto& self, auto& archive) {

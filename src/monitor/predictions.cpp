@@ -148,6 +148,7 @@ void Predictions::decide(std::uint32_t a, std::uint32_t b, double now, std::vect
   const double reach = margin(one) + margin(other);
   if (!was_predicted && !may_meet(first, second, reach)) {
     pair.due = infinity;
+    for (LevelPrediction& level : pair.levels) level.holds = false;
     return;
   }
   const std::span<const Components> levels = levels_of(one, other);
@@ -169,9 +170,13 @@ void Predictions::decide(std::uint32_t a, std::uint32_t b, double now, std::vect
       return std::min(straight.begin, entry - look_ahead);
     };
     const bool holds = from_of(judged) <= now + resolution && judged.end > now;
-    if (state.holds) state.held_until = now;
+    if (state.holds)
+      state.held_until = now;
+    else
+      state.held_since = now;
     state.holds = holds;
-    const bool begins = holds && !state.predicted;
+    const double confirmed = state.held_since + definition_->prediction_confirmation;
+    const bool begins = holds && !state.predicted && confirmed <= now;
     const bool ends = !holds && state.predicted && state.held_until + hold <= now;
     if (begins) state.since = now;
     if (begins || ends) {
@@ -189,6 +194,7 @@ void Predictions::decide(std::uint32_t a, std::uint32_t b, double now, std::vect
     if (holds) {
       const StraightPass next = judge(first, second, separation, pass, state.predicted, now);
       due = std::min(due, std::max(next.end, now + resolution));
+      if (!state.predicted) due = std::min(due, std::max(confirmed, now + resolution));
     } else {
       due = std::min(due, std::max(from_of(state.predicted ? judged : pass), now + resolution));
       if (state.predicted) due = std::min(due, std::max(state.held_until + hold, now + resolution));
@@ -265,11 +271,12 @@ bool Predictions::is_valid(double now) const {
   }
   bool valid = partners == 2 * pairs_.size();
   pairs_.for_each([&](std::uint32_t a, std::uint32_t b, const PairPrediction& pair) {
-    valid = valid && a < b && is_present(a) && is_present(b) && !std::isnan(pair.due) &&
-            pair.levels.size() == levels_of(tracks_[a], tracks_[b]).size() &&
-            std::all_of(pair.levels.begin(), pair.levels.end(), [](const LevelPrediction& level) {
-              return !std::isnan(level.since) && !std::isnan(level.held_until);
-            });
+    valid =
+        valid && a < b && is_present(a) && is_present(b) && !std::isnan(pair.due) &&
+        pair.levels.size() == levels_of(tracks_[a], tracks_[b]).size() &&
+        std::all_of(pair.levels.begin(), pair.levels.end(), [](const LevelPrediction& level) {
+          return !std::isnan(level.since) && !std::isnan(level.held_since) && !std::isnan(level.held_until);
+        });
   });
   return valid;
 }

@@ -39,11 +39,12 @@ struct LevelPrediction {
   bool predicted = false;   ///< reported as predicted, and not yet as ended
   bool holds = false;       ///< the condition of MonitorEventKind::predicted was met when last decided
   double since = 0.0;       ///< time of the event `predicted`
+  double held_since = 0.0;  ///< if `holds`: time since which it has held without a break
   double held_until = 0.0;  ///< if `predicted` and not `holds`: time until which it held
 
   static void serialize(auto& self, auto& archive) {
-    auto& [predicted, holds, since, held_until] = self;
-    archive(predicted, holds, since, held_until);
+    auto& [predicted, holds, since, held_since, held_until] = self;
+    archive(predicted, holds, since, held_since, held_until);
   }
 };
 

@@ -105,6 +105,34 @@ TEST(Predictions, HoldOnWhileReportsWaver) {
   }
 }
 
+TEST(Predictions, BeginOnceTheyAreConfirmed) {
+  MonitorDefinition made = definition(2.0);
+  made.prediction_confirmation = 3.0;
+  Monitor monitor = Monitor::create(made).value();
+  monitor.report(1, at(0.0, {0, 0, 0})).value();
+  // One report of a course that leads near, and others of one that does not.
+  monitor.report(2, at(0.0, {100, 0, 0}, {-5, 0, 0})).value();
+  monitor.report(2, at(1.0, {95, 0, 0}, {-5, 5, 0})).value();
+  EXPECT_TRUE(predictions_of(monitor.events(1.0)).empty());
+  for (const double time : {2.0, 4.0}) {
+    EXPECT_TRUE(predictions_of(monitor.events(time)).empty());
+    monitor.report(2, at(time, {100 - 5 * time, 0, 0}, {-5, 0, 0})).value();
+  }
+  monitor = Monitor::restore(monitor.save()).value();
+  auto events = predictions_of(monitor.events(6.0));
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_NEAR(events[0].time, 5.0, 2e-3) << "three after 2";
+  // Who turns far away before does not count on.
+  monitor.report(3, at(6.0, {0, 500, 0}, {0, -5, 0})).value();
+  monitor.report(1, at(6.0, {0, 420, 0})).value();
+  events = predictions_of(monitor.events(8.0));
+  monitor.report(3, at(8.0, {0, 490, 0}, {0, 50, 0})).value();
+  monitor.report(3, at(8.5, {0, 488, 0}, {0, -5, 0})).value();
+  for (const MonitorEvent& event : monitor.events(11.0))
+    EXPECT_FALSE(event.kind == MonitorEventKind::predicted);
+  EXPECT_EQ(predictions_of(monitor.events(12.0)).size(), 1u);
+}
+
 TEST(Predictions, AMarginKeepsWhoHoversAtTheSeparation) {
   for (const double margin : {0.0, 0.1}) {
     MonitorDefinition made = definition();

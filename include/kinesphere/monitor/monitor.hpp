@@ -82,6 +82,9 @@ struct MonitorDefinition {
   /// A prediction ends once it has not held for this long (time, >= 0), so that it does not come and go with
   /// the errors of reports.
   double prediction_hold = 0.0;
+  /// A prediction begins once it has held for this long without a break (time, >= 0), so that a single report
+  /// makes none.
+  double prediction_confirmation = 0.0;
   /// A prediction that has begun goes on while its closest approach is within the separation enlarged by this
   /// part of it (ratio, in [0, 1]), so that tracks about as far apart as the separation do not come and go.
   double prediction_margin = 0.0;

@@ -139,7 +139,8 @@ nlohmann::json AlertPolicy::save() const {
     if (encounter.loss) loss = {encounter.loss->closest_time, encounter.loss->closest_distance};
     encounters.push_back({key.first, key.second, key.level, encounter.predicted, encounter.within,
                           encounter.predicted_since, encounter.within_since, encounter.predicted_told,
-                          encounter.within_told, elsewhere_.contains({key.first, key}), loss});
+                          encounter.within_told, elsewhere_.contains({key.first, key}), loss,
+                          encounter.silence_told});
   }
   return {{"encounters", encounters}, {"second", second_}, {"written", written_}, {"refused", refused_}};
 }
@@ -149,6 +150,7 @@ void AlertPolicy::restore(const nlohmann::json& state) {
     const Key key{saved.at(0), saved.at(1), saved.at(2)};
     Encounter encounter{saved.at(3), saved.at(4), saved.at(5), saved.at(6), saved.at(7), saved.at(8)};
     if (const nlohmann::json& loss = saved.at(10); !loss.is_null()) encounter.loss = {loss.at(0), loss.at(1)};
+    encounter.silence_told = saved.at(11);
     encounters_.emplace(key, encounter);
     if (saved.at(9)) set_elsewhere(key, true);
   }

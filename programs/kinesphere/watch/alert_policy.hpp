@@ -42,6 +42,7 @@ struct Encounter {
     double closest_time = 0.0, closest_distance = 0.0;
   };
   std::optional<Loss> loss{};
+  bool silence_told = false;  ///< an alert has told that one of the two became stale
 };
 
 /// The policy. If changes of `undecided` are asked for, every event of a kind that is asked for is written.

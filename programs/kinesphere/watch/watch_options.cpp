@@ -143,6 +143,7 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
   settings.silence = positive_time(options.silence, "--silence", defaults.silence);
   settings.forget = positive_time(options.forget, "--forget", defaults.forget);
   settings.hold = positive_time(options.hold, "--hold", 60.0);
+  settings.confirm = positive_time(options.confirm, "--confirm", 0.0);
   settings.own = options.own;
   if (!options.only.empty()) {
     const auto names = [&](std::string_view kind) {
@@ -199,6 +200,7 @@ GivenOptions given_options(const WatchOptions& options) {
        {"--silence", options.silence},
        {"--forget", options.forget},
        {"--look-ahead", options.look_ahead},
+       {"--confirm", options.confirm},
        {"--hold", options.hold},
        {"--own", options.own},
        {"--only", fmt::format("{}", fmt::join(options.only, ","))},

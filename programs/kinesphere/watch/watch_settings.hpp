@@ -42,6 +42,7 @@ struct WatchSettings {
   std::vector<WatchedArea> areas;  ///< alerts are about pairs with a track in one of them; empty: all are
   std::uint64_t most_alerts = std::numeric_limits<std::uint64_t>::max();  ///< alerts in a second
   double hold = 0.0;              ///< MonitorDefinition::prediction_hold (seconds)
+  double confirm = 0.0;           ///< MonitorDefinition::prediction_confirmation (seconds)
   Shard share{};                  ///< other watches have the other pairs
   std::optional<int> dimensions;  ///< empty: three if the first report has a height
   TrackClasses classes;           ///< with the limits of tracks

@@ -314,6 +314,8 @@ void Watcher::report_lost(const MonitorEvent& event) {
       encounter.loss = Encounter::Loss{answer.closest_time, answer.closest_distance};
     }
     if (!settings_.kinds.lost || !encounter.loss || !encounter.is_told()) continue;
+    // Streams that lose a report now and then tell of it once.
+    if (event.kind == MonitorEventKind::stale && std::exchange(encounter.silence_told, true)) continue;
     ++counts_.alerts;
     ++counts_.lost;
     write(key.first, lost_line(context(), event, key, encounter));
@@ -387,6 +389,7 @@ void Watcher::begin_monitor(const SourceReport& report) {
                                .stale_after = settings_.silence,
                                .drop_after = settings_.forget,
                                .prediction_hold = settings_.hold,
+                               .prediction_confirmation = settings_.confirm,
                                .prediction_margin = 0.1,
                                // About the 95 % of which errors are declared multiples.
                                .prediction_error_part = 0.4,

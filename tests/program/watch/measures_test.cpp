@@ -49,9 +49,8 @@ TEST(Separations, AreShapesWithLengths) {
   EXPECT_EQ(parse_separation("well-clear:10:5:0").separation, Separation::well_clear(10.0, 5.0, 0.0));
   EXPECT_EQ(parse_separation("do365:corrective").separation, volume);
   EXPECT_EQ(parse_separation("do365:corrective").name, "do365:corrective");
-  for (const char* const text :
-       {"", "50", "cube:50", "sphere", "sphere:0", "cylinder:5", "sphere:1:2:3", "well-clear:10:5",
-        "well-clear:10:0:1", "well-clear:10:5:1:0", "do365:other"})
+  for (const char* const text : {"", "50", "cube:50", "sphere", "sphere:0", "cylinder:5", "sphere:1:2:3",
+                                 "well-clear:10:5", "well-clear:10:0:1", "do365:other"})
     EXPECT_NE(error_of([&] { parse_separation(text); }).find("--separation"), std::string::npos) << text;
 }
 

@@ -62,6 +62,7 @@ TEST_P(FlightsOverTheEarth, AreToldOfWithCertainty) {
                    stamp_error = 0.2;
   WatchSettings settings{
       .separations = {parse_separation("cylinder:5NM:1000ft"), parse_separation("cylinder:3NM:700ft")},
+      .kinds = {.undecided = true},
       .dimensions = 3,
       .classes = TrackClasses({ErrorBound::cylinder(5.0, 1.0), ErrorBound::cylinder(300.0, 30.0)}),
       .position_error = {error, "test"},
