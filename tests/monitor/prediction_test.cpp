@@ -112,8 +112,8 @@ TEST(Predictions, BeginOnceTheyAreConfirmed) {
   monitor.report(1, at(0.0, {0, 0, 0})).value();
   // One report of a course that leads near, and others of one that does not.
   monitor.report(2, at(0.0, {100, 0, 0}, {-5, 0, 0})).value();
-  monitor.report(2, at(1.0, {95, 0, 0}, {-5, 5, 0})).value();
   EXPECT_TRUE(predictions_of(monitor.events(1.0)).empty());
+  monitor.report(2, at(1.0, {95, 0, 0}, {-5, 3, 0})).value();
   for (const double time : {2.0, 4.0}) {
     EXPECT_TRUE(predictions_of(monitor.events(time)).empty());
     monitor.report(2, at(time, {100 - 5 * time, 0, 0}, {-5, 0, 0})).value();
@@ -122,15 +122,15 @@ TEST(Predictions, BeginOnceTheyAreConfirmed) {
   auto events = predictions_of(monitor.events(6.0));
   ASSERT_EQ(events.size(), 1u);
   EXPECT_NEAR(events[0].time, 5.0, 2e-3) << "three after 2";
-  // Who turns far away before does not count on.
-  monitor.report(3, at(6.0, {0, 500, 0}, {0, -5, 0})).value();
-  monitor.report(1, at(6.0, {0, 420, 0})).value();
-  events = predictions_of(monitor.events(8.0));
-  monitor.report(3, at(8.0, {0, 490, 0}, {0, 50, 0})).value();
-  monitor.report(3, at(8.5, {0, 488, 0}, {0, -5, 0})).value();
-  for (const MonitorEvent& event : monitor.events(11.0))
-    EXPECT_FALSE(event.kind == MonitorEventKind::predicted);
-  EXPECT_EQ(predictions_of(monitor.events(12.0)).size(), 1u);
+  // A break begins the time anew.
+  monitor.report(3, at(6.0, {0, 460, 0}, {0, -5, 0})).value();
+  monitor.report(4, at(6.0, {0, 420, 0})).value();
+  EXPECT_TRUE(predictions_of(monitor.events(8.0)).empty());
+  monitor.report(3, at(8.0, {0, 450, 0}, {0, 1, 0})).value();
+  EXPECT_TRUE(predictions_of(monitor.events(8.5)).empty());
+  monitor.report(3, at(8.5, {0, 450.5, 0}, {0, -3, 0})).value();
+  EXPECT_TRUE(predictions_of(monitor.events(11.4)).empty());
+  EXPECT_EQ(predictions_of(monitor.events(11.6)).size(), 1u);
 }
 
 TEST(Predictions, AMarginKeepsWhoHoversAtTheSeparation) {
