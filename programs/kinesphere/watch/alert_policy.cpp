@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace kinesphere::program {
 namespace {
@@ -121,15 +122,14 @@ bool AlertPolicy::has_room(double time) {
     ++written_;
     return true;
   }
-  ++refused_;
+  if (refused_.alerts == 0) refused_.since = second_;
+  ++refused_.alerts;
   return false;
 }
 
 std::optional<AlertPolicy::Refused> AlertPolicy::refused_before(double time) {
-  if (refused_ == 0 || time < second_ + 1.0) return std::nullopt;
-  const Refused refused{second_, refused_};
-  refused_ = 0;
-  return refused;
+  if (refused_.alerts == 0 || time < refused_.since + 1.0) return std::nullopt;
+  return std::exchange(refused_, Refused{});
 }
 
 nlohmann::json AlertPolicy::save() const {
@@ -142,7 +142,10 @@ nlohmann::json AlertPolicy::save() const {
                           encounter.within_told, elsewhere_.contains({key.first, key}), loss,
                           encounter.silence_told});
   }
-  return {{"encounters", encounters}, {"second", second_}, {"written", written_}, {"refused", refused_}};
+  return {{"encounters", encounters},
+          {"second", second_},
+          {"written", written_},
+          {"refused", {refused_.since, refused_.alerts}}};
 }
 
 void AlertPolicy::restore(const nlohmann::json& state) {
@@ -156,7 +159,7 @@ void AlertPolicy::restore(const nlohmann::json& state) {
   }
   second_ = state.at("second");
   written_ = state.at("written");
-  refused_ = state.at("refused");
+  refused_ = {state.at("refused").at(0), state.at("refused").at(1)};
 }
 
 }  // namespace kinesphere::program

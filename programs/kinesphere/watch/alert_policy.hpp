@@ -96,7 +96,8 @@ class AlertPolicy {
   std::map<Key, Encounter> encounters_;
   std::set<std::pair<TrackId, Key>> elsewhere_;  ///< encounters that are not told for that, by both tracks
   double second_ = 0.0;                          ///< begin of the second that is counted
-  std::uint64_t written_ = 0, refused_ = 0;      ///< in that second
+  std::uint64_t written_ = 0;                    ///< in that second
+  Refused refused_;
 };
 
 }  // namespace kinesphere::program

@@ -53,6 +53,7 @@ class TrackGroups {
   std::vector<Cell> forget_before(double time);
   /// Returns the number of tracks that stand.
   std::size_t size() const { return standing_.size(); }
+  bool contains(TrackId track) const { return standing_.contains(track); }
 
   nlohmann::json save() const;
   void restore(const nlohmann::json& state);

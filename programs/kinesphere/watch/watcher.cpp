@@ -537,6 +537,7 @@ std::string Watcher::group_name(const TrackGroups::Cell& group) const {
 bool Watcher::watch_as_group(const SourceReport& report, TrackId id, const TrackReport& on_map,
                              const NamedTrack& track) {
   if (report.id == settings_.own) return false;
+  if (groups_->size() >= settings_.most_tracks && !groups_->contains(id)) return false;
   std::optional<double> speed;
   if (report.velocity) speed = norm(*report.velocity);
   const auto outcome = groups_->take(id, on_map.state.position, speed, on_map.timestamp);

@@ -90,6 +90,21 @@ TEST(AlertPolicy, TellsTheEndOfWhatItHasTold) {
   EXPECT_TRUE(policy.encounters_of(1).empty());
 }
 
+TEST(AlertPolicy, CountsWhatItRefusesBySecond) {
+  AlertPolicy policy({}, 2);
+  EXPECT_TRUE(policy.has_room(7.2));
+  EXPECT_TRUE(policy.has_room(7.2));
+  EXPECT_FALSE(policy.has_room(7.5));
+  EXPECT_FALSE(policy.has_room(7.9));
+  EXPECT_FALSE(policy.refused_before(7.9));
+  EXPECT_TRUE(policy.has_room(9.5));
+  const auto refused = policy.refused_before(9.5);
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->since, 7.0);
+  EXPECT_EQ(refused->alerts, 2u);
+  EXPECT_FALSE(policy.refused_before(100.0)) << "once";
+}
+
 TEST(AlertPolicy, ASnapshotGoesOnAlike) {
   constexpr std::uint64_t seed = 12;
   Random random(seed);

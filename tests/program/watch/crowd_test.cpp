@@ -50,6 +50,21 @@ TEST_F(WatchedCrowd, IdsWithoutEndAreNotTakenBeyondALimit) {
   EXPECT_EQ(summary_["tracks"], 500);
 }
 
+/// Ids without end at one place, where they are a group.
+TEST_F(WatchedCrowd, AGroupHasNoMoreMembersThanTracksMayBe) {
+  std::string text;
+  for (int k = 0; k < 500; ++k)
+    text += fmt::format(R"({{"id": "spoof{}", "stamp": {}, "position": [1, 1, 1], "velocity": [0, 0, 0]}})"
+                        "\n",
+                        k, 0.01 * k);
+  const ProgramRun result = watch(text, "--most-tracks 100");
+  EXPECT_EQ(summary_["groups"], 1);
+  // The first nineteen tracks were watched by themselves before.
+  EXPECT_LE(summary_["tracks"], 100);
+  EXPECT_GT(summary_["grouped"], 50);
+  EXPECT_GT(summary_["crowded"], 250);
+}
+
 TEST_F(WatchedCrowd, NewTracksAreNotTakenWhileHalfOfTheOpenPairsThatMayBeAre) {
   std::string text;
   for (int k = 0; k < 400; ++k) text += report_line("here" + std::to_string(k), 0.001 * k, 0.01 * k);
