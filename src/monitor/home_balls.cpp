@@ -27,16 +27,25 @@ std::size_t HomeBalls::HashOfCell::operator()(const Cell& cell) const {
 }
 
 void HomeBalls::add(std::uint32_t number, const HomeBall& ball) {
-  const int level = level_of_ball(ball);
-  levels_[level][cell_at(ball.centre, power_of_two(level))].push_back({number, ball});
+  const int exponent = level_of_ball(ball);
+  const Cell cell = cell_at(ball.centre, power_of_two(exponent));
+  const auto [at, is_new] = levels_.try_emplace(exponent);
+  Level& level = at->second;
+  if (is_new) level.lowest = level.highest = cell;
+  for (std::size_t axis = 0; axis < cell.size(); ++axis) {
+    level.lowest[axis] = std::min(level.lowest[axis], cell[axis]);
+    level.highest[axis] = std::max(level.highest[axis], cell[axis]);
+  }
+  level.cells[cell].push_back({number, ball});
 }
 
 void HomeBalls::remove(std::uint32_t number, const HomeBall& ball) {
   const auto level = levels_.find(level_of_ball(ball));
-  const auto cell = level->second.find(cell_at(ball.centre, power_of_two(level->first)));
+  auto& cells = level->second.cells;
+  const auto cell = cells.find(cell_at(ball.centre, power_of_two(level->first)));
   std::erase_if(cell->second, [number](const Entry& entry) { return entry.number == number; });
-  if (cell->second.empty()) level->second.erase(cell);
-  if (level->second.empty()) levels_.erase(level);
+  if (cell->second.empty()) cells.erase(cell);
+  if (cells.empty()) levels_.erase(level);
 }
 
 std::vector<std::uint32_t> HomeBalls::touching(const HomeBall& ball) const {
@@ -45,15 +54,20 @@ std::vector<std::uint32_t> HomeBalls::touching(const HomeBall& ball) const {
     for (const Entry& entry : entries)
       if (touch(entry.ball, ball)) numbers.push_back(entry.number);
   };
-  for (const auto& [level, cells] : levels_) {
-    const double edge = power_of_two(level);
+  for (const auto& [exponent, level] : levels_) {
+    const auto& cells = level.cells;
+    const double edge = power_of_two(exponent);
     // Balls of a level reach out of their cells by half an edge at most.
     const double reach = ball.radius + 0.5 * edge;
     const Vec3 corner{reach, reach, reach};
-    const Cell low = cell_at(ball.centre - corner, edge);
-    const Cell high = cell_at(ball.centre + corner, edge);
+    Cell low = cell_at(ball.centre - corner, edge);
+    Cell high = cell_at(ball.centre + corner, edge);
     double count = 1.0;
-    for (std::size_t axis = 0; axis < 3; ++axis) count *= static_cast<double>(high[axis] - low[axis] + 1);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::max(low[axis], level.lowest[axis]);
+      high[axis] = std::min(high[axis], level.highest[axis]);
+      count *= static_cast<double>(std::max(high[axis] - low[axis] + 1, std::int64_t{0}));
+    }
     if (count > static_cast<double>(cells.size())) {
       for (const auto& [cell, entries] : cells) add_touching(entries);
       continue;

@@ -46,7 +46,11 @@ class HomeBalls {
     std::uint32_t number;
     HomeBall ball;
   };
-  using Level = std::unordered_map<Cell, std::vector<Entry>, HashOfCell>;
+  struct Level {
+    std::unordered_map<Cell, std::vector<Entry>, HashOfCell> cells;
+    /// No cell with a ball has an index below or above these.
+    Cell lowest{}, highest{};
+  };
 
   std::map<int, Level> levels_;  ///< by the binary logarithm of the edge of their cells
 };

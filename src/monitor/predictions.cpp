@@ -9,7 +9,7 @@ namespace {
 
 /// A home contains the path for this part of the look-ahead time longer: more makes larger homes, with more
 /// near tracks, less makes more searches.
-constexpr double look_ahead_to_spare = 0.25;
+constexpr double look_ahead_to_spare = 0.75;
 /// Room for other paths, in parts of the length of the path.
 constexpr double room_beside_path = 0.1;
 
