@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <string>
 #include <string_view>
 
 namespace kinesphere::program {
@@ -11,6 +12,15 @@ inline constexpr std::string_view blanks = " \t\r";
 
 /// Returns the lower-case letter of A to Z, and any other character unchanged.
 constexpr char lower_case(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+constexpr bool is_control(char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }
+
+/// Returns the text with blanks for control characters, so that it can neither add lines to a message nor
+/// move the cursor of a terminal.
+inline std::string without_controls(std::string text) {
+  std::ranges::replace_if(text, is_control, ' ');
+  return text;
+}
 
 /// Returns true if the names are equal, ignoring the case of A to Z.
 constexpr bool same_name(std::string_view a, std::string_view b) {

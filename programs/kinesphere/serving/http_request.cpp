@@ -30,8 +30,6 @@ bool is_token(std::string_view text) {
   });
 }
 
-bool is_control(char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }
-
 std::optional<int> hexadecimal(char c) {
   if (c >= '0' && c <= '9') return c - '0';
   if (lower_case(c) >= 'a' && lower_case(c) <= 'f') return lower_case(c) - 'a' + 10;

@@ -26,10 +26,10 @@ AlertFate AlertPolicy::take(MonitorEvent& event, bool is_in_area) {
   if (fate == AlertFate::written && !has_room(event.time)) fate = AlertFate::too_many;
   if (begins(event, encounter)) {
     (is_verdict(event) ? encounter.within_since : encounter.predicted_since) = event.time;
-    if (fate == AlertFate::elsewhere) set_elsewhere(key, true);
+    if (fate == AlertFate::elsewhere) encounter.is_elsewhere = true;
     if (fate == AlertFate::written) {
       (is_verdict(event) ? encounter.within_told : encounter.predicted_told) = true;
-      set_elsewhere(key, false);
+      encounter.is_elsewhere = false;
     }
   } else if (is_verdict(event) && encounter.within && !kinds_.undecided) {
     event.before = Verdict::within;
@@ -40,10 +40,9 @@ AlertFate AlertPolicy::take(MonitorEvent& event, bool is_in_area) {
   else if (event.verdict != Verdict::undecided)
     encounter.within = event.verdict == Verdict::within;
   if (encounter.predicted || encounter.within) {
-    encounters_.insert_or_assign(key, encounter);
+    put(key, encounter);
   } else if (found != encounters_.end()) {
-    encounters_.erase(found);
-    set_elsewhere(key, false);
+    erase(key);
   }
   return fate;
 }
@@ -70,11 +69,11 @@ AlertFate AlertPolicy::fate_of(const MonitorEvent& event, const Encounter& encou
 
 std::vector<MonitorEvent> AlertPolicy::enter_area(TrackId track, double time) {
   std::vector<MonitorEvent> events;
-  for (auto at = elsewhere_.lower_bound({track, Key{}}); at != elsewhere_.end() && at->first == track;) {
-    const Key key = at->second;
-    ++at;
+  for (const Key& key : encounters_of(track)) {
     Encounter& encounter = encounters_.at(key);
+    if (!encounter.is_elsewhere) continue;
     if (!has_room(time)) break;
+    encounter.is_elsewhere = false;
     MonitorEvent event{.time = time, .first = key.first, .second = key.second, .level = key.level};
     if (encounter.within && kinds_.within) {
       event.verdict = Verdict::within;
@@ -82,35 +81,33 @@ std::vector<MonitorEvent> AlertPolicy::enter_area(TrackId track, double time) {
       encounter.within_told = true;
     } else {
       event.kind = MonitorEventKind::predicted;
-      encounter.predicted_told = true;
       event.since = encounter.predicted_since;
+      encounter.predicted_told = true;
     }
     events.push_back(event);
   }
-  for (const MonitorEvent& event : events) set_elsewhere({event.first, event.second, event.level}, false);
   return events;
 }
 
-void AlertPolicy::set_elsewhere(const Key& key, bool is_elsewhere) {
-  for (const TrackId track : {key.first, key.second})
-    if (is_elsewhere)
-      elsewhere_.insert({track, key});
-    else
-      elsewhere_.erase({track, key});
+void AlertPolicy::put(const Key& key, const Encounter& encounter) {
+  if (encounters_.insert_or_assign(key, encounter).second)
+    for (const TrackId track : {key.first, key.second}) by_track_.insert({track, key});
+}
+
+void AlertPolicy::erase(const Key& key) {
+  encounters_.erase(key);
+  for (const TrackId track : {key.first, key.second}) by_track_.erase({track, key});
 }
 
 std::vector<AlertPolicy::Key> AlertPolicy::encounters_of(TrackId track) const {
   std::vector<Key> keys;
-  for (const auto& [key, encounter] : encounters_)
-    if (key.first == track || key.second == track) keys.push_back(key);
+  for (auto at = by_track_.lower_bound({track, Key{}}); at != by_track_.end() && at->first == track; ++at)
+    keys.push_back(at->second);
   return keys;
 }
 
 void AlertPolicy::forget(TrackId track) {
-  for (const Key& key : encounters_of(track)) {
-    encounters_.erase(key);
-    set_elsewhere(key, false);
-  }
+  for (const Key& key : encounters_of(track)) erase(key);
 }
 
 bool AlertPolicy::has_room(double time) {
@@ -139,8 +136,7 @@ nlohmann::json AlertPolicy::save() const {
     if (encounter.loss) loss = {encounter.loss->closest_time, encounter.loss->closest_distance};
     encounters.push_back({key.first, key.second, key.level, encounter.predicted, encounter.within,
                           encounter.predicted_since, encounter.within_since, encounter.predicted_told,
-                          encounter.within_told, elsewhere_.contains({key.first, key}), loss,
-                          encounter.silence_told});
+                          encounter.within_told, encounter.is_elsewhere, loss, encounter.silence_told});
   }
   return {{"encounters", encounters},
           {"second", second_},
@@ -154,8 +150,8 @@ void AlertPolicy::restore(const nlohmann::json& state) {
     Encounter encounter{saved.at(3), saved.at(4), saved.at(5), saved.at(6), saved.at(7), saved.at(8)};
     if (const nlohmann::json& loss = saved.at(10); !loss.is_null()) encounter.loss = {loss.at(0), loss.at(1)};
     encounter.silence_told = saved.at(11);
-    encounters_.emplace(key, encounter);
-    if (saved.at(9)) set_elsewhere(key, true);
+    encounter.is_elsewhere = saved.at(9);
+    put(key, encounter);
   }
   second_ = state.at("second");
   written_ = state.at("written");

@@ -43,6 +43,7 @@ struct Encounter {
   };
   std::optional<Loss> loss{};
   bool silence_told = false;  ///< an alert has told that one of the two became stale
+  bool is_elsewhere = false;  ///< its begin is not told because neither track was in an area
 };
 
 /// The policy. If changes of `undecided` are asked for, every event of a kind that is asked for is written.
@@ -65,13 +66,13 @@ class AlertPolicy {
   /// Where the event is written, `before` and `since` of a verdict are set to what alerts have told.
   AlertFate take(MonitorEvent& event, bool is_in_area);
   /// Returns the events that tell of encounters of a track which begin for the reader when the track enters
-  /// an area. Cost: O(log(encounters) + encounters of the track outside of areas).
+  /// an area. Cost: O(log(encounters) + encounters of the track).
   std::vector<MonitorEvent> enter_area(TrackId track, double time);
-  /// Returns the encounters of a track. Cost: O(encounters).
+  /// Returns the encounters of a track. Cost: O(log(encounters) + encounters of the track).
   std::vector<Key> encounters_of(TrackId track) const;
   /// Precondition: there is this encounter.
   Encounter& encounter(const Key& key) { return encounters_.at(key); }
-  /// Ends the encounters of a track without an event. Cost: O(encounters).
+  /// Ends the encounters of a track without an event. Cost: O(log(encounters)) for each of them.
   void forget(TrackId track);
 
   /// Counts one more alert at this time. Returns false if there are too many in its second.
@@ -89,14 +90,15 @@ class AlertPolicy {
 
  private:
   AlertFate fate_of(const MonitorEvent& event, const Encounter& encounter) const;
-  void set_elsewhere(const Key& key, bool is_elsewhere);
+  void put(const Key& key, const Encounter& encounter);
+  void erase(const Key& key);
 
   AlertKinds kinds_;
   std::uint64_t most_;  ///< alerts per second
   std::map<Key, Encounter> encounters_;
-  std::set<std::pair<TrackId, Key>> elsewhere_;  ///< encounters that are not told for that, by both tracks
-  double second_ = 0.0;                          ///< begin of the second that is counted
-  std::uint64_t written_ = 0;                    ///< in that second
+  std::set<std::pair<TrackId, Key>> by_track_;  ///< the keys of encounters_, by each of their two tracks
+  double second_ = 0.0;                         ///< begin of the second that is counted
+  std::uint64_t written_ = 0;                   ///< in that second
   Refused refused_;
 };
 

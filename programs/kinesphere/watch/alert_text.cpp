@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
+
+#include "ascii_text.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -43,10 +46,10 @@ std::string length_text(const AlertContext& context, double length) {
   return length < 10e3 ? fmt::format("{:.0f} m", length) : fmt::format("{:.1f} km", length / 1e3);
 }
 
-/// Returns the name of a track, or its id if it has none.
+/// Returns the name of a track, or its id if it has none. Both are text of the stream.
 std::string name_in_text(const AlertContext& context, TrackId id) {
   const NamedTrack* const track = context.names.find(id);
-  return track != nullptr && !track->name.empty() ? track->name : context.names.text(id);
+  return without_controls(track != nullptr && !track->name.empty() ? track->name : context.names.text(id));
 }
 
 std::string pair_text(const AlertContext& context, TrackId one, TrackId other) {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "ascii_text.hpp"
 #include "program_error.hpp"
 
 namespace kinesphere::program {
@@ -109,11 +110,7 @@ void Watcher::refuse(std::size_t line, const std::string& reason) {
   ++counts_.malformed;
   const bool is_too_much = counts_.malformed > settings_.most_malformed;
   if (counts_.first_malformed.size() == most_told && !is_too_much) return;
-  // Text of the stream may not add lines to the message, or move the cursor.
-  std::string text = reason;
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; },
-      ' ');
+  const std::string text = without_controls(reason);
   if (counts_.first_malformed.size() < most_told) counts_.first_malformed.push_back({line, text});
   if (is_too_much)
     throw ProgramError(fmt::format("{}:{}: {}; that makes {} malformed, and --most-malformed allows {}",

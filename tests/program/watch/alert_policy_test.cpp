@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -227,6 +228,47 @@ TEST_F(WatchPolicy, ACapSaysWhatItHoldsBack) {
   EXPECT_EQ(lines[10]["alerts"], 15 * 14 / 2 - 10);
   EXPECT_EQ(lines[10]["since"], 0);
   EXPECT_EQ(summary_["held_back_as_too_many"], 95);
+}
+
+TEST_F(WatchPolicy, TextOfTheStreamAddsNoLinesToTextAlerts) {
+  std::string stream;
+  for (const char* track :
+       {R"("id": "a\nb", "name": "\u001b[2JEvil\n00:00:00Z  within")", R"("id": "c\r\nd")"})
+    stream += fmt::format("{{{}, \"stamp\": 1, \"position\": [0, 0, 0], \"velocity\": [0, 0, 0]}}\n", track);
+  const ProgramRun result =
+      run("watch " + write("s.jsonl", stream) +
+          " --separation sphere:50 --acceleration 1 --position-error 1 --velocity-error 1 "
+          "--look-ahead 0 --text --quiet");
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1) << result.out;
+  EXPECT_EQ(result.out.find_first_of("\x1b\r"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("Evil"), std::string::npos) << result.out;
+}
+
+TEST(AlertPolicy, KnowsTheEncountersOfEachTrack) {
+  constexpr std::uint64_t seed = 13;
+  Random random(seed);
+  AlertPolicy policy({}, any_number);
+  std::set<std::pair<TrackId, TrackId>> on;
+  for (int k = 0; k < 3000; ++k) {
+    MonitorEvent event = prediction(k, random.uniform() < 0.6);
+    event.first = static_cast<TrackId>(random.uniform(0.0, 9.0));
+    event.second = event.first + 1 + static_cast<TrackId>(random.uniform(0.0, 9.0));
+    const std::pair pair{event.first, event.second};
+    if (event.kind == Kind::predicted)
+      on.insert(pair);
+    else
+      on.erase(pair);
+    policy.take(event, true);
+    const auto gone = static_cast<TrackId>(random.uniform(0.0, 500.0));
+    policy.forget(gone);
+    std::erase_if(on, [gone](const auto& each) { return each.first == gone || each.second == gone; });
+    for (TrackId track = 0; track < 20; ++track)
+      ASSERT_EQ(policy.encounters_of(track).size(),
+                static_cast<std::size_t>(std::count_if(
+                    on.begin(), on.end(),
+                    [track](const auto& each) { return each.first == track || each.second == track; })))
+          << "seed " << seed << ", event " << k << ", track " << track;
+  }
 }
 
 /// A hangar: 60 tracks that stand at one place; another one comes near.

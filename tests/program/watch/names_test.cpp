@@ -8,6 +8,7 @@
 
 #include "program/watch/ais/ais_encoder.hpp"
 #include "separations.hpp"
+#include "watch/ais/ais_message.hpp"
 #include "watch/known_names.hpp"
 #include "watch/report_format.hpp"
 #include "watch/watch_report.hpp"

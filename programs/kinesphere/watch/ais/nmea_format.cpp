@@ -10,11 +10,11 @@
 #include "columns/units.hpp"
 #include "watch/ais/ais_message.hpp"
 #include "watch/ais/nmea_line.hpp"
-#include "watch/ais/recent_ships.hpp"
 #include "watch/ais/sentence_assembler.hpp"
 #include "watch/ground_speed.hpp"
 #include "watch/json_reading.hpp"
 #include "watch/known_names.hpp"
+#include "watch/recent_values.hpp"
 #include "watch/report_format.hpp"
 #include "watch/stream_clock.hpp"
 
@@ -271,8 +271,8 @@ class NmeaFormat final : public ReportFormat {
   double accuracy_bound_;
   std::string accuracy_declaration_;
   SentenceAssembler assembler_;
-  RecentShips<double> sizes_;  ///< radii of ships, in metres
-  RecentShips<int> types_;     ///< types of ship and cargo
+  RecentValues<std::uint32_t, double> sizes_;  ///< radii of ships, in metres
+  RecentValues<std::uint32_t, int> types_;     ///< types of ship and cargo
   KnownNames names_;
   std::string id_, type_text_, status_text_;
   // The group of lines of the latest tag block that has one, and its time.

@@ -9,8 +9,8 @@
 
 #include "columns/units.hpp"
 #include "program/watch/ais/ais_encoder.hpp"
-#include "watch/ais/recent_ships.hpp"
 #include "watch/ais/sentence_assembler.hpp"
+#include "watch/recent_values.hpp"
 #include "watch/report_format.hpp"
 
 namespace kinesphere::program::nmea_format_test {
@@ -244,8 +244,8 @@ TEST(SentenceAssembler, KeepsFewSentencesOnly) {
   }
 }
 
-TEST(RecentShips, AreBounded) {
-  using Sizes = RecentShips<double>;
+TEST(RecentValues, AreBounded) {
+  using Sizes = RecentValues<std::uint32_t, double>;
   Sizes sizes;
   sizes.set(1, 10.0);
   for (std::uint32_t mmsi = 2; mmsi < 10 * Sizes::most; ++mmsi) {
