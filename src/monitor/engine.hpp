@@ -71,7 +71,7 @@ class Monitor::Engine {
   Result<void> check(TrackId id, const TrackReport& report, const char* call) const;
   /// Selects when new hypotheses enter the broad phase: immediately, or at the next start of windows.
   enum class Placing { now, later };
-  void take(TrackId id, const TrackReport& report, Placing placing);
+  std::uint32_t take(TrackId id, const TrackReport& report, Placing placing);
   void place(std::uint32_t number);
   void drop(std::uint32_t number, MonitorEventKind kind);
   void predict(std::uint32_t number);

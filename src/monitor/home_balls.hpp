@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <unordered_map>
 #include <vector>
 
 #include "kinesphere/vec3.hpp"
@@ -14,7 +13,7 @@ namespace kinesphere {
 
 struct HomeBall {
   Vec3 centre{};
-  double radius = 0.0;  ///< length, > 0
+  double radius = 0.0;  ///< length, > 0; 0: no ball
 
   static void serialize(auto& self, auto& archive) {
     auto& [centre, radius] = self;
@@ -25,34 +24,44 @@ inline bool touch(const HomeBall& a, const HomeBall& b) {
   return norm(a.centre - b.centre) <= a.radius + b.radius;
 }
 
-/// Numbered balls in a hierarchy of grids. A ball is in the level whose cells are once or twice as wide as
-/// it, in the cell of its centre.
+/// Numbered balls in a hierarchy of grids. A ball is in the level whose cells are one to four times as wide
+/// as it, in the cell of its centre. The cells of all levels share one hash table.
 class HomeBalls {
  public:
   /// Adds a ball. Precondition: there is none with this number.
   void add(std::uint32_t number, const HomeBall& ball);
-  /// Removes a ball that add() has added.
-  void remove(std::uint32_t number, const HomeBall& ball);
+  /// Removes the ball with this number. Precondition: there is one.
+  void remove(std::uint32_t number);
   /// Returns the numbers of the balls that touch this one, in ascending order. Cost: that of the cells around
   /// the ball in each level, at most that of all balls.
   std::vector<std::uint32_t> touching(const HomeBall& ball) const;
 
  private:
   using Cell = std::array<std::int64_t, 3>;
-  struct HashOfCell {
-    std::size_t operator()(const Cell& cell) const;
-  };
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
   struct Entry {
-    std::uint32_t number;
-    HomeBall ball;
+    HomeBall ball{};
+    std::uint32_t next = none;  ///< number of the next ball whose cell has the same hash
   };
   struct Level {
-    std::unordered_map<Cell, std::vector<Entry>, HashOfCell> cells;
+    std::size_t balls = 0;
     /// No cell with a ball has an index below or above these.
     Cell lowest{}, highest{};
   };
+  struct Range {
+    int exponent;
+    Cell lowest, highest;
+  };
 
-  std::map<int, Level> levels_;  ///< by the binary logarithm of the edge of their cells
+  static Cell cell_at(const Vec3& place, int exponent);
+  std::size_t bucket_of(int exponent, const Cell& cell) const;
+  std::size_t bucket_of(const HomeBall& ball) const;
+  void grow();
+
+  std::vector<Entry> entries_;        ///< by number
+  std::vector<std::uint32_t> first_;  ///< first ball of each bucket; a power of two of them
+  std::map<int, Level> levels_;       ///< by the binary logarithm of the edge of their cells
+  std::size_t balls_ = 0;
 };
 
 }  // namespace kinesphere

@@ -59,7 +59,7 @@ void Predictions::set_path(std::uint32_t number, TrackId id, std::size_t track_c
 void Predictions::remove(std::uint32_t number) {
   if (number >= tracks_.size() || !tracks_[number].present) return;
   while (!tracks_[number].near.empty()) part(number, tracks_[number].near.back());
-  homes_.remove(number, tracks_[number].home);
+  homes_.remove(number);
   tracks_[number] = {};
 }
 
@@ -91,7 +91,7 @@ bool Predictions::stays_home(const Track& track, double now) const {
 /// stays near until that has ended.
 void Predictions::find_home(std::uint32_t number, double now) {
   Track& track = tracks_[number];
-  if (track.home.radius > 0.0) homes_.remove(number, track.home);
+  if (track.home.radius > 0.0) homes_.remove(number);
   const double look_ahead = separations_->look_ahead(track.track_class);
   track.until = std::max(now + look_ahead_to_spare * look_ahead, std::nextafter(now, infinity));
   const double half = 0.5 * (track.until - now + look_ahead);
@@ -102,31 +102,56 @@ void Predictions::find_home(std::uint32_t number, double now) {
   const std::vector<std::uint32_t> touching = homes_.touching(track.home);
   homes_.add(number, track.home);
   const std::vector<std::uint32_t> before = track.near;
-  for (const std::uint32_t other : before)
-    if (!std::binary_search(touching.begin(), touching.end(), other) &&
-        !pairs_.find(number, other)->is_predicted())
-      part(number, other);
+  for (const std::uint32_t other : before) {
+    if (std::binary_search(touching.begin(), touching.end(), other)) continue;
+    const PairPrediction* pair = find_pair(number, other);
+    if (pair == nullptr || !pair->is_predicted()) part(number, other);
+  }
   for (const std::uint32_t other : touching)
     if (!std::binary_search(before.begin(), before.end(), other)) meet(number, other);
 }
 
+PairPrediction* Predictions::find_pair(std::uint32_t a, std::uint32_t b) {
+  return tracks_[a].pairs > 0 && tracks_[b].pairs > 0 ? pairs_.find(a, b) : nullptr;
+}
+
+/// Precondition: the pair has no PairPrediction.
+PairPrediction& Predictions::add_pair(std::uint32_t a, std::uint32_t b, std::size_t levels) {
+  ++tracks_[a].pairs;
+  ++tracks_[b].pairs;
+  PairPrediction& pair = pairs_.add(a, b);
+  pair.levels.resize(levels);
+  return pair;
+}
+
+/// Removes the PairPrediction of a pair, if it has one.
+void Predictions::remove_pair(std::uint32_t a, std::uint32_t b) {
+  if (find_pair(a, b) == nullptr) return;
+  --tracks_[a].pairs;
+  --tracks_[b].pairs;
+  pairs_.remove(a, b);
+}
+
 void Predictions::meet(std::uint32_t a, std::uint32_t b) {
-  const std::size_t levels = levels_of(tracks_[a], tracks_[b]).size();
-  if (levels == 0) return;
-  pairs_.add(a, b).levels.resize(levels);
+  if (levels_of(tracks_[a], tracks_[b]).empty()) return;
   insert_sorted(tracks_[a].near, b);
   insert_sorted(tracks_[b].near, a);
 }
 
 void Predictions::part(std::uint32_t a, std::uint32_t b) {
-  pairs_.remove(a, b);
+  remove_pair(a, b);
   erase_sorted(tracks_[a].near, b);
   erase_sorted(tracks_[b].near, a);
 }
 
 void Predictions::decide_all(std::uint32_t number, double now, std::vector<MonitorEvent>& events) {
-  const std::vector<std::uint32_t> near = tracks_[number].near;
-  for (const std::uint32_t other : near) decide(number, other, now, events);
+  const std::vector<std::uint32_t>& near = tracks_[number].near;
+  for (std::size_t k = 0; k < near.size();) {
+    const std::uint32_t other = near[k];
+    decide(number, other, now, events);
+    // A pair whose prediction has ended may have parted.
+    if (k < near.size() && near[k] == other) ++k;
+  }
 }
 
 /// Returns how the two pass each other at the separation that decides whether they are predicted: the
@@ -142,16 +167,15 @@ StraightPass Predictions::judge(const State& first, const State& second, const C
 void Predictions::decide(std::uint32_t a, std::uint32_t b, double now, std::vector<MonitorEvent>& events) {
   const Track& one = tracks_[a];
   const Track& other = tracks_[b];
-  PairPrediction& pair = *pairs_.find(a, b);
   const State first = one.path.state_at(now), second = other.path.state_at(now);
-  const bool was_predicted = pair.is_predicted();
-  const double reach = margin(one) + margin(other);
-  if (!was_predicted && !may_meet(first, second, reach)) {
-    pair.due = infinity;
-    for (LevelPrediction& level : pair.levels) level.holds = false;
+  PairPrediction* known = find_pair(a, b);
+  const bool was_predicted = known != nullptr && known->is_predicted();
+  if (!was_predicted && !may_meet(first, second, margin(one) + margin(other))) {
+    if (known != nullptr) remove_pair(a, b);
     return;
   }
   const std::span<const Components> levels = levels_of(one, other);
+  PairPrediction& pair = known != nullptr ? *known : add_pair(a, b, levels.size());
   const double hold = definition_->prediction_hold;
   const double resolution = std::max(definition_->time_resolution, std::abs(now) * 0x1p-50);
   double due = infinity;
@@ -235,6 +259,10 @@ bool Predictions::restore(std::span<const std::optional<TrackKey>> tracks, doubl
   if (!is_valid(now)) return false;
   for (std::uint32_t number = 0; number < tracks_.size(); ++number)
     if (tracks_[number].present) homes_.add(number, tracks_[number].home);
+  pairs_.for_each([&](std::uint32_t a, std::uint32_t b, const PairPrediction&) {
+    ++tracks_[a].pairs;
+    ++tracks_[b].pairs;
+  });
   index_due();
   return true;
 }
@@ -243,7 +271,6 @@ bool Predictions::is_valid(double now) const {
   const auto is_present = [&](std::uint32_t number) {
     return number < tracks_.size() && tracks_[number].present;
   };
-  std::size_t partners = 0;
   for (std::uint32_t number = 0; number < tracks_.size(); ++number) {
     const Track& track = tracks_[number];
     if (!track.present) {
@@ -260,19 +287,19 @@ bool Predictions::is_valid(double now) const {
         std::isfinite(track.home.radius) && track.home.radius >= separations_->margin(track.track_class) &&
         norm(track.home.centre) <= most_radii * track.home.radius && std::isfinite(track.until);
     if (!is_sound) return false;
-    partners += track.near.size();
     for (std::size_t k = 0; k < track.near.size(); ++k) {
       const std::uint32_t other = track.near[k];
       if ((k > 0 && track.near[k - 1] >= other) || !is_present(other) || other == number ||
-          pairs_.find(number, other) == nullptr ||
+          levels_of(track, tracks_[other]).empty() ||
           !std::binary_search(tracks_[other].near.begin(), tracks_[other].near.end(), number))
         return false;
     }
   }
-  bool valid = partners == 2 * pairs_.size();
+  bool valid = true;
   pairs_.for_each([&](std::uint32_t a, std::uint32_t b, const PairPrediction& pair) {
     valid =
-        valid && a < b && is_present(a) && is_present(b) && !std::isnan(pair.due) &&
+        valid && a < b && is_present(a) && is_present(b) &&
+        std::binary_search(tracks_[a].near.begin(), tracks_[a].near.end(), b) && !std::isnan(pair.due) &&
         pair.levels.size() == levels_of(tracks_[a], tracks_[b]).size() &&
         std::all_of(pair.levels.begin(), pair.levels.end(), [](const LevelPrediction& level) {
           return !std::isnan(level.since) && !std::isnan(level.held_since) && !std::isnan(level.held_until);

@@ -66,7 +66,7 @@ struct PairPrediction {
 /// until that time (and the modified tau) after `until`, with a margin of half of the widest separation, and
 /// of the height that it may gain in the modified tau. A pair whose homes do not
 /// touch comes within no separation in its look-ahead time, until one of the two homes ends. All other pairs
-/// are near, and have a PairPrediction.
+/// are near. Of these, pairs that meet if both go straight on, or that are predicted, have a PairPrediction.
 class Predictions {
  public:
   /// The arguments must outlive this object.
@@ -116,9 +116,10 @@ class Predictions {
     HomeBall home{};
     double until = 0.0;
     std::vector<std::uint32_t> near;  ///< ascending
+    std::uint32_t pairs = 0;          ///< number of its PairPredictions
 
     static void serialize(auto& self, auto& archive) {
-      auto& [present, id, track_class, path, home, until, near] = self;
+      auto& [present, id, track_class, path, home, until, near, pairs] = self;
       archive(present, path, home, until, near);
     }
   };
@@ -140,6 +141,9 @@ class Predictions {
   double margin(const Track& track) const;
   bool stays_home(const Track& track, double now) const;
   void find_home(std::uint32_t number, double now);
+  PairPrediction* find_pair(std::uint32_t a, std::uint32_t b);
+  PairPrediction& add_pair(std::uint32_t a, std::uint32_t b, std::size_t levels);
+  void remove_pair(std::uint32_t a, std::uint32_t b);
   void meet(std::uint32_t a, std::uint32_t b);
   void part(std::uint32_t a, std::uint32_t b);
   void decide_all(std::uint32_t number, double now, std::vector<MonitorEvent>& events);

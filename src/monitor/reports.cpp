@@ -13,8 +13,7 @@ namespace kinesphere {
 Result<void> Monitor::Engine::report(TrackId id, const TrackReport& report) {
   if (Result<void> checked = check(id, report, "report"); !checked) return checked;
   if (!has_started_) start_clock(report.timestamp);
-  take(id, report, Placing::now);
-  const std::uint32_t number = *tracks_.find(id);
+  const std::uint32_t number = take(id, report, Placing::now);
   decide_open_pairs(number);
   predict(number);
   return {};
@@ -72,8 +71,8 @@ Result<void> Monitor::Engine::check(TrackId id, const TrackReport& report, const
 }
 
 /// Applies a checked report to its track. The caller decides the track's open pairs afterwards, once all
-/// reports that arrive together are applied.
-void Monitor::Engine::take(TrackId id, const TrackReport& report, Placing placing) {
+/// reports that arrive together are applied. Returns the track's number.
+std::uint32_t Monitor::Engine::take(TrackId id, const TrackReport& report, Placing placing) {
   const TrackClass& track_class = classes_[report.track_class];
   auto known = tracks_.find(id);
   if (known && tracks_[*known].track_class != report.track_class) {
@@ -97,7 +96,7 @@ void Monitor::Engine::take(TrackId id, const TrackReport& report, Placing placin
   quiet_windows_ = 0;
   if (learned.outcome == TrackEstimate::Outcome::repeated) {
     ++counters_.repeated;
-    return;
+    return number;
   }
   ++counters_.reports;
   if (learned.late) ++counters_.late;
@@ -107,7 +106,7 @@ void Monitor::Engine::take(TrackId id, const TrackReport& report, Placing placin
   if (!known) {
     place(number);
     expect_to_hear(number);
-    return;
+    return number;
   }
   if (track.stale && time_ - track.estimate.timestamp() < definition_.stale_after) {
     track.stale = false;
@@ -124,10 +123,11 @@ void Monitor::Engine::take(TrackId id, const TrackReport& report, Placing placin
   }
   if (learned.outcome == TrackEstimate::Outcome::resolves)
     queue({.time = time_, .kind = MonitorEventKind::resolved, .first = id});
-  if (!learned.ends_certainty) return;
+  if (!learned.ends_certainty) return number;
   for (const std::uint32_t other : track.open)
     for (LevelState& state : pair_records_.find(number, other)->levels) state.until = -infinity;
   if (placing == Placing::now) place(number);
+  return number;
 }
 
 /// Enters the track's hypotheses that have no swept sphere yet into the broad phase, adds the pairs that the
