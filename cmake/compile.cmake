@@ -1,5 +1,10 @@
 # Compile options for all code of this project, for g++ and clang++.
 
+# ccache cannot cache compilations with precompiled headers.
+if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES ccache)
+  set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
+endif()
+
 function(kinesphere_compile target)
   # On machines with a fused multiply-add, compilers may contract a * b + c into one rounding. Results would then depend
   # on compiler, optimisation level and machine. Users of the library need no such flag: nothing that they compile from

@@ -7,15 +7,12 @@ include(GoogleTest)
 set(default_data ${PROJECT_SOURCE_DIR}/../shared/data)
 cmake_path(NORMAL_PATH default_data)
 
-# Headers that most tests include are precompiled. ccache cannot cache such compilations.
-if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES ccache)
-  set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
-endif()
+# Headers that most tests include are precompiled.
 set(headers <gtest/gtest.h> <algorithm> <array> <bit> <cmath> <functional> <limits> <map> <memory> <optional>
             <ranges> <set> <span> <string> <tuple> <utility> <variant> <vector>)
 # Targets that use the precompiled headers must be compiled with their options.
 foreach(library kinesphere_test_headers kinesphere_test_headers_little)
-  add_library(${library} OBJECT ${PROJECT_SOURCE_DIR}/tests/support/precompiled.cpp)
+  add_library(${library} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
   target_link_libraries(${library} PRIVATE GTest::gtest)
   kinesphere_compile(${library})
   target_precompile_headers(${library} PRIVATE ${headers})

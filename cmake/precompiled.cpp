@@ -1,0 +1,1 @@
+// Empty: only the headers that are precompiled with it matter.

@@ -1,1 +1,0 @@
-// Empty: only the headers that are precompiled with it matter (tests/CMakeLists.txt).
