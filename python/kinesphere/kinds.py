@@ -57,3 +57,37 @@ class Senses(_Named):
     first = 1
     second = 2
     both = 3
+
+
+class MonitorEventKind(_Named):
+    """Kinds of events of a monitor, in the order in which events of one time come, but for reclassified."""
+
+    verdict = 0
+    """The verdict about two tracks and a separation changes."""
+    predicted = 1
+    """If both go straight on, two tracks come within a separation, in its look-ahead time: no guarantee."""
+    prediction_ended = 2
+    """They have passed each other, or a report shows that they will not come near."""
+    contradiction = 3
+    """A report contradicts the earlier ones of its track."""
+    resolved = 4
+    """A contradiction has ended: later reports show which one was wrong."""
+    stale = 5
+    """The latest report of a track has reached the age stale_after."""
+    resumed = 6
+    """A stale track has reported again."""
+    dropped = 7
+    """A track was removed, or its latest report has reached the age drop_after."""
+    reclassified = 8
+    """A report has given the track another class; it starts anew. Comes before all others of its time."""
+
+
+class Verdict(_Named):
+    """What the reports so far prove about two tracks and a separation."""
+
+    apart = 0
+    """The two certainly are not within the separation."""
+    undecided = 1
+    """The reports prove neither of the other two."""
+    within = 2
+    """They certainly are within it, or outside of it by at most the tolerance."""

@@ -86,6 +86,15 @@ py::object made_array(PyObject* shape, const py::object& dtype, PyObject* memory
   return array;
 }
 
+}  // namespace
+
+void refuse(const Argument& argument, std::string_view expectation, const std::string& found,
+            ErrorCode code) {
+  throw BadResult({code, std::string(argument.name), no_body,
+                   std::string(argument.call) + ": " + std::string(argument.name) + " " +
+                       std::string(expectation) + ", but " + found});
+}
+
 std::uint64_t whole_number(py::handle given, const Argument& argument) {
   const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(given.ptr()));
   if (!index) {
@@ -99,12 +108,11 @@ std::uint64_t whole_number(py::handle given, const Argument& argument) {
   refuse(argument, "must be a whole number from 0 to 2^64 - 1", "is " + text_of(index));
 }
 
-/// Returns the whole numbers of an array of one dimension.
-std::vector<std::uint64_t> whole_numbers(py::handle given, const Argument& argument) {
+std::vector<std::uint64_t> whole_numbers(py::handle given, const Argument& argument, bool* is_signed) {
   const py::object array = as_array(given, argument, "iu", "whole numbers");
-  const py::object wide =
-      array.attr("dtype").attr("kind").cast<std::string>() == "i" ? py::str("i8") : py::str("u8");
-  const py::object plain = numpy("ascontiguousarray")(array, wide);
+  const bool may_be_negative = array.attr("dtype").attr("kind").cast<std::string>() == "i";
+  if (is_signed != nullptr) *is_signed = may_be_negative;
+  const py::object plain = numpy("ascontiguousarray")(array, may_be_negative ? "i8" : "u8");
   Py_buffer buffer{};
   if (PyObject_GetBuffer(plain.ptr(), &buffer, PyBUF_RECORDS_RO) != 0) throw py::error_already_set();
   const std::string shape = shape_of(buffer);
@@ -115,15 +123,6 @@ std::vector<std::uint64_t> whole_numbers(py::handle given, const Argument& argum
   PyBuffer_Release(&buffer);
   if (!is_row) refuse(argument, "must have shape (n,)", "has shape " + shape);
   return values;
-}
-
-}  // namespace
-
-void refuse(const Argument& argument, std::string_view expectation, const std::string& found,
-            ErrorCode code) {
-  throw BadResult({code, std::string(argument.name), no_body,
-                   std::string(argument.call) + ": " + std::string(argument.name) + " " +
-                       std::string(expectation) + ", but " + found});
 }
 
 Numbers::Numbers(py::handle given, const Argument& argument) {

@@ -76,6 +76,12 @@ std::vector<double> each_of(py::handle given, const Argument& argument, std::siz
 ContactEvents contact_events_of(const std::string& name, const Argument& argument);
 /// Reads whole numbers like each_of().
 std::vector<std::uint64_t> each_whole_of(py::handle given, const Argument& argument, std::size_t count);
+/// Reads one whole number from 0 to 2^64 - 1.
+std::uint64_t whole_number(py::handle given, const Argument& argument);
+/// Reads whole numbers of shape (n,). Negative ones come as their bits, with `is_signed` set if there may be
+/// some.
+std::vector<std::uint64_t> whole_numbers(py::handle given, const Argument& argument,
+                                         bool* is_signed = nullptr);
 /// Reads positions and velocities; None for the latter means zero.
 std::vector<State> states_of(py::handle positions, py::handle velocities, std::string_view call, bool plane);
 /// Writes the result of a probe to `states`: two arrays of shape (n, 3) or, in the plane, (n, 2).

@@ -7,6 +7,7 @@
 #include "kinesphere/body_id.hpp"
 #include "kinesphere/sensor.hpp"
 #include "kinesphere/version.hpp"
+#include "monitor.hpp"
 #include "motions.hpp"
 #include "mover.hpp"
 #include "moving.hpp"
@@ -30,6 +31,7 @@ PYBIND11_MODULE(_kinesphere, module) {
   bind_replay(module);
   bind_scenes(module);
   bind_tracks(module);
+  bind_monitor(module);
   // Users see the names of the package.
   for (const auto& [name, member] : py::reinterpret_borrow<py::dict>(module.attr("__dict__")))
     if (py::isinstance<py::type>(member)) py::setattr(member, "__module__", py::str("kinesphere"));

@@ -44,6 +44,7 @@ class Monitor::Engine {
   /// Returns true while a Poll is being called.
   bool is_asking() const { return asking_; }
 
+  Result<void> check(TrackId id, const TrackReport& report, const char* call) const;
   Result<void> report(TrackId id, const TrackReport& report);
   Result<void> remove(TrackId id);
   Result<std::optional<MonitorEvent>> advance(double until, const Poll* poll);
@@ -68,7 +69,6 @@ class Monitor::Engine {
   const char* first_invalid_part() const;
   bool window_is_valid() const;
 
-  Result<void> check(TrackId id, const TrackReport& report, const char* call) const;
   /// Selects when new hypotheses enter the broad phase: immediately, or at the next start of windows.
   enum class Placing { now, later };
   std::uint32_t take(TrackId id, const TrackReport& report, Placing placing);

@@ -78,6 +78,10 @@ Result<void> Monitor::report(TrackId id, const TrackReport& report) {
   return engine_->report(id, report);
 }
 
+Result<void> Monitor::check_report(TrackId id, const TrackReport& report) const {
+  return engine("check_report").check(id, report, "report");
+}
+
 Result<void> Monitor::remove(TrackId id) {
   if (Result<void> idle = check_idle("remove"); !idle) return idle;
   return engine_->remove(id);

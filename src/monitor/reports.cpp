@@ -1,7 +1,11 @@
 // Handling of reports, and addition and removal of tracks.
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
+#include <limits>
 #include <string>
+#include <string_view>
 
 #include "input/input_check.hpp"
 #include "kinesphere/limits.hpp"
@@ -30,8 +34,13 @@ void Monitor::Engine::predict(std::uint32_t number) {
 }
 
 Result<void> Monitor::Engine::check(TrackId id, const TrackReport& report, const char* call) const {
-  const std::string part = "report of track " + std::to_string(id);
-  const auto subject = [&part](std::string_view field) { return Subject{.argument = part, .part = field}; };
+  // Nearly all reports are valid, so their name is written without an allocation.
+  constexpr std::string_view prefix = "report of track ";
+  std::array<char, prefix.size() + std::numeric_limits<TrackId>::digits10 + 1> text;
+  char* const end =
+      std::to_chars(std::copy(prefix.begin(), prefix.end(), text.data()), text.data() + text.size(), id).ptr;
+  const std::string_view name(text.data(), static_cast<std::size_t>(end - text.data()));
+  const auto subject = [&name](std::string_view field) { return Subject{.argument = name, .part = field}; };
   InputCheck check(call);
   check.finite(subject("timestamp"), report.timestamp)
       .require(std::abs(report.timestamp) <= limits::largest_time, ErrorCode::out_of_range,
@@ -46,6 +55,8 @@ Result<void> Monitor::Engine::check(TrackId id, const TrackReport& report, const
                report.track_class);
   const auto error_bound = [&](std::string_view field, const ErrorBound& value, double most,
                                bool may_be_infinite) {
+    const auto is_valid = [most](double length) { return length >= 0.0 && length <= most; };
+    if (is_valid(value.horizontal()) && is_valid(value.vertical()) && is_valid(value.total())) return;
     for (const double length : {value.horizontal(), value.vertical(), value.total()}) {
       if (may_be_infinite && length == infinity) continue;
       check.not_negative(subject(field), length)

@@ -473,6 +473,8 @@ TEST(Monitor, RefusesWhatCannotBe) {
   report = at(0.0, {});
   report.track_class = 1;
   expect_refused(monitor.report(1, report), ErrorCode::out_of_range, "report of track 1");
+  expect_refused(monitor.check_report(1, report), ErrorCode::out_of_range, "report: report of track 1");
+  EXPECT_TRUE(monitor.check_report(1, at(0.0, {})));
   EXPECT_EQ(monitor.size(), 0u);
   expect_refused(monitor.remove(1), ErrorCode::unknown_body, "track 1");
   expect_refused(monitor.track(1), ErrorCode::unknown_body, "track 1");

@@ -1,0 +1,308 @@
+// What callers can ask of a monitor.
+#include <pybind11/stl.h>
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+#include "errors.hpp"
+#include "exchange.hpp"
+#include "monitor.hpp"
+#include "monitor_reports.hpp"
+
+namespace kinesphere::python {
+namespace {
+
+/// A row of the answers about many pairs.
+struct PairAnswerRecord {
+  TrackId first;
+  TrackId second;
+  std::uint8_t verdict;
+  bool predicted;
+  double since;
+  double until;
+  double lower;
+  double upper;
+  double closest_distance;
+  double closest_time;
+  double closest_horizontal;
+  double closest_vertical;
+  double relative_speed;
+  double likely_time;
+  double inevitable_by;
+  double avoidable_until;
+  TrackId ask;
+  double ask_by;
+};
+
+constexpr Field pair_answer_fields[] = {
+    {"first", "u8", offsetof(PairAnswerRecord, first)},
+    {"second", "u8", offsetof(PairAnswerRecord, second)},
+    {"verdict", "u1", offsetof(PairAnswerRecord, verdict)},
+    {"predicted", "?", offsetof(PairAnswerRecord, predicted)},
+    {"since", "f8", offsetof(PairAnswerRecord, since)},
+    {"until", "f8", offsetof(PairAnswerRecord, until)},
+    {"lower", "f8", offsetof(PairAnswerRecord, lower)},
+    {"upper", "f8", offsetof(PairAnswerRecord, upper)},
+    {"closest_distance", "f8", offsetof(PairAnswerRecord, closest_distance)},
+    {"closest_time", "f8", offsetof(PairAnswerRecord, closest_time)},
+    {"closest_horizontal", "f8", offsetof(PairAnswerRecord, closest_horizontal)},
+    {"closest_vertical", "f8", offsetof(PairAnswerRecord, closest_vertical)},
+    {"relative_speed", "f8", offsetof(PairAnswerRecord, relative_speed)},
+    {"likely_time", "f8", offsetof(PairAnswerRecord, likely_time)},
+    {"inevitable_by", "f8", offsetof(PairAnswerRecord, inevitable_by)},
+    {"avoidable_until", "f8", offsetof(PairAnswerRecord, avoidable_until)},
+    {"ask", "u8", offsetof(PairAnswerRecord, ask)},
+    {"ask_by", "f8", offsetof(PairAnswerRecord, ask_by)},
+};
+
+struct OpenPairRecord {
+  TrackId first;
+  TrackId second;
+  std::uint32_t level;
+  std::uint8_t verdict;
+  double since;
+};
+
+constexpr Field open_pair_fields[] = {
+    {"first", "u8", offsetof(OpenPairRecord, first)}, {"second", "u8", offsetof(OpenPairRecord, second)},
+    {"level", "u4", offsetof(OpenPairRecord, level)}, {"verdict", "u1", offsetof(OpenPairRecord, verdict)},
+    {"since", "f8", offsetof(OpenPairRecord, since)},
+};
+
+constexpr Field predicted_pair_fields[] = {
+    {"first", "u8", offsetof(PredictedPair, first)},
+    {"second", "u8", offsetof(PredictedPair, second)},
+    {"level", "u4", offsetof(PredictedPair, level)},
+    {"since", "f8", offsetof(PredictedPair, since)},
+    {"likely_time", "f8", offsetof(PredictedPair, likely_time)},
+    {"closest_time", "f8", offsetof(PredictedPair, closest_time)},
+    {"closest_distance", "f8", offsetof(PredictedPair, closest_distance)},
+};
+
+constexpr Field report_request_fields[] = {
+    {"track", "u8", offsetof(ReportRequest, track)},
+    {"by", "f8", offsetof(ReportRequest, by)},
+    {"other", "u8", offsetof(ReportRequest, other)},
+};
+
+/// Returns a structured array with a row for each item.
+template <class Record, class Item, class Convert>
+py::object rows_as_table(std::span<const Field> fields, const std::vector<Item>& items, Convert convert) {
+  NewArray table({items.size()}, row_type(fields, sizeof(Record)), sizeof(Record));
+  for (std::size_t k = 0; k < items.size(); ++k) table.data<Record>()[k] = convert(items[k]);
+  return table.take();
+}
+
+py::object answer_pairs(const MonitorHandle& handle, const TrackIds& first, const TrackIds& second,
+                        std::uint32_t level) {
+  if (second.ids.size() != first.ids.size())
+    refuse({"answer", "second"}, "must have one id for each of first, " + std::to_string(first.ids.size()),
+           "has " + std::to_string(second.ids.size()));
+  std::vector<PairAnswerRecord> records;
+  {
+    const py::gil_scoped_release released;
+    for (std::size_t row = 0; row < first.ids.size(); ++row) {
+      const auto found = handle.monitor.answer(first.ids[row], second.ids[row], level);
+      if (!found) throw_of_row(found.error(), "answer", row, false);
+      const PairAnswer& answer = *found;
+      records.push_back({first.ids[row], second.ids[row], static_cast<std::uint8_t>(answer.verdict),
+                         answer.predicted, answer.since, answer.until, answer.lower, answer.upper,
+                         answer.closest_distance, answer.closest_time, answer.closest_horizontal,
+                         answer.closest_vertical, answer.relative_speed, answer.likely_time,
+                         answer.inevitable_by, answer.avoidable_until, answer.ask, answer.ask_by});
+    }
+  }
+  return rows_as_table<PairAnswerRecord>(pair_answer_fields, records,
+                                         [](const PairAnswerRecord& record) { return record; });
+}
+
+py::object answer_of_monitor(MonitorHandle& handle, const py::object& first, const py::object& second,
+                             std::uint32_t level) {
+  const auto turn = handle.take("answer");
+  const TrackIds a = track_ids_of(first, {"answer", "first"}), b = track_ids_of(second, {"answer", "second"});
+  if (!a.is_single || !b.is_single) return answer_pairs(handle, a, b, level);
+  return py::cast(handle.monitor.answer(a.ids.front(), b.ids.front(), level).value());
+}
+
+py::object needed_reports(MonitorHandle& handle, double until) {
+  const auto turn = handle.take("needed");
+  if (std::isnan(until)) refuse({"needed", "until"}, "must be a number", "is nan", ErrorCode::not_finite);
+  return rows_as_table<ReportRequest>(report_request_fields, handle.monitor.needed(until),
+                                      [](const ReportRequest& request) { return request; });
+}
+
+std::string short_text(double number) { return py::str("{:.6g}").format(number).cast<std::string>(); }
+
+std::string answer_text(const PairAnswer& answer) {
+  return "<PairAnswer " + std::string(name_of(answer.verdict)) + " until " + short_text(answer.until) +
+         ": distance " + short_text(answer.lower) + " to " + short_text(answer.upper) +
+         ", closest approach " + short_text(answer.closest_distance) + " at " +
+         short_text(answer.closest_time) + (answer.predicted ? ", predicted>" : ">");
+}
+
+void bind_pair_answer(py::module_& module) {
+  module.attr("pair_answer_dtype") = row_type(pair_answer_fields, sizeof(PairAnswerRecord));
+  py::class_<PairAnswer>(module, "PairAnswer",
+                         "The verdict about two tracks and a separation now, and a forecast; a copy.")
+      .def_property_readonly("verdict", [](const PairAnswer& answer) { return object_of(answer.verdict); })
+      .def_readonly("since", &PairAnswer::since, "-inf for a pair that is apart at all levels.")
+      .def_readonly(
+          "until", &PairAnswer::until,
+          "Until when a certain verdict is true, whatever is reported; before that an undecided one "
+          "does not change by the passing of time alone.")
+      .def_readonly("lower", &PairAnswer::lower,
+                    "The distance now is at least this (length); for a cylinder, that in the plane.")
+      .def_readonly("upper", &PairAnswer::upper, "The distance now is at most this.")
+      .def_readonly(
+          "closest_distance", &PairAnswer::closest_distance,
+          "Of the closest approach if both go straight on from now: an estimate. For a cylinder, in "
+          "the plane.")
+      .def_readonly("closest_time", &PairAnswer::closest_time)
+      .def_readonly("closest_horizontal", &PairAnswer::closest_horizontal,
+                    "The horizontal part of the distance at that time.")
+      .def_readonly("closest_vertical", &PairAnswer::closest_vertical)
+      .def_readonly("relative_speed", &PairAnswer::relative_speed, "Now (length / time); an estimate.")
+      .def_readonly("likely_time", &PairAnswer::likely_time,
+                    "When they first are within the separation if both go straight on; inf if never.")
+      .def_readonly("inevitable_by", &PairAnswer::inevitable_by,
+                    "They certainly are within the separation at some time up to this one, whatever both do "
+                    "within their limits; inf if nothing certain is in sight.")
+      .def_readonly("avoidable_until", &PairAnswer::avoidable_until,
+                    "If both go straight on until then, no accelerations keep them out of the separation "
+                    "after it: an estimate. inf if straight paths do not meet.")
+      .def_readonly("ask", &PairAnswer::ask, "The track whose report would tighten the bounds most.")
+      .def_readonly("ask_by", &PairAnswer::ask_by,
+                    "The time by which that report is needed for the verdict to stay certain.")
+      .def_readonly("predicted", &PairAnswer::predicted,
+                    "True from the event `predicted` to `prediction_ended`.")
+      .def("__repr__", answer_text);
+}
+
+void bind_views_of_monitor(py::module_& module) {
+  using Place = TrackView::Place;
+  py::class_<Place>(module, "TrackPlace", "A place where a track may be: within radius of centre.")
+      .def_property_readonly("centre", [](const Place& place) { return array_of(place.centre); })
+      .def_property_readonly("velocity", [](const Place& place) { return array_of(place.velocity); })
+      .def_readonly("radius", &Place::radius, "An ErrorBound.")
+      .def("__repr__", [](const Place& place) {
+        return py::str("<TrackPlace {!r} within {!r}>")
+            .format(array_of(place.centre), py::cast(place.radius));
+      });
+  py::class_<TrackView>(module, "TrackView", "What a monitor knows about a track now; a copy.")
+      .def_readonly("id", &TrackView::id)
+      .def_readonly("track_class", &TrackView::track_class)
+      .def_readonly("timestamp", &TrackView::timestamp, "Of the latest report.")
+      .def_readonly("stale", &TrackView::stale)
+      .def_readonly("places", &TrackView::places,
+                    "The track certainly is in one of these. There are several only while reports contradict "
+                    "each other.")
+      .def("__repr__", [](const TrackView& view) {
+        return "<TrackView " + std::to_string(view.id) + ", reported for " + short_text(view.timestamp) +
+               (view.stale ? ", stale>" : ">");
+      });
+
+  py::class_<MonitorCounters> counters(module, "MonitorCounters", "What a monitor has done so far; a copy.");
+  const std::pair<const char*, std::uint64_t MonitorCounters::*> members[] = {
+      {"reports", &MonitorCounters::reports},   {"late", &MonitorCounters::late},
+      {"repeated", &MonitorCounters::repeated}, {"contradictions", &MonitorCounters::contradictions},
+      {"polls", &MonitorCounters::polls},       {"windows", &MonitorCounters::windows},
+      {"searches", &MonitorCounters::searches}, {"near_pairs", &MonitorCounters::near_pairs},
+      {"rechecks", &MonitorCounters::rechecks},
+  };
+  for (const auto& [name, member] : members) counters.def_readonly(name, member);
+  counters.def(
+      "__repr__", [members = std::vector(std::begin(members), std::end(members))](const MonitorCounters& of) {
+        std::string text = "<MonitorCounters:";
+        for (const auto& [name, member] : members)
+          text += std::string(text.back() == ':' ? " " : ", ") + std::to_string(of.*member) + " " + name;
+        return text + ">";
+      });
+}
+
+/// A call that only reads the monitor, which is passed to `read`.
+template <class Read>
+auto reading_monitor(const char* call, Read read) {
+  return [call, read](MonitorHandle& handle) {
+    const auto turn = handle.take(call);
+    return read(std::as_const(handle.monitor));
+  };
+}
+
+}  // namespace
+
+void bind_monitor_answers(py::module_& module, MonitorClass& monitor) {
+  bind_pair_answer(module);
+  bind_views_of_monitor(module);
+  monitor
+      .def_property_readonly("time", reading_monitor("time", [](const Monitor& now) { return now.time(); }))
+      .def_property_readonly("counters",
+                             reading_monitor("counters", [](const Monitor& now) { return now.counters(); }))
+      .def("__len__", reading_monitor("len", [](const Monitor& now) { return now.size(); }))
+      .def("__contains__",
+           [](MonitorHandle& handle, const py::object& id) {
+             const auto turn = handle.take("contains");
+             return handle.monitor.contains(track_id_of(id, {"contains", "id"}));
+           })
+      .def("__repr__",
+           reading_monitor("repr",
+                           [](const Monitor& now) {
+                             return py::str("<Monitor of {} tracks at {}>").format(now.size(), now.time());
+                           }))
+      .def("tracks",
+           reading_monitor("tracks", [](const Monitor& now) { return array_of_tracks(now.tracks()); }),
+           "The ids of all tracks, in ascending order: an array of uint64.")
+      .def(
+          "track",
+          [](MonitorHandle& handle, const py::object& id) {
+            const auto turn = handle.take("track");
+            return handle.monitor.track(track_id_of(id, {"track", "id"})).value();
+          },
+          py::arg("id"), "What is known about a track now.")
+      .def("answer", answer_of_monitor, py::arg("first"), py::arg("second"), py::arg("level") = 0,
+           R"(The verdict about two tracks at a level, with its forecast: a PairAnswer.
+
+For arrays of ids, shape (n,), a structured array of pair_answer_dtype, with a row for each pair. Cost: that of
+a recheck of each pair; O(near pairs) where the latest reports alone leave open what was certified before.)")
+      .def("open_pairs",
+           reading_monitor("open_pairs",
+                           [](const Monitor& now) {
+                             return rows_as_table<OpenPairRecord>(
+                                 open_pair_fields, now.open_pairs(), [](const OpenPair& pair) {
+                                   return OpenPairRecord{pair.first, pair.second, pair.level,
+                                                         static_cast<std::uint8_t>(pair.verdict), pair.since};
+                                 });
+                           }),
+           "The pairs that are not certainly apart: a structured array with first, second, level, verdict "
+           "(a number of Verdict) and since, in the order of ids and levels.")
+      .def("predicted_pairs",
+           reading_monitor("predicted_pairs",
+                           [](const Monitor& now) {
+                             return rows_as_table<PredictedPair>(
+                                 predicted_pair_fields, now.predicted_pairs(),
+                                 [](const PredictedPair& pair) { return pair; });
+                           }),
+           "The pairs that are predicted to come within a separation: a structured array with first, second, "
+           "level, since, likely_time, closest_time and closest_distance, in the order of ids and levels.")
+      .def_property_readonly(
+          "open_pair_count",
+          reading_monitor("open_pair_count", [](const Monitor& now) { return now.open_pair_count(); }),
+          "Pairs that are not certainly apart or were not at some time in the current window; about 150 "
+          "bytes each.")
+      .def(
+          "crowd",
+          [](MonitorHandle& handle, std::size_t pairs) {
+            const auto turn = handle.take("crowd");
+            return array_of_tracks(handle.monitor.crowd(pairs));
+          },
+          py::arg("pairs"),
+          "Tracks whose removal reduces open_pair_count to at most `pairs`, those with most open pairs "
+          "first.")
+      .def("needed", needed_reports, py::arg("until"),
+           R"(The reports that are needed by `until` so that no verdict turns undecided before.
+
+A structured array with track, by (time) and other, in the order of times, each track once. Pairs are known only
+up to the end of the current window.)");
+}
+
+}  // namespace kinesphere::python
