@@ -1,7 +1,9 @@
 // Advancing a world, and its callbacks: states of bodies, and responses to events.
 #include <limits>
 #include <optional>
+#include <string>
 
+#include "body_map.hpp"
 #include "exchange.hpp"
 #include "motion.hpp"
 #include "simulation/run/scene_answer.hpp"
@@ -28,31 +30,39 @@ void ask_javascript(std::span<const BodyId> ids, double time, std::span<State> s
   for (std::size_t k = 0; k < ids.size(); ++k) states[k] = state_at(answers.data() + 6 * k);
 }
 
-/// The bodies of a motion, numbered by the index of their ids. A body without a state in the motion gets NaN,
-/// which the world refuses, as it does a response if bodies cannot be changed. refused() is then the motion's
-/// own error.
-class MotionByIndex final : public MotionSource {
+/// The bodies of one motion, numbered by the index of their ids, or those of a map. A body without a state
+/// gets NaN, which the world refuses, as it does a response if a body cannot be changed. refused() is then
+/// the motion's own error.
+class MotionOfBodies final : public MotionSource {
  public:
-  explicit MotionByIndex(Motion& motion) : motion_(motion) {}
+  /// One of the two is null.
+  MotionOfBodies(Motion* motion, const BodyMap* map) : motion_(motion), map_(map) {}
   void states(std::span<const BodyId> ids, double time, std::span<State> states) override {
     for (std::size_t k = 0; k < ids.size(); ++k) {
-      const std::uint32_t number = ids[k].index;
-      if (auto reason = why_unknown(motion_, number, time)) {
+      const auto moved = find(ids[k]);
+      auto reason = moved ? why_unknown(*moved->motion, moved->number, time) : unknown(ids[k]);
+      if (reason) {
+        reason->body = ids[k];
         refused_ = std::move(reason);
         states[k] = {{nan, nan, nan}, {nan, nan, nan}};
       } else {
-        states[k] = motion_.state(number, time);
+        states[k] = moved->motion->state(moved->number, time);
       }
     }
   }
-  MotionOrigin origin(BodyId body) const override { return motion_.origin(body.index); }
+  MotionOrigin origin(BodyId body) const override {
+    const auto moved = find(body);
+    return moved ? moved->motion->origin(moved->number) : MotionOrigin{};
+  }
   void set_origin(BodyId body, const MotionOrigin& departure) override {
-    (void)motion_.set_origin(body.index, departure);
+    if (const auto moved = find(body)) (void)moved->motion->set_origin(moved->number, departure);
   }
 
-  /// Returns the response, or NaNs for a motion that cannot be changed.
-  Response possible(const Response& answer) {
-    if ((!answer.first_velocity && !answer.second_velocity) || can_be_changed(motion_)) return answer;
+  /// Returns the response, or NaNs for a body that cannot be changed.
+  Response possible(const Event& event, const Response& answer) {
+    if (!(answer.first_velocity && is_fixed(event.first)) &&
+        !(answer.second_velocity && is_fixed(event.second)))
+      return answer;
     refused_ = {ErrorCode::unsupported, "respond", no_body,
                 "run: respond: the bodies of this motion go their own way, and cannot be given velocities"};
     return {Vec3{nan, nan, nan}, std::nullopt};
@@ -61,7 +71,21 @@ class MotionByIndex final : public MotionSource {
   const std::optional<Error>& refused() const { return refused_; }
 
  private:
-  Motion& motion_;
+  std::optional<MovedBody> find(BodyId body) const {
+    return map_ != nullptr ? map_->find(body) : MovedBody{motion_, body.index};
+  }
+  static std::optional<Error> unknown(BodyId body) {
+    return Error{ErrorCode::unknown_body, "body", body,
+                 "BodyMap: body " + std::to_string(body.index) +
+                     " of the world was not added through this map, or has been removed from it"};
+  }
+  bool is_fixed(BodyId body) const {
+    const auto moved = find(body);
+    return moved && !can_be_changed(*moved->motion);
+  }
+
+  Motion* motion_;
+  const BodyMap* map_;
   std::optional<Error> refused_;
 };
 
@@ -94,14 +118,19 @@ Response bounce_off(const Event& event, std::span<const double> masses, double r
                                                 : bounce(event, first, second, restitution));
 }
 
+MotionOfBodies bodies_of(const MotionHandle* motion, const BodyMapHandle* map) {
+  return {motion != nullptr ? motion->motion.get() : nullptr, map != nullptr ? map->map.get() : nullptr};
+}
+
 }  // namespace
 
-/// Returns 0 if there is no event until then; 1 if it is in answer(); -1 for an error. Without a motion the
-/// JavaScript probe is called.
-KINESPHERE_EXPORT(world_advance) int world_advance(World* world, double until, MotionHandle* handle) {
-  if (handle == nullptr)
+/// Returns 0 if there is no event until then; 1 if it is in answer(); -1 for an error. Without a motion and a
+/// map the JavaScript probe is called.
+KINESPHERE_EXPORT(world_advance)
+int world_advance(World* world, double until, const MotionHandle* motion, const BodyMapHandle* map) {
+  if (motion == nullptr && map == nullptr)
     return answer_event(world->advance(until, static_cast<Probe::Function>(ask_javascript)));
-  MotionByIndex mover(*handle->motion);
+  MotionOfBodies mover = bodies_of(motion, map);
   const auto event = world->advance(until, [&](std::span<const BodyId> ids, double time,
                                                std::span<State> states) { mover.states(ids, time, states); });
   if (event || !mover.refused()) return answer_event(event);
@@ -112,13 +141,14 @@ KINESPHERE_EXPORT(world_advance) int world_advance(World* world, double until, M
 /// Responses to events in world_run().
 enum class Responding : int { nothing, bounces, asks_javascript, as_in_scene };
 
-/// All events are in answer() afterwards, also after an error.
+/// One of motion and map is null. All events are in answer() afterwards, also after an error.
 KINESPHERE_EXPORT(world_run)
-bool world_run(World* world, double until, MotionHandle* handle, Responding responding, const double* masses,
-               std::size_t mass_count, double restitution, double resting_speed, const Scene* scene) {
+bool world_run(World* world, double until, const MotionHandle* motion, const BodyMapHandle* map,
+               Responding responding, const double* masses, std::size_t mass_count, double restitution,
+               double resting_speed, const Scene* scene) {
   // JavaScript functions may use answer() meanwhile.
   std::vector<double> reported;
-  MotionByIndex mover(*handle->motion);
+  MotionOfBodies mover = bodies_of(motion, map);
   const auto answered = [&](const Event& event) -> Response {
     switch (responding) {
       case Responding::nothing:
@@ -132,7 +162,7 @@ bool world_run(World* world, double until, MotionHandle* handle, Responding resp
     }
     return {};
   };
-  const auto respond = [&](const Event& event) { return mover.possible(answered(event)); };
+  const auto respond = [&](const Event& event) { return mover.possible(event, answered(event)); };
   const auto sink = [&](const Event& event) {
     reported.resize(reported.size() + event_numbers);
     put(event, reported.data() + reported.size() - event_numbers);

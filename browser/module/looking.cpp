@@ -6,7 +6,7 @@ namespace kinesphere::browser {
 KINESPHERE_EXPORT(world_bodies) void world_bodies(const World* world) { answer_ids(world->bodies()); }
 
 /// Numbers for each body; WorldView.bodyViews() in package/src/world.ts reads them.
-constexpr std::size_t view_numbers = 28;
+constexpr std::size_t view_numbers = 33;
 KINESPHERE_EXPORT(world_views) bool world_views(const World* world, std::size_t count, const double* bodies) {
   auto& numbers = answer();
   numbers.assign(count * view_numbers, 0.0);
@@ -29,6 +29,12 @@ KINESPHERE_EXPORT(world_views) bool world_views(const World* world, std::size_t 
     at[23] = static_cast<double>(view->definition.sensor_class);
     at[24] = static_cast<double>(view->definition.user_data);
     for (std::size_t axis = 0; axis < 3; ++axis) at[25 + axis] = static_cast<double>(view->image[axis]);
+    at[28] = view->definition.solid ? 1.0 : 0.0;
+    at[29] = view->definition.mass;
+    const Filter& filter = view->definition.filter;
+    at[30] = static_cast<double>(filter.category);
+    at[31] = filter.mask == Filter{}.mask ? -1.0 : static_cast<double>(filter.mask);
+    at[32] = filter.group;
   }
   return true;
 }
@@ -37,6 +43,16 @@ KINESPHERE_EXPORT(world_touching) bool world_touching(const World* world, double
   const auto ids = world->touching(body_of(body));
   if (!is_good(ids)) return false;
   answer_ids(*ids);
+  return true;
+}
+
+/// Answers pairs of a body and a distance.
+KINESPHERE_EXPORT(world_sensor_overlaps) bool world_sensor_overlaps(const World* world, double body) {
+  const auto overlaps = world->sensor_overlaps(body_of(body));
+  if (!is_good(overlaps)) return false;
+  answer().clear();
+  for (const SensorOverlap& overlap : *overlaps)
+    answer().insert(answer().end(), {number_of(overlap.body), overlap.distance});
   return true;
 }
 
@@ -128,6 +144,16 @@ bool answer_all(const Results& results) {
   return true;
 }
 
+/// Answers an id and 1 if certain for each.
+bool answer_overlaps(const Result<std::vector<OverlapHit>>& results) {
+  if (!is_good(results)) return false;
+  answer().clear();
+  for (const OverlapHit& found : *results)
+    answer().insert(answer().end(),
+                    {number_of(found.body), found.certainty == Certainty::certainly ? 1.0 : 0.0});
+  return true;
+}
+
 }  // namespace
 
 KINESPHERE_EXPORT(world_nearest)
@@ -138,15 +164,18 @@ KINESPHERE_EXPORT(world_ray_cast)
 bool world_ray_cast(const World* world, const double* origin, const double* direction, double length) {
   return answer_all(world->ray_cast(vector_at(origin), vector_at(direction), length));
 }
+KINESPHERE_EXPORT(world_sphere_cast)
+bool world_sphere_cast(const World* world, const double* origin, const double* direction, double length,
+                       double radius) {
+  return answer_all(world->sphere_cast(vector_at(origin), radius, vector_at(direction), length));
+}
 KINESPHERE_EXPORT(world_overlapping)
 bool world_overlapping(const World* world, const double* centre, double radius) {
-  const auto results = world->overlapping(vector_at(centre), radius);
-  if (!is_good(results)) return false;
-  answer().clear();
-  for (const OverlapHit& found : *results)
-    answer().insert(answer().end(),
-                    {number_of(found.body), found.certainty == Certainty::certainly ? 1.0 : 0.0});
-  return true;
+  return answer_overlaps(world->overlapping(vector_at(centre), radius));
+}
+KINESPHERE_EXPORT(world_overlapping_box)
+bool world_overlapping_box(const World* world, const double* corners) {
+  return answer_overlaps(world->overlapping(Box{vector_at(corners), vector_at(corners + 3)}));
 }
 
 /// Answers an empty text if there is no defect.

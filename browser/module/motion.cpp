@@ -81,6 +81,15 @@ std::optional<Error> why_unknown(const Motion& motion, double body, double time)
                    " to " + text_of(span.end) + ", but is asked for at " + text_of(time)};
 }
 
+void put_nearest_state(const Motion* motion, double body, double time, double* state) {
+  if (motion == nullptr || !has(*motion, body)) {
+    std::fill_n(state, 6, std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
+  const auto number = static_cast<std::uint32_t>(body);
+  put(motion->state(number, clamped(time, known_span(*motion, number))), state);
+}
+
 KINESPHERE_EXPORT(motion_ballistic)
 MotionHandle* motion_ballistic(std::size_t count, const double* states, const double* gravity, double start) {
   return handle_of(Ballistic::create(
@@ -146,16 +155,9 @@ KINESPHERE_EXPORT(motion_contains) bool motion_contains(const MotionHandle* hand
 KINESPHERE_EXPORT(motion_states)
 void motion_states(const MotionHandle* handle, double time, std::size_t count, const double* bodies,
                    double* states) {
-  const Motion& motion = *handle->motion;
-  for (std::size_t k = 0; k < count; ++k) {
-    const double body = bodies != nullptr ? bodies[k] : static_cast<double>(k);
-    if (has(motion, body)) {
-      const auto number = static_cast<std::uint32_t>(body);
-      put(motion.state(number, clamped(time, known_span(motion, number))), states + 6 * k);
-    } else {
-      std::fill_n(states + 6 * k, 6, std::numeric_limits<double>::quiet_NaN());
-    }
-  }
+  for (std::size_t k = 0; k < count; ++k)
+    put_nearest_state(handle->motion.get(), bodies != nullptr ? bodies[k] : static_cast<double>(k), time,
+                      states + 6 * k);
 }
 
 /// The numbers of a definition except the radius: limit, plan (3), position error, velocity error, state (6).

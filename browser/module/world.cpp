@@ -1,6 +1,7 @@
 // Worlds: definitions, bodies, snapshots.
 #include <cstdlib>
 
+#include "body.hpp"
 #include "exchange.hpp"
 
 namespace kinesphere::browser {
@@ -20,7 +21,25 @@ WorldDefinition definition_at(const double* numbers) {
   return definition;
 }
 
-constexpr std::size_t body_numbers = 21;
+Shape shape_at(int kind, const double* numbers) {
+  if (kind == 0) return Ball{vector_at(numbers), numbers[3]};
+  if (kind == 1) return HalfSpace{vector_at(numbers), numbers[3]};
+  if (kind == 2) return Box{vector_at(numbers), vector_at(numbers + 3)};
+  return Triangle{vector_at(numbers), vector_at(numbers + 3), vector_at(numbers + 6)};
+}
+
+World* handle_of(Result<World> world) { return is_good(world) ? new World(std::move(*world)) : nullptr; }
+
+}  // namespace
+
+std::uint64_t mask_of(double number) {
+  return number < 0.0 ? ~std::uint64_t{0} : static_cast<std::uint64_t>(number);
+}
+
+Filter filter_at(const double* numbers) {
+  return {static_cast<std::uint64_t>(numbers[0]), mask_of(numbers[1]), static_cast<std::int32_t>(numbers[2])};
+}
+
 BodyDefinition body_at(const double* numbers) {
   BodyDefinition body;
   body.position = vector_at(numbers);
@@ -32,25 +51,12 @@ BodyDefinition body_at(const double* numbers) {
   body.velocity_error = numbers[12];
   body.solid = numbers[13] != 0.0;
   body.sensor_class = static_cast<SensorClass>(numbers[14]);
-  body.filter.category = static_cast<std::uint64_t>(numbers[15]);
-  body.filter.mask = numbers[16] < 0.0 ? ~std::uint64_t{0} : static_cast<std::uint64_t>(numbers[16]);
-  body.filter.group = static_cast<std::int32_t>(numbers[17]);
+  body.filter = filter_at(numbers + 15);
   body.user_data = static_cast<std::uint64_t>(numbers[18]);
   body.mass = numbers[19];
   if (numbers[20] != 0.0) body.contacts = static_cast<ContactEvents>(numbers[20]);
   return body;
 }
-
-Shape shape_at(int kind, const double* numbers) {
-  if (kind == 0) return Ball{vector_at(numbers), numbers[3]};
-  if (kind == 1) return HalfSpace{vector_at(numbers), numbers[3]};
-  if (kind == 2) return Box{vector_at(numbers), vector_at(numbers + 3)};
-  return Triangle{vector_at(numbers), vector_at(numbers + 3), vector_at(numbers + 6)};
-}
-
-World* handle_of(Result<World> world) { return is_good(world) ? new World(std::move(*world)) : nullptr; }
-
-}  // namespace
 
 KINESPHERE_EXPORT(allocate) void* allocate(std::size_t size) { return std::malloc(size); }
 KINESPHERE_EXPORT(release) void release(void* memory) { std::free(memory); }
@@ -110,16 +116,22 @@ bool world_add_all(World* world, std::size_t count, const double* bodies) {
   return true;
 }
 
-KINESPHERE_EXPORT(world_add_fixed)
-double world_add_fixed(World* world, int kind, const double* shape, bool is_zone, bool solid,
-                       int sensor_class, double user_data) {
-  const auto data = static_cast<std::uint64_t>(user_data);
-  const auto id = is_zone ? world->add_zone(shape_at(kind, shape), data)
-                          : world->add_static({.shape = shape_at(kind, shape),
-                                               .solid = solid,
-                                               .sensor_class = static_cast<SensorClass>(sensor_class),
-                                               .user_data = data});
+KINESPHERE_EXPORT(world_add_static)
+double world_add_static(World* world, int kind, const double* shape, const double* filter, bool solid,
+                        int sensor_class, double user_data) {
+  const auto id = world->add_static({.shape = shape_at(kind, shape),
+                                     .filter = filter_at(filter),
+                                     .solid = solid,
+                                     .sensor_class = static_cast<SensorClass>(sensor_class),
+                                     .user_data = static_cast<std::uint64_t>(user_data)});
   return is_good(id) ? number_of(*id) : no_id;
+}
+KINESPHERE_EXPORT(world_add_zone)
+double world_add_zone(World* world, int kind, const double* shape, const double* filter, double user_data) {
+  const auto id = world->add_zone(shape_at(kind, shape), static_cast<std::uint64_t>(user_data));
+  if (!is_good(id)) return no_id;
+  const Filter given = filter_at(filter);
+  return given == Filter{} || is_good(world->set_filter(*id, given)) ? number_of(*id) : no_id;
 }
 
 KINESPHERE_EXPORT(world_remove) bool world_remove(World* world, double body) {
@@ -169,10 +181,24 @@ KINESPHERE_EXPORT(world_sleep) bool world_sleep(World* world, double body) {
 KINESPHERE_EXPORT(world_wake) bool world_wake(World* world, double body) {
   return is_good(world->wake(body_of(body)));
 }
+KINESPHERE_EXPORT(world_set_filter) bool world_set_filter(World* world, double body, const double* filter) {
+  return is_good(world->set_filter(body_of(body), filter_at(filter)));
+}
+KINESPHERE_EXPORT(world_set_solid) bool world_set_solid(World* world, double body, bool solid) {
+  return is_good(world->set_solid(body_of(body), solid));
+}
+KINESPHERE_EXPORT(world_set_user_data) bool world_set_user_data(World* world, double body, double data) {
+  return is_good(world->set_user_data(body_of(body), static_cast<std::uint64_t>(data)));
+}
+KINESPHERE_EXPORT(world_set_sensor_class)
+bool world_set_sensor_class(World* world, double body, int sensor_class) {
+  return is_good(world->set_sensor_class(body_of(body), static_cast<SensorClass>(sensor_class)));
+}
 KINESPHERE_EXPORT(world_set_sensor)
-bool world_set_sensor(World* world, int sensor_class, std::size_t count, const double* distances) {
+bool world_set_sensor(World* world, int sensor_class, std::size_t count, const double* distances,
+                      double mask) {
   return is_good(world->set_sensor(static_cast<SensorClass>(sensor_class),
-                                   {.distances = {distances, distances + count}}));
+                                   {.distances = {distances, distances + count}, .mask = mask_of(mask)}));
 }
 
 }  // namespace kinesphere::browser

@@ -21,7 +21,7 @@ console.log(contacts > 0 && world.time === 10 ? "it works" : "it does not");
 `;
 
 const typed = `
-import { type Event, load, World } from "kinesphere";
+import { BodyMap, type Event, load, Monitor, type Separation, type TrackReport, type Verdict, World } from "kinesphere";
 await load({ simd: false });
 const world: World = new World({ dimensions: 2 });
 const id: number = world.add({ position: [0, 0, 0], velocity: new Float32Array(3) });
@@ -31,6 +31,19 @@ const first: Event | null = world.advance(1, (ids: Float64Array, time: number, s
 if (first?.kind === "contact_begin" && first.second !== null) world.remove(first.second);
 // @ts-expect-error: a kind that is none
 if (first?.kind === "collision") world.remove(id);
+const level: Separation = { cylinder: { horizontal: 5, vertical: 1, lookAhead: 60 } };
+const monitor = new Monitor({ classes: [{ accelerationLimit: 1 }], separations: [{ levels: [level] }] });
+const report: TrackReport = { timestamp: 0, position: [0, 0, 0], velocity: new Float32Array(3), positionError: { horizontal: 1, vertical: 2 } };
+monitor.report(7, report);
+monitor.reportAll({ ids: [8], timestamps: 0, positions: new Float64Array(3), velocities: [0, 0, 0], positionErrors: { horizontal: [1], vertical: 2 } });
+const verdict: Verdict | null = monitor.advance(1, (tracks, time) => Array.from(tracks, () => ({ ...report, timestamp: time })))?.verdict ?? null;
+const sum: number = monitor.answer(7, 8).closestDistance + (new BodyMap().find(id)?.number ?? 0);
+// @ts-expect-error: a verdict that is none
+if (verdict === "near") console.log(sum);
+// @ts-expect-error: a key that is none
+monitor.report(7, { ...report, postion: [0, 0, 0] });
+// @ts-expect-error: a shape that is none
+const wrong: Separation = { ball: { distance: 5 } };
 `;
 
 test("npm install of the packed file, followed by a ten-line program, works offline", () => {

@@ -43,6 +43,21 @@ test("the first program of the README", async () => {
   assert.ok(deepest(motion.states(10), 6, 2, 100) <= Math.max(0, deepest(positions, 3, 2, 100)) + 1e-6);
 });
 
+test("the monitor of the README", async () => {
+  const readme = readFileSync(join(packageFolder, "README.md"), "utf8");
+  const [, program] = readme.match(/```js\n.*?```/gs);
+  const told = [];
+  const AsyncFunction = (async () => {}).constructor;
+  const code = program.replace(/```(js)?/g, "").replace(/^import .*$/m, "");
+  await new AsyncFunction("load", "Monitor", "console", code)(kinesphere.load, kinesphere.Monitor, { log: (...text) => told.push(text) });
+  const met = 14000 / 15.4;
+  const [first, ...others] = told;
+  assert.deepEqual(first.slice(1, 4), ["predicted", 211331640, 244660123]);
+  assert.ok(Math.abs(first[0] - (met - 720)) <= 10 && Math.abs(first[4] - met) < 1, `${first}`);
+  const within = others.find(([, , , , verdict]) => verdict === "within");
+  assert.ok(Math.abs(within[0] - (met - 900 / 15.4)) < 20, `${within}`);
+});
+
 for (const contacts of [undefined, "all", "impacts", "begin_and_end"]) {
   test(`a falling gas stays in its box: contacts ${contacts}`, () => {
     const next = random(1);

@@ -163,7 +163,7 @@ test("wrong input is named", () => {
   assert.throws(() => world.addAll({ positions: [1, 2] }), /positions must have three numbers for each body/);
   assert.throws(() => world.addAll({ positions: [1, 2, 3], radii: [1, 2] }), /radii must have a number for each of 1/);
   assert.throws(() => world.add({ position: [1, 2, 3], userData: -4 }), /userData must be a whole number/);
-  assert.throws(() => world.advance(1, null), /probe must be a function or a Motion/);
+  assert.throws(() => world.advance(1, null), /probe must be a function, a Motion or a BodyMap/);
   assert.throws(() => world.run(1, {}), /run: motion must be a Motion/);
   assert.throws(() => world.addStatic({}), /shape must be/);
   assert.throws(() => new Scene("nonsense"), /must be one of paper1/);
@@ -171,7 +171,7 @@ test("wrong input is named", () => {
   refuses(() => new Scene("paper1", { bodies: 1e6 }), "out_of_range", "bodies");
 });
 
-test("a misspelled key is named, with the nearest known one", () => {
+test("a misspelled key is named, with the nearest known one", async () => {
   const { world, motion, first } = pair();
   const positions = [0, 0, 0];
   const event = world.clone().advance(100, motion);
@@ -197,10 +197,20 @@ test("a misspelled key is named, with the nearest known one", () => {
     [() => new RandomForces({ positions }, { accelerationLimit: 1 }), "RandomForces: options has no key accelerationLimit; the nearest is accelerationLimits"],
     [() => new FrameMotion({ positions }, { accelerationLimits: 1, dt: 0.1 }), "FrameMotion: options has no key dt; the nearest is"],
     [() => new Scene("paper1", { body: 5 }), "Scene: settings has no key body; the nearest is bodies"],
+    [() => world.teleport(first, { position: [1, 2, 3], velocty: [0, 0, 0] }), "teleport: state has no key velocty; the nearest is velocity"],
+    [() => world.addStatic({ half_space: { normal: [0, 0, 1], offset: 0 } }), "addStatic: shape has no key half_space; the nearest is halfSpace"],
+    [() => world.addZone({ ball: { centre: [0, 0, 0], radius: 1 } }, { filters: {} }), "addZone: options has no key filters; the nearest is filter"],
+    [() => world.setFilter(first, { catgory: 1 }), "setFilter: filter has no key catgory; the nearest is category"],
+    [() => new RecordedTracks([{ time: [0], positions }]), "RecordedTracks: tracks[0] has no key time; the nearest is times"],
   ];
   for (const [action, message] of wrong)
     assert.throws(action, (error) => error instanceof TypeError && error.message.startsWith(message), message);
   assert.equal(world.size, 2);
+  await assert.rejects(load({ smid: true }), { name: "TypeError", message: "load: options has no key smid; the nearest is simd" });
+  // An array that is missing is told, too.
+  assert.throws(() => world.add({}), /add: position must be an array of three numbers, but is undefined/);
+  assert.throws(() => world.addAll({}), /addAll: positions must be an array, but is undefined/);
+  assert.throws(() => new SteeredMotion({ positions }, {}), /SteeredMotion: accelerationLimits must be a number or an array, but is undefined/);
 });
 
 test("a removed body's id is stale, and its place is taken again", () => {

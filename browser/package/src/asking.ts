@@ -1,7 +1,8 @@
 // Callbacks of an advancing world: states of bodies, and responses to events.
+import { BodyMap } from "./body_map.js";
 import { Event, eventNumbers, type Vec3 } from "./event.js";
 import type { Module } from "./module.js";
-import { type Motion, vector } from "./motion.js";
+import { Motion, vector } from "./motion.js";
 import { checkKeys, type Keys } from "./options.js";
 import { Scene } from "./scene.js";
 
@@ -10,8 +11,8 @@ import { Scene } from "./scene.js";
  * It may not change the world that asks.
  */
 export type ProbeFunction = (ids: Float64Array, time: number, states: Float64Array) => void;
-/** If the ids of a world are the numbers of a motion's bodies, the motion itself is a probe. */
-export type Probe = ProbeFunction | Motion;
+/** If the ids of a world are the numbers of a motion's bodies, the motion itself is a probe; else a BodyMap. */
+export type Probe = ProbeFunction | Motion | BodyMap;
 
 /** The velocities of bodies after an event; a body without one keeps its velocity. */
 export interface Answer {
@@ -33,14 +34,19 @@ export interface Bounces {
 }
 
 export interface RunOptions {
-  /** The source of states: its numbers are the indices of the ids. */
-  motion: Motion;
+  /** The source of states: a motion whose numbers are the indices of the ids, or a map. */
+  motion: Motion | BodyMap;
   respond?: RespondFunction | Bounces | Scene;
 }
 
 export const runKeys: Keys<RunOptions> = { motion: true, respond: true };
 const bounceKeys: Keys<Bounces> = { masses: true, restitution: true, restingSpeed: true };
 const answerKeys: Keys<Answer> = { first: true, second: true };
+
+/** Returns the addresses of the motion and of the map, of which at most one is not 0. */
+export function moving(probe: Probe): [motion: number, map: number] {
+  return [probe instanceof Motion ? probe.address : 0, probe instanceof BodyMap ? probe.address : 0];
+}
 
 const respondings = { nothing: 0, bounces: 1, asksJavaScript: 2, asInScene: 3 } as const;
 

@@ -14,10 +14,22 @@ export interface MotionLimits {
   velocityError?: number;
 }
 
+/**
+ * Which bodies a body may touch: two of one group may if it is positive, and may not if it is negative; any other pair
+ * may if the category of each has a bit in the mask of the other. Static bodies and zones have one, too.
+ */
+export interface Filter {
+  /** Bits, up to 2^53; by default 1. */
+  category?: number;
+  /** Bits, up to 2^53; by default -1, the mask of all. */
+  mask?: number;
+  /** Of 32 bits; by default 0, no group. */
+  group?: number;
+}
+
 /** The part of a definition that does not depend on the place. */
 export interface BodyOptions extends MotionLimits {
-  /** Which bodies it may touch: category and mask are bits, up to 2^53; -1 is the mask of all. */
-  filter?: { category?: number; mask?: number; group?: number };
+  filter?: Filter;
   /** A body that is not solid only senses and is sensed. */
   solid?: boolean;
   /** Which contact events it asks for; by default those of the world's definition. */
@@ -32,6 +44,14 @@ export interface BodyOptions extends MotionLimits {
 export interface BodyDefinition extends BodyOptions {
   position: Vec3;
   velocity?: Vec3;
+  /** >= 0 (length); by default 1. */
+  radius?: number;
+}
+
+/** The options beside a motion, which gives state and limits. */
+export type MovedOptions = Omit<BodyOptions, keyof MotionLimits>;
+/** A body of a motion. */
+export interface MovedBodyDefinition extends MovedOptions {
   /** >= 0 (length); by default 1. */
   radius?: number;
 }
@@ -53,10 +73,10 @@ export type Shape =
 export const limitKeys: Keys<MotionLimits> = {
   accelerationLimit: true, plannedAcceleration: true, positionError: true, velocityError: true,
 };
-/** Keys of the options beside a motion, which gives the limits. */
-export const movedKeys: Keys<Omit<BodyOptions, keyof MotionLimits>> = {
+export const movedKeys: Keys<MovedOptions> = {
   filter: true, solid: true, contacts: true, sensorClass: true, userData: true, mass: true,
 };
+export const movedBodyKeys: Keys<MovedBodyDefinition> = { ...movedKeys, radius: true };
 export const bodyKeys: Keys<BodyDefinition> = { ...limitKeys, ...movedKeys, position: true, velocity: true, radius: true };
 const { accelerationLimit: _, ...commonLimitKeys } = limitKeys;
 const { mass: __, ...commonKeys } = movedKeys;
@@ -64,13 +84,20 @@ export const batchKeys: Keys<BodyBatch> = {
   ...commonLimitKeys, ...commonKeys, positions: true, velocities: true, radii: true, accelerationLimits: true,
   masses: true,
 };
-export interface StaticOptions {
-  solid?: boolean;
-  sensorClass?: number;
+export interface ZoneOptions {
+  /** Which bodies it reports. */
+  filter?: Filter;
   userData?: number;
 }
-export const staticKeys: Keys<StaticOptions> = { solid: true, sensorClass: true, userData: true };
-const filterKeys: Keys<NonNullable<BodyOptions["filter"]>> = { category: true, mask: true, group: true };
+export interface StaticOptions extends ZoneOptions {
+  solid?: boolean;
+  sensorClass?: number;
+}
+export const zoneKeys: Keys<ZoneOptions> = { filter: true, userData: true };
+export const staticKeys: Keys<StaticOptions> = { ...zoneKeys, solid: true, sensorClass: true };
+const filterKeys: Keys<Filter> = { category: true, mask: true, group: true };
+type ShapeName = "ball" | "halfSpace" | "box" | "triangle";
+const shapeKeys: Readonly<Record<ShapeName, true>> = { ball: true, halfSpace: true, box: true, triangle: true };
 const ballKeys: Keys<{ centre: Vec3; radius: number }> = { centre: true, radius: true };
 const halfSpaceKeys: Keys<{ normal: Vec3; offset: number }> = { normal: true, offset: true };
 
@@ -85,23 +112,29 @@ export function putBody(numbers: Float64Array, at: number, body: BodyDefinition,
 }
 
 export function putOptions(numbers: Float64Array, at: number, body: BodyOptions, call: string): void {
-  if (body.filter !== undefined) checkKeys(body.filter, filterKeys, "filter", call);
   numbers[at + 7] = body.accelerationLimit ?? 0;
   numbers.set(vector(body.plannedAcceleration ?? [0, 0, 0], "plannedAcceleration", call), at + 8);
   numbers[at + 11] = body.positionError ?? 0;
   numbers[at + 12] = body.velocityError ?? 0;
   numbers[at + 13] = body.solid === false ? 0 : 1;
   numbers[at + 14] = whole(body.sensorClass ?? 0, 255, "sensorClass", call);
-  numbers[at + 15] = whole(body.filter?.category ?? 1, 2 ** 53, "filter.category", call);
-  const mask = body.filter?.mask ?? -1;
-  numbers[at + 16] = mask === -1 ? -1 : whole(mask, 2 ** 53, "filter.mask", call);
-  const group = body.filter?.group ?? 0;
-  if (!Number.isInteger(group) || Math.abs(group) >= 2 ** 31)
-    throw new RangeError(`${call}: filter.group must be a whole number of 32 bits, but is ${group}`);
-  numbers[at + 17] = group;
+  numbers.set(filterNumbers(body.filter ?? {}, call), at + 15);
   numbers[at + 18] = whole(body.userData ?? 0, 2 ** 53, "userData", call);
   numbers[at + 19] = body.mass ?? 1;
   numbers[at + 20] = body.contacts === undefined ? 0 : numberOfContacts(body.contacts, call);
+}
+
+/** Returns numbers in the order of filter_at() in browser/module/world.cpp. */
+export function filterNumbers(filter: Filter, call: string): [category: number, mask: number, group: number] {
+  checkKeys(filter, filterKeys, "filter", call);
+  const { category = 1, mask = -1, group = 0 } = filter;
+  if (!Number.isInteger(group) || Math.abs(group) >= 2 ** 31)
+    throw new RangeError(`${call}: filter.group must be a whole number of 32 bits, but is ${group}`);
+  return [whole(category, 2 ** 53, "filter.category", call), maskNumber(mask, "filter.mask", call), group];
+}
+
+export function maskNumber(mask: number, what: string, call: string): number {
+  return mask === -1 ? -1 : whole(mask, 2 ** 53, what, call);
 }
 
 export function whole(value: number, most: number, what: string, call: string): number {
@@ -112,6 +145,7 @@ export function whole(value: number, most: number, what: string, call: string): 
 
 export function shapeNumbers(shape: Shape, call: string): [kind: number, numbers: number[]] {
   const of = (values: Vec3, what: string) => vector(values, what, call);
+  checkKeys<Partial<Record<ShapeName, unknown>>>(shape, shapeKeys, "shape", call);
   if ("ball" in shape) checkKeys(shape.ball, ballKeys, "ball", call);
   if ("halfSpace" in shape) checkKeys(shape.halfSpace, halfSpaceKeys, "halfSpace", call);
   if ("box" in shape) checkKeys(shape.box, boxKeys, "box", call);

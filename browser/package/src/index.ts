@@ -8,10 +8,24 @@ export {
 } from "./motion.js";
 export { bounce, type Bounce, type BounceOptions } from "./response.js";
 export type { Answer, Bounces, Probe, ProbeFunction, RespondFunction, RunOptions } from "./asking.js";
-export type { BodyBatch, BodyDefinition, BodyOptions, MotionLimits, Shape } from "./body.js";
+export type {
+  BodyBatch, BodyDefinition, BodyOptions, Filter, MotionLimits, MovedBodyDefinition, MovedOptions, Shape, StaticOptions,
+  ZoneOptions,
+} from "./body.js";
+export { BodyMap } from "./body_map.js";
 export {
   type BodyView, type BusyBody, type Certain, type Counters, type Earliest, type Located, type ProbeReason, World, WorldView,
 } from "./world.js";
 export type { Box, Definition, WorldDefinition } from "./definition.js";
 export { Scene, sceneNames, type SceneSettings } from "./scene.js";
 export { Replay } from "./replay.js";
+export {
+  Monitor, type MonitorCounters, type OpenPair, type PairAnswer, type Poll, type PredictedPair, type ReportRequest, type TrackPlace,
+  type TrackView,
+} from "./monitor.js";
+export type {
+  FullMonitorDefinition, LookAhead, MonitorDefinition, Separation, SeparationRule, Shard, SphereSeparation, TrackClass,
+  VolumeSeparation, WellClearSeparation,
+} from "./monitor_definition.js";
+export { MonitorEvent, type MonitorEventKind, monitorEventKinds, MonitorEvents, type TrackId, type Verdict } from "./monitor_event.js";
+export type { ErrorBound, ErrorBounds, Plan, PlanBatch, ReportBatch, TrackReport } from "./report.js";

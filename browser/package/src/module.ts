@@ -1,5 +1,6 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 // The WebAssembly module: its memory, its functions, and its errors as exceptions.
+import { checkKeys, type Keys } from "./options.js";
 
 /** The reason of a failed call: one of the error codes of the library (kinesphere/result.hpp). */
 export type ErrorCode =
@@ -31,6 +32,7 @@ type Exports = { memory: WebAssembly.Memory } & Record<string, (...values: numbe
 interface Callbacks {
   probe(count: number, ids: number, time: number, states: number): void;
   respond(event: number, velocities: number): void;
+  poll(count: number, tracks: number, time: number, reports: number): void;
 }
 
 /** Memory of the module for the duration of a call. */
@@ -65,8 +67,8 @@ export class Module {
   readonly memory: WebAssembly.Memory;
   private readonly exports: Exports;
   private readonly decoder = new TextDecoder();
-  /** Running calls, the innermost last: their callbacks and the address of their object. */
-  private readonly asking: { callbacks: Callbacks; address: number }[] = [];
+  /** Running calls, the innermost last: their callbacks and the addresses of their objects. */
+  private readonly asking: { callbacks: Partial<Callbacks>; addresses: readonly number[] }[] = [];
   private thrown: { value: unknown } | null = null;
   private written = "";
 
@@ -83,7 +85,7 @@ export class Module {
       }
     };
     const instance = new WebAssembly.Instance(compiled, {
-      kinesphere: { probe: asked("probe"), respond: asked("respond") },
+      kinesphere: { probe: asked("probe"), respond: asked("respond"), poll: asked("poll") },
       env: { emscripten_notify_memory_growth: () => {} },
       wasi_snapshot_preview1: {
         clock_time_get: () => 0,
@@ -105,13 +107,13 @@ export class Module {
     return this.exports[name]!(...values);
   }
 
-  /** Makes a call with callbacks. Rethrows what a callback threw. */
-  callWith(callbacks: Callbacks, name: string, address: number, ...values: number[]): number {
-    this.asking.push({ callbacks, address });
+  /** Makes a call with callbacks, which may not free the objects at these addresses. Rethrows what a callback threw. */
+  callWith(callbacks: Partial<Callbacks>, addresses: readonly number[], name: string, ...values: number[]): number {
+    this.asking.push({ callbacks, addresses });
     const before = this.thrown;
     this.thrown = null;
     try {
-      const result = this.call(name, address, ...values);
+      const result = this.call(name, ...values);
       const thrown = this.thrown as { value: unknown } | null;
       if (thrown !== null) throw thrown.value;
       return result;
@@ -123,7 +125,7 @@ export class Module {
 
   /** True if the object is in the middle of a call. */
   isInUse(address: number): boolean {
-    return this.asking.some((call) => call.address === address);
+    return this.asking.some(({ addresses }) => addresses.includes(address));
   }
 
   /** Returns the error of the last failed call. */
@@ -204,6 +206,8 @@ export interface LoadOptions {
   source?: BufferSource | WebAssembly.Module | URL | string;
 }
 
+const loadKeys: Keys<LoadOptions> = { simd: true, source: true };
+
 async function compiled(source: BufferSource | WebAssembly.Module | URL | string): Promise<WebAssembly.Module> {
   if (source instanceof WebAssembly.Module) return source;
   if (typeof source !== "string" && !(source instanceof URL)) return WebAssembly.compile(source);
@@ -222,6 +226,7 @@ async function compiled(source: BufferSource | WebAssembly.Module | URL | string
  * this one.
  */
 export async function load(options: LoadOptions = {}): Promise<void> {
+  checkKeys(options, loadKeys, "options", "load");
   if (loaded !== null) return;
   const simd = options.simd ?? WebAssembly.validate(simdProbe);
   const own = simd

@@ -14,6 +14,8 @@ export interface States {
 export type PerBody = number | ArrayLike<number>;
 
 export function countOf(positions: ArrayLike<number>, call: string): number {
+  if (typeof positions?.length !== "number")
+    throw new TypeError(`${call}: positions must be an array, but is ${positions}`);
   if (positions.length % 3 !== 0)
     throw new RangeError(`${call}: positions must have three numbers for each body, but has ${positions.length}`);
   return positions.length / 3;
@@ -21,12 +23,16 @@ export function countOf(positions: ArrayLike<number>, call: string): number {
 
 export function each(values: PerBody, count: number, what: string, call: string): ArrayLike<number> {
   if (typeof values === "number") return new Float64Array(count).fill(values);
+  if (typeof values?.length !== "number")
+    throw new TypeError(`${call}: ${what} must be a number or an array, but is ${values}`);
   if (values.length !== count)
     throw new RangeError(`${call}: ${what} must have a number for each of ${count} bodies, but has ${values.length}`);
   return values;
 }
 
 export function vector(values: Vec3, what: string, call: string): [number, number, number] {
+  if (typeof values?.length !== "number")
+    throw new TypeError(`${call}: ${what} must be an array of three numbers, but is ${values}`);
   if (values.length !== 3)
     throw new RangeError(`${call}: ${what} must have three numbers, but has ${values.length}`);
   return [values[0]!, values[1]!, values[2]!];
@@ -57,7 +63,10 @@ function sixes(states: States, call: string): Float64Array {
   return numbers;
 }
 
+const oneStateKeys: Keys<State> = { position: true, velocity: true };
+
 export function sixOf(state: State, call: string): number[] {
+  checkKeys(state, oneStateKeys, "state", call);
   return [...vector(state.position, "position", call), ...vector(state.velocity, "velocity", call)];
 }
 
@@ -364,9 +373,13 @@ export class RecordedTracks extends Motion {
   }
 }
 
+const trackKeys: Keys<Track> = { times: true, positions: true };
+
 function alongTracks(tracks: readonly Track[]): Made {
   const samples: number[] = [];
-  for (const [body, { times, positions }] of tracks.entries()) {
+  for (const [body, track] of tracks.entries()) {
+    checkKeys(track, trackKeys, `tracks[${body}]`, "RecordedTracks");
+    const { times, positions } = track;
     if (positions.length !== 3 * times.length)
       throw new RangeError(`RecordedTracks: positions of body ${body} must have three numbers for each of ` +
                            `${times.length} times, but has ${positions.length}`);

@@ -20,7 +20,10 @@ function editDistance(one: string, other: string): number {
   return row[other.length]!;
 }
 
-/** Throws TypeError for a key that is not known, with the nearest known one; and for what is no object. */
+/**
+ * The one place where option objects are checked. Throws TypeError for a key that is not known, with the nearest known one; and for what is no
+ * object.
+ */
 export function checkKeys<Options extends object>(given: Options, known: Keys<Options>, what: string, call: string): void {
   if (typeof given !== "object" || given === null)
     throw new TypeError(`${call}: ${what} must be an object with the keys ${Object.keys(known).join(", ")}, but is ${given}`);

@@ -1,10 +1,12 @@
 // The world: moving spheres with unknown trajectories, and every contact among them, in time order.
-import { asking, type Probe, responded, runKeys, type RunOptions } from "./asking.js";
+import { asking, moving, type Probe, responded, runKeys, type RunOptions } from "./asking.js";
 import {
-  batchKeys, type BodyBatch, type BodyDefinition, bodyKeys, bodyNumbers, type BodyOptions, limitKeys, type MotionLimits,
-  movedKeys, putBody, putOptions, type Shape, shapeNumbers, staticKeys, type StaticOptions, whole,
+  batchKeys, type BodyBatch, type BodyDefinition, bodyKeys, bodyNumbers, type Filter, filterNumbers, limitKeys, maskNumber,
+  type MotionLimits, movedKeys, type MovedOptions, putBody, putOptions, type Shape, shapeNumbers, staticKeys,
+  type StaticOptions, whole, zoneKeys, type ZoneOptions,
 } from "./body.js";
-import { type Definition, definitionAt, definitionNumbers, type WorldDefinition } from "./definition.js";
+import { BodyMap } from "./body_map.js";
+import { type Box, boxKeys, type Definition, definitionAt, definitionNumbers, type WorldDefinition } from "./definition.js";
 import { type BodyId, Event, type EventKind, Events, eventKinds, type State, type Vec3, type Wall, wallOf } from "./event.js";
 import { Owned, type Scratch, theModule } from "./module.js";
 import { checkKeys } from "./options.js";
@@ -30,6 +32,9 @@ export interface BodyView {
   userData: number;
   /** In periodic space: the number of periods between the body and the first box. */
   image: Float64Array;
+  solid: boolean;
+  mass: number;
+  filter: Required<Filter>;
 }
 
 /** The first possible contact or approach, and the partner. */
@@ -93,7 +98,7 @@ export interface BusyBody {
   largestAcceleration: number;
 }
 
-const viewNumbers = 28;
+const viewNumbers = 33;
 const busyNumbers = 11;
 
 /** Read access to a world, which may be that of a replay. */
@@ -146,6 +151,9 @@ export class WorldView extends Owned {
         sensorClass: numbers[23]!,
         userData: numbers[24]!,
         image: numbers.subarray(25, 28),
+        solid: numbers[28] === 1,
+        mass: numbers[29]!,
+        filter: { category: numbers[30]!, mask: numbers[31]!, group: numbers[32]! },
       };
     });
   }
@@ -154,6 +162,13 @@ export class WorldView extends Owned {
     const module = theModule();
     module.require(module.call("world_touching", this.address, body));
     return module.answer();
+  }
+  /** Returns the sensor distances that the body is within, by partner, and for each from the largest to the smallest. */
+  sensorOverlaps(body: BodyId): { body: BodyId; distance: number }[] {
+    const module = theModule();
+    module.require(module.call("world_sensor_overlaps", this.address, body));
+    const numbers = module.answer();
+    return Array.from({ length: numbers.length / 2 }, (_, k) => ({ body: numbers[2 * k]!, distance: numbers[2 * k + 1]! }));
   }
   get counters(): Counters {
     const module = theModule();
@@ -242,16 +257,22 @@ export class WorldView extends Owned {
     return this.located("world_ray_cast",
                         [vector(origin, "origin", "rayCast"), vector(direction, "direction", "rayCast")], length);
   }
+  /** Returns all bodies that a sphere of this radius may hit first on its way. */
+  sphereCast(origin: Vec3, radius: number, direction: Vec3, length: number): Located[] {
+    const call = "sphereCast";
+    return this.located("world_sphere_cast", [vector(origin, "origin", call), vector(direction, "direction", call)],
+                        length, radius);
+  }
   /** Returns the bodies that may overlap a sphere. */
   overlapping(centre: Vec3, radius: number): Certain[] {
-    const module = theModule();
-    const numbers = module.with((scratch) => {
-      const at = scratch.numbers(vector(centre, "centre", "overlapping"));
-      module.require(module.call("world_overlapping", this.address, at, radius));
-      return module.answer();
-    });
-    return Array.from({ length: numbers.length / 2 }, (_, k) =>
-      ({ body: numbers[2 * k]!, certainly: numbers[2 * k + 1] === 1 }));
+    return this.overlaps("world_overlapping", vector(centre, "centre", "overlapping"), radius);
+  }
+  /** Returns the bodies that may overlap a box. */
+  overlappingBox(box: Box): Certain[] {
+    const call = "overlappingBox";
+    checkKeys(box, boxKeys, "box", call);
+    return this.overlaps("world_overlapping_box",
+                         [...vector(box.lower, "box.lower", call), ...vector(box.upper, "box.upper", call)]);
   }
   /** Checks all invariants from scratch; returns the first defect, or null. For tests: it takes long. */
   audit(): string | null {
@@ -282,10 +303,19 @@ export class WorldView extends Owned {
       now: numbers[3] === 1,
     };
   }
-  private located(name: string, points: number[][], value: number): Located[] {
+  private overlaps(name: string, region: number[], ...values: number[]): Certain[] {
     const module = theModule();
     const numbers = module.with((scratch) => {
-      module.require(module.call(name, this.address, ...points.map((point) => scratch.numbers(point)), value));
+      module.require(module.call(name, this.address, scratch.numbers(region), ...values));
+      return module.answer();
+    });
+    return Array.from({ length: numbers.length / 2 }, (_, k) =>
+      ({ body: numbers[2 * k]!, certainly: numbers[2 * k + 1] === 1 }));
+  }
+  private located(name: string, points: number[][], ...values: number[]): Located[] {
+    const module = theModule();
+    const numbers = module.with((scratch) => {
+      module.require(module.call(name, this.address, ...points.map((point) => scratch.numbers(point)), ...values));
       return module.answer();
     });
     return Array.from({ length: numbers.length / 4 }, (_, k) => ({
@@ -359,7 +389,7 @@ export class World extends WorldView {
    * Adds all bodies of a motion, with these radii. If the world has had no bodies before, the ids are the numbers in
    * the motion.
    */
-  addMotion(motion: Motion, radii: PerBody = 1, options: Omit<BodyOptions, keyof MotionLimits> = {}): Float64Array {
+  addMotion(motion: Motion, radii: PerBody = 1, options: MovedOptions = {}): Float64Array {
     const call = "addMotion";
     checkKeys(options, movedKeys, "options", call);
     const count = motion.size;
@@ -373,15 +403,18 @@ export class World extends WorldView {
   }
   /** Adds a static body. */
   addStatic(shape: Shape, options: StaticOptions = {}): BodyId {
-    checkKeys(options, staticKeys, "options", "addStatic");
-    return this.addSurroundings(shape, false, options, "addStatic");
+    const call = "addStatic";
+    checkKeys(options, staticKeys, "options", call);
+    return this.addSurroundings("world_add_static", shape, options, call, options.solid === false ? 0 : 1,
+                                whole(options.sensorClass ?? 0, 255, "sensorClass", call));
   }
   /**
    * Adds a zone, which touches no body and reports entering and leaving bodies: sensor_enter and sensor_leave at
    * distance 0.
    */
-  addZone(shape: Shape, userData = 0): BodyId {
-    return this.addSurroundings(shape, true, { userData }, "addZone");
+  addZone(shape: Shape, options: ZoneOptions = {}): BodyId {
+    checkKeys(options, zoneKeys, "options", "addZone");
+    return this.addSurroundings("world_add_zone", shape, options, "addZone");
   }
   remove(body: BodyId): void {
     this.change("world_remove", body);
@@ -443,21 +476,47 @@ export class World extends WorldView {
   wake(body: BodyId): void {
     this.change("world_wake", body);
   }
-  /** Sets the distances (length >= 0) at which all bodies of the class sense others. */
-  setSensor(sensorClass: number, distances: ArrayLike<number>): void {
+  /** Sets which bodies it may touch. Contacts that the filter excludes end; overlaps that it newly admits begin at once. */
+  setFilter(body: BodyId, filter: Filter): void {
+    this.change("world_set_filter", body, filterNumbers(filter, "setFilter"));
+  }
+  /** Sets whether the body has contacts from now on. */
+  setSolid(body: BodyId, solid: boolean): void {
     const module = theModule();
-    const number = whole(sensorClass, 255, "sensorClass", "setSensor");
-    module.with((scratch) =>
-      module.require(module.call("world_set_sensor", this.address, number, distances.length, scratch.numbers(distances))));
+    module.require(module.call("world_set_solid", this.address, body, solid ? 1 : 0));
+  }
+  /**
+   * Sets the distances (length >= 0) at which all bodies of the class sense others with a category bit in the mask, by
+   * default all.
+   */
+  setSensor(sensorClass: number, distances: ArrayLike<number>, mask = -1): void {
+    const module = theModule();
+    const call = "setSensor";
+    const number = whole(sensorClass, 255, "sensorClass", call);
+    const sensed = maskNumber(mask, "mask", call);
+    module.with((scratch) => module.require(module.call(
+      "world_set_sensor", this.address, number, distances.length, scratch.numbers(distances), sensed)));
+  }
+  setSensorClass(body: BodyId, sensorClass: number): void {
+    const module = theModule();
+    const number = whole(sensorClass, 255, "sensorClass", "setSensorClass");
+    module.require(module.call("world_set_sensor_class", this.address, body, number));
+  }
+  setUserData(body: BodyId, userData: number): void {
+    const module = theModule();
+    const data = whole(userData, 2 ** 53, "userData", "setUserData");
+    module.require(module.call("world_set_user_data", this.address, body, data));
   }
 
   /** Advances to the next event and returns it, or to `until`, and returns null. */
   advance(until: number, probe: Probe): Event | null {
     const module = theModule();
-    if (!(probe instanceof Motion) && typeof probe !== "function")
-      throw new TypeError("advance: probe must be a function or a Motion");
-    const [asked, motion] = probe instanceof Motion ? [null, probe.address] : [probe, 0];
-    const result = module.callWith(asking(module, asked, null), "world_advance", this.address, until, motion);
+    if (!(probe instanceof Motion) && !(probe instanceof BodyMap) && typeof probe !== "function")
+      throw new TypeError("advance: probe must be a function, a Motion or a BodyMap");
+    const asked = typeof probe === "function" ? probe : null;
+    const addresses = moving(probe);
+    const result = module.callWith(asking(module, asked, null), [this.address, ...addresses], "world_advance",
+                                   this.address, until, ...addresses);
     if (result < 0) throw module.error();
     return result === 0 ? null : new Event(module.answer());
   }
@@ -474,16 +533,19 @@ export class World extends WorldView {
    */
   run(until: number, options: RunOptions, sink?: (events: Events) => void): Events {
     const module = theModule();
-    if (!(options?.motion instanceof Motion)) throw new TypeError("run: motion must be a Motion");
+    if (!(options?.motion instanceof Motion) && !(options?.motion instanceof BodyMap))
+      throw new TypeError("run: motion must be a Motion or a BodyMap");
     checkKeys(options, runKeys, "options", "run");
     const [responding, bounces, scene, asked] = responded(options.respond);
     return module.with((scratch) => {
       const masses = bounces.masses ?? [];
-      const values = [until, options.motion.address, responding, scratch.numbers(masses),
-                      masses.length, bounces.restitution ?? 1, bounces.restingSpeed ?? 0, scene];
+      const addresses = moving(options.motion);
+      const values = [until, ...addresses, responding, scratch.numbers(masses), masses.length,
+                      bounces.restitution ?? 1, bounces.restingSpeed ?? 0, scene];
       let failure: { value: unknown } | null = null;
       try {
-        if (module.callWith(asking(module, null, asked), "world_run", this.address, ...values) === 0)
+        if (module.callWith(asking(module, null, asked), [this.address, ...addresses], "world_run", this.address,
+                            ...values) === 0)
           failure = { value: module.error() };
       } catch (value) {
         failure = { value };
@@ -527,12 +589,12 @@ export class World extends WorldView {
       return module.answer();
     });
   }
-  private addSurroundings(shape: Shape, isZone: boolean, options: StaticOptions, call: string): BodyId {
+  private addSurroundings(name: string, shape: Shape, options: ZoneOptions, call: string, ...values: number[]): BodyId {
     const module = theModule();
     const [kind, numbers] = shapeNumbers(shape, call);
+    const filter = filterNumbers(options.filter ?? {}, call);
     const id = module.with((scratch) =>
-      module.call("world_add_fixed", this.address, kind, scratch.numbers(numbers), isZone ? 1 : 0,
-                  options.solid === false ? 0 : 1, whole(options.sensorClass ?? 0, 255, "sensorClass", call),
+      module.call(name, this.address, kind, scratch.numbers(numbers), scratch.numbers(filter), ...values,
                   whole(options.userData ?? 0, 2 ** 53, "userData", call)));
     if (id < 0) throw module.error();
     return id;

@@ -1,0 +1,18 @@
+// Bodies, filters and shapes in tables of numbers.
+#pragma once
+
+#include <cstddef>
+
+#include "kinesphere/kinesphere.hpp"
+
+namespace kinesphere::browser {
+
+/// Size of a body in numbers; putBody() in package/src/body.ts writes them.
+constexpr std::size_t body_numbers = 21;
+BodyDefinition body_at(const double* numbers);
+
+/// Category, mask and group; -1 is the mask of all.
+Filter filter_at(const double* numbers);
+std::uint64_t mask_of(double number);
+
+}  // namespace kinesphere::browser

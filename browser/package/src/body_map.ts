@@ -1,0 +1,130 @@
+// BodyMap: which body of a world is which body of which motion.
+import { type BodyId, type State, type Vec3 } from "./event.js";
+import { bodyNumbers, type MovedBodyDefinition, movedBodyKeys, movedKeys, type MovedOptions, putBody } from "./body.js";
+import { Owned, theModule } from "./module.js";
+import { countOf, each, type FrameMotion, type Motion, type PerBody, sixOf, vector } from "./motion.js";
+import { checkKeys } from "./options.js";
+import type { World } from "./world.js";
+
+const existing = Symbol("existing");
+
+/**
+ * Relates the bodies of a world to the bodies of one or several motions, where several move them or bodies come and go.
+ * It serves wherever a world asks for a probe or a motion, keeps its motions alive, and may serve clones of a world.
+ *
+ *     const bodies = new BodyMap();
+ *     const balls = bodies.addAll(world, frames, 0.2);
+ *     const bullet = bodies.add(world, flight, flight.add(world.time, muzzle), { radius: 0.01 });
+ *     for (const event of world.events(frames.latestTime, bodies))
+ *       if (event.second === bullet) bodies.remove(world, bullet);
+ *
+ * Changes go to the motion first, then to the world: after an error of the motion nothing has changed; after an error of
+ * the world the motion has changed.
+ */
+export class BodyMap extends Owned {
+  /** The motions in the order in which the module has them. */
+  readonly #motions: Motion[];
+  constructor();
+  /** @internal */
+  constructor(map: typeof existing, address: number, motions: readonly Motion[]);
+  constructor(map?: typeof existing, address = 0, motions: readonly Motion[] = []) {
+    super(map === existing ? address : theModule().call("map_create"), "map_free");
+    this.#motions = [...motions];
+  }
+
+  /** Adds a body of a motion to the world, with the motion's state and limits at world.time. Returns its id. */
+  add(world: World, motion: Motion, number: number, body: MovedBodyDefinition = {}): BodyId {
+    const call = "BodyMap.add";
+    checkKeys(body, movedBodyKeys, "body", call);
+    const module = theModule();
+    const id = module.with((scratch) => module.call(
+      "map_add", this.address, world.address, motion.address, number, scratch.numbers(like(body, call))));
+    if (id < 0) throw module.error();
+    this.keep(motion);
+    return id;
+  }
+  /**
+   * Adds all bodies of the motion in the order of their numbers or, after an error, none. Returns their ids. Radii are
+   * by number in the motion.
+   */
+  addAll(world: World, motion: Motion, radii: PerBody = 1, options: MovedOptions = {}): Float64Array {
+    const call = "BodyMap.addAll";
+    checkKeys(options, movedKeys, "options", call);
+    const sizes = each(radii, motion.size, "radii", call);
+    const module = theModule();
+    const ids = module.with((scratch) => {
+      module.require(module.call("map_add_all", this.address, world.address, motion.address, sizes.length,
+                                 scratch.numbers(sizes), scratch.numbers(like(options, call))));
+      return module.answer();
+    });
+    this.keep(motion);
+    return ids;
+  }
+  /** Sets the velocity at world.time, in the motion and in the world. */
+  setVelocity(world: World, body: BodyId, velocity: Vec3): void {
+    this.change("map_set_velocity", world, body, vector(velocity, "velocity", "BodyMap.setVelocity"));
+  }
+  /** Sets the state at world.time, in the motion and in the world. */
+  teleport(world: World, body: BodyId, state: State): void {
+    this.change("map_teleport", world, body, sixOf(state, "BodyMap.teleport"));
+  }
+  /** Removes the body. A motion that does not support removal keeps it, but is no longer asked for it. */
+  remove(world: World, body: BodyId): void {
+    const module = theModule();
+    module.require(module.call("map_remove", this.address, world.address, body));
+  }
+  /**
+   * Adds the next frame of a FrameMotion, three numbers for each of its bodies. The world learns all new velocities, so
+   * that no contact is missed; world.time must be frames.latestTime.
+   */
+  push(world: World, frames: FrameMotion, positions: ArrayLike<number>): void {
+    const count = countOf(positions, "BodyMap.push");
+    const module = theModule();
+    module.with((scratch) => module.require(module.call(
+      "map_push", this.address, world.address, frames.address, count, scratch.numbers(positions))));
+  }
+  /** Returns the motion and the number of the body there; null if this map does not know it. */
+  find(body: BodyId): { motion: Motion; number: number } | null {
+    const module = theModule();
+    module.call("map_find", this.address, body);
+    const [place, number] = module.answer();
+    return place === undefined ? null : { motion: this.#motions[place]!, number: number! };
+  }
+  /** Returns six numbers for each: position and velocity, as Motion.states() does; NaN for unknown bodies. */
+  states(time: number, bodies: ArrayLike<BodyId>): Float64Array {
+    const module = theModule();
+    return module.with((scratch) => {
+      module.call("map_states", this.address, time, bodies.length, scratch.numbers(bodies));
+      return module.answer();
+    });
+  }
+  /**
+   * Returns a map of the same bodies, in which the motion to[k] stands for from[k]: for clones of a world and of its
+   * motions.
+   */
+  withMotions(from: readonly Motion[], to: readonly Motion[]): BodyMap {
+    if (from.length !== to.length)
+      throw new RangeError(`withMotions: to must have as many motions as from, ${from.length}, but has ${to.length}`);
+    const module = theModule();
+    const addresses = (motions: readonly Motion[]) => motions.map((motion) => motion.address);
+    const address = module.with((scratch) => module.require(module.call(
+      "map_with_motions", this.address, from.length, scratch.numbers(addresses(from)), scratch.numbers(addresses(to)))));
+    return new BodyMap(existing, address, to);
+  }
+
+  private keep(motion: Motion): void {
+    if (!this.#motions.includes(motion)) this.#motions.push(motion);
+  }
+  private change(name: string, world: World, body: BodyId, numbers: number[]): void {
+    const module = theModule();
+    module.with((scratch) =>
+      module.require(module.call(name, this.address, world.address, body, scratch.numbers(numbers))));
+  }
+}
+
+/** Returns the table of a body whose state and limits come from a motion. */
+function like(body: MovedBodyDefinition, call: string): Float64Array {
+  const numbers = new Float64Array(bodyNumbers);
+  putBody(numbers, 0, { ...body, position: [0, 0, 0] }, call);
+  return numbers;
+}
