@@ -15,10 +15,9 @@ void keep(BodyMapHandle& handle, const std::shared_ptr<Motion>& motion) {
     handle.motions.push_back(motion);
 }
 
-std::vector<Motion*> motions_of(std::size_t count, const double* handles) {
+std::vector<Motion*> motions_of(std::span<const MotionHandle* const> handles) {
   std::vector<Motion*> motions;
-  for (std::size_t k = 0; k < count; ++k)
-    motions.push_back(reinterpret_cast<MotionHandle*>(static_cast<std::uintptr_t>(handles[k]))->motion.get());
+  for (const MotionHandle* const handle : handles) motions.push_back(handle->motion.get());
   return motions;
 }
 
@@ -103,13 +102,13 @@ void map_states(const BodyMapHandle* handle, double time, std::size_t count, con
 
 /// Returns a map of the same bodies, in which the motion to[k] stands for from[k].
 KINESPHERE_EXPORT(map_with_motions)
-BodyMapHandle* map_with_motions(const BodyMapHandle* handle, std::size_t count, const double* from,
-                                const double* to) {
-  auto map = handle->map->with_motions(motions_of(count, from), motions_of(count, to));
+BodyMapHandle* map_with_motions(const BodyMapHandle* handle, std::size_t count,
+                                const MotionHandle* const* from, const MotionHandle* const* to) {
+  const std::span handles(to, count);
+  auto map = handle->map->with_motions(motions_of({from, count}), motions_of(handles));
   if (!is_good(map)) return nullptr;
   auto* const made = new BodyMapHandle{std::move(*map), {}};
-  for (std::size_t k = 0; k < count; ++k)
-    made->motions.push_back(reinterpret_cast<MotionHandle*>(static_cast<std::uintptr_t>(to[k]))->motion);
+  for (const MotionHandle* const moving : handles) made->motions.push_back(moving->motion);
   return made;
 }
 

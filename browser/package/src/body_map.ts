@@ -106,9 +106,10 @@ export class BodyMap extends Owned {
     if (from.length !== to.length)
       throw new RangeError(`withMotions: to must have as many motions as from, ${from.length}, but has ${to.length}`);
     const module = theModule();
-    const addresses = (motions: readonly Motion[]) => motions.map((motion) => motion.address);
-    const address = module.with((scratch) => module.require(module.call(
-      "map_with_motions", this.address, from.length, scratch.numbers(addresses(from)), scratch.numbers(addresses(to)))));
+    const address = module.with((scratch) => {
+      const addresses = (motions: readonly Motion[]) => scratch.addresses(motions.map((motion) => motion.address));
+      return module.require(module.call("map_with_motions", this.address, from.length, addresses(from), addresses(to)));
+    });
     return new BodyMap(existing, address, to);
   }
 

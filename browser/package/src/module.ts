@@ -37,7 +37,7 @@ interface Callbacks {
 
 /** Memory of the module for the duration of a call. */
 export class Scratch {
-  private readonly addresses: number[] = [];
+  private readonly taken: number[] = [];
   constructor(private readonly module: Module) {}
   numbers(values: ArrayLike<number>): number {
     const address = this.take(8 * values.length);
@@ -49,17 +49,20 @@ export class Scratch {
     new Uint8Array(this.module.memory.buffer, address, values.length).set(values);
     return address;
   }
+  addresses(values: readonly number[]): number {
+    return this.bytes(new Uint8Array(Uint32Array.from(values).buffer));
+  }
   room(count: number): number {
     return this.take(8 * count);
   }
   private take(size: number): number {
     const address = this.module.call("allocate", Math.max(size, 8));
     if (address === 0) throw new RangeError(`kinesphere: there is no memory for ${size} bytes`);
-    this.addresses.push(address);
+    this.taken.push(address);
     return address;
   }
   release(): void {
-    for (const address of this.addresses) this.module.call("release", address);
+    for (const address of this.taken) this.module.call("release", address);
   }
 }
 
