@@ -279,6 +279,7 @@ test("a restored monitor goes on as the one that was saved", () => {
     assert.deepEqual([...plannedAcceleration, others], [0, 0, -1, { accelerationLimit: { horizontal: 5, vertical: 1 }, largestSpeed: Infinity }]);
     for (const [key, value] of Object.entries(definition))
       if (key !== "classes") assert.deepEqual(restored.definition[key], value, key);
+    assert.deepEqual(new Monitor(restored.definition).definition, restored.definition);
     const numbers = drive(monitor, stretch);
     assert.equal(drive(restored, stretch).join(), numbers.join());
     for (let k = 1; k < numbers.length; k += 13) kinds.add(monitorEventKinds[numbers[k]]);
@@ -430,6 +431,7 @@ test("wrong use of a monitor is named", () => {
   refuses(() => monitor.report(3, { ...good, positionError: -1 }), "out_of_range", /position_error/);
   refuses(() => monitor.report(3, { ...good, trackClass: 1 }), "out_of_range", /track_class/);
   refuses(() => monitor.report(3, { timestamp: 0, position: [0, 0, 0] }), "out_of_range", /velocity_error, must be finite where the class has no largest speed/);
+  refuses(() => monitor.reportAll({ ids: [3], timestamps: 0, positions: [0, 0, 0] }), "out_of_range", /velocity_error, must be finite/);
   refuses(() => monitor.remove(9), "unknown_body", /there is no track 9/);
   refuses(() => monitor.track(9), "unknown_body", /there is no track 9/);
   refuses(() => monitor.answer(1, 9), "unknown_body", /there is no track 9/);
