@@ -35,7 +35,7 @@ Error unknown_body() {
 
 bool has(const Motion& motion, double body) {
   return body >= 0.0 && body < static_cast<double>(motion.size()) &&
-         motion.contains(static_cast<std::uint32_t>(body));
+         body == static_cast<std::uint32_t>(body) && motion.contains(static_cast<std::uint32_t>(body));
 }
 
 bool knows(const MotionHandle& handle, double body) {

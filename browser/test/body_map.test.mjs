@@ -113,6 +113,7 @@ test("wrong use of a map is named", () => {
   refuses(() => bodies.teleport(world, 77, { position: [1, 1, 1], velocity: [0, 0, 0] }), "unknown_body", /was not added/);
   refuses(() => bodies.remove(world, 77), "unknown_body", /was not added/);
   refuses(() => bodies.add(world, ships, 9), "unknown_body", /body/);
+  refuses(() => bodies.add(world, ships, 0.5), "unknown_body", /body/);
   refuses(() => bodies.add(world, ships, 0, { radius: -1 }), "out_of_range", /radius/);
   refuses(() => bodies.addAll(world, ships, [1, -1]), "out_of_range", /radius/);
   assert.equal(world.size, 3);

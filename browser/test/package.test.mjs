@@ -197,11 +197,11 @@ test("a misspelled key is named, with the nearest known one", async () => {
     [() => new RandomForces({ positions }, { accelerationLimit: 1 }), "RandomForces: options has no key accelerationLimit; the nearest is accelerationLimits"],
     [() => new FrameMotion({ positions }, { accelerationLimits: 1, dt: 0.1 }), "FrameMotion: options has no key dt; the nearest is"],
     [() => new Scene("paper1", { body: 5 }), "Scene: settings has no key body; the nearest is bodies"],
-    [() => world.teleport(first, { position: [1, 2, 3], velocty: [0, 0, 0] }), "teleport: state has no key velocty; the nearest is velocity"],
+    [() => world.teleport(first, { position: [1, 2, 3], velocty: [0, 0, 0] }), "teleport: velocity must be an array of three numbers, but is undefined"],
     [() => world.addStatic({ half_space: { normal: [0, 0, 1], offset: 0 } }), "addStatic: shape has no key half_space; the nearest is halfSpace"],
     [() => world.addZone({ ball: { centre: [0, 0, 0], radius: 1 } }, { filters: {} }), "addZone: options has no key filters; the nearest is filter"],
     [() => world.setFilter(first, { catgory: 1 }), "setFilter: filter has no key catgory; the nearest is category"],
-    [() => new RecordedTracks([{ time: [0], positions }]), "RecordedTracks: tracks[0] has no key time; the nearest is times"],
+    [() => new RecordedTracks([{ time: [0], positions }]), "RecordedTracks: body 0 must have arrays of times and positions"],
   ];
   for (const [action, message] of wrong)
     assert.throws(action, (error) => error instanceof TypeError && error.message.startsWith(message), message);

@@ -63,10 +63,7 @@ function sixes(states: States, call: string): Float64Array {
   return numbers;
 }
 
-const oneStateKeys: Keys<State> = { position: true, velocity: true };
-
 export function sixOf(state: State, call: string): number[] {
-  checkKeys(state, oneStateKeys, "state", call);
   return [...vector(state.position, "position", call), ...vector(state.velocity, "velocity", call)];
 }
 
@@ -373,13 +370,11 @@ export class RecordedTracks extends Motion {
   }
 }
 
-const trackKeys: Keys<Track> = { times: true, positions: true };
-
 function alongTracks(tracks: readonly Track[]): Made {
   const samples: number[] = [];
-  for (const [body, track] of tracks.entries()) {
-    checkKeys(track, trackKeys, `tracks[${body}]`, "RecordedTracks");
-    const { times, positions } = track;
+  for (const [body, { times, positions }] of tracks.entries()) {
+    if (typeof times?.length !== "number" || typeof positions?.length !== "number")
+      throw new TypeError(`RecordedTracks: body ${body} must have arrays of times and positions`);
     if (positions.length !== 3 * times.length)
       throw new RangeError(`RecordedTracks: positions of body ${body} must have three numbers for each of ` +
                            `${times.length} times, but has ${positions.length}`);

@@ -1,4 +1,5 @@
-// Keys of option objects: a misspelled one is refused, since its value would silently be the default.
+// Keys of option objects: a misspelled one is refused, since its value would silently be the default. Data without
+// optional keys, such as states and tracks, may have more.
 
 /** All keys of an option object. A list that lacks one does not compile. */
 export type Keys<Options> = Readonly<Record<keyof Options, true>>;
