@@ -135,6 +135,8 @@ std::vector<PairSummary> pairs_in(const std::vector<Approach>& approaches, const
     if (recording.has_sizes) {
       const LeastTimeToCollision least = least_time_to_collision(motion, approach, radii);
       if (least.seconds < pair.to_collision.seconds) pair.to_collision = least;
+      const PostEncroachment entry = post_encroachment(motion, approach, radii);
+      if (entry.seconds < pair.encroachment.seconds) pair.encroachment = entry;
     }
     if (approach.closest.distance < pair.closest.distance) pair.closest = approach.closest;
   }
@@ -147,7 +149,9 @@ std::vector<PairSummary> pairs_in(const std::vector<Approach>& approaches, const
 std::vector<std::string> pair_columns(bool with_sizes) {
   std::vector<std::string> columns{"first",    "second",         "approaches",
                                    "duration", "least_distance", "closest_time"};
-  if (with_sizes) columns.insert(columns.end(), {"least_time_to_collision", "time_of_that"});
+  if (with_sizes)
+    columns.insert(columns.end(),
+                   {"least_time_to_collision", "time_of_that", "post_encroachment_time", "time_of_entry"});
   return columns;
 }
 
@@ -156,11 +160,16 @@ void write_pairs(TableFile& table, const std::vector<PairSummary>& pairs, const 
     std::vector<Cell> cells{
         pair.first,    pair.second,           pair.approaches,
         pair.duration, pair.closest.distance, time_cell(recording.times, pair.closest.time)};
-    const LeastTimeToCollision& least = pair.to_collision;
-    if (recording.has_sizes && least.seconds < infinity)
-      cells.insert(cells.end(), {least.seconds, time_cell(recording.times, least.at)});
-    else if (recording.has_sizes)
-      cells.insert(cells.end(), 2, Cell());
+    const auto add = [&](double seconds, double at) {
+      if (seconds < infinity)
+        cells.insert(cells.end(), {seconds, time_cell(recording.times, at)});
+      else
+        cells.insert(cells.end(), 2, Cell());
+    };
+    if (recording.has_sizes) {
+      add(pair.to_collision.seconds, pair.to_collision.at);
+      add(pair.encroachment.seconds, pair.encroachment.at);
+    }
     table.write(cells);
   }
 }

@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "number/infinity.hpp"
 #include "output_file.hpp"
 #include "simulation/tracks/approaches.hpp"
+#include "simulation/tracks/post_encroachment.hpp"
 #include "simulation/tracks/time_to_collision.hpp"
 #include "table_file.hpp"
 #include "tracks/approach_map.hpp"
@@ -47,14 +49,16 @@ struct PairSummary {
   double duration = 0.0;      ///< sum of the durations
   ClosestApproach closest{};  ///< closest of all approaches
   LeastTimeToCollision to_collision{};
+  PostEncroachment encroachment{0.0, infinity};
 };
 
-/// Returns the pairs, the one with the closest approach first. Their times to collision are found if the
-/// recording has sizes.
+/// Returns the pairs, the one with the closest approach first. Their times to collision and post-encroachment
+/// times are found if the recording has sizes.
 std::vector<PairSummary> pairs_in(const std::vector<Approach>& approaches, const Recording& recording,
                                   const Motion& motion);
 
-/// Returns the columns of a table of pairs; with sizes also those of the time to collision.
+/// Returns the columns of a table of pairs; with sizes also those of the time to collision and the
+/// post-encroachment time.
 std::vector<std::string> pair_columns(bool with_sizes);
 void write_pairs(TableFile& table, const std::vector<PairSummary>& pairs, const Recording& recording);
 

@@ -41,7 +41,19 @@ TEST_F(SizesOf, NeverOnACourseOfCollisionIsEmpty) {
                                  "b,0,0,20,4,3\nb,2,20,20,4,3\n");
   ASSERT_EQ(run("tracks " + file + " --sizes --distance 100 --pairs " + path("p.csv")).exit_code, 0);
   const std::string rows = read_text(path("p.csv"));
-  EXPECT_NE(rows.find("\na,b,1,2,15,0,,\n"), std::string::npos) << rows;
+  EXPECT_NE(rows.find("\na,b,1,2,15,0,,,,\n"), std::string::npos) << rows;
+}
+
+TEST_F(SizesOf, PostEncroachmentTimeIsThatOfTheDiscs) {
+  // Discs of radius 1; the second passes the crossing 3 s after the first, at half its speed.
+  const std::string file = write("t.csv",
+                                 "id,time,x_m,y_m,length_m,width_m\na,0,-10,0,1.6,1.2\na,10,10,0,1.6,1.2\n"
+                                 "b,0,0,-8,1.6,1.2\nb,10,0,2,1.6,1.2\n");
+  const std::string options = " --sizes --distance 100 --interpolate linear --pairs " + path("p.jsonl");
+  ASSERT_EQ(run("tracks " + file + options).exit_code, 0);
+  const auto pair = nlohmann::json::parse(read_text(path("p.jsonl")));
+  EXPECT_NEAR(pair["post_encroachment_time"].get<double>(), 3.0 - std::sqrt(5.0), 1e-5);
+  EXPECT_NEAR(pair["time_of_entry"].get<double>(), 8.0 - 4.0 / std::sqrt(5.0), 1e-2);
 }
 
 TEST_F(SizesOf, WhatIsMissingIsAskedFor) {
