@@ -130,7 +130,7 @@ class EncroachmentSearch {
     if (candidate.least < found_.seconds) candidates_.push(candidate);
   }
   PostEncroachment run() {
-    constexpr double tolerance = 1e-6;
+    constexpr double tolerance = 1e-4;
     while (!candidates_.empty() && candidates_.top().least < found_.seconds * (1.0 - tolerance) - shortest_) {
       const Candidate candidate = candidates_.top();
       candidates_.pop();
