@@ -78,6 +78,11 @@ class ContactGraph {
   OverlapRecords::List overlaps_of(std::uint32_t a, std::uint32_t b) const {
     return flags_[a].is_static ? overlaps_.of(b, a) : overlaps_.of(a, b);
   }
+  /// Returns true if the two are within a sensor distance. Cost: that of overlaps_of(a, b), or O(1) if the
+  /// body that would be searched has no overlaps.
+  bool overlap(std::uint32_t a, std::uint32_t b) const {
+    return !overlaps_.of(flags_[a].is_static ? b : a).empty() && !overlaps_of(a, b).empty();
+  }
   /// Begins or ends the contact or overlap that the event names, between two bodies or a body and a wall. No
   /// event is queued.
   void set_touching(const Event& contact, bool touching);

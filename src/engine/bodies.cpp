@@ -76,6 +76,12 @@ void Bodies::set_solid(std::uint32_t number, bool solid) {
   if (!solid) filters.set_any();
 }
 
+/// Evaluates may_meet() in a world with filters.
+bool Bodies::filters_allow(std::uint32_t a, std::uint32_t b) const {
+  return !(table_[a].is_static() && table_[b].is_static()) &&
+         filters.may_meet(id_of(a), filters.of(a), id_of(b), filters.of(b));
+}
+
 Change& Bodies::change_of(std::uint32_t number) {
   Body& body = table_[number];
   if (changes.find(body)) return changes[body];

@@ -61,10 +61,7 @@ class Bodies {
   void forget_change(std::uint32_t number) { changes.remove(table_, number); }
 
   /// Returns true if the filters allow two bodies to touch or sense each other.
-  bool may_meet(std::uint32_t a, std::uint32_t b) const {
-    return !filters.any() || (!(table_[a].is_static() && table_[b].is_static()) &&
-                              filters.may_meet(id_of(a), filters.of(a), id_of(b), filters.of(b)));
-  }
+  bool may_meet(std::uint32_t a, std::uint32_t b) const { return !filters.any() || filters_allow(a, b); }
   bool may_touch(std::uint32_t a, std::uint32_t b) const {
     return table_[a].solid && table_[b].solid && may_meet(a, b);
   }
@@ -122,6 +119,7 @@ class Bodies {
 
  private:
   std::uint32_t describe(std::uint32_t number, const BodyDefinition& definition);
+  bool filters_allow(std::uint32_t a, std::uint32_t b) const;
   bool bodies_are_valid(double now, const std::vector<std::uint32_t>& dirty) const;
   bool is_valid(std::uint32_t number, double now) const;
   bool is_valid_static(std::uint32_t number, double now) const;

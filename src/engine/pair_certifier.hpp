@@ -87,7 +87,7 @@ class PairCertifier {
 
   /// Returns true if the two touch or sense each other.
   bool are_linked(std::uint32_t a, std::uint32_t b) const {
-    return contacts().touch(a, b) || !contacts().overlaps_of(a, b).empty();
+    return contacts().touch(a, b) || contacts().overlap(a, b);
   }
   /// Calls visit(threshold) for each threshold that two bodies can cross next: their contact, the next sensor
   /// distance inward, and the next one outward. Precondition: the two may meet.
@@ -114,6 +114,7 @@ class PairCertifier {
   void certify_walls(std::uint32_t number, SearchResults& found) const;
 
  private:
+  double apart_until(const BoundRef& a, const BoundRef& b) const;
   bool bounce_apart(std::uint32_t a, std::uint32_t b) const;
   const Bodies& bodies() const { return state_.bodies; }
   const ContactGraph& contacts() const { return state_.contacts; }
@@ -122,13 +123,18 @@ class PairCertifier {
   const BodyCheckpoint* checkpoint_of(std::uint32_t number) const {
     return log_ ? log_->checkpoint_of(number) : nullptr;
   }
-  [[gnu::always_inline]] BoundRef bound_ref(std::uint32_t number) const {
+  BoundRef bound_ref(std::uint32_t number) const {
     const bool repeats = bodies().space().repeats();
     if (const BodyCheckpoint* const checkpoint = checkpoint_of(number))
       return {number, &checkpoint->body.body.bound, window_end_of(number),
               repeats ? &checkpoint->body.image.middle : nullptr};
     return {number, &bodies()[number].bound, window_end_of(number),
             repeats ? &bodies().images[number].middle : nullptr};
+  }
+  /// Returns bound_ref() for the processor with all bodies, which has no log to search.
+  BoundRef bound_ref_without_log(std::uint32_t number) const {
+    return {number, &bodies()[number].bound, state_.broad_phase.end_of(number),
+            bodies().space().repeats() ? &bodies().images[number].middle : nullptr};
   }
   std::uint32_t revision_of(std::uint32_t number) const {
     const BodyCheckpoint* const checkpoint = checkpoint_of(number);
