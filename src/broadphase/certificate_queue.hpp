@@ -80,8 +80,10 @@ class CertificateQueue {
   /// and first().
   template <class IsStale>
   void open(IsStale is_stale) {
-    while (next_ == sorted_.size() && heap_.empty() && waiting_ > 0) begin_bucket(is_stale);
+    while (!is_open()) begin_bucket(is_stale);
   }
+  /// Returns true if open() would do nothing.
+  bool is_open() const { return next_ < sorted_.size() || !heap_.empty() || waiting_ == 0; }
   /// Returns the failure time of the first certificate, or +infinity if the queue is empty. Precondition:
   /// open().
   double next_time() const {
@@ -93,6 +95,12 @@ class CertificateQueue {
   const PairCertificate& first() const { return heap_comes_first() ? heap_.front() : sorted_[next_]; }
   /// Removes first(), under the preconditions of first().
   void drop_first();
+  /// Removes and returns first(), under the preconditions of first().
+  PairCertificate take_first() {
+    const PairCertificate pair = first();
+    drop_first();
+    return pair;
+  }
   /// Adds a certificate. Cost: O(1), or O(log of the heap) if it belongs to the current bucket.
   void add(const PairCertificate& pair);
   /// Adds all of `pairs`, which may be in any order, and clears `pairs`. If they are many, all buckets are

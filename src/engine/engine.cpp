@@ -14,7 +14,7 @@ Result<std::optional<Event>> World::Engine::advance(double until, const Probe& p
   PoolLease alone;
   for (;;) {
     if (main_.is_gathering()) {
-      if (auto gathered = gather(); !gathered) return gathered.error();
+      if (auto gathered = gather(until); !gathered) return gathered.error();
     }
     if (!main_.events().is_quiet()) {
       if (std::optional<Event> event = main_.pop()) return event;
@@ -47,14 +47,15 @@ Result<bool> World::Engine::run_epoch(double until, const Probe& probe, PoolLeas
   return main_.is_certified() && runner.run(until, events);
 }
 
-/// Starts the windows that end at this instant, then rechecks all certificates that are due.
-Result<void> World::Engine::gather() {
+/// Starts the windows that end at this instant, then rechecks all certificates that are due, also those of
+/// later instants (EventProcessor::gather).
+Result<void> World::Engine::gather(double until) {
   PoolLease alone;
   if (main_.epoch_end() <= time()) {
     if (auto started = start_windows(alone, false); !started) return started;
   }
   if (auto recertified = recertify(alone); !recertified) return recertified;
-  return main_.gather();
+  return main_.gather(until);
 }
 
 /// Restarts all windows if many bodies were relocated; otherwise recertifies dirty bodies one by one.

@@ -85,7 +85,7 @@ class World::Engine {
   // epochs.cpp and engine.cpp
   Result<void> start_windows(PoolLease& lease, bool all, std::span<const std::uint32_t> joining = {});
   Result<void> start_with_arrivals(PoolLease& lease);
-  Result<void> gather();
+  Result<void> gather(double until);
   Result<void> recertify(PoolLease& lease);
 
   // snapshot.cpp

@@ -7,12 +7,19 @@
 
 namespace kinesphere {
 
-Result<void> EventProcessor::gather() {
+void EventProcessor::open_queue() {
+  queue_.open([certifier = certifier()](const PairCertificate& pair) { return certifier.is_stale(pair); });
+}
+
+Result<void> EventProcessor::gather(double until) {
   for (;;) {
     if (auto recertified = recertify(); !recertified) return recertified;
-    if (next_time() > time_) break;
-    const PairCertificate pair = queue_.first();
-    queue_.drop_first();
+    const double next = next_time();
+    if (next > time_) {
+      if (next > until || next >= epoch_end_ || !events_.is_quiet()) break;
+      advance_clock(next);
+    }
+    const PairCertificate pair = queue_.take_first();
     if (certifier().is_stale(pair)) continue;
     if (auto rechecked = recheck(pair); !rechecked) return rechecked;
   }

@@ -73,7 +73,7 @@ class alignas(128) EventProcessor {
   bool is_gathering() const { return gathering_; }
   /// Returns the earliest failure time in the queue; +infinity if the queue is empty.
   double next_time() {
-    queue_.open([certifier = certifier()](const PairCertificate& pair) { return certifier.is_stale(pair); });
+    if (!queue_.is_open()) open_queue();
     return queue_.next_time();
   }
   void advance_clock(double time) {
@@ -86,8 +86,9 @@ class alignas(128) EventProcessor {
     gathering_ = true;
   }
   /// Rechecks all certificates that are due, so that every event of this instant is known before the first is
-  /// delivered. Errors: those of probe().
-  Result<void> gather();
+  /// delivered. While no event is known, continues with the next instants, up to `until` and before the epoch
+  /// ends. Errors: those of probe().
+  Result<void> gather(double until);
   /// Certifies again the pairs whose contacts were changed by delivered events. Pairs of dirty bodies are
   /// skipped, since recertify() finds them.
   void recertify_changed();
@@ -150,6 +151,7 @@ class alignas(128) EventProcessor {
   std::size_t bytes() const;
 
  private:
+  void open_queue();
   Result<void> recertify_all();
   WindowChoice window_choice() const { return {*state_, time_}; }
   Bodies& bodies() { return state_->bodies; }

@@ -54,7 +54,7 @@ Result<void> RunPool::advance(Worker& worker) {
   std::uint32_t round = 0;
   for (;;) {
     if (processor.is_gathering()) {
-      if (auto gathered = processor.gather(); !gathered) return gathered;
+      if (auto gathered = processor.gather(processor.time()); !gathered) return gathered;
     }
     while (const std::optional<Event> event = processor.pop()) {
       log.events.add({round, *event});
