@@ -37,7 +37,13 @@ class BroadPhase {
   /// contains(number).
   double end_of(std::uint32_t number) const { return registrations_[number].end; }
   /// Returns the window in which the body is registered. Precondition: contains(number).
-  Window window_of(std::uint32_t number) const { return levels_[registrations_[number].level].window; }
+  Window window_of(std::uint32_t number) const { return level_of(number).window; }
+  /// Returns the grid level that holds the body. Precondition: contains(number). Invalidated as levels() are.
+  const GridLevel& level_of(std::uint32_t number) const { return levels_[registrations_[number].level]; }
+  /// Returns the swept sphere of the body, in the frame of level_of(). Precondition: contains(number).
+  SweptSphere swept_sphere_of(std::uint32_t number) const {
+    return level_of(number).spheres.table().swept_sphere_at(registrations_[number].slot);
+  }
   /// Returns a box that contains the body from `now` until its window ends. Precondition: contains(number).
   Box box_of(std::uint32_t number, double now) const;
   /// Number of registered bodies.

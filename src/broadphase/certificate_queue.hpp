@@ -97,6 +97,7 @@ class CertificateQueue {
   void drop_first();
   /// Removes and returns first(), under the preconditions of first().
   PairCertificate take_first() {
+    if (heap_.empty()) return sorted_[next_++];
     const PairCertificate pair = first();
     drop_first();
     return pair;

@@ -13,53 +13,71 @@ bool is_within_a_period(const Box& box, const Space& space) {
   return true;
 }
 
-}  // namespace
-
-void NeighbourSearch::clear_searches() {
-  searches_.clear();
-  images_.clear();
-}
-
-/// Adds searches of one grid level, in all images, for the k-th body of a batch, from `now` until `end` or
-/// until the level's window ends. Returns false, without adding any, if the body's box is not narrower than a
-/// period: every body of the level may then be near.
-bool NeighbourSearch::add_searches(const Space& space, const GridLevel& layer, std::uint32_t k,
-                                   const InflatedBound& bound, double now, double end) {
-  const auto add = [&](const Vec3& shift) {
-    InflatedBound image = bound;
-    image.moved.centre += shift;
-    layer.spheres.add_search(layer.query(image, now, end), searches_);
-    images_.push_back({k, shift != Vec3{}});
-  };
+/// Calls visit(image, is_shifted) for each image of the body, from `now` until `end`, that may meet bodies of
+/// a grid level. Returns false, without a call, if the body's box is not narrower than a period: every body
+/// of the level may then be near.
+template <class Visit>
+bool for_each_image(const Space& space, const GridLevel& layer, const InflatedBound& bound, double now,
+                    double end, Visit visit) {
   if (!space.repeats()) {
-    add({});
+    visit(bound, false);
     return true;
   }
   const Box box = bound.box_of_way(duration_until(end, now));
   // A box this wide may overlap several images of another; a search with one of them would not suffice.
   if (!is_within_a_period(box, space)) return false;
-  space.for_each_image(box, layer.widest(), [&](const Box&, const Vec3& shift) { add(shift); });
+  space.for_each_image(box, layer.widest(), [&](const Box&, const Vec3& shift) {
+    InflatedBound image = bound;
+    image.moved.centre += shift;
+    visit(image, shift != Vec3{});
+  });
   return true;
+}
+
+}  // namespace
+
+/// Adds all bodies of a grid level other than `number` to numbers_ that near() finds there. If `entered` is
+/// not null, it is the swept sphere from `now` until `end` that the body has in this level already.
+void NeighbourSearch::search_level(const Space& space, const GridLevel& layer, std::uint32_t number,
+                                   const InflatedBound& bound, double now, double end,
+                                   const SweptSphere* entered) {
+  const SweptSphereTable& table = layer.spheres.table();
+  const auto note = [&](std::uint32_t slot) {
+    const std::uint32_t other = table.number_at(slot);
+    if (other != number && other != SweptSphereTable::free_slot) numbers_.push_back(other);
+  };
+  searches_.clear();
+  const auto add = [&](const InflatedBound& image, bool is_shifted) {
+    layer.spheres.add_search(entered != nullptr && !is_shifted
+                                 ? SweptSphereQuery{*entered, layer.time(now), layer.time(end)}
+                                 : layer.query(image, now, end),
+                             searches_);
+  };
+  if (for_each_image(space, layer, bound, now, end, add)) {
+    layer.spheres.make(searches_);
+    searches_.for_each_found([&](std::uint32_t, std::uint32_t slot) { note(slot); });
+  } else {
+    for (std::uint32_t slot = 0; slot < table.slots(); ++slot) note(slot);
+  }
 }
 
 std::vector<std::uint32_t>& NeighbourSearch::near(const BroadPhase& windows, std::uint32_t number,
                                                   const InflatedBound& bound, double now, double end) {
   numbers_.clear();
-  for (const GridLevel& layer : windows.levels()) {
-    if (layer.is_empty()) continue;
-    const SweptSphereTable& table = layer.spheres.table();
-    const auto note = [&](std::uint32_t slot) {
-      const std::uint32_t other = table.number_at(slot);
-      if (other != number && other != SweptSphereTable::free_slot) numbers_.push_back(other);
-    };
-    clear_searches();
-    if (add_searches(windows.space(), layer, 0, bound, now, end)) {
-      layer.spheres.make(searches_);
-      searches_.for_each_found([&](std::uint32_t, std::uint32_t slot) { note(slot); });
-    } else {
-      for (std::uint32_t slot = 0; slot < table.slots(); ++slot) note(slot);
-    }
-  }
+  for (const GridLevel& layer : windows.levels())
+    if (!layer.is_empty()) search_level(windows.space(), layer, number, bound, now, end, nullptr);
+  return numbers_;
+}
+
+std::vector<std::uint32_t>& NeighbourSearch::near_entered(const BroadPhase& windows, std::uint32_t number,
+                                                          const InflatedBound& bound, double now) {
+  const GridLevel& own = windows.level_of(number);
+  const SweptSphere entered = windows.swept_sphere_of(number);
+  numbers_.clear();
+  for (const GridLevel& layer : windows.levels())
+    if (!layer.is_empty())
+      search_level(windows.space(), layer, number, bound, now, own.window.end,
+                   &layer == &own ? &entered : nullptr);
   return numbers_;
 }
 
@@ -69,7 +87,7 @@ std::span<const std::uint32_t> NeighbourSearch::in_box(const BroadPhase& windows
   for (const GridLevel& layer : windows.levels()) {
     if (layer.is_empty()) continue;
     const double end = layer.window.end < infinity ? now : infinity;
-    clear_searches();
+    searches_.clear();
     windows.space().for_each_image(box, layer.widest(), [&](const Box& image, const Vec3&) {
       Bound ball{.time = now, .position = 0.5 * (image.lower + image.upper)};
       ball.radius = 0.5 * norm(image.upper - image.lower);
@@ -110,7 +128,7 @@ NeighbourSearch::Started NeighbourSearch::started_at(std::span<const GridLevel> 
 /// Finds neighbours of the bodies `some` among the later slots of their own grid level.
 void NeighbourSearch::search_behind(const Started& some) {
   const SweptSphereGrid& layer = some.own.spheres;
-  clear_searches();
+  searches_.clear();
   for (std::uint32_t k = 0; k < some.count; ++k) layer.add_search_behind(some.slot + k, searches_);
   layer.make(searches_);
   searches_.for_each_found([&](std::uint32_t k, std::uint32_t slot) {
@@ -132,9 +150,15 @@ void NeighbourSearch::search_other_levels(const BroadPhase& windows, const Start
       if (number != SweptSphereTable::free_slot)
         pairs_.push_back({some.own.spheres.table().number_at(some.slot + image.k), number});
     };
-    clear_searches();
+    searches_.clear();
+    images_.clear();
     for (std::uint32_t k = 0; k < some.count; ++k) {
-      if (add_searches(windows.space(), other, k, bounds_[k], now, some.own.window.end)) continue;
+      const double end = some.own.window.end;
+      const auto add = [&](const InflatedBound& image, bool shifted) {
+        other.spheres.add_search(other.query(image, now, end), searches_);
+        images_.push_back({k, shifted});
+      };
+      if (for_each_image(windows.space(), other, bounds_[k], now, end, add)) continue;
       for (std::uint32_t slot = 0; slot < table.slots(); ++slot) note({k, true}, slot);
     }
     other.spheres.make(searches_);

@@ -27,6 +27,11 @@ class NeighbourSearch {
   std::vector<std::uint32_t>& near(const BroadPhase& windows, std::uint32_t number,
                                    const InflatedBound& bound, double now, double end);
 
+  /// Returns near() for a body that has just entered its window with this bound (BroadPhase::enter), until
+  /// that window ends. Cost: its swept sphere in its own grid level is not computed again.
+  std::vector<std::uint32_t>& near_entered(const BroadPhase& windows, std::uint32_t number,
+                                           const InflatedBound& bound, double now);
+
   /// Returns the pairs of a started body, with an index k <= index < last below BroadPhase::started(), and a
   /// body that near() finds for it. Calls for all indices together yield each pair of two started bodies
   /// once. bound_of(number) is called only if there are several grid levels or space repeats. Precondition:
@@ -72,12 +77,11 @@ class NeighbourSearch {
   static Started started_at(std::span<const GridLevel> layers, std::size_t k, std::size_t most);
   void search_behind(const Started& some);
   void search_other_levels(const BroadPhase& windows, const Started& some, double now);
-  bool add_searches(const Space& space, const GridLevel& layer, std::uint32_t k, const InflatedBound& bound,
-                    double now, double end);
-  void clear_searches();
+  void search_level(const Space& space, const GridLevel& layer, std::uint32_t number,
+                    const InflatedBound& bound, double now, double end, const SweptSphere* entered);
 
   SweptSphereSearches searches_;     ///< queries for one grid level
-  std::vector<ImageSearch> images_;  ///< body and image of each query
+  std::vector<ImageSearch> images_;  ///< body and image of each query of search_other_levels()
   std::vector<InflatedBound> bounds_;
   std::vector<std::uint32_t> numbers_;
   std::vector<BodyPair> pairs_;

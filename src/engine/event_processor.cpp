@@ -149,7 +149,8 @@ void EventProcessor::recertify_changed(std::uint32_t a, std::uint32_t b) {
 }
 
 std::size_t EventProcessor::bytes() const {
-  return queue_.bytes() + reports_.bytes() + heap_bytes(events_, dirty_, round_, found_.certificates);
+  return queue_.bytes() + reports_.bytes() +
+         heap_bytes(events_, dirty_, round_, entered_, found_.certificates);
 }
 
 }  // namespace kinesphere

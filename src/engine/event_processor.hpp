@@ -165,7 +165,7 @@ class alignas(128) EventProcessor {
   Result<void> renew(std::uint32_t number);
   void search(std::span<const std::uint32_t> numbers);
   void enter(std::uint32_t number, const Window& window);
-  std::span<const std::uint32_t> near(std::uint32_t number);
+  std::span<const std::uint32_t> near(std::uint32_t number, const InflatedBound& bound);
 
   // speculation_log.cpp
   void note_linked_conflicts(std::uint32_t number);
@@ -201,6 +201,7 @@ class alignas(128) EventProcessor {
   SpeculationLog* log_ = nullptr;  ///< nullptr for the processor with all bodies
   // Members only to reuse their memory.
   std::vector<std::uint32_t> round_;
+  std::vector<InflatedBound> entered_;  ///< bounds with which the bodies of the next search() entered
   SearchResults found_;
 };
 

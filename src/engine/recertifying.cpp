@@ -21,22 +21,25 @@ Result<void> EventProcessor::recertify_dirty() {
 }
 
 void EventProcessor::recertify(std::span<const std::uint32_t> numbers) {
+  entered_.clear();
   for (const std::uint32_t number : numbers)
     enter(number, window_choice().next_window(number, certifier().window_of(number)));
   search(numbers);
 }
 
-/// Searches for the neighbours of bodies that have a new swept sphere, and certifies the pairs.
+/// Searches for the neighbours of bodies that have a new swept sphere, and certifies the pairs. Precondition:
+/// entered_ has the bounds of all of them.
 void EventProcessor::search(std::span<const std::uint32_t> numbers) {
   work_.counters.restarts += numbers.size();
   if (!log_) state_->broad_phase.tidy();
   // A run that stopped at a conflict may have left results.
   found_.clear();
   const PairCertifier certifier = this->certifier();
-  for (const std::uint32_t number : numbers) {
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const std::uint32_t number = numbers[k];
     if (log_) note_linked_conflicts(number);
     ++found_.searches;
-    for (const std::uint32_t other : near(number)) {
+    for (const std::uint32_t other : near(number, entered_[k])) {
       if (log_ && !log_->is_own(other)) {
         certify_speculatively(number, other);
       } else if (!bodies()[other].visited) {
@@ -64,13 +67,15 @@ Result<void> EventProcessor::renew(std::uint32_t number) {
   if (bodies()[number].dirty) return {};
   const auto ended = certifier().window_of(number);
   const bool lasted = ended && ended->end <= time_;
+  entered_.clear();
   enter(number, lasted ? choice.longer_window(number, *ended) : choice.window_for(number));
   search(std::span(&number, 1));
   return {};
 }
 
-/// Registers a swept sphere of the body from now on. A velocity change does not end the epoch, so the window
-/// may end earlier; a window_end certificate then renews it. A relocated body shortens the epoch instead.
+/// Registers a swept sphere of the body from now on, and adds its bound to entered_. A velocity change does
+/// not end the epoch, so the window may end earlier; a window_end certificate then renews it. A relocated
+/// body shortens the epoch instead.
 void EventProcessor::enter(std::uint32_t number, const Window& window) {
   const Body& body = bodies()[number];
   if (bodies().space().repeats())
@@ -80,20 +85,21 @@ void EventProcessor::enter(std::uint32_t number, const Window& window) {
   } else if (window.end < epoch_end_) {
     queue_.add({window.end, number, PairCertificate::window_end, body.revision, 0});
   }
+  const InflatedBound& bound = entered_.emplace_back(inflated_bound(bodies(), number, time_));
   if (log_) {
     const Vec3 middle = bodies().space().repeats() ? bodies().images[number].middle : Vec3{};
     log_->add({number, body.revision, time_, window, body.bound, middle});
   } else {
-    state_->broad_phase.enter(number, inflated_bound(bodies(), number, time_), time_, window);
+    state_->broad_phase.enter(number, bound, time_, window);
   }
 }
 
-/// Returns the bodies whose swept spheres may touch the new one of the body. The result may contain others.
-std::span<const std::uint32_t> EventProcessor::near(std::uint32_t number) {
-  const InflatedBound bound = inflated_bound(bodies(), number, time_);
+/// Returns the bodies whose swept spheres may touch the new one of the body, which entered with this bound.
+/// The result may contain others.
+std::span<const std::uint32_t> EventProcessor::near(std::uint32_t number, const InflatedBound& bound) {
+  if (!log_) return found_.search.near_entered(state_->broad_phase, number, bound, time_);
   std::vector<std::uint32_t>& numbers =
       found_.search.near(state_->broad_phase, number, bound, time_, certifier().window_end_of(number));
-  if (!log_) return numbers;
   std::erase_if(numbers, [&](std::uint32_t other) { return log_->last_update(other) != nullptr; });
   log_->for_each_updated([&](std::uint32_t other) {
     if (other != number) numbers.push_back(other);
