@@ -135,22 +135,23 @@ void WindowStart::find_links_and_walls(std::span<const BroadPhase::Starter> star
   const auto is_linked = [this](std::uint32_t number) {
     return !state_.contacts.partners_of(number).empty() || !state_.contacts.overlaps_of(number).empty();
   };
-  // Only linked bodies are marked, so that the records of most bodies are not accessed.
-  const auto mark = [&](bool visited) {
-    lease_.parallel_for(starters.size(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
-      for (const BroadPhase::Starter& starter : starters.subspan(from, to - from))
-        if (is_linked(starter.number)) bodies()[starter.number].visited = visited;
-    });
-  };
-  mark(true);
+  // Only linked bodies are marked and certified, so that the records of most bodies are not accessed.
+  std::vector<std::uint32_t> linked;
+  for (const BroadPhase::Starter& starter : starters)
+    if (is_linked(starter.number)) linked.push_back(starter.number);
+  for (const std::uint32_t number : linked) bodies()[number].visited = true;
+  lease_.parallel_for(linked.size(), bodies_at_once,
+                      [&](std::size_t from, std::size_t to, std::size_t worker) {
+                        for (std::size_t k = from; k < to; ++k)
+                          certifier.certify_linked(linked[k], found_[worker]);
+                      });
+  for (const std::uint32_t number : linked) bodies()[number].visited = false;
+  if (!bodies().walls()) return;
   lease_.parallel_for(starters.size(), bodies_at_once,
                       [&](std::size_t from, std::size_t to, std::size_t worker) {
-                        for (std::size_t k = from; k < to; ++k) {
-                          certifier.certify_linked(starters[k].number, found_[worker]);
+                        for (std::size_t k = from; k < to; ++k)
                           certifier.certify_walls(starters[k].number, found_[worker]);
-                        }
                       });
-  mark(false);
 }
 
 }  // namespace kinesphere
