@@ -17,6 +17,11 @@ constexpr std::size_t reports_at_once = 512;
 
 constexpr std::size_t few_reports = 2;
 
+/// Moves a report to the image that is nearest to where the bound expects its body.
+inline void move_to_nearest_image(const Space& space, const Bound& bound, double time, State& report) {
+  if (space.repeats()) report.position += space.shift_to_nearest(report.position, bound.centre_at(time));
+}
+
 /// Starts a bound anew from a report whose body has the limits that it had.
 [[gnu::always_inline]] inline void restart(Bound& bound, double time, const State& report) {
   bound.time = time;
@@ -55,12 +60,14 @@ Result<std::span<const Reports::Violation>> Reports::take(Bodies& bodies, double
     const ScopeGuard answered([&] { asking_ = false; });
     (*probe_)(std::span(ids).first(count), time, std::span(states).first(count));
   }
-  bool are_plain = !bodies.space().repeats();
-  for (std::size_t k = 0; k < count; ++k) {
+  bool are_plain = true;
+  for (std::size_t k = 0; k < count && are_plain; ++k) {
     const Body& body = bodies[numbers[k]];
-    are_plain = are_plain && body.change_number == Body::none && !body.is_sleeping() &&
-                is_valid_report(states[k], bodies.definition()) &&
-                certainly_keeps(body.bound, time, states[k], body.radius);
+    are_plain = body.change_number == Body::none && !body.is_sleeping() &&
+                is_valid_report(states[k], bodies.definition());
+    // An invalid report stays as it is, for the error message.
+    if (are_plain) move_to_nearest_image(bodies.space(), body.bound, time, states[k]);
+    are_plain = are_plain && certainly_keeps(body.bound, time, states[k], body.radius);
   }
   if (!are_plain) {
     ids_.assign(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(count));
@@ -121,12 +128,11 @@ void Reports::apply_all(Bodies& bodies, double time, PoolLease& lease) {
 
 void Reports::apply(Bodies& bodies, double time, std::size_t from, std::size_t to,
                     std::vector<Violation>& broken) const {
-  const Space& space = bodies.space();
   for (std::size_t k = from; k < to; ++k) {
     const std::uint32_t number = bodies.table().number_of(ids_[k]);
     Body& body = bodies[number];
     State state = states_[k];
-    if (space.repeats()) state.position += space.shift_to_nearest(state.position, body.bound.centre_at(time));
+    move_to_nearest_image(bodies.space(), body.bound, time, state);
     const Bound before = body.bound;
     std::optional<Vec3> new_velocity;
     if (const Change* change = bodies.changes.find(bodies[number])) {
