@@ -29,6 +29,9 @@ class Ballistic final : public PiecewiseAcceleration {
   /// Adds a body that continues from `state` at time t, and returns its number. Errors: not_finite.
   Result<std::uint32_t> add(double t, const State& state) { return add_body("add", t, state); }
 
+  /// Returns the common gravity (length / time^2).
+  const Vec3& gravity() const { return gravity_; }
+
   BodyDefinition definition(std::uint32_t body, double t) const override;
   Result<void> write_body(std::uint32_t body, std::vector<std::byte>& bytes) const override;
   Result<std::uint32_t> read_body(std::span<const std::byte>& bytes) override;

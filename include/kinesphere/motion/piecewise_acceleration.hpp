@@ -37,6 +37,9 @@ class PiecewiseAcceleration : public Motion {
   Result<void> set_origin(std::uint32_t body, const MotionOrigin& origin) final;
   Result<void> remove(std::uint32_t body) final;
 
+  /// Returns the length of the intervals (time); infinite if there is only one.
+  double interval() const { return interval_; }
+
  protected:
   /// Creates bodies from their states at start_time. Interval k lasts from k * interval to (k + 1) *
   /// interval; with an infinite interval everything happens in interval 0. Times must stay within 2^50

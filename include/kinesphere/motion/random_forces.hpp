@@ -37,6 +37,8 @@ class RandomForces final : public PiecewiseAcceleration {
   /// Errors: not_finite; out_of_range for a negative limit and for times beyond 2^50 intervals.
   Result<std::uint32_t> add(double t, const State& state, double acceleration_limit);
 
+  std::uint64_t seed() const { return seed_; }
+
   BodyDefinition definition(std::uint32_t body, double t) const override;
   Result<void> write_body(std::uint32_t body, std::vector<std::byte>& bytes) const override;
   Result<std::uint32_t> read_body(std::span<const std::byte>& bytes) override;

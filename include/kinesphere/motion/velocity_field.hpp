@@ -55,6 +55,10 @@ class VelocityField final : public PiecewiseAcceleration {
   /// the field is not finite there); out_of_range for a negative limit and for times beyond 2^50 intervals.
   Result<std::uint32_t> add(double t, const State& state, double acceleration_limit);
 
+  /// Returns the velocity field; std::function::target() tells which one.
+  const std::function<Vec3(const Vec3&)>& field() const { return field_; }
+  double response_time() const { return response_time_; }
+
   BodyDefinition definition(std::uint32_t body, double t) const override;
   Result<void> write_body(std::uint32_t body, std::vector<std::byte>& bytes) const override;
   Result<std::uint32_t> read_body(std::span<const std::byte>& bytes) override;
