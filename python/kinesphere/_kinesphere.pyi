@@ -19,9 +19,10 @@ Array = npt.ArrayLike
 Bodies = Union[SupportsIndex, Sequence[SupportsIndex], npt.NDArray[np.integer[Any]]]
 Function = Callable[[Ids, float], tuple[Array, Array]]
 Probe = Union[Motion, BodyMap, MotionSource, Function]
-Response = Union[Bouncing, Scene, Callable[[Event], Any]]
+Response = Union[Bouncing, Scene, Callable[[Event], object]]
 Shape = Union[Ball, Box, HalfSpace, Triangle]
-BoxLike = Union[Box, Array]
+BoxLike = Union[Box, Array, Sequence[Array]]
+ContactEvents = Literal["all", "begin_and_end", "impacts"]
 
 version: str
 no_body: int
@@ -33,7 +34,7 @@ class WorldDefinition(TypedDict):
     dimensions: int
     contact_tolerance: float
     separation_distance: Optional[float]
-    contacts: Literal["all", "begin_and_end", "impacts"]
+    contacts: ContactEvents
     allow_overlap: bool
     zeno_interval: float
     start_time: float
@@ -79,6 +80,7 @@ class Triangle:
 class Event:
     @staticmethod
     def _from_record(record: bytes) -> Event: ...
+    def _to_record(self) -> bytes: ...
     @property
     def kind(self) -> EventKind: ...
     @property
@@ -174,15 +176,19 @@ def settle(
 ) -> tuple[Doubles, Optional[Doubles]]: ...
 def least_resting_speed(contact_tolerance: float, acceleration: float) -> float: ...
 
+# What can be made can be copied: Ballistic and the like.
 class Motion:
+    def __copy__(self) -> Self: ...
+    def __deepcopy__(self, memo: dict[int, object]) -> Self: ...
     def __len__(self) -> int: ...
     def __contains__(self, number: int) -> bool: ...
     def __call__(self, ids: Bodies, t: float) -> tuple[Doubles, Doubles]: ...
     def states(self, t: float, numbers: Optional[Bodies] = None) -> tuple[Doubles, Doubles]: ...
     def definitions(self, t: float, numbers: Optional[Bodies] = None) -> BodyDefinitions: ...
-    def set_velocity(self, number: int, t: float, velocity: Array) -> None: ...
-    def teleport(self, number: int, t: float, position: Array, velocity: Array) -> None: ...
+    def set_velocity(self, numbers: Bodies, t: float, velocities: Array) -> None: ...
+    def teleport(self, numbers: Bodies, t: float, positions: Array, velocities: Array) -> None: ...
     def remove(self, number: int) -> None: ...
+    def _common_arguments(self) -> dict[str, Any]: ...
     def origin(self, number: int) -> tuple[float, Doubles, Doubles]: ...
     def write_body(self, number: int) -> bytes: ...
     def read_body(self, bytes: Bytes) -> int: ...
@@ -321,6 +327,8 @@ class MotionSource:
     def set_origin(self, bodies: Bodies, t: float, positions: Array, velocities: Array) -> None: ...
     def __call__(self, ids: Bodies, t: float) -> tuple[Doubles, Doubles]: ...
     def __len__(self) -> int: ...
+    def __copy__(self) -> MotionSource: ...
+    def __deepcopy__(self, memo: dict[int, object]) -> MotionSource: ...
 
 class Bouncing:
     def __init__(
@@ -489,7 +497,7 @@ class World:
         dimensions: int = 3,
         contact_tolerance: float = 1e-6,
         separation_distance: Optional[float] = None,
-        contacts: Literal["all", "begin_and_end", "impacts"] = "all",
+        contacts: ContactEvents = "all",
         allow_overlap: bool = True,
         zeno_interval: float = 0.0,
         start_time: float = 0.0,
@@ -501,11 +509,54 @@ class World:
     def __len__(self) -> int: ...
     def __contains__(self, body: SupportsIndex) -> bool: ...
     def clone(self) -> World: ...
+    def __copy__(self) -> World: ...
+    def __deepcopy__(self, memo: dict[int, object]) -> World: ...
     def save(self) -> bytes: ...
     @staticmethod
     def restore(snapshot: Bytes, pair_filter: Optional[Callable[[BodyId, BodyId], bool]] = None) -> World: ...
 
-    # Adding, changing and removing bodies.
+    # Adding, changing and removing bodies. One vector of numbers is one body.
+    @overload
+    def add(
+        self,
+        positions: Sequence[Union[Sequence[float], npt.NDArray[Any]]],
+        velocities: Optional[Array] = None,
+        radii: Array = 1.0,
+        acceleration_limits: Array = 0.0,
+        *,
+        planned_accelerations: Optional[Array] = None,
+        position_errors: Array = 0.0,
+        velocity_errors: Array = 0.0,
+        categories: Array = 1,
+        masks: Array = ...,
+        group: int = 0,
+        solid: bool = True,
+        sensor_classes: Array = 0,
+        user_data: Array = 0,
+        masses: Array = 1.0,
+        contacts: Optional[ContactEvents] = None,
+    ) -> Ids: ...
+    @overload
+    def add(
+        self,
+        positions: Sequence[float],
+        velocities: Optional[Array] = None,
+        radii: Array = 1.0,
+        acceleration_limits: Array = 0.0,
+        *,
+        planned_accelerations: Optional[Array] = None,
+        position_errors: Array = 0.0,
+        velocity_errors: Array = 0.0,
+        categories: Array = 1,
+        masks: Array = ...,
+        group: int = 0,
+        solid: bool = True,
+        sensor_classes: Array = 0,
+        user_data: Array = 0,
+        masses: Array = 1.0,
+        contacts: Optional[ContactEvents] = None,
+    ) -> BodyId: ...
+    @overload
     def add(
         self,
         positions: Array,
@@ -523,9 +574,24 @@ class World:
         sensor_classes: Array = 0,
         user_data: Array = 0,
         masses: Array = 1.0,
-        contacts: Optional[Literal["all", "begin_and_end", "impacts"]] = None,
-    ) -> Any: ...  # ids of shape (n,), or a BodyId where positions are one vector
-    def add_motion(self, motion: Motion, radii: Array = 1.0) -> Ids: ...
+        contacts: Optional[ContactEvents] = None,
+    ) -> (
+        Any
+    ): ...  # types do not tell an array with one vector, for which a BodyId comes back, from one with many
+    def add_motion(
+        self,
+        motion: Motion,
+        radii: Array = 1.0,
+        *,
+        categories: Array = 1,
+        masks: Array = ...,
+        group: int = 0,
+        solid: bool = True,
+        sensor_classes: Array = 0,
+        user_data: Array = 0,
+        masses: Array = 1.0,
+        contacts: Optional[ContactEvents] = None,
+    ) -> Ids: ...
     def add_static(
         self,
         shape: Shape,
@@ -586,6 +652,7 @@ class World:
         *,
         sink: Optional[Callable[[Event], object]] = None,
         threads: Union[int, Workers] = 1,
+        progress: Union[bool, Callable[[float], object], None] = None,
     ) -> Events: ...
 
     # Certificates as answers, and queries.
@@ -627,6 +694,8 @@ class World:
     def bodies(self) -> Ids: ...
     def body(self, body: SupportsIndex) -> BodyView: ...
     def bounds(self, bodies: Optional[Bodies] = None) -> tuple[Doubles, Doubles]: ...
+    def images(self, bodies: Optional[Bodies] = None) -> Ids: ...
+    def unwrapped(self, positions: Array, bodies: Optional[Bodies] = None) -> Doubles: ...
     def shape_of(self, body: SupportsIndex) -> Shape: ...
     def user_data(self, body: SupportsIndex) -> int: ...
     def touching(self, body: SupportsIndex) -> Ids: ...
@@ -814,6 +883,7 @@ class Shard:
 class MonitorEvent:
     @staticmethod
     def _from_record(record: bytes) -> MonitorEvent: ...
+    def _to_record(self) -> bytes: ...
     @property
     def time(self) -> float: ...
     @property

@@ -47,5 +47,7 @@ _bodies = {"unknown_body", "stale_body", "foreign_body"}
 
 
 def error_of(code: str, argument: str, body: Optional[BodyId], message: str) -> KinesphereError:
+    # Constructors are the caller's "World", not "World::create".
+    message = message.replace("::create: ", ": ", 1)
     kind = InvalidValue if code in _values else BodyError if code in _bodies else StateError
     return kind(message, code, argument, body)

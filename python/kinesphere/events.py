@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from enum import IntEnum
-from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar, Union, overload
+from html import escape
+from typing import TYPE_CHECKING, Any, Generic, Optional, Protocol, Self, TypeVar, Union, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from ._kinesphere import Event, MonitorEvent, event_dtype, monitor_event_dtype
+from .errors import InvalidValue
 from .kinds import EventKind, MonitorEventKind, Senses, Verdict, Wall
 
 if TYPE_CHECKING:
@@ -17,19 +19,78 @@ if TYPE_CHECKING:
 
 Row = TypeVar("Row")
 Kind = TypeVar("Kind", bound=IntEnum)
+_shown_rows = 10
+
+
+class _HasFrame(Protocol):
+    def __len__(self) -> int:
+        ...
+
+    def __getitem__(self, key: slice) -> Self:
+        ...
+
+    def to_pandas(self) -> pd.DataFrame:
+        ...
+
+
+def html_of(table: _HasFrame, text: str) -> Optional[str]:
+    """The first rows of a table under this text; None, for which a notebook shows the text, without pandas."""
+    try:
+        frame = table[:_shown_rows].to_pandas()
+    except ImportError:
+        return None
+    rest = len(table) - len(frame)
+    end = f"<p>... and {rest} more</p>" if rest > 0 else ""
+    return f"<p>{escape(text)}</p>{frame.to_html(notebook=True)}{end}"
 
 
 class _Table(Sequence[Row], Generic[Row, Kind]):
     """Rows of a structured array with a column "kind"."""
 
     _kinds: type[Kind]
+    _dtype: np.dtype[np.void]
 
-    def __init__(self, array: npt.NDArray[np.void]) -> None:
-        self.array = array
+    def __init__(self, rows: Union[npt.NDArray[np.void], Iterable[Row]] = ()) -> None:
+        """rows: a structured array with these columns, such as one that np.load() has read; or single rows."""
+        if not isinstance(rows, np.ndarray):
+            records = [self._record(row) for row in rows]
+            self.array: npt.NDArray[np.void] = np.zeros(len(records), dtype=self._dtype)
+            if records:
+                self.array[:] = np.frombuffer(b"".join(records), dtype=self._dtype)
+        elif rows.dtype == self._dtype:
+            self.array = rows
+        elif rows.dtype.names is not None and set(rows.dtype.names) == set(self._dtype.names or ()):
+            self.array = np.zeros(rows.shape, dtype=self._dtype)
+            for name in rows.dtype.names:
+                self.array[name] = rows[name]
+        else:
+            name = type(self).__name__
+            raise InvalidValue(
+                f"{name}: rows must be an array with the columns of {name}, but is one of {rows.dtype}",
+                "out_of_range",
+                "rows",
+            )
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        # A pickle of another version may have other columns, or another layout.
+        self.array = type(self)(state["array"]).array
 
     @staticmethod
     def _row(record: bytes) -> Row:
         raise NotImplementedError
+
+    @staticmethod
+    def _record(row: Row) -> bytes:
+        raise NotImplementedError
+
+    def __add__(self, other: Self) -> Self:
+        """All rows of both, in this order; sum(parts, Events()) puts many together."""
+        if type(other) is not type(self):
+            return NotImplemented
+        # np.concatenate() would pack the rows.
+        array: npt.NDArray[np.void] = np.zeros(len(self) + len(other), dtype=self._dtype)
+        array[: len(self)], array[len(self) :] = self.array, other.array
+        return type(self)(array)
 
     def __len__(self) -> int:
         return len(self.array)
@@ -65,6 +126,13 @@ class _Table(Sequence[Row], Generic[Row, Kind]):
         name = type(self).__name__
         return f"<{name}: {kinds}>" if kinds else f"<{name}: none>"
 
+    def to_pandas(self) -> pd.DataFrame:
+        raise NotImplementedError
+
+    def _repr_html_(self) -> Optional[str]:
+        """In a notebook: the first rows as a table, where pandas is there."""
+        return html_of(self, repr(self))
+
     def of_kind(self, *kinds: Kind) -> Self:
         """Those of one of these kinds."""
         return self[np.isin(self["kind"], [int(kind) for kind in kinds])]
@@ -83,10 +151,13 @@ class Events(_Table[Event, EventKind]):
 
     Events of one kind: events.of_kind(EventKind.contact_begin); a column: events["time"], shape (n,), or
     (n, 3) for vectors; one Event: events[0]; some Events: events[events["gap"] < 0], events[:10].
+    Events(array) and Events([event, ...]) make a table; first + second has the rows of both.
     """
 
     _kinds = EventKind
+    _dtype = event_dtype
     _row = staticmethod(Event._from_record)
+    _record = staticmethod(Event._to_record)
 
     def to_pandas(self) -> pd.DataFrame:
         """A data frame with a row for each event: names for numbers, and a column for each coordinate.
@@ -124,7 +195,9 @@ class MonitorEvents(_Table[MonitorEvent, MonitorEventKind]):
     """
 
     _kinds = MonitorEventKind
+    _dtype = monitor_event_dtype
     _row = staticmethod(MonitorEvent._from_record)
+    _record = staticmethod(MonitorEvent._to_record)
 
     def to_pandas(self) -> pd.DataFrame:
         """A data frame with a row for each event: names for numbers, and nothing where a column has no meaning."""

@@ -1,4 +1,6 @@
 // Certificates as answers, and queries.
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -78,11 +80,13 @@ DistanceLimits distance_limits(WorldHandle& handle, const py::object& first, con
 
 struct FoundRecord {
   std::int64_t body;
+  bool certain;
+  std::array<std::uint8_t, 7> unused;
   double lower;
   double upper;
-  bool certain;
 };
 
+// In the order of their offsets, which numpy.save() requires.
 constexpr Field found_fields[] = {{"body", "i8", offsetof(FoundRecord, body)},
                                   {"certain", "?", offsetof(FoundRecord, certain)},
                                   {"lower", "f8", offsetof(FoundRecord, lower)},
@@ -97,8 +101,8 @@ NewArray new_found(std::size_t count, bool with_limits) {
 py::object found_table(const std::vector<OverlapHit>& found) {
   NewArray table = new_found(found.size(), false);
   for (std::size_t k = 0; k < found.size(); ++k)
-    table.data<FoundRecord>()[k] = {number_of(found[k].body), 0.0, 0.0,
-                                    found[k].certainty == Certainty::certainly};
+    table.data<FoundRecord>()[k] = {
+        number_of(found[k].body), found[k].certainty == Certainty::certainly, {}, 0.0, 0.0};
   return table.take();
 }
 
@@ -106,8 +110,11 @@ template <class Item>
 py::object found_table(const std::vector<Item>& found) {
   NewArray table = new_found(found.size(), true);
   for (std::size_t k = 0; k < found.size(); ++k) {
-    table.data<FoundRecord>()[k] = {number_of(found[k].body), found[k].lower, found[k].upper,
-                                    found[k].certainty == Certainty::certainly};
+    table.data<FoundRecord>()[k] = {number_of(found[k].body),
+                                    found[k].certainty == Certainty::certainly,
+                                    {},
+                                    found[k].lower,
+                                    found[k].upper};
   }
   return table.take();
 }
@@ -122,7 +129,7 @@ py::object overlapping(WorldHandle& handle, const py::object& centre, double rad
 
 py::object overlapping_box(WorldHandle& handle, const py::object& given, const py::object& probe) {
   const Argument argument{"overlapping_box", "box"};
-  const auto box = box_of(given, argument);
+  const auto box = box_of(given, argument, handle.is_plane());
   if (!box) throw py::type_error("overlapping_box: box must be a Box or two corners, but is None");
   return found_table(asked(handle, "overlapping_box", probe, [&](World& world, auto&&... with) {
     return world.overlapping(*box, std::forward<decltype(with)>(with)...);
@@ -168,31 +175,36 @@ void bind_results(py::module_& module) {
   py::class_<SafeTime>(module, "SafeTime", "No contact begins before `time`.")
       .def_readonly("time", &SafeTime::time, "From now to infinity.")
       .def_readonly("touching", &SafeTime::touching, "Something touches now: `time` is now.")
-      .def_readonly("probed", &SafeTime::probed);
+      .def_readonly("probed", &SafeTime::probed)
+      .def("__repr__", repr_of_parts("time", "touching", "probed"));
   py::class_<SafeSeparation>(module, "SafeSeparation",
                              "No two surfaces are within the distance before `time`.")
       .def_readonly("time", &SafeSeparation::time)
       .def_readonly("within", &SafeSeparation::within, "They certainly are within the distance now.")
-      .def_readonly("probed", &SafeSeparation::probed);
+      .def_readonly("probed", &SafeSeparation::probed)
+      .def("__repr__", repr_of_parts("time", "within", "probed"));
   py::class_<EarliestContact>(module, "EarliestContact", "The first contact that a body may come to.")
       .def_readonly("time", &EarliestContact::time, "Infinite when there can be none.")
       .def_property_readonly("partner", partner_of<EarliestContact>)
       .def_property_readonly("wall", wall_of<EarliestContact>)
       .def_readonly("touching", &EarliestContact::touching)
-      .def_readonly("probed", &EarliestContact::probed);
+      .def_readonly("probed", &EarliestContact::probed)
+      .def("__repr__", repr_of_parts("time", "partner", "wall", "touching", "probed"));
   py::class_<EarliestApproach>(module, "EarliestApproach",
                                "The first time at which something may be within a distance of a body.")
       .def_readonly("time", &EarliestApproach::time)
       .def_property_readonly("partner", partner_of<EarliestApproach>)
       .def_property_readonly("wall", wall_of<EarliestApproach>)
       .def_readonly("within", &EarliestApproach::within)
-      .def_readonly("probed", &EarliestApproach::probed);
+      .def_readonly("probed", &EarliestApproach::probed)
+      .def("__repr__", repr_of_parts("time", "partner", "wall", "within", "probed"));
   py::class_<DistanceLimits>(
       module, "DistanceLimits",
       "The distance between two surfaces (negative when they overlap) lies in [lower, upper].")
       .def_readonly("lower", &DistanceLimits::lower)
       .def_readonly("upper", &DistanceLimits::upper)
-      .def_readonly("probed", &DistanceLimits::probed);
+      .def_readonly("probed", &DistanceLimits::probed)
+      .def("__repr__", repr_of_parts("lower", "upper", "probed"));
 }
 
 }  // namespace

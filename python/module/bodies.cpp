@@ -30,14 +30,57 @@ SensorClass sensor_class_of(std::uint64_t given, const Argument& argument) {
   return static_cast<SensorClass>(given);
 }
 
+/// What add() and add_motion() are told of bodies beside their motion: a value for all, or one of each.
+struct Traits {
+  const py::object& radii;
+  const py::object& categories;
+  const py::object& masks;
+  const py::object& group;
+  const py::object& solid;
+  const py::object& sensor_classes;
+  const py::object& user_data;
+  const py::object& masses;
+  const std::optional<std::string>& contacts;
+
+  void apply(std::string_view call, std::vector<BodyDefinition>& bodies) const;
+};
+
+void Traits::apply(std::string_view call, std::vector<BodyDefinition>& bodies) const {
+  const std::size_t count = bodies.size();
+  const auto set = [&](const auto& values, auto assign) {
+    for (std::size_t k = 0; k < count; ++k) assign(bodies[k], values[k]);
+  };
+  set(each_of(radii, {call, "radii"}, count),
+      [](BodyDefinition& body, double radius) { body.radius = radius; });
+  set(each_whole_of(categories, {call, "categories"}, count),
+      [](BodyDefinition& body, std::uint64_t category) { body.filter.category = category; });
+  set(each_whole_of(masks, {call, "masks"}, count),
+      [](BodyDefinition& body, std::uint64_t mask) { body.filter.mask = mask; });
+  const std::int32_t common_group = group_of(group, {call, "group"});
+  const bool is_solid = solid.cast<bool>();
+  std::optional<ContactEvents> wanted;
+  if (contacts) wanted = contact_events_of(*contacts, {call, "contacts"});
+  for (BodyDefinition& body : bodies) {
+    body.filter.group = common_group;
+    body.solid = is_solid;
+    body.contacts = wanted;
+  }
+  set(each_whole_of(sensor_classes, {call, "sensor_classes"}, count),
+      [&](BodyDefinition& body, std::uint64_t sensor_class) {
+        body.sensor_class = sensor_class_of(sensor_class, {call, "sensor_classes"});
+      });
+  set(each_whole_of(user_data, {call, "user_data"}, count),
+      [](BodyDefinition& body, std::uint64_t data) { body.user_data = data; });
+  set(each_of(masses, {call, "masses"}, count), [](BodyDefinition& body, double mass) { body.mass = mass; });
+}
+
 /// Errors such as "add: body 3: ..." name the number in the given arrays.
-std::vector<BodyDefinition> definitions_of(
-    WorldHandle& handle, const py::object& positions, const py::object& velocities, const py::object& radii,
-    const py::object& acceleration_limits, const py::object& planned_accelerations,
-    const py::object& position_errors, const py::object& velocity_errors, const py::object& categories,
-    const py::object& masks, const py::object& groups, const py::object& solid,
-    const py::object& sensor_classes, const py::object& user_data, const py::object& masses_of_bodies,
-    const std::optional<std::string>& contacts) {
+std::vector<BodyDefinition> definitions_of(WorldHandle& handle, const py::object& positions,
+                                           const py::object& velocities,
+                                           const py::object& acceleration_limits,
+                                           const py::object& planned_accelerations,
+                                           const py::object& position_errors,
+                                           const py::object& velocity_errors, const Traits& traits) {
   const std::string_view call = "add";
   const std::vector<State> states = states_of(positions, velocities, call, handle.is_plane());
   const std::size_t count = states.size();
@@ -49,8 +92,6 @@ std::vector<BodyDefinition> definitions_of(
     body.position = state.position;
     body.velocity = state.velocity;
   });
-  set(each_of(radii, {call, "radii"}, count),
-      [](BodyDefinition& body, double radius) { body.radius = radius; });
   set(each_of(acceleration_limits, {call, "acceleration_limits"}, count),
       [](BodyDefinition& body, double limit) { body.acceleration_limit = limit; });
   if (!planned_accelerations.is_none()) {
@@ -67,27 +108,7 @@ std::vector<BodyDefinition> definitions_of(
       [](BodyDefinition& body, double error) { body.position_error = error; });
   set(each_of(velocity_errors, {call, "velocity_errors"}, count),
       [](BodyDefinition& body, double error) { body.velocity_error = error; });
-  set(each_whole_of(categories, {call, "categories"}, count),
-      [](BodyDefinition& body, std::uint64_t category) { body.filter.category = category; });
-  set(each_whole_of(masks, {call, "masks"}, count),
-      [](BodyDefinition& body, std::uint64_t mask) { body.filter.mask = mask; });
-  const std::int32_t group = group_of(groups, {call, "group"});
-  const bool is_solid = solid.cast<bool>();
-  std::optional<ContactEvents> wanted;
-  if (contacts) wanted = contact_events_of(*contacts, {call, "contacts"});
-  for (BodyDefinition& body : bodies) {
-    body.filter.group = group;
-    body.solid = is_solid;
-    body.contacts = wanted;
-  }
-  set(each_whole_of(sensor_classes, {call, "sensor_classes"}, count),
-      [&](BodyDefinition& body, std::uint64_t sensor_class) {
-        body.sensor_class = sensor_class_of(sensor_class, {call, "sensor_classes"});
-      });
-  set(each_whole_of(user_data, {call, "user_data"}, count),
-      [](BodyDefinition& body, std::uint64_t data) { body.user_data = data; });
-  set(each_of(masses_of_bodies, {call, "masses"}, count),
-      [](BodyDefinition& body, double mass) { body.mass = mass; });
+  traits.apply(call, bodies);
   return bodies;
 }
 
@@ -113,9 +134,9 @@ py::object add_bodies(WorldHandle& handle, const py::object& positions, const py
   const bool single = is_vector(positions);
   const auto bodies =
       definitions_of(handle, single ? one_row(positions) : py::reinterpret_borrow<py::object>(positions),
-                     single ? one_row(velocities) : py::reinterpret_borrow<py::object>(velocities), radii,
-                     acceleration_limits, planned_accelerations, position_errors, velocity_errors, categories,
-                     masks, group, solid, sensor_classes, user_data, mass, contacts);
+                     single ? one_row(velocities) : py::reinterpret_borrow<py::object>(velocities),
+                     acceleration_limits, planned_accelerations, position_errors, velocity_errors,
+                     {radii, categories, masks, group, solid, sensor_classes, user_data, mass, contacts});
   if (single) {
     const BodyId id = handle.world.add(bodies.front()).value();
     end_call(handle);
@@ -126,19 +147,22 @@ py::object add_bodies(WorldHandle& handle, const py::object& positions, const py
 }
 
 /// Adds all bodies of a motion; their ids must equal their numbers.
-py::object add_motion(WorldHandle& handle, MotionHandle& moved, const py::object& radii) {
+py::object add_motion(WorldHandle& handle, MotionHandle& moved, const py::object& radii,
+                      const py::object& categories, const py::object& masks, const py::object& group,
+                      const py::object& solid, const py::object& sensor_classes, const py::object& user_data,
+                      const py::object& masses, const std::optional<std::string>& contacts) {
   const auto turn = handle.take("add_motion");
   const auto turn_of_motion = moved.in_use.take_alone("add_motion", "motion");
   const Motion& motion = *moved.motion;
   const Argument argument{"add_motion", "motion"};
-  const std::vector<double> each_radius = each_of(radii, {"add_motion", "radii"}, motion.size());
   std::vector<BodyDefinition> bodies;
   for (std::uint32_t number = 0; number < motion.size(); ++number) {
     if (!motion.contains(number))
       refuse(argument, "must have all its bodies", "has lost number " + std::to_string(number));
     bodies.push_back(motion.definition(number, handle.world.time()));
-    bodies.back().radius = each_radius[number];
   }
+  const Traits traits{radii, categories, masks, group, solid, sensor_classes, user_data, masses, contacts};
+  traits.apply("add_motion", bodies);
   if (handle.world.size() > 0)
     refuse(argument, "must be added to a world without bodies, so that its numbers are ids",
            "there are " + std::to_string(handle.world.size()) + " (a BodyMap has no such need)");
@@ -339,11 +363,14 @@ what either asks for.
 
 Returns the ids: an array of int64, shape (n,), or a BodyId for a single body. Raises InvalidValue that
 names the argument and the body. Cost: O(1) each, and a search when the world goes on.)")
-      .def("add_motion", add_motion, py::arg("motion"), py::arg("radii") = 1.0,
+      .def("add_motion", add_motion, py::arg("motion"), py::arg("radii") = 1.0, py::kw_only(),
+           py::arg("categories") = 1, py::arg("masks") = all_categories, py::arg("group") = 0,
+           py::arg("solid") = true, py::arg("sensor_classes") = 0, py::arg("user_data") = 0,
+           py::arg("masses") = 1.0, py::arg("contacts") = py::none(),
            R"(Adds all bodies of a motion to a world that never had any: their numbers are their ids.
 
-radii (length) is one number, or one of each body. Returns the ids, 0 to n - 1. States and promises are the
-motion's at world.time.)")
+radii and the others are those of add(): one number, or one of each body. Returns the ids, 0 to n - 1. States
+and promises are the motion's at world.time.)")
       .def("add_static", add_static, py::arg("shape"), py::kw_only(), py::arg("category") = 1,
            py::arg("mask") = all_categories, py::arg("group") = 0, py::arg("solid") = true,
            py::arg("sensor_class") = 0, py::arg("user_data") = 0,

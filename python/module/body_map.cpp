@@ -164,7 +164,12 @@ The world learns all new velocities, so that no contact is missed; world.time mu
                                   found->number);
           },
           py::arg("body"), "The motion and the number there of a body; None for one that is not known.")
-      .def("__deepcopy__", deep_copy);
+      .def("__deepcopy__", deep_copy)
+      .def("__repr__", [](const BodyMapHandle& map) {
+        py::list motions;
+        for (const py::object& motion : map.motions) motions.append(motion);
+        return py::str("<BodyMap of {}>").format(motions);
+      });
 }
 
 }  // namespace kinesphere::python

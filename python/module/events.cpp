@@ -16,6 +16,7 @@ namespace kinesphere::python {
 namespace {
 
 constexpr std::size_t velocity_offset = offsetof(State, velocity);
+static_assert(sizeof(EventRecord) == offsetof(EventRecord, unused_at_end) + 2);
 constexpr Field event_fields[] = {
     {"kind", "u1", offsetof(EventRecord, kind)},
     {"time", "f8", offsetof(EventRecord, time)},
@@ -91,6 +92,11 @@ std::vector<EventRecord> records_of(const py::object& given, std::string_view ca
   return records;
 }
 
+py::bytes record_bytes(const Event& event) {
+  const EventRecord record = record_of(event);
+  return bytes_of(std::as_bytes(std::span(&record, 1)));
+}
+
 /// Returns a member of one of the package's enumerations.
 py::object member(const char* enumeration, int number) {
   return package_attribute("kinesphere.kinds", enumeration)(number);
@@ -114,9 +120,17 @@ std::string text_of(const Event& event) {
 }  // namespace
 
 EventRecord record_of(const Event& event) {
-  return {event.time,
+  return {event.kind,
+          {},
+          event.time,
           number_of(event.first),
           number_of(event.second),
+          event.wall,
+          event.repeated,
+          event.jammed,
+          event.already_touching,
+          event.senses,
+          {},
           event.first_state,
           event.second_state,
           event.point,
@@ -130,18 +144,13 @@ EventRecord record_of(const Event& event) {
           event.second_user_data,
           event.first_mass,
           event.second_mass,
-          event.kind,
-          event.wall,
-          event.senses,
-          event.repeated,
-          event.jammed,
-          event.already_touching,
           event.first_traits.is_static,
           event.first_traits.is_zone,
           event.first_traits.is_sleeping,
           event.second_traits.is_static,
           event.second_traits.is_zone,
-          event.second_traits.is_sleeping};
+          event.second_traits.is_sleeping,
+          {}};
 }
 
 py::object table_of(std::span<const EventRecord> records) {
@@ -256,7 +265,15 @@ cannot be changed.)")
       .def_property_readonly(
           "visitor", [](const Event& event) { return object_of(event.visitor()); },
           "Of sensor events: the body that is sensed, else None.")
-      .def("__repr__", text_of);
+      .def("__eq__",
+           [](const Event& a, const py::object& b) {
+             return py::isinstance<Event>(b) && record_bytes(a).equal(record_bytes(b.cast<const Event&>()));
+           })
+      .def("__hash__", [](const Event& event) { return py::hash(record_bytes(event)); })
+      .def("_to_record", record_bytes)
+      .def("__repr__", text_of)
+      .def(py::pickle(&record_bytes,
+                      [](const py::bytes& state) { return event_of(records_of(state, "Event").at(0)); }));
 
   py::class_<EventHash>(module, "EventHash", R"(One number for all events of a run.
 

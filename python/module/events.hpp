@@ -3,6 +3,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -13,11 +14,20 @@ namespace kinesphere::python {
 
 namespace py = pybind11;
 
-/// A row of kinesphere.event_dtype.
+/// A row of kinesphere.event_dtype. Its members are in the order of the columns, which numpy.save() requires.
+/// Bytes that are not used are zero, as they go into files.
 struct EventRecord {
+  EventKind kind;
+  std::array<std::uint8_t, 7> unused_after_kind;
   double time;
   std::int64_t first;
   std::int64_t second;
+  Wall wall;
+  bool repeated;
+  bool jammed;
+  bool already_touching;
+  Senses senses;
+  std::array<std::uint8_t, 3> unused_after_senses;
   State first_state;
   State second_state;
   Vec3 point;
@@ -31,18 +41,13 @@ struct EventRecord {
   std::uint64_t second_user_data;
   double first_mass;
   double second_mass;
-  EventKind kind;
-  Wall wall;
-  Senses senses;
-  bool repeated;
-  bool jammed;
-  bool already_touching;
   bool first_is_static;
   bool first_is_zone;
   bool first_is_sleeping;
   bool second_is_static;
   bool second_is_zone;
   bool second_is_sleeping;
+  std::array<std::uint8_t, 2> unused_at_end;
 };
 EventRecord record_of(const Event& event);
 

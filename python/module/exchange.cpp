@@ -370,6 +370,17 @@ py::object package_attribute(const char* module, const char* name) {
   return py::module_::import(module).attr(name);
 }
 
+std::string text_of_parts(const py::object& self, std::span<const char* const> parts) {
+  std::string text = text_of(self.get_type().attr("__name__")) + "(";
+  for (const char* const part : parts) {
+    py::object value = self.attr(part);
+    if (py::hasattr(value, "tolist")) value = py::tuple(value.attr("tolist")());
+    if (text.back() != '(') text += ", ";
+    text += std::string(part) + "=" + text_of(py::repr(value));
+  }
+  return text + ")";
+}
+
 py::object numpy(const char* name) {
   static const py::handle module = py::module_::import("numpy").release();
   return module.attr(name);

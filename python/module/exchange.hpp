@@ -145,6 +145,17 @@ inline std::int64_t number_of(BodyId body) { return static_cast<std::int64_t>(bo
 /// once.
 py::object package_attribute(const char* module, const char* name);
 
+/// Returns "Name(part=..., part=...)", with attributes of these names.
+std::string text_of_parts(const py::object& self, std::span<const char* const> parts);
+/// Returns text_of_parts() as a function for __repr__.
+template <class... Names>
+auto repr_of_parts(Names... names) {
+  return [=](const py::object& self) {
+    const char* const parts[] = {names...};
+    return text_of_parts(self, parts);
+  };
+}
+
 /// Returns NumPy's function of that name.
 py::object numpy(const char* name);
 

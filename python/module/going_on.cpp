@@ -5,20 +5,46 @@
 #include "errors.hpp"
 #include "exchange.hpp"
 #include "kinesphere/workers.hpp"
+#include "mover.hpp"
 #include "moving.hpp"
+#include "scenes.hpp"
 #include "simulation/run/scene_answer.hpp"
 #include "world.hpp"
 
 namespace kinesphere::python {
 namespace {
 
+bool has_any(const MotionHandle& moved) {
+  const Motion& motion = *moved.motion;
+  for (std::uint32_t number = 0; number < motion.size(); ++number)
+    if (motion.contains(number)) return true;
+  return false;
+}
+
+/// Refuses a motion with bodies for a world in which none ever moved: its bodies were not added.
+void require_added(WorldHandle& handle, const py::object& motion, std::string_view call) {
+  const auto turn = handle.take(call);
+  const Counters& counters = handle.world.counters();
+  if (counters.starts > 0 || counters.restarts > 0) return;
+  const bool has_bodies =
+      (py::isinstance<MotionHandle>(motion) && has_any(motion.cast<MotionHandle&>())) ||
+      (py::isinstance<MoverHandle>(motion) && !motion.cast<MoverHandle&>().departures.empty());
+  if (!has_bodies) return;
+  for (const BodyId body : handle.world.bodies())
+    if (!handle.world.body(body).value().is_static) return;
+  refuse({call, "motion"}, "must move bodies that have been added to the world (World.add_motion)",
+         "there are none");
+}
+
 /// Calls advance() once; returns its Event, or nothing. Precondition: the GIL is held.
 std::optional<Event> advanced(WorldHandle& handle, double until, Asked& asked) {
   const auto turn = handle.take("advance");
+  asked.interruptions().at_each_look([&] { handle.reached = handle.world.time(); });
   return without_gil(handle, [&] { return handle.world.advance(until, asked.probe()); }).value();
 }
 
 py::object advance(WorldHandle& handle, double until, const py::object& probe) {
+  require_added(handle, probe, "advance");
   Asked asked(probe, "advance", handle.is_plane());
   const std::optional<Event> event = advanced(handle, until, asked);
   return event ? py::cast(*event) : py::none();
@@ -30,7 +56,10 @@ class EventIterator {
   EventIterator(std::shared_ptr<WorldHandle> handle, double until, py::object probe)
       : handle_(std::move(handle)), until_(until), probe_(std::move(probe)) {}
 
+  double until() const { return until_; }
+
   Event next() {
+    require_added(*handle_, probe_, "events");
     // Between two events the caller may change the motion.
     Asked asked(probe_, "events", handle_->is_plane());
     const std::optional<Event> event = advanced(*handle_, until_, asked);
@@ -54,8 +83,8 @@ class Responding {
     if (given.is_none()) return;
     if (py::isinstance<Bouncing>(given)) {
       bouncing_ = &given.cast<const Bouncing&>();
-    } else if (py::isinstance<Scene>(given)) {
-      scene_ = &given.cast<const Scene&>();
+    } else if (py::isinstance<SceneHandle>(given)) {
+      scene_ = &given.cast<const SceneHandle&>();
     } else if (PyCallable_Check(given.ptr()) == 0) {
       throw py::type_error("run: respond must be a Bouncing, a Scene or a function of an event, but is " +
                            py::repr(given).cast<std::string>());
@@ -106,20 +135,55 @@ class Threads {
   Workers* workers_ = nullptr;
 };
 
+/// Tells a function, or the bar of the package for True, which time a run has reached.
+class Progress {
+ public:
+  Progress(const py::object& given, double start, double until) {
+    if (given.is_none() || given.is(py::bool_(false))) return;
+    if (given.is(py::bool_(true))) {
+      tell_ = bar_ = package_attribute("kinesphere.progress", "Bar")(start, until);
+    } else if (PyCallable_Check(given.ptr()) != 0) {
+      tell_ = py::reinterpret_borrow<py::object>(given);
+    } else {
+      throw py::type_error("run: progress must be a bool or a function of a time, but is " +
+                           py::repr(given).cast<std::string>());
+    }
+  }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  ~Progress() {
+    if (!bar_) return;
+    const py::error_scope raised;
+    try {
+      bar_.attr("close")();
+    } catch (py::error_already_set&) {
+      PyErr_Clear();
+    }
+  }
+  /// Precondition: the GIL is held.
+  void operator()(double time) const {
+    if (tell_) tell_(time);
+  }
+
+ private:
+  py::object tell_;
+  py::object bar_;
+};
+
 py::object run(WorldHandle& handle, double until, const py::object& motion, const py::object& respond,
-               const py::object& sink, const py::object& threads) {
+               const py::object& sink, const py::object& threads, const py::object& progress) {
   const auto turn = handle.take("run");
+  require_added(handle, motion, "run");
   Asked asked(motion, "run", handle.is_plane());
   const Responding responding(respond, handle, asked.interruptions());
   if (responding && asked.mover() == nullptr) {
     throw py::type_error(
         "run: motion must be a Motion, a BodyMap or a MotionSource where there is a respond, as bodies are "
-        "given "
-        "velocities, "
-        "but is a "
-        "function; loop over world.events() instead");
+        "given velocities, but is a function; loop over world.events() instead");
   }
   Threads shared(threads);
+  const Progress tell(progress, handle.world.time(), until);
+  asked.interruptions().at_each_look([&] { tell(handle.reached = handle.world.time()); });
   const auto note = [&](const Event& event) {
     handle.undelivered.push_back(record_of(event));
     asked.interruptions().look();
@@ -133,6 +197,7 @@ py::object run(WorldHandle& handle, double until, const py::object& motion, cons
         shared.workers());
   });
   require(done);
+  tell(handle.world.time());
   const py::object table = table_of(handle.undelivered);
   handle.undelivered = {};
   return table;
@@ -141,15 +206,21 @@ py::object run(WorldHandle& handle, double until, const py::object& motion, cons
 }  // namespace
 
 void bind_going_on(py::module_& module, WorldClass& world) {
-  py::class_<EventIterator>(module, "EventIterator")
+  py::class_<EventIterator>(module, "EventIterator",
+                            "The events of a world up to a time, one by one; see World.events().")
       .def("__iter__", [](const py::object& self) { return self; })
-      .def("__next__", &EventIterator::next);
+      .def("__next__", &EventIterator::next)
+      .def("__repr__", [](const EventIterator& events) {
+        return py::str("<EventIterator until {}>").format(events.until());
+      });
   py::class_<Workers>(module, "Workers",
                       R"(Threads that runs may use, for those who run often: threads in all, 1 to 256.
 
 They work for one run at a time.)")
       .def(py::init([](int threads) { return Workers::create(threads).value(); }), py::arg("threads"))
-      .def_property_readonly("count", &Workers::count);
+      .def_property_readonly("count", &Workers::count)
+      .def("__repr__",
+           [](const Workers& workers) { return "Workers(" + std::to_string(workers.count()) + ")"; });
 
   world
       .def("advance", advance, py::arg("until"), py::arg("probe"),
@@ -168,7 +239,7 @@ argument and body, is dropped, and the call may be repeated. The same holds when
 In the loop bodies may be changed, added and removed. When it has run to its end, world.time == until; when
 it is left early, the world stands at the last event. Each step is an advance().)")
       .def("run", run, py::arg("until"), py::arg("motion"), py::arg("respond") = py::none(), py::kw_only(),
-           py::arg("sink") = py::none(), py::arg("threads") = 1,
+           py::arg("sink") = py::none(), py::arg("threads") = 1, py::arg("progress") = py::none(),
            R"(Goes on to time `until` by itself and returns all Events, in order.
 
 motion: a Motion or BodyMap, and then no Python is called for states; a MotionSource; without respond any
@@ -178,6 +249,8 @@ returns None or (first velocity or None, second velocity or None). It must depen
 may not call the world.
 sink: a function that is told each Event, in order; then no Events are returned.
 threads: how many share the work, or Workers; the outcome is the same.
+progress: a function that is told the time that the run has reached, at most 20 times a second and at the end; or
+True for a bar by tqdm, in notebooks too. It may not change the world.
 
 The GIL is released while the engine works, and Ctrl-C interrupts it. When something is raised the world
 stands at a stop and can go on with another run; the Events that were told before come first in what that

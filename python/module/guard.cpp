@@ -26,9 +26,8 @@ InUse::Use InUse::take_alone(std::string_view call, std::string_view what) {
   return Use(*this);
 }
 
-void Interruptions::look() {
+void Interruptions::look(int calls_between_looks) {
   // Reading the clock takes longer than most states.
-  constexpr int calls_between_looks = 64;
   if (std::this_thread::get_id() != thread_) return;
   if (!has_raised_) {
     if (++calls_ < calls_between_looks) return;
@@ -37,8 +36,9 @@ void Interruptions::look() {
     if (now < next_) return;
     next_ = now + interval;
   }
-  call([] {
+  call([this] {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (at_each_look_) at_each_look_();
   });
 }
 

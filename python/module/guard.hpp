@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <exception>
+#include <functional>
 #include <string_view>
 #include <thread>
 #include <utility>
@@ -37,6 +38,8 @@ class InUse {
   [[nodiscard]] Use take(std::string_view call, std::string_view what);
   /// For an object that no other call may use meanwhile.
   [[nodiscard]] Use take_alone(std::string_view call, std::string_view what);
+  /// Returns true while another thread uses the object.
+  bool is_taken_elsewhere() const { return depth_ > 0 && owner_ != std::this_thread::get_id(); }
 
  private:
   int depth_ = 0;
@@ -49,9 +52,12 @@ class InUse {
 class Interruptions {
  public:
   /// Lets Ctrl-C through while the engine works without the GIL: checks for signals at most 20
-  /// times a second, in the thread that made this object. Throws what a signal handler has raised.
+  /// times a second, in the thread that made this object. Throws what a signal handler has raised, and
+  /// what the function of at_each_look() throws. Reads the clock in one of `calls_between_looks` calls.
   /// Needs no GIL.
-  void look();
+  void look(int calls_between_looks = 64);
+  /// Makes each check for signals call this function, under the GIL.
+  void at_each_look(std::function<void()> function) { at_each_look_ = std::move(function); }
 
   /// Calls a Python function under the GIL.
   template <class Function>
@@ -78,6 +84,7 @@ class Interruptions {
   std::thread::id thread_ = std::this_thread::get_id();
   Clock::time_point next_ = Clock::now() + interval;
   int calls_ = 0;
+  std::function<void()> at_each_look_;
   std::exception_ptr raised_;  ///< read and written under the GIL
   std::atomic<bool> has_raised_ = false;
 };

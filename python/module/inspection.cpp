@@ -1,4 +1,8 @@
 // Inspection of a world, and its recordings.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <iterator>
 #include <memory>
 #include <string>
 
@@ -29,6 +33,46 @@ py::tuple bounds(WorldHandle& handle, const py::object& bodies) {
         view.is_static ? view.definition.radius : view.bound.radius_at(handle.world.time());
   }
   return py::make_tuple(centres.take(), radii.take());
+}
+
+py::object images(WorldHandle& handle, const py::object& bodies) {
+  const auto turn = handle.take("images");
+  const std::vector<BodyId> ids = named_or_all(handle, bodies, "images");
+  NewArray array({ids.size(), 3}, numpy("dtype")("i8"), sizeof(std::int64_t));
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    const auto image = handle.world.body(ids[k]).value().image;
+    std::copy(image.begin(), image.end(), array.data<std::int64_t>() + 3 * k);
+  }
+  return array.take();
+}
+
+/// Returns the image of `position` on the path of the body since the caller placed it: the one nearest to
+/// where the last report has it now. Reports are less than half a period off (WorldDefinition::periodic).
+Vec3 unwrapped_one(const World& world, const BodyView& view, Vec3 position) {
+  const WorldDefinition& definition = world.definition();
+  const Vec3 moved =
+      view.is_static ? Vec3{} : view.bound.centre_at(world.time()) - view.bound.centre_at(view.bound.time);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!definition.periodic[axis]) continue;
+    const double period = definition.box->upper[axis] - definition.box->lower[axis];
+    const double expected = view.definition.position[axis] + moved[axis] +
+                            static_cast<double>(view.image[static_cast<std::size_t>(axis)]) * period;
+    position[axis] += period * std::round((expected - position[axis]) / period);
+  }
+  return position;
+}
+
+py::object unwrapped(WorldHandle& handle, const py::object& positions, const py::object& bodies) {
+  const auto turn = handle.take("unwrapped");
+  const std::vector<BodyId> ids = named_or_all(handle, bodies, "unwrapped");
+  const std::vector<Vec3> given =
+      vectors_of(positions, {"unwrapped", "positions"}, handle.is_plane(), ids.size());
+  NewArray array = new_doubles({ids.size(), 3});
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    const Vec3 place = unwrapped_one(handle.world, handle.world.body(ids[k]).value(), given[k]);
+    std::memcpy(array.data<double>() + 3 * k, &place, sizeof place);
+  }
+  return array.take();
 }
 
 py::object touching(WorldHandle& handle, const py::object& body) {
@@ -87,6 +131,31 @@ py::bytes stop_recording(WorldHandle& handle) {
   return bytes_of(handle.world.stop_recording().value());
 }
 
+/// All counters, which counters_of() reads.
+py::tuple numbers_of(const Counters& counters) {
+  py::list events;
+  for (const std::uint64_t count : counters.events) events.append(count);
+  return py::make_tuple(events, counters.probes, counters.window_ends, counters.starts, counters.restarts,
+                        counters.pair_checks, counters.wall_checks, counters.searches, counters.candidates,
+                        counters.hot_pairs, counters.certificates, counters.zeno_steps,
+                        counters.repeated_contacts);
+}
+
+Counters counters_of(const py::tuple& numbers) {
+  Counters counters;
+  std::uint64_t* const members[] = {
+      &counters.probes,      &counters.window_ends,  &counters.starts,     &counters.restarts,
+      &counters.pair_checks, &counters.wall_checks,  &counters.searches,   &counters.candidates,
+      &counters.hot_pairs,   &counters.certificates, &counters.zeno_steps, &counters.repeated_contacts};
+  const py::list events = numbers[0];
+  if (numbers.size() != 1 + std::size(members) || events.size() != counters.events.size())
+    throw py::value_error("pickle: Counters must be of this version");
+  for (std::size_t k = 0; k < counters.events.size(); ++k)
+    counters.events[k] = events[k].cast<std::uint64_t>();
+  for (std::size_t k = 0; k < std::size(members); ++k) *members[k] = numbers[1 + k].cast<std::uint64_t>();
+  return counters;
+}
+
 void bind_views(py::module_& module) {
   py::class_<BodyView>(module, "BodyView", "What the world knows of a body; a copy.")
       .def_property_readonly("radius", [](const BodyView& view) { return view.definition.radius; })
@@ -121,7 +190,8 @@ void bind_views(py::module_& module) {
           "Where space repeats: how many boxes the body has gone beyond the first one.")
       .def_readonly("enabled", &BodyView::enabled)
       .def_readonly("is_static", &BodyView::is_static)
-      .def_readonly("sleeping", &BodyView::sleeping);
+      .def_readonly("sleeping", &BodyView::sleeping)
+      .def("__repr__", repr_of_parts("position", "velocity", "radius", "acceleration_limit", "report_time"));
 
   py::class_<Counters>(module, "Counters", "What a world has done so far; a copy.")
       .def_readonly("probes", &Counters::probes, "States asked for, one per body and call.")
@@ -144,7 +214,14 @@ void bind_views(py::module_& module) {
               refuse({"count", "kind"}, "must be an EventKind", "is " + std::to_string(kind));
             return counters.count(static_cast<EventKind>(kind));
           },
-          py::arg("kind"), "Events of an EventKind that have been told.");
+          py::arg("kind"), "Events of an EventKind that have been told.")
+      .def("__eq__",
+           [](const Counters& a, const py::object& b) {
+             return py::isinstance<Counters>(b) && numbers_of(a).equal(numbers_of(b.cast<const Counters&>()));
+           })
+      .def("__repr__", repr_of_parts("steps", "probes", "window_ends", "starts", "restarts", "pair_checks",
+                                     "wall_checks", "searches", "candidates", "hot_pairs", "certificates"))
+      .def(py::pickle(&numbers_of, &counters_of));
 
   py::class_<BusyBody>(module, "BusyBody", "A body that was probed while profiling was on, and why; a copy.")
       .def_property_readonly("body", [](const BusyBody& busy) { return object_of(busy.body); })
@@ -227,7 +304,11 @@ The first step that goes another way than its recording raises StateError (diver
           [](const ReplayHandle& handle) {
             return std::make_shared<WorldHandle>(handle.replay.world().clone().value());
           },
-          "A clone of the world as it is after the last step. Cost: O(n).");
+          "A clone of the world as it is after the last step. Cost: O(n).")
+      .def("__repr__", [](const ReplayHandle& handle) {
+        return "<Replay at step " + std::to_string(handle.replay.step()) + " of " +
+               std::to_string(handle.replay.step_count()) + ">";
+      });
   module.def("_read_recording", read_all, py::arg("recording"));
 }
 
@@ -246,6 +327,17 @@ void bind_inspection(py::module_& module, WorldClass& world) {
       .def("bounds", bounds, py::arg("bodies") = py::none(),
            R"(The spheres that certainly contain these bodies now, or all bodies: centres, shape (n, 3), and
 radii, shape (n,).)")
+      .def(
+          "images", images, py::arg("bodies") = py::none(),
+          R"(Where space repeats: how many boxes these bodies, or all, had gone beyond the first one at their last
+report. Shape (n, 3).)")
+      .def(
+          "unwrapped", unwrapped, py::arg("positions"), py::arg("bodies") = py::none(),
+          R"(Where these bodies, or all, would be now if space did not repeat: shape (n, 3), for displacements.
+
+positions (length): where they are at world.time, in any image, such as motion.states(world.time)[0]; shape (n,
+3), or (n, 2) in a world of two dimensions. Paths start where bodies were last placed (add, teleport, enable). On
+axes without repetition positions come back as they are.)")
       .def(
           "shape_of",
           [](WorldHandle& handle, const py::object& body) {

@@ -139,6 +139,8 @@ class MonitorEventIterator {
   MonitorEventIterator(std::shared_ptr<MonitorHandle> handle, double until, py::object poll)
       : handle_(std::move(handle)), until_(until), poll_(std::move(poll)) {}
 
+  double until() const { return until_; }
+
   py::object next() {
     const py::object event = advance_monitor(*handle_, until_, poll_);
     if (event.is_none()) throw py::stop_iteration();
@@ -346,9 +348,13 @@ from before come first in what the next run() returns.)")
 void bind_monitor(py::module_& module) {
   bind_monitor_definition(module);
   bind_monitor_events(module);
-  py::class_<MonitorEventIterator>(module, "MonitorEventIterator")
+  py::class_<MonitorEventIterator>(module, "MonitorEventIterator",
+                                   "The events of a monitor up to a time, one by one; see Monitor.events().")
       .def("__iter__", [](const py::object& self) { return self; })
-      .def("__next__", &MonitorEventIterator::next);
+      .def("__next__", &MonitorEventIterator::next)
+      .def("__repr__", [](const MonitorEventIterator& events) {
+        return py::str("<MonitorEventIterator until {}>").format(events.until());
+      });
 
   MonitorClass monitor(module, "Monitor",
                        R"(Certain statements about the separation of tracks that report irregularly.

@@ -106,6 +106,7 @@ void bind_monitor_events(py::module_& module) {
   module.attr("monitor_event_dtype") = row_type(monitor_event_fields, sizeof(MonitorEventRecord));
   py::class_<MonitorEvent>(module, "MonitorEvent", "Something that a monitor found out, at its exact time.")
       .def_static("_from_record", monitor_event_of)
+      .def("_to_record", bytes_of_event)
       .def_readonly("time", &MonitorEvent::time)
       .def_property_readonly("kind", kind_of)
       .def_readonly("first", &MonitorEvent::first, "The track; for a pair, the one with the lower id.")

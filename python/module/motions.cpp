@@ -60,6 +60,61 @@ py::tuple states_at(MotionHandle& handle, const py::object& named, double time, 
   return arrays_of(states);
 }
 
+/// Returns false for motions such as recorded tracks, of which nothing can be changed.
+bool can_be_undone(const Motion& motion, std::uint32_t number) {
+  try {
+    motion.origin(number);
+    return true;
+  } catch (const BadResult&) {
+    return false;
+  }
+}
+
+/// Changes one body, or many: all of them or, where one is refused, none.
+template <class Change>
+void change_bodies(MotionHandle& handle, const Ids& named, const Change& change) {
+  Motion& motion = *handle.motion;
+  std::vector<std::pair<std::uint32_t, MotionOrigin>> before;
+  for (std::size_t k = 0; k < named.ids.size(); ++k) {
+    const BodyId id = named.ids[k];
+    const std::uint32_t number = id.generation == 0 ? id.index : no_body.index;
+    if (!named.is_single && motion.contains(number) && can_be_undone(motion, number))
+      before.emplace_back(number, motion.origin(number));
+    const Result<void> done = change(motion, number, k);
+    if (done) continue;
+    // Undoing the refused change too does nothing.
+    for (auto undone = before.rbegin(); undone != before.rend(); ++undone)
+      require(motion.set_origin(undone->first, undone->second));
+    require(done);
+  }
+}
+
+/// Returns one vector for one number, one in a row for an array of numbers.
+std::vector<Vec3> vectors_for(const Ids& named, const py::object& vectors, const Argument& argument) {
+  if (named.is_single) return {vector_of(vectors, argument, any_dimension)};
+  return vectors_of(vectors, argument, any_dimension, named.ids.size());
+}
+
+void set_velocities(MotionHandle& handle, const py::object& numbers, double t, const py::object& velocities) {
+  const auto turn = handle.in_use.take_alone("set_velocity", "motion");
+  const Ids named = ids_of(numbers, {"set_velocity", "numbers"});
+  const std::vector<Vec3> each = vectors_for(named, velocities, {"set_velocity", "velocities"});
+  change_bodies(handle, named, [&](Motion& motion, std::uint32_t number, std::size_t k) {
+    return motion.set_velocity(number, t, each[k]);
+  });
+}
+
+void teleport_bodies(MotionHandle& handle, const py::object& numbers, double t, const py::object& positions,
+                     const py::object& velocities) {
+  const auto turn = handle.in_use.take_alone("teleport", "motion");
+  const Ids named = ids_of(numbers, {"teleport", "numbers"});
+  const std::vector<Vec3> places = vectors_for(named, positions, {"teleport", "positions"});
+  const std::vector<Vec3> speeds = vectors_for(named, velocities, {"teleport", "velocities"});
+  change_bodies(handle, named, [&](Motion& motion, std::uint32_t number, std::size_t k) {
+    return motion.teleport(number, t, {places[k], speeds[k]});
+  });
+}
+
 /// Returns the arguments of World.add().
 py::dict definitions_at(MotionHandle& handle, double time, const py::object& named) {
   const auto turn = handle.in_use.take_alone("definitions", "motion");
@@ -116,28 +171,16 @@ t must not lie before the last change of a body (time_backwards).)")
            R"(What a world has to know of these bodies, or of all: their promises and their states at time t.
 
 The arguments of World.add(): world.add(**motion.definitions(0.0), radii=0.5).)")
+      .def("set_velocity", set_velocities, py::arg("numbers"), py::arg("t"), py::arg("velocities"),
+           R"(Gives bodies new velocities at time t: one number and shape (3,), or n numbers and shape (n, 3).
+
+On an error none has been changed. The world that watches the bodies has to be told too:
+World.set_velocity().)")
       .def(
-          "set_velocity",
-          [](MotionHandle& handle, long long number, double t, const py::object& velocity) {
-            const auto turn = handle.in_use.take_alone("set_velocity", "motion");
-            require(handle.motion->set_velocity(
-                number_in_motion(number), t,
-                vector_of(velocity, {"set_velocity", "velocity"}, any_dimension)));
-          },
-          py::arg("number"), py::arg("t"), py::arg("velocity"),
-          "Gives a body a new velocity at time t. The world that watches it has to be told too: "
-          "World.set_velocity().")
-      .def(
-          "teleport",
-          [](MotionHandle& handle, long long number, double t, const py::object& position,
-             const py::object& velocity) {
-            const auto turn = handle.in_use.take_alone("teleport", "motion");
-            require(handle.motion->teleport(number_in_motion(number), t,
-                                            {vector_of(position, {"teleport", "position"}, any_dimension),
-                                             vector_of(velocity, {"teleport", "velocity"}, any_dimension)}));
-          },
-          py::arg("number"), py::arg("t"), py::arg("position"), py::arg("velocity"),
-          "Puts a body into another state at time t. The world has to be told too: World.teleport().")
+          "teleport", teleport_bodies, py::arg("numbers"), py::arg("t"), py::arg("positions"),
+          py::arg("velocities"),
+          "Puts bodies into other states at time t; shapes and errors as in set_velocity(). The world has to "
+          "be told too: World.teleport().")
       .def(
           "remove",
           [](MotionHandle& handle, long long number) {
@@ -172,7 +215,41 @@ The arguments of World.add(): world.add(**motion.definitions(0.0), radii=0.5).)"
             std::span<const std::byte> rest = bytes;
             return handle.motion->read_body(rest).value();
           },
-          py::arg("bytes"), "Adds the body that write_body() wrote, and returns its number here.");
+          py::arg("bytes"), "Adds the body that write_body() wrote, and returns its number here.")
+      .def("__repr__",
+           [](const py::object& self) {
+             return py::str("<{} of {} bodies>").format(self.get_type().attr("__name__"), py::len(self));
+           })
+      .def("__reduce__", [](const py::object& self) {
+        return package_attribute("kinesphere.pickles", "reduced_motion")(self);
+      });
+}
+
+// What the constructor of a motion needs beside the start of its bodies, for pickle.
+py::dict common_arguments(const Ballistic& motion) {
+  py::dict arguments;
+  arguments["gravity"] = py::tuple(array_of(motion.gravity()).attr("tolist")());
+  return arguments;
+}
+py::dict common_arguments(const RandomForces& motion) {
+  py::dict arguments;
+  arguments["interval"] = motion.interval();
+  arguments["seed"] = motion.seed();
+  return arguments;
+}
+py::dict common_arguments(const VelocityField& motion) {
+  const auto* const field = motion.field().target<Circulation>();
+  if (field == nullptr) throw py::type_error("pickle: the field of the VelocityField must be a Circulation");
+  py::dict arguments;
+  arguments["field"] = *field;
+  arguments["interval"] = motion.interval();
+  arguments["response_time"] = motion.response_time();
+  return arguments;
+}
+py::dict common_arguments(const SteeredMotion&) { return {}; }
+py::dict common_arguments(const RecordedTracks&) { return {}; }
+py::dict common_arguments(const FrameMotion&) {
+  throw py::type_error("pickle: a FrameMotion cannot be pickled; make one of its latest frame");
 }
 
 /// Binds the common calls of a kind of motion.
@@ -186,7 +263,11 @@ py::class_<HandleOf<Kind>, MotionHandle, std::shared_ptr<HandleOf<Kind>>> bind_k
   };
   return py::class_<Handle, MotionHandle, std::shared_ptr<Handle>>(module, name, documentation)
       .def("__copy__", copy)
-      .def("__deepcopy__", [copy](Handle& handle, const py::object&) { return copy(handle); });
+      .def("__deepcopy__", [copy](Handle& handle, const py::object&) { return copy(handle); })
+      .def("_common_arguments", [](Handle& handle) {
+        const auto turn = handle.in_use.take_alone("pickle", "motion");
+        return common_arguments(handle.get());
+      });
 }
 
 template <class Class, class Limit = py::arg>
@@ -287,6 +368,11 @@ number, or one of each body. The draw depends on seed, body and interval alone.)
            py::arg("box"), py::arg("speed"))
       .def_readonly("box", &Circulation::box)
       .def_readonly("speed", &Circulation::speed)
+      .def("__repr__", repr_of_parts("box", "speed"))
+      .def("__reduce__",
+           [](const py::object& self) {
+             return py::make_tuple(self.get_type(), py::make_tuple(self.attr("box"), self.attr("speed")));
+           })
       .def(
           "__call__",
           [](const Circulation& field, const py::object& position) {

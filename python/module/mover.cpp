@@ -6,6 +6,9 @@
 #include <iterator>
 #include <limits>
 #include <memory>
+#include <string>
+#include <type_traits>
+#include <utility>
 
 #include "errors.hpp"
 #include "exchange.hpp"
@@ -104,6 +107,7 @@ void FunctionMover::states(std::span<const BodyId> ids, double time, std::span<S
     for (std::size_t k = 0; k < ids.size(); ++k) states[k] = answers_[ids[k].index].state;
     return;
   }
+  interruptions_.look(1);
   interruptions_.call([&] { ask(handle_, ids, time, states, call_, plane_); });
   if (ids.size() > few) return;
   for (std::size_t k = 0; k < ids.size(); ++k) answers_.at(ids[k].index) = {time, states[k]};
@@ -132,6 +136,22 @@ to n - 1; what a run answers is kept here. mover(ids, t) tells states.)")
 One id and vectors of shape (3,), or n ids and shape (n, 3).)")
       .def("__call__", states_now, py::arg("ids"), py::arg("t"))
       .def("__len__", [](const MoverHandle& handle) { return handle.departures.size(); })
+      .def("__repr__",
+           [](const MoverHandle& handle) {
+             return "<MotionSource of " + std::to_string(handle.departures.size()) + " bodies>";
+           })
+      .def(py::pickle(
+          [](const MoverHandle& handle) {
+            return py::make_tuple(handle.function, bytes_of(std::as_bytes(std::span(handle.departures))));
+          },
+          [](const py::tuple& state) {
+            static_assert(std::is_trivially_copyable_v<MotionOrigin>);
+            const std::vector<std::byte> bytes = bytes_from(state[1], {"pickle", "departures"});
+            std::vector<MotionOrigin> departures(bytes.size() / sizeof(MotionOrigin));
+            if (!departures.empty())
+              std::memcpy(departures.data(), bytes.data(), departures.size() * sizeof(MotionOrigin));
+            return std::make_shared<MoverHandle>(MoverHandle{state[0], std::move(departures)});
+          }))
       .def("__copy__",
            [](const MoverHandle& handle) {
              return std::make_shared<MoverHandle>(MoverHandle{handle.function, handle.departures});

@@ -70,6 +70,7 @@ Probe Asked::probe() {
 }
 
 void Asked::ask(std::span<const BodyId> ids, double time, std::span<State> states) {
+  interruptions_.look(1);
   interruptions_.call([&] { read_states(given_(array_of(ids), time), states, call_, plane_); });
 }
 
@@ -94,6 +95,13 @@ Bouncing::Bouncing(const py::object& masses, double restitution, double resting_
   check(restitution >= 0.0 && restitution <= 1.0, "restitution", "must lie in [0, 1]", restitution);
   check(resting_speed >= 0.0 && std::isfinite(resting_speed), "resting_speed", "must be finite and >= 0",
         resting_speed);
+}
+
+py::tuple Bouncing::arguments() const {
+  const py::object masses = masses_        ? array_of(*masses_)
+                            : common_mass_ ? py::object(py::float_(*common_mass_))
+                                           : py::none();
+  return py::make_tuple(masses, restitution_, resting_speed_);
 }
 
 Response Bouncing::answer(const Event& event) const {
@@ -138,7 +146,18 @@ masses (> 0) is one number for all, or an array with one at the index of each bo
 the masses of add(). Static bodies count as infinitely heavy. restitution lies in [0, 1]. With a
 resting_speed (length / time) bodies come to rest as settle() has them.)")
       .def(py::init<const py::object&, double, double>(), py::arg("masses") = py::none(),
-           py::arg("restitution") = 1.0, py::arg("resting_speed") = 0.0);
+           py::arg("restitution") = 1.0, py::arg("resting_speed") = 0.0)
+      .def("__repr__",
+           [](const Bouncing& bouncing) {
+             const py::tuple given = bouncing.arguments();
+             const bool is_array = py::hasattr(given[0], "shape");
+             return py::str("Bouncing(masses={}, restitution={}, resting_speed={})")
+                 .format(is_array ? py::str("<{} numbers>").format(py::len(given[0])) : py::str(given[0]),
+                         given[1], given[2]);
+           })
+      .def("__reduce__", [](const py::object& self) {
+        return py::make_tuple(self.get_type(), self.cast<const Bouncing&>().arguments());
+      });
 }
 
 }  // namespace kinesphere::python

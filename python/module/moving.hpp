@@ -52,6 +52,8 @@ class Bouncing {
  public:
   Bouncing(const py::object& masses, double restitution, double resting_speed);
   Response answer(const Event& event) const;
+  /// Returns the arguments of the constructor.
+  py::tuple arguments() const;
 
  private:
   /// Returns the given mass of a body, or `own` if none were given.

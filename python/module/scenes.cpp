@@ -5,8 +5,7 @@
 #include "errors.hpp"
 #include "exchange.hpp"
 #include "motions.hpp"
-#include "simulation/scene/make_scene.hpp"
-#include "simulation/scene/scene.hpp"
+#include "scenes.hpp"
 #include "world.hpp"
 
 namespace kinesphere::python {
@@ -17,12 +16,13 @@ void set(const py::object& given, Value& parameter) {
   if (!given.is_none()) parameter = given.cast<Value>();
 }
 
-std::shared_ptr<Scene> create_scene(const std::string& name, const py::object& bodies, const py::object& seed,
-                                    const py::object& seconds, const py::object& packing,
-                                    const py::object& radius_min, const py::object& radius_max,
-                                    const py::object& speed_min, const py::object& speed_max,
-                                    const py::object& limit_min, const py::object& limit_max,
-                                    const py::object& restitution, const py::object& contact_tolerance) {
+std::shared_ptr<SceneHandle> create_scene(const std::string& name, const py::object& bodies,
+                                          const py::object& seed, const py::object& seconds,
+                                          const py::object& packing, const py::object& radius_min,
+                                          const py::object& radius_max, const py::object& speed_min,
+                                          const py::object& speed_max, const py::object& limit_min,
+                                          const py::object& limit_max, const py::object& restitution,
+                                          const py::object& contact_tolerance) {
   for (const SceneParameters& known : built_in_scenes()) {
     if (known.name != name) continue;
     SceneParameters parameters = known;
@@ -42,9 +42,29 @@ std::shared_ptr<Scene> create_scene(const std::string& name, const py::object& b
       const py::gil_scoped_release released;
       return make_scene(parameters);
     }();
-    return std::make_shared<Scene>(std::move(made).value());
+    return std::make_shared<SceneHandle>(std::move(made).value(), parameters);
   }
   refuse({"Scene", "name"}, "must be one of scene_names()", "is \"" + name + "\"");
+}
+
+/// Returns a call that makes the scene again.
+py::tuple reduced_scene(const py::object& self) {
+  const SceneParameters& given = self.cast<const SceneHandle&>().parameters;
+  py::dict arguments;
+  arguments["bodies"] = given.bodies;
+  arguments["seed"] = given.seed;
+  arguments["seconds"] = given.seconds;
+  arguments["packing"] = given.packing;
+  arguments["radius_min"] = given.radius_min;
+  arguments["radius_max"] = given.radius_max;
+  arguments["speed_min"] = given.speed_min;
+  arguments["speed_max"] = given.speed_max;
+  arguments["limit_min"] = given.limit_min;
+  arguments["limit_max"] = given.limit_max;
+  arguments["restitution"] = given.restitution;
+  arguments["contact_tolerance"] = given.contact_tolerance;
+  return py::make_tuple(package_attribute("kinesphere.pickles", "made"),
+                        py::make_tuple(self.get_type(), py::make_tuple(given.name), arguments));
 }
 
 }  // namespace
@@ -59,8 +79,9 @@ void bind_scenes(py::module_& module) {
       },
       "The built-in scenes of the program `kinesphere`: \"paper1\" and so on.");
   const auto none = [](const char* name) { return py::arg(name) = py::none(); };
-  py::class_<Scene, std::shared_ptr<Scene>>(module, "Scene",
-                                            R"(A built-in scene of the program `kinesphere`, to the last bit.
+  py::class_<SceneHandle, std::shared_ptr<SceneHandle>>(
+      module, "Scene",
+      R"(A built-in scene of the program `kinesphere`, to the last bit.
 
     scene = Scene("paper1", bodies=500)
     world, motion = World(**scene.definition), scene.motion()
@@ -72,13 +93,13 @@ What may differ from the scene as it is built in is named as in `kinesphere run 
            none("seconds"), none("packing"), none("radius_min"), none("radius_max"), none("speed_min"),
            none("speed_max"), none("limit_min"), none("limit_max"), none("restitution"),
            none("contact_tolerance"))
-      .def_readonly("name", &Scene::name)
+      .def_readonly("name", &SceneHandle::name)
       .def_property_readonly(
-          "definition", [](const Scene& scene) { return arguments_of(scene.world); },
+          "definition", [](const SceneHandle& scene) { return arguments_of(scene.world); },
           "World(**scene.definition).")
       .def_property_readonly(
           "radii",
-          [](const Scene& scene) {
+          [](const SceneHandle& scene) {
             std::vector<double> radii;
             for (const SceneBody& body : scene.bodies) radii.push_back(body.radius);
             return array_of(radii);
@@ -86,7 +107,7 @@ What may differ from the scene as it is built in is named as in `kinesphere run 
           "Of each body (length), shape (n,).")
       .def_property_readonly(
           "masses",
-          [](const Scene& scene) {
+          [](const SceneHandle& scene) {
             std::vector<double> masses;
             for (const SceneBody& body : scene.bodies)
               masses.push_back(body.radius * body.radius * body.radius);
@@ -94,12 +115,18 @@ What may differ from the scene as it is built in is named as in `kinesphere run 
           },
           "The cubes of the radii, shape (n,): Bouncing(scene.masses, scene.restitution) answers as the "
           "scene does.")
-      .def_readonly("end_time", &Scene::end_time)
-      .def_readonly("restitution", &Scene::restitution)
+      .def_readonly("end_time", &SceneHandle::end_time)
+      .def_readonly("restitution", &SceneHandle::restitution)
       .def(
-          "motion", [](const Scene& scene) { return object_of(scene.motion->clone()); },
+          "motion", [](const SceneHandle& scene) { return object_of(scene.motion->clone()); },
           "What moves the bodies, from the start: a new Motion each time.")
-      .def("__len__", [](const Scene& scene) { return scene.bodies.size(); });
+      .def("__len__", [](const SceneHandle& scene) { return scene.bodies.size(); })
+      .def("__repr__",
+           [](const SceneHandle& scene) {
+             return py::str("<Scene {}: {} bodies, until {}>")
+                 .format(scene.name, scene.bodies.size(), scene.end_time);
+           })
+      .def("__reduce__", reduced_scene);
 }
 
 }  // namespace kinesphere::python

@@ -1,5 +1,6 @@
 #include "shapes.hpp"
 
+#include <algorithm>
 #include <string>
 
 namespace kinesphere::python {
@@ -33,14 +34,23 @@ void bind_equality(Class& shape, const char* name) {
 
 }  // namespace
 
-std::optional<Box> box_of(const py::object& given, const Argument& argument) {
+std::optional<Box> box_of(const py::object& given, const Argument& argument, bool plane) {
   if (given.is_none()) return {};
   if (py::isinstance<Box>(given)) return given.cast<Box>();
-  const std::vector<Vec3> corners = vectors_of(given, argument, false);
-  if (corners.size() != 2)
-    refuse(argument, "must be a Box, or its lower and upper corner",
-           "has " + std::to_string(corners.size()) + " corners");
-  return Box{corners[0], corners[1]};
+  const Numbers numbers(given, argument);
+  const bool fits = numbers.dimensions() == 2 && numbers.length(0) == 2 &&
+                    (numbers.length(1) == 3 || (plane && numbers.length(1) == 2));
+  if (!fits)
+    refuse(argument,
+           std::string("must be a Box, or its lower and upper corner, of shape (2, 3)") +
+               (plane ? " or (2, 2)" : "; (2, 2) is for dimensions=2"),
+           "has shape " + numbers.shape());
+  const auto corner = [&](std::size_t k, double z) {
+    return Vec3{numbers.at(k, 0), numbers.at(k, 1), numbers.length(1) == 3 ? numbers.at(k, 2) : z};
+  };
+  const Vec3 size = corner(1, 0.0) - corner(0, 0.0);
+  const double height = 0.5 * std::max(size.x, size.y);
+  return Box{corner(0, -height), corner(1, height)};
 }
 
 Shape shape_of(const py::object& given, const Argument& argument) {

@@ -8,8 +8,9 @@
 
 namespace kinesphere::python {
 
-/// Reads a kinesphere.Box, or a pair of its corners; nothing for None.
-std::optional<Box> box_of(const py::object& given, const Argument& argument);
+/// Reads a kinesphere.Box, or a pair of its corners; nothing for None. In the plane corners may have two
+/// numbers: the box then reaches as far above and below z = 0 as half of its longer side.
+std::optional<Box> box_of(const py::object& given, const Argument& argument, bool plane);
 Shape shape_of(const py::object& given, const Argument& argument);
 py::object object_of(const Shape& shape);
 

@@ -11,11 +11,11 @@ namespace kinesphere::python {
 namespace {
 
 /// Reads True for all axes, or some of the letters "xyz".
-Axes axes_of(const py::object& given) {
+Axes axes_of(const py::object& given, int dimensions) {
   const Argument argument{"World", "periodic"};
   if (py::isinstance<py::bool_>(given)) {
     const bool all = given.cast<bool>();
-    return {all, all, all};
+    return {all, all, all && dimensions != 2};
   }
   if (!py::isinstance<py::str>(given))
     throw py::type_error("World: periodic must be a bool or a text such as \"xy\", but is " +
@@ -40,8 +40,8 @@ std::shared_ptr<WorldHandle> create_world(const py::object& box, const py::objec
                                           const std::string& contacts, bool allow_overlap,
                                           double zeno_interval, double start_time) {
   WorldDefinition definition;
-  definition.box = box_of(box, {"World", "box"});
-  definition.periodic = axes_of(periodic);
+  definition.box = box_of(box, {"World", "box"}, dimensions == 2);
+  definition.periodic = axes_of(periodic, dimensions);
   definition.dimensions = dimensions;
   if (dimensions == 2 && definition.periodic.z)
     refuse({"World", "periodic"}, "must be of x and y in two dimensions, such as \"xy\"",
@@ -161,7 +161,7 @@ at a time may use a world; another one is refused with StateError.)");
            py::arg("allow_overlap") = true, py::arg("zeno_interval") = 0.0, py::arg("start_time") = 0.0,
            R"(box: walls, a Box or a pair of corners; without one the world is unbounded.
 periodic: True, or axes such as "xy", on which the box repeats instead of having walls.
-dimensions: 3, or 2 for discs in the plane z = 0.
+dimensions: 3, or 2 for discs in the plane z = 0; corners may then have two numbers, and True means "xy".
 contact_tolerance (length, > 0): a contact begins when the gap is at most this, and no gap falls below minus
 this unreported.
 separation_distance (length, > contact_tolerance; default 4 of it): a contact ends when the gap has grown to
@@ -178,7 +178,11 @@ finite time. Raises ValueError (InvalidValue) that names the argument.)")
           "definition",
           reading("definition", [](const World& made) { return arguments_of(made.definition()); }),
           "What the world was made from: World(**world.definition) makes another one.")
-      .def_property_readonly("time", reading("time", [](const World& now) { return now.time(); }))
+      .def_property_readonly("time", &WorldHandle::time,
+                             R"(The current time.
+
+While another thread is at work in the world this is a time that it has reached, at most 0.1 s ago or so;
+it takes no lock but the GIL.)")
       .def("__len__", reading("len", [](const World& now) { return now.size(); }))
       .def("__contains__",
            [](WorldHandle& handle, const py::object& body) {

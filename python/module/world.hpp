@@ -33,8 +33,17 @@ struct WorldHandle {
   /// Set while there is a pair filter.
   std::shared_ptr<FilterTrouble> filter_trouble{};
 
+  /// For other threads: a time that the world has reached. The thread that uses the world sets it, and each
+  /// thread reads it, under the GIL.
+  double reached = world.time();
+
   bool is_plane() const { return world.definition().dimensions == 2; }
-  InUse::Use take(std::string_view call) { return in_use.take(call, "world"); }
+  InUse::Use take(std::string_view call) {
+    InUse::Use use = in_use.take(call, "world");
+    reached = world.time();
+    return use;
+  }
+  double time() { return in_use.is_taken_elsewhere() ? reached : world.time(); }
 };
 
 /// Ends a call that may have used the pair filter: raises the filter's exception.

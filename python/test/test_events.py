@@ -1,5 +1,6 @@
 """Tables of events."""
 
+import io
 import pickle
 
 import numpy as np
@@ -57,6 +58,41 @@ def test_hashes(events: ks.Events) -> None:
     assert str(one) == f"{one.value:016x}"
     assert ks.EventHash() != one and hash_of(events[::2]) != str(one)
     assert hash_of(events[::-1]) == str(one)
+
+
+def test_numpy_saves_and_loads_tables(events: ks.Events) -> None:
+    file = io.BytesIO()
+    np.save(file, events.array)
+    file.seek(0)
+    loaded = np.load(file)
+    assert hash_of(ks.Events(loaded)) == hash_of(events) and ks.Events(loaded)[3] == events[3]
+    names = ks.event_dtype.names or ()
+    packed = np.zeros(len(events), dtype=[(name, *ks.event_dtype.fields[name][:1]) for name in names[::-1]])  # type: ignore[index]
+    for name in names:
+        packed[name] = events[name]
+    assert hash_of(ks.Events(packed)) == hash_of(events)
+    world = ks.World()
+    world.add([[0.0, 0, 0], [5, 0, 0]])
+    np.save(io.BytesIO(), world.nearest((0, 0, 0), 2))
+    with pytest.raises(ks.InvalidValue, match="Events: rows must be an array with the columns of Events"):
+        ks.Events(np.zeros(3, dtype=[("time", "f8")]))
+
+
+def test_events_add_up_and_are_made_from_single_ones(events: ks.Events) -> None:
+    parts = [events[:10], events[10:11], events[11:]]
+    assert hash_of(sum(parts, ks.Events())) == hash_of(events) == hash_of(ks.Events(list(events)))
+    both = parts[0] + parts[2]
+    assert both.array.dtype == ks.event_dtype and np.array_equal(both["time"][10:], events["time"][11:])
+    assert ks.Events(event for event in events if event.kind == EventKind.wall_begin)[0] in list(events)
+    with pytest.raises(TypeError):
+        events + ks.MonitorEvents()  # type: ignore[operator]
+
+
+def test_a_notebook_shows_the_first_rows(events: ks.Events) -> None:
+    pytest.importorskip("pandas")
+    shown = events._repr_html_()
+    assert shown is not None and "&lt;Events: " in shown and f"... and {len(events) - 10} more" in shown
+    assert shown.count("<tr>") == 10 and ks.Events()._repr_html_() is not None
 
 
 def test_pandas(events: ks.Events) -> None:

@@ -78,7 +78,7 @@ def test_bodies_ask_for_their_own_events() -> None:
     both = ["contact_begin", "contact_end"]
     assert kinds == {"all": both, "begin_and_end": both, "impacts": both[:1], None: both[:1]}
     with pytest.raises(ks.InvalidValue, match='add: contacts must be "all", "begin_and_end" or "impacts"'):
-        ks.World().add([[0.0, 0, 0]], contacts="hits")  # type: ignore[arg-type]
+        ks.World().add([[0.0, 0, 0]], contacts="hits")  # type: ignore[call-overload]
 
 
 def test_a_motion_of_ones_own_is_asked_once_for_each_instant() -> None:

@@ -66,6 +66,23 @@ def test_bodies_come_go_and_move_to_another_motion() -> None:
         motion.states(5.0, number)
 
 
+def test_many_bodies_are_changed_at_once_or_none() -> None:
+    motion = ks.SteeredMotion(positions, velocities, 2.0)
+    motion.set_velocity(np.arange(40), 1.0, -velocities)
+    assert np.array_equal(motion.states(1.0)[1], -velocities)
+    before = motion.states(2.0)
+    for numbers, t in (([0, 1, 0, 40], 1.5), ([0, -1], 1.5), ([3, 4], 0.5)):
+        with pytest.raises((ks.BodyError, ks.InvalidValue)):
+            motion.set_velocity(numbers, t, np.ones((len(numbers), 3)))
+        with pytest.raises((ks.BodyError, ks.InvalidValue)):
+            motion.teleport(numbers, t, np.ones((len(numbers), 3)), np.zeros((len(numbers), 3)))
+    assert all(np.array_equal(a, b) for a, b in zip(before, motion.states(2.0)))
+    motion.teleport([4, 2], 2.0, [(1, 2), (3, 4)], np.zeros((2, 2)))
+    assert motion.states(2.0, [2, 4])[0].tolist() == [[3, 4, 0], [1, 2, 0]]
+    with pytest.raises(ks.InvalidValue, match=r"velocities must have shape .* with n = 2"):
+        motion.set_velocity([0, 1], 3.0, (1, 2, 3))
+
+
 def test_wrong_bodies_and_times_of_a_motion_are_named() -> None:
     motion = ks.Ballistic(positions)
     for wrong in (40, -1, 2**40):
@@ -249,6 +266,23 @@ def test_a_motion_is_added_where_its_numbers_are_ids() -> None:
     with pytest.raises(ks.InvalidValue, match="never had bodies"):
         world.add_motion(motion)
     assert len(world) == 0
+
+
+def test_bodies_of_a_motion_have_traits_as_those_of_add() -> None:
+    motion = ks.Ballistic(positions, velocities)
+    world = ks.World()
+    categories = np.where(np.arange(40) < 20, 1, 2)
+    world.add_motion(
+        motion, np.linspace(1, 2, 40), categories=categories, masks=2, group=-3, solid=False,
+        sensor_classes=7, user_data=np.arange(40), masses=3.0, contacts="impacts",
+    )  # fmt: skip
+    last = world.body(39)
+    assert (last.category, last.mask, last.group, last.solid) == (2, 2, -3, False)
+    assert (last.sensor_class, last.user_data, last.radius) == (7, 39, 2.0) and world.body(0).category == 1
+    with pytest.raises(
+        ks.InvalidValue, match="add_motion: user_data must be one number, or one for each of 40"
+    ):
+        ks.World().add_motion(motion, user_data=[1, 2])
 
 
 def straight_on(ids: Any, t: float, since: Any, places: Any, speeds: Any) -> tuple[Any, Any]:

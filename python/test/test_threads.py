@@ -7,6 +7,7 @@ import subprocess
 import sys
 import threading
 import time
+import types
 import weakref
 from collections.abc import Callable
 
@@ -54,7 +55,7 @@ def test_the_gil_is_released_and_another_thread_is_refused() -> None:
     while runner.is_alive():
         turns += 1
         uses: list[Callable[[], object]] = [
-            lambda: world.time,
+            lambda: len(world),
             lambda: world.add((0, 0, 0)),
             lambda: motion.states(0.0),
             lambda: world.clone(),
@@ -71,6 +72,70 @@ def test_the_gil_is_released_and_another_thread_is_refused() -> None:
     assert len(outcome) == 1 and isinstance(outcome[0], ks.Events) and world.time == 4.0
     assert refusals and {error.code for error in refusals} == {"in_use"} and turns > 3
     assert any("world must be used by one thread at a time" in str(error) for error in refusals)
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_a_run_tells_how_far_it_is(threads: int) -> None:
+    world, motion, scene = busy(2000, packing=0.05)
+    told: list[float] = []
+    read: list[float] = []
+
+    def progress(t: float) -> None:
+        told.append(t)
+        other = threading.Thread(target=lambda: read.append(world.time))
+        other.start()
+        other.join()
+        if len(told) == 4:
+            raise ZeroDivisionError("progress")
+
+    with pytest.raises(ZeroDivisionError, match="progress"):
+        world.run(1e6, motion, scene, threads=threads, progress=progress)
+    assert read == told == sorted(told) and 0 < told[2] < told[3] <= world.time
+    end = world.time + 0.01
+    world.run(end, motion, scene, threads=threads, progress=told.append)
+    assert told[-1] == world.time == end
+
+
+def test_a_slow_probe_of_python_tells_how_far_it_is_too() -> None:
+    world, motion = pair()
+    told: list[float] = []
+
+    def probe(ids: Ids, t: float) -> tuple[Doubles, Doubles]:
+        time.sleep(0.06)
+        return motion(ids, t)
+
+    world.run(10.0, probe, progress=told.append)
+    assert len(told) >= 2 and 0 < told[0] < told[-1] == 10.0
+    with pytest.raises(TypeError, match="progress must be a bool or a function"):
+        world.run(11.0, motion, progress=3)  # type: ignore[arg-type]
+
+
+def test_a_bar_is_drawn_by_tqdm_if_it_is_there(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Drawn:
+        n = 0.0
+        closed = 0
+
+        def __init__(self, total: float, **form: str) -> None:
+            self.total = total
+            bars.append(self)
+
+        def update(self, step: float) -> None:
+            self.n += step
+
+        def close(self) -> None:
+            self.closed += 1
+
+    bars: list[Drawn] = []
+    module = types.ModuleType("tqdm.auto")
+    module.tqdm = Drawn  # type: ignore[attr-defined]
+    monkeypatch.setitem(sys.modules, "tqdm", types.ModuleType("tqdm"))
+    monkeypatch.setitem(sys.modules, "tqdm.auto", module)
+    world, motion = pair(start_time=0.5)
+    world.run(10.0, motion, progress=True)
+    assert [(bar.total, bar.n, bar.closed) for bar in bars] == [(9.5, 9.5, 1)]
+    monkeypatch.setitem(sys.modules, "tqdm.auto", None)  # type: ignore[misc]
+    with pytest.warns(UserWarning, match="progress=True needs tqdm"):
+        world.run(11.0, motion, progress=True)
 
 
 def test_what_a_probe_raises_comes_out_and_the_world_goes_on() -> None:

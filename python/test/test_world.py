@@ -325,3 +325,39 @@ def test_a_mesh() -> None:
     event = world.advance(5.0, motion)
     assert event is not None and event.second in ids
     assert event.time == pytest.approx(np.sqrt(2 * 4.5 / 10), abs=1e-4)
+
+
+def test_a_periodic_plane_is_made_of_corners_with_two_numbers() -> None:
+    world = ks.World(dimensions=2, box=((0, 0), (9, 5)), periodic=True)
+    assert (
+        world.definition["periodic"] == "xy" and ks.World(**world.definition).definition == world.definition
+    )
+    world.add([(8.5, 1), (1, 1)], [(1, 0), (0, 0)], radii=0.25)
+    assert world.overlapping_box(((8, 0), (9, 2)))["body"].tolist() == [0]
+    event = world.advance(5.0, ks.Ballistic([(8.5, 1), (1, 1)], [(1, 0), (0, 0)]))
+    assert event is not None and event.time == pytest.approx(1.0, abs=1e-5)
+    with pytest.raises(
+        ks.InvalidValue, match=r"World: box must .* of shape \(2, 3\); \(2, 2\) is for dimensions=2"
+    ):
+        ks.World(box=((0, 0), (9, 9)))
+    with pytest.raises(ks.InvalidValue, match="^World: contact_tolerance must be at least .* for a box"):
+        ks.World(box=((0, 0, 0), (1, 1, 1e12)))
+
+
+def test_positions_are_unwrapped_by_arrays() -> None:
+    length = np.array([10.0, 10.0, 50.0])
+    rng = np.random.default_rng(17)
+    places, speeds = rng.uniform(0, 10, (30, 3)), rng.uniform(-40, 40, (30, 3)) * [1, 1, 0]
+    world = ks.World(box=((0, 0, 0), length), periodic="xy", contacts="impacts")
+    motion = ks.Ballistic(places, speeds)
+    world.add_motion(motion, 0.01)
+    world.run(3.3, motion)
+    path = places + 3.3 * speeds
+    wrapped = np.where([True, True, False], np.mod(path, length), path)
+    assert np.abs(world.unwrapped(wrapped) - path).max() < 1e-9
+    assert np.abs(world.unwrapped(wrapped[[4, 2]] + length * [3, -2, 0], [4, 2]) - path[[4, 2]]).max() < 1e-9
+    images = world.images()
+    assert images.dtype == np.int64 and tuple(images[5]) == world.body(5).image and np.abs(images).max() > 5
+    assert not images[:, 2].any() and world.images([7]).shape == (1, 3)
+    with pytest.raises(ks.InvalidValue, match="positions must have shape"):
+        world.unwrapped(wrapped[:3])

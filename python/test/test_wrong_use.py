@@ -72,7 +72,7 @@ ways: list[Way] = [
     (lambda o: ks.World(box=((0, 0, 0), (1, 0, 1))), "out_of_range", "box", None),
     (lambda o: ks.World(periodic="x"), "out_of_range", "periodic", None),
     (lambda o: ks.World(box=((0, 0, 0), (1, 1, 1e12))), "out_of_range", "contact_tolerance", None),
-    (lambda o: ks.World(box=((0, 0, 0), (9, 9, 9)), periodic=True, dimensions=2), "out_of_range", "periodic", None),
+    (lambda o: ks.World(box=((0, 0, 0), (9, 9, 9)), periodic="z", dimensions=2), "out_of_range", "periodic", None),
     (lambda o: o.plane.add((0, 0, 1)), "out_of_range", "position", None),
     (lambda o: o.plane.add_zone(ks.Triangle((0, 0, 0), (1, 0, 0), (0, 1, 0))), "unsupported", "shape", None),
     (lambda o: o.w.add_static(ks.Box((1, 1, 1), (0, 2, 2))), "out_of_range", "shape", None),
@@ -106,7 +106,7 @@ def in_another_thread(things: Things) -> None:
 
     def use() -> None:
         try:
-            things.w.time
+            len(things.w)
         except ks.StateError as error:
             raised.append(error)
 
@@ -249,7 +249,7 @@ def test_wrong_kinds_of_things_are_named() -> None:
         (lambda: ks.World(box=((0, 0, 0), (9, 9, 9)), periodic="xyz", dimensions=2), ks.InvalidValue, 'such as "xy", but is .xyz.'),
         (lambda: ks.World(periodic=3), TypeError, "periodic"),  # type: ignore[arg-type]
         (lambda: ks.World(contacts="some"), ks.InvalidValue, "begin_and_end"),  # type: ignore[arg-type]
-        (lambda: things.w.add((0, 0, 0), contacts="some"), ks.InvalidValue, "add: contacts must be"),  # type: ignore[arg-type]
+        (lambda: things.w.add((0, 0, 0), contacts="some"), ks.InvalidValue, "add: contacts must be"),  # type: ignore[call-overload]
         (lambda: things.w.busiest(), ks.StateError, "set_profiling"),
         (lambda: ks.World(separation_distance=nan), ks.InvalidValue, "separation_distance"),
         (lambda: ks.World(box=(1, 2, 3)), ks.InvalidValue, "box"),
@@ -261,6 +261,27 @@ def test_wrong_kinds_of_things_are_named() -> None:
     for call, kind, message in wrong:
         with pytest.raises(kind, match=message):
             call()
+
+
+def test_a_motion_that_nobody_added_is_not_a_run_without_events() -> None:
+    things = Things()
+    source = ks.MotionSource(lambda ids, t, since, places, speeds: (places, speeds), [(0, 0, 0)])
+    world = ks.World()
+    world.add_static(ks.Ball((0, 0, 0), 1.0))
+    probes: list[Any] = [things.motion, source]
+    calls: list[Callable[..., Any]] = [world.run, world.advance, lambda *given: next(world.events(*given))]
+    for probe in probes:
+        for call in calls:
+            with pytest.raises(
+                ks.InvalidValue, match=r"motion must move bodies that have been added .*add_motion"
+            ):
+                call(1.0, probe)
+    world.add((50.0, 0, 0))
+    world.run(1.0, things.motion)
+    world.remove(world.bodies())
+    assert len(world.run(2.0, things.motion)) == 0, "all were removed"
+    assert len(ks.World().run(1.0, ks.Ballistic([]))) == 0
+    assert len(ks.World().run(1.0, things.probe_with_nan)) == 0, "a function may wait for bodies"
 
 
 def test_errors_can_be_caught_as_python_does_and_pickled() -> None:

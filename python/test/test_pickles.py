@@ -1,0 +1,102 @@
+"""What goes to another process and comes back: it goes on as it would have here."""
+
+import copy
+import pickle
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import hash_of, pair
+
+import kinesphere as ks
+
+rng = np.random.default_rng(13)
+positions = rng.uniform(5, 45, (12, 3))
+velocities = rng.uniform(-3, 3, (12, 3))
+box = ks.Box((0, 0, 0), (50, 50, 50))
+
+
+def through(value: Any) -> Any:
+    return pickle.loads(pickle.dumps(value))
+
+
+makers: dict[str, Callable[[], Any]] = {
+    "ballistic": lambda: ks.Ballistic(positions, velocities, gravity=(0, 0.5, -1)),
+    "random forces": lambda: ks.RandomForces(positions, velocities, 5.0, interval=0.15, seed=2**63 + 5),
+    "steered": lambda: ks.SteeredMotion(positions, velocities, np.full(12, 2.0)),
+    "velocity field": lambda: ks.VelocityField(
+        ks.Circulation(box, 4.0), positions, velocities, 6.0, interval=0.3, response_time=0.7
+    ),
+}
+
+
+@pytest.mark.parametrize("name", makers)
+def test_a_motion_comes_back_with_its_changes_and_gaps(name: str) -> None:
+    motion = makers[name]()
+    motion.set_velocity([1, 3], 0.4, [(1, 2, 3), (4, 5, 6)])
+    if name == "steered":
+        motion.steer(2, 0.5, (0, 1.5, 0))
+    for number in (7, 2, 9):
+        motion.remove(number)
+    limit = () if name == "ballistic" else (1.0,)
+    motion.add(0.6, (1, 1, 1), (0, 0, 0), *limit)
+    again = through(motion)
+    assert type(again) is type(motion) and 7 not in again and 2 not in again and 9 in again
+    for here in (motion, again):
+        assert [here.add(0.7, (2, 2, 2), (1, 0, 0), *limit) for _ in range(3)] == [2, 7, 12]
+    for t in (0.75, 3.0):
+        assert all(np.array_equal(a, b) for a, b in zip(motion.states(t), again.states(t)))
+    assert again.definitions(3.0).keys() == motion.definitions(3.0).keys()
+
+
+def test_tracks_and_sources_come_back_and_frames_say_that_they_do_not() -> None:
+    tracks = ks.RecordedTracks([([0, 1, 3], rng.uniform(0, 9, (3, 3))), ([0, 4], rng.uniform(0, 9, (2, 3)))])
+    tracks.remove(0)
+    again = through(tracks)
+    assert 0 not in again and np.array_equal(again.states(2.0)[0], tracks.states(2.0)[0])
+    source = ks.MotionSource(moved, positions, velocities)
+    source.set_origin(20, 1.0, (1, 2, 3), (4, 5, 6))
+    assert (
+        np.array_equal(through(source)([3, 20], 2.0)[0], source([3, 20], 2.0)[0])
+        and len(through(source)) == 21
+    )
+    with pytest.raises(TypeError, match="a FrameMotion cannot be pickled"):
+        pickle.dumps(ks.FrameMotion(positions))
+
+
+def moved(ids: Any, t: float, since: Any, places: Any, speeds: Any) -> tuple[Any, Any]:
+    return places + speeds * (t - since), speeds
+
+
+def test_a_run_goes_on_in_another_process_to_the_last_bit() -> None:
+    scene = ks.Scene("paper1", bodies=60, seconds=2.0, seed=5)
+    world, motion = ks.World(**scene.definition), scene.motion()
+    world.add_motion(motion, scene.radii)
+    world.run(1.0, motion, scene)
+    world2, motion2, scene2 = through((world, motion, scene))
+    assert repr(scene2) == repr(scene) == "<Scene paper1: 60 bodies, until 2.0>"
+    assert hash_of(world.run(2.0, motion, scene)) == hash_of(world2.run(2.0, motion2, scene2))
+
+
+def test_results_come_back() -> None:
+    world, motion = pair()
+    event = world.run(10.0, motion)[0]
+    for value in (event, world.counters, ks.Circulation(box, 2.0), ks.Bouncing([1.0, 2.0], 0.5, 0.1)):
+        assert repr(through(value)) == repr(value) == repr(copy.copy(value))
+    assert through(event) == event and {event: 1}[through(event)] == 1
+    assert through(world.counters) == world.counters != ks.World().counters
+
+
+def test_everything_says_what_it_is() -> None:
+    world, motion = pair()
+    bodies = ks.BodyMap()
+    shown = [
+        motion, bodies, world.body(0), world.counters, world.safe_until(), world.safe_until(0, 1, 1.0),
+        world.earliest_contact(0), world.earliest_approach(0, 1.0), world.distance_limits(0, 1, 1.0), ks.Bouncing(),
+        ks.Workers(1), ks.Circulation(box, 1.0), ks.MotionSource(moved, positions), world.events(1.0, motion),
+        ks.Scene("paper1", bodies=5),
+    ]  # fmt: skip
+    assert [repr(one) for one in shown if " object at 0x" in repr(one)] == []
+    assert repr(motion) == "<Ballistic of 2 bodies>"
+    assert repr(world.safe_until()).startswith("SafeTime(time=")
