@@ -1081,6 +1081,7 @@ def _approaches(
     times: Doubles,
     positions: Doubles,
     starts: Ids,
+    radii: Optional[Doubles],
     distance: float,
     tolerance: float,
     straight: bool,

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal, Optional
+from datetime import timedelta
+from typing import TYPE_CHECKING, Any, Literal, Optional, Union, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from ._kinesphere import _approaches
 from .errors import InvalidValue
+from .events import html_of
 
 if TYPE_CHECKING:
     import pandas as pd
 
+# Seconds, or the unit of the times; or a duration.
+Duration = Union[float, timedelta, np.timedelta64]
 # Factor on the median time between the samples of an id, as in `kinesphere tracks`.
 _gap_factor = 2.5
 # Coordinates reach to 2**41 tolerances; half of that is reserved for curves that swing out.
@@ -25,8 +29,13 @@ class Approaches:
     first, second: the ids as they were given.
     begin, end: times between which the two were closer than the distance.
     closest_time, closest_distance, first_position, second_position, relative_speed: where they were
-    nearest, on their curves; the distance is that of the two points.
+    nearest, on their curves; the distance is that of the two points, or of the surfaces where there are radii.
     begins_with_track, ends_with_track: they were so close when the track of one of them began, or ended.
+    least_time_to_collision, least_time_at, where there are radii: the least time in which the two would have
+    collided if both had gone straight on, infinite where they were on no such course; and when that was, else NaN or NaT.
+
+    Times are of the kind that came: numbers, or datetime64[ns] in UTC, and then durations are in seconds. A column:
+    approaches["begin"]; some approaches: approaches[approaches["closest_distance"] < 1], approaches[:10].
     """
 
     def __init__(self, array: npt.NDArray[np.void], probes: int) -> None:
@@ -37,12 +46,26 @@ class Approaches:
     def __len__(self) -> int:
         return len(self.array)
 
-    def __getitem__(self, column: str) -> npt.NDArray[Any]:
-        values: npt.NDArray[Any] = self.array[column]
-        return values
+    @overload
+    def __getitem__(self, key: str) -> npt.NDArray[Any]:
+        ...
+
+    @overload
+    def __getitem__(self, key: Union[slice, npt.NDArray[Any], list[int]]) -> Approaches:
+        ...
+
+    def __getitem__(self, key: Any) -> Union[Approaches, npt.NDArray[Any]]:
+        if isinstance(key, str):
+            values: npt.NDArray[Any] = self.array[key]
+            return values
+        return Approaches(self.array[key], self.probes)
 
     def __repr__(self) -> str:
         return f"<{len(self)} approaches>"
+
+    def _repr_html_(self) -> Optional[str]:
+        """In a notebook: the first rows as a table, where pandas is there."""
+        return html_of(self, repr(self))
 
     def to_pandas(self) -> pd.DataFrame:
         """A data frame with a row for each approach, and a column for each coordinate."""
@@ -58,6 +81,21 @@ class Approaches:
         return pd.DataFrame(columns)
 
 
+@overload
+def tracks(
+    t: pd.DataFrame,
+    *,
+    distance: float,
+    columns: Optional[dict[str, str]] = None,
+    interpolate: Literal["spline", "linear"] = "spline",
+    max_gap: Optional[Duration] = None,
+    tolerance: Optional[float] = None,
+    radii: Optional[npt.ArrayLike] = None,
+) -> Approaches:
+    ...
+
+
+@overload
 def tracks(
     t: npt.ArrayLike,
     x: npt.ArrayLike,
@@ -67,28 +105,59 @@ def tracks(
     distance: float,
     *,
     interpolate: Literal["spline", "linear"] = "spline",
-    max_gap: Optional[float] = None,
+    max_gap: Optional[Duration] = None,
     tolerance: Optional[float] = None,
+    radii: Optional[npt.ArrayLike] = None,
+) -> Approaches:
+    ...
+
+
+def tracks(
+    t: Any,
+    x: Any = None,
+    y: Any = None,
+    z: Any = None,
+    id: Any = None,
+    distance: Any = None,
+    *,
+    columns: Optional[dict[str, str]] = None,
+    interpolate: Literal["spline", "linear"] = "spline",
+    max_gap: Optional[Duration] = None,
+    tolerance: Optional[float] = None,
+    radii: Optional[npt.ArrayLike] = None,
 ) -> Approaches:
     """Finds every time that two bodies of a recording were closer to each other than `distance` (length).
 
-    t, x, y, z: shape (n,), a sample in each row, in any order; z is None for motion in a plane. id: shape
-    (n,), whole numbers or texts, identifies the body of each sample. Times and coordinates may be large (Unix times,
-    UTM): they are calculated from origins near them.
+    t, x, y, z: shape (n,), a sample in each row, in any order; z is None for motion in a plane. t may be
+    datetime64, or of pandas with a time zone. id: shape (n,), whole numbers or texts, identifies the body of each
+    sample. Times and coordinates may be large (Unix times, UTM): they are calculated from origins near them.
+
+    tracks(frame, distance=...) takes a DataFrame with the columns t, x, y, id and, if there is one, z; columns
+    names others: {"t": "timestamp", "id": "ship"}, and also "radii".
 
     interpolate: between two samples a body goes along a natural cubic spline, or straight on ("linear").
-    max_gap: a longer time between two samples of an id ends its track, and another begins behind; by
-    default 2.5 times its median interval, or that of all where it has fewer than 4 samples. A sample
-    between two gaps is left out.
+    max_gap: a longer time between two samples of an id ends its track, and another begins behind; seconds or a
+    timedelta where t is datetime64; by default 2.5 times its median interval, or that of all where it has fewer
+    than 4 samples. A sample between two gaps is left out.
     tolerance (length): how exactly the distance is meant; by default a millionth of it, or 2**-40 of the
     extent if that is more.
+    radii (length): one number for all, or of shape (n,), of which each body has the largest: distances are then
+    those of surfaces, and the approaches have their times to collision.
 
-    Raises InvalidValue for NaN, two samples of an id at one time, and arrays of different lengths.
+    Raises InvalidValue for NaN and NaT, two samples of an id at one time, and arrays of different lengths.
     """
-    times = _column("t", t)
+    if hasattr(t, "columns"):
+        if x is not None or id is not None:
+            raise TypeError("tracks: x, y, z and id must be in the data frame; columns names them")
+        t, x, y, z, id, radii = _of_frame(t, columns or {}, radii)
+    elif columns is not None:
+        raise TypeError("tracks: columns must come with a data frame")
+    if distance is None:
+        raise TypeError("tracks: distance must be given")
+    clock, times = _clock_of(t)
     plane = z is None
-    columns = [_column("x", x, len(times)), _column("y", y, len(times))]
-    columns.append(np.zeros(len(times)) if z is None else _column("z", z, len(times)))
+    coordinates = [_column("x", x, len(times)), _column("y", y, len(times))]
+    coordinates.append(np.zeros(len(times)) if z is None else _column("z", z, len(times)))
     names = np.asarray(id)
     if names.shape != times.shape:
         raise _refused("id", f"must have shape {times.shape} as t, but has shape {names.shape}")
@@ -97,18 +166,19 @@ def tracks(
         raise _refused("interpolate", f'must be "spline" or "linear", but is {interpolate!r}')
 
     unique, who = np.unique(names, return_inverse=True)
-    time_origin, origin = _origin(times), np.array([_origin(column) for column in columns])
+    sizes = _sizes(radii, who, len(unique))
+    origin = np.array([_origin(column) for column in coordinates])
     order = np.lexsort((times, who))
-    who, times = who[order], times[order] - time_origin
-    positions = np.stack([column[order] for column in columns], axis=1) - origin
+    who, times = who[order], times[order]
+    positions = np.stack([column[order] for column in coordinates], axis=1) - origin
     same = np.flatnonzero((np.diff(who) == 0) & (np.diff(times) == 0))
     if len(same) > 0:
-        when = times[same[0]] + time_origin
+        when = clock.given(times[same[:1]])[0]
         raise _refused(
             "t", f"must have one sample of each id at a time, but id {unique[who[same[0]]]} has two at {when}"
         )
 
-    starts = _starts(who, times, max_gap)
+    starts = _starts(who, times, None if max_gap is None else _seconds(max_gap))
     kept = np.concatenate([np.zeros(0, dtype=np.int64), *(np.arange(a, b) for a, b in starts)])
     lengths = starts[:, 1] - starts[:, 0]
     extent = float(np.max(np.abs(positions), initial=0.0))
@@ -119,10 +189,89 @@ def tracks(
             "tolerance", f"must be from {finest:.3g} to less than the distance {distance}, but is {exactness}"
         )
 
+    tracked = who[starts[:, 0]]
     found, probes = _approaches(
-        times[kept], positions[kept], np.concatenate([[0], np.cumsum(lengths)]), distance, exactness,
-        interpolate == "linear", plane)  # fmt: skip
-    return Approaches(_as_given(found, unique[who[starts[:, 0]]], time_origin, origin), probes)
+        times[kept], positions[kept], np.concatenate([[0], np.cumsum(lengths)]),
+        None if sizes is None else sizes[tracked], distance, exactness, interpolate == "linear", plane)  # fmt: skip
+    return Approaches(_as_given(found, unique[tracked], clock, origin, sizes is not None), probes)
+
+
+class _Clock:
+    """The origin of times, and their kind."""
+
+    def __init__(self, origin: Any, is_date: bool) -> None:
+        self._origin, self._is_date = origin, is_date
+
+    def given(self, times: npt.NDArray[np.float64]) -> npt.NDArray[Any]:
+        """Times as they came, from seconds since the origin."""
+        if not self._is_date:
+            numbers: npt.NDArray[Any] = times + self._origin
+            return numbers
+        with np.errstate(invalid="ignore"):  # NaN is NaT
+            dates: npt.NDArray[Any] = self._origin + np.rint(times * 1e9).astype("timedelta64[ns]")
+        return dates
+
+
+def _clock_of(t: Any) -> tuple[_Clock, npt.NDArray[np.float64]]:
+    """Times as seconds since an origin near their middle, from which differences are exact."""
+    if getattr(getattr(t, "dt", None), "tz", None) is not None:
+        t = t.dt.tz_convert(None)
+    elif getattr(t, "tz", None) is not None:
+        t = t.tz_convert(None)
+    array = np.asarray(t)
+    if array.dtype.kind != "M":
+        times = _column("t", t)
+        origin = _origin(times)
+        return _Clock(origin, False), times - origin
+    if array.ndim != 1:
+        raise _refused("t", f"must have shape (n,), but has shape {array.shape}")
+    if np.isnat(array).any():
+        raise _refused("t", f"must be times, but is NaT at {np.flatnonzero(np.isnat(array))[0]}")
+    dates = array.astype("datetime64[ns]")
+    middle = dates.min() + (dates.max() - dates.min()) // 2 if len(dates) > 0 else np.datetime64(0, "ns")
+    return _Clock(middle, True), (dates - middle).astype(np.int64) / 1e9
+
+
+def _seconds(duration: Duration) -> float:
+    if isinstance(duration, (timedelta, np.timedelta64)):
+        return float(np.timedelta64(duration) / np.timedelta64(1, "s"))
+    return float(duration)
+
+
+def _of_frame(frame: Any, columns: dict[str, str], radii: Any) -> tuple[Any, ...]:
+    """The columns of a data frame: t, x, y, z, id and radii."""
+    unknown = set(columns) - {"t", "x", "y", "z", "id", "radii"}
+    if unknown:
+        raise _refused(
+            "columns", f"must name t, x, y, z, id and radii, but names {', '.join(sorted(unknown))}"
+        )
+    found = []
+    for name in ("t", "x", "y", "z", "id"):
+        column = columns.get(name, name)
+        if column in frame.columns:
+            found.append(frame[column])
+        elif name == "z" and name not in columns:
+            found.append(None)
+        else:
+            there = ", ".join(str(one) for one in frame.columns)
+            raise _refused("columns", f"must say which is {name}, as there is no {column!r} among {there}")
+    if "radii" in columns:
+        if columns["radii"] not in frame.columns:
+            raise _refused("columns", f"must say which is radii, but there is no {columns['radii']!r}")
+        radii = frame[columns["radii"]]
+    return *found, radii
+
+
+def _sizes(radii: Any, who: npt.NDArray[Any], bodies: int) -> Optional[npt.NDArray[np.float64]]:
+    """The radius of each body."""
+    if radii is None:
+        return None
+    of_samples = np.full(len(who), float(radii)) if np.ndim(radii) == 0 else _column("radii", radii, len(who))
+    if not (np.isfinite(of_samples) & (of_samples >= 0)).all():
+        raise _refused("radii", "must be finite and >= 0")
+    sizes = np.zeros(bodies)
+    np.maximum.at(sizes, who, of_samples)
+    return sizes
 
 
 def _refused(argument: str, why: str) -> InvalidValue:
@@ -180,16 +329,27 @@ def _starts(
 
 
 def _as_given(
-    found: npt.NDArray[np.void], ids: npt.NDArray[Any], time_origin: float, origin: npt.NDArray[np.float64]
+    found: npt.NDArray[np.void],
+    ids: npt.NDArray[Any],
+    clock: _Clock,
+    origin: npt.NDArray[np.float64],
+    with_sizes: bool,
 ) -> npt.NDArray[np.void]:
     """With the ids, times and places of the arrays that came."""
-    fields = [(name, found.dtype[name]) for name in found.dtype.names or ()]
-    fields = [(name, ids.dtype if name in ("first", "second") else kind) for name, kind in fields]
+    columns: dict[str, npt.NDArray[Any]] = {}
+    for name in found.dtype.names or ():
+        if name in ("first", "second"):
+            columns[name] = ids[found[name]]
+        elif name in ("begin", "end", "closest_time", "least_time_at"):
+            columns[name] = clock.given(found[name])
+        elif name in ("first_position", "second_position"):
+            columns[name] = found[name] + origin
+        else:
+            columns[name] = found[name]
+    if not with_sizes:
+        del columns["least_time_to_collision"], columns["least_time_at"]
+    fields: list[Any] = [(name, column.dtype, column.shape[1:]) for name, column in columns.items()]
     result: npt.NDArray[np.void] = np.zeros(len(found), dtype=fields)
-    for name, _ in fields:
-        result[name] = ids[found[name]] if name in ("first", "second") else found[name]
-    for name in ("begin", "end", "closest_time"):
-        result[name] += time_origin
-    for name in ("first_position", "second_position"):
-        result[name] += origin
+    for name, column in columns.items():
+        result[name] = column
     return result

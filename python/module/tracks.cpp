@@ -1,5 +1,10 @@
 // Approaches in recorded tracks: kinesphere.tracks(), which prepares the samples in Python.
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <string>
+#include <vector>
 
 #include "errors.hpp"
 #include "exchange.hpp"
@@ -7,6 +12,7 @@
 #include "simulation/run/simulate.hpp"
 #include "simulation/tracks/approaches.hpp"
 #include "simulation/tracks/scene_of_tracks.hpp"
+#include "simulation/tracks/time_to_collision.hpp"
 #include "world.hpp"
 
 namespace kinesphere::python {
@@ -25,6 +31,9 @@ struct ApproachRecord {
   Vec3 second_position;
   bool begins_with_track;
   bool ends_with_track;
+  std::array<std::uint8_t, 6> unused;
+  double least_time_to_collision;
+  double least_time_at;
 };
 
 constexpr Field approach_fields[] = {
@@ -39,6 +48,8 @@ constexpr Field approach_fields[] = {
     {"second_position", "3f8", offsetof(ApproachRecord, second_position)},
     {"begins_with_track", "?", offsetof(ApproachRecord, begins_with_track)},
     {"ends_with_track", "?", offsetof(ApproachRecord, ends_with_track)},
+    {"least_time_to_collision", "f8", offsetof(ApproachRecord, least_time_to_collision)},
+    {"least_time_at", "f8", offsetof(ApproachRecord, least_time_at)},
 };
 
 /// Track k has the samples from starts[k] to starts[k + 1].
@@ -53,16 +64,21 @@ std::vector<Track> tracks_of(const std::vector<double>& times, const std::vector
   return tracks;
 }
 
-/// Returns the approaches, and the number of probes.
+/// Returns the approaches, and the number of probes. Without radii (lengths, by track) bodies are points, and
+/// the times to collision are zeros.
 py::tuple approaches(const py::object& times, const py::object& positions, const py::object& starts,
-                     double distance, double tolerance, bool straight, bool plane) {
+                     const py::object& given_radii, double distance, double tolerance, bool straight,
+                     bool plane) {
   const char* const call = "tracks";
   const std::vector<Vec3> places = vectors_of(positions, {call, "positions"}, plane);
   const std::vector<double> moments = each_of(times, {call, "t"}, places.size());
   const auto count = static_cast<std::size_t>(py::len(starts));
   const std::vector<Track> tracks =
       tracks_of(moments, places, each_whole_of(starts, {call, "starts"}, count));
+  std::vector<double> radii;
+  if (!given_radii.is_none()) radii = each_of(given_radii, {call, "radii"}, tracks.size());
   std::vector<Approach> found;
+  std::vector<LeastTimeToCollision> least;
   std::uint64_t probes = 0;
   if (!tracks.empty()) {
     const py::gil_scoped_release released;
@@ -71,6 +87,7 @@ py::tuple approaches(const py::object& times, const py::object& positions, const
     scene.world.contact_tolerance = tolerance;
     scene.world.contacts = ContactEvents::begin_and_end;
     scene.world.dimensions = plane ? 2 : 3;
+    for (std::size_t k = 0; k < radii.size(); ++k) scene.bodies[k].radius += radii[k];
     std::vector<Event> events;
     Interruptions interruptions;
     SimulationObserver observer;
@@ -78,8 +95,15 @@ py::tuple approaches(const py::object& times, const py::object& positions, const
     observer.between_events = [&](const Detector&) { interruptions.look(); };
     probes = simulate(scene, make_world_detector, observer).value().counters.probes;
     found = approaches_in(scene, events);
-    find_closest(*scene.motion, found);
+    find_closest(*scene.motion, found, radii);
+    if (!radii.empty())
+      for (const Approach& one : found) {
+        interruptions.look();
+        least.push_back(least_time_to_collision(*scene.motion, one, radii));
+      }
   }
+  least.resize(found.size());
+  constexpr double never = std::numeric_limits<double>::quiet_NaN();
   NewArray table({found.size()}, row_type(approach_fields, sizeof(ApproachRecord)), sizeof(ApproachRecord));
   for (std::size_t k = 0; k < found.size(); ++k) {
     const Approach& one = found[k];
@@ -93,7 +117,10 @@ py::tuple approaches(const py::object& times, const py::object& positions, const
                                        one.closest.first,
                                        one.closest.second,
                                        one.begins_with_track,
-                                       one.ends_with_track};
+                                       one.ends_with_track,
+                                       {},
+                                       least[k].seconds,
+                                       std::isinf(least[k].seconds) ? never : least[k].at};
   }
   return py::make_tuple(table.take(), probes);
 }
@@ -102,7 +129,8 @@ py::tuple approaches(const py::object& times, const py::object& positions, const
 
 void bind_tracks(py::module_& module) {
   module.def("_approaches", approaches, py::arg("times"), py::arg("positions"), py::arg("starts"),
-             py::arg("distance"), py::arg("tolerance"), py::arg("straight"), py::arg("plane"));
+             py::arg("radii"), py::arg("distance"), py::arg("tolerance"), py::arg("straight"),
+             py::arg("plane"));
 }
 
 }  // namespace kinesphere::python

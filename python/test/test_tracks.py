@@ -2,6 +2,7 @@
 
 import gzip
 import re
+from datetime import timedelta
 
 import numpy as np
 import pytest
@@ -45,6 +46,65 @@ def test_the_order_of_rows_the_origin_and_the_kind_of_ids_do_not_matter() -> Non
     assert found["second_position"][0] == pytest.approx([500005, 6e6, 0])
     straight = ks.tracks(times.astype(np.float32), x, y, None, who, 1.0, interpolate="linear")
     assert straight["begin"][0] == pytest.approx(expected["begin"][0], abs=1e-5)
+
+
+def test_a_data_frame_is_a_recording() -> None:
+    pandas = pytest.importorskip("pandas")
+    expected = ks.tracks(times, x, y, None, who, 1.0)
+    frame = pandas.DataFrame({"t": times, "x": x, "y": y, "id": who, "width": np.where(who == 7, 0.25, 0.5)})
+    assert np.array_equal(ks.tracks(frame, distance=1.0).array, expected.array)
+    other = frame.rename(columns={"t": "seconds", "id": "ship"}).sample(frac=1, random_state=3)
+    found = ks.tracks(other, distance=1.0, columns={"t": "seconds", "id": "ship"})
+    assert np.array_equal(found.array, expected.array)
+    with pytest.raises(
+        ks.InvalidValue, match="columns must say which is t, as there is no 't' among seconds"
+    ):
+        ks.tracks(other, distance=1.0)
+    with pytest.raises(ks.InvalidValue, match="names speed"):
+        ks.tracks(frame, distance=1.0, columns={"speed": "x"})
+    sized = ks.tracks(frame, distance=1.0, columns={"radii": "width"})
+    assert sized["closest_distance"][0] == pytest.approx(-0.75) and sized["begin"][0] < expected["begin"][0]
+    shown = sized[:1].to_pandas()
+    assert shown["least_time_to_collision"][0] == 0.0 and "1 approaches" in (sized._repr_html_() or "")
+
+
+def test_times_to_collision_are_those_of_straight_motion() -> None:
+    apart = ks.tracks(times, x, y + np.where(who == 3, 0.4, 0.0), None, who, 1.0, radii=0.1)
+    # The way is (t - 5, t - 5 + 0.4) for two of radius 0.1: at least 0.4 / sqrt(2) - 0.2 apart, on no course.
+    assert apart["closest_distance"][0] == pytest.approx(0.4 / np.sqrt(2) - 0.2)
+    assert np.isinf(apart["least_time_to_collision"][0]) and np.isnan(apart["least_time_at"][0])
+    meet = np.array([4.0, 4.5, 5.0, 5.5])
+    # Two on one line, 4 apart at time 4, that close at speed 2 until one turns off at 5.
+    along, aside = np.concatenate([meet, 12 - meet]), np.array([0, 0, 0, 0, 0, 0, 0, 3.0])
+    ids = np.repeat(["a", "b"], 4)
+    near = ks.tracks(np.tile(meet, 2), along, aside, None, ids, 5.0, interpolate="linear", radii=0.5)
+    # At time 5 they are 2 apart, less their radii 1, and close at speed 2.
+    assert near["least_time_to_collision"][0] == pytest.approx(0.5, abs=1e-4)
+    assert near["least_time_at"][0] == pytest.approx(5.0, abs=1e-4)
+
+
+@pytest.mark.parametrize("unit", ["s", "ms", "ns"])
+def test_dates_come_back_as_dates(unit: str) -> None:
+    pandas = pytest.importorskip("pandas")
+    expected = ks.tracks(times, x, y, None, who, 1.0)
+    start = np.datetime64("2024-02-28T23:59:55", "ns")
+    dates = start + (times * 1e9).astype("timedelta64[ns]")
+    kept = times % 1 == 0 if unit == "s" else times >= 0
+    found = ks.tracks(dates[kept].astype(f"datetime64[{unit}]"), x[kept], y[kept], None, who[kept], 1.0)
+    assert found["begin"].dtype == np.dtype("datetime64[ns]")
+    assert (found["closest_time"][0] - start) / np.timedelta64(1, "s") == pytest.approx(5, abs=1e-8)
+    assert (found["begin"][0] - start) / np.timedelta64(1, "s") == pytest.approx(
+        expected["begin"][0], abs=1e-4
+    )
+    zoned = pandas.Series(dates).dt.tz_localize("UTC").dt.tz_convert("Asia/Tokyo")
+    in_zone = ks.tracks(zoned, x, y, None, who, 1.0, max_gap=np.timedelta64(5, "s"))
+    assert (
+        in_zone["begin"][0]
+        == ks.tracks(dates, x, y, None, who, 1.0, max_gap=timedelta(seconds=5))["begin"][0]
+    )
+    dates[6] = np.datetime64("NaT")
+    with pytest.raises(ks.InvalidValue, match="t must be times, but is NaT at 6"):
+        ks.tracks(dates, x, y, None, who, 1.0)
 
 
 def test_a_gap_ends_a_track() -> None:
@@ -91,7 +151,7 @@ def test_a_recording_has_the_approaches_that_the_program_finds(interpolate: str)
     )
     with gzip.open(file) as lines:
         table = np.loadtxt(lines)
-    found = ks.tracks(table[:, 0] / 25, table[:, 2], table[:, 4], None, table[:, 1].astype(int), 0.4, interpolate=interpolate)  # type: ignore[arg-type]
+    found = ks.tracks(table[:, 0] / 25, table[:, 2], table[:, 4], None, table[:, 1].astype(int), 0.4, interpolate=interpolate)  # type: ignore[call-overload]
     assert len(found) > 100
     if printed is not None:
         counted = re.search(r"^approaches +([\d,]+)", printed, re.MULTILINE)
