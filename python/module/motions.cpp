@@ -141,6 +141,55 @@ py::dict definitions_at(MotionHandle& handle, double time, const py::object& nam
   return definitions;
 }
 
+// What the constructor of a motion needs beside the start of its bodies, for pickle.
+py::dict common_arguments(const Ballistic& motion) {
+  py::dict arguments;
+  arguments["gravity"] = py::tuple(array_of(motion.gravity()).attr("tolist")());
+  return arguments;
+}
+py::dict common_arguments(const RandomForces& motion) {
+  py::dict arguments;
+  arguments["interval"] = motion.interval();
+  arguments["seed"] = motion.seed();
+  return arguments;
+}
+py::dict common_arguments(const VelocityField& motion) {
+  const auto* const field = motion.field().target<Circulation>();
+  if (field == nullptr) throw py::type_error("pickle: the field of the VelocityField must be a Circulation");
+  py::dict arguments;
+  arguments["field"] = *field;
+  arguments["interval"] = motion.interval();
+  arguments["response_time"] = motion.response_time();
+  return arguments;
+}
+py::dict common_arguments(const SteeredMotion&) { return {}; }
+py::dict common_arguments(const RecordedTracks&) { return {}; }
+py::dict common_arguments(const FrameMotion&) {
+  throw py::type_error("pickle: a FrameMotion cannot be pickled; make one of its latest frame");
+}
+
+/// Tries each of these kinds.
+template <class Kind, class... Others>
+py::dict common_arguments_of(const Motion& motion) {
+  if (const auto* const kind = dynamic_cast<const Kind*>(&motion)) return common_arguments(*kind);
+  if constexpr (sizeof...(Others) > 0) return common_arguments_of<Others...>(motion);
+  throw py::type_error("pickle: motion must be one of the library");
+}
+
+/// Tries each of these kinds.
+template <class Kind, class... Others>
+py::object object_of_kind(std::unique_ptr<Motion> motion) {
+  if (dynamic_cast<Kind*>(motion.get()) != nullptr)
+    return py::cast(std::make_shared<HandleOf<Kind>>(std::move(motion)));
+  if constexpr (sizeof...(Others) > 0) return object_of_kind<Others...>(std::move(motion));
+  return py::cast(std::make_shared<MotionHandle>(std::move(motion)));
+}
+
+py::object copy_of(MotionHandle& handle) {
+  const auto turn = handle.in_use.take_alone("copy", "motion");
+  return object_of(handle.motion->clone());
+}
+
 void bind_motion(py::module_& module) {
   py::class_<MotionHandle, std::shared_ptr<MotionHandle>>(module, "Motion", R"(How bodies really move.
 
@@ -220,54 +269,25 @@ World.set_velocity().)")
            [](const py::object& self) {
              return py::str("<{} of {} bodies>").format(self.get_type().attr("__name__"), py::len(self));
            })
+      .def("__copy__", copy_of)
+      .def("__deepcopy__", [](MotionHandle& handle, const py::object&) { return copy_of(handle); })
+      .def("_common_arguments",
+           [](MotionHandle& handle) {
+             const auto turn = handle.in_use.take_alone("pickle", "motion");
+             return common_arguments_of<Ballistic, RandomForces, VelocityField, SteeredMotion, RecordedTracks,
+                                        FrameMotion>(*handle.motion);
+           })
       .def("__reduce__", [](const py::object& self) {
         return package_attribute("kinesphere.pickles", "reduced_motion")(self);
       });
 }
 
-// What the constructor of a motion needs beside the start of its bodies, for pickle.
-py::dict common_arguments(const Ballistic& motion) {
-  py::dict arguments;
-  arguments["gravity"] = py::tuple(array_of(motion.gravity()).attr("tolist")());
-  return arguments;
-}
-py::dict common_arguments(const RandomForces& motion) {
-  py::dict arguments;
-  arguments["interval"] = motion.interval();
-  arguments["seed"] = motion.seed();
-  return arguments;
-}
-py::dict common_arguments(const VelocityField& motion) {
-  const auto* const field = motion.field().target<Circulation>();
-  if (field == nullptr) throw py::type_error("pickle: the field of the VelocityField must be a Circulation");
-  py::dict arguments;
-  arguments["field"] = *field;
-  arguments["interval"] = motion.interval();
-  arguments["response_time"] = motion.response_time();
-  return arguments;
-}
-py::dict common_arguments(const SteeredMotion&) { return {}; }
-py::dict common_arguments(const RecordedTracks&) { return {}; }
-py::dict common_arguments(const FrameMotion&) {
-  throw py::type_error("pickle: a FrameMotion cannot be pickled; make one of its latest frame");
-}
-
-/// Binds the common calls of a kind of motion.
+/// Binds a kind of motion, which has the calls of Motion.
 template <class Kind>
 py::class_<HandleOf<Kind>, MotionHandle, std::shared_ptr<HandleOf<Kind>>> bind_kind(
     py::module_& module, const char* name, const char* documentation) {
   using Handle = HandleOf<Kind>;
-  const auto copy = [](Handle& handle) {
-    const auto turn = handle.in_use.take_alone("copy", "motion");
-    return std::make_shared<Handle>(handle.motion->clone());
-  };
-  return py::class_<Handle, MotionHandle, std::shared_ptr<Handle>>(module, name, documentation)
-      .def("__copy__", copy)
-      .def("__deepcopy__", [copy](Handle& handle, const py::object&) { return copy(handle); })
-      .def("_common_arguments", [](Handle& handle) {
-        const auto turn = handle.in_use.take_alone("pickle", "motion");
-        return common_arguments(handle.get());
-      });
+  return py::class_<Handle, MotionHandle, std::shared_ptr<Handle>>(module, name, documentation);
 }
 
 template <class Class, class Limit = py::arg>
@@ -510,19 +530,11 @@ acceleration limit that would have allowed it, and velocity. The world has been 
   bind_add_with_limit(frames, py::arg("acceleration_limit") = no_limit);
 }
 
-/// Tries each of these kinds.
-template <class Kind, class... Others>
-py::object object_of_kind(std::unique_ptr<Motion> motion) {
-  if (dynamic_cast<Kind*>(motion.get()) != nullptr)
-    return py::cast(std::make_shared<HandleOf<Kind>>(std::move(motion)));
-  if constexpr (sizeof...(Others) > 0) return object_of_kind<Others...>(std::move(motion));
-  return py::cast(std::make_shared<MotionHandle>(std::move(motion)));
-}
-
 }  // namespace
 
 py::object object_of(std::unique_ptr<Motion> motion) {
-  return object_of_kind<RandomForces, VelocityField, Ballistic>(std::move(motion));
+  return object_of_kind<RandomForces, VelocityField, Ballistic, SteeredMotion, RecordedTracks, FrameMotion>(
+      std::move(motion));
 }
 
 void bind_motions(py::module_& module) {
