@@ -123,6 +123,21 @@ py::object one_row(const py::object& vector) {
   return numpy("asarray")(vector).attr("reshape")(1, -1);
 }
 
+/// Adds all bodies, or on an error none. An error has the name of the call, and the number in the given
+/// arrays.
+std::vector<BodyId> add_all(WorldHandle& handle, const std::vector<BodyDefinition>& bodies,
+                            const std::string& call) {
+  const Result<std::vector<BodyId>> ids = without_gil(handle, [&] { return handle.world.add_all(bodies); });
+  if (ids) return *ids;
+  Error error = ids.error();
+  constexpr std::string_view inner = "add_all: bodies[";
+  const std::size_t end = error.message.find(']');
+  if (error.message.starts_with(inner) && end != std::string::npos)
+    error.message = call + ": body " + error.message.substr(inner.size(), end - inner.size()) +
+                    error.message.substr(end + 1);
+  throw BadResult(error);
+}
+
 py::object add_bodies(WorldHandle& handle, const py::object& positions, const py::object& velocities,
                       const py::object& radii, const py::object& acceleration_limits,
                       const py::object& planned_accelerations, const py::object& position_errors,
@@ -142,8 +157,7 @@ py::object add_bodies(WorldHandle& handle, const py::object& positions, const py
     end_call(handle);
     return object_of(id);
   }
-  const std::vector<BodyId> ids = without_gil(handle, [&] { return handle.world.add_all(bodies); }).value();
-  return array_of(ids);
+  return array_of(add_all(handle, bodies, "add"));
 }
 
 /// Adds all bodies of a motion; their ids must equal their numbers.
@@ -166,7 +180,7 @@ py::object add_motion(WorldHandle& handle, MotionHandle& moved, const py::object
   if (handle.world.size() > 0)
     refuse(argument, "must be added to a world without bodies, so that its numbers are ids",
            "there are " + std::to_string(handle.world.size()) + " (a BodyMap has no such need)");
-  const std::vector<BodyId> ids = without_gil(handle, [&] { return handle.world.add_all(bodies); }).value();
+  const std::vector<BodyId> ids = add_all(handle, bodies, "add_motion");
   for (std::size_t k = 0; k < ids.size(); ++k) {
     if (ids[k].index == k) continue;
     require(handle.world.remove_all(ids));

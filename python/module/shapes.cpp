@@ -6,8 +6,32 @@
 namespace kinesphere::python {
 namespace {
 
+/// Shapes have no dimension: those of two numbers are for the plane z = 0.
+Vec3 point_of(const py::object& given, const char* call, const char* name) {
+  return vector_of(given, {call, name}, true);
+}
+/// The corners of a triangle, which the plane does not have.
 Vec3 corner_of(const py::object& given, const char* call, const char* name) {
   return vector_of(given, {call, name}, false);
+}
+
+/// Returns the box of two corners. Without z it reaches as far above and below z = 0 as half of its longer
+/// side.
+Box box_between(Vec3 lower, Vec3 upper, bool has_z) {
+  const double height = 0.5 * std::max(upper.x - lower.x, upper.y - lower.y);
+  if (!has_z) {
+    lower.z = -height;
+    upper.z = height;
+  }
+  return {lower, upper};
+}
+
+Box box_of_corners(const py::object& lower, const py::object& upper) {
+  const Vec3 corners[] = {point_of(lower, "Box", "lower"), point_of(upper, "Box", "upper")};
+  const bool has_z = py::len(lower) == 3;
+  if ((py::len(upper) == 3) != has_z)
+    refuse({"Box", "upper"}, "must have the shape of lower", has_z ? "has shape (2,)" : "has shape (3,)");
+  return box_between(corners[0], corners[1], has_z);
 }
 
 template <class Class>
@@ -45,12 +69,11 @@ std::optional<Box> box_of(const py::object& given, const Argument& argument, boo
            std::string("must be a Box, or its lower and upper corner, of shape (2, 3)") +
                (plane ? " or (2, 2)" : "; (2, 2) is for dimensions=2"),
            "has shape " + numbers.shape());
-  const auto corner = [&](std::size_t k, double z) {
-    return Vec3{numbers.at(k, 0), numbers.at(k, 1), numbers.length(1) == 3 ? numbers.at(k, 2) : z};
+  const bool has_z = numbers.length(1) == 3;
+  const auto corner = [&](std::size_t k) {
+    return Vec3{numbers.at(k, 0), numbers.at(k, 1), has_z ? numbers.at(k, 2) : 0.0};
   };
-  const Vec3 size = corner(1, 0.0) - corner(0, 0.0);
-  const double height = 0.5 * std::max(size.x, size.y);
-  return Box{corner(0, -height), corner(1, height)};
+  return box_between(corner(0), corner(1), has_z);
 }
 
 Shape shape_of(const py::object& given, const Argument& argument) {
@@ -68,11 +91,12 @@ py::object object_of(const Shape& shape) {
 }
 
 void bind_shapes(py::module_& module) {
-  py::class_<Box> box(module, "Box",
-                      "An axis-aligned box between two corners, lower <= upper on each axis; solid.");
-  box.def(py::init([](const py::object& lower, const py::object& upper) {
-            return Box{corner_of(lower, "Box", "lower"), corner_of(upper, "Box", "upper")};
-          }),
+  py::class_<Box> box(
+      module, "Box",
+      "An axis-aligned box between two corners, lower <= upper on each axis; solid. In the plane corners, "
+      "centres and normals may have two numbers.");
+  box.def(py::init(
+              [](const py::object& lower, const py::object& upper) { return box_of_corners(lower, upper); }),
           py::arg("lower"), py::arg("upper"))
       .def_property_readonly("lower", [](const Box& of) { return array_of(of.lower); })
       .def_property_readonly("upper", [](const Box& of) { return array_of(of.upper); });
@@ -81,7 +105,7 @@ void bind_shapes(py::module_& module) {
 
   py::class_<Ball> ball(module, "Ball", "A ball that never moves; radius >= 0 (length).");
   ball.def(py::init([](const py::object& centre, double radius) {
-             return Ball{corner_of(centre, "Ball", "centre"), radius};
+             return Ball{point_of(centre, "Ball", "centre"), radius};
            }),
            py::arg("centre"), py::arg("radius"))
       .def_property_readonly("centre", [](const Ball& of) { return array_of(of.centre); })
@@ -93,7 +117,7 @@ void bind_shapes(py::module_& module) {
       module, "HalfSpace", "Bodies may be where dot(normal, p) >= offset; the rest of space is solid.");
   half_space
       .def(py::init([](const py::object& normal, double offset) {
-             return HalfSpace{corner_of(normal, "HalfSpace", "normal"), offset};
+             return HalfSpace{point_of(normal, "HalfSpace", "normal"), offset};
            }),
            py::arg("normal"), py::arg("offset"))
       .def_property_readonly("normal", [](const HalfSpace& of) { return array_of(of.normal); })

@@ -119,7 +119,7 @@ def test_an_error_names_the_body_and_adds_none() -> None:
     assert caught.value.argument == "radius" and len(world) == 0
     places = positions.copy()
     places[11, 1] = np.nan
-    with pytest.raises(ks.InvalidValue, match="11") as caught:
+    with pytest.raises(ks.InvalidValue, match="^add: body 11: position must be") as caught:
         world.add(places)
     assert caught.value.code == "not_finite" and len(world) == 0
 

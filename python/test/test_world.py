@@ -336,6 +336,14 @@ def test_a_periodic_plane_is_made_of_corners_with_two_numbers() -> None:
     assert world.overlapping_box(((8, 0), (9, 2)))["body"].tolist() == [0]
     event = world.advance(5.0, ks.Ballistic([(8.5, 1), (1, 1)], [(1, 0), (0, 0)]))
     assert event is not None and event.time == pytest.approx(1.0, abs=1e-5)
+    assert (
+        ks.World(dimensions=2).add_zone(ks.Box((0, 0), (2, 4))) == 0 and ks.Box((0, 0), (2, 4)).lower[2] == -2
+    )
+    assert ks.Ball((1, 2), 3) == ks.Ball((1, 2, 0), 3) and ks.HalfSpace((0, 1), 2) == ks.HalfSpace(
+        (0, 1, 0), 2
+    )
+    with pytest.raises(ks.InvalidValue, match="Box: upper must have the shape of lower"):
+        ks.Box((0, 0), (1, 1, 1))
     with pytest.raises(
         ks.InvalidValue, match=r"World: box must .* of shape \(2, 3\); \(2, 2\) is for dimensions=2"
     ):
