@@ -64,3 +64,9 @@ endfunction()
 function(kinesphere_optimise_little target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
+
+# Most tests take longer to compile than to run, so they are optimised less. With g++ 12, -Og takes a fourth less than -O1,
+# and runs take up to 40 % longer; -O0 takes a third less, but test_motion then runs four times as long.
+function(kinesphere_optimise_test target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Og>)
+endfunction()
