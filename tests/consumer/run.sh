@@ -75,7 +75,7 @@ expected=$("$scene_hash")
 fused=()
 if grep -qw fma /proc/cpuinfo; then fused=(-mfma -ffp-contract=fast); fi
 # Without inlining the linker has copies of inline functions to choose from.
-for optimisation in "-O0" "-O2 -fno-inline" "-O3"; do
+for optimisation in "-O2 -fno-inline" "-O3"; do
   read -r -a optimised <<<"$optimisation"
   "$compiler" -std=c++20 "${flags[@]}" "${optimised[@]}" "${fused[@]}" "$source/../same_hash/scene_hash.cpp" \
     "${link[@]}" -o "$work/scene_hash"

@@ -74,8 +74,7 @@ TEST_F(WatchRestart, KilledAtAnyMomentItTellsEverythingOnce) {
   const std::string timing = " --silence 3 --forget 8 --leap 60 ";
   expect_the_same_when_killed(write("s.jsonl", stream_of(json_line, 15000)),
                               crossing_promises + crossing_errors + " --only all" + timing, 1);
-  const std::string table = "id,time,x,y,z,vx,vy,vz\n" + stream_of(csv_line, 15000);
-  expect_the_same_when_killed(write("s.csv", table), crossing_promises + crossing_errors + timing, 2);
+  write("s.csv", "id,time,x,y,z,vx,vy,vz\n" + stream_of(csv_line, 15000));
   ASSERT_EQ(std::system(("gzip -k '" + path("s.csv") + "'").c_str()), 0);
   expect_the_same_when_killed(path("s.csv.gz"), crossing_promises + crossing_errors + timing, 3);
   expect_the_same_when_killed(write("s.sbs", stream_of(sbs_lines, 15000)),
