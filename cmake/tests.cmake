@@ -22,7 +22,7 @@ kinesphere_optimise_test(kinesphere_test_headers_little)
 # Tests that take long and repeat themselves over more streams, scenes or bytes than others, or mostly wait: filters of
 # GoogleTest by executable. They have the label `long` (scripts/test.sh --all).
 set(kinesphere_long_stream Long/*:*RandomCrowds*:AnyReports.OtherSmall*:Mended.StrangeNumbers*)
-set(kinesphere_long_world PlainGap.*:ClustersThatWereInterrupted.*)
+set(kinesphere_long_world BadSnapshot.AnyTwo*:PlainGap.*:MoreChaos.*:ClustersThatWereInterrupted.*)
 set(kinesphere_long_simulation Pile.Thousand*)
 set(kinesphere_long_program WatchNats.*)
 
