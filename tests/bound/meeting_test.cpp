@@ -9,7 +9,7 @@ namespace kinesphere::meeting_test {
 namespace {
 
 constexpr std::uint64_t seed = 2005;
-constexpr int cases_per_family = 12000;
+constexpr int cases_per_family = 6000;
 double certificate(const PairCase& c) { return earliest_meeting(c.a, c.b, c.from, c.horizon, c.distance); }
 
 exact::Wide truth(const PairCase& c, exact::Wide extra = 0) {

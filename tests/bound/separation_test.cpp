@@ -7,7 +7,7 @@ namespace kinesphere::separation_test {
 namespace {
 
 constexpr std::uint64_t seed = 1957;
-constexpr int cases_per_family = 12000;
+constexpr int cases_per_family = 6000;
 double certificate(const PairCase& c) { return earliest_separation(c.a, c.b, c.from, c.horizon, c.distance); }
 
 exact::Wide truth(const PairCase& c, exact::Wide extra = 0) {
