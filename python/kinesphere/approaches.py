@@ -33,6 +33,8 @@ class Approaches:
     begins_with_track, ends_with_track: they were so close when the track of one of them began, or ended.
     least_time_to_collision, least_time_at, where there are radii: the least time in which the two would have
     collided if both had gone straight on, infinite where they were on no such course; and when that was, else NaN or NaT.
+    post_encroachment_time, time_of_entry, where there are radii: the least time from when one of the two left a place
+    until the other entered it, infinite where no place was taken by both; and when that was, else NaN or NaT.
 
     Times are of the kind that came: numbers, or datetime64[ns] in UTC, and then durations are in seconds. A column:
     approaches["begin"]; some approaches: approaches[approaches["closest_distance"] < 1], approaches[:10].
@@ -340,14 +342,15 @@ def _as_given(
     for name in found.dtype.names or ():
         if name in ("first", "second"):
             columns[name] = ids[found[name]]
-        elif name in ("begin", "end", "closest_time", "least_time_at"):
+        elif name in ("begin", "end", "closest_time", "least_time_at", "time_of_entry"):
             columns[name] = clock.given(found[name])
         elif name in ("first_position", "second_position"):
             columns[name] = found[name] + origin
         else:
             columns[name] = found[name]
     if not with_sizes:
-        del columns["least_time_to_collision"], columns["least_time_at"]
+        for name in ("least_time_to_collision", "least_time_at", "post_encroachment_time", "time_of_entry"):
+            del columns[name]
     fields: list[Any] = [(name, column.dtype, column.shape[1:]) for name, column in columns.items()]
     result: npt.NDArray[np.void] = np.zeros(len(found), dtype=fields)
     for name, column in columns.items():

@@ -11,6 +11,7 @@
 #include "simulation/detector/detector.hpp"
 #include "simulation/run/simulate.hpp"
 #include "simulation/tracks/approaches.hpp"
+#include "simulation/tracks/post_encroachment.hpp"
 #include "simulation/tracks/scene_of_tracks.hpp"
 #include "simulation/tracks/time_to_collision.hpp"
 #include "world.hpp"
@@ -34,6 +35,8 @@ struct ApproachRecord {
   std::array<std::uint8_t, 6> unused;
   double least_time_to_collision;
   double least_time_at;
+  double post_encroachment_time;
+  double time_of_entry;
 };
 
 constexpr Field approach_fields[] = {
@@ -50,6 +53,8 @@ constexpr Field approach_fields[] = {
     {"ends_with_track", "?", offsetof(ApproachRecord, ends_with_track)},
     {"least_time_to_collision", "f8", offsetof(ApproachRecord, least_time_to_collision)},
     {"least_time_at", "f8", offsetof(ApproachRecord, least_time_at)},
+    {"post_encroachment_time", "f8", offsetof(ApproachRecord, post_encroachment_time)},
+    {"time_of_entry", "f8", offsetof(ApproachRecord, time_of_entry)},
 };
 
 /// Track k has the samples from starts[k] to starts[k + 1].
@@ -65,7 +70,7 @@ std::vector<Track> tracks_of(const std::vector<double>& times, const std::vector
 }
 
 /// Returns the approaches, and the number of probes. Without radii (lengths, by track) bodies are points, and
-/// the times to collision are zeros.
+/// the times to collision and post-encroachment times are zeros.
 py::tuple approaches(const py::object& times, const py::object& positions, const py::object& starts,
                      const py::object& given_radii, double distance, double tolerance, bool straight,
                      bool plane) {
@@ -79,6 +84,7 @@ py::tuple approaches(const py::object& times, const py::object& positions, const
   if (!given_radii.is_none()) radii = each_of(given_radii, {call, "radii"}, tracks.size());
   std::vector<Approach> found;
   std::vector<LeastTimeToCollision> least;
+  std::vector<PostEncroachment> entries;
   std::uint64_t probes = 0;
   if (!tracks.empty()) {
     const py::gil_scoped_release released;
@@ -100,10 +106,14 @@ py::tuple approaches(const py::object& times, const py::object& positions, const
       for (const Approach& one : found) {
         interruptions.look();
         least.push_back(least_time_to_collision(*scene.motion, one, radii));
+        entries.push_back(post_encroachment(*scene.motion, one, radii));
       }
   }
   least.resize(found.size());
-  constexpr double never = std::numeric_limits<double>::quiet_NaN();
+  entries.resize(found.size());
+  const auto time_or_nan = [](double seconds, double at) {
+    return std::isinf(seconds) ? std::numeric_limits<double>::quiet_NaN() : at;
+  };
   NewArray table({found.size()}, row_type(approach_fields, sizeof(ApproachRecord)), sizeof(ApproachRecord));
   for (std::size_t k = 0; k < found.size(); ++k) {
     const Approach& one = found[k];
@@ -120,7 +130,9 @@ py::tuple approaches(const py::object& times, const py::object& positions, const
                                        one.ends_with_track,
                                        {},
                                        least[k].seconds,
-                                       std::isinf(least[k].seconds) ? never : least[k].at};
+                                       time_or_nan(least[k].seconds, least[k].at),
+                                       entries[k].seconds,
+                                       time_or_nan(entries[k].seconds, entries[k].at)};
   }
   return py::make_tuple(table.take(), probes);
 }

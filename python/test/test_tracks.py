@@ -3,8 +3,10 @@
 import gzip
 import re
 from datetime import timedelta
+from typing import Optional
 
 import numpy as np
+import numpy.typing as npt
 import pytest
 from conftest import data_file, native
 
@@ -81,6 +83,23 @@ def test_times_to_collision_are_those_of_straight_motion() -> None:
     # At time 5 they are 2 apart, less their radii 1, and close at speed 2.
     assert near["least_time_to_collision"][0] == pytest.approx(0.5, abs=1e-4)
     assert near["least_time_at"][0] == pytest.approx(5.0, abs=1e-4)
+
+
+def test_post_encroachment_times_are_those_of_discs() -> None:
+    # One passes the crossing at 5 s at 2 m/s, the other at 8 s at 1 m/s; their radii are 1 m.
+    moments, ids = np.array([0.0, 10.0, 0.0, 10.0]), np.array([1, 1, 2, 2])
+    east, north = np.array([-10.0, 10.0, 0.0, 0.0]), np.array([0.0, 0.0, -8.0, 2.0])
+
+    def found(y: npt.NDArray[np.float64], radii: Optional[float]) -> ks.Approaches:
+        return ks.tracks(moments, east, y, None, ids, 100.0, radii=radii, interpolate="linear", max_gap=100.0)
+
+    crossing = found(north, 1.0)
+    assert crossing["post_encroachment_time"][0] == pytest.approx(3.0 - np.sqrt(5.0), abs=1e-4)
+    assert crossing["time_of_entry"][0] == pytest.approx(8.0 - 4.0 / np.sqrt(5.0), abs=1e-2)
+    beside = found(np.array([0.0, 0.0, 8.0, 9.0]), 1.0)
+    assert np.isinf(beside["post_encroachment_time"][0]) and np.isnan(beside["time_of_entry"][0])
+    points = found(north, None)
+    assert "post_encroachment_time" not in (points.array.dtype.names or ())
 
 
 @pytest.mark.parametrize("unit", ["s", "ms", "ns"])
