@@ -181,7 +181,7 @@ CLI::App* add_tracks_command(CLI::App& program, TracksOptions& options) {
   command->add_flag(
       "--sizes", options.reading.hints.sizes,
       "Distances are between discs (in 3D spheres) around bodies of the columns length and width, and "
-      "--pairs has times to collision");
+      "--pairs has times to collision and post-encroachment times");
   add_choice_options(*command, options.choice);
   command->add_flag("--verify", options.verify, "Compare with the exact oracle on the same curves");
   command->add_flag("--quiet", options.quiet, "No progress bar and no summary");
