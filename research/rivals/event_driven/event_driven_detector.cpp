@@ -230,8 +230,8 @@ void EventDrivenDetector::predict_partners(std::uint32_t number) {
   };
   subspaces_.for_each_neighbour(residents_[number].cells, meet);
   // The list is copied, as a prediction may end a contact and remove it from the original.
-  const auto touched = touching(number);
-  std::vector<std::uint32_t> partners(touched.begin(), touched.end());
+  std::vector<std::uint32_t> partners;
+  for (const ContactRecord& contact : touching(number)) partners.push_back(contact.partner);
   while (!partners.empty()) {
     meet(partners.back());
     partners.pop_back();
