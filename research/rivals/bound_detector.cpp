@@ -136,7 +136,7 @@ double BoundDetector::pair_outlook(std::uint32_t a, std::uint32_t b, double hori
   if (!fresh(a) || !fresh(b)) return predictor.until_reports();
   const RelativeLimits sum{first.definition.velocity_error + second.definition.velocity_error,
                            first.largest_acceleration() + second.largest_acceleration()};
-  return decide(predictor, contact_event(EventKind::zeno_guard, time_, sphere(a), sphere(b)), sum);
+  return decide(predictor, threshold, contact_event(EventKind::zeno_guard, time_, sphere(a), sphere(b)), sum);
 }
 
 double BoundDetector::wall_outlook(std::uint32_t number, double horizon) {
@@ -153,16 +153,16 @@ double BoundDetector::wall_outlook(std::uint32_t number, double horizon) {
     const ContactPredictor<HalfSpace> predictor(rule(), threshold, body.bound, inside, time_,
                                                 {horizon, horizon});
     const Event current = wall_event(EventKind::zeno_guard, time_, sphere(number), *definition_.box, wall);
-    first = std::min(
-        first, decide(predictor, current, {body.definition.velocity_error, body.largest_acceleration()}));
+    const RelativeLimits limits{body.definition.velocity_error, body.largest_acceleration()};
+    first = std::min(first, decide(predictor, threshold, current, limits));
   }
   return first;
 }
 
 /// Applies the contact rule to fresh reports.
 template <class Partner>
-double BoundDetector::decide(const ContactPredictor<Partner>& predictor, Event current,
-                             const RelativeLimits& limits) {
+double BoundDetector::decide(const ContactPredictor<Partner>& predictor, const Threshold& threshold,
+                             Event current, const RelativeLimits& limits) {
   ContactDecision verdict = predictor.decide(current, limits);
   if (verdict.change == ContactRule::Change::begin && contacts_.is_jammed(current))
     verdict = predictor.defer(current, limits);
@@ -173,7 +173,13 @@ double BoundDetector::decide(const ContactPredictor<Partner>& predictor, Event c
   }
   if (verdict.change == ContactRule::Change::release) contacts_.set_touching(current, false);
   if (verdict.zeno_step) ++counters_.zeno_steps;
-  if (verdict.breaks_tolerance) instant_.queue(current);
+  const bool stays = threshold.within && verdict.change != ContactRule::Change::release;
+  ContactState state = stays ? threshold.state : ContactState{};
+  if (verdict.breaks_tolerance && !state.guard_reported) {
+    instant_.queue(current);
+    state.guard_reported = true;
+    contacts_.set_state(current, state);
+  }
   return verdict.next_check;
 }
 

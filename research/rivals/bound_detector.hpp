@@ -103,7 +103,8 @@ class BoundDetector : public Detector {
   void handle_all_due();
   void begin_new_course(std::uint32_t number);
   template <class Partner>
-  double decide(const ContactPredictor<Partner>& predictor, Event current, const RelativeLimits& limits);
+  double decide(const ContactPredictor<Partner>& predictor, const Threshold& threshold, Event current,
+                const RelativeLimits& limits);
 
   WorldDefinition definition_;
   const Motion& motion_;

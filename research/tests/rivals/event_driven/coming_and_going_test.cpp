@@ -79,7 +79,9 @@ class Twins {
  private:
   std::vector<Event> events_until(Detector& detector) const {
     std::vector<Event> events;
-    while (const auto event = detector.advance(time_).value()) events.push_back(*event);
+    // Of two that touch already, only the world reports that they begin to approach.
+    while (const auto event = detector.advance(time_).value())
+      if (!event->already_touching) events.push_back(*event);
     return events;
   }
 
