@@ -109,13 +109,12 @@ class ChordLags {
   double least_;    ///< the lag nearest to 0
 };
 
-/// Parts of both curves that may overlap, and a lower bound on the difference of times at which they do.
+/// Parts of both curves that may overlap.
 struct Candidate {
   Part first, second;
-  double least;
+  PostEncroachment earliest;  ///< no overlap has a lesser difference of times
 
-  double deviation() const { return first.deviation + second.deviation; }
-  bool operator>(const Candidate& other) const { return least > other.least; }
+  bool operator>(const Candidate& other) const { return earliest.seconds > other.earliest.seconds; }
 };
 
 class EncroachmentSearch {
@@ -125,24 +124,26 @@ class EncroachmentSearch {
 
   void add(const Part& first, const Part& second) {
     if (!are_within(first.box, second.box, radii_)) return;
-    Candidate candidate{first, second, 0.0};
-    candidate.least = ChordLags(first, second).within(radii_ + candidate.deviation()).seconds;
-    if (candidate.least < found_.seconds) candidates_.push(candidate);
+    const double deviation = first.deviation + second.deviation;
+    const ChordLags lags(first, second);
+    const Candidate candidate{first, second, lags.within(radii_ + deviation)};
+    if (!(candidate.earliest.seconds < found_.seconds)) return;
+    offer(lags.within(radii_ - deviation));
+    candidates_.push(candidate);
   }
   PostEncroachment run() {
-    constexpr double tolerance = 1e-4;
-    while (!candidates_.empty() && candidates_.top().least < found_.seconds * (1.0 - tolerance) - shortest_) {
-      const Candidate candidate = candidates_.top();
+    constexpr double tolerance = 1e-6;
+    while (!candidates_.empty() &&
+           candidates_.top().earliest.seconds < found_.seconds * (1.0 - tolerance) - shortest_) {
+      const auto [first, second, earliest] = candidates_.top();
       candidates_.pop();
-      const auto& [first, second, least] = candidate;
       const bool divides_first = first.deviation > second.deviation;
       const Part& curved = divides_first ? first : second;
-      const bool is_whole = curved.deviation == 0.0 || curved.end - curved.begin <= shortest_;
       // Parts that cannot be divided, and may overlap, do so or all but do.
-      const double reach = radii_ + (is_whole ? candidate.deviation() : -candidate.deviation());
-      const PostEncroachment here = ChordLags(first, second).within(reach);
-      if (here.seconds < found_.seconds) found_ = here;
-      if (is_whole) continue;
+      if (curved.deviation == 0.0 || curved.end - curved.begin <= shortest_) {
+        offer(earliest);
+        continue;
+      }
       for (const Part& half : {part_of(*curved.segment, curved.begin, curved.middle()),
                                part_of(*curved.segment, curved.middle(), curved.end)})
         divides_first ? add(half, second) : add(first, half);
@@ -151,6 +152,10 @@ class EncroachmentSearch {
   }
 
  private:
+  void offer(const PostEncroachment& overlap) {
+    if (overlap.seconds < found_.seconds) found_ = overlap;
+  }
+
   double radii_, shortest_;
   PostEncroachment found_{0.0, infinity};
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> candidates_;

@@ -15,7 +15,7 @@ struct PostEncroachment {
 
 /// Returns the least post-encroachment time of all places that both spheres of an approach take during it:
 /// the least |t - s| of which the first at time s and the second at time t, or the other way round, overlap.
-/// It is 0 for two that touch. The result is at most a ten-thousandth too long, and as exact as 2^-30 of the
+/// It is 0 for two that touch. The result is at most a millionth too long, and as exact as 2^-30 of the
 /// approach's duration otherwise. Precondition: the closest point of the approach is known; `radii` by track.
 /// Cost: that of all pairs of pieces of the two curves, then up to some ten thousand pairs of parts.
 PostEncroachment post_encroachment(const Motion& motion, const Approach& approach,
