@@ -2,22 +2,12 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { kinesphere } from "./package_under_test.mjs";
+import { kinesphere, refuses } from "./package_under_test.mjs";
 
-const { Ballistic, BodyMap, EventHash, FrameMotion, KinesphereError, load, RecordedTracks, Scene, SteeredMotion, World } = kinesphere;
+const { Ballistic, BodyMap, EventHash, FrameMotion, load, RecordedTracks, Scene, SteeredMotion, World } = kinesphere;
 await load();
 
 const box = { lower: [0, 0, 0], upper: [100, 100, 100] };
-
-/** Expects that `action` throws a KinesphereError with this code, whose message has the text. */
-function refuses(action, code, text) {
-  assert.throws(action, (error) => {
-    assert.ok(error instanceof KinesphereError, `${error}`);
-    assert.equal(error.code, code, error.message);
-    assert.match(error.message, text);
-    return true;
-  });
-}
 
 test("a map of one motion gives the events that the motion itself gives", () => {
   const scene = new Scene("paper1", { bodies: 150, seconds: 2 });

@@ -2,9 +2,9 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { kinesphere } from "./package_under_test.mjs";
+import { kinesphere, refuses } from "./package_under_test.mjs";
 
-const { KinesphereError, load, Monitor, monitorEventKinds } = kinesphere;
+const { load, Monitor, monitorEventKinds } = kinesphere;
 await load();
 
 /** Returns a generator of numbers from 0 to 1, the same in each run. */
@@ -56,16 +56,6 @@ function monitorOf(level, more = {}) {
 
 const near = (value, expected, within = 1e-6) =>
   assert.ok(value === expected || Math.abs(value - expected) <= within, `${value} instead of ${expected}`);
-
-/** Expects that `action` throws a KinesphereError with this code, whose message has the text. */
-function refuses(action, code, text) {
-  assert.throws(action, (error) => {
-    assert.ok(error instanceof KinesphereError, `${error}`);
-    assert.equal(error.code, code, error.message);
-    assert.match(error.message, text);
-    return true;
-  });
-}
 
 test("verdicts are those of straight tracks, with exact reports and with errors", () => {
   const distance = 5, until = 20;

@@ -1,4 +1,5 @@
-// The built package, and the native program.
+// The built package, the native program, and what their tests share.
+import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -27,4 +28,14 @@ export function inFolder(action) {
   } finally {
     rmSync(folder, { recursive: true });
   }
+}
+
+/** Expects that `action` throws a KinesphereError with this code, whose message has the text. */
+export function refuses(action, code, text) {
+  assert.throws(action, (error) => {
+    assert.ok(error instanceof kinesphere.KinesphereError, `${error}`);
+    assert.equal(error.code, code, error.message);
+    assert.match(error.message, text);
+    return true;
+  });
 }
