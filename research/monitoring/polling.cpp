@@ -117,7 +117,7 @@ std::uint64_t polling_floor(const RecordedSky& sky, const PollingSettings& setti
       const double radius = set.radius_at(time).total();
       const bool open = std::any_of(truth.begin(), truth.end(), [&](const auto& other) {
         if (other.first == track) return false;
-        const Vec3& place = other.second.hypotheses().front().state.position;
+        const Vec3& place = other.second.hypotheses().front().latest.state.position;
         const double between = norm(centre - place);
         if (between - radius > settings.distance ||
             between + radius <= settings.distance + settings.tolerance)

@@ -16,10 +16,11 @@ constexpr std::size_t most_hypotheses = TrackEstimate::slots - 1;
 /// Returns the report with its timestamp error converted into errors of the state at the timestamp. If the
 /// timestamp may be wrong, the plan in force may be so too: accelerations differ from the class's planned
 /// acceleration by at most what `plans` allow.
-TrackReport with_exact_timestamp(TrackReport report, const TrackClass& track_class,
-                                 const PlansBeyondClass& plans) {
+ExactReport exact_report(const TrackReport& report, const TrackClass& track_class,
+                         const PlansBeyondClass& plans) {
+  ExactReport exact{report.timestamp, report.state, report.position_error, report.velocity_error};
   const double error = report.timestamp_error;
-  if (error == 0.0) return report;
+  if (error == 0.0) return exact;
   const ErrorBound speed =
       least(lengths_of(report.state.velocity) + report.velocity_error, track_class.largest_speed);
   const ErrorBound turn =
@@ -27,16 +28,15 @@ TrackReport with_exact_timestamp(TrackReport report, const TrackClass& track_cla
   // Largest distance travelled within the timestamp error, limited by acceleration and by the largest speed.
   const ErrorBound distance =
       least((speed + turn * (0.5 * error)) * error, track_class.largest_speed * error);
-  report.position_error = report.position_error + distance * (1.0 + rounding::margin);
-  report.velocity_error = report.velocity_error + turn * (error * (1.0 + rounding::margin));
-  report.timestamp_error = 0.0;
-  return report;
+  exact.position_error = exact.position_error + distance * (1.0 + rounding::margin);
+  exact.velocity_error = exact.velocity_error + turn * (error * (1.0 + rounding::margin));
+  return exact;
 }
 
 bool is_finite(const ErrorBound& error) { return std::isfinite(error.total()); }
 
 /// Returns the reachable set for accelerations that differ from `planned` by at most `limit`.
-ReachableSet motion_of(const TrackReport& report, const Vec3& planned, const ErrorBound& limit) {
+ReachableSet motion_of(const ExactReport& report, const Vec3& planned, const ErrorBound& limit) {
   return {.time = report.timestamp,
           .position = report.state.position,
           .velocity = report.state.velocity,
@@ -47,7 +47,7 @@ ReachableSet motion_of(const TrackReport& report, const Vec3& planned, const Err
 }
 
 /// Returns the reachable set that follows from the class's largest speed alone.
-ReachableSet range_of(const TrackReport& report, const TrackClass& track_class) {
+ReachableSet range_of(const ExactReport& report, const TrackClass& track_class) {
   return {.time = report.timestamp,
           .position = report.state.position,
           .radius = report.position_error,
@@ -73,12 +73,12 @@ std::optional<ReachableSet> range_after(const ReachableSet& motion, double after
       .time = begin, .position = then.position, .radius = then.radius, .speed = track_class.largest_speed};
 }
 
-/// Returns the reachable sets of a report from `now` on that follow from the accelerations allowed by the
-/// class and by plans. The first one is the tightest.
-std::vector<ReachableSet> motions_of(const TrackReport& report, const TrackClass& track_class,
-                                     const PlansBeyondClass& plans, double now) {
-  std::vector<ReachableSet> motions;
-  if (!is_finite(report.velocity_error)) return motions;
+/// Adds the reachable sets of a report from `now` on that follow from the accelerations allowed by the class
+/// and by plans. The first one is the tightest.
+void add_motions(const ExactReport& report, const std::optional<TrackReport::Plan>& plan,
+                 const TrackClass& track_class, const PlansBeyondClass& plans, double now,
+                 std::vector<ReachableSet>& sets) {
+  if (!is_finite(report.velocity_error)) return;
   const bool has_limit = is_finite(track_class.acceleration_limit);
   // Appends the continuation of a set from `time` on, where the acceleration limit changes. No monitor
   // reaches times after limits::largest_time, where lengths would overflow.
@@ -88,31 +88,36 @@ std::vector<ReachableSet> motions_of(const TrackReport& report, const TrackClass
     later.acceleration = track_class.planned_acceleration;
     later.growth = plans.limit_from(time, track_class);
     later.end = infinity;
-    motions.push_back(later);
+    sets.push_back(later);
   };
-  if (report.plan && now < report.plan->valid_until) {
-    ReachableSet planned = motion_of(report, report.plan->acceleration, report.plan->acceleration_limit);
-    planned.end = report.plan->valid_until;
-    motions.push_back(planned);
+  if (plan && now < plan->valid_until) {
+    ReachableSet planned = motion_of(report, plan->acceleration, plan->acceleration_limit);
+    planned.end = plan->valid_until;
+    sets.push_back(planned);
     if (has_limit) continue_from(planned, planned.end);
   }
-  if (!has_limit) return motions;
+  if (!has_limit) return;
   const ReachableSet motion =
       motion_of(report, track_class.planned_acceleration, plans.limit_from(report.timestamp, track_class));
   if (report.timestamp > now) {
     ReachableSet back = motion;
     back.growth = plans.limit_from(now, track_class);
-    motions.push_back(back.moved_to(now));
+    sets.push_back(back.moved_to(now));
   }
-  motions.push_back(motion);
+  sets.push_back(motion);
   if (report.timestamp < plans.end) continue_from(motion, plans.end);
-  return motions;
 }
 
-std::vector<ReachableSet> reachable_sets_of(const TrackReport& report, const TrackClass& track_class,
-                                            const PlansBeyondClass& plans, double now) {
-  std::vector<ReachableSet> sets = motions_of(report, track_class, plans, now);
-  if (is_finite(track_class.largest_speed)) {
+std::vector<ReachableSet> reachable_sets_of(const ExactReport& report,
+                                            const std::optional<TrackReport::Plan>& plan,
+                                            const TrackClass& track_class, const PlansBeyondClass& plans,
+                                            double now) {
+  const bool has_speed = is_finite(track_class.largest_speed);
+  // As many as most reports have, and one of an earlier report.
+  std::vector<ReachableSet> sets;
+  sets.reserve(has_speed ? 5 : 2);
+  add_motions(report, plan, track_class, plans, now, sets);
+  if (has_speed) {
     if (!sets.empty()) {
       // The largest speed is reached sooner when the track accelerates along its velocity than when it turns
       // back.
@@ -140,56 +145,44 @@ double beyond(const Vec3& offset, const ErrorBound& limit, double size) {
 
 /// Returns the excess of `report` over what the state of an earlier or later report leaves possible. `own`:
 /// the report's plan, if it exceeds the limits of the class.
-Excess excess_of(const TrackReport& report, const PlansBeyondClass& own, const Hypothesis& believed,
+Excess excess_of(const ExactReport& report, const PlansBeyondClass& own, const Hypothesis& believed,
                  const TrackClass& track_class) {
-  const double elapsed = report.timestamp - believed.timestamp;
+  const ExactReport& from = believed.latest;
+  const double elapsed = report.timestamp - from.timestamp;
   const double s = std::abs(elapsed);
-  const ReachableSet& from = believed.motion;
   // A report's plan is in force from its timestamp on, so it applies between the two if the report is the
   // older one.
   const PlansBeyondClass plans = elapsed < 0.0 ? joined(believed.plans, own) : believed.plans;
-  const ErrorBound& limit = plans.limit_from(std::min(report.timestamp, believed.timestamp), track_class);
+  const ErrorBound& limit = plans.limit_from(std::min(report.timestamp, from.timestamp), track_class);
   Excess excess;
-  const double size = norm_one(report.state.position) + norm_one(from.position) +
-                      (norm_one(from.velocity) + norm_one(from.acceleration) * s) * s;
-  const ErrorBound both = report.position_error + from.radius;
-  if (is_finite(from.speed) && is_finite(limit)) {
-    const Vec3 centre =
-        from.position + (from.velocity + track_class.planned_acceleration * (0.5 * elapsed)) * elapsed;
-    const ErrorBound reach = both + (from.speed + limit * (0.5 * s)) * s;
+  const double size = norm_one(report.state.position) + norm_one(from.state.position) +
+                      (norm_one(from.state.velocity) + norm_one(track_class.planned_acceleration) * s) * s;
+  const ErrorBound both = report.position_error + from.position_error;
+  if (is_finite(from.velocity_error) && is_finite(limit)) {
+    const Vec3 centre = from.state.position +
+                        (from.state.velocity + track_class.planned_acceleration * (0.5 * elapsed)) * elapsed;
+    const ErrorBound reach = both + (from.velocity_error + limit * (0.5 * s)) * s;
     excess.position = beyond(report.state.position - centre, reach, size);
     if (is_finite(report.velocity_error)) {
-      const Vec3 velocity = from.velocity + track_class.planned_acceleration * elapsed;
-      const ErrorBound turn = report.velocity_error + from.speed + limit * s;
-      excess.velocity =
-          beyond(report.state.velocity - velocity, turn,
-                 norm_one(report.state.velocity) + norm_one(from.velocity) + norm_one(from.acceleration) * s);
+      const Vec3 velocity = from.state.velocity + track_class.planned_acceleration * elapsed;
+      const ErrorBound turn = report.velocity_error + from.velocity_error + limit * s;
+      excess.velocity = beyond(report.state.velocity - velocity, turn,
+                               norm_one(report.state.velocity) + norm_one(from.state.velocity) +
+                                   norm_one(track_class.planned_acceleration) * s);
     }
   }
   if (is_finite(track_class.largest_speed))
-    excess.position = std::max(excess.position, beyond(report.state.position - from.position,
+    excess.position = std::max(excess.position, beyond(report.state.position - from.state.position,
                                                        both + track_class.largest_speed * s, size));
   return excess;
 }
 
-Hypothesis hypothesis_of(const TrackReport& report, const TrackClass& track_class,
-                         const PlansBeyondClass& plans, double now) {
+Hypothesis hypothesis_of(const ExactReport& report, const std::optional<TrackReport::Plan>& plan,
+                         const TrackClass& track_class, const PlansBeyondClass& plans, double now) {
   Hypothesis hypothesis{
-      .timestamp = report.timestamp,
-      .motion = motion_of(report, track_class.planned_acceleration, track_class.acceleration_limit),
-      .state = report.state,
-      .plans = plans,
-      .sets = reachable_sets_of(report, track_class, plans, now)};
-  hypothesis.latest_sets = hypothesis.sets.size();
+      .latest = report, .plans = plans, .sets = reachable_sets_of(report, plan, track_class, plans, now)};
+  hypothesis.latest_sets = static_cast<std::uint32_t>(hypothesis.sets.size());
   return hypothesis;
-}
-
-/// Returns the latest report of a hypothesis, without its plan.
-TrackReport report_of(const Hypothesis& hypothesis) {
-  return {.timestamp = hypothesis.timestamp,
-          .state = hypothesis.state,
-          .position_error = hypothesis.motion.radius,
-          .velocity_error = hypothesis.motion.speed};
 }
 
 /// Merges two hypotheses that both hold. The result has the sets of `latest`'s latest report and, of all
@@ -233,14 +226,11 @@ bool is_valid(const ReachableSet& set) {
 /// Checks a restored hypothesis. A set of the latest report has to hold from `now` on without end, so that
 /// tightest() finds a set even after a later report has replaced all others.
 bool is_valid(const Hypothesis& hypothesis, double now) {
-  const auto& [timestamp, slot, motion, state, plans, sets, latest_sets] = hypothesis;
-  // Velocity errors and acceleration limits of a report may be infinite.
-  ReachableSet limited = motion;
-  for (ErrorBound* error : {&limited.speed, &limited.growth})
-    if (is_within(*error, infinity)) *error = 0.0;
-  if (!is_time(timestamp) || !is_valid(limited) || !is_within(state.position, most_length) ||
-      !is_within(state.velocity, most_speed) || std::isnan(plans.end) || !is_within(plans.limit, infinity) ||
-      latest_sets > sets.size())
+  const auto& [latest, plans, slot, latest_sets, sets] = hypothesis;
+  if (!is_time(latest.timestamp) || !is_within(latest.state.position, most_length) ||
+      !is_within(latest.state.velocity, most_speed) || !is_within(latest.position_error, most_length) ||
+      !is_within(latest.velocity_error, infinity) || std::isnan(plans.end) ||
+      !is_within(plans.limit, infinity) || latest_sets > sets.size())
     return false;
   const auto latest_end = sets.begin() + static_cast<std::ptrdiff_t>(latest_sets);
   const auto holds = [now](const ReachableSet& set) { return set.time <= now && set.end == infinity; };
@@ -256,9 +246,9 @@ TrackEstimate::Learned TrackEstimate::update(const TrackReport& report, const Tr
   const PlansBeyondClass own = PlansBeyondClass::of(report, track_class);
   PlansBeyondClass all = own;
   for (const Hypothesis& believed : hypotheses_) all = joined(all, believed.plans);
-  const TrackReport exact = with_exact_timestamp(report, track_class, all);
+  const ExactReport exact = exact_report(report, track_class, all);
   const auto next = [&](const PlansBeyondClass& plans) {
-    return hypothesis_of(exact, track_class, plans, now);
+    return hypothesis_of(exact, report.plan, track_class, plans, now);
   };
   if (hypotheses_.empty()) {
     hypotheses_.push_back(next(all));
@@ -269,7 +259,7 @@ TrackEstimate::Learned TrackEstimate::update(const TrackReport& report, const Tr
   learned.excess = {infinity, infinity};
   for (std::size_t k = 0; k < hypotheses_.size(); ++k) {
     const Hypothesis& believed = hypotheses_[k];
-    if (believed.timestamp == exact.timestamp && believed.state == exact.state &&
+    if (believed.latest.timestamp == exact.timestamp && believed.latest.state == exact.state &&
         believed.plans.include(own)) {
       learned = {.outcome = Outcome::repeated};
       return learned;
@@ -296,8 +286,8 @@ TrackEstimate::Learned TrackEstimate::update(const TrackReport& report, const Tr
     // report is right. If a plan exceeds what was possible before, only the latest state is kept.
     const Hypothesis& believed = hypotheses_[agreeing.front()];
     Hypothesis only = next(all);
-    if (agreeing.size() == 1 && exact.timestamp < believed.timestamp)
-      only = joined(hypothesis_of(report_of(believed), track_class, all, now), std::move(only), now,
+    if (agreeing.size() == 1 && exact.timestamp < believed.latest.timestamp)
+      only = joined(hypothesis_of(believed.latest, {}, track_class, all, now), std::move(only), now,
                     now + ahead);
     only.slot = free_slot();
     hypotheses_ = {std::move(only)};
@@ -307,7 +297,7 @@ TrackEstimate::Learned TrackEstimate::update(const TrackReport& report, const Tr
   Hypothesis latest = next(believed.plans);
   latest.slot = believed.slot;
   hypotheses_.clear();
-  const bool newer = exact.timestamp >= believed.timestamp;
+  const bool newer = exact.timestamp >= believed.latest.timestamp;
   hypotheses_.push_back(newer ? joined(std::move(latest), std::move(believed), now, now + ahead)
                               : joined(std::move(believed), std::move(latest), now, now + ahead));
   return learned;
@@ -367,7 +357,7 @@ double TrackEstimate::worth_asking(double time) const {
 
 double TrackEstimate::timestamp() const {
   double latest = -infinity;
-  for (const Hypothesis& hypothesis : hypotheses_) latest = std::max(latest, hypothesis.timestamp);
+  for (const Hypothesis& hypothesis : hypotheses_) latest = std::max(latest, hypothesis.latest.timestamp);
   return latest;
 }
 

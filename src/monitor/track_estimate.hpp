@@ -13,22 +13,32 @@
 
 namespace kinesphere {
 
-/// One explanation of the reports of a track. If it is true, all of its reachable sets contain the track.
-struct Hypothesis {
-  double timestamp = 0.0;  ///< Timestamp of its latest report.
-  std::uint32_t slot = 0;  ///< Unique among the track's hypotheses, and differs from the slots in use just
-                           ///< before this one was added.
-  /// Reachable set of the latest report alone, for comparison with other reports, both before and after it.
-  ReachableSet motion{};
+/// A report at an exact time: the errors of the state count what the error of the timestamp adds.
+struct ExactReport {
+  double timestamp = 0.0;
   State state{};
-  PlansBeyondClass plans{};  ///< Plans of all its reports.
-  /// The sets of the latest report first, then at most one set of an earlier report.
-  std::vector<ReachableSet> sets;
-  std::size_t latest_sets = 0;
+  ErrorBound position_error{};
+  ErrorBound velocity_error{};
 
   static void serialize(auto& self, auto& archive) {
-    auto& [timestamp, slot, motion, state, plans, sets, latest_sets] = self;
-    archive(timestamp, slot, motion, state, plans, sets, latest_sets);
+    auto& [timestamp, state, position_error, velocity_error] = self;
+    archive(timestamp, state, position_error, velocity_error);
+  }
+};
+
+/// One explanation of the reports of a track. If it is true, all of its reachable sets contain the track.
+struct Hypothesis {
+  ExactReport latest{};      ///< For comparison with other reports, both before and after it.
+  PlansBeyondClass plans{};  ///< Plans of all its reports.
+  std::uint32_t slot = 0;    ///< Unique among the track's hypotheses, and differs from the slots in use just
+                             ///< before this one was added.
+  std::uint32_t latest_sets = 0;  ///< Number of the sets of the latest report.
+  /// The sets of the latest report first, then at most one set of an earlier report.
+  std::vector<ReachableSet> sets;
+
+  static void serialize(auto& self, auto& archive) {
+    auto& [latest, plans, slot, latest_sets, sets] = self;
+    archive(slot, latest, plans, latest_sets, sets);
   }
 };
 

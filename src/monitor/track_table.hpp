@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
-#include <unordered_map>
 #include <vector>
 
 #include "kinesphere/monitor/monitor_event.hpp"
 #include "monitor/track_estimate.hpp"
+#include "number/id_index.hpp"
 
 namespace kinesphere {
 
@@ -40,8 +40,8 @@ class TrackTable {
   KnownTrack& operator[](std::uint32_t number) { return tracks_[number]; }
   const KnownTrack& operator[](std::uint32_t number) const { return tracks_[number]; }
   std::optional<std::uint32_t> find(TrackId id) const {
-    const auto at = numbers_.find(id);
-    return at == numbers_.end() ? std::nullopt : std::optional(at->second);
+    const std::uint32_t number = numbers_.find(id);
+    return number == IdIndex::none ? std::nullopt : std::optional(number);
   }
 
   std::uint32_t add(TrackId id, std::size_t track_class) {
@@ -52,7 +52,7 @@ class TrackTable {
       number = free_.back();
       free_.pop_back();
     }
-    numbers_.emplace(id, number);
+    numbers_.add(id, number);
     KnownTrack& track = tracks_[number];
     track.id = id;
     track.track_class = track_class;
@@ -61,14 +61,15 @@ class TrackTable {
     return number;
   }
   void remove(std::uint32_t number) {
-    numbers_.erase(tracks_[number].id);
+    numbers_.remove(tracks_[number].id);
     tracks_[number] = {};
     free_.push_back(number);
   }
   std::vector<TrackId> ids() const {
     std::vector<TrackId> ids;
-    ids.reserve(numbers_.size());
-    for (const auto& [id, number] : numbers_) ids.push_back(id);
+    ids.reserve(size());
+    for (const KnownTrack& track : tracks_)
+      if (track.present) ids.push_back(track.id);
     std::sort(ids.begin(), ids.end());
     return ids;
   }
@@ -82,7 +83,7 @@ class TrackTable {
     numbers_.clear();
     for (std::uint32_t number = 0; number < tracks_.size(); ++number) {
       const KnownTrack& track = tracks_[number];
-      if (track.present && !numbers_.emplace(track.id, number).second) return false;
+      if (track.present && !numbers_.add(track.id, number)) return false;
       if (track.life > last_life_) return false;
     }
     std::vector<bool> seen(tracks_.size(), false);
@@ -97,7 +98,7 @@ class TrackTable {
   std::vector<KnownTrack> tracks_;
   std::vector<std::uint32_t> free_;
   std::uint32_t last_life_ = 0;
-  std::unordered_map<TrackId, std::uint32_t> numbers_;
+  IdIndex numbers_;
 };
 
 }  // namespace kinesphere

@@ -181,9 +181,9 @@ TEST(MonitorSnapshot, RefusesTwoHypothesesOfOneSlot) {
   monitor.report(3, {.timestamp = 0.0}).value();
   monitor.report(3, {.timestamp = stamp, .state = {{500, 0, 0}, {}}}).value();
   Bytes snapshot = monitor.save();
-  const auto places = places_of(snapshot, stamp, std::uint32_t{1});
+  const auto places = places_of(snapshot, std::uint32_t{1}, stamp);
   ASSERT_EQ(places.size(), 1u);
-  put(snapshot, places.front() + sizeof stamp, std::uint32_t{0});
+  put(snapshot, places.front(), std::uint32_t{0});
   EXPECT_TRUE(is_refused(snapshot));
 }
 

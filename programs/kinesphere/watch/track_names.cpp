@@ -2,6 +2,7 @@
 #include "watch/track_names.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace kinesphere::program {
 
@@ -34,9 +35,23 @@ const std::string& TrackNames::text(TrackId id) const {
 }
 
 NamedTrack& TrackNames::add(TrackId id, std::string_view text) {
-  NamedTrack& track = names_[id];
+  if (numbers_.add(id, static_cast<std::uint32_t>(tracks_.size()))) tracks_.emplace_back();
+  NamedTrack& track = *find(id);
   track.text.assign(text);
   return track;
+}
+
+void TrackNames::remove(TrackId id) {
+  const std::uint32_t number = numbers_.find(id);
+  if (number == IdIndex::none) return;
+  numbers_.remove(id);
+  if (&tracks_[number] != &tracks_.back()) {
+    const TrackId last = track_id_of(tracks_.back().text);
+    numbers_.remove(last);
+    numbers_.add(last, number);
+    tracks_[number] = std::move(tracks_.back());
+  }
+  tracks_.pop_back();
 }
 
 }  // namespace kinesphere::program

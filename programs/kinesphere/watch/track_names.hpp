@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <unordered_map>
+#include <utility>
 
 #include "kinesphere/monitor/monitor_event.hpp"
+#include "number/id_index.hpp"
 #include "watch/source_report.hpp"
 
 namespace kinesphere::program {
@@ -38,26 +40,25 @@ struct NamedTrack {
 
 class TrackNames {
  public:
-  NamedTrack* find(TrackId id) {
-    const auto at = names_.find(id);
-    return at == names_.end() ? nullptr : &at->second;
-  }
+  /// Returns nullptr for an unknown track. The pointer is valid until a track is removed.
   const NamedTrack* find(TrackId id) const {
-    const auto at = names_.find(id);
-    return at == names_.end() ? nullptr : &at->second;
+    const std::uint32_t number = numbers_.find(id);
+    return number == IdIndex::none ? nullptr : &tracks_[number];
   }
+  NamedTrack* find(TrackId id) { return const_cast<NamedTrack*>(std::as_const(*this).find(id)); }
   /// Returns the id as spelled in the stream; empty for a dropped track.
   const std::string& text(TrackId id) const;
   NamedTrack& add(TrackId id, std::string_view text);
-  void remove(TrackId id) { names_.erase(id); }
-  std::size_t size() const { return names_.size(); }
+  void remove(TrackId id);
+  std::size_t size() const { return tracks_.size(); }
   template <class Visit>
   void for_each(const Visit& visit) const {
-    for (const auto& [id, track] : names_) visit(track);
+    for (const NamedTrack& track : tracks_) visit(track);
   }
 
  private:
-  std::unordered_map<TrackId, NamedTrack> names_;
+  IdIndex numbers_;
+  std::deque<NamedTrack> tracks_;
 };
 
 }  // namespace kinesphere::program
