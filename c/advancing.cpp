@@ -1,0 +1,142 @@
+// Time: the next event of a world, and runs.
+#include <cmath>
+
+#include "exchange.hpp"
+#include "input/input_check.hpp"
+#include "objects.hpp"
+#include "probing.hpp"
+
+namespace kinesphere::c {
+
+void CombinedProbe::ask(std::span<const BodyId> ids, double time, std::span<State> states) const {
+  if (probe_ == ks_probe_motions) {
+    detail::bad_result({ErrorCode::unknown_body, "probe", ids[0],
+                        "ks_probe_motions: no motion of the world moves " + text_of(ids[0])});
+  }
+  require_success("probe", probe_(c_ids(ids), ids.size(), time, c_states(states), user_));
+}
+
+void CombinedProbe::operator()(std::span<const BodyId> ids, double time, std::span<State> states) {
+  others_.clear();
+  places_.clear();
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    if (simulation_.find(ids[k])) {
+      states[k] = simulation_.state(ids[k], time);
+    } else {
+      others_.push_back(ids[k]);
+      places_.push_back(k);
+    }
+  }
+  if (others_.empty()) return;
+  if (others_.size() == ids.size()) return ask(ids, time, states);
+  answers_.assign(others_.size(), State{});
+  ask(others_, time, answers_);
+  for (std::size_t k = 0; k < places_.size(); ++k) states[places_[k]] = answers_[k];
+}
+
+namespace {
+
+bool begins(const Event& event) {
+  return event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
+}
+
+/// The bounce that `definition` asks for, by itself.
+Response bounced(const Event& event, double restitution, double resting_speed) {
+  if (!begins(event)) return {};
+  return response_of(
+      event, resting_speed > 0.0 ? settle(event, restitution, resting_speed) : bounce(event, restitution));
+}
+
+ks_response c_response(const Response& response) {
+  return {.turns_first = response.first_velocity.has_value(),
+          .turns_second = response.second_velocity.has_value(),
+          .first_velocity = c_vector(response.first_velocity.value_or(Vec3{})),
+          .second_velocity = c_vector(response.second_velocity.value_or(Vec3{}))};
+}
+
+Response response_of_caller(const ks_run_definition& definition, const Event& event) {
+  const ks_event told = c_event(event);
+  ks_response chosen{};
+  require_success("respond", definition.respond(&told, &chosen, definition.respond_user));
+  Response response;
+  if (chosen.turns_first) response.first_velocity = vector_of(chosen.first_velocity);
+  if (chosen.turns_second) response.second_velocity = vector_of(chosen.second_velocity);
+  return response;
+}
+
+/// Throws BadResult unless a bounce can have these numbers.
+void require_bounce(std::string_view call, double restitution, double resting_speed) {
+  InputCheck(call)
+      .not_negative({"restitution"}, restitution)
+      .require(restitution <= 1.0, ErrorCode::out_of_range, {"restitution"}, "must be at most 1", restitution)
+      .not_negative({"resting_speed"}, resting_speed)
+      .result()
+      .value();
+}
+
+/// Returns workers with this number of threads, those of the last run if possible; null for one thread.
+Workers* workers_for(WorldObject& object, int threads) {
+  if (threads == 1) return nullptr;
+  if (!object.workers || object.workers->count() != threads) {
+    auto workers = Workers::create(threads).value();
+    object.workers.emplace(std::move(workers));
+  }
+  return &*object.workers;
+}
+
+void run(std::string_view call, WorldObject& object, double until, const ks_run_definition& definition) {
+  const bool bounces = !definition.respond && !std::isnan(definition.restitution);
+  if (bounces) require_bounce(call, definition.restitution, definition.resting_speed);
+  const auto respond = [&](const Event& event) -> Response {
+    if (definition.respond) return response_of_caller(definition, event);
+    return bounces ? bounced(event, definition.restitution, definition.resting_speed) : Response{};
+  };
+  const auto sink = [&](const Event& event) {
+    if (!definition.sink) return;
+    const ks_event told = c_event(event);
+    require_success("sink", definition.sink(&told, definition.sink_user));
+  };
+  object.world().reserve(0).value();  // refused inside callbacks, before the workers of the outer run change
+  object.simulation.run(until, respond, sink, workers_for(object, definition.threads)).value();
+}
+
+}  // namespace
+}  // namespace kinesphere::c
+
+using namespace kinesphere;
+using namespace kinesphere::c;
+
+// A world does not call it: it recognises the address. A caller's own call finds no motion.
+int32_t ks_probe_motions(const ks_body_id*, size_t, double, ks_state*, void*) { return 1; }
+
+ks_status ks_world_advance(ks_world world, double until, ks_probe probe, void* user, ks_event* event) {
+  return changing(__func__, world, [&, call = __func__](WorldObject& object) {
+    require_record(call, event, "event");
+    const auto next = with_probe(call, object.simulation, probe, user, [&](const Probe& combined) {
+      return object.world().advance(until, combined).value();
+    });
+    *event = next ? c_event(*next) : ks_new_event();
+    event->time = object.world().time();
+  });
+}
+
+ks_status ks_run_definition_init(ks_run_definition* definition, uint32_t struct_size) {
+  return initialise(__func__, definition, struct_size,
+                    ks_run_definition{.struct_size = struct_size, .threads = 1, .restitution = 1.0});
+}
+
+ks_status ks_world_run(ks_world world, double until, const ks_run_definition* definition) {
+  return changing(__func__, world, [&, call = __func__](WorldObject& object) {
+    require_record(call, definition, "definition");
+    run(call, object, until, *definition);
+  });
+}
+
+ks_status ks_bounce(const ks_event* event, double restitution, double resting_speed, ks_response* response) {
+  return guarded([&, call = __func__] {
+    require_record(call, event, "event");
+    require_pointer(call, response, "response");
+    require_bounce(call, restitution, resting_speed);
+    *response = c_response(bounced(event_of(call, *event), restitution, resting_speed));
+  });
+}

@@ -1,0 +1,150 @@
+// Certified answers: predictions and spatial queries.
+#include "kinesphere/answers.hpp"
+
+#include "exchange.hpp"
+#include "kinesphere/queries.hpp"
+#include "objects.hpp"
+#include "probing.hpp"
+
+namespace kinesphere::c {
+namespace {
+
+/// Calls answer(world) or, with a probe, answer(world, probe), and then tell(what that returned). `result` is
+/// where the caller wants it.
+template <class Answer, class Tell>
+ks_status answering(std::string_view call, ks_world world, ks_probe probe, void* user, const void* result,
+                    const Answer& answer, const Tell& tell) {
+  if (probe == nullptr) {
+    return reading(call, world, [&](const WorldObject& object) {
+      require_pointer(call, result, "result");
+      tell(answer(object.world()).value());
+    });
+  }
+  return changing(call, world, [&](WorldObject& object) {
+    require_pointer(call, result, "result");
+    tell(with_probe(call, object.simulation, probe, user,
+                    [&](const Probe& combined) { return answer(object.world(), combined).value(); }));
+  });
+}
+
+ks_prediction c_prediction(const SafeTime& safe) {
+  return {safe.time, c_id(no_body), KS_WALL_NONE, safe.touching, safe.probed};
+}
+ks_prediction c_prediction(const SafeSeparation& safe) {
+  return {safe.time, c_id(no_body), KS_WALL_NONE, safe.within, safe.probed};
+}
+ks_prediction c_prediction(const EarliestContact& contact) {
+  return {contact.time, c_id(contact.partner), static_cast<ks_wall>(contact.wall), contact.touching,
+          contact.probed};
+}
+ks_prediction c_prediction(const EarliestApproach& approach) {
+  return {approach.time, c_id(approach.partner), static_cast<ks_wall>(approach.wall), approach.within,
+          approach.probed};
+}
+
+template <class Answer>
+ks_status predict(std::string_view call, ks_world world, ks_probe probe, void* user,
+                  ks_prediction* prediction, const Answer& answer) {
+  return answering(call, world, probe, user, prediction, answer,
+                   [&](const auto& found) { *prediction = c_prediction(found); });
+}
+
+ks_hit c_hit(const OverlapHit& hit) {
+  return {c_id(hit.body), hit.certainty == Certainty::certainly, 0.0, 0.0};
+}
+/// For NearestHit and CastHit.
+template <class Hit>
+ks_hit c_hit(const Hit& hit) {
+  return {c_id(hit.body), hit.certainty == Certainty::certainly, hit.lower, hit.upper};
+}
+
+struct Hits {
+  ks_hit* array;
+  std::size_t capacity;
+  std::size_t* count;
+};
+
+template <class Answer>
+ks_status query(std::string_view call, ks_world world, ks_probe probe, void* user, const Hits& hits,
+                const Answer& answer) {
+  return answering(call, world, probe, user, hits.count, answer, [&](const auto& found) {
+    write_all(call, found, hits.array, hits.capacity, hits.count, [](const auto& hit) { return c_hit(hit); });
+  });
+}
+
+}  // namespace
+}  // namespace kinesphere::c
+
+using namespace kinesphere;
+using namespace kinesphere::c;
+
+// `probes` below is a probe, or nothing: each call of World has an overload for both.
+
+ks_status ks_world_safe_until(ks_world world, ks_probe probe, void* user, ks_prediction* prediction) {
+  return predict(__func__, world, probe, user, prediction,
+                 [](auto& of, const auto&... probes) { return of.safe_until(probes...); });
+}
+
+ks_status ks_world_earliest_contact(ks_world world, ks_body_id body, ks_probe probe, void* user,
+                                    ks_prediction* prediction) {
+  return predict(__func__, world, probe, user, prediction, [&](auto& of, const auto&... probes) {
+    return of.earliest_contact(id_of(body), probes...);
+  });
+}
+
+ks_status ks_world_earliest_approach(ks_world world, ks_body_id body, double distance, ks_probe probe,
+                                     void* user, ks_prediction* prediction) {
+  return predict(__func__, world, probe, user, prediction, [&](auto& of, const auto&... probes) {
+    return of.earliest_approach(id_of(body), distance, probes...);
+  });
+}
+
+ks_status ks_world_pair_safe_until(ks_world world, ks_body_id first, ks_body_id second, double distance,
+                                   ks_probe probe, void* user, ks_prediction* prediction) {
+  return predict(__func__, world, probe, user, prediction, [&](auto& of, const auto&... probes) {
+    return of.safe_until(id_of(first), id_of(second), distance, probes...);
+  });
+}
+
+ks_status ks_world_distance_limits(ks_world world, ks_body_id first, ks_body_id second, double time,
+                                   ks_probe probe, void* user, double* lower, double* upper) {
+  return answering(
+      __func__, world, probe, user, lower != nullptr ? upper : nullptr,
+      [&](auto& of, const auto&... probes) {
+        return of.distance_limits(id_of(first), id_of(second), time, probes...);
+      },
+      [&](const DistanceLimits& limits) {
+        *lower = limits.lower;
+        *upper = limits.upper;
+      });
+}
+
+ks_status ks_world_overlapping_sphere(ks_world world, ks_vec3 centre, double radius, ks_probe probe,
+                                      void* user, ks_hit* hits, size_t capacity, size_t* count) {
+  return query(__func__, world, probe, user, {hits, capacity, count}, [&](auto& of, const auto&... probes) {
+    return of.overlapping(vector_of(centre), radius, probes...);
+  });
+}
+
+ks_status ks_world_overlapping_box(ks_world world, const ks_box* box, ks_probe probe, void* user,
+                                   ks_hit* hits, size_t capacity, size_t* count) {
+  return query(__func__, world, probe, user, {hits, capacity, count},
+               [&, call = __func__](auto& of, const auto&... probes) {
+                 require_pointer(call, box, "box");
+                 return of.overlapping(box_of(*box), probes...);
+               });
+}
+
+ks_status ks_world_nearest(ks_world world, ks_vec3 point, size_t bodies, ks_probe probe, void* user,
+                           ks_hit* hits, size_t capacity, size_t* count) {
+  return query(__func__, world, probe, user, {hits, capacity, count}, [&](auto& of, const auto&... probes) {
+    return of.nearest(vector_of(point), bodies, probes...);
+  });
+}
+
+ks_status ks_world_cast(ks_world world, ks_vec3 origin, ks_vec3 direction, double length, double radius,
+                        ks_probe probe, void* user, ks_hit* hits, size_t capacity, size_t* count) {
+  return query(__func__, world, probe, user, {hits, capacity, count}, [&](auto& of, const auto&... probes) {
+    return of.sphere_cast(vector_of(origin), radius, vector_of(direction), length, probes...);
+  });
+}

@@ -1,0 +1,249 @@
+// Bodies of worlds: adding, changing and removing them; filters, zones and sensors.
+#include <algorithm>
+
+#include "exchange.hpp"
+#include "input/input_check.hpp"
+#include "objects.hpp"
+
+namespace kinesphere::c {
+namespace {
+
+/// Changes one body by a call of the world.
+template <class Change>
+ks_status change_body(std::string_view call, ks_world world, ks_body_id body, const Change& change) {
+  return changing(call, world, [&](WorldObject& object) { change(object.world(), id_of(body)).value(); });
+}
+
+StaticDefinition static_of(std::string_view call, const ks_static_definition& body) {
+  return {.shape = shape_of(call, body.shape),
+          .filter = filter_of(body.filter),
+          .solid = body.solid != 0,
+          .sensor_class = sensor_class_of(call, body.sensor_class),
+          .user_data = body.user_data};
+}
+
+/// Adds bodies of either kind: `convert` makes the library's definitions, and `add` adds those.
+template <class Definition, class Convert, class Add>
+ks_status add_bodies(std::string_view call, ks_world world, const Definition* bodies, std::size_t count,
+                     ks_body_id* ids, const Convert& convert, const Add& add) {
+  return changing(call, world, [&](WorldObject& object) {
+    require_records(call, bodies, count, "bodies");
+    require_array(call, ids, count, "ids");
+    std::vector<decltype(convert(call, *bodies))> definitions;
+    definitions.reserve(count);
+    for (std::size_t k = 0; k < count; ++k) definitions.push_back(convert(call, bodies[k]));
+    for (const BodyId id : add(object.world(), definitions).value()) *ids++ = c_id(id);
+  });
+}
+
+/// Calls change(motion, number, time) for the motion of a body, if it has one: after the world has accepted
+/// the change.
+template <class Change>
+void change_motion(WorldObject& object, BodyId body, const Change& change) {
+  const auto moved = object.simulation.find(body);
+  if (moved) change(object.simulation.motion(moved->motion), moved->number, object.world().time()).value();
+}
+
+void turn(WorldObject& object, BodyId body, const Vec3& velocity) {
+  change_motion(object, body, [&](Motion& motion, std::uint32_t number, double time) {
+    return motion.set_velocity(number, time, velocity);
+  });
+}
+
+/// Puts a body into a state by a call of the world, and in its motion.
+template <class Change>
+ks_status place(std::string_view call, ks_world world, ks_body_id body, const ks_state* state,
+                const Change& change) {
+  return changing(call, world, [&](WorldObject& object) {
+    require_pointer(call, state, "state");
+    change(object.world(), id_of(body), state_of(*state)).value();
+    change_motion(object, id_of(body), [&](Motion& motion, std::uint32_t number, double time) {
+      return motion.teleport(number, time, state_of(*state));
+    });
+  });
+}
+
+/// Removes bodies of which some have motions. The world knows all of them, and none twice.
+void remove_with_motions(Simulation& simulation, std::span<const BodyId> bodies) {
+  for (const BodyId body : bodies)
+    (simulation.find(body) ? simulation.remove(body) : simulation.world().remove(body)).value();
+}
+
+/// Throws BadResult as World::remove_all() would.
+void require_removable(std::string_view call, const World& world, std::span<const BodyId> bodies) {
+  for (const BodyId body : bodies) (void)world.body(body).value();
+  std::vector<BodyId> sorted(bodies.begin(), bodies.end());
+  std::sort(sorted.begin(), sorted.end());
+  if (const auto twice = std::adjacent_find(sorted.begin(), sorted.end()); twice != sorted.end()) {
+    detail::bad_result({ErrorCode::stale_body, "bodies", *twice,
+                        std::string(call) + ": " + text_of(*twice) + " is listed twice"});
+  }
+}
+
+}  // namespace
+}  // namespace kinesphere::c
+
+using namespace kinesphere;
+using namespace kinesphere::c;
+
+ks_status ks_body_definition_init(ks_body_definition* definition, uint32_t struct_size) {
+  return initialise(__func__, definition, struct_size, c_body({}));
+}
+
+ks_status ks_static_definition_init(ks_static_definition* definition, uint32_t struct_size) {
+  const StaticDefinition defaults;
+  return initialise(__func__, definition, struct_size,
+                    ks_static_definition{.struct_size = struct_size,
+                                         .solid = defaults.solid,
+                                         .sensor_class = defaults.sensor_class,
+                                         .shape = ks_ball({0.0, 0.0, 0.0}, Ball{}.radius),
+                                         .filter = c_filter(defaults.filter),
+                                         .user_data = defaults.user_data});
+}
+
+ks_status ks_world_add(ks_world world, const ks_body_definition* bodies, size_t count, ks_body_id* ids) {
+  return add_bodies(__func__, world, bodies, count, ids, body_of,
+                    [](World& to, std::span<const BodyDefinition> added) { return to.add_all(added); });
+}
+
+ks_status ks_world_add_static(ks_world world, const ks_static_definition* bodies, size_t count,
+                              ks_body_id* ids) {
+  return add_bodies(
+      __func__, world, bodies, count, ids, static_of,
+      [](World& to, std::span<const StaticDefinition> added) { return to.add_static_all(added); });
+}
+
+ks_status ks_world_add_zone(ks_world world, const ks_shape* shape, uint64_t user_data, ks_body_id* id) {
+  return changing(__func__, world, [&, call = __func__](WorldObject& object) {
+    require_pointer(call, shape, "shape");
+    require_pointer(call, id, "id");
+    *id = c_id(object.world().add_zone(shape_of(call, *shape), user_data).value());
+  });
+}
+
+ks_status ks_world_reserve(ks_world world, size_t bodies) {
+  return changing(__func__, world, [&](WorldObject& object) { object.world().reserve(bodies).value(); });
+}
+
+ks_status ks_world_remove(ks_world world, const ks_body_id* bodies, size_t count) {
+  return changing(__func__, world, [&, call = __func__](WorldObject& object) {
+    require_array(call, bodies, count, "bodies");
+    Simulation& simulation = object.simulation;
+    const std::span ids = ids_of(bodies, count);
+    const bool moved =
+        std::any_of(ids.begin(), ids.end(), [&](BodyId body) { return simulation.find(body).has_value(); });
+    if (!moved) return simulation.world().remove_all(ids).value();
+    simulation.world().reserve(0).value();  // refused inside callbacks, as remove_all() is
+    require_removable(call, simulation.world(), ids);
+    remove_with_motions(simulation, ids);
+  });
+}
+
+ks_status ks_world_set_velocity(ks_world world, ks_body_id body, ks_vec3 velocity) {
+  return changing(__func__, world, [&](WorldObject& object) {
+    object.world().set_velocity(id_of(body), vector_of(velocity)).value();
+    turn(object, id_of(body), vector_of(velocity));
+  });
+}
+
+ks_status ks_world_set_velocities(ks_world world, const ks_body_id* bodies, const ks_vec3* velocities,
+                                  size_t count) {
+  return changing(__func__, world, [&, call = __func__](WorldObject& object) {
+    require_array(call, bodies, count, "bodies");
+    require_array(call, velocities, count, "velocities");
+    const std::span ids = ids_of(bodies, count);
+    const std::span given = vectors_of(velocities, count);
+    object.world().set_velocity_all(ids, given).value();
+    for (std::size_t k = 0; k < count; ++k) turn(object, ids[k], given[k]);
+  });
+}
+
+ks_status ks_world_teleport(ks_world world, ks_body_id body, const ks_state* state) {
+  return place(__func__, world, body, state,
+               [](World& of, BodyId id, const State& to) { return of.teleport(id, to); });
+}
+
+ks_status ks_world_set_radius(ks_world world, ks_body_id body, double radius) {
+  return change_body(__func__, world, body, [&](World& of, BodyId id) { return of.set_radius(id, radius); });
+}
+
+ks_status ks_world_set_mass(ks_world world, ks_body_id body, double mass) {
+  return change_body(__func__, world, body, [&](World& of, BodyId id) { return of.set_mass(id, mass); });
+}
+
+ks_status ks_world_set_motion_limits(ks_world world, ks_body_id body, const ks_motion_limits* limits) {
+  return change_body(__func__, world, body, [&, call = __func__](World& of, BodyId id) {
+    require_pointer(call, limits, "limits");
+    return of.set_motion_limits(id, {.acceleration_limit = limits->acceleration_limit,
+                                     .planned_acceleration = vector_of(limits->planned_acceleration),
+                                     .position_error = limits->position_error,
+                                     .velocity_error = limits->velocity_error});
+  });
+}
+
+ks_status ks_world_set_shape(ks_world world, ks_body_id body, const ks_shape* shape) {
+  return change_body(__func__, world, body, [&, call = __func__](World& of, BodyId id) {
+    require_pointer(call, shape, "shape");
+    return of.set_shape(id, shape_of(call, *shape));
+  });
+}
+
+ks_status ks_world_disable(ks_world world, ks_body_id body) {
+  return change_body(__func__, world, body, [](World& of, BodyId id) { return of.disable(id); });
+}
+
+ks_status ks_world_enable(ks_world world, ks_body_id body, const ks_state* state) {
+  return place(__func__, world, body, state,
+               [](World& of, BodyId id, const State& at) { return of.enable(id, at); });
+}
+
+ks_status ks_world_sleep(ks_world world, ks_body_id body) {
+  return change_body(__func__, world, body, [](World& of, BodyId id) { return of.sleep(id); });
+}
+
+ks_status ks_world_wake(ks_world world, ks_body_id body) {
+  return change_body(__func__, world, body, [](World& of, BodyId id) { return of.wake(id); });
+}
+
+ks_status ks_world_set_user_data(ks_world world, ks_body_id body, uint64_t data) {
+  return change_body(__func__, world, body, [&](World& of, BodyId id) { return of.set_user_data(id, data); });
+}
+
+ks_status ks_world_set_filter(ks_world world, ks_body_id body, const ks_filter* filter) {
+  return change_body(__func__, world, body, [&, call = __func__](World& of, BodyId id) {
+    require_pointer(call, filter, "filter");
+    return of.set_filter(id, filter_of(*filter));
+  });
+}
+
+ks_status ks_world_set_pair_filter(ks_world world, ks_pair_filter filter, void* user) {
+  return changing(__func__, world, [&](WorldObject& object) {
+    object.world().set_pair_filter(pair_filter_of(filter, user)).value();
+  });
+}
+
+ks_status ks_world_refresh_filter(ks_world world, ks_body_id body) {
+  return change_body(__func__, world, body, [](World& of, BodyId id) { return of.refresh_filter(id); });
+}
+
+ks_status ks_world_set_solid(ks_world world, ks_body_id body, int32_t solid) {
+  return change_body(__func__, world, body,
+                     [&](World& of, BodyId id) { return of.set_solid(id, solid != 0); });
+}
+
+ks_status ks_world_set_sensor(ks_world world, int32_t sensor_class, const double* distances, size_t count,
+                              uint64_t mask) {
+  return changing(__func__, world, [&, call = __func__](WorldObject& object) {
+    require_array(call, distances, count, "distances");
+    object.world()
+        .set_sensor(sensor_class_of(call, sensor_class),
+                    {.distances = {distances, distances + count}, .mask = mask})
+        .value();
+  });
+}
+
+ks_status ks_world_set_sensor_class(ks_world world, ks_body_id body, int32_t sensor_class) {
+  return change_body(__func__, world, body, [&, call = __func__](World& of, BodyId id) {
+    return of.set_sensor_class(id, sensor_class_of(call, sensor_class));
+  });
+}

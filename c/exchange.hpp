@@ -1,0 +1,73 @@
+// Values of C to values of the library and back.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "boundary.hpp"
+#include "kinesphere/answers.hpp"
+#include "kinesphere/body.hpp"
+#include "kinesphere/event.hpp"
+#include "kinesphere/filter.hpp"
+#include "kinesphere/monitor/report.hpp"
+#include "kinesphere/probe.hpp"
+#include "kinesphere/response.hpp"
+#include "kinesphere/shape.hpp"
+
+namespace kinesphere::c {
+
+// These records have one layout in both languages, so arrays of them pass as they are.
+static_assert(sizeof(ks_body_id) == sizeof(BodyId) && offsetof(ks_body_id, world) == offsetof(BodyId, world));
+static_assert(sizeof(ks_vec3) == sizeof(Vec3) && offsetof(ks_vec3, z) == offsetof(Vec3, z));
+static_assert(sizeof(ks_state) == sizeof(State) && offsetof(ks_state, velocity) == offsetof(State, velocity));
+
+inline std::span<const BodyId> ids_of(const ks_body_id* ids, std::size_t count) {
+  return {reinterpret_cast<const BodyId*>(ids), count};
+}
+inline std::span<const Vec3> vectors_of(const ks_vec3* vectors, std::size_t count) {
+  return {reinterpret_cast<const Vec3*>(vectors), count};
+}
+inline const ks_body_id* c_ids(std::span<const BodyId> ids) {
+  return reinterpret_cast<const ks_body_id*>(ids.data());
+}
+inline ks_state* c_states(std::span<State> states) { return reinterpret_cast<ks_state*>(states.data()); }
+
+/// Returns `bit` if it is set, else 0: for records with sums of bits.
+inline std::uint32_t bit_of(bool set, std::uint32_t bit) { return set ? bit : 0; }
+
+inline BodyId id_of(ks_body_id id) { return {id.index, id.generation, id.world}; }
+inline ks_body_id c_id(BodyId id) { return {id.index, id.generation, id.world}; }
+inline Vec3 vector_of(const ks_vec3& v) { return {v.x, v.y, v.z}; }
+inline ks_vec3 c_vector(const Vec3& v) { return {v.x, v.y, v.z}; }
+inline State state_of(const ks_state& state) {
+  return {vector_of(state.position), vector_of(state.velocity)};
+}
+inline ks_state c_state(const State& state) { return {c_vector(state.position), c_vector(state.velocity)}; }
+inline Box box_of(const ks_box& box) { return {vector_of(box.lower), vector_of(box.upper)}; }
+inline ks_box c_box(const Box& box) { return {c_vector(box.lower), c_vector(box.upper)}; }
+inline Filter filter_of(const ks_filter& filter) { return {filter.category, filter.mask, filter.group}; }
+inline ks_filter c_filter(const Filter& filter) { return {filter.category, filter.mask, filter.group}; }
+
+// Numbers that stand for enumerators are refused, as out_of_range, if they stand for none.
+
+/// Throws BadResult unless `number` is in [least, most].
+void require_number(std::string_view call, std::string_view argument, std::int64_t number, std::int64_t least,
+                    std::int64_t most);
+SensorClass sensor_class_of(std::string_view call, std::int32_t number);
+Shape shape_of(std::string_view call, const ks_shape& shape);
+BodyDefinition body_of(std::string_view call, const ks_body_definition& body);
+ks_body_definition c_body(const BodyDefinition& body);
+ErrorBound bound_of(std::string_view call, const ks_error_bound& bound);
+ks_error_bound c_bound(const ErrorBound& bound);
+
+ks_event c_event(const Event& event);
+/// Throws BadResult unless the event is one that c_event() can have made.
+Event event_of(std::string_view call, const ks_event& event);
+
+/// Empty if `filter` is null.
+PairFilter pair_filter_of(ks_pair_filter filter, void* user);
+
+}  // namespace kinesphere::c

@@ -1,0 +1,148 @@
+// Motions that the library has of the bodies of a world.
+#include <cmath>
+
+#include "exchange.hpp"
+#include "input/input_check.hpp"
+#include "kinesphere/motion/ballistic.hpp"
+#include "kinesphere/motion/frame_motion.hpp"
+#include "kinesphere/motion/random_forces.hpp"
+#include "objects.hpp"
+
+namespace kinesphere::c {
+namespace {
+
+/// Copies an array of the definition, which has a number for each body; an optional one may be null.
+std::vector<double> numbers_of(const double* numbers, std::size_t count) {
+  if (numbers == nullptr) return {};
+  return {numbers, numbers + count};
+}
+
+std::vector<State> states_of(const ks_motion_definition& definition) {
+  std::vector<State> states;
+  states.reserve(definition.count);
+  for (std::size_t k = 0; k < definition.count; ++k) states.push_back(state_of(definition.states[k]));
+  return states;
+}
+
+FrameMotion frames_of(const ks_motion_definition& definition, double start_time) {
+  FrameMotionDefinition frames{
+      .start = {},
+      .acceleration_limits = numbers_of(definition.acceleration_limits, definition.count),
+      .interval = definition.interval,
+      .position_error = definition.position_error,
+      .start_time = start_time};
+  for (const State& state : states_of(definition)) {
+    frames.start.push_back(state.position);
+    frames.velocities.push_back(state.velocity);
+  }
+  return FrameMotion::create(std::move(frames)).value();
+}
+
+MotionId<> add(std::string_view call, Simulation& simulation, const ks_motion_definition& definition) {
+  const double start_time = simulation.world().time();
+  if (definition.kind == KS_MOTION_FRAMES) return simulation.add_motion(frames_of(definition, start_time));
+  if (definition.kind == KS_MOTION_BALLISTIC) {
+    return simulation.add_motion(Ballistic::create({.start = states_of(definition),
+                                                    .gravity = vector_of(definition.gravity),
+                                                    .start_time = start_time})
+                                     .value());
+  }
+  require_array(call, definition.acceleration_limits, definition.count, "definition.acceleration_limits");
+  return simulation.add_motion(RandomForces::create({.start = states_of(definition),
+                                                     .acceleration_limits = numbers_of(
+                                                         definition.acceleration_limits, definition.count),
+                                                     .interval = definition.interval,
+                                                     .seed = definition.seed,
+                                                     .start_time = start_time})
+                                   .value());
+}
+
+void require_motion(std::string_view call, const ks_motion_definition& definition) {
+  require_number(call, "definition.kind", definition.kind, KS_MOTION_BALLISTIC, KS_MOTION_FRAMES);
+  require_array(call, definition.states, definition.count, "definition.states");
+  InputCheck check(call);
+  for (std::size_t k = 0; definition.masses != nullptr && k < definition.count; ++k)
+    check.not_negative_or_infinite({.argument = "definition.masses", .part = "entry", .part_number = k},
+                                   definition.masses[k]);
+  check.result().value();
+}
+
+struct AddedMotion {
+  MotionId<> motion;
+  std::vector<BodyId> bodies;
+};
+
+AddedMotion add_motion(std::string_view call, WorldObject& object, const ks_motion_definition& definition) {
+  require_motion(call, definition);
+  BodyDefinition like;
+  if (definition.like != nullptr) {
+    require_record(call, definition.like, "definition.like");
+    like = body_of(call, *definition.like);
+  }
+  object.world().reserve(0).value();  // refused inside callbacks, before a motion is added
+  std::vector<double> radii = numbers_of(definition.radii, definition.count);
+  if (definition.radii == nullptr) radii.assign(definition.count, like.radius);
+  const MotionId<> motion = add(call, object.simulation, definition);
+  auto bodies = object.simulation.add_all(motion, radii, like).value();
+  for (std::size_t k = 0; definition.masses != nullptr && k < bodies.size(); ++k)
+    object.world().set_mass(bodies[k], definition.masses[k]).value();
+  return {motion, std::move(bodies)};
+}
+
+}  // namespace
+}  // namespace kinesphere::c
+
+using namespace kinesphere;
+using namespace kinesphere::c;
+
+ks_status ks_motion_definition_init(ks_motion_definition* definition, uint32_t struct_size) {
+  return initialise(__func__, definition, struct_size,
+                    ks_motion_definition{.struct_size = struct_size,
+                                         .kind = KS_MOTION_BALLISTIC,
+                                         .interval = FrameMotionDefinition{}.interval,
+                                         .seed = RandomForcesDefinition{}.seed});
+}
+
+ks_status ks_world_add_motion(ks_world world, const ks_motion_definition* definition, uint32_t* motion,
+                              ks_body_id* ids) {
+  return changing(__func__, world, [&, call = __func__](WorldObject& object) {
+    require_record(call, definition, "definition");
+    require_array(call, ids, definition->count, "ids");
+    const AddedMotion added = add_motion(call, object, *definition);
+    for (const BodyId id : added.bodies) *ids++ = c_id(id);
+    if (motion != nullptr) *motion = added.motion.index;
+  });
+}
+
+ks_status ks_world_push_frame(ks_world world, uint32_t motion, const ks_vec3* positions, size_t count) {
+  return changing(__func__, world, [&, call = __func__](WorldObject& object) {
+    require_array(call, positions, count, "positions");
+    object.simulation.push({motion}, vectors_of(positions, count)).value();
+  });
+}
+
+ks_status ks_world_latest_frame(ks_world world, uint32_t motion, ks_vec3* positions, size_t capacity,
+                                size_t* count) {
+  return reading(__func__, world, [&, call = __func__](const WorldObject& object) {
+    write_all(call, object.simulation.motion(MotionId<FrameMotion>{motion}).latest(), positions, capacity,
+              count, c_vector);
+  });
+}
+
+ks_status ks_world_latest_frame_time(ks_world world, uint32_t motion, double* time) {
+  return reading(__func__, world, [&, call = __func__](const WorldObject& object) {
+    require_pointer(call, time, "time");
+    *time = object.simulation.motion(MotionId<FrameMotion>{motion}).latest_time();
+  });
+}
+
+ks_status ks_world_states(ks_world world, const ks_body_id* bodies, size_t count, double time,
+                          ks_state* states) {
+  return reading(__func__, world, [&, call = __func__](const WorldObject& object) {
+    require_array(call, bodies, count, "bodies");
+    require_array(call, states, count, "states");
+    std::vector<State> found;
+    for (const BodyId id : ids_of(bodies, count)) found.push_back(object.simulation.state(id, time));
+    for (const State& state : found) *states++ = c_state(state);
+  });
+}

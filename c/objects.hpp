@@ -1,0 +1,86 @@
+// The objects behind handles, and how calls reach them.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "boundary.hpp"
+#include "handle_table.hpp"
+#include "kinesphere/monitor/monitor.hpp"
+#include "kinesphere/simulation.hpp"
+#include "kinesphere/workers.hpp"
+#include "number/scope_guard.hpp"
+
+namespace kinesphere::c {
+
+/// A world with the motions that the library has of its bodies.
+struct WorldObject {
+  Simulation simulation;
+  std::optional<Workers> workers{};  ///< of the last run with several threads
+  Usage usage{};
+
+  World& world() { return simulation.world(); }
+  const World& world() const { return simulation.world(); }
+};
+
+struct MonitorObject {
+  Monitor monitor;
+  Usage usage{};
+};
+
+/// The tables live as long as the program: handles are checked even while it ends.
+HandleTable<WorldObject>& table_of(ks_world);
+HandleTable<MonitorObject>& table_of(ks_monitor);
+
+[[noreturn]] void refuse_handle(std::string_view call, HandleState state);
+[[noreturn]] void refuse_use(std::string_view call);
+
+template <class Handle>
+auto find(std::string_view call, Handle handle) {
+  auto found = table_of(handle).find(handle.value);
+  if (found.state != HandleState::valid) refuse_handle(call, found.state);
+  return std::move(found.object);
+}
+
+/// Calls body(object) with the object of a handle, which no other thread uses meanwhile.
+template <class Handle, class Body>
+ks_status changing(std::string_view call, Handle handle, const Body& body) noexcept {
+  return guarded([&] {
+    const auto object = find(call, handle);
+    if (!object->usage.begin_changing()) refuse_use(call);
+    const ScopeGuard end([&] { object->usage.end_changing(); });
+    body(*object);
+  });
+}
+
+/// Calls body(object) with the constant object of a handle, which no other thread changes meanwhile.
+template <class Handle, class Body>
+ks_status reading(std::string_view call, Handle handle, const Body& body) noexcept {
+  return guarded([&] {
+    const auto object = find(call, handle);
+    if (!object->usage.begin_reading()) refuse_use(call);
+    const ScopeGuard end([&] { object->usage.end_reading(); });
+    body(std::as_const(*object));
+  });
+}
+
+/// Writes the handle of a new object, made of `parts`.
+template <class Object, class Handle, class... Parts>
+void create(std::string_view call, Handle* handle, Parts&&... parts) {
+  require_pointer(call, handle, "handle");
+  handle->value = table_of(*handle).insert(std::make_shared<Object>(std::forward<Parts>(parts)...));
+}
+
+template <class Handle>
+ks_status destroy(std::string_view call, Handle handle) noexcept {
+  return guarded([&] {
+    const auto object = find(call, handle);
+    if (!object->usage.begin_destroying()) refuse_use(call);
+    table_of(handle).erase(handle.value);
+  });
+}
+
+}  // namespace kinesphere::c

@@ -1,0 +1,152 @@
+// Worlds: definitions, snapshots, what a world knows.
+#include "kinesphere/world.hpp"
+
+#include "exchange.hpp"
+#include "objects.hpp"
+
+namespace kinesphere::c {
+namespace {
+
+ks_world_definition c_world(const WorldDefinition& definition) {
+  return {.struct_size = sizeof(ks_world_definition),
+          .dimensions = definition.dimensions,
+          .has_box = definition.box.has_value(),
+          .periodic = bit_of(definition.periodic.x, KS_AXIS_X) | bit_of(definition.periodic.y, KS_AXIS_Y) |
+                      bit_of(definition.periodic.z, KS_AXIS_Z),
+          .box = c_box(definition.box.value_or(Box{})),
+          .contact_tolerance = definition.contact_tolerance,
+          .separation_distance = definition.separation_distance,
+          .zeno_interval = definition.zeno_interval,
+          .start_time = definition.start_time,
+          .contacts = static_cast<ks_contacts>(definition.contacts),
+          .allow_overlap = definition.allow_overlap};
+}
+
+WorldDefinition world_of(std::string_view call, const ks_world_definition& given) {
+  require_number(call, "contacts", given.contacts, KS_CONTACTS_IMPACTS, KS_CONTACTS_ALL);
+  require_number(call, "periodic", given.periodic, 0, KS_AXIS_X | KS_AXIS_Y | KS_AXIS_Z);
+  WorldDefinition definition{
+      .periodic = {(given.periodic & KS_AXIS_X) != 0, (given.periodic & KS_AXIS_Y) != 0,
+                   (given.periodic & KS_AXIS_Z) != 0},
+      .dimensions = given.dimensions,
+      .contact_tolerance = given.contact_tolerance,
+      .separation_distance = given.separation_distance,
+      .contacts = static_cast<ContactEvents>(given.contacts),
+      .allow_overlap = given.allow_overlap != 0,
+      .zeno_interval = given.zeno_interval,
+      .start_time = given.start_time};
+  if (given.has_box) definition.box = box_of(given.box);
+  return definition;
+}
+
+ks_body_view c_view(const BodyView& view) {
+  return {.struct_size = sizeof(ks_body_view),
+          .enabled = view.enabled,
+          .is_static = view.is_static,
+          .sleeping = view.sleeping,
+          .definition = c_body(view.definition),
+          .report_time = view.bound.time,
+          .box = c_box(view.box),
+          .box_end = view.box_end,
+          .image = {view.image[0], view.image[1], view.image[2]}};
+}
+
+}  // namespace
+}  // namespace kinesphere::c
+
+using namespace kinesphere;
+using namespace kinesphere::c;
+
+ks_status ks_world_definition_init(ks_world_definition* definition, uint32_t struct_size) {
+  return initialise(__func__, definition, struct_size, c_world({}));
+}
+
+ks_status ks_world_create(const ks_world_definition* definition, ks_world* world) {
+  return guarded([&, call = __func__] {
+    require_record(call, definition, "definition");
+    create<WorldObject>(call, world, Simulation(World::create(world_of(call, *definition)).value()));
+  });
+}
+
+ks_status ks_world_destroy(ks_world world) { return destroy(__func__, world); }
+
+ks_status ks_world_clone(ks_world world, ks_world* copy) {
+  return reading(__func__, world, [&, call = __func__](const WorldObject& object) {
+    create<WorldObject>(call, copy, object.simulation.clone().value());
+  });
+}
+
+ks_status ks_world_save(ks_world world, void* bytes, size_t capacity, size_t* count) {
+  return reading(__func__, world, [&, call = __func__](const WorldObject& object) {
+    write_all(call, object.world().save().value(), static_cast<std::byte*>(bytes), capacity, count,
+              std::identity());
+  });
+}
+
+ks_status ks_world_restore(const void* bytes, size_t count, ks_pair_filter filter, void* user,
+                           ks_world* world) {
+  return guarded([&, call = __func__] {
+    require_array(call, bytes, count, "bytes");
+    const std::span snapshot(static_cast<const std::byte*>(bytes), count);
+    create<WorldObject>(call, world,
+                        Simulation(World::restore(snapshot, pair_filter_of(filter, user)).value()));
+  });
+}
+
+ks_status ks_world_time(ks_world world, double* time) {
+  return reading(__func__, world, [&, call = __func__](const WorldObject& object) {
+    require_pointer(call, time, "time");
+    *time = object.world().time();
+  });
+}
+
+ks_status ks_world_size(ks_world world, size_t* bodies) {
+  return reading(__func__, world, [&, call = __func__](const WorldObject& object) {
+    require_pointer(call, bodies, "bodies");
+    *bodies = object.world().size();
+  });
+}
+
+ks_status ks_world_contains(ks_world world, ks_body_id body, int32_t* contains) {
+  return reading(__func__, world, [&, call = __func__](const WorldObject& object) {
+    require_pointer(call, contains, "contains");
+    *contains = object.world().contains(id_of(body));
+  });
+}
+
+ks_status ks_world_body(ks_world world, ks_body_id body, ks_body_view* view) {
+  return reading(__func__, world, [&, call = __func__](const WorldObject& object) {
+    require_record(call, view, "view");
+    *view = c_view(object.world().body(id_of(body)).value());
+  });
+}
+
+ks_status ks_world_bodies(ks_world world, ks_body_id* bodies, size_t capacity, size_t* count) {
+  return reading(__func__, world, [&, call = __func__](const WorldObject& object) {
+    write_all(call, object.world().bodies(), bodies, capacity, count, c_id);
+  });
+}
+
+ks_status ks_world_touching(ks_world world, ks_body_id body, ks_body_id* partners, size_t capacity,
+                            size_t* count) {
+  return reading(__func__, world, [&, call = __func__](const WorldObject& object) {
+    write_all(call, object.world().touching(id_of(body)).value(), partners, capacity, count, c_id);
+  });
+}
+
+ks_status ks_world_sensor_overlaps(ks_world world, ks_body_id body, ks_sensor_overlap* overlaps,
+                                   size_t capacity, size_t* count) {
+  return reading(__func__, world, [&, call = __func__](const WorldObject& object) {
+    write_all(call, object.world().sensor_overlaps(id_of(body)).value(), overlaps, capacity, count,
+              [](const SensorOverlap& overlap) {
+                return ks_sensor_overlap{c_id(overlap.body), overlap.distance};
+              });
+  });
+}
+
+ks_status ks_world_probe_count(ks_world world, uint64_t* probes) {
+  return reading(__func__, world, [&, call = __func__](const WorldObject& object) {
+    require_pointer(call, probes, "probes");
+    *probes = object.world().counters().probes;
+  });
+}

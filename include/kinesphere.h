@@ -1,0 +1,888 @@
+// Kinesphere in C: worlds of moving spheres, and monitors of tracks. For C and for every language that calls
+// C.
+//
+//   ks_world_definition definition = ks_default_world_definition();
+//   ks_world world;
+//   if (ks_world_create(&definition, &world) != KS_OK) return fail(ks_last_error_message());
+//   ks_body_definition ball = ks_default_body_definition();
+//   ball.acceleration_limit = 10;
+//   ks_body_id id;
+//   ks_world_add(world, &ball, 1, &id);
+//   // ... more bodies
+//
+//   ks_event event = ks_new_event();
+//   while (ks_world_advance(world, 60.0, my_probe, &my_game, &event) == KS_OK && event.kind != KS_EVENT_NONE)
+//     if (event.kind == KS_EVENT_CONTACT_BEGIN) ...  // respond: ks_world_set_velocity(world, event.first,
+//     ...)
+//   ks_world_destroy(world);
+//
+// The C++ headers in kinesphere/ state units, ranges and guarantees in full: world.hpp, body.hpp, event.hpp,
+// answers.hpp, queries.hpp, monitor/monitor.hpp. Calls here have the names, meanings, errors and costs of the
+// calls there. docs/c.md is the guide.
+//
+// Errors. Every call returns a status, KS_OK or a code, and a call that fails has changed nothing, neither
+// its object nor what its pointers point to, except where it says so. The functions ks_last_error_...()
+// describe the last failure in the calling thread. Every call may fail with KS_ERROR_NULL_ARGUMENT,
+// KS_ERROR_OUT_OF_MEMORY and, for an invalid record, KS_ERROR_BAD_STRUCT or KS_ERROR_OUT_OF_RANGE. Every call
+// with a handle may fail with KS_ERROR_INVALID_HANDLE, KS_ERROR_STALE_HANDLE and KS_ERROR_IN_USE. No
+// exception leaves the library.
+//
+// Handles. A ks_world or ks_monitor names an object of the library. The library recognises handles of
+// destroyed objects and numbers that never were handles; it never takes one for another object.
+//
+// Threads. One thread at a time may change an object or advance it; several threads may read it meanwhile no
+// other one changes it. A call that finds the object in use by another thread fails with KS_ERROR_IN_USE.
+// Different objects are independent.
+//
+// Records. A record that begins with struct_size may get more fields in later versions of the library. A
+// function ks_default_...() or ks_new_...() sets struct_size; a size that this library does not know is
+// refused. All other records stay as they are for as long as KS_ABI_VERSION does. Bool fields are int32_t: 0
+// means false.
+//
+// Arrays. A call that fills an array takes its capacity, sets *count to the number of elements that there
+// are, and fails with KS_ERROR_BUFFER_TOO_SMALL if they do not fit; the array is then untouched. An array
+// with capacity 0 may be NULL.
+#ifndef KINESPHERE_H
+#define KINESPHERE_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+/// Number of the binary interface, as in the name of the shared library. Programs continue to run, without
+/// being compiled again, with all libraries that have this number.
+#define KS_ABI_VERSION 0
+
+#ifdef _WIN32
+#ifdef KS_BUILDING
+#define KS_API __declspec(dllexport)
+#else
+#define KS_API __declspec(dllimport)
+#endif
+#else
+#define KS_API __attribute__((visibility("default")))
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// ---------------------------------------------------------------------------------------------------------------
+// Statuses and errors
+
+typedef int32_t ks_status;
+enum {
+  KS_OK = 0,
+  // Errors of this interface.
+  KS_ERROR_INVALID_HANDLE = 1,  ///< the handle never was one of such an object
+  KS_ERROR_STALE_HANDLE = 2,    ///< the object has been destroyed
+  KS_ERROR_IN_USE = 3,          ///< another thread uses the object, or (destroy) a call has not yet returned
+  KS_ERROR_NULL_ARGUMENT = 4,   ///< a pointer is null
+  KS_ERROR_BAD_STRUCT = 5,      ///< struct_size is none that this library knows
+  KS_ERROR_BUFFER_TOO_SMALL = 6,  ///< *count elements do not fit
+  KS_ERROR_CALLBACK_FAILED = 7,   ///< a callback returned a number other than 0; the call may be repeated
+  KS_ERROR_OUT_OF_MEMORY = 8,
+  KS_ERROR_INTERNAL = 9,  ///< a mistake of the library
+  // Errors of the library: kinesphere/result.hpp explains each.
+  KS_ERROR_NOT_FINITE = 20,
+  KS_ERROR_OUT_OF_RANGE = 21,
+  KS_ERROR_TIME_BACKWARDS = 22,
+  KS_ERROR_UNKNOWN_BODY = 23,
+  KS_ERROR_STALE_BODY = 24,
+  KS_ERROR_FOREIGN_BODY = 25,
+  KS_ERROR_DISABLED_BODY = 26,
+  KS_ERROR_ENABLED_BODY = 27,
+  KS_ERROR_STATIC_BODY = 28,
+  KS_ERROR_OUTSIDE_DOMAIN = 29,
+  KS_ERROR_OVERLAPPING = 30,
+  KS_ERROR_PROBE_IN_PROGRESS = 31,
+  KS_ERROR_FILTER_IN_PROGRESS = 32,
+  KS_ERROR_RUN_IN_PROGRESS = 33,
+  KS_ERROR_WORKERS_BUSY = 34,
+  KS_ERROR_NO_THREADS = 35,
+  KS_ERROR_NULL_PROBE = 36,
+  KS_ERROR_NULL_CALLBACK = 37,
+  KS_ERROR_CALLBACK_THREW = 38,
+  KS_ERROR_RANK_FAILED = 39,
+  KS_ERROR_MOVED_FROM = 40,
+  KS_ERROR_UNSUPPORTED = 41,
+  KS_ERROR_BAD_SNAPSHOT = 42,
+  KS_ERROR_BAD_BYTES = 43,
+  KS_ERROR_RECORDING = 44,
+  KS_ERROR_NOT_RECORDING = 45,
+  KS_ERROR_NOT_PROFILING = 46,
+  KS_ERROR_BAD_RECORDING = 47,
+  KS_ERROR_DIVERGED = 48
+};
+
+/// Names a body until it is removed. Two ids are of one body if index and generation are equal. `world` is a
+/// tag of the world that issued the id, by which others refuse it; 0 is accepted by all worlds.
+typedef struct ks_body_id {
+  uint32_t index;
+  uint32_t generation;
+  uint32_t world;
+} ks_body_id;
+
+/// Returns true for the id that names no body, such as the second one of a wall event.
+static inline int32_t ks_is_no_body(ks_body_id body) {
+  return body.index == UINT32_MAX && body.generation == 0;
+}
+static inline int32_t ks_same_body(ks_body_id a, ks_body_id b) {
+  return a.index == b.index && a.generation == b.generation;
+}
+
+/// Return what the last call of this thread that failed has to say: one line for a person, the argument and
+/// the body that it names. Empty texts and no body before the first failure; a success changes nothing. The
+/// texts are valid until the next failure in this thread.
+KS_API const char* ks_last_error_message(void);
+KS_API const char* ks_last_error_argument(void);
+KS_API ks_body_id ks_last_error_body(void);
+/// Returns the number that the callback returned, after KS_ERROR_CALLBACK_FAILED; else 0.
+KS_API int32_t ks_last_error_callback(void);
+/// Returns the name of a status, such as "stale_body"; "" for a number that is none.
+KS_API const char* ks_status_name(ks_status status);
+
+/// Returns the version of the library, such as "0.3.0".
+KS_API const char* ks_version(void);
+/// Returns the KS_ABI_VERSION of the library that has been loaded.
+KS_API uint32_t ks_abi_version(void);
+
+// ---------------------------------------------------------------------------------------------------------------
+// Geometry. Lengths, times and masses are in any consistent units.
+
+typedef struct ks_vec3 {
+  double x, y, z;
+} ks_vec3;
+
+/// Position (length) and velocity (length / time) at one time.
+typedef struct ks_state {
+  ks_vec3 position;
+  ks_vec3 velocity;
+} ks_state;
+
+typedef struct ks_box {
+  ks_vec3 lower;
+  ks_vec3 upper;
+} ks_box;
+
+typedef int32_t ks_shape_kind;
+enum { KS_SHAPE_BALL = 0, KS_SHAPE_HALF_SPACE = 1, KS_SHAPE_BOX = 2, KS_SHAPE_TRIANGLE = 3 };
+
+/// Shape of a static body or zone, best made by one of the functions below.
+typedef struct ks_shape {
+  ks_shape_kind kind;
+  ks_vec3 points[3];  ///< centre; normal; lower and upper corner; three corners
+  double number;      ///< radius of a ball, offset of a half-space
+} ks_shape;
+
+/// Radius >= 0.
+static inline ks_shape ks_ball(ks_vec3 centre, double radius) {
+  ks_shape shape;
+  memset(&shape, 0, sizeof shape);
+  shape.kind = KS_SHAPE_BALL;
+  shape.points[0] = centre;
+  shape.number = radius;
+  return shape;
+}
+/// Bodies may be where dot(normal, p) >= offset. The normal has length 1.
+static inline ks_shape ks_half_space(ks_vec3 normal, double offset) {
+  ks_shape shape = ks_ball(normal, offset);
+  shape.kind = KS_SHAPE_HALF_SPACE;
+  return shape;
+}
+static inline ks_shape ks_solid_box(ks_vec3 lower, ks_vec3 upper) {
+  ks_shape shape = ks_ball(lower, 0.0);
+  shape.kind = KS_SHAPE_BOX;
+  shape.points[1] = upper;
+  return shape;
+}
+static inline ks_shape ks_triangle(ks_vec3 a, ks_vec3 b, ks_vec3 c) {
+  ks_shape shape = ks_solid_box(a, b);
+  shape.kind = KS_SHAPE_TRIANGLE;
+  shape.points[2] = c;
+  return shape;
+}
+
+// ---------------------------------------------------------------------------------------------------------------
+// Worlds (kinesphere/world.hpp)
+
+/// A world. A handle of zero never names one.
+typedef struct ks_world {
+  uint64_t value;
+} ks_world;
+
+/// Which contact events bodies ask for (kinesphere/contact_events.hpp).
+typedef int32_t ks_contacts;
+enum {
+  KS_CONTACTS_OF_WORLD = 0,  ///< of a body: what its world says
+  KS_CONTACTS_IMPACTS = 1,
+  KS_CONTACTS_BEGIN_AND_END = 2,
+  KS_CONTACTS_ALL = 3
+};
+
+enum { KS_AXIS_X = 1, KS_AXIS_Y = 2, KS_AXIS_Z = 4 };
+
+/// Fields and ranges: kinesphere/world_definition.hpp.
+typedef struct ks_world_definition {
+  uint32_t struct_size;
+  int32_t dimensions;  ///< 2 or 3
+  int32_t has_box;     ///< the world has walls, or repeats, at the sides of `box`
+  uint32_t periodic;   ///< sum of KS_AXIS_...: these axes repeat, and have no walls
+  ks_box box;
+  double contact_tolerance;    ///< > 0 (length)
+  double separation_distance;  ///< > contact_tolerance (length); NaN: four tolerances
+  double zeno_interval;        ///< >= 0 (time)
+  double start_time;
+  ks_contacts contacts;
+  int32_t allow_overlap;
+} ks_world_definition;
+KS_API ks_status ks_world_definition_init(ks_world_definition* definition, uint32_t struct_size);
+static inline ks_world_definition ks_default_world_definition(void) {
+  ks_world_definition definition;
+  ks_world_definition_init(&definition, (uint32_t)sizeof definition);
+  return definition;
+}
+
+/// Selects the bodies that a body may touch (kinesphere/filter.hpp).
+typedef struct ks_filter {
+  uint64_t category;
+  uint64_t mask;
+  int32_t group;
+} ks_filter;
+
+/// Fields and ranges: kinesphere/body.hpp.
+typedef struct ks_body_definition {
+  uint32_t struct_size;
+  int32_t solid;  ///< 0: the body only senses and is sensed
+  ks_contacts contacts;
+  int32_t sensor_class;       ///< from 0 to 255; 255 is that of zones
+  double radius;              ///< >= 0 (length)
+  double acceleration_limit;  ///< >= 0 (length / time^2)
+  double position_error;      ///< >= 0 (length)
+  double velocity_error;      ///< >= 0 (length / time)
+  double mass;                ///< >= 0, or infinity
+  ks_vec3 planned_acceleration;
+  ks_vec3 position;
+  ks_vec3 velocity;
+  ks_filter filter;
+  uint64_t user_data;  ///< stored for the caller
+} ks_body_definition;
+KS_API ks_status ks_body_definition_init(ks_body_definition* definition, uint32_t struct_size);
+static inline ks_body_definition ks_default_body_definition(void) {
+  ks_body_definition definition;
+  ks_body_definition_init(&definition, (uint32_t)sizeof definition);
+  return definition;
+}
+
+/// A body that never moves (kinesphere/shape.hpp).
+typedef struct ks_static_definition {
+  uint32_t struct_size;
+  int32_t solid;
+  int32_t sensor_class;
+  ks_shape shape;
+  ks_filter filter;
+  uint64_t user_data;
+} ks_static_definition;
+KS_API ks_status ks_static_definition_init(ks_static_definition* definition, uint32_t struct_size);
+static inline ks_static_definition ks_default_static_definition(void) {
+  ks_static_definition definition;
+  ks_static_definition_init(&definition, (uint32_t)sizeof definition);
+  return definition;
+}
+
+/// Limits within which a body moves; fields as in ks_body_definition.
+typedef struct ks_motion_limits {
+  double acceleration_limit;
+  double position_error;
+  double velocity_error;
+  ks_vec3 planned_acceleration;
+} ks_motion_limits;
+
+/// Decides whether two bodies whose filters let them touch may do so: 0 means no. It must be symmetric, and
+/// its answers must stay the same until ks_world_refresh_filter(). It may make the calls that only read.
+typedef int32_t (*ks_pair_filter)(ks_body_id first, ks_body_id second, void* user);
+
+/// Creates a world without bodies. Destroy it with ks_world_destroy().
+KS_API ks_status ks_world_create(const ks_world_definition* definition, ks_world* world);
+/// Destroys a world; its handle is stale from now on. KS_ERROR_IN_USE inside its own callbacks.
+KS_API ks_status ks_world_destroy(ks_world world);
+/// Creates a copy that continues as the original does, with its motions and ids: for rollback.
+KS_API ks_status ks_world_clone(ks_world world, ks_world* copy);
+/// Writes a snapshot of the world, without its motions and pair filter. Cost: O(n), also where it does not
+/// fit.
+KS_API ks_status ks_world_save(ks_world world, void* bytes, size_t capacity, size_t* count);
+/// Creates the world of a snapshot, which continues as the saved one did. It has no motions: a probe moves
+/// its bodies. `filter` is the pair filter that the world had, or NULL. Errors: KS_ERROR_BAD_SNAPSHOT for any
+/// bytes that ks_world_save() did not write.
+KS_API ks_status ks_world_restore(const void* bytes, size_t count, ks_pair_filter filter, void* user,
+                                  ks_world* world);
+
+/// Adds bodies or, on an error, none, and writes their ids. Errors: those of World::add(), naming the body.
+KS_API ks_status ks_world_add(ks_world world, const ks_body_definition* bodies, size_t count,
+                              ks_body_id* ids);
+KS_API ks_status ks_world_add_static(ks_world world, const ks_static_definition* bodies, size_t count,
+                                     ks_body_id* ids);
+/// Adds a zone, which reports who enters and leaves it, by KS_EVENT_SENSOR_ENTER and KS_EVENT_SENSOR_LEAVE.
+KS_API ks_status ks_world_add_zone(ks_world world, const ks_shape* shape, uint64_t user_data, ks_body_id* id);
+/// Reserves memory for this number of bodies in total.
+KS_API ks_status ks_world_reserve(ks_world world, size_t bodies);
+/// Removes bodies or, on an error, none. A body listed twice is KS_ERROR_STALE_BODY.
+KS_API ks_status ks_world_remove(ks_world world, const ks_body_id* bodies, size_t count);
+
+/// Informs the world, and the motion of the body if it has one, of a new velocity from the current time on.
+KS_API ks_status ks_world_set_velocity(ks_world world, ks_body_id body, ks_vec3 velocity);
+/// The same for many bodies or, on an error of the world, for none.
+KS_API ks_status ks_world_set_velocities(ks_world world, const ks_body_id* bodies, const ks_vec3* velocities,
+                                         size_t count);
+/// Puts a body elsewhere, in its motion, too.
+KS_API ks_status ks_world_teleport(ks_world world, ks_body_id body, const ks_state* state);
+KS_API ks_status ks_world_set_radius(ks_world world, ks_body_id body, double radius);
+KS_API ks_status ks_world_set_mass(ks_world world, ks_body_id body, double mass);
+KS_API ks_status ks_world_set_motion_limits(ks_world world, ks_body_id body, const ks_motion_limits* limits);
+KS_API ks_status ks_world_set_shape(ks_world world, ks_body_id body, const ks_shape* shape);
+KS_API ks_status ks_world_disable(ks_world world, ks_body_id body);
+KS_API ks_status ks_world_enable(ks_world world, ks_body_id body, const ks_state* state);
+KS_API ks_status ks_world_sleep(ks_world world, ks_body_id body);
+KS_API ks_status ks_world_wake(ks_world world, ks_body_id body);
+KS_API ks_status ks_world_set_user_data(ks_world world, ks_body_id body, uint64_t data);
+
+// Filters, zones and sensors.
+KS_API ks_status ks_world_set_filter(ks_world world, ks_body_id body, const ks_filter* filter);
+/// A NULL filter lets all pairs touch. `user` must outlive the world and its clones.
+KS_API ks_status ks_world_set_pair_filter(ks_world world, ks_pair_filter filter, void* user);
+KS_API ks_status ks_world_refresh_filter(ks_world world, ks_body_id body);
+KS_API ks_status ks_world_set_solid(ks_world world, ks_body_id body, int32_t solid);
+/// Sets the distances (length, >= 0) at which bodies of a class sense bodies with a category in the mask.
+KS_API ks_status ks_world_set_sensor(ks_world world, int32_t sensor_class, const double* distances,
+                                     size_t count, uint64_t mask);
+KS_API ks_status ks_world_set_sensor_class(ks_world world, ks_body_id body, int32_t sensor_class);
+
+// What a world knows.
+
+/// What the world knows of a body, as BodyView in kinesphere/world.hpp.
+typedef struct ks_body_view {
+  uint32_t struct_size;
+  int32_t enabled;
+  int32_t is_static;
+  int32_t sleeping;
+  ks_body_definition definition;  ///< its state is that of the last report
+  double report_time;
+  ks_box box;  ///< contains the body from now until box_end
+  double box_end;
+  int64_t image[3];  ///< boxes that it has travelled along periodic axes
+} ks_body_view;
+static inline ks_body_view ks_new_body_view(void) {
+  ks_body_view view;
+  memset(&view, 0, sizeof view);
+  view.struct_size = (uint32_t)sizeof view;
+  return view;
+}
+
+/// A body within a sensor distance (length) of another one.
+typedef struct ks_sensor_overlap {
+  ks_body_id body;
+  double distance;
+} ks_sensor_overlap;
+
+KS_API ks_status ks_world_time(ks_world world, double* time);
+KS_API ks_status ks_world_size(ks_world world, size_t* bodies);
+/// *contains is 1 if the world issued the id and the body has not been removed, else 0.
+KS_API ks_status ks_world_contains(ks_world world, ks_body_id body, int32_t* contains);
+KS_API ks_status ks_world_body(ks_world world, ks_body_id body, ks_body_view* view);
+KS_API ks_status ks_world_bodies(ks_world world, ks_body_id* bodies, size_t capacity, size_t* count);
+/// The bodies in contact with a body.
+KS_API ks_status ks_world_touching(ks_world world, ks_body_id body, ks_body_id* partners, size_t capacity,
+                                   size_t* count);
+KS_API ks_status ks_world_sensor_overlaps(ks_world world, ks_body_id body, ks_sensor_overlap* overlaps,
+                                          size_t capacity, size_t* count);
+/// The number of states that the world has asked for so far.
+KS_API ks_status ks_world_probe_count(ks_world world, uint64_t* probes);
+
+// ---------------------------------------------------------------------------------------------------------------
+// Events (kinesphere/event.hpp)
+
+typedef int32_t ks_event_kind;
+enum {
+  KS_EVENT_NONE = 0,  ///< nothing more happens until the time that was asked for
+  KS_EVENT_BOUND_VIOLATION = 1,
+  KS_EVENT_CONTACT_BEGIN = 2,
+  KS_EVENT_CONTACT_END = 3,
+  KS_EVENT_WALL_BEGIN = 4,
+  KS_EVENT_WALL_END = 5,
+  KS_EVENT_ZENO_GUARD = 6,
+  KS_EVENT_SENSOR_ENTER = 7,
+  KS_EVENT_SENSOR_LEAVE = 8,
+  KS_EVENT_WOKE = 9
+};
+
+typedef int32_t ks_wall;
+enum {
+  KS_WALL_NONE = 0,
+  KS_WALL_X_LOWER = 1,
+  KS_WALL_X_UPPER = 2,
+  KS_WALL_Y_LOWER = 3,
+  KS_WALL_Y_UPPER = 4,
+  KS_WALL_Z_LOWER = 5,
+  KS_WALL_Z_UPPER = 6
+};
+
+enum { KS_TRAIT_STATIC = 1, KS_TRAIT_ZONE = 2, KS_TRAIT_SLEEPING = 4 };
+enum { KS_SENSES_FIRST = 1, KS_SENSES_SECOND = 2 };
+
+/// Fields: struct Event in kinesphere/event.hpp.
+typedef struct ks_event {
+  uint32_t struct_size;
+  ks_event_kind kind;
+  double time;
+  ks_body_id first;
+  ks_body_id second;
+  ks_wall wall;
+  int32_t repeated;
+  int32_t jammed;
+  int32_t already_touching;
+  uint32_t senses;        ///< sum of KS_SENSES_...: which body senses the other one
+  uint32_t first_traits;  ///< sum of KS_TRAIT_...
+  uint32_t second_traits;
+  uint32_t reserved;  ///< 0
+  ks_state first_state;
+  ks_state second_state;
+  ks_vec3 point;
+  ks_vec3 normal;  ///< from first to second, or to the wall
+  double gap;
+  double approach_speed;
+  double position_excess;
+  double velocity_excess;
+  double distance;  ///< of a sensor
+  uint64_t first_user_data;
+  uint64_t second_user_data;
+  double first_mass;
+  double second_mass;
+} ks_event;
+static inline ks_event ks_new_event(void) {
+  ks_event event;
+  memset(&event, 0, sizeof event);
+  event.struct_size = (uint32_t)sizeof event;
+  return event;
+}
+
+/// Returns a name such as "contact_begin"; "none" for KS_EVENT_NONE and "" for numbers that are no kind.
+KS_API const char* ks_event_kind_name(ks_event_kind kind);
+
+/// Velocities after an event, from a response function or ks_bounce(). A body that is not turned continues as
+/// before.
+typedef struct ks_response {
+  int32_t turns_first;
+  int32_t turns_second;
+  ks_vec3 first_velocity;
+  ks_vec3 second_velocity;
+} ks_response;
+
+/// The velocities after a frictionless bounce with the masses of the bodies (kinesphere/response.hpp).
+/// Restitution is in [0, 1]. With a resting_speed > 0 (length / time) bodies can settle in a heap; 0 is a
+/// plain bounce. Walls, static and sleeping bodies are not turned, and events other than begins of contacts
+/// turn nobody.
+KS_API ks_status ks_bounce(const ks_event* event, double restitution, double resting_speed,
+                           ks_response* response);
+
+/// Hash of a set of events (kinesphere/event_hash.hpp); all zeros at first. Equal values mean bit-identical
+/// runs.
+typedef struct ks_event_hash {
+  uint64_t sum;
+  uint64_t count;
+} ks_event_hash;
+KS_API ks_status ks_event_hash_add(ks_event_hash* hash, const ks_event* event);
+/// *value is 0 for a hash without events.
+KS_API ks_status ks_event_hash_value(const ks_event_hash* hash, uint64_t* value);
+
+// ---------------------------------------------------------------------------------------------------------------
+// Time
+
+/// Gives the states of bodies at a time: states[k] is that of bodies[k]. A number other than 0 stops the call
+/// that probes, which fails with KS_ERROR_CALLBACK_FAILED and may be repeated. It must not change the world
+/// that calls it.
+typedef int32_t (*ks_probe)(const ks_body_id* bodies, size_t count, double time, ks_state* states,
+                            void* user);
+
+/// The probe of worlds whose bodies are all moved by motions of the world (ks_world_add_motion). `user` is
+/// ignored.
+KS_API int32_t ks_probe_motions(const ks_body_id* bodies, size_t count, double time, ks_state* states,
+                                void* user);
+
+/// Advances to the next event, at most to time `until`. Writes the event, with the world at its time; or one
+/// with kind KS_EVENT_NONE, with the world at `until`. The probe gives the states of the bodies that no
+/// motion moves. Errors: as World::advance(); KS_ERROR_CALLBACK_FAILED; KS_ERROR_UNKNOWN_BODY if the probe is
+/// ks_probe_motions and a body has no motion. After a failure of the probe the world is at the time of the
+/// probe, and the call may be repeated: no event is lost.
+KS_API ks_status ks_world_advance(ks_world world, double until, ks_probe probe, void* user, ks_event* event);
+
+/// Chooses velocities after an event; `response` turns nobody at first. It must give the same answer for the
+/// same event at any time, and must not call the world. With several threads it is called by several at a
+/// time. A number other than 0 stops the run.
+typedef int32_t (*ks_respond)(const ks_event* event, ks_response* response, void* user);
+/// Receives each event once, in order, in the thread that called ks_world_run(). A number other than 0 stops
+/// the run.
+typedef int32_t (*ks_sink)(const ks_event* event, void* user);
+
+typedef struct ks_run_definition {
+  uint32_t struct_size;
+  int32_t threads;       ///< from 1 to 256, with the calling one; the outcome is the same
+  double restitution;    ///< in [0, 1]: bodies bounce as by ks_bounce(); NaN: they pass through each other
+  double resting_speed;  ///< as for ks_bounce()
+  ks_respond respond;    ///< if not NULL, it answers events instead
+  void* respond_user;
+  ks_sink sink;  ///< may be NULL
+  void* sink_user;
+} ks_run_definition;
+KS_API ks_status ks_run_definition_init(ks_run_definition* definition, uint32_t struct_size);
+static inline ks_run_definition ks_default_run_definition(void) {
+  ks_run_definition definition;
+  ks_run_definition_init(&definition, (uint32_t)sizeof definition);
+  return definition;
+}
+
+/// Advances to time `until`, and answers all events. Motions of the world must move all its bodies. After an
+/// error the world is at a stop and can continue; no event is lost. Errors: as World::run();
+/// KS_ERROR_CALLBACK_FAILED.
+KS_API ks_status ks_world_run(ks_world world, double until, const ks_run_definition* definition);
+
+// Ready-made motions, owned by the world (kinesphere/motion/).
+
+typedef int32_t ks_motion_kind;
+enum {
+  KS_MOTION_BALLISTIC = 0,  ///< free flight under `gravity`
+  KS_MOTION_RANDOM_FORCES =
+      1,  ///< random accelerations up to acceleration_limits, new at multiples of `interval`
+  /// A game's frames: each body goes straight from its position in one frame to that in the next
+  /// (frame_motion.hpp).
+  KS_MOTION_FRAMES = 2
+};
+
+typedef struct ks_motion_definition {
+  uint32_t struct_size;
+  ks_motion_kind kind;
+  size_t count;            ///< number of bodies
+  const ks_state* states;  ///< `count` states at the world's current time
+  const double* radii;     ///< `count` radii, or NULL: the radius of `like`
+  const double* masses;    ///< `count` masses, or NULL: the mass of `like`
+  /// KS_MOTION_RANDOM_FORCES: `count` limits. KS_MOTION_FRAMES: the same, or NULL for bodies without a limit.
+  const double* acceleration_limits;
+  ks_vec3 gravity;        ///< KS_MOTION_BALLISTIC
+  double interval;        ///< > 0 (time): of forces or frames
+  double position_error;  ///< KS_MOTION_FRAMES: of the positions in frames
+  uint64_t seed;          ///< KS_MOTION_RANDOM_FORCES
+  /// All that bodies have beside states and motion limits; NULL: ks_default_body_definition().
+  const ks_body_definition* like;
+} ks_motion_definition;
+KS_API ks_status ks_motion_definition_init(ks_motion_definition* definition, uint32_t struct_size);
+static inline ks_motion_definition ks_default_motion_definition(void) {
+  ks_motion_definition definition;
+  ks_motion_definition_init(&definition, (uint32_t)sizeof definition);
+  return definition;
+}
+
+/// Adds bodies that the library moves, and writes the number of their motion in the world and their ids.
+/// `motion` may be NULL. Errors: those of the motion and of World::add(), naming the body.
+KS_API ks_status ks_world_add_motion(ks_world world, const ks_motion_definition* definition, uint32_t* motion,
+                                     ks_body_id* ids);
+/// Appends the next frame of a motion of kind KS_MOTION_FRAMES: the position of each of its bodies, NaN for a
+/// removed one. The world must be at the time of the latest frame. Errors: as FrameMotion::push().
+KS_API ks_status ks_world_push_frame(ks_world world, uint32_t motion, const ks_vec3* positions, size_t count);
+/// Writes the positions in the latest frame, with the changes that events made; NaN for removed bodies.
+KS_API ks_status ks_world_latest_frame(ks_world world, uint32_t motion, ks_vec3* positions, size_t capacity,
+                                       size_t* count);
+/// Writes the time of the latest frame: advance the world to it after each push.
+KS_API ks_status ks_world_latest_frame_time(ks_world world, uint32_t motion, double* time);
+/// Writes the true states at a time, not before their last changes, of bodies that motions of the world move.
+KS_API ks_status ks_world_states(ks_world world, const ks_body_id* bodies, size_t count, double time,
+                                 ks_state* states);
+
+// ---------------------------------------------------------------------------------------------------------------
+// Certified answers at the current time (kinesphere/answers.hpp, kinesphere/queries.hpp). A probe makes them
+// as good as fresh reports allow; with NULL they follow from what the world knows.
+
+/// When a contact or an approach may happen first. It certainly does not happen before `time`.
+typedef struct ks_prediction {
+  double time;         ///< in [current time, infinity]
+  ks_body_id partner;  ///< no body for a wall, or if the time is infinite
+  ks_wall wall;
+  int32_t happens;  ///< the contact exists, or the partner certainly is within the distance
+  int32_t probed;
+} ks_prediction;
+
+/// The earliest contact of the whole world; it names no partner.
+KS_API ks_status ks_world_safe_until(ks_world world, ks_probe probe, void* user, ks_prediction* prediction);
+KS_API ks_status ks_world_earliest_contact(ks_world world, ks_body_id body, ks_probe probe, void* user,
+                                           ks_prediction* prediction);
+/// The first time at which anything may be within `distance` (length, >= 0) of a body.
+KS_API ks_status ks_world_earliest_approach(ks_world world, ks_body_id body, double distance, ks_probe probe,
+                                            void* user, ks_prediction* prediction);
+/// The first time at which two bodies may be within `distance` (length, >= 0) of each other.
+KS_API ks_status ks_world_pair_safe_until(ks_world world, ks_body_id first, ks_body_id second,
+                                          double distance, ks_probe probe, void* user,
+                                          ks_prediction* prediction);
+/// Limits of the distance between two bodies at a time from now on.
+KS_API ks_status ks_world_distance_limits(ks_world world, ks_body_id first, ks_body_id second, double time,
+                                          ks_probe probe, void* user, double* lower, double* upper);
+
+/// A body that a query found. For the nearest bodies and for casts its distance is between `lower` and
+/// `upper` (length); for overlaps both are 0.
+typedef struct ks_hit {
+  ks_body_id body;
+  int32_t certain;  ///< 0: possibly
+  double lower;
+  double upper;
+} ks_hit;
+
+KS_API ks_status ks_world_overlapping_sphere(ks_world world, ks_vec3 centre, double radius, ks_probe probe,
+                                             void* user, ks_hit* hits, size_t capacity, size_t* count);
+KS_API ks_status ks_world_overlapping_box(ks_world world, const ks_box* box, ks_probe probe, void* user,
+                                          ks_hit* hits, size_t capacity, size_t* count);
+/// All that may be among the `bodies` nearest to a point.
+KS_API ks_status ks_world_nearest(ks_world world, ks_vec3 point, size_t bodies, ks_probe probe, void* user,
+                                  ks_hit* hits, size_t capacity, size_t* count);
+/// All that a ray of this length, or with a radius > 0 a moving sphere, may hit first.
+KS_API ks_status ks_world_cast(ks_world world, ks_vec3 origin, ks_vec3 direction, double length,
+                               double radius, ks_probe probe, void* user, ks_hit* hits, size_t capacity,
+                               size_t* count);
+
+// ---------------------------------------------------------------------------------------------------------------
+// Monitors: what is certain about tracks that report when they like (kinesphere/monitor/monitor.hpp)
+
+/// A monitor. A handle of zero never names one.
+typedef struct ks_monitor {
+  uint64_t value;
+} ks_monitor;
+
+typedef int32_t ks_bound_kind;
+enum { KS_BOUND_BALL = 0, KS_BOUND_CYLINDER = 1 };
+
+/// Upper limit of an error: a ball of radius `horizontal`, or a limit in the plane and one along z.
+typedef struct ks_error_bound {
+  ks_bound_kind kind;
+  double horizontal;
+  double vertical;
+} ks_error_bound;
+static inline ks_error_bound ks_error_ball(double radius) {
+  ks_error_bound bound;
+  bound.kind = KS_BOUND_BALL;
+  bound.horizontal = radius;
+  bound.vertical = radius;
+  return bound;
+}
+static inline ks_error_bound ks_error_cylinder(double horizontal, double vertical) {
+  ks_error_bound bound;
+  bound.kind = KS_BOUND_CYLINDER;
+  bound.horizontal = horizontal;
+  bound.vertical = vertical;
+  return bound;
+}
+
+/// Limits of all tracks of a class; at least one of acceleration_limit and largest_speed is finite.
+typedef struct ks_track_class {
+  ks_error_bound acceleration_limit;
+  ks_error_bound largest_speed;
+  ks_vec3 planned_acceleration;
+} ks_track_class;
+
+typedef int32_t ks_separation_shape;
+enum { KS_SEPARATION_ELLIPSOID = 0, KS_SEPARATION_CYLINDER = 1, KS_SEPARATION_WELL_CLEAR = 2 };
+
+/// Fields: kinesphere/monitor/separation.hpp.
+typedef struct ks_separation {
+  ks_separation_shape shape;
+  double horizontal;    ///< > 0 (length)
+  double vertical;      ///< > 0 (length)
+  double look_ahead;    ///< >= 0 (time); 0: nothing is predicted
+  double modified_tau;  ///< time, for KS_SEPARATION_WELL_CLEAR
+} ks_separation;
+
+/// The separation levels between two classes, the widest first.
+typedef struct ks_separation_rule {
+  size_t first_class;
+  size_t second_class;
+  const ks_separation* levels;
+  size_t level_count;
+} ks_separation_rule;
+
+/// Fields: MonitorDefinition in kinesphere/monitor/monitor.hpp.
+typedef struct ks_monitor_definition {
+  uint32_t struct_size;
+  int32_t dimensions;
+  int32_t has_start_time;
+  double start_time;
+  const ks_track_class* classes;
+  size_t class_count;
+  const ks_separation_rule* separations;
+  size_t separation_count;
+  double tolerance;
+  double time_resolution;
+  double window;
+  double stale_after;
+  double drop_after;
+  double prediction_hold;
+  double prediction_confirmation;
+  double prediction_margin;
+  double prediction_error_part;
+} ks_monitor_definition;
+KS_API ks_status ks_monitor_definition_init(ks_monitor_definition* definition, uint32_t struct_size);
+static inline ks_monitor_definition ks_default_monitor_definition(void) {
+  ks_monitor_definition definition;
+  ks_monitor_definition_init(&definition, (uint32_t)sizeof definition);
+  return definition;
+}
+
+/// A reported state of a track (kinesphere/monitor/report.hpp).
+typedef struct ks_track_report {
+  uint32_t struct_size;
+  int32_t has_plan;
+  uint64_t track_class;
+  double timestamp;
+  double timestamp_error;
+  ks_state state;
+  ks_error_bound position_error;
+  ks_error_bound velocity_error;  ///< infinite if no velocity was reported
+  ks_vec3 plan_acceleration;      ///< the plan, if has_plan
+  ks_error_bound plan_limit;
+  double plan_valid_until;
+} ks_track_report;
+KS_API ks_status ks_track_report_init(ks_track_report* report, uint32_t struct_size);
+static inline ks_track_report ks_default_track_report(void) {
+  ks_track_report report;
+  ks_track_report_init(&report, (uint32_t)sizeof report);
+  return report;
+}
+
+typedef int32_t ks_verdict;
+enum { KS_VERDICT_APART = 0, KS_VERDICT_UNDECIDED = 1, KS_VERDICT_WITHIN = 2 };
+
+typedef int32_t ks_monitor_event_kind;
+enum {
+  KS_MONITOR_NONE = 0,  ///< nothing more happens until the time that was asked for
+  KS_MONITOR_VERDICT = 1,
+  KS_MONITOR_PREDICTED = 2,
+  KS_MONITOR_PREDICTION_ENDED = 3,
+  KS_MONITOR_CONTRADICTION = 4,
+  KS_MONITOR_RESOLVED = 5,
+  KS_MONITOR_STALE = 6,
+  KS_MONITOR_RESUMED = 7,
+  KS_MONITOR_DROPPED = 8,
+  KS_MONITOR_RECLASSIFIED = 9
+};
+
+/// Fields: kinesphere/monitor/monitor_event.hpp.
+typedef struct ks_monitor_event {
+  uint32_t struct_size;
+  ks_monitor_event_kind kind;
+  double time;
+  uint64_t first;
+  uint64_t second;
+  uint32_t level;
+  ks_verdict verdict;
+  ks_verdict before;
+  uint32_t reserved;  ///< 0
+  double since;
+  double likely_time;
+  double closest_time;
+  double closest_distance;
+  double position_excess;
+  double velocity_excess;
+} ks_monitor_event;
+static inline ks_monitor_event ks_new_monitor_event(void) {
+  ks_monitor_event event;
+  memset(&event, 0, sizeof event);
+  event.struct_size = (uint32_t)sizeof event;
+  return event;
+}
+/// Return names such as "verdict", and "apart"; "" for numbers that are none.
+KS_API const char* ks_monitor_event_kind_name(ks_monitor_event_kind kind);
+KS_API const char* ks_verdict_name(ks_verdict verdict);
+
+/// The verdict about two tracks, with a forecast (PairAnswer in kinesphere/monitor/monitor.hpp).
+typedef struct ks_pair_answer {
+  uint32_t struct_size;
+  ks_verdict verdict;
+  int32_t predicted;
+  double since;
+  double until;
+  double lower;
+  double upper;
+  double closest_distance;
+  double closest_time;
+  double closest_horizontal;
+  double closest_vertical;
+  double relative_speed;
+  double likely_time;
+  double inevitable_by;
+  double avoidable_until;
+  uint64_t ask;
+  double ask_by;
+} ks_pair_answer;
+static inline ks_pair_answer ks_new_pair_answer(void) {
+  ks_pair_answer answer;
+  memset(&answer, 0, sizeof answer);
+  answer.struct_size = (uint32_t)sizeof answer;
+  return answer;
+}
+
+/// A pair that is not certainly apart at a level.
+typedef struct ks_open_pair {
+  uint64_t first;
+  uint64_t second;
+  uint32_t level;
+  ks_verdict verdict;
+  double since;
+} ks_open_pair;
+
+/// A report of `track` is needed by the time `by` for its verdict with `other` to stay certain.
+typedef struct ks_report_request {
+  uint64_t track;
+  uint64_t other;
+  double by;
+} ks_report_request;
+
+/// Where a track is now: within `radius` of `centre`.
+typedef struct ks_track_place {
+  ks_vec3 centre;
+  ks_vec3 velocity;
+  ks_error_bound radius;
+} ks_track_place;
+
+/// Fetches the latest reports of tracks, no later than `time`: for those that have a newer report it sets
+/// reports[k] and has_report[k] = 1. Reports are defaults at first. A number other than 0 stops the call that
+/// asks.
+typedef int32_t (*ks_poll)(const uint64_t* tracks, size_t count, double time, ks_track_report* reports,
+                           uint8_t* has_report, void* user);
+
+KS_API ks_status ks_monitor_create(const ks_monitor_definition* definition, ks_monitor* monitor);
+KS_API ks_status ks_monitor_destroy(ks_monitor monitor);
+KS_API ks_status ks_monitor_save(ks_monitor monitor, void* bytes, size_t capacity, size_t* count);
+KS_API ks_status ks_monitor_restore(const void* bytes, size_t count, ks_monitor* monitor);
+
+/// Takes reports, each of the track of the same index, in this order; or, on an error, none.
+KS_API ks_status ks_monitor_report(ks_monitor monitor, const uint64_t* tracks, const ks_track_report* reports,
+                                   size_t count);
+KS_API ks_status ks_monitor_remove(ks_monitor monitor, uint64_t track);
+/// Advances to the next event, at most to time `until`, and writes it; or one of kind KS_MONITOR_NONE. `poll`
+/// may be NULL: then no reports are asked for. Errors: as Monitor::advance(); KS_ERROR_CALLBACK_FAILED.
+KS_API ks_status ks_monitor_advance(ks_monitor monitor, double until, ks_poll poll, void* user,
+                                    ks_monitor_event* event);
+
+KS_API ks_status ks_monitor_time(ks_monitor monitor, double* time);
+/// The ids of all tracks, in ascending order.
+KS_API ks_status ks_monitor_tracks(ks_monitor monitor, uint64_t* tracks, size_t capacity, size_t* count);
+/// The places of a track; several only while its reports contradict each other.
+KS_API ks_status ks_monitor_places(ks_monitor monitor, uint64_t track, ks_track_place* places,
+                                   size_t capacity, size_t* count);
+KS_API ks_status ks_monitor_answer(ks_monitor monitor, uint64_t first, uint64_t second, uint32_t level,
+                                   ks_pair_answer* answer);
+KS_API ks_status ks_monitor_open_pairs(ks_monitor monitor, ks_open_pair* pairs, size_t capacity,
+                                       size_t* count);
+/// The reports that are needed by `until` for no verdict to turn undecided, in the order of their times.
+KS_API ks_status ks_monitor_needed(ks_monitor monitor, double until, ks_report_request* requests,
+                                   size_t capacity, size_t* count);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

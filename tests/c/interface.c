@@ -1,0 +1,522 @@
+// Each part of the C interface does what the library does.
+#include "check.h"
+
+#include <math.h>
+#include <string.h>
+
+// Balls that fly straight on, moved by this program.
+enum { most_balls = 8 };
+typedef struct flight {
+  ks_state start[most_balls];
+  double since[most_balls];
+  int calls;
+} flight;
+
+static int32_t probe_flight(const ks_body_id* bodies, size_t count, double time, ks_state* states,
+                            void* user) {
+  flight* const f = (flight*)user;
+  ++f->calls;
+  for (size_t k = 0; k < count; ++k) {
+    const ks_state from = f->start[bodies[k].index];
+    const double s = time - f->since[bodies[k].index];
+    states[k] = from;
+    states[k].position.x += from.velocity.x * s;
+    states[k].position.y += from.velocity.y * s;
+    states[k].position.z += from.velocity.z * s;
+  }
+  return 0;
+}
+
+static ks_world new_world(void) {
+  ks_world_definition definition = ks_default_world_definition();
+  ks_world world;
+  CHECK_OK(ks_world_create(&definition, &world));
+  return world;
+}
+
+static ks_body_id add_ball(ks_world world, flight* f, ks_vec3 position, ks_vec3 velocity) {
+  ks_body_definition ball = ks_default_body_definition();
+  ball.position = position;
+  ball.velocity = velocity;
+  ks_body_id id;
+  CHECK_OK(ks_world_add(world, &ball, 1, &id));
+  f->start[id.index].position = position;
+  f->start[id.index].velocity = velocity;
+  return id;
+}
+
+static ks_event next_event(ks_world world, double until, flight* f) {
+  ks_event event = ks_new_event();
+  CHECK_OK(ks_world_advance(world, until, probe_flight, f, &event));
+  return event;
+}
+
+static void contacts_and_velocities(void) {
+  flight f;
+  memset(&f, 0, sizeof f);
+  const ks_world world = new_world();
+  const ks_body_id left = add_ball(world, &f, vec3(0, 0, 0), vec3(1, 0, 0));
+  const ks_body_id right = add_ball(world, &f, vec3(10, 0, 0), vec3(-1, 0, 0));
+  CHECK_OK(ks_world_set_user_data(world, right, 77));
+  ks_event event = next_event(world, 20, &f);
+  CHECK(event.kind == KS_EVENT_CONTACT_BEGIN && fabs(event.time - 4) < 1e-5 && f.calls > 0);
+  CHECK(ks_same_body(event.first, left) && ks_same_body(event.second, right) && event.second_user_data == 77);
+  CHECK(fabs(event.normal.x - 1) < 1e-9 && fabs(event.approach_speed - 2) < 1e-9 && event.second_mass == 1.0);
+  ks_body_id partner;
+  size_t count;
+  CHECK_OK(ks_world_touching(world, left, &partner, 1, &count));
+  CHECK(count == 1 && ks_same_body(partner, right));
+
+  ks_response after;
+  CHECK_OK(ks_bounce(&event, 1.0, 0.0, &after));
+  CHECK(after.turns_first && after.turns_second && fabs(after.first_velocity.x + 1) < 1e-9);
+  const ks_body_id both[2] = {left, right};
+  const ks_vec3 velocities[2] = {after.first_velocity, after.second_velocity};
+  f.start[0] = event.first_state;
+  f.start[1] = event.second_state;
+  f.start[0].velocity = velocities[0];
+  f.start[1].velocity = velocities[1];
+  f.since[0] = f.since[1] = event.time;
+  CHECK_OK(ks_world_set_velocities(world, both, velocities, 2));
+  event = next_event(world, 20, &f);
+  CHECK(event.kind == KS_EVENT_CONTACT_END);
+  event = next_event(world, 20, &f);
+  CHECK(event.kind == KS_EVENT_NONE && event.time == 20 && ks_is_no_body(event.second) == 0);
+  uint64_t probes;
+  CHECK_OK(ks_world_probe_count(world, &probes));
+  CHECK(probes > 0);
+  CHECK_OK(ks_world_destroy(world));
+}
+
+static void zones_sensors_and_filters(void) {
+  flight f;
+  memset(&f, 0, sizeof f);
+  const ks_world world = new_world();
+  const ks_body_id ball = add_ball(world, &f, vec3(0, 0, 0), vec3(1, 0, 0));
+  const ks_shape box = ks_solid_box(vec3(5, -1, -1), vec3(7, 1, 1));
+  ks_body_id zone;
+  CHECK_OK(ks_world_add_zone(world, &box, 5, &zone));
+  ks_event event = next_event(world, 20, &f);
+  CHECK(event.kind == KS_EVENT_SENSOR_ENTER && fabs(event.time - 4) < 1e-5 && event.second_user_data == 5);
+  CHECK((event.second_traits & KS_TRAIT_ZONE) && event.senses == KS_SENSES_SECOND);
+  ks_sensor_overlap overlap;
+  size_t count;
+  CHECK_OK(ks_world_sensor_overlaps(world, zone, &overlap, 1, &count));
+  CHECK(count == 1 && ks_same_body(overlap.body, ball) && overlap.distance == 0);
+  event = next_event(world, 20, &f);
+  CHECK(event.kind == KS_EVENT_SENSOR_LEAVE && fabs(event.time - 8) < 1e-4);
+
+  ks_static_definition wall = ks_default_static_definition();
+  wall.shape = ks_half_space(vec3(-1, 0, 0), -30);
+  wall.filter.category = 2;
+  ks_body_id wall_id;
+  CHECK_OK(ks_world_add_static(world, &wall, 1, &wall_id));
+  ks_filter filter = {1, ~(uint64_t)2, 0};
+  CHECK_OK(ks_world_set_filter(world, ball, &filter));
+  CHECK(next_event(world, 40, &f).kind == KS_EVENT_NONE);
+  CHECK_OK(ks_world_destroy(world));
+}
+
+static int32_t only_even(ks_body_id first, ks_body_id second, void* user) {
+  ++*(int*)user;
+  return (first.index + second.index) % 2 == 0;
+}
+
+static void pair_filters(void) {
+  flight f;
+  memset(&f, 0, sizeof f);
+  int calls = 0;
+  const ks_world world = new_world();
+  CHECK_OK(ks_world_set_pair_filter(world, only_even, &calls));
+  add_ball(world, &f, vec3(0, 0, 0), vec3(1, 0, 0));
+  add_ball(world, &f, vec3(10, 0, 0), vec3(0, 0, 0));
+  const ks_body_id far_ball = add_ball(world, &f, vec3(20, 0, 0), vec3(0, 0, 0));
+  const ks_event event = next_event(world, 30, &f);
+  CHECK(event.kind == KS_EVENT_CONTACT_BEGIN && ks_same_body(event.second, far_ball) && calls > 0);
+  CHECK_OK(ks_world_destroy(world));
+}
+
+static void answers(void) {
+  flight f;
+  memset(&f, 0, sizeof f);
+  const ks_world world = new_world();
+  const ks_body_id left = add_ball(world, &f, vec3(0, 0, 0), vec3(1, 0, 0));
+  const ks_body_id right = add_ball(world, &f, vec3(10, 0, 0), vec3(0, 0, 0));
+  ks_prediction p;
+  CHECK_OK(ks_world_earliest_contact(world, left, NULL, NULL, &p));
+  CHECK(p.time > 7.9 && p.time <= 8 && ks_same_body(p.partner, right) && !p.happens && !p.probed);
+  CHECK_OK(ks_world_earliest_approach(world, left, 3, probe_flight, &f, &p));
+  CHECK(p.time > 4.9 && p.time <= 5 && !p.happens);
+  CHECK_OK(ks_world_pair_safe_until(world, left, right, 1, NULL, NULL, &p));
+  CHECK(p.time > 6.9 && p.time <= 7);
+  CHECK_OK(ks_world_safe_until(world, NULL, NULL, &p));
+  CHECK(p.time > 7.9 && p.time <= 8 && ks_is_no_body(p.partner));
+  double lower, upper;
+  CHECK_OK(ks_world_distance_limits(world, left, right, 3, NULL, NULL, &lower, &upper));
+  CHECK(lower <= 5 && upper >= 5 && upper - lower < 1e-6);
+
+  ks_hit hits[2];
+  size_t count;
+  CHECK_OK(ks_world_cast(world, vec3(-5, 0, 0), vec3(2, 0, 0), 100, 0, NULL, NULL, hits, 2, &count));
+  CHECK(count == 1 && ks_same_body(hits[0].body, left) && hits[0].certain && fabs(hits[0].lower - 4) < 1e-6);
+  CHECK_OK(ks_world_cast(world, vec3(5, 5, 0), vec3(0, -1, 0), 100, 4.5, probe_flight, &f, hits, 2, &count));
+  CHECK(count == 2);  // the moving sphere meets both at once
+  CHECK_OK(ks_world_overlapping_sphere(world, vec3(10, 0, 3), 2.5, NULL, NULL, hits, 2, &count));
+  CHECK(count == 1 && ks_same_body(hits[0].body, right) && hits[0].certain);
+  const ks_box box = {{-1, -1, -1}, {20, 1, 1}};
+  CHECK_OK(ks_world_overlapping_box(world, &box, NULL, NULL, hits, 2, &count));
+  CHECK(count == 2);
+  CHECK_OK(ks_world_nearest(world, vec3(7, 0, 0), 1, NULL, NULL, hits, 2, &count));
+  CHECK(count == 1 && ks_same_body(hits[0].body, right) && fabs(hits[0].upper - 2) < 1e-6);
+  CHECK_OK(ks_world_destroy(world));
+}
+
+static void changes_of_bodies(void) {
+  flight f;
+  memset(&f, 0, sizeof f);
+  const ks_world world = new_world();
+  const ks_body_id ball = add_ball(world, &f, vec3(0, 0, 0), vec3(0, 0, 0));
+  ks_body_view view = ks_new_body_view();
+  CHECK_OK(ks_world_set_radius(world, ball, 2));
+  CHECK_OK(ks_world_set_mass(world, ball, 3));
+  const ks_motion_limits limits = {4, 0, 0, {0, 0, -9}};
+  CHECK_OK(ks_world_set_motion_limits(world, ball, &limits));
+  CHECK_OK(ks_world_body(world, ball, &view));
+  CHECK(view.enabled && !view.is_static && view.definition.radius == 2 && view.definition.mass == 3);
+  CHECK(view.definition.acceleration_limit == 4 && view.definition.planned_acceleration.z == -9);
+  CHECK_OK(ks_world_disable(world, ball));
+  CHECK_OK(ks_world_body(world, ball, &view));
+  CHECK(!view.enabled);
+  const ks_state there = {{3, 0, 0}, {0, 0, 0}};
+  CHECK_OK(ks_world_enable(world, ball, &there));
+  CHECK_OK(ks_world_sleep(world, ball));
+  CHECK_OK(ks_world_body(world, ball, &view));
+  CHECK(view.sleeping && view.definition.position.x == 3);
+  CHECK_OK(ks_world_wake(world, ball));
+  CHECK_OK(ks_world_set_solid(world, ball, 0));
+  CHECK_OK(ks_world_set_sensor_class(world, ball, 4));
+  CHECK_OK(ks_world_teleport(world, ball, &there));
+  CHECK_OK(ks_world_reserve(world, 100));
+  int32_t contains;
+  CHECK_OK(ks_world_contains(world, ball, &contains));
+  CHECK(contains);
+  CHECK_OK(ks_world_remove(world, &ball, 1));
+  CHECK_OK(ks_world_contains(world, ball, &contains));
+  CHECK(!contains);
+  CHECK_OK(ks_world_destroy(world));
+}
+
+/// Returns the hash of the rest of a run up to a time.
+static uint64_t hash_of_rest(ks_world world, double until, ks_probe probe, void* user) {
+  ks_event_hash hash = {0, 0};
+  ks_event event = ks_new_event();
+  for (;;) {
+    CHECK_OK(ks_world_advance(world, until, probe, user, &event));
+    if (event.kind == KS_EVENT_NONE) break;
+    CHECK_OK(ks_event_hash_add(&hash, &event));
+  }
+  uint64_t value;
+  CHECK_OK(ks_event_hash_value(&hash, &value));
+  return value;
+}
+
+static void snapshots_and_clones(void) {
+  flight f;
+  memset(&f, 0, sizeof f);
+  const ks_world world = new_world();
+  for (int k = 0; k < 6; ++k) add_ball(world, &f, vec3(5 * k, 0, 0), vec3(3 - k, 0, 0));
+  const ks_event first = next_event(world, 30, &f);
+  CHECK(first.kind == KS_EVENT_CONTACT_BEGIN);
+  size_t size, written;
+  CHECK_STATUS(ks_world_save(world, NULL, 0, &size), KS_ERROR_BUFFER_TOO_SMALL);
+  void* const bytes = malloc(size);
+  CHECK_OK(ks_world_save(world, bytes, size, &written));
+  CHECK(written == size);
+  ks_world restored, clone;
+  CHECK_OK(ks_world_restore(bytes, size, NULL, NULL, &restored));
+  CHECK_OK(ks_world_clone(world, &clone));
+  free(bytes);
+  const uint64_t hash = hash_of_rest(world, 30, probe_flight, &f);
+  CHECK(hash != 0 && hash_of_rest(restored, 30, probe_flight, &f) == hash);
+  CHECK(hash_of_rest(clone, 30, probe_flight, &f) == hash);
+  CHECK_OK(ks_world_destroy(world));
+  CHECK_OK(ks_world_destroy(restored));
+  CHECK_OK(ks_world_destroy(clone));
+}
+
+static int32_t turn_back(const ks_event* event, ks_response* response, void* user) {
+  ++*(int*)user;
+  if (event->kind != KS_EVENT_WALL_BEGIN) return 0;
+  response->turns_first = 1;
+  response->first_velocity.x = -event->first_state.velocity.x;
+  return 0;
+}
+
+static int32_t count_event(const ks_event* event, void* user) {
+  if (event->kind == KS_EVENT_WALL_BEGIN) ++*(int*)user;
+  return 0;
+}
+
+static void motions_and_runs(void) {
+  ks_world_definition definition = ks_default_world_definition();
+  definition.has_box = 1;
+  definition.box.upper = vec3(10, 10, 10);
+  ks_world world, rolled_back;
+  CHECK_OK(ks_world_create(&definition, &world));
+  const ks_state start[2] = {{{5, 5, 5}, {1, 0, 0}}, {{5, 2, 5}, {1, 0, 0}}};
+  ks_motion_definition ballistic = ks_default_motion_definition();
+  ballistic.count = 2;
+  ballistic.states = start;
+  ks_body_id ids[2];
+  CHECK_OK(ks_world_add_motion(world, &ballistic, NULL, ids));
+  CHECK_OK(ks_world_clone(world, &rolled_back));
+  int answered = 0, bounces = 0;
+  ks_run_definition run = ks_default_run_definition();
+  run.respond = turn_back;
+  run.respond_user = &answered;
+  run.sink = count_event;
+  run.sink_user = &bounces;
+  CHECK_OK(ks_world_run(world, 16, &run));
+  CHECK(answered >= 4 && bounces == 4);  // each at x = 9 and x = 1
+  double time;
+  CHECK_OK(ks_world_time(world, &time));
+  CHECK(time == 16);
+  ks_state states[2];
+  CHECK_OK(ks_world_states(world, ids, 2, 16, states));
+  CHECK(fabs(states[0].position.x - 5) < 1e-4 && states[0].velocity.x == 1);
+  CHECK_OK(ks_world_states(rolled_back, ids, 2, 0, states));
+  CHECK(states[1].position.y == 2);
+  run = ks_default_run_definition();
+  run.restitution = NAN;  // nobody answers
+  run.sink = count_event;
+  run.sink_user = &bounces;
+  CHECK_OK(ks_world_run(rolled_back, 16, &run));
+  CHECK(bounces == 6);
+  const ks_state away = {{5, 8, 5}, {0, 0, 0}};
+  CHECK_OK(ks_world_teleport(world, ids[0], &away));
+  CHECK_OK(ks_world_states(world, ids, 1, 20, states));
+  CHECK(states[0].position.y == 8);
+  CHECK_OK(ks_world_remove(world, ids, 2));
+  size_t size;
+  CHECK_OK(ks_world_size(world, &size));
+  CHECK(size == 0);
+  CHECK_OK(ks_world_destroy(world));
+  CHECK_OK(ks_world_destroy(rolled_back));
+}
+
+/// Bodies of a motion and bodies of the caller in one world.
+static void motions_and_probes(void) {
+  flight f;
+  memset(&f, 0, sizeof f);
+  const ks_world world = new_world();
+  add_ball(world, &f, vec3(0, 0, 0), vec3(1, 0, 0));
+  const ks_state start = {{10, 0, 0}, {-1, 0, 0}};
+  const double radius = 2;
+  ks_motion_definition ballistic = ks_default_motion_definition();
+  ballistic.count = 1;
+  ballistic.states = &start;
+  ballistic.radii = &radius;
+  ks_body_id bullet;
+  CHECK_OK(ks_world_add_motion(world, &ballistic, NULL, &bullet));
+  const ks_event event = next_event(world, 20, &f);
+  CHECK(event.kind == KS_EVENT_CONTACT_BEGIN && fabs(event.time - 3.5) < 1e-5);
+  CHECK_OK(ks_world_destroy(world));
+}
+
+static void names(void) {
+  CHECK(strcmp(ks_event_kind_name(KS_EVENT_NONE), "none") == 0);
+  CHECK(strcmp(ks_event_kind_name(KS_EVENT_BOUND_VIOLATION), "bound_violation") == 0);
+  CHECK(strcmp(ks_event_kind_name(KS_EVENT_CONTACT_BEGIN), "contact_begin") == 0);
+  CHECK(strcmp(ks_event_kind_name(KS_EVENT_WOKE), "woke") == 0);
+  CHECK(strcmp(ks_event_kind_name(10), "") == 0 && strcmp(ks_event_kind_name(-1), "") == 0);
+  CHECK(strcmp(ks_monitor_event_kind_name(KS_MONITOR_VERDICT), "verdict") == 0);
+  CHECK(strcmp(ks_monitor_event_kind_name(KS_MONITOR_RECLASSIFIED), "reclassified") == 0);
+  CHECK(strcmp(ks_monitor_event_kind_name(10), "") == 0);
+  CHECK(strcmp(ks_verdict_name(KS_VERDICT_WITHIN), "within") == 0 && strcmp(ks_verdict_name(3), "") == 0);
+  CHECK(ks_abi_version() == KS_ABI_VERSION && strchr(ks_version(), '.') != NULL);
+}
+
+static void status_names(void) {
+  static const struct {
+    ks_status status;
+    const char* name;
+  } each[] = {{KS_OK, "ok"},
+              {KS_ERROR_STALE_HANDLE, "stale_handle"},
+              {KS_ERROR_INTERNAL, "internal"},
+              {10, ""},
+              {19, ""},
+              {-1, ""},
+              {KS_ERROR_NOT_FINITE, "not_finite"},
+              {KS_ERROR_OUT_OF_RANGE, "out_of_range"},
+              {KS_ERROR_TIME_BACKWARDS, "time_backwards"},
+              {KS_ERROR_UNKNOWN_BODY, "unknown_body"},
+              {KS_ERROR_STALE_BODY, "stale_body"},
+              {KS_ERROR_FOREIGN_BODY, "foreign_body"},
+              {KS_ERROR_DISABLED_BODY, "disabled_body"},
+              {KS_ERROR_ENABLED_BODY, "enabled_body"},
+              {KS_ERROR_STATIC_BODY, "static_body"},
+              {KS_ERROR_OUTSIDE_DOMAIN, "outside_domain"},
+              {KS_ERROR_OVERLAPPING, "overlapping"},
+              {KS_ERROR_PROBE_IN_PROGRESS, "probe_in_progress"},
+              {KS_ERROR_FILTER_IN_PROGRESS, "filter_in_progress"},
+              {KS_ERROR_RUN_IN_PROGRESS, "run_in_progress"},
+              {KS_ERROR_WORKERS_BUSY, "workers_busy"},
+              {KS_ERROR_NO_THREADS, "no_threads"},
+              {KS_ERROR_NULL_PROBE, "null_probe"},
+              {KS_ERROR_NULL_CALLBACK, "null_callback"},
+              {KS_ERROR_CALLBACK_THREW, "callback_threw"},
+              {KS_ERROR_RANK_FAILED, "rank_failed"},
+              {KS_ERROR_MOVED_FROM, "moved_from"},
+              {KS_ERROR_UNSUPPORTED, "unsupported"},
+              {KS_ERROR_BAD_SNAPSHOT, "bad_snapshot"},
+              {KS_ERROR_BAD_BYTES, "bad_bytes"},
+              {KS_ERROR_RECORDING, "recording"},
+              {KS_ERROR_NOT_RECORDING, "not_recording"},
+              {KS_ERROR_NOT_PROFILING, "not_profiling"},
+              {KS_ERROR_BAD_RECORDING, "bad_recording"},
+              {KS_ERROR_DIVERGED, "diverged"},
+              {KS_ERROR_DIVERGED + 1, ""}};
+  for (size_t k = 0; k < sizeof each / sizeof each[0]; ++k)
+    CHECK(strcmp(ks_status_name(each[k].status), each[k].name) == 0);
+}
+
+static int32_t report_where_it_is(const uint64_t* tracks, size_t count, double time, ks_track_report* reports,
+                                  uint8_t* has_report, void* user) {
+  *(size_t*)user += count;
+  for (size_t k = 0; k < count; ++k) {
+    reports[k].timestamp = time;
+    reports[k].state.position.x = 1000.0 * (double)tracks[k];
+    has_report[k] = 1;
+  }
+  return 0;
+}
+
+static int32_t hang_up(const uint64_t* tracks, size_t count, double time, ks_track_report* reports,
+                       uint8_t* has_report, void* user) {
+  (void)tracks, (void)count, (void)time, (void)reports, (void)has_report, (void)user;
+  return 1;
+}
+
+static ks_monitor new_monitor(void) {
+  const ks_track_class drone = {ks_error_ball(3.0), ks_error_cylinder(20.0, 5.0), {0, 0, 0}};
+  const ks_separation levels[2] = {{KS_SEPARATION_ELLIPSOID, 50, 50, 0, 0},
+                                   {KS_SEPARATION_CYLINDER, 10, 5, 0, 0}};
+  const ks_separation_rule rule = {0, 0, levels, 2};
+  ks_monitor_definition definition = ks_default_monitor_definition();
+  definition.classes = &drone;
+  definition.class_count = 1;
+  definition.separations = &rule;
+  definition.separation_count = 1;
+  ks_monitor monitor;
+  CHECK_OK(ks_monitor_create(&definition, &monitor));
+  const uint64_t tracks[2] = {1, 2};
+  ks_track_report reports[2] = {ks_default_track_report(), ks_default_track_report()};
+  reports[0].state.position.x = 1000;
+  reports[1].state.position.x = 2000;
+  CHECK_OK(ks_monitor_report(monitor, tracks, reports, 2));
+  return monitor;
+}
+
+static void monitors(void) {
+  const ks_monitor monitor = new_monitor();
+  ks_monitor_event event = ks_new_monitor_event();
+  CHECK_OK(ks_monitor_advance(monitor, 1, NULL, NULL, &event));
+  CHECK(event.kind == KS_MONITOR_NONE && event.time == 1);
+  ks_pair_answer answer = ks_new_pair_answer();
+  CHECK_OK(ks_monitor_answer(monitor, 1, 2, 0, &answer));
+  CHECK(answer.verdict == KS_VERDICT_APART && answer.lower <= 1000 && answer.upper >= 1000 &&
+        answer.until > 1);
+  size_t size, count;
+  CHECK_STATUS(ks_monitor_save(monitor, NULL, 0, &size), KS_ERROR_BUFFER_TOO_SMALL);
+  void* const bytes = malloc(size);
+  CHECK_OK(ks_monitor_save(monitor, bytes, size, &size));
+  ks_monitor polling;
+  CHECK_OK(ks_monitor_restore(bytes, size, &polling));
+  free(bytes);
+
+  // Without reports the two become undecided; with a poll they do not.
+  CHECK_OK(ks_monitor_advance(monitor, 60, NULL, NULL, &event));
+  CHECK(event.kind == KS_MONITOR_VERDICT && event.verdict == KS_VERDICT_UNDECIDED && event.level == 0);
+  CHECK(event.before == KS_VERDICT_APART && event.first == 1 && event.second == 2);
+  ks_open_pair pair;
+  CHECK_OK(ks_monitor_open_pairs(monitor, &pair, 1, &count));
+  CHECK(count == 1 && pair.first == 1 && pair.second == 2 && pair.since == event.time);
+  ks_report_request request;
+  CHECK_OK(ks_monitor_needed(polling, 2, &request, 1, &count));
+  CHECK(count == 0);
+  size_t asked = 0;
+  CHECK_STATUS(ks_monitor_advance(polling, 60, hang_up, NULL, &event), KS_ERROR_CALLBACK_FAILED);
+  CHECK_OK(ks_monitor_advance(polling, 60, report_where_it_is, &asked, &event));
+  CHECK(event.kind == KS_MONITOR_NONE && event.time == 60 && asked > 0);
+  ks_track_place place;
+  CHECK_OK(ks_monitor_places(polling, 1, &place, 1, &count));
+  CHECK(count == 1 && place.centre.x > 900 && place.centre.x < 1100);
+  CHECK_OK(ks_monitor_remove(polling, 1));
+  uint64_t track;
+  CHECK_OK(ks_monitor_tracks(polling, &track, 1, &count));
+  CHECK(count == 1 && track == 2);
+  double time;
+  CHECK_OK(ks_monitor_time(polling, &time));
+  CHECK(time == 60);
+  CHECK_OK(ks_monitor_destroy(monitor));
+  CHECK_OK(ks_monitor_destroy(polling));
+}
+
+/// A game moves a ball at 5 frames a unit of time, towards a wall, and takes its place back after each frame.
+static void frames(void) {
+  ks_world_definition definition = ks_default_world_definition();
+  definition.has_box = 1;
+  definition.box.upper = vec3(10, 10, 10);
+  ks_world world;
+  CHECK_OK(ks_world_create(&definition, &world));
+  ks_state start = {{5, 5, 5}, {0, 0, 0}};
+  double velocity = 2;
+  ks_motion_definition motion = ks_default_motion_definition();
+  motion.kind = KS_MOTION_FRAMES;
+  motion.count = 1;
+  motion.states = &start;
+  motion.interval = 0.2;
+  uint32_t number;
+  ks_body_id ball;
+  CHECK_OK(ks_world_add_motion(world, &motion, &number, &ball));
+  int bounces = 0;
+  for (int frame = 0; frame < 45; ++frame) {
+    start.position.x += velocity * motion.interval;
+    CHECK_OK(ks_world_push_frame(world, number, &start.position, 1));
+    double until;
+    CHECK_OK(ks_world_latest_frame_time(world, number, &until));
+    ks_event event = ks_new_event();
+    for (;;) {
+      CHECK_OK(ks_world_advance(world, until, ks_probe_motions, NULL, &event));
+      if (event.kind == KS_EVENT_NONE) break;
+      if (event.kind != KS_EVENT_WALL_BEGIN) continue;
+      ks_response after;
+      CHECK_OK(ks_bounce(&event, 1.0, 0.0, &after));
+      CHECK_OK(ks_world_set_velocity(world, ball, after.first_velocity));
+      velocity = after.first_velocity.x;
+      ++bounces;
+    }
+    size_t count;
+    CHECK_OK(ks_world_latest_frame(world, number, &start.position, 1, &count));
+    CHECK(start.position.x > 0.999 && start.position.x < 9.001);
+  }
+  CHECK(bounces == 2);
+  CHECK_OK(ks_world_destroy(world));
+}
+
+int main(void) {
+  contacts_and_velocities();
+  zones_sensors_and_filters();
+  pair_filters();
+  answers();
+  changes_of_bodies();
+  snapshots_and_clones();
+  motions_and_runs();
+  motions_and_probes();
+  frames();
+  names();
+  status_names();
+  monitors();
+  puts("all parts of the interface work");
+  return 0;
+}

@@ -1,0 +1,2 @@
+// The interface as a C++ program sees it.
+#include "interface.c"

@@ -1,0 +1,92 @@
+// The scene of tests/same_hash/shared_scene.cpp in C, run in three ways. Each prints its hash.
+#include "check.h"
+
+#include <inttypes.h>
+
+enum { balls = 64 };
+
+static double next_number(void) {
+  static uint64_t state = 1;
+  state = state * 16807 % 2147483647;
+  return (double)state / 2147483647.0;
+}
+
+static ks_world make_world(const ks_state* start, const double* radii) {
+  ks_world_definition definition = ks_default_world_definition();
+  definition.has_box = 1;
+  definition.box.upper = vec3(20, 20, 20);
+  ks_world world;
+  CHECK_OK(ks_world_create(&definition, &world));
+  const double distance = 0.5;
+  CHECK_OK(ks_world_set_sensor(world, 0, &distance, 1, UINT64_MAX));
+
+  double limits[balls];
+  for (int k = 0; k < balls; ++k) limits[k] = 5.0;
+  ks_motion_definition motion = ks_default_motion_definition();
+  motion.kind = KS_MOTION_RANDOM_FORCES;
+  motion.count = balls;
+  motion.states = start;
+  motion.radii = radii;
+  motion.masses = radii;
+  motion.acceleration_limits = limits;
+  motion.interval = 0.2;
+  motion.seed = 7;
+  ks_body_id ids[balls], zone;
+  CHECK_OK(ks_world_add_motion(world, &motion, NULL, ids));
+  const ks_shape box = ks_solid_box(vec3(5, 5, 5), vec3(15, 15, 15));
+  CHECK_OK(ks_world_add_zone(world, &box, 0, &zone));
+  return world;
+}
+
+static void print_and_destroy(ks_world world, const ks_event_hash* hash) {
+  uint64_t value;
+  CHECK_OK(ks_event_hash_value(hash, &value));
+  printf("%016" PRIx64 "\n", value);
+  CHECK_OK(ks_world_destroy(world));
+}
+
+static void step_by_step(ks_world world) {
+  ks_event_hash hash = {0, 0};
+  ks_event event = ks_new_event();
+  for (;;) {
+    CHECK_OK(ks_world_advance(world, 5.0, ks_probe_motions, NULL, &event));
+    if (event.kind == KS_EVENT_NONE) break;
+    CHECK_OK(ks_event_hash_add(&hash, &event));
+    ks_response after;
+    CHECK_OK(ks_bounce(&event, 0.9, 0.0, &after));
+    if (after.turns_first) CHECK_OK(ks_world_set_velocity(world, event.first, after.first_velocity));
+    if (after.turns_second) CHECK_OK(ks_world_set_velocity(world, event.second, after.second_velocity));
+  }
+  print_and_destroy(world, &hash);
+}
+
+static int32_t add_to_hash(const ks_event* event, void* hash) {
+  return ks_event_hash_add((ks_event_hash*)hash, event);
+}
+
+static void at_once(ks_world world, int32_t threads) {
+  ks_event_hash hash = {0, 0};
+  ks_run_definition run = ks_default_run_definition();
+  run.threads = threads;
+  run.restitution = 0.9;
+  run.sink = add_to_hash;
+  run.sink_user = &hash;
+  CHECK_OK(ks_world_run(world, 5.0, &run));
+  print_and_destroy(world, &hash);
+}
+
+int main(void) {
+  ks_state start[balls];
+  double radii[balls];
+  for (int k = 0; k < balls; ++k) {
+    radii[k] = 0.5 + next_number();
+    start[k].position = vec3(2.5 + k % 4 * 5.0, 2.5 + k / 4 % 4 * 5.0, 2.5 + k / 16 * 5.0);
+    start[k].velocity.x = 20.0 * (next_number() - 0.5);
+    start[k].velocity.y = 20.0 * (next_number() - 0.5);
+    start[k].velocity.z = 20.0 * (next_number() - 0.5);
+  }
+  step_by_step(make_world(start, radii));
+  at_once(make_world(start, radii), 1);
+  at_once(make_world(start, radii), 2);
+  return 0;
+}

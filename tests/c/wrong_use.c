@@ -1,0 +1,351 @@
+// Wrong use in more than 45 ways. Nothing crashes, nothing is silently wrong: each call returns its code, and
+// leaves a message that names the argument. The sanitizers have nothing to say.
+#include "check.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <string.h>
+
+static int ways = 0;
+
+static void refused(ks_status returned, ks_status expected, const char* call, int line) {
+  printf("%2d  %-18s %s\n", ++ways, ks_status_name(returned), ks_last_error_message());
+  check_status(returned, expected, call, __FILE__, line);
+  CHECK(returned != KS_OK && ks_last_error_message()[0] != 0);
+}
+#define REFUSED(call, status) refused((call), KS_ERROR_##status, #call, __LINE__)
+
+typedef struct game {
+  ks_world world;
+  ks_event event;
+  ks_status inside;
+  ks_status elsewhere;
+} game;
+
+static int32_t stand_still(const ks_body_id* bodies, size_t count, double time, ks_state* states,
+                           void* user) {
+  (void)bodies, (void)time, (void)user;
+  memset(states, 0, count * sizeof *states);
+  for (size_t k = 0; k < count; ++k) states[k].position.x = 10.0 * bodies[k].index;
+  return 0;
+}
+
+static int32_t give_up(const ks_body_id* bodies, size_t count, double time, ks_state* states, void* user) {
+  (void)bodies, (void)count, (void)time, (void)states, (void)user;
+  return -7;
+}
+
+static int32_t answer_nan(const ks_body_id* bodies, size_t count, double time, ks_state* states, void* user) {
+  stand_still(bodies, count, time, states, user);
+  states[0].position.y = NAN;
+  return 0;
+}
+
+static int32_t change_inside(const ks_body_id* bodies, size_t count, double time, ks_state* states,
+                             void* user) {
+  game* const g = (game*)user;
+  g->inside = ks_world_set_radius(g->world, bodies[0], 2.0);
+  return stand_still(bodies, count, time, states, user);
+}
+
+static int32_t destroy_inside(const ks_body_id* bodies, size_t count, double time, ks_state* states,
+                              void* user) {
+  game* const g = (game*)user;
+  g->inside = ks_world_destroy(g->world);
+  return stand_still(bodies, count, time, states, user);
+}
+
+static int32_t advance_inside(const ks_body_id* bodies, size_t count, double time, ks_state* states,
+                              void* user) {
+  game* const g = (game*)user;
+  g->inside = ks_world_advance(g->world, 100.0, stand_still, NULL, &g->event);
+  return stand_still(bodies, count, time, states, user);
+}
+
+static void* use_elsewhere(void* user) {
+  game* const g = (game*)user;
+  double time;
+  g->elsewhere = ks_world_time(g->world, &time);
+  return NULL;
+}
+
+static int32_t use_in_two_threads(const ks_body_id* bodies, size_t count, double time, ks_state* states,
+                                  void* user) {
+  pthread_t thread;
+  CHECK(pthread_create(&thread, NULL, use_elsewhere, user) == 0);
+  CHECK(pthread_join(thread, NULL) == 0);
+  return stand_still(bodies, count, time, states, user);
+}
+
+static int32_t refuse_event(const ks_event* event, void* user) {
+  (void)event, (void)user;
+  return 3;
+}
+
+static int32_t respond_nan(const ks_event* event, ks_response* response, void* user) {
+  (void)event, (void)user;
+  response->turns_first = 1;
+  response->first_velocity.x = NAN;
+  return 0;
+}
+
+/// Advances a new world with a probe that misuses it, and returns what the misuse got.
+static ks_status inside_probe(ks_probe probe, int elsewhere) {
+  ks_world_definition definition = ks_default_world_definition();
+  ks_body_definition ball = ks_default_body_definition();
+  ks_body_id id;
+  game g = {{0}, ks_new_event(), KS_OK, KS_OK};
+  CHECK_OK(ks_world_create(&definition, &g.world));
+  CHECK_OK(ks_world_add(g.world, &ball, 1, &id));
+  ball.position.x = 10.0;
+  ball.acceleration_limit = 1.0;
+  CHECK_OK(ks_world_add(g.world, &ball, 1, &id));
+  ks_event event = ks_new_event();
+  CHECK_OK(ks_world_advance(g.world, 100.0, probe, &g, &event));
+  CHECK_OK(ks_world_destroy(g.world));
+  return elsewhere ? g.elsewhere : g.inside;
+}
+
+static void wrong_handles(void) {
+  ks_world_definition definition = ks_default_world_definition();
+  ks_monitor_definition tower = ks_default_monitor_definition();
+  const ks_track_class drone = {ks_error_ball(3.0), ks_error_ball(INFINITY), {0, 0, 0}};
+  tower.classes = &drone;
+  tower.class_count = 1;
+  ks_world world, never = {0}, garbage = {0x123456789abcdef0u}, copy;
+  ks_monitor monitor;
+  double time;
+  CHECK_OK(ks_world_create(&definition, &world));
+  CHECK_OK(ks_monitor_create(&tower, &monitor));
+  const ks_world of_monitor = {monitor.value};
+  const ks_world of_the_future = {world.value + ((uint64_t)1 << 32)};
+  REFUSED(ks_world_time(never, &time), INVALID_HANDLE);
+  REFUSED(ks_world_time(garbage, &time), INVALID_HANDLE);
+  REFUSED(ks_world_time(of_monitor, &time), INVALID_HANDLE);
+  REFUSED(ks_world_time(of_the_future, &time), INVALID_HANDLE);
+  CHECK_OK(ks_world_destroy(world));
+  CHECK_OK(ks_monitor_destroy(monitor));
+  REFUSED(ks_world_time(world, &time), STALE_HANDLE);
+  REFUSED(ks_world_clone(world, &copy), STALE_HANDLE);
+  REFUSED(ks_world_destroy(world), STALE_HANDLE);
+  REFUSED(ks_monitor_time(monitor, &time), STALE_HANDLE);
+  // Another object takes the place of the destroyed one.
+  CHECK_OK(ks_world_create(&definition, &copy));
+  REFUSED(ks_world_time(world, &time), STALE_HANDLE);
+  CHECK_OK(ks_world_destroy(copy));
+}
+
+static void wrong_records(ks_world world) {
+  ks_world other;
+  ks_body_id id;
+  ks_world_definition definition = ks_default_world_definition();
+  ks_body_definition ball = ks_default_body_definition();
+  ks_event event = ks_new_event();
+  REFUSED(ks_world_create(NULL, &other), NULL_ARGUMENT);
+  REFUSED(ks_world_create(&definition, NULL), NULL_ARGUMENT);
+  definition.struct_size = 0;
+  REFUSED(ks_world_create(&definition, &other), BAD_STRUCT);
+  REFUSED(ks_world_definition_init(&definition, 12), BAD_STRUCT);
+  ball.struct_size += 8;
+  REFUSED(ks_world_add(world, &ball, 1, &id), BAD_STRUCT);
+  ball = ks_default_body_definition();
+  REFUSED(ks_world_add(world, NULL, 1, &id), NULL_ARGUMENT);
+  REFUSED(ks_world_add(world, &ball, 1, NULL), NULL_ARGUMENT);
+  event.struct_size = 4;
+  REFUSED(ks_world_advance(world, 1.0, stand_still, NULL, &event), BAD_STRUCT);
+  REFUSED(ks_world_time(world, NULL), NULL_ARGUMENT);
+  definition = ks_default_world_definition();
+  definition.contacts = 17;
+  REFUSED(ks_world_create(&definition, &other), OUT_OF_RANGE);
+  definition = ks_default_world_definition();
+  definition.periodic = 8;
+  REFUSED(ks_world_create(&definition, &other), OUT_OF_RANGE);
+  definition.periodic = KS_AXIS_X;
+  REFUSED(ks_world_create(&definition, &other), OUT_OF_RANGE);  // without a box
+  ball.sensor_class = 300;
+  REFUSED(ks_world_add(world, &ball, 1, &id), OUT_OF_RANGE);
+  ball = ks_default_body_definition();
+  ball.velocity.y = NAN;
+  REFUSED(ks_world_add(world, &ball, 1, &id), NOT_FINITE);
+  ks_shape shape = ks_ball(vec3(0, 0, 0), 1);
+  shape.kind = 9;
+  REFUSED(ks_world_add_zone(world, &shape, 0, &id), OUT_OF_RANGE);
+  event = ks_new_event();
+  ks_response response;
+  REFUSED(ks_bounce(&event, 0.5, 0.0, &response), OUT_OF_RANGE);  // no event
+  event.kind = KS_EVENT_CONTACT_BEGIN;
+  REFUSED(ks_bounce(&event, 1.5, 0.0, &response), OUT_OF_RANGE);
+}
+
+static void wrong_bodies(ks_world world) {
+  ks_body_definition ball = ks_default_body_definition();
+  ks_static_definition post = ks_default_static_definition();
+  post.shape = ks_ball(vec3(0, 50, 0), 1);
+  ks_body_id still, gone, fixed, foreign, ids[4];
+  const ks_body_id nobody = {UINT32_MAX, 0, 0};
+  size_t count = 0;
+  CHECK_OK(ks_world_add(world, &ball, 1, &still));
+  ball.position.x = 10.0;
+  CHECK_OK(ks_world_add(world, &ball, 1, &gone));
+  CHECK_OK(ks_world_add_static(world, &post, 1, &fixed));
+  CHECK_OK(ks_world_remove(world, &gone, 1));
+  ks_world_definition definition = ks_default_world_definition();
+  ks_world other;
+  CHECK_OK(ks_world_create(&definition, &other));
+  CHECK_OK(ks_world_add(other, &ball, 1, &foreign));
+  REFUSED(ks_world_set_velocity(world, nobody, vec3(0, 0, 0)), UNKNOWN_BODY);
+  REFUSED(ks_world_set_radius(world, gone, 1.0), STALE_BODY);
+  CHECK(ks_same_body(ks_last_error_body(), gone));
+  REFUSED(ks_world_set_radius(world, foreign, 1.0), FOREIGN_BODY);
+  REFUSED(ks_world_set_radius(world, still, -1.0), OUT_OF_RANGE);
+  CHECK(strcmp(ks_last_error_argument(), "radius") == 0);
+  REFUSED(ks_world_set_velocity(world, fixed, vec3(1, 0, 0)), STATIC_BODY);
+  ids[0] = ids[1] = still;
+  REFUSED(ks_world_remove(world, ids, 2), STALE_BODY);
+  REFUSED(ks_world_bodies(world, ids, 1, &count), BUFFER_TOO_SMALL);
+  CHECK(count == 2);
+  REFUSED(ks_world_bodies(world, NULL, 2, &count), NULL_ARGUMENT);
+  REFUSED(ks_world_bodies(world, ids, 4, NULL), NULL_ARGUMENT);
+  REFUSED(ks_world_cast(world, vec3(0, 0, 0), vec3(0, 0, 0), 1, 0, NULL, NULL, NULL, 0, &count),
+          OUT_OF_RANGE);
+  ks_state state;
+  REFUSED(ks_world_states(world, &still, 1, 0.0, &state), UNKNOWN_BODY);
+  CHECK_OK(ks_world_destroy(other));
+}
+
+static void wrong_time(ks_world world) {
+  ks_event event = ks_new_event();
+  REFUSED(ks_world_advance(world, NAN, stand_still, NULL, &event), NOT_FINITE);
+  REFUSED(ks_world_advance(world, -1.0, stand_still, NULL, &event), TIME_BACKWARDS);
+  REFUSED(ks_world_advance(world, 50.0, NULL, NULL, &event), NULL_PROBE);
+  // The first advance after bodies were added knows their states; this one needs new ones.
+  ks_body_definition nervous = ks_default_body_definition();
+  nervous.acceleration_limit = 1.0;
+  nervous.position.x = 30.0;
+  ks_body_id ids[2];
+  CHECK_OK(ks_world_add(world, &nervous, 1, &ids[0]));
+  nervous.position.x = 40.0;
+  CHECK_OK(ks_world_add(world, &nervous, 1, &ids[1]));
+  REFUSED(ks_world_advance(world, 50.0, give_up, NULL, &event), CALLBACK_FAILED);
+  CHECK(ks_last_error_callback() == -7);
+  REFUSED(ks_world_advance(world, 50.0, answer_nan, NULL, &event), NOT_FINITE);
+  REFUSED(ks_world_advance(world, 50.0, ks_probe_motions, NULL, &event), UNKNOWN_BODY);
+  ks_run_definition run = ks_default_run_definition();
+  REFUSED(ks_world_run(world, 50.0, &run), UNKNOWN_BODY);
+  run.threads = 1000;
+  REFUSED(ks_world_run(world, 50.0, &run), OUT_OF_RANGE);
+  run.threads = 1;
+  run.restitution = 2.0;
+  REFUSED(ks_world_run(world, 50.0, &run), OUT_OF_RANGE);
+  CHECK_OK(ks_world_advance(world, 3.0, stand_still, NULL, &event));  // it goes on where it was stopped
+
+  REFUSED(inside_probe(change_inside, 0), PROBE_IN_PROGRESS);
+  REFUSED(inside_probe(advance_inside, 0), PROBE_IN_PROGRESS);
+  REFUSED(inside_probe(destroy_inside, 0), IN_USE);
+  REFUSED(inside_probe(use_in_two_threads, 1), IN_USE);
+}
+
+static void wrong_motions(void) {
+  ks_world_definition definition = ks_default_world_definition();
+  definition.has_box = 1;
+  definition.box.upper = vec3(10, 10, 10);
+  ks_world world;
+  CHECK_OK(ks_world_create(&definition, &world));
+  ks_state state = {{5, 5, 5}, {1, 0, 0}};
+  ks_body_id id;
+  uint32_t motion;
+  ks_motion_definition flight = ks_default_motion_definition();
+  flight.count = 1;
+  REFUSED(ks_world_add_motion(world, &flight, NULL, &id), NULL_ARGUMENT);
+  flight.states = &state;
+  flight.kind = 5;
+  REFUSED(ks_world_add_motion(world, &flight, NULL, &id), OUT_OF_RANGE);
+  flight.kind = KS_MOTION_RANDOM_FORCES;
+  REFUSED(ks_world_add_motion(world, &flight, NULL, &id), NULL_ARGUMENT);  // without limits
+  flight.kind = KS_MOTION_BALLISTIC;
+  const double mass = -1.0;
+  flight.masses = &mass;
+  REFUSED(ks_world_add_motion(world, &flight, NULL, &id), OUT_OF_RANGE);
+  flight.masses = NULL;
+  CHECK_OK(ks_world_add_motion(world, &flight, &motion, &id));
+  const ks_vec3 position = {5, 5, 5};
+  REFUSED(ks_world_push_frame(world, motion, &position, 1), OUT_OF_RANGE);  // no frames
+  REFUSED(ks_world_push_frame(world, 99, &position, 1), OUT_OF_RANGE);
+  ks_run_definition run = ks_default_run_definition();
+  run.sink = refuse_event;
+  REFUSED(ks_world_run(world, 50.0, &run), CALLBACK_FAILED);
+  CHECK(ks_last_error_callback() == 3);
+  run.sink = NULL;
+  run.respond = respond_nan;
+  REFUSED(ks_world_run(world, 50.0, &run), NOT_FINITE);
+  CHECK_OK(ks_world_destroy(world));
+}
+
+static void wrong_snapshots(ks_world world) {
+  unsigned char bytes[1 << 16];
+  size_t count;
+  ks_world restored;
+  ks_monitor monitor;
+  REFUSED(ks_world_save(world, NULL, 0, &count), BUFFER_TOO_SMALL);
+  CHECK(count > 100 && count <= sizeof bytes);
+  CHECK_OK(ks_world_save(world, bytes, sizeof bytes, &count));
+  REFUSED(ks_world_restore(bytes, count - 1, NULL, NULL, &restored), BAD_SNAPSHOT);
+  bytes[count / 2] ^= 1;
+  REFUSED(ks_world_restore(bytes, count, NULL, NULL, &restored), BAD_SNAPSHOT);
+  REFUSED(ks_world_restore(NULL, count, NULL, NULL, &restored), NULL_ARGUMENT);
+  REFUSED(ks_monitor_restore(bytes, count, &monitor), BAD_SNAPSHOT);
+}
+
+static void wrong_monitors(void) {
+  ks_monitor_definition tower = ks_default_monitor_definition();
+  ks_track_class drone = {ks_error_ball(3.0), ks_error_ball(INFINITY), {0, 0, 0}};
+  ks_separation levels[1] = {{KS_SEPARATION_ELLIPSOID, 50.0, 50.0, 0.0, 0.0}};
+  ks_separation_rule rule = {0, 0, levels, 1};
+  ks_monitor monitor;
+  tower.classes = &drone;
+  tower.class_count = 1;
+  tower.separations = &rule;
+  tower.separation_count = 1;
+  tower.tolerance = 0.0;
+  REFUSED(ks_monitor_create(&tower, &monitor), OUT_OF_RANGE);
+  tower.tolerance = 1e-3;
+  levels[0].shape = 3;
+  REFUSED(ks_monitor_create(&tower, &monitor), OUT_OF_RANGE);
+  levels[0].shape = KS_SEPARATION_CYLINDER;
+  CHECK_OK(ks_monitor_create(&tower, &monitor));
+  ks_track_report reports[2] = {ks_default_track_report(), ks_default_track_report()};
+  const uint64_t tracks[2] = {1, 2};
+  size_t count;
+  reports[1].track_class = 5;
+  REFUSED(ks_monitor_report(monitor, tracks, reports, 2), OUT_OF_RANGE);
+  CHECK_OK(ks_monitor_tracks(monitor, NULL, 0, &count));
+  CHECK(count == 0);  // all or none
+  reports[1] = reports[0];
+  reports[1].struct_size = 1;
+  REFUSED(ks_monitor_report(monitor, tracks, reports, 2), BAD_STRUCT);
+  reports[1] = reports[0];
+  CHECK_OK(ks_monitor_report(monitor, tracks, reports, 2));
+  ks_pair_answer answer = ks_new_pair_answer();
+  REFUSED(ks_monitor_answer(monitor, 1, 1, 0, &answer), OUT_OF_RANGE);
+  REFUSED(ks_monitor_answer(monitor, 1, 3, 0, &answer), UNKNOWN_BODY);
+  REFUSED(ks_monitor_remove(monitor, 3), UNKNOWN_BODY);
+  ks_monitor_event event = ks_new_monitor_event();
+  REFUSED(ks_monitor_advance(monitor, -1.0, NULL, NULL, &event), TIME_BACKWARDS);
+  CHECK_OK(ks_monitor_destroy(monitor));
+}
+
+int main(void) {
+  ks_world_definition definition = ks_default_world_definition();
+  ks_world world;
+  CHECK_OK(ks_world_create(&definition, &world));
+  wrong_handles();
+  wrong_records(world);
+  wrong_bodies(world);
+  wrong_time(world);
+  wrong_motions();
+  wrong_snapshots(world);
+  wrong_monitors();
+  CHECK_OK(ks_world_destroy(world));
+  printf("%d ways, each noticed\n", ways);
+  return ways >= 45 ? 0 : 1;
+}
