@@ -1,0 +1,172 @@
+//! Definitions of bodies.
+use crate::geometry::{Shape, State, Vec3};
+use crate::sys;
+use std::mem::size_of;
+
+/// Which contact events bodies ask for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Contacts {
+    /// A begin whenever two touch and approach, and no ends.
+    Impacts = 1,
+    /// One begin and one end for each contact.
+    BeginAndEnd = 2,
+    /// Begins, ends, and each further approach in between.
+    All = 3,
+}
+
+impl Contacts {
+    pub(crate) fn of(number: i32) -> Option<Contacts> {
+        [Contacts::Impacts, Contacts::BeginAndEnd, Contacts::All]
+            .into_iter()
+            .find(|&contacts| contacts as i32 == number)
+    }
+}
+
+/// Selects the bodies that a body may touch: the category of each must have a bit in the mask of the other, unless
+/// both are in one group, which decides by its sign.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Filter {
+    pub category: u64,
+    pub mask: u64,
+    pub group: i32,
+}
+
+impl Filter {
+    pub(crate) fn raw(self) -> sys::ks_filter {
+        sys::ks_filter { category: self.category, mask: self.mask, group: self.group }
+    }
+    fn of(raw: sys::ks_filter) -> Filter {
+        Filter { category: raw.category, mask: raw.mask, group: raw.group }
+    }
+}
+
+impl Default for Filter {
+    fn default() -> Filter {
+        Filter { category: 1, mask: u64::MAX, group: 0 }
+    }
+}
+
+/// A sphere and the limits of its motion (`BodyDefinition` in C++).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyDefinition {
+    /// >= 0 (length)
+    pub radius: f64,
+    /// >= 0 (length / time^2): the largest deviation from the planned acceleration.
+    pub acceleration_limit: f64,
+    /// Known acceleration, such as gravity (length / time^2).
+    pub planned_acceleration: Vec3,
+    /// >= 0 (length): how far reported positions are from the true ones at most.
+    pub position_error: f64,
+    /// >= 0 (length / time)
+    pub velocity_error: f64,
+    pub position: Vec3,
+    pub velocity: Vec3,
+    pub filter: Filter,
+    /// False for a body that only senses and is sensed.
+    pub solid: bool,
+    /// Which contact events it asks for; nothing: those of the world.
+    pub contacts: Option<Contacts>,
+    pub sensor_class: u8,
+    /// Stored for the caller.
+    pub user_data: u64,
+    /// >= 0, or infinity
+    pub mass: f64,
+}
+
+impl BodyDefinition {
+    pub(crate) fn raw(&self) -> sys::ks_body_definition {
+        sys::ks_body_definition {
+            struct_size: size_of::<sys::ks_body_definition>() as u32,
+            solid: self.solid as i32,
+            contacts: self.contacts.map_or(0, |contacts| contacts as i32),
+            sensor_class: self.sensor_class.into(),
+            radius: self.radius,
+            acceleration_limit: self.acceleration_limit,
+            position_error: self.position_error,
+            velocity_error: self.velocity_error,
+            mass: self.mass,
+            planned_acceleration: self.planned_acceleration,
+            position: self.position,
+            velocity: self.velocity,
+            filter: self.filter.raw(),
+            user_data: self.user_data,
+        }
+    }
+}
+
+/// The defaults of the library: radius 1, mass 1, at rest.
+impl Default for BodyDefinition {
+    fn default() -> BodyDefinition {
+        let mut raw = sys::ks_body_definition::default();
+        unsafe { sys::ks_body_definition_init(&mut raw, size_of::<sys::ks_body_definition>() as u32) };
+        BodyDefinition {
+            radius: raw.radius,
+            acceleration_limit: raw.acceleration_limit,
+            planned_acceleration: raw.planned_acceleration,
+            position_error: raw.position_error,
+            velocity_error: raw.velocity_error,
+            position: raw.position,
+            velocity: raw.velocity,
+            filter: Filter::of(raw.filter),
+            solid: raw.solid != 0,
+            contacts: Contacts::of(raw.contacts),
+            sensor_class: raw.sensor_class as u8,
+            user_data: raw.user_data,
+            mass: raw.mass,
+        }
+    }
+}
+
+/// A body that never moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StaticDefinition {
+    pub shape: Shape,
+    pub filter: Filter,
+    pub solid: bool,
+    pub sensor_class: u8,
+    pub user_data: u64,
+}
+
+impl StaticDefinition {
+    /// A solid body of this shape, that every body may touch.
+    pub fn new(shape: Shape) -> StaticDefinition {
+        StaticDefinition { shape, filter: Filter::default(), solid: true, sensor_class: 0, user_data: 0 }
+    }
+    pub(crate) fn raw(&self) -> sys::ks_static_definition {
+        sys::ks_static_definition {
+            struct_size: size_of::<sys::ks_static_definition>() as u32,
+            solid: self.solid as i32,
+            sensor_class: self.sensor_class.into(),
+            shape: self.shape.raw(),
+            filter: self.filter.raw(),
+            user_data: self.user_data,
+        }
+    }
+}
+
+/// Limits within which a body moves; fields as in [`BodyDefinition`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MotionLimits {
+    pub acceleration_limit: f64,
+    pub planned_acceleration: Vec3,
+    pub position_error: f64,
+    pub velocity_error: f64,
+}
+
+impl MotionLimits {
+    pub(crate) fn raw(&self) -> sys::ks_motion_limits {
+        sys::ks_motion_limits {
+            acceleration_limit: self.acceleration_limit,
+            position_error: self.position_error,
+            velocity_error: self.velocity_error,
+            planned_acceleration: self.planned_acceleration,
+        }
+    }
+}
+
+impl From<State> for BodyDefinition {
+    /// A body with the defaults in this state.
+    fn from(state: State) -> BodyDefinition {
+        BodyDefinition { position: state.position, velocity: state.velocity, ..Default::default() }
+    }
+}

@@ -1,0 +1,142 @@
+//! Vectors, boxes, shapes and ids.
+use crate::sys;
+use std::fmt;
+use std::hash::{Hash, Hasher};
+use std::ops::{Add, AddAssign, Mul, Neg, Sub};
+
+/// A vector of three numbers.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Vec3 {
+    pub x: f64,
+    pub y: f64,
+    pub z: f64,
+}
+
+impl Vec3 {
+    pub const fn new(x: f64, y: f64, z: f64) -> Vec3 {
+        Vec3 { x, y, z }
+    }
+    pub fn dot(self, other: Vec3) -> f64 {
+        self.x * other.x + self.y * other.y + self.z * other.z
+    }
+}
+
+impl Add for Vec3 {
+    type Output = Vec3;
+    fn add(self, other: Vec3) -> Vec3 {
+        Vec3::new(self.x + other.x, self.y + other.y, self.z + other.z)
+    }
+}
+impl AddAssign for Vec3 {
+    fn add_assign(&mut self, other: Vec3) {
+        *self = *self + other;
+    }
+}
+impl Sub for Vec3 {
+    type Output = Vec3;
+    fn sub(self, other: Vec3) -> Vec3 {
+        Vec3::new(self.x - other.x, self.y - other.y, self.z - other.z)
+    }
+}
+impl Neg for Vec3 {
+    type Output = Vec3;
+    fn neg(self) -> Vec3 {
+        Vec3::new(-self.x, -self.y, -self.z)
+    }
+}
+impl Mul<f64> for Vec3 {
+    type Output = Vec3;
+    fn mul(self, factor: f64) -> Vec3 {
+        Vec3::new(self.x * factor, self.y * factor, self.z * factor)
+    }
+}
+
+/// Position (length) and velocity (length / time) at one time.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct State {
+    pub position: Vec3,
+    pub velocity: Vec3,
+}
+
+/// All points between two corners.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Box3 {
+    pub lower: Vec3,
+    pub upper: Vec3,
+}
+
+/// Shape of a static body or a zone. Bodies may be where `dot(normal, p) >= offset` of a half-space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shape {
+    Ball { centre: Vec3, radius: f64 },
+    HalfSpace { normal: Vec3, offset: f64 },
+    Box(Box3),
+    Triangle([Vec3; 3]),
+}
+
+impl Shape {
+    pub(crate) fn raw(&self) -> sys::ks_shape {
+        let zero = Vec3::default();
+        let (kind, points, number) = match *self {
+            Shape::Ball { centre, radius } => (0, [centre, zero, zero], radius),
+            Shape::HalfSpace { normal, offset } => (1, [normal, zero, zero], offset),
+            Shape::Box(Box3 { lower, upper }) => (2, [lower, upper, zero], 0.0),
+            Shape::Triangle(corners) => (3, corners, 0.0),
+        };
+        sys::ks_shape { kind, points, number }
+    }
+}
+
+/// Names a body of a world until it is removed; a later body never has an equal id.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct BodyId {
+    index: u32,
+    generation: u32,
+    world: u32,
+}
+
+impl BodyId {
+    /// A small number, which no other body has meanwhile: for tables. It is used again after a removal.
+    pub fn index(self) -> usize {
+        self.index as usize
+    }
+    /// Returns nothing for the id that names no body.
+    pub(crate) fn some(self) -> Option<BodyId> {
+        if self == BodyId::default() {
+            None
+        } else {
+            Some(self)
+        }
+    }
+}
+
+/// The id that names no body.
+impl Default for BodyId {
+    fn default() -> BodyId {
+        BodyId { index: u32::MAX, generation: 0, world: 0 }
+    }
+}
+impl PartialEq for BodyId {
+    fn eq(&self, other: &BodyId) -> bool {
+        (self.index, self.generation) == (other.index, other.generation)
+    }
+}
+impl Eq for BodyId {}
+impl Hash for BodyId {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        (self.index, self.generation).hash(state);
+    }
+}
+impl fmt::Debug for BodyId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "body {}", self.index)?;
+        if self.generation != 0 {
+            write!(f, " (generation {})", self.generation)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,417 @@
+//! The declarations of `kinesphere.h`, which explains them. Nothing here is safe by itself; a record whose layout
+//! differed from that of C would be refused by its size.
+#![allow(non_camel_case_types)]
+
+use crate::geometry::{BodyId, Box3, State, Vec3};
+use std::os::raw::{c_char, c_void};
+
+pub type ks_status = i32;
+pub const KS_OK: ks_status = 0;
+pub const KS_ERROR_BUFFER_TOO_SMALL: ks_status = 6;
+pub const KS_ERROR_CALLBACK_FAILED: ks_status = 7;
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ks_world {
+    pub value: u64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ks_monitor {
+    pub value: u64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
+pub struct ks_shape {
+    pub kind: i32,
+    pub points: [Vec3; 3],
+    pub number: f64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
+pub struct ks_world_definition {
+    pub struct_size: u32,
+    pub dimensions: i32,
+    pub has_box: i32,
+    pub periodic: u32,
+    pub box_: Box3,
+    pub contact_tolerance: f64,
+    pub separation_distance: f64,
+    pub zeno_interval: f64,
+    pub start_time: f64,
+    pub contacts: i32,
+    pub allow_overlap: i32,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
+pub struct ks_filter {
+    pub category: u64,
+    pub mask: u64,
+    pub group: i32,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
+pub struct ks_body_definition {
+    pub struct_size: u32,
+    pub solid: i32,
+    pub contacts: i32,
+    pub sensor_class: i32,
+    pub radius: f64,
+    pub acceleration_limit: f64,
+    pub position_error: f64,
+    pub velocity_error: f64,
+    pub mass: f64,
+    pub planned_acceleration: Vec3,
+    pub position: Vec3,
+    pub velocity: Vec3,
+    pub filter: ks_filter,
+    pub user_data: u64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
+pub struct ks_static_definition {
+    pub struct_size: u32,
+    pub solid: i32,
+    pub sensor_class: i32,
+    pub shape: ks_shape,
+    pub filter: ks_filter,
+    pub user_data: u64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
+pub struct ks_motion_limits {
+    pub acceleration_limit: f64,
+    pub position_error: f64,
+    pub velocity_error: f64,
+    pub planned_acceleration: Vec3,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
+pub struct ks_sensor_overlap {
+    pub body: BodyId,
+    pub distance: f64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Default, Debug)]
+pub struct ks_event {
+    pub struct_size: u32,
+    pub kind: i32,
+    pub time: f64,
+    pub first: BodyId,
+    pub second: BodyId,
+    pub wall: i32,
+    pub repeated: i32,
+    pub jammed: i32,
+    pub already_touching: i32,
+    pub senses: u32,
+    pub first_traits: u32,
+    pub second_traits: u32,
+    pub reserved: u32,
+    pub first_state: State,
+    pub second_state: State,
+    pub point: Vec3,
+    pub normal: Vec3,
+    pub gap: f64,
+    pub approach_speed: f64,
+    pub position_excess: f64,
+    pub velocity_excess: f64,
+    pub distance: f64,
+    pub first_user_data: u64,
+    pub second_user_data: u64,
+    pub first_mass: f64,
+    pub second_mass: f64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
+pub struct ks_response {
+    pub turns_first: i32,
+    pub turns_second: i32,
+    pub first_velocity: Vec3,
+    pub second_velocity: Vec3,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
+pub struct ks_event_hash {
+    pub sum: u64,
+    pub count: u64,
+}
+
+pub type ks_probe = unsafe extern "C" fn(*const BodyId, usize, f64, *mut State, *mut c_void) -> i32;
+pub type ks_pair_filter = unsafe extern "C" fn(BodyId, BodyId, *mut c_void) -> i32;
+pub type ks_respond = unsafe extern "C" fn(*const ks_event, *mut ks_response, *mut c_void) -> i32;
+pub type ks_sink = unsafe extern "C" fn(*const ks_event, *mut c_void) -> i32;
+
+#[repr(C)]
+pub struct ks_run_definition {
+    pub struct_size: u32,
+    pub threads: i32,
+    pub restitution: f64,
+    pub resting_speed: f64,
+    pub respond: Option<ks_respond>,
+    pub respond_user: *mut c_void,
+    pub sink: Option<ks_sink>,
+    pub sink_user: *mut c_void,
+}
+
+#[repr(C)]
+pub struct ks_motion_definition {
+    pub struct_size: u32,
+    pub kind: i32,
+    pub count: usize,
+    pub states: *const State,
+    pub radii: *const f64,
+    pub masses: *const f64,
+    pub acceleration_limits: *const f64,
+    pub gravity: Vec3,
+    pub interval: f64,
+    pub position_error: f64,
+    pub seed: u64,
+    pub like: *const ks_body_definition,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
+pub struct ks_prediction {
+    pub time: f64,
+    pub partner: BodyId,
+    pub wall: i32,
+    pub happens: i32,
+    pub probed: i32,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
+pub struct ks_hit {
+    pub body: BodyId,
+    pub certain: i32,
+    pub lower: f64,
+    pub upper: f64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
+pub struct ks_error_bound {
+    pub kind: i32,
+    pub horizontal: f64,
+    pub vertical: f64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
+pub struct ks_track_class {
+    pub acceleration_limit: ks_error_bound,
+    pub largest_speed: ks_error_bound,
+    pub planned_acceleration: Vec3,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
+pub struct ks_separation {
+    pub shape: i32,
+    pub horizontal: f64,
+    pub vertical: f64,
+    pub look_ahead: f64,
+    pub modified_tau: f64,
+}
+
+#[repr(C)]
+pub struct ks_separation_rule {
+    pub first_class: usize,
+    pub second_class: usize,
+    pub levels: *const ks_separation,
+    pub level_count: usize,
+}
+
+#[repr(C)]
+pub struct ks_monitor_definition {
+    pub struct_size: u32,
+    pub dimensions: i32,
+    pub has_start_time: i32,
+    pub start_time: f64,
+    pub classes: *const ks_track_class,
+    pub class_count: usize,
+    pub separations: *const ks_separation_rule,
+    pub separation_count: usize,
+    pub tolerance: f64,
+    pub time_resolution: f64,
+    pub window: f64,
+    pub stale_after: f64,
+    pub drop_after: f64,
+    pub prediction_hold: f64,
+    pub prediction_confirmation: f64,
+    pub prediction_margin: f64,
+    pub prediction_error_part: f64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
+pub struct ks_track_report {
+    pub struct_size: u32,
+    pub has_plan: i32,
+    pub track_class: u64,
+    pub timestamp: f64,
+    pub timestamp_error: f64,
+    pub state: State,
+    pub position_error: ks_error_bound,
+    pub velocity_error: ks_error_bound,
+    pub plan_acceleration: Vec3,
+    pub plan_limit: ks_error_bound,
+    pub plan_valid_until: f64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
+pub struct ks_monitor_event {
+    pub struct_size: u32,
+    pub kind: i32,
+    pub time: f64,
+    pub first: u64,
+    pub second: u64,
+    pub level: u32,
+    pub verdict: i32,
+    pub before: i32,
+    pub reserved: u32,
+    pub since: f64,
+    pub likely_time: f64,
+    pub closest_time: f64,
+    pub closest_distance: f64,
+    pub position_excess: f64,
+    pub velocity_excess: f64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
+pub struct ks_pair_answer {
+    pub struct_size: u32,
+    pub verdict: i32,
+    pub predicted: i32,
+    pub since: f64,
+    pub until: f64,
+    pub lower: f64,
+    pub upper: f64,
+    pub closest_distance: f64,
+    pub closest_time: f64,
+    pub closest_horizontal: f64,
+    pub closest_vertical: f64,
+    pub relative_speed: f64,
+    pub likely_time: f64,
+    pub inevitable_by: f64,
+    pub avoidable_until: f64,
+    pub ask: u64,
+    pub ask_by: f64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
+pub struct ks_open_pair {
+    pub first: u64,
+    pub second: u64,
+    pub level: u32,
+    pub verdict: i32,
+    pub since: f64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
+pub struct ks_report_request {
+    pub track: u64,
+    pub other: u64,
+    pub by: f64,
+}
+
+pub type ks_poll =
+    unsafe extern "C" fn(*const u64, usize, f64, *mut ks_track_report, *mut u8, *mut c_void) -> i32;
+
+#[rustfmt::skip]
+extern "C" {
+    pub fn ks_last_error_message() -> *const c_char;
+    pub fn ks_last_error_argument() -> *const c_char;
+    pub fn ks_last_error_body() -> BodyId;
+    pub fn ks_status_name(status: ks_status) -> *const c_char;
+    pub fn ks_version() -> *const c_char;
+
+    pub fn ks_world_definition_init(definition: *mut ks_world_definition, struct_size: u32) -> ks_status;
+    pub fn ks_body_definition_init(definition: *mut ks_body_definition, struct_size: u32) -> ks_status;
+    pub fn ks_static_definition_init(definition: *mut ks_static_definition, struct_size: u32) -> ks_status;
+    pub fn ks_run_definition_init(definition: *mut ks_run_definition, struct_size: u32) -> ks_status;
+    pub fn ks_motion_definition_init(definition: *mut ks_motion_definition, struct_size: u32) -> ks_status;
+    pub fn ks_monitor_definition_init(definition: *mut ks_monitor_definition, struct_size: u32) -> ks_status;
+    pub fn ks_track_report_init(report: *mut ks_track_report, struct_size: u32) -> ks_status;
+
+    pub fn ks_world_create(definition: *const ks_world_definition, world: *mut ks_world) -> ks_status;
+    pub fn ks_world_destroy(world: ks_world) -> ks_status;
+    pub fn ks_world_clone(world: ks_world, copy: *mut ks_world) -> ks_status;
+    pub fn ks_world_save(world: ks_world, bytes: *mut u8, capacity: usize, count: *mut usize) -> ks_status;
+    pub fn ks_world_restore(bytes: *const u8, count: usize, filter: Option<ks_pair_filter>, user: *mut c_void, world: *mut ks_world) -> ks_status;
+    pub fn ks_world_add(world: ks_world, bodies: *const ks_body_definition, count: usize, ids: *mut BodyId) -> ks_status;
+    pub fn ks_world_add_static(world: ks_world, bodies: *const ks_static_definition, count: usize, ids: *mut BodyId) -> ks_status;
+    pub fn ks_world_add_zone(world: ks_world, shape: *const ks_shape, user_data: u64, id: *mut BodyId) -> ks_status;
+    pub fn ks_world_remove(world: ks_world, bodies: *const BodyId, count: usize) -> ks_status;
+    pub fn ks_world_set_velocities(world: ks_world, bodies: *const BodyId, velocities: *const Vec3, count: usize) -> ks_status;
+    pub fn ks_world_set_velocity(world: ks_world, body: BodyId, velocity: Vec3) -> ks_status;
+    pub fn ks_world_teleport(world: ks_world, body: BodyId, state: *const State) -> ks_status;
+    pub fn ks_world_set_radius(world: ks_world, body: BodyId, radius: f64) -> ks_status;
+    pub fn ks_world_set_mass(world: ks_world, body: BodyId, mass: f64) -> ks_status;
+    pub fn ks_world_set_motion_limits(world: ks_world, body: BodyId, limits: *const ks_motion_limits) -> ks_status;
+    pub fn ks_world_set_shape(world: ks_world, body: BodyId, shape: *const ks_shape) -> ks_status;
+    pub fn ks_world_disable(world: ks_world, body: BodyId) -> ks_status;
+    pub fn ks_world_enable(world: ks_world, body: BodyId, state: *const State) -> ks_status;
+    pub fn ks_world_sleep(world: ks_world, body: BodyId) -> ks_status;
+    pub fn ks_world_wake(world: ks_world, body: BodyId) -> ks_status;
+    pub fn ks_world_set_filter(world: ks_world, body: BodyId, filter: *const ks_filter) -> ks_status;
+    pub fn ks_world_set_pair_filter(world: ks_world, filter: Option<ks_pair_filter>, user: *mut c_void) -> ks_status;
+    pub fn ks_world_set_sensor(world: ks_world, sensor_class: i32, distances: *const f64, count: usize, mask: u64) -> ks_status;
+    pub fn ks_world_set_sensor_class(world: ks_world, body: BodyId, sensor_class: i32) -> ks_status;
+    pub fn ks_world_time(world: ks_world, time: *mut f64) -> ks_status;
+    pub fn ks_world_size(world: ks_world, bodies: *mut usize) -> ks_status;
+    pub fn ks_world_contains(world: ks_world, body: BodyId, contains: *mut i32) -> ks_status;
+    pub fn ks_world_bodies(world: ks_world, bodies: *mut BodyId, capacity: usize, count: *mut usize) -> ks_status;
+    pub fn ks_world_touching(world: ks_world, body: BodyId, partners: *mut BodyId, capacity: usize, count: *mut usize) -> ks_status;
+    pub fn ks_world_sensor_overlaps(world: ks_world, body: BodyId, overlaps: *mut ks_sensor_overlap, capacity: usize, count: *mut usize) -> ks_status;
+
+    pub fn ks_event_kind_name(kind: i32) -> *const c_char;
+    pub fn ks_bounce(event: *const ks_event, restitution: f64, resting_speed: f64, response: *mut ks_response) -> ks_status;
+    pub fn ks_event_hash_add(hash: *mut ks_event_hash, event: *const ks_event) -> ks_status;
+    pub fn ks_event_hash_value(hash: *const ks_event_hash, value: *mut u64) -> ks_status;
+
+    pub fn ks_probe_motions(bodies: *const BodyId, count: usize, time: f64, states: *mut State, user: *mut c_void) -> i32;
+    pub fn ks_world_advance(world: ks_world, until: f64, probe: Option<ks_probe>, user: *mut c_void, event: *mut ks_event) -> ks_status;
+    pub fn ks_world_run(world: ks_world, until: f64, definition: *const ks_run_definition) -> ks_status;
+    pub fn ks_world_add_motion(world: ks_world, definition: *const ks_motion_definition, motion: *mut u32, ids: *mut BodyId) -> ks_status;
+    pub fn ks_world_push_frame(world: ks_world, motion: u32, positions: *const Vec3, count: usize) -> ks_status;
+    pub fn ks_world_latest_frame(world: ks_world, motion: u32, positions: *mut Vec3, capacity: usize, count: *mut usize) -> ks_status;
+    pub fn ks_world_latest_frame_time(world: ks_world, motion: u32, time: *mut f64) -> ks_status;
+    pub fn ks_world_states(world: ks_world, bodies: *const BodyId, count: usize, time: f64, states: *mut State) -> ks_status;
+
+    pub fn ks_world_safe_until(world: ks_world, probe: Option<ks_probe>, user: *mut c_void, prediction: *mut ks_prediction) -> ks_status;
+    pub fn ks_world_earliest_contact(world: ks_world, body: BodyId, probe: Option<ks_probe>, user: *mut c_void, prediction: *mut ks_prediction) -> ks_status;
+    pub fn ks_world_earliest_approach(world: ks_world, body: BodyId, distance: f64, probe: Option<ks_probe>, user: *mut c_void, prediction: *mut ks_prediction) -> ks_status;
+    pub fn ks_world_overlapping_sphere(world: ks_world, centre: Vec3, radius: f64, probe: Option<ks_probe>, user: *mut c_void, hits: *mut ks_hit, capacity: usize, count: *mut usize) -> ks_status;
+    pub fn ks_world_nearest(world: ks_world, point: Vec3, bodies: usize, probe: Option<ks_probe>, user: *mut c_void, hits: *mut ks_hit, capacity: usize, count: *mut usize) -> ks_status;
+    pub fn ks_world_cast(world: ks_world, origin: Vec3, direction: Vec3, length: f64, radius: f64, probe: Option<ks_probe>, user: *mut c_void, hits: *mut ks_hit, capacity: usize, count: *mut usize) -> ks_status;
+
+    pub fn ks_monitor_event_kind_name(kind: i32) -> *const c_char;
+    pub fn ks_monitor_create(definition: *const ks_monitor_definition, monitor: *mut ks_monitor) -> ks_status;
+    pub fn ks_monitor_destroy(monitor: ks_monitor) -> ks_status;
+    pub fn ks_monitor_save(monitor: ks_monitor, bytes: *mut u8, capacity: usize, count: *mut usize) -> ks_status;
+    pub fn ks_monitor_restore(bytes: *const u8, count: usize, monitor: *mut ks_monitor) -> ks_status;
+    pub fn ks_monitor_report(monitor: ks_monitor, tracks: *const u64, reports: *const ks_track_report, count: usize) -> ks_status;
+    pub fn ks_monitor_remove(monitor: ks_monitor, track: u64) -> ks_status;
+    pub fn ks_monitor_advance(monitor: ks_monitor, until: f64, poll: Option<ks_poll>, user: *mut c_void, event: *mut ks_monitor_event) -> ks_status;
+    pub fn ks_monitor_time(monitor: ks_monitor, time: *mut f64) -> ks_status;
+    pub fn ks_monitor_tracks(monitor: ks_monitor, tracks: *mut u64, capacity: usize, count: *mut usize) -> ks_status;
+    pub fn ks_monitor_answer(monitor: ks_monitor, first: u64, second: u64, level: u32, answer: *mut ks_pair_answer) -> ks_status;
+    pub fn ks_monitor_open_pairs(monitor: ks_monitor, pairs: *mut ks_open_pair, capacity: usize, count: *mut usize) -> ks_status;
+    pub fn ks_monitor_needed(monitor: ks_monitor, until: f64, requests: *mut ks_report_request, capacity: usize, count: *mut usize) -> ks_status;
+}

@@ -1,0 +1,586 @@
+//! Worlds.
+use crate::bodies::{BodyDefinition, Contacts, Filter, MotionLimits, StaticDefinition};
+use crate::error::{check, filled, Guarded, Result};
+use crate::events::{Event, Response, Wall};
+use crate::geometry::{BodyId, Box3, Shape, State, Vec3};
+use crate::sys;
+use std::mem::size_of;
+use std::os::raw::c_void;
+use std::panic::{catch_unwind, AssertUnwindSafe};
+use std::ptr;
+use std::slice;
+use std::sync::Arc;
+
+/// Parameters of a world (`WorldDefinition` in C++).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WorldDefinition {
+    /// The sides are walls, or repeat.
+    pub bounds: Option<Box3>,
+    /// Axes on which space repeats, without walls.
+    pub periodic: [bool; 3],
+    /// 2 or 3
+    pub dimensions: i32,
+    /// > 0 (length)
+    pub contact_tolerance: f64,
+    /// > contact_tolerance (length); NaN: four tolerances
+    pub separation_distance: f64,
+    pub contacts: Contacts,
+    pub allow_overlap: bool,
+    /// >= 0 (time)
+    pub zeno_interval: f64,
+    pub start_time: f64,
+}
+
+impl Default for WorldDefinition {
+    fn default() -> WorldDefinition {
+        let mut raw = sys::ks_world_definition::default();
+        unsafe { sys::ks_world_definition_init(&mut raw, size_of::<sys::ks_world_definition>() as u32) };
+        WorldDefinition {
+            bounds: None,
+            periodic: [false; 3],
+            dimensions: raw.dimensions,
+            contact_tolerance: raw.contact_tolerance,
+            separation_distance: raw.separation_distance,
+            contacts: Contacts::of(raw.contacts).unwrap_or(Contacts::All),
+            allow_overlap: raw.allow_overlap != 0,
+            zeno_interval: raw.zeno_interval,
+            start_time: raw.start_time,
+        }
+    }
+}
+
+impl WorldDefinition {
+    fn raw(&self) -> sys::ks_world_definition {
+        sys::ks_world_definition {
+            struct_size: size_of::<sys::ks_world_definition>() as u32,
+            dimensions: self.dimensions,
+            has_box: self.bounds.is_some() as i32,
+            periodic: (0..3).map(|axis| (self.periodic[axis] as u32) << axis).sum(),
+            box_: self.bounds.unwrap_or_default(),
+            contact_tolerance: self.contact_tolerance,
+            separation_distance: self.separation_distance,
+            zeno_interval: self.zeno_interval,
+            start_time: self.start_time,
+            contacts: self.contacts as i32,
+            allow_overlap: self.allow_overlap as i32,
+        }
+    }
+}
+
+/// When a contact or an approach may happen first: certainly not before `time`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prediction {
+    pub time: f64,
+    pub partner: Option<BodyId>,
+    pub wall: Option<Wall>,
+    /// The contact exists, or the partner certainly is within the distance.
+    pub happens: bool,
+}
+
+impl Prediction {
+    fn of(raw: sys::ks_prediction) -> Prediction {
+        Prediction {
+            time: raw.time,
+            partner: raw.partner.some(),
+            wall: Wall::of(raw.wall),
+            happens: raw.happens != 0,
+        }
+    }
+}
+
+/// A body that a query found, at a distance between `lower` and `upper` (both 0 for overlaps).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    pub body: BodyId,
+    /// False: possibly.
+    pub certain: bool,
+    pub lower: f64,
+    pub upper: f64,
+}
+
+/// Bodies that the library moves: states at the world's current time, and what moves them.
+#[derive(Clone, Copy, Debug)]
+pub enum Motion<'a> {
+    /// Free flight.
+    Ballistic { gravity: Vec3 },
+    /// Random accelerations up to a limit for each body, new at multiples of the interval.
+    RandomForces { acceleration_limits: &'a [f64], interval: f64, seed: u64 },
+    /// A game's frames, this much time apart: straight from the position in one to that in the next.
+    Frames { interval: f64, position_error: f64 },
+}
+
+/// How `World::run` answers events.
+pub enum Run<'a> {
+    /// Bodies pass through each other.
+    PassThrough,
+    Bounce {
+        restitution: f64,
+    },
+    Settle {
+        restitution: f64,
+        resting_speed: f64,
+    },
+    /// The same answer for the same event. With several threads it is called by several at a time.
+    Respond(&'a (dyn Fn(&Event) -> Response + Sync)),
+}
+
+type PairFilter = Box<dyn Fn(BodyId, BodyId) -> bool + Send + Sync>;
+
+/// A world of moving spheres. Methods have the meanings, errors and costs of those of `World` in C++.
+pub struct World {
+    handle: sys::ks_world,
+    /// Keeps alive what the library has a pointer to.
+    filter: Option<Arc<PairFilter>>,
+}
+
+impl Drop for World {
+    fn drop(&mut self) {
+        // It cannot fail: no call of this world is active, since none borrows it.
+        unsafe { sys::ks_world_destroy(self.handle) };
+    }
+}
+
+unsafe extern "C" fn probe<F: FnMut(&[BodyId], f64, &mut [State])>(
+    bodies: *const BodyId,
+    count: usize,
+    time: f64,
+    states: *mut State,
+    user: *mut c_void,
+) -> i32 {
+    Guarded::<F>::call(user, |function| {
+        function(slice::from_raw_parts(bodies, count), time, slice::from_raw_parts_mut(states, count))
+    })
+}
+
+unsafe extern "C" fn respond<F: Fn(&Event) -> Response + Sync>(
+    event: *const sys::ks_event,
+    response: *mut sys::ks_response,
+    user: *mut c_void,
+) -> i32 {
+    Guarded::<F>::call_shared(user, |function| {
+        if let Some(event) = Event::of(*event) {
+            *response = function(&event).raw();
+        }
+    })
+}
+
+unsafe extern "C" fn sink<F: FnMut(&Event)>(event: *const sys::ks_event, user: *mut c_void) -> i32 {
+    Guarded::<F>::call(user, |function| {
+        if let Some(event) = Event::of(*event) {
+            function(&event)
+        }
+    })
+}
+
+unsafe extern "C" fn pair_filter(first: BodyId, second: BodyId, user: *mut c_void) -> i32 {
+    let filter = &*(user as *const PairFilter);
+    match catch_unwind(AssertUnwindSafe(|| filter(first, second))) {
+        Ok(passes) => passes as i32,
+        // The library cannot go on without an answer.
+        Err(_) => std::process::abort(),
+    }
+}
+
+impl World {
+    pub fn new(definition: &WorldDefinition) -> Result<World> {
+        let mut handle = sys::ks_world { value: 0 };
+        check(unsafe { sys::ks_world_create(&definition.raw(), &mut handle) })?;
+        Ok(World { handle, filter: None })
+    }
+
+    /// Returns a copy that continues as this world does, with its motions and ids: for rollback.
+    pub fn try_clone(&self) -> Result<World> {
+        let mut handle = sys::ks_world { value: 0 };
+        check(unsafe { sys::ks_world_clone(self.handle, &mut handle) })?;
+        Ok(World { handle, filter: self.filter.clone() })
+    }
+
+    /// Returns a snapshot, without motions and pair filter.
+    pub fn save(&self) -> Result<Vec<u8>> {
+        filled(|bytes, capacity, count| unsafe { sys::ks_world_save(self.handle, bytes, capacity, count) })
+    }
+
+    /// Returns the world of a snapshot of a world without a pair filter.
+    pub fn restore(snapshot: &[u8]) -> Result<World> {
+        let mut handle = sys::ks_world { value: 0 };
+        check(unsafe {
+            sys::ks_world_restore(snapshot.as_ptr(), snapshot.len(), None, ptr::null_mut(), &mut handle)
+        })?;
+        Ok(World { handle, filter: None })
+    }
+
+    pub fn add(&mut self, body: &BodyDefinition) -> Result<BodyId> {
+        let mut id = BodyId::default();
+        check(unsafe { sys::ks_world_add(self.handle, &body.raw(), 1, &mut id) })?;
+        Ok(id)
+    }
+
+    /// Adds all bodies or, on an error, none.
+    pub fn add_all(&mut self, bodies: &[BodyDefinition]) -> Result<Vec<BodyId>> {
+        let raw: Vec<_> = bodies.iter().map(BodyDefinition::raw).collect();
+        let mut ids = vec![BodyId::default(); raw.len()];
+        check(unsafe { sys::ks_world_add(self.handle, raw.as_ptr(), raw.len(), ids.as_mut_ptr()) })?;
+        Ok(ids)
+    }
+
+    pub fn add_static(&mut self, body: &StaticDefinition) -> Result<BodyId> {
+        let mut id = BodyId::default();
+        check(unsafe { sys::ks_world_add_static(self.handle, &body.raw(), 1, &mut id) })?;
+        Ok(id)
+    }
+
+    /// Adds a zone, which reports who enters and leaves it.
+    pub fn add_zone(&mut self, shape: &Shape, user_data: u64) -> Result<BodyId> {
+        let mut id = BodyId::default();
+        check(unsafe { sys::ks_world_add_zone(self.handle, &shape.raw(), user_data, &mut id) })?;
+        Ok(id)
+    }
+
+    pub fn remove(&mut self, body: BodyId) -> Result<()> {
+        check(unsafe { sys::ks_world_remove(self.handle, &body, 1) })
+    }
+
+    /// Informs the world, and the motion of the body if it has one, of a new velocity from now on.
+    pub fn set_velocity(&mut self, body: BodyId, velocity: Vec3) -> Result<()> {
+        check(unsafe { sys::ks_world_set_velocity(self.handle, body, velocity) })
+    }
+
+    /// Sets the velocities of all these bodies or, on an error, of none.
+    ///
+    /// # Panics
+    /// If the lengths differ.
+    pub fn set_velocities(&mut self, bodies: &[BodyId], velocities: &[Vec3]) -> Result<()> {
+        assert_eq!(bodies.len(), velocities.len(), "one velocity for each body");
+        check(unsafe {
+            sys::ks_world_set_velocities(self.handle, bodies.as_ptr(), velocities.as_ptr(), bodies.len())
+        })
+    }
+
+    /// Sets the velocities of a response to this event.
+    pub fn apply(&mut self, event: &Event, response: Response) -> Result<()> {
+        if let Some(velocity) = response.first {
+            self.set_velocity(event.first, velocity)?;
+        }
+        if let (Some(body), Some(velocity)) = (event.second, response.second) {
+            self.set_velocity(body, velocity)?;
+        }
+        Ok(())
+    }
+
+    pub fn teleport(&mut self, body: BodyId, state: State) -> Result<()> {
+        check(unsafe { sys::ks_world_teleport(self.handle, body, &state) })
+    }
+    pub fn set_radius(&mut self, body: BodyId, radius: f64) -> Result<()> {
+        check(unsafe { sys::ks_world_set_radius(self.handle, body, radius) })
+    }
+    pub fn set_mass(&mut self, body: BodyId, mass: f64) -> Result<()> {
+        check(unsafe { sys::ks_world_set_mass(self.handle, body, mass) })
+    }
+    pub fn set_motion_limits(&mut self, body: BodyId, limits: &MotionLimits) -> Result<()> {
+        check(unsafe { sys::ks_world_set_motion_limits(self.handle, body, &limits.raw()) })
+    }
+    pub fn set_shape(&mut self, body: BodyId, shape: &Shape) -> Result<()> {
+        check(unsafe { sys::ks_world_set_shape(self.handle, body, &shape.raw()) })
+    }
+    pub fn disable(&mut self, body: BodyId) -> Result<()> {
+        check(unsafe { sys::ks_world_disable(self.handle, body) })
+    }
+    pub fn enable(&mut self, body: BodyId, state: State) -> Result<()> {
+        check(unsafe { sys::ks_world_enable(self.handle, body, &state) })
+    }
+    pub fn sleep(&mut self, body: BodyId) -> Result<()> {
+        check(unsafe { sys::ks_world_sleep(self.handle, body) })
+    }
+    pub fn wake(&mut self, body: BodyId) -> Result<()> {
+        check(unsafe { sys::ks_world_wake(self.handle, body) })
+    }
+
+    pub fn set_filter(&mut self, body: BodyId, filter: Filter) -> Result<()> {
+        check(unsafe { sys::ks_world_set_filter(self.handle, body, &filter.raw()) })
+    }
+    /// Sets a symmetric predicate for pairs whose filters let them touch. Its answers must not change. A panic in it
+    /// ends the program.
+    pub fn set_pair_filter(
+        &mut self,
+        filter: impl Fn(BodyId, BodyId) -> bool + Send + Sync + 'static,
+    ) -> Result<()> {
+        let filter: Arc<PairFilter> = Arc::new(Box::new(filter));
+        let user = Arc::as_ptr(&filter) as *mut c_void;
+        check(unsafe { sys::ks_world_set_pair_filter(self.handle, Some(pair_filter), user) })?;
+        self.filter = Some(filter);
+        Ok(())
+    }
+    /// Sets the distances at which bodies of a class sense bodies with a category in the mask.
+    pub fn set_sensor(&mut self, sensor_class: u8, distances: &[f64], mask: u64) -> Result<()> {
+        check(unsafe {
+            sys::ks_world_set_sensor(
+                self.handle,
+                sensor_class.into(),
+                distances.as_ptr(),
+                distances.len(),
+                mask,
+            )
+        })
+    }
+    pub fn set_sensor_class(&mut self, body: BodyId, sensor_class: u8) -> Result<()> {
+        check(unsafe { sys::ks_world_set_sensor_class(self.handle, body, sensor_class.into()) })
+    }
+
+    pub fn time(&self) -> f64 {
+        let mut time = 0.0;
+        unsafe { sys::ks_world_time(self.handle, &mut time) };
+        time
+    }
+    /// The number of bodies.
+    pub fn len(&self) -> usize {
+        let mut bodies = 0;
+        unsafe { sys::ks_world_size(self.handle, &mut bodies) };
+        bodies
+    }
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+    pub fn contains(&self, body: BodyId) -> bool {
+        let mut contains = 0;
+        unsafe { sys::ks_world_contains(self.handle, body, &mut contains) };
+        contains != 0
+    }
+    pub fn bodies(&self) -> Result<Vec<BodyId>> {
+        filled(|bodies, capacity, count| unsafe {
+            sys::ks_world_bodies(self.handle, bodies, capacity, count)
+        })
+    }
+    /// The bodies in contact with a body.
+    pub fn touching(&self, body: BodyId) -> Result<Vec<BodyId>> {
+        filled(|partners, capacity, count| unsafe {
+            sys::ks_world_touching(self.handle, body, partners, capacity, count)
+        })
+    }
+    /// The bodies within sensor distances of a body, with these distances.
+    pub fn sensor_overlaps(&self, body: BodyId) -> Result<Vec<(BodyId, f64)>> {
+        let found: Vec<sys::ks_sensor_overlap> = filled(|overlaps, capacity, count| unsafe {
+            sys::ks_world_sensor_overlaps(self.handle, body, overlaps, capacity, count)
+        })?;
+        Ok(found.iter().map(|overlap| (overlap.body, overlap.distance)).collect())
+    }
+
+    /// Advances to the next event, at most to time `until`: returns the event, with the world at its time, or
+    /// nothing, with the world at `until`. The probe sets the states of the bodies that no motion moves.
+    pub fn advance<F>(&mut self, until: f64, probe: F) -> Result<Option<Event>>
+    where
+        F: FnMut(&[BodyId], f64, &mut [State]),
+    {
+        let mut event = new_event();
+        self.with_probe(probe, |probe, user| unsafe {
+            sys::ks_world_advance(self.handle, until, probe, user, &mut event)
+        })?;
+        Ok(Event::of(event))
+    }
+
+    /// Like `advance`, for a world whose bodies are all moved by motions.
+    pub fn advance_motions(&mut self, until: f64) -> Result<Option<Event>> {
+        let mut event = new_event();
+        check(unsafe {
+            let probe: sys::ks_probe = sys::ks_probe_motions;
+            sys::ks_world_advance(self.handle, until, Some(probe), ptr::null_mut(), &mut event)
+        })?;
+        Ok(Event::of(event))
+    }
+
+    /// Advances to time `until` and answers all events; `on_event` receives each, in order. Motions must move all
+    /// bodies. The outcome is the same for any number of threads.
+    pub fn run<F: FnMut(&Event)>(&mut self, until: f64, how: Run, threads: i32, on_event: F) -> Result<()> {
+        let function: &(dyn Fn(&Event) -> Response + Sync) = match how {
+            Run::Respond(function) => function,
+            _ => &|_| Response::default(),
+        };
+        let mut responses = Guarded::new(function);
+        let mut events = Guarded::new(on_event);
+        let (restitution, resting_speed) = match how {
+            Run::Bounce { restitution } => (restitution, 0.0),
+            Run::Settle { restitution, resting_speed } => (restitution, resting_speed),
+            Run::PassThrough | Run::Respond(_) => (f64::NAN, 0.0),
+        };
+        let definition = sys::ks_run_definition {
+            struct_size: size_of::<sys::ks_run_definition>() as u32,
+            threads,
+            restitution,
+            resting_speed,
+            respond: match how {
+                Run::Respond(_) => Some(respond_of(function)),
+                _ => None,
+            },
+            respond_user: responses.user(),
+            sink: Some(sink::<F>),
+            sink_user: events.user(),
+        };
+        let done = check(unsafe { sys::ks_world_run(self.handle, until, &definition) });
+        responses.resume();
+        events.resume();
+        done
+    }
+
+    /// Adds bodies that the library moves; their other properties are those of `like`. `radii` and `masses` are empty
+    /// or have one entry for each state. Returns the number of the motion in this world, and the ids.
+    ///
+    /// # Panics
+    /// If the lengths differ.
+    pub fn add_motion(
+        &mut self,
+        motion: Motion,
+        states: &[State],
+        radii: &[f64],
+        masses: &[f64],
+        like: &BodyDefinition,
+    ) -> Result<(u32, Vec<BodyId>)> {
+        let like = like.raw();
+        let mut raw = sys::ks_motion_definition {
+            struct_size: size_of::<sys::ks_motion_definition>() as u32,
+            kind: 0,
+            count: states.len(),
+            states: states.as_ptr(),
+            radii: optional(radii, states),
+            masses: optional(masses, states),
+            acceleration_limits: ptr::null(),
+            gravity: Vec3::default(),
+            interval: 0.0,
+            position_error: 0.0,
+            seed: 0,
+            like: &like,
+        };
+        match motion {
+            Motion::Ballistic { gravity } => raw.gravity = gravity,
+            Motion::RandomForces { acceleration_limits, interval, seed } => {
+                assert_eq!(acceleration_limits.len(), states.len(), "one limit for each state");
+                raw.kind = 1;
+                raw.acceleration_limits = acceleration_limits.as_ptr();
+                raw.interval = interval;
+                raw.seed = seed;
+            }
+            Motion::Frames { interval, position_error } => {
+                raw.kind = 2;
+                raw.interval = interval;
+                raw.position_error = position_error;
+            }
+        }
+        let mut number = 0;
+        let mut ids = vec![BodyId::default(); states.len()];
+        check(unsafe { sys::ks_world_add_motion(self.handle, &raw, &mut number, ids.as_mut_ptr()) })?;
+        Ok((number, ids))
+    }
+
+    /// Appends the next frame of a motion of frames, and returns its time, to which to advance then.
+    pub fn push_frame(&mut self, motion: u32, positions: &[Vec3]) -> Result<f64> {
+        check(unsafe { sys::ks_world_push_frame(self.handle, motion, positions.as_ptr(), positions.len()) })?;
+        let mut time = 0.0;
+        check(unsafe { sys::ks_world_latest_frame_time(self.handle, motion, &mut time) })?;
+        Ok(time)
+    }
+
+    /// The positions in the latest frame, with the changes that events made.
+    pub fn latest_frame(&self, motion: u32) -> Result<Vec<Vec3>> {
+        filled(|positions, capacity, count| unsafe {
+            sys::ks_world_latest_frame(self.handle, motion, positions, capacity, count)
+        })
+    }
+
+    /// The true states at a time of bodies that motions move.
+    pub fn states(&self, bodies: &[BodyId], time: f64) -> Result<Vec<State>> {
+        let mut states = vec![State::default(); bodies.len()];
+        check(unsafe {
+            sys::ks_world_states(self.handle, bodies.as_ptr(), bodies.len(), time, states.as_mut_ptr())
+        })?;
+        Ok(states)
+    }
+
+    /// No contact begins before this time, whatever the bodies do within their limits.
+    pub fn safe_until(&self) -> Result<Prediction> {
+        let mut raw = sys::ks_prediction::default();
+        check(unsafe { sys::ks_world_safe_until(self.handle, None, ptr::null_mut(), &mut raw) })?;
+        Ok(Prediction::of(raw))
+    }
+    pub fn earliest_contact(&self, body: BodyId) -> Result<Prediction> {
+        let mut raw = sys::ks_prediction::default();
+        check(unsafe { sys::ks_world_earliest_contact(self.handle, body, None, ptr::null_mut(), &mut raw) })?;
+        Ok(Prediction::of(raw))
+    }
+    /// The first time at which anything may be within `distance` of a body.
+    pub fn earliest_approach(&self, body: BodyId, distance: f64) -> Result<Prediction> {
+        let mut raw = sys::ks_prediction::default();
+        check(unsafe {
+            sys::ks_world_earliest_approach(self.handle, body, distance, None, ptr::null_mut(), &mut raw)
+        })?;
+        Ok(Prediction::of(raw))
+    }
+
+    /// The bodies that may overlap a sphere.
+    pub fn overlapping(&self, centre: Vec3, radius: f64) -> Result<Vec<Hit>> {
+        hits(|found, capacity, count| unsafe {
+            let user = ptr::null_mut();
+            sys::ks_world_overlapping_sphere(self.handle, centre, radius, None, user, found, capacity, count)
+        })
+    }
+    /// All that may be among the `bodies` nearest to a point.
+    pub fn nearest(&self, point: Vec3, bodies: usize) -> Result<Vec<Hit>> {
+        hits(|found, capacity, count| unsafe {
+            sys::ks_world_nearest(self.handle, point, bodies, None, ptr::null_mut(), found, capacity, count)
+        })
+    }
+    /// All that a ray of this length, or with a radius > 0 a moving sphere, may hit first.
+    pub fn cast(&self, origin: Vec3, direction: Vec3, length: f64, radius: f64) -> Result<Vec<Hit>> {
+        hits(|found, capacity, count| unsafe {
+            let user = ptr::null_mut();
+            sys::ks_world_cast(
+                self.handle,
+                origin,
+                direction,
+                length,
+                radius,
+                None,
+                user,
+                found,
+                capacity,
+                count,
+            )
+        })
+    }
+
+    fn with_probe<F: FnMut(&[BodyId], f64, &mut [State])>(
+        &self,
+        function: F,
+        call: impl FnOnce(Option<sys::ks_probe>, *mut c_void) -> sys::ks_status,
+    ) -> Result<()> {
+        let mut guarded = Guarded::new(function);
+        let done = check(call(Some(probe::<F>), guarded.user()));
+        guarded.resume();
+        done
+    }
+}
+
+fn new_event() -> sys::ks_event {
+    sys::ks_event { struct_size: size_of::<sys::ks_event>() as u32, ..Default::default() }
+}
+
+/// The callback for a function of this type.
+fn respond_of<F: Fn(&Event) -> Response + Sync>(_: F) -> sys::ks_respond {
+    respond::<F>
+}
+
+/// The pointer to an optional array, which has no entries or one for each state.
+fn optional(numbers: &[f64], states: &[State]) -> *const f64 {
+    if numbers.is_empty() {
+        return ptr::null();
+    }
+    assert_eq!(numbers.len(), states.len(), "one entry for each state");
+    numbers.as_ptr()
+}
+
+fn hits(fill: impl Fn(*mut sys::ks_hit, usize, *mut usize) -> sys::ks_status) -> Result<Vec<Hit>> {
+    let of = |hit: &sys::ks_hit| Hit {
+        body: hit.body,
+        certain: hit.certain != 0,
+        lower: hit.lower,
+        upper: hit.upper,
+    };
+    Ok(filled(fill)?.iter().map(of).collect())
+}

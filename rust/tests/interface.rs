@@ -1,0 +1,153 @@
+//! What Rust adds to the C interface: results, panics, lifetimes.
+use kinesphere::*;
+use std::panic::{catch_unwind, AssertUnwindSafe};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::Arc;
+
+/// A world in which two balls fly towards each other, and the probe that moves them.
+fn two_balls() -> (World, [BodyId; 2], impl Fn(&[BodyId], f64, &mut [State])) {
+    let mut world = World::new(&WorldDefinition::default()).unwrap();
+    let start = [
+        State { position: Vec3::new(0.0, 0.0, 0.0), velocity: Vec3::new(1.0, 0.0, 0.0) },
+        State { position: Vec3::new(10.0, 0.0, 0.0), velocity: Vec3::new(-1.0, 0.0, 0.0) },
+    ];
+    let ids = start.map(|state| world.add(&state.into()).unwrap());
+    let probe = move |ids: &[BodyId], time: f64, states: &mut [State]| {
+        for (id, state) in ids.iter().zip(states) {
+            let from = start[id.index()];
+            *state = State { position: from.position + from.velocity * time, ..from };
+        }
+    };
+    (world, ids, probe)
+}
+
+#[test]
+fn two_balls_meet() {
+    let (mut world, [left, right], probe) = two_balls();
+    let event = world.advance(20.0, &probe).unwrap().unwrap();
+    assert_eq!((event.kind, event.first, event.second), (EventKind::ContactBegin, left, Some(right)));
+    assert_eq!(event.kind.to_string(), "contact_begin");
+    assert!((event.time - 4.0).abs() < 1e-5 && world.time() == event.time);
+    assert_eq!(world.touching(left).unwrap(), [right]);
+    assert_eq!(world.advance(20.0, &probe).unwrap().unwrap().kind, EventKind::ContactEnd);
+    assert!(world.advance(20.0, &probe).unwrap().is_none());
+}
+
+#[test]
+fn wrong_use_is_an_error() {
+    let (mut world, [left, _], probe) = two_balls();
+    let error = world.set_radius(left, -1.0).unwrap_err();
+    assert_eq!((error.name, error.argument.as_str(), error.body), ("out_of_range", "radius", Some(left)));
+    assert!(error.to_string().contains("must be >= 0"));
+    world.remove(left).unwrap();
+    assert_eq!(world.set_radius(left, 1.0).unwrap_err().name, "stale_body");
+    assert_eq!(world.advance(f64::NAN, probe).unwrap_err().name, "not_finite");
+    assert_eq!(World::restore(b"nothing").err().unwrap().name, "bad_snapshot");
+    assert!(!world.contains(left) && world.len() == 1);
+}
+
+#[test]
+fn a_panic_passes_through_the_call() {
+    let (mut world, _, probe) = two_balls();
+    let (_, _, other) = two_balls();
+    let limits = MotionLimits { acceleration_limit: 1.0, ..Default::default() };
+    for body in world.bodies().unwrap() {
+        world.set_motion_limits(body, &limits).unwrap();
+    }
+    let panicked = catch_unwind(AssertUnwindSafe(|| world.advance(20.0, |_, _, _| panic!("game over"))));
+    assert_eq!(panicked.unwrap_err().downcast_ref(), Some(&"game over"));
+    drop(probe);
+    let event = world.advance(20.0, other).unwrap().unwrap();
+    assert_eq!(event.kind, EventKind::ContactBegin);
+
+    // Also from several threads of a run.
+    let mut flying = World::new(&WorldDefinition {
+        bounds: Some(Box3 { lower: Vec3::default(), upper: Vec3::new(9.0, 9.0, 9.0) }),
+        ..Default::default()
+    })
+    .unwrap();
+    let states: Vec<State> = (0..8)
+        .map(|k| State { position: Vec3::new(1.0 + k as f64, 4.5, 4.5), velocity: Vec3::new(0.0, 1.0, 0.0) })
+        .collect();
+    let ballistic = Motion::Ballistic { gravity: Vec3::default() };
+    let like = BodyDefinition { radius: 0.2, ..Default::default() };
+    flying.add_motion(ballistic, &states, &[], &[], &like).unwrap();
+    let respond = |_: &Event| -> Response { panic!("no answer") };
+    let panicked = catch_unwind(AssertUnwindSafe(|| flying.run(20.0, Run::Respond(&respond), 2, |_| {})));
+    assert_eq!(panicked.unwrap_err().downcast_ref(), Some(&"no answer"));
+    let mut walls = 0;
+    flying
+        .run(20.0, Run::Bounce { restitution: 1.0 }, 2, |event| walls += event.wall.is_some() as i32)
+        .unwrap();
+    assert!(walls >= 8);
+}
+
+#[test]
+fn a_pair_filter_lives_as_long_as_the_last_clone() {
+    let (mut world, _, probe) = two_balls();
+    let calls = Arc::new(AtomicUsize::new(0));
+    let counter = calls.clone();
+    world
+        .set_pair_filter(move |_, _| {
+            counter.fetch_add(1, Ordering::Relaxed);
+            false
+        })
+        .unwrap();
+    let mut clone = world.try_clone().unwrap();
+    drop(world);
+    assert!(clone.advance(20.0, probe).unwrap().is_none());
+    assert!(calls.load(Ordering::Relaxed) > 0 && Arc::strong_count(&calls) == 2);
+    drop(clone);
+    assert_eq!(Arc::strong_count(&calls), 1);
+}
+
+#[test]
+fn snapshots_queries_and_predictions() {
+    let (world, [left, right], probe) = two_balls();
+    let mut restored = World::restore(&world.save().unwrap()).unwrap();
+    assert_eq!(restored.bodies().unwrap(), [left, right]);
+    let first = restored.advance(20.0, probe).unwrap().unwrap();
+    assert!((first.time - 4.0).abs() < 1e-5);
+    let contact = world.earliest_contact(left).unwrap();
+    assert!(contact.partner == Some(right) && contact.time > 3.9 && contact.time <= 4.0);
+    assert!(world.safe_until().unwrap().time <= 4.0);
+    let hits = world.cast(Vec3::new(-5.0, 0.0, 0.0), Vec3::new(1.0, 0.0, 0.0), 50.0, 0.0).unwrap();
+    assert!(hits.len() == 1 && hits[0].body == left && hits[0].certain);
+    assert_eq!(world.nearest(Vec3::new(9.0, 0.0, 0.0), 1).unwrap()[0].body, right);
+    assert!(world.overlapping(Vec3::new(5.0, 0.0, 0.0), 1.0).unwrap().is_empty());
+}
+
+#[test]
+fn a_monitor_polls() {
+    let class = TrackClass { acceleration_limit: ErrorBound::Ball(3.0), ..Default::default() };
+    let rule = SeparationRule { classes: (0, 0), levels: vec![Separation::sphere(50.0)] };
+    let mut monitor = Monitor::new(&MonitorDefinition {
+        classes: vec![class],
+        separations: vec![rule],
+        ..Default::default()
+    })
+    .unwrap();
+    let report = |track: u64, timestamp: f64| TrackReport {
+        timestamp,
+        state: State { position: Vec3::new(1000.0 * track as f64, 0.0, 0.0), ..Default::default() },
+        ..Default::default()
+    };
+    for track in [1, 2] {
+        monitor.report(track, &report(track, 0.0)).unwrap();
+    }
+    let mut silent = Monitor::restore(&monitor.save().unwrap()).unwrap();
+    let mut asked = 0;
+    let event = monitor.advance_with(60.0, |tracks, time| {
+        asked += tracks.len();
+        tracks.iter().map(|&track| Some(report(track, time))).collect()
+    });
+    assert!(event.unwrap().is_none() && asked > 0 && monitor.time() == 60.0);
+    assert_eq!(monitor.answer(1, 2, 0).unwrap().verdict, Verdict::Apart);
+    let event = silent.advance(60.0).unwrap().unwrap();
+    assert_eq!((event.kind, event.verdict), (MonitorEventKind::Verdict, Verdict::Undecided));
+    assert_eq!(silent.open_pairs().unwrap().len(), 1);
+    assert_eq!(silent.answer(1, 9, 0).unwrap_err().name, "unknown_body");
+    let panicked = catch_unwind(AssertUnwindSafe(|| silent.advance_with(61.0, |_, _| panic!("no radar"))));
+    assert!(panicked.is_err());
+    assert_eq!(silent.tracks().unwrap(), [1, 2]);
+}
