@@ -1,0 +1,424 @@
+// Worlds and monitors in C#. Methods have the meanings, errors and costs of those of the C++ headers; wrong use throws a
+// KinesphereException. An exception in a callback passes through the call that called it.
+using System;
+using System.Runtime.ExceptionServices;
+using System.Runtime.InteropServices;
+
+namespace Kinesphere
+{
+    /// <summary>Sets the states of bodies at a time.</summary>
+    public delegate void Probe(BodyId[] bodies, double time, State[] states);
+    /// <summary>Chooses velocities after an event: the same for the same event, and in any thread.</summary>
+    public delegate Response Respond(Event happened);
+
+    /// <summary>An exception of a callback, which must not pass through C.</summary>
+    sealed class Caught
+    {
+        ExceptionDispatchInfo exception;
+
+        public int Call(Action body)
+        {
+            try
+            {
+                body();
+                return 0;
+            }
+            catch (Exception thrown)
+            {
+                exception = ExceptionDispatchInfo.Capture(thrown);
+                return 1;
+            }
+        }
+        public void Check(int status)
+        {
+            if (status == Native.CallbackFailed && exception != null) exception.Throw();
+            Native.Check(status);
+        }
+    }
+
+    /// <summary>A world of moving spheres.</summary>
+    public sealed unsafe class World : IDisposable
+    {
+        static readonly Native.Probe motions = Native.ks_probe_motions;
+        ulong handle;
+
+        public World(WorldDefinition definition) { Native.Check(Native.ks_world_create(ref definition, out handle)); }
+        World(ulong handle) { this.handle = handle; }
+        ~World() { Native.ks_world_destroy(handle); }
+        /// <summary>Destroys the world; each later call throws.</summary>
+        public void Dispose()
+        {
+            Native.Check(Native.ks_world_destroy(handle));
+            GC.SuppressFinalize(this);
+        }
+
+        /// <summary>Returns a copy that continues as this world does, with its motions and ids: for rollback.</summary>
+        public World Clone()
+        {
+            ulong copy;
+            Native.Check(Native.ks_world_clone(handle, out copy));
+            return new World(copy);
+        }
+        /// <summary>Returns a snapshot, without motions.</summary>
+        public byte[] Save()
+        {
+            return Filled<byte>((byte[] bytes, UIntPtr capacity, out UIntPtr count) =>
+                Native.ks_world_save(handle, bytes, capacity, out count));
+        }
+        public static World Restore(byte[] snapshot)
+        {
+            ulong restored;
+            Native.Check(Native.ks_world_restore(snapshot, Count(snapshot), IntPtr.Zero, IntPtr.Zero, out restored));
+            return new World(restored);
+        }
+
+        public BodyId Add(BodyDefinition body) { return AddAll(new[] { body })[0]; }
+        /// <summary>Adds all bodies or, on an error, none.</summary>
+        public BodyId[] AddAll(BodyDefinition[] bodies)
+        {
+            var ids = new BodyId[bodies.Length];
+            Native.Check(Native.ks_world_add(handle, bodies, Count(bodies), ids));
+            return ids;
+        }
+        public BodyId AddStatic(StaticDefinition body)
+        {
+            var ids = new BodyId[1];
+            Native.Check(Native.ks_world_add_static(handle, new[] { body }, Count(ids), ids));
+            return ids[0];
+        }
+        /// <summary>Adds a zone, which reports who enters and leaves it.</summary>
+        public BodyId AddZone(Shape shape, ulong userData = 0)
+        {
+            BodyId id;
+            Native.Check(Native.ks_world_add_zone(handle, ref shape, userData, out id));
+            return id;
+        }
+        public void Remove(BodyId body) { Native.Check(Native.ks_world_remove(handle, new[] { body }, (UIntPtr)1)); }
+
+        /// <summary>Informs the world, and the motion of the body if it has one, of a new velocity.</summary>
+        public void SetVelocity(BodyId body, Vector velocity)
+        {
+            Native.Check(Native.ks_world_set_velocity(handle, body, velocity));
+        }
+        public void Teleport(BodyId body, State state) { Native.Check(Native.ks_world_teleport(handle, body, ref state)); }
+        public void SetRadius(BodyId body, double radius) { Native.Check(Native.ks_world_set_radius(handle, body, radius)); }
+        public void SetFilter(BodyId body, Filter filter) { Native.Check(Native.ks_world_set_filter(handle, body, ref filter)); }
+        public void Sleep(BodyId body) { Native.Check(Native.ks_world_sleep(handle, body)); }
+        public void Wake(BodyId body) { Native.Check(Native.ks_world_wake(handle, body)); }
+        /// <summary>Sets the distances at which bodies of a class sense bodies with a category in the mask.</summary>
+        public void SetSensor(int sensorClass, double[] distances, ulong mask = ulong.MaxValue)
+        {
+            Native.Check(Native.ks_world_set_sensor(handle, sensorClass, distances, Count(distances), mask));
+        }
+
+        public double Time
+        {
+            get
+            {
+                double time;
+                Native.Check(Native.ks_world_time(handle, out time));
+                return time;
+            }
+        }
+        public int Size
+        {
+            get
+            {
+                UIntPtr bodies;
+                Native.Check(Native.ks_world_size(handle, out bodies));
+                return (int)bodies;
+            }
+        }
+        public bool Contains(BodyId body)
+        {
+            int contains;
+            Native.Check(Native.ks_world_contains(handle, body, out contains));
+            return contains != 0;
+        }
+        /// <summary>The bodies in contact with a body.</summary>
+        public BodyId[] Touching(BodyId body)
+        {
+            return Filled<BodyId>((BodyId[] partners, UIntPtr capacity, out UIntPtr count) =>
+                Native.ks_world_touching(handle, body, partners, capacity, out count));
+        }
+
+        /// <summary>Advances to the next event, at most to time `until`. Returns the event, with the world at its time;
+        /// or one of kind None, with the world at `until`. The probe is for the bodies that no motion moves; null if
+        /// motions move all.</summary>
+        public Event Advance(double until, Probe probe = null)
+        {
+            var next = Event.New;
+            var caught = new Caught();
+            var callback = probe == null ? motions : Callback(probe, caught);
+            int status = Native.ks_world_advance(handle, until, callback, IntPtr.Zero, ref next);
+            GC.KeepAlive(callback);
+            GC.KeepAlive(this);
+            caught.Check(status);
+            return next;
+        }
+
+        /// <summary>Advances to time `until` and answers all events by bouncing, or by `respond`. Motions must move all
+        /// bodies.</summary>
+        public void Run(double until, double restitution = 1, Respond respond = null, Action<Event> sink = null, int threads = 1)
+        {
+            Native.RunDefinition definition;
+            Native.Check(Native.ks_run_definition_init(out definition, Native.SizeOf<Native.RunDefinition>()));
+            var caught = new Caught();
+            Native.Respond answer = (happened, response, user) => caught.Call(() => *response = respond(*happened));
+            Native.Sink tell = (happened, user) => caught.Call(() => sink(*happened));
+            definition.Threads = threads;
+            definition.Restitution = restitution;
+            if (respond != null) definition.Respond = Marshal.GetFunctionPointerForDelegate(answer);
+            if (sink != null) definition.Sink = Marshal.GetFunctionPointerForDelegate(tell);
+            int status = Native.ks_world_run(handle, until, ref definition);
+            GC.KeepAlive(answer);
+            GC.KeepAlive(tell);
+            GC.KeepAlive(this);
+            caught.Check(status);
+        }
+
+        /// <summary>Adds bodies in free flight.</summary>
+        public BodyId[] AddBallistic(State[] states, BodyDefinition like, Vector gravity, double[] radii = null, double[] masses = null)
+        {
+            uint motion;
+            var definition = Motion(0);
+            definition.Gravity = gravity;
+            return AddMotion(definition, states, like, null, radii, masses, out motion);
+        }
+        /// <summary>Adds bodies under random accelerations up to their limits, new at multiples of the interval.</summary>
+        public BodyId[] AddRandomForces(State[] states, BodyDefinition like, double[] accelerationLimits, double interval,
+            ulong seed, double[] radii = null, double[] masses = null)
+        {
+            uint motion;
+            var definition = Motion(1);
+            definition.Interval = interval;
+            definition.Seed = seed;
+            return AddMotion(definition, states, like, accelerationLimits, radii, masses, out motion);
+        }
+        /// <summary>Adds bodies of a game's frames: straight from the position in one frame to that in the next.</summary>
+        public BodyId[] AddFrames(State[] states, BodyDefinition like, double interval, out uint motion)
+        {
+            var definition = Motion(2);
+            definition.Interval = interval;
+            return AddMotion(definition, states, like, null, null, null, out motion);
+        }
+        /// <summary>Appends the next frame, and returns its time, to which to advance then.</summary>
+        public double PushFrame(uint motion, Vector[] positions)
+        {
+            double time;
+            Native.Check(Native.ks_world_push_frame(handle, motion, positions, Count(positions)));
+            Native.Check(Native.ks_world_latest_frame_time(handle, motion, out time));
+            return time;
+        }
+        /// <summary>The positions in the latest frame, with the changes that events made.</summary>
+        public Vector[] LatestFrame(uint motion)
+        {
+            return Filled<Vector>((Vector[] positions, UIntPtr capacity, out UIntPtr count) =>
+                Native.ks_world_latest_frame(handle, motion, positions, capacity, out count));
+        }
+        /// <summary>The true states at a time of bodies that motions move.</summary>
+        public State[] States(BodyId[] bodies, double time)
+        {
+            var states = new State[bodies.Length];
+            Native.Check(Native.ks_world_states(handle, bodies, Count(bodies), time, states));
+            return states;
+        }
+
+        public Prediction EarliestContact(BodyId body)
+        {
+            Prediction prediction;
+            Native.Check(Native.ks_world_earliest_contact(handle, body, null, IntPtr.Zero, out prediction));
+            return prediction;
+        }
+        /// <summary>All that a ray, or with a radius > 0 a moving sphere, may hit first.</summary>
+        public Hit[] Cast(Vector origin, Vector direction, double length, double radius = 0)
+        {
+            return Filled<Hit>((Hit[] hits, UIntPtr capacity, out UIntPtr count) =>
+                Native.ks_world_cast(handle, origin, direction, length, radius, null, IntPtr.Zero, hits, capacity, out count));
+        }
+
+        static Native.Probe Callback(Probe probe, Caught caught)
+        {
+            return (bodies, count, time, states, user) => caught.Call(() =>
+            {
+                var ids = new BodyId[(int)count];
+                var answers = new State[ids.Length];
+                for (int k = 0; k < ids.Length; ++k) ids[k] = bodies[k];
+                probe(ids, time, answers);
+                for (int k = 0; k < ids.Length; ++k) states[k] = answers[k];
+            });
+        }
+
+        static Native.MotionDefinition Motion(int kind)
+        {
+            Native.MotionDefinition definition;
+            Native.Check(Native.ks_motion_definition_init(out definition, Native.SizeOf<Native.MotionDefinition>()));
+            definition.Kind = kind;
+            return definition;
+        }
+
+        BodyId[] AddMotion(Native.MotionDefinition definition, State[] states, BodyDefinition like, double[] limits,
+            double[] radii, double[] masses, out uint motion)
+        {
+            foreach (var numbers in new[] { limits, radii, masses })
+                if (numbers != null && numbers.Length != states.Length)
+                    throw new ArgumentException("there must be one entry for each state");
+            var ids = new BodyId[states.Length];
+            fixed (State* fixedStates = states)
+            fixed (double* fixedLimits = limits, fixedRadii = radii, fixedMasses = masses)
+            {
+                definition.Count = Count(states);
+                definition.States = fixedStates;
+                definition.AccelerationLimits = fixedLimits;
+                definition.Radii = fixedRadii;
+                definition.Masses = fixedMasses;
+                definition.Like = &like;
+                Native.Check(Native.ks_world_add_motion(handle, ref definition, out motion, ids));
+            }
+            return ids;
+        }
+
+        internal static UIntPtr Count(Array array) { return (UIntPtr)array.Length; }
+
+        internal delegate int Fill<T>(T[] elements, UIntPtr capacity, out UIntPtr count);
+        /// <summary>Calls a function that writes all elements if they fit, until they do.</summary>
+        internal static T[] Filled<T>(Fill<T> fill)
+        {
+            var elements = new T[16];
+            for (;;)
+            {
+                UIntPtr count;
+                int status = fill(elements, Count(elements), out count);
+                if (status != Native.BufferTooSmall) Native.Check(status);
+                Array.Resize(ref elements, (int)count);
+                if (status == 0) return elements;
+            }
+        }
+    }
+
+    /// <summary>The separation levels between two classes of tracks, the widest first.</summary>
+    public sealed class SeparationRule
+    {
+        public int FirstClass, SecondClass;
+        public Separation[] Levels = new Separation[0];
+    }
+
+    public sealed unsafe class MonitorDefinition
+    {
+        public int Dimensions;
+        public double? StartTime;
+        public TrackClass[] Classes = new TrackClass[0];
+        public SeparationRule[] Separations = new SeparationRule[0];
+        public double Tolerance, TimeResolution, Window, StaleAfter, DropAfter;
+
+        public MonitorDefinition()
+        {
+            var defaults = Defaults();
+            Dimensions = defaults.Dimensions;
+            Tolerance = defaults.Tolerance;
+            TimeResolution = defaults.TimeResolution;
+            Window = defaults.Window;
+            StaleAfter = defaults.StaleAfter;
+            DropAfter = defaults.DropAfter;
+        }
+
+        static Native.MonitorDefinition Defaults()
+        {
+            Native.MonitorDefinition defaults;
+            Native.Check(Native.ks_monitor_definition_init(out defaults, Native.SizeOf<Native.MonitorDefinition>()));
+            return defaults;
+        }
+
+        internal ulong Create()
+        {
+            var definition = Defaults();
+            definition.Dimensions = Dimensions;
+            definition.HasStartTime = StartTime.HasValue ? 1 : 0;
+            definition.StartTime = StartTime.GetValueOrDefault();
+            definition.Tolerance = Tolerance;
+            definition.TimeResolution = TimeResolution;
+            definition.Window = Window;
+            definition.StaleAfter = StaleAfter;
+            definition.DropAfter = DropAfter;
+            var rules = new Native.SeparationRule[Separations.Length];
+            var pinned = new GCHandle[Separations.Length];
+            try
+            {
+                for (int k = 0; k < rules.Length; ++k)
+                {
+                    pinned[k] = GCHandle.Alloc(Separations[k].Levels, GCHandleType.Pinned);
+                    rules[k].FirstClass = (UIntPtr)Separations[k].FirstClass;
+                    rules[k].SecondClass = (UIntPtr)Separations[k].SecondClass;
+                    rules[k].Levels = (Separation*)pinned[k].AddrOfPinnedObject();
+                    rules[k].LevelCount = World.Count(Separations[k].Levels);
+                }
+                ulong monitor;
+                fixed (TrackClass* classes = Classes)
+                fixed (Native.SeparationRule* separations = rules)
+                {
+                    definition.Classes = classes;
+                    definition.ClassCount = World.Count(Classes);
+                    definition.Separations = separations;
+                    definition.SeparationCount = World.Count(rules);
+                    Native.Check(Native.ks_monitor_create(ref definition, out monitor));
+                }
+                return monitor;
+            }
+            finally
+            {
+                foreach (var one in pinned)
+                    if (one.IsAllocated) one.Free();
+            }
+        }
+    }
+
+    /// <summary>Tracks, their reports and the verdicts about their pairs.</summary>
+    public sealed class Monitor : IDisposable
+    {
+        readonly ulong handle;
+
+        public Monitor(MonitorDefinition definition) { handle = definition.Create(); }
+        ~Monitor() { Native.ks_monitor_destroy(handle); }
+        /// <summary>Destroys the monitor; each later call throws.</summary>
+        public void Dispose()
+        {
+            Native.Check(Native.ks_monitor_destroy(handle));
+            GC.SuppressFinalize(this);
+        }
+
+        /// <summary>Accepts a report that arrives now. The first one of an id adds a track.</summary>
+        public void Report(ulong track, TrackReport report)
+        {
+            Native.Check(Native.ks_monitor_report(handle, new[] { track }, new[] { report }, (UIntPtr)1));
+        }
+        public void Remove(ulong track) { Native.Check(Native.ks_monitor_remove(handle, track)); }
+        /// <summary>Advances to the next event, at most to time `until`; returns it, or one of kind None.</summary>
+        public MonitorEvent Advance(double until)
+        {
+            var next = MonitorEvent.New;
+            Native.Check(Native.ks_monitor_advance(handle, until, IntPtr.Zero, IntPtr.Zero, ref next));
+            return next;
+        }
+        public double Time
+        {
+            get
+            {
+                double time;
+                Native.Check(Native.ks_monitor_time(handle, out time));
+                return time;
+            }
+        }
+        public PairAnswer Answer(ulong first, ulong second, uint level = 0)
+        {
+            var answer = PairAnswer.New;
+            Native.Check(Native.ks_monitor_answer(handle, first, second, level, ref answer));
+            return answer;
+        }
+        /// <summary>The pairs that are not certainly apart.</summary>
+        public OpenPair[] OpenPairs()
+        {
+            return World.Filled<OpenPair>((OpenPair[] pairs, UIntPtr capacity, out UIntPtr count) =>
+                Native.ks_monitor_open_pairs(handle, pairs, capacity, out count));
+        }
+    }
+}

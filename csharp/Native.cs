@@ -1,0 +1,500 @@
+// The records and functions of kinesphere.h, which explains them. Records with struct_size are made by Default or New.
+using System;
+using System.Runtime.InteropServices;
+
+namespace Kinesphere
+{
+    public enum Contacts { OfWorld, Impacts, BeginAndEnd, All }
+    public enum EventKind
+    {
+        None, BoundViolation, ContactBegin, ContactEnd, WallBegin, WallEnd, ZenoGuard, SensorEnter, SensorLeave, Woke
+    }
+    public enum Wall { None, XLower, XUpper, YLower, YUpper, ZLower, ZUpper }
+    public enum Verdict { Apart, Undecided, Within }
+    public enum MonitorEventKind
+    {
+        None, Verdict, Predicted, PredictionEnded, Contradiction, Resolved, Stale, Resumed, Dropped, Reclassified
+    }
+    public enum SeparationShape { Ellipsoid, Cylinder, WellClear }
+    [Flags] public enum Axes : uint { None = 0, X = 1, Y = 2, Z = 4 }
+    [Flags] public enum Senses : uint { Neither = 0, First = 1, Second = 2 }
+    [Flags] public enum Traits : uint { None = 0, Static = 1, Zone = 2, Sleeping = 4 }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Vector
+    {
+        public double X, Y, Z;
+        public Vector(double x, double y, double z) { X = x; Y = y; Z = z; }
+        public static Vector operator +(Vector a, Vector b) { return new Vector(a.X + b.X, a.Y + b.Y, a.Z + b.Z); }
+        public static Vector operator -(Vector a, Vector b) { return new Vector(a.X - b.X, a.Y - b.Y, a.Z - b.Z); }
+        public static Vector operator *(Vector a, double by) { return new Vector(a.X * by, a.Y * by, a.Z * by); }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public struct State
+    {
+        public Vector Position, Velocity;
+        public State(Vector position, Vector velocity) { Position = position; Velocity = velocity; }
+    }
+
+    /// <summary>Names a body until it is removed; a later body never has an equal id.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct BodyId : IEquatable<BodyId>
+    {
+        readonly uint index, generation, world;
+        /// <summary>A small number, which no other body has meanwhile: for tables.</summary>
+        public int Index { get { return (int)index; } }
+        public bool IsNone { get { return index == uint.MaxValue && generation == 0; } }
+        public bool Equals(BodyId other) { return index == other.index && generation == other.generation; }
+        public override bool Equals(object other) { return other is BodyId && Equals((BodyId)other); }
+        public override int GetHashCode() { return (int)(index * 31 + generation); }
+        public override string ToString() { return IsNone ? "no body" : "body " + index; }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Shape
+    {
+        int kind;
+        Vector a, b, c;
+        double number;
+        public static Shape Ball(Vector centre, double radius) { return new Shape { a = centre, number = radius }; }
+        public static Shape HalfSpace(Vector normal, double offset)
+        {
+            return new Shape { kind = 1, a = normal, number = offset };
+        }
+        public static Shape Box(Vector lower, Vector upper) { return new Shape { kind = 2, a = lower, b = upper }; }
+        public static Shape Triangle(Vector a, Vector b, Vector c) { return new Shape { kind = 3, a = a, b = b, c = c }; }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public struct WorldDefinition
+    {
+        uint structSize;
+        public int Dimensions;
+        int hasBox;
+        public Axes Periodic;
+        Vector lower, upper;
+        public double ContactTolerance, SeparationDistance, ZenoInterval, StartTime;
+        public Contacts Contacts;
+        int allowOverlap;
+        public bool AllowOverlap { get { return allowOverlap != 0; } set { allowOverlap = value ? 1 : 0; } }
+        /// <summary>Gives the world walls, or on periodic axes a period, at the sides of a box.</summary>
+        public void SetBox(Vector from, Vector to) { hasBox = 1; lower = from; upper = to; }
+        public static WorldDefinition Default
+        {
+            get
+            {
+                WorldDefinition made;
+                Native.Check(Native.ks_world_definition_init(out made, Native.SizeOf<WorldDefinition>()));
+                return made;
+            }
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Filter
+    {
+        public ulong Category, Mask;
+        public int Group;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public struct BodyDefinition
+    {
+        uint structSize;
+        int solid;
+        public Contacts Contacts;
+        public int SensorClass;
+        public double Radius, AccelerationLimit, PositionError, VelocityError, Mass;
+        public Vector PlannedAcceleration, Position, Velocity;
+        public Filter Filter;
+        public ulong UserData;
+        public bool Solid { get { return solid != 0; } set { solid = value ? 1 : 0; } }
+        public static BodyDefinition Default
+        {
+            get
+            {
+                BodyDefinition made;
+                Native.Check(Native.ks_body_definition_init(out made, Native.SizeOf<BodyDefinition>()));
+                return made;
+            }
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public struct StaticDefinition
+    {
+        uint structSize;
+        int solid;
+        public int SensorClass;
+        public Shape Shape;
+        public Filter Filter;
+        public ulong UserData;
+        public bool Solid { get { return solid != 0; } set { solid = value ? 1 : 0; } }
+        public static StaticDefinition Default
+        {
+            get
+            {
+                StaticDefinition made;
+                Native.Check(Native.ks_static_definition_init(out made, Native.SizeOf<StaticDefinition>()));
+                return made;
+            }
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Event
+    {
+        uint structSize;
+        public EventKind Kind;
+        public double Time;
+        public BodyId First, Second;
+        public Wall Wall;
+        int repeated, jammed, alreadyTouching;
+        public Senses Senses;
+        public Traits FirstTraits, SecondTraits;
+        uint reserved;
+        public State FirstState, SecondState;
+        public Vector Point, Normal;
+        public double Gap, ApproachSpeed, PositionExcess, VelocityExcess, Distance;
+        public ulong FirstUserData, SecondUserData;
+        public double FirstMass, SecondMass;
+        public bool Repeated { get { return repeated != 0; } }
+        public bool Jammed { get { return jammed != 0; } }
+        public bool AlreadyTouching { get { return alreadyTouching != 0; } }
+        internal static Event New { get { return new Event { structSize = Native.SizeOf<Event>(), reserved = 0 }; } }
+
+        /// <summary>Velocities after a frictionless bounce; events other than begins of contacts turn nobody.</summary>
+        public Response Bounce(double restitution, double restingSpeed = 0)
+        {
+            Response response;
+            Native.Check(Native.ks_bounce(ref this, restitution, restingSpeed, out response));
+            return response;
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Response
+    {
+        int turnsFirst, turnsSecond;
+        Vector first, second;
+        /// <summary>The velocity from now on; null: the body continues as before.</summary>
+        public Vector? First
+        {
+            get { return turnsFirst != 0 ? first : (Vector?)null; }
+            set { turnsFirst = value.HasValue ? 1 : 0; first = value.GetValueOrDefault(); }
+        }
+        public Vector? Second
+        {
+            get { return turnsSecond != 0 ? second : (Vector?)null; }
+            set { turnsSecond = value.HasValue ? 1 : 0; second = value.GetValueOrDefault(); }
+        }
+    }
+
+    /// <summary>One number for all events of a run: equal numbers mean bit-identical runs.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct EventHash
+    {
+        ulong sum, count;
+        public void Add(Event happened) { Native.Check(Native.ks_event_hash_add(ref this, ref happened)); }
+        public ulong Value
+        {
+            get
+            {
+                ulong value;
+                Native.Check(Native.ks_event_hash_value(ref this, out value));
+                return value;
+            }
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Prediction
+    {
+        public double Time;
+        public BodyId Partner;
+        public Wall Wall;
+        int happens, probed;
+        public bool Happens { get { return happens != 0; } }
+        public bool Probed { get { return probed != 0; } }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Hit
+    {
+        public BodyId Body;
+        int certain;
+        public double Lower, Upper;
+        public bool Certain { get { return certain != 0; } }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public struct ErrorBound
+    {
+        int kind;
+        double horizontal, vertical;
+        public static ErrorBound Ball(double radius) { return new ErrorBound { horizontal = radius, vertical = radius }; }
+        public static ErrorBound Cylinder(double horizontal, double vertical)
+        {
+            return new ErrorBound { kind = 1, horizontal = horizontal, vertical = vertical };
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public struct TrackClass
+    {
+        public ErrorBound AccelerationLimit, LargestSpeed;
+        public Vector PlannedAcceleration;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Separation
+    {
+        public SeparationShape Shape;
+        public double Horizontal, Vertical, LookAhead, ModifiedTau;
+        public static Separation Sphere(double distance)
+        {
+            return new Separation { Horizontal = distance, Vertical = distance };
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public struct TrackReport
+    {
+        uint structSize;
+        int hasPlan;
+        public ulong TrackClass;
+        public double Timestamp, TimestampError;
+        public State State;
+        public ErrorBound PositionError, VelocityError;
+        Vector planAcceleration;
+        ErrorBound planLimit;
+        double planValidUntil;
+        public void SetPlan(Vector acceleration, ErrorBound limit, double validUntil)
+        {
+            hasPlan = 1;
+            planAcceleration = acceleration;
+            planLimit = limit;
+            planValidUntil = validUntil;
+        }
+        public static TrackReport Default
+        {
+            get
+            {
+                TrackReport made;
+                Native.Check(Native.ks_track_report_init(out made, Native.SizeOf<TrackReport>()));
+                return made;
+            }
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public struct MonitorEvent
+    {
+        uint structSize;
+        public MonitorEventKind Kind;
+        public double Time;
+        public ulong First, Second;
+        public uint Level;
+        public Verdict Verdict, Before;
+        uint reserved;
+        public double Since, LikelyTime, ClosestTime, ClosestDistance, PositionExcess, VelocityExcess;
+        internal static MonitorEvent New
+        {
+            get { return new MonitorEvent { structSize = Native.SizeOf<MonitorEvent>(), reserved = 0 }; }
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public struct PairAnswer
+    {
+        uint structSize;
+        public Verdict Verdict;
+        int predicted;
+        public double Since, Until, Lower, Upper, ClosestDistance, ClosestTime, ClosestHorizontal, ClosestVertical;
+        public double RelativeSpeed, LikelyTime, InevitableBy, AvoidableUntil;
+        public ulong Ask;
+        public double AskBy;
+        public bool Predicted { get { return predicted != 0; } }
+        internal static PairAnswer New
+        {
+            get { return new PairAnswer { structSize = Native.SizeOf<PairAnswer>(), predicted = 0 }; }
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public struct OpenPair
+    {
+        public ulong First, Second;
+        public uint Level;
+        public Verdict Verdict;
+        public double Since;
+    }
+
+    /// <summary>A call was refused; nothing has changed.</summary>
+    public sealed class KinesphereException : Exception
+    {
+        /// <summary>The name of the status, such as "stale_body".</summary>
+        public string Status { get; private set; }
+        public string Argument { get; private set; }
+        public BodyId Body { get; private set; }
+        internal KinesphereException(string status, string argument, BodyId body, string message) : base(message)
+        {
+            Status = status;
+            Argument = argument;
+            Body = body;
+        }
+    }
+
+    unsafe static class Native
+    {
+        const string library = "kinesphere-c";
+
+        [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+        public delegate int Probe(BodyId* bodies, UIntPtr count, double time, State* states, IntPtr user);
+        [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+        public delegate int Respond(Event* happened, Response* response, IntPtr user);
+        [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+        public delegate int Sink(Event* happened, IntPtr user);
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct RunDefinition
+        {
+            public uint StructSize;
+            public int Threads;
+            public double Restitution, RestingSpeed;
+            public IntPtr Respond, RespondUser, Sink, SinkUser;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct MotionDefinition
+        {
+            public uint StructSize;
+            public int Kind;
+            public UIntPtr Count;
+            public State* States;
+            public double* Radii, Masses, AccelerationLimits;
+            public Vector Gravity;
+            public double Interval, PositionError;
+            public ulong Seed;
+            public BodyDefinition* Like;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct SeparationRule
+        {
+            public UIntPtr FirstClass, SecondClass;
+            public Separation* Levels;
+            public UIntPtr LevelCount;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct MonitorDefinition
+        {
+            public uint StructSize;
+            public int Dimensions, HasStartTime;
+            public double StartTime;
+            public TrackClass* Classes;
+            public UIntPtr ClassCount;
+            public SeparationRule* Separations;
+            public UIntPtr SeparationCount;
+            public double Tolerance, TimeResolution, Window, StaleAfter, DropAfter, PredictionHold;
+            public double PredictionConfirmation, PredictionMargin, PredictionErrorPart;
+        }
+
+        public const int BufferTooSmall = 6;
+        public const int CallbackFailed = 7;
+
+        public static uint SizeOf<T>() { return (uint)Marshal.SizeOf(typeof(T)); }
+
+        /// <summary>Throws what the last call of this thread has to say, unless it succeeded.</summary>
+        public static void Check(int status)
+        {
+            if (status == 0) return;
+            throw new KinesphereException(Marshal.PtrToStringAnsi(ks_status_name(status)),
+                Marshal.PtrToStringAnsi(ks_last_error_argument()), ks_last_error_body(),
+                Marshal.PtrToStringAnsi(ks_last_error_message()));
+        }
+
+        [DllImport(library)] public static extern IntPtr ks_status_name(int status);
+        [DllImport(library)] public static extern IntPtr ks_last_error_message();
+        [DllImport(library)] public static extern IntPtr ks_last_error_argument();
+        [DllImport(library)] public static extern BodyId ks_last_error_body();
+
+        [DllImport(library)] public static extern int ks_world_definition_init(out WorldDefinition made, uint size);
+        [DllImport(library)] public static extern int ks_body_definition_init(out BodyDefinition made, uint size);
+        [DllImport(library)] public static extern int ks_static_definition_init(out StaticDefinition made, uint size);
+        [DllImport(library)] public static extern int ks_run_definition_init(out RunDefinition made, uint size);
+        [DllImport(library)] public static extern int ks_motion_definition_init(out MotionDefinition made, uint size);
+        [DllImport(library)] public static extern int ks_monitor_definition_init(out MonitorDefinition made, uint size);
+        [DllImport(library)] public static extern int ks_track_report_init(out TrackReport made, uint size);
+
+        [DllImport(library)] public static extern int ks_world_create(ref WorldDefinition definition, out ulong world);
+        [DllImport(library)] public static extern int ks_world_destroy(ulong world);
+        [DllImport(library)] public static extern int ks_world_clone(ulong world, out ulong copy);
+        [DllImport(library)]
+        public static extern int ks_world_save(ulong world, byte[] bytes, UIntPtr capacity, out UIntPtr count);
+        [DllImport(library)]
+        public static extern int ks_world_restore(byte[] bytes, UIntPtr count, IntPtr filter, IntPtr user, out ulong world);
+        [DllImport(library)]
+        public static extern int ks_world_add(ulong world, BodyDefinition[] bodies, UIntPtr count, [Out] BodyId[] ids);
+        [DllImport(library)]
+        public static extern int ks_world_add_static(ulong world, StaticDefinition[] bodies, UIntPtr count, [Out] BodyId[] ids);
+        [DllImport(library)]
+        public static extern int ks_world_add_zone(ulong world, ref Shape shape, ulong userData, out BodyId id);
+        [DllImport(library)] public static extern int ks_world_remove(ulong world, BodyId[] bodies, UIntPtr count);
+        [DllImport(library)] public static extern int ks_world_set_velocity(ulong world, BodyId body, Vector velocity);
+        [DllImport(library)] public static extern int ks_world_teleport(ulong world, BodyId body, ref State state);
+        [DllImport(library)] public static extern int ks_world_set_radius(ulong world, BodyId body, double radius);
+        [DllImport(library)] public static extern int ks_world_set_filter(ulong world, BodyId body, ref Filter filter);
+        [DllImport(library)]
+        public static extern int ks_world_set_sensor(ulong world, int sensorClass, double[] distances, UIntPtr count, ulong mask);
+        [DllImport(library)] public static extern int ks_world_sleep(ulong world, BodyId body);
+        [DllImport(library)] public static extern int ks_world_wake(ulong world, BodyId body);
+        [DllImport(library)] public static extern int ks_world_time(ulong world, out double time);
+        [DllImport(library)] public static extern int ks_world_size(ulong world, out UIntPtr bodies);
+        [DllImport(library)] public static extern int ks_world_contains(ulong world, BodyId body, out int contains);
+        [DllImport(library)]
+        public static extern int ks_world_touching(ulong world, BodyId body, [Out] BodyId[] partners, UIntPtr capacity, out UIntPtr count);
+
+        [DllImport(library)]
+        public static extern int ks_bounce(ref Event happened, double restitution, double restingSpeed, out Response response);
+        [DllImport(library)] public static extern int ks_event_hash_add(ref EventHash hash, ref Event happened);
+        [DllImport(library)] public static extern int ks_event_hash_value(ref EventHash hash, out ulong value);
+
+        [DllImport(library)]
+        public static extern int ks_probe_motions(BodyId* bodies, UIntPtr count, double time, State* states, IntPtr user);
+        [DllImport(library)]
+        public static extern int ks_world_advance(ulong world, double until, Probe probe, IntPtr user, ref Event next);
+        [DllImport(library)] public static extern int ks_world_run(ulong world, double until, ref RunDefinition definition);
+        [DllImport(library)]
+        public static extern int ks_world_add_motion(ulong world, ref MotionDefinition definition, out uint motion, [Out] BodyId[] ids);
+        [DllImport(library)]
+        public static extern int ks_world_push_frame(ulong world, uint motion, Vector[] positions, UIntPtr count);
+        [DllImport(library)]
+        public static extern int ks_world_latest_frame(ulong world, uint motion, [Out] Vector[] positions, UIntPtr capacity, out UIntPtr count);
+        [DllImport(library)]
+        public static extern int ks_world_latest_frame_time(ulong world, uint motion, out double time);
+        [DllImport(library)]
+        public static extern int ks_world_states(ulong world, BodyId[] bodies, UIntPtr count, double time, [Out] State[] states);
+        [DllImport(library)]
+        public static extern int ks_world_earliest_contact(ulong world, BodyId body, Probe probe, IntPtr user, out Prediction prediction);
+        [DllImport(library)]
+        public static extern int ks_world_cast(ulong world, Vector origin, Vector direction, double length, double radius, Probe probe,
+            IntPtr user, [Out] Hit[] hits, UIntPtr capacity, out UIntPtr count);
+
+        [DllImport(library)]
+        public static extern int ks_monitor_create(ref MonitorDefinition definition, out ulong monitor);
+        [DllImport(library)] public static extern int ks_monitor_destroy(ulong monitor);
+        [DllImport(library)]
+        public static extern int ks_monitor_report(ulong monitor, ulong[] tracks, TrackReport[] reports, UIntPtr count);
+        [DllImport(library)] public static extern int ks_monitor_remove(ulong monitor, ulong track);
+        [DllImport(library)]
+        public static extern int ks_monitor_advance(ulong monitor, double until, IntPtr poll, IntPtr user, ref MonitorEvent next);
+        [DllImport(library)] public static extern int ks_monitor_time(ulong monitor, out double time);
+        [DllImport(library)]
+        public static extern int ks_monitor_answer(ulong monitor, ulong first, ulong second, uint level, ref PairAnswer answer);
+        [DllImport(library)]
+        public static extern int ks_monitor_open_pairs(ulong monitor, [Out] OpenPair[] pairs, UIntPtr capacity, out UIntPtr count);
+    }
+}
