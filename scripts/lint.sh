@@ -12,16 +12,21 @@ build=build/lint
 part=${1:-all}
 if [[ ! $part =~ ^(all|text|research)$ ]]; then echo "lint: usage: lint.sh [text | research]" >&2 && exit 2; fi
 
-find include src simulation programs research browser/module python/module examples tests -name '*.[ch]pp' -print0 | xargs -0 clang-format --dry-run -Werror
+find include src c simulation programs research browser/module python/module examples tests \( -name '*.[ch]' -o -name '*.[ch]pp' \) \
+  -print0 | xargs -0 clang-format --dry-run -Werror
 /usr/bin/black --config python/pyproject.toml --quiet --diff --check python
 
-if grep -rn '#include ["<]\(simulation\|research\)/' include examples src ||
+if grep -rn '#include ["<]\(simulation\|research\)/' include examples src c ||
   grep -rn '#include ["<]research/' simulation programs browser python tests; then
   echo "lint: the library may not include simulation/, and nothing but research/ itself may include research/" >&2
   exit 1
 fi
+if grep -rn '#include ["<]kinesphere\.h[">]' include src simulation programs research browser python; then
+  echo "lint: the C interface is for users; nothing here but c/ and its examples and tests may include it" >&2
+  exit 1
+fi
 
-if grep -rnE '#include .*\.cpp[">]' include src simulation programs research browser python/module examples; then
+if grep -rnE '#include .*\.cpp[">]' include src c simulation programs research browser python/module examples; then
   echo "lint: a source includes another" >&2
   exit 1
 fi
@@ -49,7 +54,7 @@ if [[ $mpi == OFF ]]; then echo "lint: without MPI and Zoltan, so clang-tidy lea
 for batch in target file; do
   cmake -S . -B "$build/$batch" -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
     -DCMAKE_CXX_FLAGS_RELEASE=-O3 -DKINESPHERE_BATCH=$batch -DKINESPHERE_BUILD_PROGRAM=ON -DKINESPHERE_BUILD_RESEARCH=ON \
-    -DKINESPHERE_BUILD_MPI=$mpi >"$build/lint.log" 2>&1 ||
+    -DKINESPHERE_BUILD_MPI=$mpi -DKINESPHERE_BUILD_C=ON >"$build/lint.log" 2>&1 ||
     { cat "$build/lint.log"; exit 1; }
 done
 # Prints the findings of clang-tidy and nothing else; on any other failure its whole output.
@@ -70,7 +75,7 @@ for source in "${sources[@]}"; do check -p "$build/target" $batches "$source"; d
 # The check that skips included batches, classes and functions.
 using() { grep -rlE '^using [^=]*::[^=]*;' "$@" --include='*.cpp' || true; }
 unused=-checks=-*,misc-unused-using-decls
-if [[ $part == research ]]; then folders=(research); else folders=(src simulation programs examples); fi
+if [[ $part == research ]]; then folders=(research); else folders=(src c simulation programs examples); fi
 for source in $(using "${folders[@]}"); do check -p "$build/file" "$unused" "$source"; done
 
 check_examples() {

@@ -11,7 +11,10 @@ if ! command -v npm >/dev/null; then browser+=(npm); fi
 python=(python3-dev python3-pip python3-venv python3-setuptools python3-wheel python3-skbuild pybind11-dev python3-numpy)
 python_testing=(python3-pytest python3-pandas python3-matplotlib python3-scipy mypy black)
 proving=(coq libcoq-flocq)
-testing=("${mpi[@]}" "${python[@]}" "${python_testing[@]}" libcpp-httplib-dev libgtest-dev libtbb-dev nats-server librapidcheck-dev clang libclang-rt-dev clang-format clang-tidy pkg-config valgrind)
+# For the clients of the C interface in Rust, which may have come without Debian, and C#.
+clients=(mono-mcs mono-runtime)
+if ! command -v cargo >/dev/null; then clients+=(rustc cargo); fi
+testing=("${mpi[@]}" "${python[@]}" "${python_testing[@]}" "${clients[@]}" libcpp-httplib-dev libgtest-dev libtbb-dev nats-server librapidcheck-dev clang libclang-rt-dev clang-format clang-tidy pkg-config valgrind)
 case ${1:-} in
   run) ;;
   mpi) packages+=("${mpi[@]}") ;;

@@ -3,7 +3,8 @@
 # through find_package, and through pkg-config. For all compiler flags of the user, the library adds none, and its results
 # equal those of this build. Only the headers of include/ and the version are installed. Without options the library alone
 # is built, with nothing but a compiler and Google Highway. If the component mpi was built, the project in mpi/ is built
-# against it and run as one rank; otherwise find_package reports that it is missing, and its headers are not installed.
+# against it and run as one rank; otherwise find_package reports that it is missing, and its headers are not installed. If
+# the C interface was built, an example in C is built against it, by CMake without C++ and by pkg-config.
 # Usage: run.sh <build folder> <library folder under the prefix> <compiler> <compiler flags> <executable scene_hash>
 #   <1 with the component mpi, 0 without>
 set -euo pipefail
@@ -21,8 +22,10 @@ export LD_LIBRARY_PATH=$prefix/$libdir
 echo "installed headers:"
 (cd "$prefix/include" && find . -type f | sort) >"$work/headers"
 left_out=()
+if [[ -e $prefix/include/kinesphere.h ]]; then c_headers=(./kinesphere.h); else c_headers=(); fi
 if [[ $mpi == 0 ]]; then left_out=(-not -path './kinesphere/distributed/*'); fi
-(cd "$source/../../include" && { find . -name '*.hpp' "${left_out[@]}"; echo ./kinesphere/version.hpp; } | sort) |
+(cd "$source/../../include" &&
+  { find . -name '*.hpp' "${left_out[@]}"; printf '%s\n' ./kinesphere/version.hpp "${c_headers[@]}"; } | sort) |
   diff - "$work/headers"
 if find "$prefix" -name '*kinesphere_simulation*' | grep .; then
   echo "consumer: simulation/ is installed" >&2
@@ -83,6 +86,18 @@ for optimisation in "-O2 -fno-inline" "-O3"; do
   echo "$hash  with $optimisation ${fused[*]}, and $expected in this build"
   [[ $hash == "$expected" ]] || { echo "consumer: results depend on its flags" >&2 && exit 1; }
 done
+
+# Programs in C cannot load a library that sanitizers check.
+if [[ ${#c_headers[@]} -gt 0 && "${flags[*]}" != *sanitize* ]]; then
+  echo "in C:"
+  game=$source/../../examples/c/monitor.c
+  cmake -S "$source/c" -B "$work/c" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" -DSOURCE="$game" >"$work/configure.log"
+  cmake --build "$work/c"
+  "$work/c/consumer" | tail -n 1
+  read -r -a link < <(pkg-config --cflags --libs kinesphere-c)
+  cc -std=c11 "$game" "${link[@]}" -lm -o "$work/consumer_c"
+  "$work/consumer_c" | tail -n 1
+fi
 
 echo "without options:"
 missing=()
