@@ -1,5 +1,5 @@
 // Motions that the library has of the bodies of a world.
-#include <cmath>
+#include <limits>
 
 #include "exchange.hpp"
 #include "input/input_check.hpp"
@@ -57,14 +57,44 @@ MotionId<> add(std::string_view call, Simulation& simulation, const ks_motion_de
                                    .value());
 }
 
-void require_motion(std::string_view call, const ks_motion_definition& definition) {
-  require_number(call, "definition.kind", definition.kind, KS_MOTION_BALLISTIC, KS_MOTION_FRAMES);
+/// Adds a body to a motion of one of the three kinds, and returns its number there.
+std::uint32_t add_one(std::string_view call, Motion& motion, const ks_motion_definition& definition,
+                      std::size_t k, double time) {
+  const State state = state_of(definition.states[k]);
+  const double* const limits = definition.acceleration_limits;
+  if (auto* const flight = dynamic_cast<Ballistic*>(&motion)) return flight->add(time, state).value();
+  if (auto* const frames = dynamic_cast<FrameMotion*>(&motion)) {
+    const double unlimited = std::numeric_limits<double>::infinity();
+    return frames->add(time, state, limits != nullptr ? limits[k] : unlimited).value();
+  }
+  require_pointer(call, limits, "definition.acceleration_limits");
+  return dynamic_cast<RandomForces&>(motion).add(time, state, limits[k]).value();
+}
+
+/// What the bodies of a definition have beside their motion.
+struct Properties {
+  BodyDefinition like{};
+  std::vector<double> radii;
+  std::vector<double> masses;
+};
+
+/// Throws unless the definition is a valid one.
+Properties properties_of(std::string_view call, const ks_motion_definition& definition) {
   require_array(call, definition.states, definition.count, "definition.states");
+  Properties properties{.radii = numbers_of(definition.radii, definition.count),
+                        .masses = numbers_of(definition.masses, definition.count)};
+  if (definition.like != nullptr) {
+    require_record(call, definition.like, "definition.like");
+    properties.like = body_of(call, *definition.like);
+  }
+  if (definition.radii == nullptr) properties.radii.assign(definition.count, properties.like.radius);
+  if (definition.masses == nullptr) properties.masses.assign(definition.count, properties.like.mass);
   InputCheck check(call);
-  for (std::size_t k = 0; definition.masses != nullptr && k < definition.count; ++k)
+  for (std::size_t k = 0; k < definition.count; ++k)
     check.not_negative_or_infinite({.argument = "definition.masses", .part = "entry", .part_number = k},
-                                   definition.masses[k]);
+                                   properties.masses[k]);
   check.result().value();
+  return properties;
 }
 
 struct AddedMotion {
@@ -73,20 +103,36 @@ struct AddedMotion {
 };
 
 AddedMotion add_motion(std::string_view call, WorldObject& object, const ks_motion_definition& definition) {
-  require_motion(call, definition);
-  BodyDefinition like;
-  if (definition.like != nullptr) {
-    require_record(call, definition.like, "definition.like");
-    like = body_of(call, *definition.like);
-  }
+  require_number(call, "definition.kind", definition.kind, KS_MOTION_BALLISTIC, KS_MOTION_FRAMES);
+  const Properties properties = properties_of(call, definition);
   object.world().reserve(0).value();  // refused inside callbacks, before a motion is added
-  std::vector<double> radii = numbers_of(definition.radii, definition.count);
-  if (definition.radii == nullptr) radii.assign(definition.count, like.radius);
   const MotionId<> motion = add(call, object.simulation, definition);
-  auto bodies = object.simulation.add_all(motion, radii, like).value();
-  for (std::size_t k = 0; definition.masses != nullptr && k < bodies.size(); ++k)
-    object.world().set_mass(bodies[k], definition.masses[k]).value();
+  auto bodies = object.simulation.add_all(motion, properties.radii, properties.like).value();
+  for (std::size_t k = 0; k < bodies.size(); ++k)
+    object.world().set_mass(bodies[k], properties.masses[k]).value();
   return {motion, std::move(bodies)};
+}
+
+std::vector<BodyId> add_to_motion(std::string_view call, WorldObject& object, MotionId<> number,
+                                  const ks_motion_definition& definition) {
+  Properties properties = properties_of(call, definition);
+  Simulation& simulation = object.simulation;
+  simulation.world().reserve(0).value();  // refused inside callbacks, before a motion changes
+  Motion& motion = simulation.motion(number);
+  std::vector<BodyId> bodies;
+  ScopeGuard undo([&] {
+    for (const BodyId body : bodies) (void)simulation.remove(body);
+  });
+  for (std::size_t k = 0; k < definition.count; ++k) {
+    properties.like.radius = properties.radii[k];
+    properties.like.mass = properties.masses[k];
+    const std::uint32_t added = add_one(call, motion, definition, k, simulation.world().time());
+    ScopeGuard forget([&] { (void)motion.remove(added); });
+    bodies.push_back(simulation.add(number, added, properties.like).value());
+    forget.dismiss();
+  }
+  undo.dismiss();
+  return bodies;
 }
 
 }  // namespace
@@ -111,6 +157,15 @@ ks_status ks_world_add_motion(ks_world world, const ks_motion_definition* defini
     const AddedMotion added = add_motion(call, object, *definition);
     for (const BodyId id : added.bodies) *ids++ = c_id(id);
     if (motion != nullptr) *motion = added.motion.index;
+  });
+}
+
+ks_status ks_world_add_to_motion(ks_world world, uint32_t motion, const ks_motion_definition* definition,
+                                 ks_body_id* ids) {
+  return changing(__func__, world, [&, call = __func__](WorldObject& object) {
+    require_record(call, definition, "definition");
+    require_array(call, ids, definition->count, "ids");
+    for (const BodyId id : add_to_motion(call, object, {motion}, *definition)) *ids++ = c_id(id);
   });
 }
 

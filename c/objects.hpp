@@ -18,6 +18,8 @@ namespace kinesphere::c {
 
 /// A world with the motions that the library has of its bodies.
 struct WorldObject {
+  explicit WorldObject(Simulation of) : simulation(std::move(of)) {}
+
   Simulation simulation;
   std::optional<Workers> workers{};  ///< of the last run with several threads
   Usage usage{};
@@ -27,6 +29,8 @@ struct WorldObject {
 };
 
 struct MonitorObject {
+  explicit MonitorObject(Monitor of) : monitor(std::move(of)) {}
+
   Monitor monitor;
   Usage usage{};
 };

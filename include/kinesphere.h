@@ -584,6 +584,10 @@ static inline ks_motion_definition ks_default_motion_definition(void) {
 /// `motion` may be NULL. Errors: those of the motion and of World::add(), naming the body.
 KS_API ks_status ks_world_add_motion(ks_world world, const ks_motion_definition* definition, uint32_t* motion,
                                      ks_body_id* ids);
+/// Adds more bodies to a motion, such as bullets, or on an error none: those of the definition, whose kind,
+/// gravity, interval, position_error and seed do not count. Errors: as ks_world_add_motion().
+KS_API ks_status ks_world_add_to_motion(ks_world world, uint32_t motion,
+                                        const ks_motion_definition* definition, ks_body_id* ids);
 /// Appends the next frame of a motion of kind KS_MOTION_FRAMES: the position of each of its bodies, NaN for a
 /// removed one. The world must be at the time of the latest frame. Errors: as FrameMotion::push().
 KS_API ks_status ks_world_push_frame(ks_world world, uint32_t motion, const ks_vec3* positions, size_t count);

@@ -109,6 +109,48 @@ pub enum Motion<'a> {
     Frames { interval: f64, position_error: f64 },
 }
 
+impl Motion<'_> {
+    /// The record of C, which points to the arguments.
+    fn raw(
+        &self,
+        states: &[State],
+        radii: &[f64],
+        masses: &[f64],
+        like: &sys::ks_body_definition,
+    ) -> sys::ks_motion_definition {
+        let mut raw = sys::ks_motion_definition {
+            struct_size: size_of::<sys::ks_motion_definition>() as u32,
+            kind: 0,
+            count: states.len(),
+            states: states.as_ptr(),
+            radii: optional(radii, states),
+            masses: optional(masses, states),
+            acceleration_limits: ptr::null(),
+            gravity: Vec3::default(),
+            interval: 0.0,
+            position_error: 0.0,
+            seed: 0,
+            like,
+        };
+        match *self {
+            Motion::Ballistic { gravity } => raw.gravity = gravity,
+            Motion::RandomForces { acceleration_limits, interval, seed } => {
+                assert_eq!(acceleration_limits.len(), states.len(), "one limit for each state");
+                raw.kind = 1;
+                raw.acceleration_limits = acceleration_limits.as_ptr();
+                raw.interval = interval;
+                raw.seed = seed;
+            }
+            Motion::Frames { interval, position_error } => {
+                raw.kind = 2;
+                raw.interval = interval;
+                raw.position_error = position_error;
+            }
+        }
+        raw
+    }
+}
+
 /// How `World::run` answers events.
 pub enum Run<'a> {
     /// Bodies pass through each other.
@@ -434,39 +476,29 @@ impl World {
         like: &BodyDefinition,
     ) -> Result<(u32, Vec<BodyId>)> {
         let like = like.raw();
-        let mut raw = sys::ks_motion_definition {
-            struct_size: size_of::<sys::ks_motion_definition>() as u32,
-            kind: 0,
-            count: states.len(),
-            states: states.as_ptr(),
-            radii: optional(radii, states),
-            masses: optional(masses, states),
-            acceleration_limits: ptr::null(),
-            gravity: Vec3::default(),
-            interval: 0.0,
-            position_error: 0.0,
-            seed: 0,
-            like: &like,
-        };
-        match motion {
-            Motion::Ballistic { gravity } => raw.gravity = gravity,
-            Motion::RandomForces { acceleration_limits, interval, seed } => {
-                assert_eq!(acceleration_limits.len(), states.len(), "one limit for each state");
-                raw.kind = 1;
-                raw.acceleration_limits = acceleration_limits.as_ptr();
-                raw.interval = interval;
-                raw.seed = seed;
-            }
-            Motion::Frames { interval, position_error } => {
-                raw.kind = 2;
-                raw.interval = interval;
-                raw.position_error = position_error;
-            }
-        }
+        let raw = motion.raw(states, radii, masses, &like);
         let mut number = 0;
         let mut ids = vec![BodyId::default(); states.len()];
         check(unsafe { sys::ks_world_add_motion(self.handle, &raw, &mut number, ids.as_mut_ptr()) })?;
         Ok((number, ids))
+    }
+
+    /// Adds more bodies, such as bullets, to a motion of this number; only acceleration limits of `motion` count.
+    ///
+    /// # Panics
+    /// As `add_motion`.
+    pub fn add_to_motion(
+        &mut self,
+        number: u32,
+        motion: Motion,
+        states: &[State],
+        like: &BodyDefinition,
+    ) -> Result<Vec<BodyId>> {
+        let like = like.raw();
+        let raw = motion.raw(states, &[], &[], &like);
+        let mut ids = vec![BodyId::default(); states.len()];
+        check(unsafe { sys::ks_world_add_to_motion(self.handle, number, &raw, ids.as_mut_ptr()) })?;
+        Ok(ids)
     }
 
     /// Appends the next frame of a motion of frames, and returns its time, to which to advance then.

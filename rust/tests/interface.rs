@@ -71,7 +71,9 @@ fn a_panic_passes_through_the_call() {
         .collect();
     let ballistic = Motion::Ballistic { gravity: Vec3::default() };
     let like = BodyDefinition { radius: 0.2, ..Default::default() };
-    flying.add_motion(ballistic, &states, &[], &[], &like).unwrap();
+    let (number, _) = flying.add_motion(ballistic, &states[1..], &[], &[], &like).unwrap();
+    flying.add_to_motion(number, ballistic, &states[..1], &like).unwrap();
+    assert_eq!(flying.len(), 8);
     let respond = |_: &Event| -> Response { panic!("no answer") };
     let panicked = catch_unwind(AssertUnwindSafe(|| flying.run(20.0, Run::Respond(&respond), 2, |_| {})));
     assert_eq!(panicked.unwrap_err().downcast_ref(), Some(&"no answer"));

@@ -317,9 +317,25 @@ static void motions_and_probes(void) {
   ballistic.states = &start;
   ballistic.radii = &radius;
   ks_body_id bullet;
-  CHECK_OK(ks_world_add_motion(world, &ballistic, NULL, &bullet));
-  const ks_event event = next_event(world, 20, &f);
+  uint32_t motion;
+  CHECK_OK(ks_world_add_motion(world, &ballistic, &motion, &bullet));
+  ks_event event = next_event(world, 20, &f);
   CHECK(event.kind == KS_EVENT_CONTACT_BEGIN && fabs(event.time - 3.5) < 1e-5);
+  // Two more bodies of the same motion, or none of them.
+  ks_state more[2] = {{{50, 0, 0}, {-1, 0, 0}}, {{NAN, 0, 0}, {0, 0, 0}}};
+  ks_body_id ids[2];
+  ballistic.count = 2;
+  ballistic.states = more;
+  ballistic.radii = NULL;
+  CHECK_STATUS(ks_world_add_to_motion(world, motion, &ballistic, ids), KS_ERROR_NOT_FINITE);
+  size_t bodies;
+  CHECK_OK(ks_world_size(world, &bodies));
+  CHECK(bodies == 2);
+  more[1].position.x = 100;
+  CHECK_OK(ks_world_add_to_motion(world, motion, &ballistic, ids));
+  CHECK_OK(ks_world_states(world, ids, 2, event.time + 1, more));
+  CHECK(fabs(more[0].position.x - 49) < 1e-9 && more[1].position.x == 100);
+  CHECK_STATUS(ks_world_add_to_motion(world, 7, &ballistic, ids), KS_ERROR_OUT_OF_RANGE);
   CHECK_OK(ks_world_destroy(world));
 }
 
