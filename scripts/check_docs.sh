@@ -4,6 +4,7 @@
 #   main job, timings aside.
 # - The three examples of docs/watch.md print what follows them, its table counts the alerts of their streams, and
 #   make_streams.py makes these streams.
+# - Each line of C, Rust and C# in docs/c.md is in an example of its language.
 # - Each line of C++ in the guides (docs/worlds.md, running.md, recipes.md, from-box2d.md, distributed.md) is in an example,
 #   and examples/sensors.cpp prints its output in docs/worlds.md.
 # - Each mark "proved" or "tested" in docs/guarantee.md names an existing theorem or test, and the tables of
@@ -59,3 +60,9 @@ for page in docs/worlds.md docs/running.md docs/recipes.md docs/from-box2d.md do
     fi
   done
 done
+
+# Each line of C, Rust and C# in docs/c.md stands in an example.
+lines_of() { awk -v fence='```'"$1" '/^```/ {on = $0 == fence; next} on && NF {print}' docs/c.md; }
+missing=$({ lines_of c | grep -vxFf <(cat examples/c/*.c); lines_of rust | grep -vxFf <(cat rust/examples/*.rs)
+  lines_of csharp | grep -vxFf <(cat csharp/examples/*.cs); } || true)
+if [[ -n $missing ]]; then echo "docs/c.md: no example has the line: $missing" >&2 && exit 1; fi

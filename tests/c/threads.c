@@ -1,0 +1,73 @@
+// Several threads create, use and destroy worlds of their own, and race for one that they share.
+// For barriers, which C11 does not know.
+#define _POSIX_C_SOURCE 200809L
+
+#include "check.h"
+
+#include <pthread.h>
+
+enum { threads = 4, rounds = 100 };
+
+static int32_t stand_still(const ks_body_id* bodies, size_t count, double time, ks_state* states,
+                           void* user) {
+  (void)bodies, (void)time, (void)user;
+  for (size_t k = 0; k < count; ++k) {
+    states[k].position = vec3(0, 0, 0);
+    states[k].velocity = vec3(0, 0, 0);
+  }
+  return 0;
+}
+
+static ks_world new_world(void) {
+  const ks_world_definition definition = ks_default_world_definition();
+  const ks_body_definition ball = ks_default_body_definition();
+  ks_world world;
+  ks_body_id id;
+  CHECK_OK(ks_world_create(&definition, &world));
+  CHECK_OK(ks_world_add(world, &ball, 1, &id));
+  return world;
+}
+
+/// What a call of a shared world may get.
+static void check_shared(ks_status status) {
+  CHECK(status == KS_OK || status == KS_ERROR_IN_USE || status == KS_ERROR_STALE_HANDLE);
+}
+
+static ks_world shared[rounds];
+static pthread_barrier_t barrier;
+
+/// Returns how many of the shared worlds this thread has destroyed.
+static void* race(void* destroyed) {
+  for (int round = 0; round < rounds; ++round) {
+    pthread_barrier_wait(&barrier);
+    const ks_world own = new_world();
+    ks_event event = ks_new_event();
+    CHECK_OK(ks_world_advance(own, 1, stand_still, NULL, &event));
+    double time;
+    check_shared(ks_world_time(shared[round], &time));
+    check_shared(ks_world_advance(shared[round], 1, stand_still, NULL, &event));
+    const ks_status ended = ks_world_destroy(shared[round]);
+    check_shared(ended);
+    if (ended == KS_OK) ++*(int*)destroyed;
+    CHECK_OK(ks_world_destroy(own));
+    CHECK_STATUS(ks_world_destroy(own), KS_ERROR_STALE_HANDLE);
+  }
+  return NULL;
+}
+
+int main(void) {
+  pthread_t running[threads];
+  int destroyed[threads] = {0}, sum = 0, left = 0;
+  for (int k = 0; k < rounds; ++k) shared[k] = new_world();
+  CHECK(pthread_barrier_init(&barrier, NULL, threads) == 0);
+  for (int k = 0; k < threads; ++k) CHECK(pthread_create(&running[k], NULL, race, &destroyed[k]) == 0);
+  for (int k = 0; k < threads; ++k) {
+    CHECK(pthread_join(running[k], NULL) == 0);
+    sum += destroyed[k];
+  }
+  // A world stays if the last thread that tried to destroy it met another one's call.
+  for (int k = 0; k < rounds; ++k) left += ks_world_destroy(shared[k]) == KS_OK;
+  printf("%d of %d shared worlds were destroyed in the race, %d after it\n", sum, rounds, left);
+  CHECK(sum + left == rounds);
+  return 0;
+}
