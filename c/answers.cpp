@@ -9,19 +9,24 @@
 namespace kinesphere::c {
 namespace {
 
-/// Calls answer(world) or, with a probe, answer(world, probe), and then tell(what that returned). `result` is
-/// where the caller wants it.
+/// Where the caller wants an answer.
+struct Target {
+  const void* pointer;
+  const char* argument;
+};
+
+/// Calls answer(world) or, with a probe, answer(world, probe), and then tell(what that returned).
 template <class Answer, class Tell>
-ks_status answering(std::string_view call, ks_world world, ks_probe probe, void* user, const void* result,
+ks_status answering(std::string_view call, ks_world world, ks_probe probe, void* user, const Target& target,
                     const Answer& answer, const Tell& tell) {
   if (probe == nullptr) {
     return reading(call, world, [&](const WorldObject& object) {
-      require_pointer(call, result, "result");
+      require_pointer(call, target.pointer, target.argument);
       tell(answer(object.world()).value());
     });
   }
   return changing(call, world, [&](WorldObject& object) {
-    require_pointer(call, result, "result");
+    require_pointer(call, target.pointer, target.argument);
     tell(with_probe(call, object.simulation, probe, user,
                     [&](const Probe& combined) { return answer(object.world(), combined).value(); }));
   });
@@ -45,7 +50,7 @@ ks_prediction c_prediction(const EarliestApproach& approach) {
 template <class Answer>
 ks_status predict(std::string_view call, ks_world world, ks_probe probe, void* user,
                   ks_prediction* prediction, const Answer& answer) {
-  return answering(call, world, probe, user, prediction, answer,
+  return answering(call, world, probe, user, {prediction, "prediction"}, answer,
                    [&](const auto& found) { *prediction = c_prediction(found); });
 }
 
@@ -67,7 +72,7 @@ struct Hits {
 template <class Answer>
 ks_status query(std::string_view call, ks_world world, ks_probe probe, void* user, const Hits& hits,
                 const Answer& answer) {
-  return answering(call, world, probe, user, hits.count, answer, [&](const auto& found) {
+  return answering(call, world, probe, user, {hits.count, "count"}, answer, [&](const auto& found) {
     write_all(call, found, hits.array, hits.capacity, hits.count, [](const auto& hit) { return c_hit(hit); });
   });
 }
@@ -109,7 +114,7 @@ ks_status ks_world_pair_safe_until(ks_world world, ks_body_id first, ks_body_id 
 ks_status ks_world_distance_limits(ks_world world, ks_body_id first, ks_body_id second, double time,
                                    ks_probe probe, void* user, double* lower, double* upper) {
   return answering(
-      __func__, world, probe, user, lower != nullptr ? upper : nullptr,
+      __func__, world, probe, user, lower != nullptr ? Target{upper, "upper"} : Target{lower, "lower"},
       [&](auto& of, const auto&... probes) {
         return of.distance_limits(id_of(first), id_of(second), time, probes...);
       },

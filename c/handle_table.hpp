@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -49,6 +50,7 @@ class HandleTable {
   std::uint64_t insert(std::shared_ptr<Object> object) {
     const std::lock_guard lock(mutex_);
     if (free_.empty()) {
+      if (slots_.size() == most_slots) throw std::bad_alloc();
       slots_.emplace_back();
       // erase() must not fail.
       free_.reserve(slots_.size());
@@ -91,7 +93,8 @@ class HandleTable {
   static std::uint32_t generation_of(std::uint64_t handle) {
     return static_cast<std::uint32_t>(handle >> 32);
   }
-  static std::uint32_t index_of(std::uint64_t handle) { return handle & ((1u << kind_shift) - 1); }
+  static constexpr std::uint32_t most_slots = 1u << kind_shift;
+  static std::uint32_t index_of(std::uint64_t handle) { return handle & (most_slots - 1); }
 
   std::mutex mutex_;
   std::vector<Slot> slots_;

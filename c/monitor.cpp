@@ -1,7 +1,7 @@
 // Monitors: definitions, reports, events, answers, snapshots.
 #include "kinesphere/monitor/monitor.hpp"
 
-#include <cmath>
+#include <functional>
 
 #include "exchange.hpp"
 #include "objects.hpp"
@@ -218,8 +218,8 @@ ks_status ks_monitor_advance(ks_monitor monitor, double until, ks_poll poll, voi
   return changing(__func__, monitor, [&, call = __func__](MonitorObject& object) {
     require_record(call, event, "event");
     const auto next = advance(call, object.monitor, until, poll, user);
-    *event = next ? c_event(*next) : ks_new_monitor_event();
-    event->time = object.monitor.time();
+    *event = c_event(next.value_or(MonitorEvent{.time = object.monitor.time()}));
+    if (!next) event->kind = KS_MONITOR_NONE;
   });
 }
 

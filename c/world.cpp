@@ -1,6 +1,8 @@
 // Worlds: definitions, snapshots, what a world knows.
 #include "kinesphere/world.hpp"
 
+#include <functional>
+
 #include "exchange.hpp"
 #include "objects.hpp"
 

@@ -491,7 +491,7 @@ typedef struct ks_event_hash {
   uint64_t count;
 } ks_event_hash;
 KS_API ks_status ks_event_hash_add(ks_event_hash* hash, const ks_event* event);
-/// *value is 0 for a hash without events.
+/// Equal sets of events have equal values.
 KS_API ks_status ks_event_hash_value(const ks_event_hash* hash, uint64_t* value);
 
 // ---------------------------------------------------------------------------------------------------------------
