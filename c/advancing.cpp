@@ -40,7 +40,7 @@ bool begins(const Event& event) {
   return event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
 }
 
-/// The bounce that `definition` asks for, by itself.
+/// The response of ks_bounce().
 Response bounced(const Event& event, double restitution, double resting_speed) {
   if (!begins(event)) return {};
   return response_of(
@@ -96,7 +96,8 @@ void run(std::string_view call, WorldObject& object, double until, const ks_run_
     const ks_event told = c_event(event);
     require_success("sink", definition.sink(&told, definition.sink_user));
   };
-  object.world().reserve(0).value();  // refused inside callbacks, before the workers of the outer run change
+  // Inside a callback the workers of the outer run must stay.
+  require_idle(object.world());
   object.simulation.run(until, respond, sink, workers_for(object, definition.threads)).value();
 }
 

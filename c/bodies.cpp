@@ -133,7 +133,7 @@ ks_status ks_world_remove(ks_world world, const ks_body_id* bodies, size_t count
     const bool moved =
         std::any_of(ids.begin(), ids.end(), [&](BodyId body) { return simulation.find(body).has_value(); });
     if (!moved) return simulation.world().remove_all(ids).value();
-    simulation.world().reserve(0).value();  // refused inside callbacks, as remove_all() is
+    require_idle(simulation.world());
     require_removable(call, simulation.world(), ids);
     remove_with_motions(simulation, ids);
   });

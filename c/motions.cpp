@@ -105,7 +105,7 @@ struct AddedMotion {
 AddedMotion add_motion(std::string_view call, WorldObject& object, const ks_motion_definition& definition) {
   require_number(call, "definition.kind", definition.kind, KS_MOTION_BALLISTIC, KS_MOTION_FRAMES);
   const Properties properties = properties_of(call, definition);
-  object.world().reserve(0).value();  // refused inside callbacks, before a motion is added
+  require_idle(object.world());
   const MotionId<> motion = add(call, object.simulation, definition);
   auto bodies = object.simulation.add_all(motion, properties.radii, properties.like).value();
   for (std::size_t k = 0; k < bodies.size(); ++k)
@@ -113,26 +113,41 @@ AddedMotion add_motion(std::string_view call, WorldObject& object, const ks_moti
   return {motion, std::move(bodies)};
 }
 
-std::vector<BodyId> add_to_motion(std::string_view call, WorldObject& object, MotionId<> number,
+/// Bodies that join a motion, until kept: then they stay.
+class JoiningBodies {
+ public:
+  JoiningBodies(Simulation& simulation, MotionId<> motion) : simulation_(simulation), motion_(motion) {}
+  JoiningBodies(const JoiningBodies&) = delete;
+  JoiningBodies& operator=(const JoiningBodies&) = delete;
+  ~JoiningBodies() {
+    for (const BodyId body : ids_) (void)simulation_.remove(body);
+  }
+
+  void join(std::uint32_t number, const BodyDefinition& like) {
+    ScopeGuard forget([&] { (void)simulation_.motion(motion_).remove(number); });
+    ids_.push_back(simulation_.add(motion_, number, like).value());
+    forget.dismiss();
+  }
+  std::vector<BodyId> keep() { return std::exchange(ids_, {}); }
+
+ private:
+  Simulation& simulation_;
+  MotionId<> motion_;
+  std::vector<BodyId> ids_;
+};
+
+std::vector<BodyId> add_to_motion(std::string_view call, WorldObject& object, MotionId<> motion,
                                   const ks_motion_definition& definition) {
   Properties properties = properties_of(call, definition);
-  Simulation& simulation = object.simulation;
-  simulation.world().reserve(0).value();  // refused inside callbacks, before a motion changes
-  Motion& motion = simulation.motion(number);
-  std::vector<BodyId> bodies;
-  ScopeGuard undo([&] {
-    for (const BodyId body : bodies) (void)simulation.remove(body);
-  });
+  require_idle(object.world());
+  JoiningBodies bodies(object.simulation, motion);
   for (std::size_t k = 0; k < definition.count; ++k) {
     properties.like.radius = properties.radii[k];
     properties.like.mass = properties.masses[k];
-    const std::uint32_t added = add_one(call, motion, definition, k, simulation.world().time());
-    ScopeGuard forget([&] { (void)motion.remove(added); });
-    bodies.push_back(simulation.add(number, added, properties.like).value());
-    forget.dismiss();
+    bodies.join(add_one(call, object.simulation.motion(motion), definition, k, object.world().time()),
+                properties.like);
   }
-  undo.dismiss();
-  return bodies;
+  return bodies.keep();
 }
 
 }  // namespace
@@ -161,11 +176,14 @@ ks_status ks_world_add_motion(ks_world world, const ks_motion_definition* defini
 }
 
 ks_status ks_world_add_to_motion(ks_world world, uint32_t motion, const ks_motion_definition* definition,
-                                 ks_body_id* ids) {
+                                 uint32_t* numbers, ks_body_id* ids) {
   return changing(__func__, world, [&, call = __func__](WorldObject& object) {
     require_record(call, definition, "definition");
     require_array(call, ids, definition->count, "ids");
-    for (const BodyId id : add_to_motion(call, object, {motion}, *definition)) *ids++ = c_id(id);
+    for (const BodyId id : add_to_motion(call, object, {motion}, *definition)) {
+      *ids++ = c_id(id);
+      if (numbers != nullptr) *numbers++ = object.simulation.find(id)->number;
+    }
   });
 }
 

@@ -35,6 +35,9 @@ struct MonitorObject {
   Usage usage{};
 };
 
+/// Throws BadResult inside callbacks of the world: for changes that do not begin with a call of the world.
+inline void require_idle(World& world) { world.reserve(0).value(); }
+
 /// The tables live as long as the program: handles are checked even while it ends.
 HandleTable<WorldObject>& table_of(ks_world);
 HandleTable<MonitorObject>& table_of(ks_monitor);

@@ -1,5 +1,4 @@
-// Kinesphere in C: worlds of moving spheres, and monitors of tracks. For C and for every language that calls
-// C.
+// Kinesphere in C, for C and all languages that call C: worlds of moving spheres, and monitors of tracks.
 //
 //   ks_world_definition definition = ks_default_world_definition();
 //   ks_world world;
@@ -11,9 +10,11 @@
 //   // ... more bodies
 //
 //   ks_event event = ks_new_event();
-//   while (ks_world_advance(world, 60.0, my_probe, &my_game, &event) == KS_OK && event.kind != KS_EVENT_NONE)
-//     if (event.kind == KS_EVENT_CONTACT_BEGIN) ...  // respond: ks_world_set_velocity(world, event.first,
-//     ...)
+//   for (;;) {
+//     if (ks_world_advance(world, 60.0, my_probe, &my_game, &event) != KS_OK) return fail();
+//     if (event.kind == KS_EVENT_NONE) break;
+//     if (event.kind == KS_EVENT_CONTACT_BEGIN) ks_world_set_velocity(world, event.first, ...);
+//   }
 //   ks_world_destroy(world);
 //
 // The C++ headers in kinesphere/ state units, ranges and guarantees in full: world.hpp, body.hpp, event.hpp,
@@ -30,9 +31,12 @@
 // Handles. A ks_world or ks_monitor names an object of the library. The library recognises handles of
 // destroyed objects and numbers that never were handles; it never takes one for another object.
 //
-// Threads. One thread at a time may change an object or advance it; several threads may read it meanwhile no
-// other one changes it. A call that finds the object in use by another thread fails with KS_ERROR_IN_USE.
-// Different objects are independent.
+// Threads. One thread at a time may change an object or advance it; several may read it while none does. A
+// call that finds the object in use by another thread fails with KS_ERROR_IN_USE. Different objects are
+// independent.
+//
+// Cost. A call takes about 50 ns more than in C++, a callback next to nothing. An error takes some
+// microseconds.
 //
 // Records. A record that begins with struct_size may get more fields in later versions of the library. A
 // function ks_default_...() or ks_new_...() sets struct_size; a size that this library does not know is
@@ -67,7 +71,7 @@
 extern "C" {
 #endif
 
-// ---------------------------------------------------------------------------------------------------------------
+// -----------------------------------------------------------------------------------------------------------
 // Statuses and errors
 
 typedef int32_t ks_status;
@@ -147,7 +151,7 @@ KS_API const char* ks_version(void);
 /// Returns the KS_ABI_VERSION of the library that has been loaded.
 KS_API uint32_t ks_abi_version(void);
 
-// ---------------------------------------------------------------------------------------------------------------
+// -----------------------------------------------------------------------------------------------------------
 // Geometry. Lengths, times and masses are in any consistent units.
 
 typedef struct ks_vec3 {
@@ -203,7 +207,7 @@ static inline ks_shape ks_triangle(ks_vec3 a, ks_vec3 b, ks_vec3 c) {
   return shape;
 }
 
-// ---------------------------------------------------------------------------------------------------------------
+// -----------------------------------------------------------------------------------------------------------
 // Worlds (kinesphere/world.hpp)
 
 /// A world. A handle of zero never names one.
@@ -398,7 +402,7 @@ KS_API ks_status ks_world_sensor_overlaps(ks_world world, ks_body_id body, ks_se
 /// The number of states that the world has asked for so far.
 KS_API ks_status ks_world_probe_count(ks_world world, uint64_t* probes);
 
-// ---------------------------------------------------------------------------------------------------------------
+// -----------------------------------------------------------------------------------------------------------
 // Events (kinesphere/event.hpp)
 
 typedef int32_t ks_event_kind;
@@ -494,7 +498,7 @@ KS_API ks_status ks_event_hash_add(ks_event_hash* hash, const ks_event* event);
 /// Equal sets of events have equal values.
 KS_API ks_status ks_event_hash_value(const ks_event_hash* hash, uint64_t* value);
 
-// ---------------------------------------------------------------------------------------------------------------
+// -----------------------------------------------------------------------------------------------------------
 // Time
 
 /// Gives the states of bodies at a time: states[k] is that of bodies[k]. A number other than 0 stops the call
@@ -581,13 +585,18 @@ static inline ks_motion_definition ks_default_motion_definition(void) {
 }
 
 /// Adds bodies that the library moves, and writes the number of their motion in the world and their ids.
-/// `motion` may be NULL. Errors: those of the motion and of World::add(), naming the body.
+/// Their numbers in the motion are 0, 1, 2, ... `motion` may be NULL. Errors: those of the motion and of
+/// World::add(), naming the body.
 KS_API ks_status ks_world_add_motion(ks_world world, const ks_motion_definition* definition, uint32_t* motion,
                                      ks_body_id* ids);
 /// Adds more bodies to a motion, such as bullets, or on an error none: those of the definition, whose kind,
-/// gravity, interval, position_error and seed do not count. Errors: as ks_world_add_motion().
+/// gravity, interval, position_error and seed do not count. Writes their numbers in the motion, which are
+/// their indices in frames; `numbers` may be NULL. They are the next ones, or those of removed bodies.
+/// Errors: as ks_world_add_motion(); a body that the world refuses then leaves a number of a removed body in
+/// frames.
 KS_API ks_status ks_world_add_to_motion(ks_world world, uint32_t motion,
-                                        const ks_motion_definition* definition, ks_body_id* ids);
+                                        const ks_motion_definition* definition, uint32_t* numbers,
+                                        ks_body_id* ids);
 /// Appends the next frame of a motion of kind KS_MOTION_FRAMES: the position of each of its bodies, NaN for a
 /// removed one. The world must be at the time of the latest frame. Errors: as FrameMotion::push().
 KS_API ks_status ks_world_push_frame(ks_world world, uint32_t motion, const ks_vec3* positions, size_t count);
@@ -600,7 +609,7 @@ KS_API ks_status ks_world_latest_frame_time(ks_world world, uint32_t motion, dou
 KS_API ks_status ks_world_states(ks_world world, const ks_body_id* bodies, size_t count, double time,
                                  ks_state* states);
 
-// ---------------------------------------------------------------------------------------------------------------
+// -----------------------------------------------------------------------------------------------------------
 // Certified answers at the current time (kinesphere/answers.hpp, kinesphere/queries.hpp). A probe makes them
 // as good as fresh reports allow; with NULL they follow from what the world knows.
 
@@ -649,7 +658,7 @@ KS_API ks_status ks_world_cast(ks_world world, ks_vec3 origin, ks_vec3 direction
                                double radius, ks_probe probe, void* user, ks_hit* hits, size_t capacity,
                                size_t* count);
 
-// ---------------------------------------------------------------------------------------------------------------
+// -----------------------------------------------------------------------------------------------------------
 // Monitors: what is certain about tracks that report when they like (kinesphere/monitor/monitor.hpp)
 
 /// A monitor. A handle of zero never names one.

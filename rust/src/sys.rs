@@ -389,7 +389,7 @@ extern "C" {
     pub fn ks_world_advance(world: ks_world, until: f64, probe: Option<ks_probe>, user: *mut c_void, event: *mut ks_event) -> ks_status;
     pub fn ks_world_run(world: ks_world, until: f64, definition: *const ks_run_definition) -> ks_status;
     pub fn ks_world_add_motion(world: ks_world, definition: *const ks_motion_definition, motion: *mut u32, ids: *mut BodyId) -> ks_status;
-    pub fn ks_world_add_to_motion(world: ks_world, motion: u32, definition: *const ks_motion_definition, ids: *mut BodyId) -> ks_status;
+    pub fn ks_world_add_to_motion(world: ks_world, motion: u32, definition: *const ks_motion_definition, numbers: *mut u32, ids: *mut BodyId) -> ks_status;
     pub fn ks_world_push_frame(world: ks_world, motion: u32, positions: *const Vec3, count: usize) -> ks_status;
     pub fn ks_world_latest_frame(world: ks_world, motion: u32, positions: *mut Vec3, capacity: usize, count: *mut usize) -> ks_status;
     pub fn ks_world_latest_frame_time(world: ks_world, motion: u32, time: *mut f64) -> ks_status;

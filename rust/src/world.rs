@@ -483,7 +483,8 @@ impl World {
         Ok((number, ids))
     }
 
-    /// Adds more bodies, such as bullets, to a motion of this number; only acceleration limits of `motion` count.
+    /// Adds more bodies, such as bullets, to a motion of this number; of `motion` only acceleration limits count.
+    /// Returns their numbers in the motion, which are their indices in frames, and their ids.
     ///
     /// # Panics
     /// As `add_motion`.
@@ -493,12 +494,15 @@ impl World {
         motion: Motion,
         states: &[State],
         like: &BodyDefinition,
-    ) -> Result<Vec<BodyId>> {
+    ) -> Result<(Vec<u32>, Vec<BodyId>)> {
         let like = like.raw();
         let raw = motion.raw(states, &[], &[], &like);
+        let mut numbers = vec![0; states.len()];
         let mut ids = vec![BodyId::default(); states.len()];
-        check(unsafe { sys::ks_world_add_to_motion(self.handle, number, &raw, ids.as_mut_ptr()) })?;
-        Ok(ids)
+        check(unsafe {
+            sys::ks_world_add_to_motion(self.handle, number, &raw, numbers.as_mut_ptr(), ids.as_mut_ptr())
+        })?;
+        Ok((numbers, ids))
     }
 
     /// Appends the next frame of a motion of frames, and returns its time, to which to advance then.

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::Arc;
 
 /// A world in which two balls fly towards each other, and the probe that moves them.
+#[allow(clippy::type_complexity)]
 fn two_balls() -> (World, [BodyId; 2], impl Fn(&[BodyId], f64, &mut [State])) {
     let mut world = World::new(&WorldDefinition::default()).unwrap();
     let start = [
@@ -72,7 +73,7 @@ fn a_panic_passes_through_the_call() {
     let ballistic = Motion::Ballistic { gravity: Vec3::default() };
     let like = BodyDefinition { radius: 0.2, ..Default::default() };
     let (number, _) = flying.add_motion(ballistic, &states[1..], &[], &[], &like).unwrap();
-    flying.add_to_motion(number, ballistic, &states[..1], &like).unwrap();
+    assert_eq!(flying.add_to_motion(number, ballistic, &states[..1], &like).unwrap().0, [7]);
     assert_eq!(flying.len(), 8);
     let respond = |_: &Event| -> Response { panic!("no answer") };
     let panicked = catch_unwind(AssertUnwindSafe(|| flying.run(20.0, Run::Respond(&respond), 2, |_| {})));

@@ -324,18 +324,20 @@ static void motions_and_probes(void) {
   // Two more bodies of the same motion, or none of them.
   ks_state more[2] = {{{50, 0, 0}, {-1, 0, 0}}, {{NAN, 0, 0}, {0, 0, 0}}};
   ks_body_id ids[2];
+  uint32_t numbers[2];
   ballistic.count = 2;
   ballistic.states = more;
   ballistic.radii = NULL;
-  CHECK_STATUS(ks_world_add_to_motion(world, motion, &ballistic, ids), KS_ERROR_NOT_FINITE);
+  CHECK_STATUS(ks_world_add_to_motion(world, motion, &ballistic, numbers, ids), KS_ERROR_NOT_FINITE);
   size_t bodies;
   CHECK_OK(ks_world_size(world, &bodies));
   CHECK(bodies == 2);
   more[1].position.x = 100;
-  CHECK_OK(ks_world_add_to_motion(world, motion, &ballistic, ids));
+  CHECK_OK(ks_world_add_to_motion(world, motion, &ballistic, numbers, ids));
+  CHECK(numbers[0] + numbers[1] == 3);  // after 0, in the order in which the motion gives them
   CHECK_OK(ks_world_states(world, ids, 2, event.time + 1, more));
   CHECK(fabs(more[0].position.x - 49) < 1e-9 && more[1].position.x == 100);
-  CHECK_STATUS(ks_world_add_to_motion(world, 7, &ballistic, ids), KS_ERROR_OUT_OF_RANGE);
+  CHECK_STATUS(ks_world_add_to_motion(world, 7, &ballistic, NULL, ids), KS_ERROR_OUT_OF_RANGE);
   CHECK_OK(ks_world_destroy(world));
 }
 
@@ -517,6 +519,15 @@ static void frames(void) {
     CHECK(start.position.x > 0.999 && start.position.x < 9.001);
   }
   CHECK(bounces == 2);
+
+  // A second ball is the second one in frames from now on.
+  start.position = vec3(5, 8, 5);
+  uint32_t added;
+  CHECK_OK(ks_world_add_to_motion(world, number, &motion, &added, &ball));
+  const ks_vec3 both[2] = {vec3(4, 5, 5), vec3(5, 8, 5)};
+  CHECK(added == 1);
+  CHECK_STATUS(ks_world_push_frame(world, number, both, 1), KS_ERROR_OUT_OF_RANGE);
+  CHECK_OK(ks_world_push_frame(world, number, both, 2));
   CHECK_OK(ks_world_destroy(world));
 }
 
