@@ -46,11 +46,11 @@ ks_body_view c_view(const BodyView& view) {
           .enabled = view.enabled,
           .is_static = view.is_static,
           .sleeping = view.sleeping,
-          .definition = c_body(view.definition),
           .report_time = view.bound.time,
           .box = c_box(view.box),
           .box_end = view.box_end,
-          .image = {view.image[0], view.image[1], view.image[2]}};
+          .image = {view.image[0], view.image[1], view.image[2]},
+          .definition = c_body(view.definition)};
 }
 
 }  // namespace

@@ -369,11 +369,11 @@ typedef struct ks_body_view {
   int32_t enabled;
   int32_t is_static;
   int32_t sleeping;
-  ks_body_definition definition;  ///< its state is that of the last report
   double report_time;
   ks_box box;  ///< contains the body from now until box_end
   double box_end;
-  int64_t image[3];  ///< boxes that it has travelled along periodic axes
+  int64_t image[3];               ///< boxes that it has travelled along periodic axes
+  ks_body_definition definition;  ///< its state is that of the last report
 } ks_body_view;
 static inline ks_body_view ks_new_body_view(void) {
   ks_body_view view;
