@@ -154,3 +154,8 @@ fn a_monitor_polls() {
     assert!(panicked.is_err());
     assert_eq!(silent.tracks().unwrap(), [1, 2]);
 }
+
+#[test]
+fn the_crate_has_the_version_of_the_library() {
+    assert_eq!(version(), env!("CARGO_PKG_VERSION"));
+}
