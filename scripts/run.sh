@@ -7,5 +7,5 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # Only the program may write to standard output.
 scripts/setup.sh run >&2
 cmake --preset release >&2
-cmake --build --preset release >&2
+cmake --build --preset release --target kinesphere_program >&2
 exec build/release/programs/kinesphere run paper1 "$@"
