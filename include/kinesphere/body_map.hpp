@@ -57,6 +57,10 @@ class BodyMap {
   Result<std::vector<BodyId>> add_all(World& world, Motion& motion, std::span<const double> radii,
                                       const BodyDefinition& like = {});
 
+  /// Adds a body of a motion that carries a shape. Of `like`, state and motion limits come from the motion.
+  /// Errors: unknown_body or stale_body, and those of World::add_moving_shape(). Throws as add().
+  Result<BodyId> add_moving_shape(World& world, Motion& motion, std::uint32_t number, MovingShape like);
+
   // Changes at world.time() of a body in the world and in its motion. Errors of all: unknown_body for a
   // body that this map does not know, and those of the functions of equal name of Motion and World.
 

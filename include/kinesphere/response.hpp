@@ -45,7 +45,7 @@ struct Bounce {
                             double resting_speed);
 
 /// Returns the response, for World::run(), that gives the bodies of the contact these velocities. It leaves
-/// out walls, static bodies and sleeping ones.
+/// out walls, static bodies, sleeping ones and those whose mass in the event is infinite.
 [[nodiscard]] Response response_of(const Event& contact, const Bounce& after);
 
 /// Returns sqrt(3 contact_tolerance acceleration): the speed of a body that falls from the outer edge of

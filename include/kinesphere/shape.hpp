@@ -1,14 +1,16 @@
-// Shapes of static bodies, and certified times at which a moving body can meet them.
+// Shapes of bodies, and certified times at which a moving body can meet them.
 //
 //   const BodyId floor = world.add_static({.shape = HalfSpace{{0, 0, 1}, 0.0}}).value();
 //   const BodyId step = world.add_static({.shape = Box{{0, 0, 0}, {2, 1, 0.2}}}).value();
 //   const auto hill = world.add_static_all(mesh(vertices, corners).value()).value();
+//   const BodyId lift = world.add_moving_shape({{.velocity = {0, 0, 1}, .mass = inf}, Box{{-3, -3, -0.2}, {3,
+//   3, 0}}}).value();
 //
-// All shapes are convex and at rest. For a convex shape and any direction, however computed, two facts
-// hold. The shape lies behind its supporting plane in that direction, so a body that stays in front of the
-// plane does not meet it. The distance of a body from the shape is at most its distance from any point that
-// stays in the shape. The certificates below follow from these two facts, with the margins that bound.hpp
-// describes.
+// All shapes are convex, and none turns; the functions below take shapes at rest. For a convex shape and any
+// direction, however computed, two facts hold. The shape lies behind its supporting plane in that direction,
+// so a body that stays in front of the plane does not meet it. The distance of a body from the shape is at
+// most its distance from any point that stays in the shape. The certificates below follow from these two
+// facts, with the margins that bound.hpp describes.
 #pragma once
 
 #include <array>
@@ -42,7 +44,8 @@ struct Triangle {
   friend constexpr bool operator==(const Triangle&, const Triangle&) = default;
 };
 
-/// Shape of a static body. A Box is solid, and so is the side of a HalfSpace where bodies may not be.
+/// Shape of a static body, or of one that carries it. A Box is solid, and so is the side of a HalfSpace where
+/// bodies may not be.
 using Shape = std::variant<Ball, HalfSpace, Box, Triangle>;
 
 /// Definition of a body that never moves: World::add_static().
@@ -55,6 +58,17 @@ struct StaticDefinition {
   SensorClass sensor_class = 0;
   /// Stored for the caller; the world does not interpret it.
   std::uint64_t user_data = 0;
+};
+
+/// Definition of a body whose surface is that of a shape, which it carries along without turning it:
+/// World::add_moving_shape(). Lifts, pistons, doors, paddles and walls that close in are moving shapes.
+struct MovingShape {
+  /// As for World::add(), with any position. The radius is replaced by that of the smallest ball around the
+  /// position that contains the shape. A mass of infinity makes a body that no contact turns.
+  BodyDefinition body{};
+  /// A Box or a Triangle, relative to the body's position. The position should be near the middle of the
+  /// shape: the world searches within that ball.
+  Shape shape = Box{};
 };
 
 /// Returns one triangle for each triple of indices into `vertices`, all with this filter; user_data is the

@@ -152,15 +152,23 @@ class World {
   Result<BodyId> add_zone(const Shape& shape, std::uint64_t user_data = 0);
   /// Adds all static bodies or, on an error, none. Errors: as add_static(), naming the body.
   Result<std::vector<BodyId>> add_static_all(std::span<const StaticDefinition> bodies);
-  /// Returns the shape of a static body as the world stores it, or, for any other body, a ball at the
-  /// position of its last report.
+  /// Adds a body that carries a shape (MovingShape). It moves, is probed and is changed like any body of
+  /// add(), and does not turn. Bodies meet its surface; events of the two have the surface's velocity, and
+  /// bounce() uses it. It meets no walls and no body with a shape, static ones included, and may be anywhere,
+  /// so that a piston slides in the box of the world. While there is one, run() uses one thread. Errors: as
+  /// add(), but for outside_domain, and as add_static() for the shape; unsupported for a shape that is
+  /// neither a Box nor a Triangle, and where an axis is periodic. Cost: as add(), with the radius of the ball
+  /// around the position that contains the shape.
+  Result<BodyId> add_moving_shape(const MovingShape& body);
+  /// Returns the shape of a static body as the world stores it, that of a moving shape relative to its
+  /// position, or, for any other body, a ball at the position of its last report.
   Result<Shape> shape_of(BodyId body) const;
   /// Gives a static body or a zone another shape from the current time on: it grows, shrinks, turns or moves.
   /// Contacts and sensor overlaps that the new shape certainly ends are reported as ended, with the states
   /// and the shape from before; those that it may end are decided at once from fresh reports. Those that
   /// persist cause no event, so a zone that grows around a body inside it reports nothing. Those that the new
   /// shape creates begin at once. Nothing is swept in between: a body that the shape jumps over is not
-  /// reported. Errors: as add_static(); unsupported for a body that is not static. Cost: O(1 + contacts) here
+  /// reported. Errors: as add_static(); unsupported for a body that can move. Cost: O(1 + contacts) here
   /// (plus a search if allow_overlap is false), and a search and one state for each linked body at the next
   /// advance.
   Result<void> set_shape(BodyId body, const Shape& shape);
@@ -195,7 +203,7 @@ class World {
   /// body's next approach to any partner is reported, also in touch. Errors: disabled_body, static_body.
   Result<void> teleport(BodyId body, const State& state);
   /// Sets the radius (length) from the current time on. Errors: static_body (set_shape() changes a static
-  /// body).
+  /// body); unsupported for a moving shape.
   Result<void> set_radius(BodyId body, double radius);
   /// Sets the limits within which the body moves from the current time on. Errors: static_body.
   Result<void> set_motion_limits(BodyId body, const MotionLimits& limits);

@@ -98,6 +98,11 @@ void serialize(Some<StaticDefinition> auto& self, auto& archive) {
   archive(shape, filter, solid, sensor_class, user_data);
 }
 
+void serialize(Some<MovingShape> auto& self, auto& archive) {
+  auto& [body, shape] = self;
+  archive(body, shape);
+}
+
 void serialize(Some<BodyTraits> auto& self, auto& archive) {
   auto& [is_static, is_zone, is_sleeping] = self;
   archive(is_static, is_zone, is_sleeping);

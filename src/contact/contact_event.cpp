@@ -33,7 +33,8 @@ void describe_spheres(Event& event, const Sphere& first, const Sphere& second) {
 /// Sets normal, gap and point of an event between a sphere and a body with a shape. Either may be
 /// event.first.
 void describe_surface(Event& event, const Sphere& sphere, const Sphere& surface) {
-  const SurfacePoint nearest = nearest_of(*surface.shape, sphere.state.position);
+  const Vec3 origin = surface.carries_shape ? surface.state.position : Vec3{};
+  const SurfacePoint nearest = nearest_of(*surface.shape, sphere.state.position - origin);
   event.normal = event.first == sphere.id ? -nearest.normal : nearest.normal;
   event.gap = nearest.distance - sphere.radius;
   event.point = sphere.state.position - nearest.normal * (sphere.radius + 0.5 * event.gap);

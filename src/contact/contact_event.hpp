@@ -18,8 +18,10 @@ struct Sphere {
   BodyId id;
   double radius;
   State state;
-  /// Shape of a static body that is not a ball (then `radius` is ignored), otherwise nullptr.
+  /// Shape of a static body that is not a ball, or of a body that carries one (then `radius` is ignored),
+  /// otherwise nullptr.
   const Shape* shape = nullptr;
+  bool carries_shape = false;  ///< the origin of the shape is the position in `state`
   std::uint64_t user_data = 0;
   double mass = 1.0;
   BodyTraits traits{};

@@ -129,13 +129,13 @@ void ContactGraph::start_side_by_side(bool with_sensors) {
   if (with_sensors) overlaps_.make_lists(flags_.size());
 }
 
-/// Returns the bodies of the event whose contact rate counts it: all but static ones, which many bodies may
-/// hit at one time. The result refers to `buffer`.
+/// Returns the bodies of the event whose contact rate counts it: all but those with shapes, which many bodies
+/// may hit at one time. The result refers to `buffer`.
 std::span<const std::uint32_t> ContactGraph::counting(const Event& contact,
                                                       std::array<std::uint32_t, 2>& buffer) const {
   std::size_t count = 0;
   for (const BodyId id : {contact.first, contact.second})
-    if (id != no_body && !flags_[number_of(id)].is_static) buffer[count++] = number_of(id);
+    if (id != no_body && !flags_[number_of(id)].has_shape) buffer[count++] = number_of(id);
   return std::span(buffer).first(count);
 }
 

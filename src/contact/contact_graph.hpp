@@ -39,9 +39,12 @@ class ContactGraph {
   void set_largest_acceleration(std::uint32_t body, double largest_acceleration) {
     rate_.set_zeno_interval(body, rule_.zeno_interval(largest_acceleration));
   }
-  /// Marks a body as static. Only its partners count contacts with it, because many bodies may touch it at
-  /// one time.
-  void set_static(std::uint32_t body) { flags_[body].is_static = true; }
+  /// Marks a body as one with a shape. Only its partners count contacts with it, because many bodies may
+  /// touch it at one time.
+  void set_shape(std::uint32_t body, bool is_static) {
+    flags_[body].has_shape = true;
+    flags_[body].is_static = is_static;
+  }
 
   // Existing contacts and overlaps.
 
@@ -136,14 +139,15 @@ class ContactGraph {
   /// Per-body data other than lists.
   struct Flags {
     std::uint8_t walls = 0;  ///< walls in touch
+    bool has_shape = false;
     bool is_static = false;
     std::uint8_t wall_guards = 0;       ///< walls with ContactState::guard_reported
     std::uint8_t wall_jams = 0;         ///< ContactState::jams, of all walls together
     std::uint16_t wall_approaches = 0;  ///< two bits for each wall: ApproachState
 
     static void serialize(auto& self, auto& archive) {
-      auto& [touched_walls, is_static, wall_guards, wall_jams, wall_approaches] = self;
-      archive(touched_walls, is_static, wall_guards, wall_jams, wall_approaches);
+      auto& [touched_walls, shaped, is_static, wall_guards, wall_jams, wall_approaches] = self;
+      archive(touched_walls, shaped, is_static, wall_guards, wall_jams, wall_approaches);
     }
   };
 

@@ -128,6 +128,8 @@ template class ContactPredictor<Bound>;
 template class ContactPredictor<HalfSpace>;
 template class ContactPredictor<Box>;
 template class ContactPredictor<Triangle>;
+template class ContactPredictor<CarriedShape<Box>>;
+template class ContactPredictor<CarriedShape<Triangle>>;
 
 namespace {
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "bound/carried_shape.hpp"
 #include "contact/contact_rule.hpp"
 #include "kinesphere/bound.hpp"
 #include "kinesphere/event.hpp"
@@ -48,7 +49,7 @@ struct ContactDecision {
 EventKind kind_of(ContactRule::Change change, bool sensed, Wall wall);
 
 /// Predicts one threshold between a body and a partner from `now` on. A partner is another body's Bound, the
-/// HalfSpace inside a wall, or a shape at rest. Holds references to rule, bound and partner.
+/// HalfSpace inside a wall, a shape at rest, or a CarriedShape. Holds references to rule, bound and partner.
 template <class Partner>
 class ContactPredictor {
  public:
@@ -102,6 +103,8 @@ extern template class ContactPredictor<Bound>;
 extern template class ContactPredictor<HalfSpace>;
 extern template class ContactPredictor<Box>;
 extern template class ContactPredictor<Triangle>;
+extern template class ContactPredictor<CarriedShape<Box>>;
+extern template class ContactPredictor<CarriedShape<Triangle>>;
 
 /// Returns the walls of the box that the body may come within the tolerance of before `until`, as the box
 /// with infinite limits on all other axes. Conservative: may include walls that are not reached. Cost: O(1),

@@ -67,8 +67,10 @@ Bounce settle(const Event& contact, double first_mass, double second_mass, doubl
 
 Response response_of(const Event& contact, const Bounce& after) {
   Response response;
-  if (!stays(contact.first_traits)) response.first_velocity = after.first_velocity;
-  if (contact.second != no_body && !stays(contact.second_traits))
+  // A body of infinite mass keeps its velocity, and its certificates with it.
+  if (!stays(contact.first_traits) && !std::isinf(contact.first_mass))
+    response.first_velocity = after.first_velocity;
+  if (contact.second != no_body && !stays(contact.second_traits) && !std::isinf(contact.second_mass))
     response.second_velocity = after.second_velocity;
   return response;
 }

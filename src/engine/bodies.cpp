@@ -32,8 +32,8 @@ std::uint32_t Bodies::describe(std::uint32_t number, const BodyDefinition& defin
   return number;
 }
 
-void Bodies::fix(std::uint32_t number, const Shape& shape) {
-  shapes.add(table_[number], shape);
+void Bodies::give_shape(std::uint32_t number, const Shape& shape, bool carried) {
+  shapes.add(table_[number], shape, carried);
   filters.set_any();
 }
 
@@ -78,7 +78,7 @@ void Bodies::set_solid(std::uint32_t number, bool solid) {
 
 /// Evaluates may_meet() in a world with filters.
 bool Bodies::filters_allow(std::uint32_t a, std::uint32_t b) const {
-  return !(table_[a].is_static() && table_[b].is_static()) &&
+  return !(table_[a].has_shape() && table_[b].has_shape()) &&
          filters.may_meet(id_of(a), filters.of(a), id_of(b), filters.of(b));
 }
 

@@ -1,9 +1,9 @@
 // Bodies holds all bodies of a world: their table, and side tables for changes, sleep records, filters,
 // masses, periodic images, shapes and sensors.
 //
-// A static body has a shape in a side table and is never probed. A sleeping body has a bound that stands
-// still and is otherwise treated like any other; the motion limits that apply after it wakes are in a side
-// table.
+// A static body has a shape in a side table and is never probed. Another body may carry a shape. A sleeping
+// body has a bound that stands still and is otherwise treated like any other; the motion limits that apply
+// after it wakes are in a side table.
 #pragma once
 
 #include <cstddef>
@@ -46,8 +46,8 @@ class Bodies {
   /// Adds a body as above, with a name (BodyTable). The definition may be that of a body that moved here from
   /// another process.
   std::uint32_t add(const BodyDefinition& definition, std::uint32_t name);
-  /// Makes the body static, with this shape.
-  void fix(std::uint32_t number, const Shape& shape);
+  /// Gives the body a shape: a carried one, or else one at rest, which makes the body static.
+  void give_shape(std::uint32_t number, const Shape& shape, bool carried);
   /// Gives a static body another shape. Its bound must follow.
   void reshape(std::uint32_t number, const Shape& shape) { shapes.replace(table_[number], shape); }
   void remove(std::uint32_t number);
@@ -123,6 +123,7 @@ class Bodies {
   bool bodies_are_valid(double now, const std::vector<std::uint32_t>& dirty) const;
   bool is_valid(std::uint32_t number, double now) const;
   bool is_valid_static(std::uint32_t number, double now) const;
+  bool carried_shape_is_valid(const Body& body, const BodyDefinition& definition) const;
   bool sleep_is_valid(const Body& body) const;
   bool limits_are_valid(const Body& body, BodyDefinition definition) const;
 

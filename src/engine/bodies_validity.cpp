@@ -66,8 +66,10 @@ bool Shapes::is_valid(const BodyTable& bodies) const {
   for (const std::uint32_t number : free_)
     if (!take(number)) return false;
   for (const Body& body : bodies)
-    if (body.is_static() && !(body.alive && take(body.shape_number))) return false;
-  return std::find(is_taken.begin(), is_taken.end(), false) == is_taken.end();
+    if (body.has_shape() && !(body.alive && take(body.shape_number))) return false;
+  const auto carried =
+      std::count_if(bodies.begin(), bodies.end(), [](const Body& body) { return body.carries_shape; });
+  return carried == carried_ && std::find(is_taken.begin(), is_taken.end(), false) == is_taken.end();
 }
 
 const char* Bodies::first_invalid_part(double now, const std::vector<std::uint32_t>& dirty) const {
@@ -110,7 +112,7 @@ bool Bodies::is_valid(std::uint32_t number, double now) const {
       !kinesphere::is_valid(body.bound, *place, now, unbounded) ||
       (space_.repeats() && !images[number].is_valid(space_)))
     return false;
-  if (!limits_are_valid(body, definition)) return false;
+  if (!limits_are_valid(body, definition) || !carried_shape_is_valid(body, definition)) return false;
   if (!body.enabled) return !body.dirty;
   // The bound's radius includes an error. Only the bound of a disabled body can be out of date.
   if (body.bound.radius < body.radius) return false;
@@ -146,6 +148,16 @@ bool Bodies::is_valid_static(std::uint32_t number, double now) const {
          same(body.bound, bound_of(made, {made.position, {}}, body.bound.time)) && body.bound.time <= now &&
          body.bound.time >= -limits::largest_time && !body.visited && body.change_number == Body::none &&
          !body.is_sleeping() && !(body.dirty && !body.enabled);
+}
+
+/// A body that carries a shape has the radius of the ball around it.
+bool Bodies::carried_shape_is_valid(const Body& body, const BodyDefinition& definition) const {
+  if (!body.carries_shape) return true;
+  if (!body.has_shape()) return false;
+  const Shape& shape = shapes.of(body);
+  return check_carried_shape(shape, definition_, "restore") &&
+         same(normalized_carried(shape, definition_), shape) &&
+         body.radius == body_of({definition, shape}).radius;
 }
 
 /// A sleeping body is present and not static; its bound stands still unless a change still waits for a

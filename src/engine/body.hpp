@@ -31,7 +31,8 @@ struct Body {
   bool solid = true;
   ContactEvents contact_events = ContactEvents::all;  ///< 0 for a static body, which asks for nothing
   SensorClass sensor_class = 0;
-  std::uint32_t shape_number = none;   ///< index of the shape of a static body
+  bool carries_shape = false;          ///< its shape moves with it; a static body has one at rest
+  std::uint32_t shape_number = none;   ///< index of the shape
   std::uint32_t change_number = none;  ///< index of the pending change
   std::uint32_t generation = 0;
   std::uint32_t sleep_number = none;  ///< index of the sleep record
@@ -40,7 +41,8 @@ struct Body {
   std::uint64_t user_data = 0;
 
   bool present() const { return alive && enabled; }
-  bool is_static() const { return shape_number != none; }
+  bool has_shape() const { return shape_number != none; }
+  bool is_static() const { return has_shape() && !carries_shape; }
   bool is_sleeping() const { return sleep_number != none; }
   /// Sleeping, and with a report since it fell asleep. The bound then stands still.
   bool is_at_rest() const { return is_sleeping() && change_number == none; }
@@ -60,9 +62,11 @@ struct Body {
 
   static void serialize(auto& self, auto& archive) {
     auto& [bound, revision, alive, enabled, dirty, visited, relocated, solid, contact_events, sensor_class,
-           shape_number, change_number, generation, sleep_number, radius, position_error, user_data] = self;
+           carries_shape, shape_number, change_number, generation, sleep_number, radius, position_error,
+           user_data] = self;
     archive(bound, revision, alive, enabled, dirty, visited, relocated, solid, contact_events, sensor_class,
-            shape_number, change_number, generation, sleep_number, radius, position_error, user_data);
+            carries_shape, shape_number, change_number, generation, sleep_number, radius, position_error,
+            user_data);
   }
 };
 static_assert(sizeof(Body) <= 168);

@@ -43,6 +43,7 @@ Sphere sphere_at(const Bodies& bodies, double now, std::uint32_t number) {
                 bound.radius,
                 {bound.centre_at(now), bound.velocity_at(now)},
                 bodies.shapes.empty() ? nullptr : collision_shape_of(bodies, number).shape,
+                bodies[number].carries_shape,
                 bodies[number].user_data,
                 bodies.masses.of(number),
                 traits_of(bodies[number]),
@@ -53,7 +54,7 @@ Sphere sphere_at(const Bodies& bodies, double now, std::uint32_t number) {
 }
 
 Box box_now(const Bodies& bodies, const CollisionShape& extent, double now) {
-  if (extent.shape) return cut_box(bodies, *extent.shape);
+  if (extent.shape && extent.is_static) return cut_box(bodies, *extent.shape);
   return bodies.space().within(swept_box(extent.bound, now, now));
 }
 

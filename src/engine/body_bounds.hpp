@@ -23,8 +23,11 @@ Bound bound_now(const BodyDefinition& body, double now);
 Bound bound_with(const Bodies& bodies, std::uint32_t number, const BodyDefinition& changed, double now);
 /// Returns the collision shape of the body with this bound in place of its own.
 inline CollisionShape collision_shape_of(const Bodies& bodies, std::uint32_t number, const Bound& bound) {
-  if (!bodies[number].is_static()) return {bound};
-  return collision_shape_of(bound, bodies.shapes.of(bodies[number]));
+  const Body& body = bodies[number];
+  if (!body.has_shape()) return {bound};
+  const Shape& shape = bodies.shapes.of(body);
+  return body.carries_shape ? CollisionShape{bound, false, &shape, body.radius}
+                            : collision_shape_of(bound, shape);
 }
 inline CollisionShape collision_shape_of(const Bodies& bodies, std::uint32_t number) {
   return collision_shape_of(bodies, number, bodies[number].bound);
@@ -35,7 +38,7 @@ inline Vec3 shift_to_meet(const Bodies& bodies, std::uint32_t a, std::uint32_t b
   return bodies.space().shift_between_images(bodies.images[b].middle, bodies.images[a].middle);
 }
 /// Calls visit_shapes() for two bodies, in the image in which they may meet before the earlier window end.
-/// Worlds without static bodies and without periodic space take the shortest path.
+/// Worlds without shapes and without periodic space take the shortest path.
 template <class Visit>
 auto visit_pair(const Bodies& bodies, std::uint32_t a, std::uint32_t b, Visit visit) {
   if (bodies.space().repeats()) {

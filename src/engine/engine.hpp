@@ -94,7 +94,7 @@ class World::Engine {
   const char* first_invalid_part() const;
   bool queue_is_valid() const;
   bool window_ends_are_valid() const;
-  bool static_contacts_are_valid() const;
+  bool shape_contacts_are_valid() const;
 
   WorldState state_;
   EventProcessor main_;

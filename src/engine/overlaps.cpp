@@ -30,7 +30,7 @@ std::optional<BodyId> Overlaps::of_body(BodyId id, const CollisionShape& shape,
   for (const std::uint32_t other : search.in_box(windows_, box, now_)) {
     const Body& body = bodies_[other];
     const bool certain =
-        other != id.index && !(shape.is_static && body.is_static()) &&
+        other != id.index && (shape.is_ball() || !body.has_shape()) &&
         certainly_overlap(bodies_, now_, shape, collision_shape_of(bodies_, other)) &&
         bodies_.filters.may_touch(id, definition, bodies_.id_of(other), bodies_.definition_of(other));
     if (certain && (!found || other < found->index)) found = bodies_.id_of(other);

@@ -46,7 +46,7 @@ double apart_until(const Bodies& bodies, const BoundRef& a, const BoundRef& b, d
 /// callers, since it is the engine's inner loop.
 [[gnu::always_inline]] inline double PairCertifier::apart_until(const BoundRef& a, const BoundRef& b) const {
   const double end = std::min(a.end, b.end);
-  if (bodies()[a.number].is_static() || bodies()[b.number].is_static() || end == infinity) {
+  if (bodies()[a.number].has_shape() || bodies()[b.number].has_shape() || end == infinity) {
     const double until = unchanged_until_by_thresholds(a.number, b.number);
     return until < end ? until : infinity;
   }
@@ -125,7 +125,7 @@ void PairCertifier::certify_linked(std::uint32_t number, SearchResults& found) c
 
 void PairCertifier::certify_walls(std::uint32_t number, SearchResults& found) const {
   const Body& body = bodies()[number];
-  if (!bodies().walls() || body.is_static()) return;
+  if (!bodies().walls() || body.has_shape()) return;
   const double until = walls_unchanged_until(number);
   if (until < window_end_of(number))
     found.certificates.push_back(certificate(until, number, PairCertificate::walls));

@@ -1,4 +1,4 @@
-// Shapes stores the shapes of static bodies; Body::shape_number is an index into it.
+// Shapes stores the shapes of bodies, at rest and carried; Body::shape_number is an index into it.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,18 @@ namespace kinesphere {
 
 class Shapes {
  public:
-  /// Returns true if there has never been a static body.
+  /// Returns true if there has never been a body with a shape.
   bool empty() const { return shapes_.empty(); }
-  /// Returns true if there is a static body now.
+  /// Returns true if there is a body with a shape now.
   bool any() const { return shapes_.size() > free_.size(); }
-  /// Returns the shape of a static body.
+  /// Returns true if a body carries a shape now.
+  bool any_carried() const { return carried_ > 0; }
+  /// Returns the shape of a body that has one.
   const Shape& of(const Body& body) const { return shapes_[body.shape_number]; }
-  void add(Body& body, const Shape& shape) {
+  /// Gives a body a shape at rest, or one that it carries.
+  void add(Body& body, const Shape& shape, bool carried) {
+    body.carries_shape = carried;
+    if (carried) ++carried_;
     if (free_.empty()) {
       body.shape_number = static_cast<std::uint32_t>(shapes_.size());
       shapes_.push_back(shape);
@@ -31,19 +36,21 @@ class Shapes {
   void replace(const Body& body, const Shape& shape) { shapes_[body.shape_number] = shape; }
   /// Removes the shape of a body that is being removed, if it has one.
   void remove(const Body& body) {
-    if (body.is_static()) free_.push_back(body.shape_number);
+    if (body.has_shape()) free_.push_back(body.shape_number);
+    if (body.carries_shape) --carried_;
   }
 
   /// Returns true if each shape belongs to one body or is free. Call after reading.
   bool is_valid(const BodyTable& bodies) const;
   static void serialize(auto& self, auto& archive) {
-    auto& [shapes, free] = self;
-    archive(shapes, free);
+    auto& [shapes, free, carried] = self;
+    archive(shapes, free, carried);
   }
 
  private:
   std::vector<Shape> shapes_;
   std::vector<std::uint32_t> free_;
+  std::uint32_t carried_ = 0;  ///< number of bodies that carry a shape
 };
 
 }  // namespace kinesphere

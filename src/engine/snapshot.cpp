@@ -23,7 +23,7 @@ namespace {
 
 /// Raise the version if the fields change, or if the engine would continue differently from the same fields.
 constexpr Envelope world_envelope{{'K', 'i', 'n', 'e', 's', 'p', '\r', '\n'},
-                                  18,
+                                  19,
                                   "world",
                                   "World::restore",
                                   "snapshot",
@@ -88,7 +88,7 @@ const char* World::Engine::first_invalid_part() const {
   const auto known = [this](BodyId id) { return bodies().table().was_given_out(id); };
   if (!contacts().is_valid(bodies().numbers(), bodies().walls()) ||
       !main_.events().is_valid(bodies().numbers(), time(), bodies().walls(), known) ||
-      !static_contacts_are_valid())
+      !shape_contacts_are_valid())
     return "contacts";
   if (!broad_phase().is_valid(bodies().numbers()) || !state_.window_policy.is_valid()) return "windows";
   if (!queue_is_valid() || !window_ends_are_valid()) return "certificates";
@@ -117,9 +117,9 @@ bool World::Engine::queue_is_valid() const {
     if (pair.kind() == PairCertificate::Kind::window_end)
       return !bodies()[pair.first].is_static() && !main_.certifier().is_stale(pair);
     if (pair.kind() == PairCertificate::Kind::with_walls)
-      return bodies().walls() && !bodies()[pair.first].is_static() && !main_.certifier().is_stale(pair);
+      return bodies().walls() && !bodies()[pair.first].has_shape() && !main_.certifier().is_stale(pair);
     return pair.first < pair.second && takes_part(pair.second) && !main_.certifier().is_stale(pair) &&
-           !(bodies()[pair.first].is_static() && bodies()[pair.second].is_static());
+           !(bodies()[pair.first].has_shape() && bodies()[pair.second].has_shape());
   };
   return std::all_of(read_pairs_.begin(), read_pairs_.end(), is_valid);
 }
@@ -138,35 +138,34 @@ bool World::Engine::window_ends_are_valid() const {
   return true;
 }
 
-/// Static bodies must neither touch each other or walls, nor have such events pending.
-bool World::Engine::static_contacts_are_valid() const {
-  const auto is_static = [this](std::uint32_t number) { return bodies()[number].is_static(); };
-  const auto is_living_static = [&](BodyId id) {
-    return id == bodies().id_of(id.index) && is_static(id.index);
+/// Bodies with shapes must neither touch each other or walls, nor have such events pending.
+bool World::Engine::shape_contacts_are_valid() const {
+  const auto has_shape = [this](std::uint32_t number) { return bodies()[number].has_shape(); };
+  const auto is_living_shape = [&](BodyId id) {
+    return id == bodies().id_of(id.index) && has_shape(id.index);
   };
   for (std::uint32_t number = 0; number < bodies().numbers(); ++number) {
-    if (!is_static(number)) continue;
+    if (!has_shape(number)) continue;
     const auto partners = contacts().partners_of(number);
     const auto overlaps = contacts().overlaps_of(number);
     if (contacts().walls_of(number) != 0 ||
         std::any_of(partners.begin(), partners.end(),
-                    [&](const ContactRecord& contact) { return is_static(contact.partner); }) ||
+                    [&](const ContactRecord& contact) { return has_shape(contact.partner); }) ||
         std::any_of(overlaps.begin(), overlaps.end(),
-                    [&](const OverlapRecord& c) { return is_static(c.partner); }))
+                    [&](const OverlapRecord& c) { return has_shape(c.partner); }))
       return false;
   }
-  // A static body may have reused the number of a removed body; then it is dirty, and the pair is not
+  // A body with a shape may have reused the number of a removed body; then it is dirty, and the pair is not
   // rechecked.
-  const auto is_certified_static = [&](std::uint32_t number) {
-    return is_static(number) && bodies()[number].present() && !bodies()[number].dirty;
+  const auto is_certified_shape = [&](std::uint32_t number) {
+    return has_shape(number) && bodies()[number].present() && !bodies()[number].dirty;
   };
   return std::none_of(main_.events().changed().begin(), main_.events().changed().end(),
                       [&](const auto& pair) {
-                        return is_certified_static(pair.first) && is_certified_static(pair.second);
+                        return is_certified_shape(pair.first) && is_certified_shape(pair.second);
                       }) &&
          main_.events().pending().none_of([&](const Event& event) {
-           return is_living_static(event.first) &&
-                  (event.second == no_body || is_living_static(event.second));
+           return is_living_shape(event.first) && (event.second == no_body || is_living_shape(event.second));
          });
 }
 

@@ -1,8 +1,11 @@
-// Conversion of a static body to a body definition and to a shape.
+// Conversion of a body with a shape to a body definition and to a shape.
 #include "engine/static_body.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <type_traits>
 
+#include "bound/rounding.hpp"
 #include "engine/validation.hpp"
 #include "number/infinity.hpp"
 #include "space/space.hpp"
@@ -30,6 +33,22 @@ BodyDefinition body_of(const StaticDefinition& definition) {
           .mass = infinity};
 }
 
+BodyDefinition body_of(const MovingShape& definition) {
+  const auto farthest_of = [&]<class Solid>(const Solid& solid) {
+    double square = 0.0;
+    if constexpr (std::is_same_v<Solid, Triangle>) {
+      for (const Vec3& corner : {solid.a, solid.b, solid.c}) square = std::max(square, norm_squared(corner));
+    } else if constexpr (std::is_same_v<Solid, Box>) {
+      for (int axis = 0; axis < 3; ++axis)
+        square += std::max(solid.lower[axis] * solid.lower[axis], solid.upper[axis] * solid.upper[axis]);
+    }
+    return std::sqrt(square) * (1.0 + rounding::margin);
+  };
+  BodyDefinition body = definition.body;
+  body.radius = std::visit(farthest_of, definition.shape);
+  return body;
+}
+
 StaticDefinition static_definition(const Bodies& bodies, BodyId id) {
   const Body& body = bodies[id.index];
   return {bodies.shapes.of(body), bodies.filters.of(id.index), body.solid, body.sensor_class, body.user_data};
@@ -43,6 +62,16 @@ Shape normalized(Shape shape, const WorldDefinition& world) {
     ball->centre = space.wrapped(ball->centre).position;
   if (auto* box = std::get_if<Box>(&shape); box && space.is_flat()) {
     box->upper.z = coordinate_limit(world);
+    box->lower.z = -box->upper.z;
+  }
+  return shape;
+}
+
+Shape normalized_carried(Shape shape, const WorldDefinition& world) {
+  if (auto* box = std::get_if<Box>(&shape); box && world.dimensions == 2) {
+    box->upper.z = 0.0;
+    for (const double x : {box->lower.x, box->lower.y, box->upper.x, box->upper.y})
+      box->upper.z = std::max(box->upper.z, std::abs(x));
     box->lower.z = -box->upper.z;
   }
   return shape;

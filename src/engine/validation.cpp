@@ -209,6 +209,17 @@ Result<void> check_shape(const Shape& shape, const WorldDefinition& world, std::
                std::string(call) + ": shape must be a ball where space repeats"};
 }
 
+Result<void> check_carried_shape(const Shape& shape, const WorldDefinition& world, std::string_view call) {
+  if (auto valid = check_shape(shape, world, call); !valid) return valid;
+  if (!world.periodic.any() &&
+      (std::holds_alternative<Box>(shape) || std::holds_alternative<Triangle>(shape)))
+    return {};
+  const std::string_view wanted = world.periodic.any() ? "at rest where space repeats"
+                                                       : "a box or a triangle; a body is a ball without one";
+  return Error{ErrorCode::unsupported, "shape", no_body,
+               std::string(call) + ": shape must be " + std::string(wanted)};
+}
+
 Result<void> check_radius(const BodyDefinition& changed, BodyId body, const WorldDefinition& world,
                           std::string_view call) {
   InputCheck check(call);

@@ -21,10 +21,20 @@ BodyId World::WorldEditor::add(const BodyDefinition& definition) {
 BodyId World::WorldEditor::add_static(const StaticDefinition& definition) {
   const BodyDefinition at_rest = body_of(definition);
   const std::uint32_t number = state_.bodies.add(at_rest);
-  state_.bodies.fix(number, definition.shape);
+  state_.bodies.give_shape(number, definition.shape, false);
   state_.contacts.add(number, 0.0);
-  state_.contacts.set_static(number);
+  state_.contacts.set_shape(number, true);
   insert_at(number, bound_now(at_rest, time()));
+  return bodies().id_of(number);
+}
+
+BodyId World::WorldEditor::add_moving_shape(const MovingShape& definition) {
+  const BodyDefinition body = body_of(definition);
+  const std::uint32_t number = state_.bodies.add(body);
+  state_.bodies.give_shape(number, definition.shape, true);
+  state_.contacts.add(number, bodies()[number].largest_acceleration());
+  state_.contacts.set_shape(number, false);
+  insert_at(number, bound_now(body, time()));
   return bodies().id_of(number);
 }
 

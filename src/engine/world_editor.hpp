@@ -23,6 +23,7 @@ class World::WorldEditor {
   void reserve(std::size_t bodies);
   BodyId add(const BodyDefinition& definition);
   BodyId add_static(const StaticDefinition& definition);
+  BodyId add_moving_shape(const MovingShape& definition);
   void remove(BodyId id);
   void set_velocity(BodyId id, const Vec3& velocity) { main_.set_velocity(id.index, velocity); }
   void teleport(BodyId id, const State& state);

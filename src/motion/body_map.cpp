@@ -17,9 +17,9 @@ Error unknown(std::string_view call, BodyId body) {
 }
 
 /// Returns `like` with the state and the motion limits of a body of the motion at `time`.
-Result<BodyDefinition> definition_of(const Motion& motion, std::uint32_t number, double time,
-                                     BodyDefinition like) {
-  if (const auto error = wrong_body("BodyMap::add", motion, number)) return *error;
+Result<BodyDefinition> definition_of(std::string_view call, const Motion& motion, std::uint32_t number,
+                                     double time, BodyDefinition like) {
+  if (const auto error = wrong_body("BodyMap::" + std::string(call), motion, number)) return *error;
   const BodyDefinition moved = motion.definition(number, time);
   like = with_motion_limits(like, motion_limits_of(moved));
   like.position = moved.position;
@@ -35,9 +35,19 @@ void BodyMap::connect(BodyId body, Motion& motion, std::uint32_t number) {
 }
 
 Result<BodyId> BodyMap::add(World& world, Motion& motion, std::uint32_t number, const BodyDefinition& like) {
-  const auto definition = definition_of(motion, number, world.time(), like);
+  const auto definition = definition_of("add", motion, number, world.time(), like);
   if (!definition) return definition.error();
   auto id = world.add(*definition);
+  if (id) connect(*id, motion, number);
+  return id;
+}
+
+Result<BodyId> BodyMap::add_moving_shape(World& world, Motion& motion, std::uint32_t number,
+                                         MovingShape like) {
+  const auto definition = definition_of("add_moving_shape", motion, number, world.time(), like.body);
+  if (!definition) return definition.error();
+  like.body = *definition;
+  auto id = world.add_moving_shape(like);
   if (id) connect(*id, motion, number);
   return id;
 }
@@ -56,7 +66,7 @@ Result<std::vector<BodyId>> BodyMap::add_all(World& world, Motion& motion, std::
   std::vector<std::uint32_t> numbers;
   for (std::uint32_t number = 0; number < motion.size(); ++number) {
     if (!motion.contains(number)) continue;
-    auto definition = definition_of(motion, number, world.time(), like);
+    auto definition = definition_of("add", motion, number, world.time(), like);
     if (!definition) return definition.error();
     definition->radius = radii[number];
     definitions.push_back(*definition);

@@ -63,7 +63,7 @@ void World::Engine::Answers::consider_touching(std::uint32_t number, ContactBoun
 
 void World::Engine::Answers::consider_walls(std::uint32_t number, const CertificateTimes& times,
                                             ContactBoundary& first) const {
-  if (!engine_.bodies().walls() || !body(number).present() || body(number).is_static()) return;
+  if (!engine_.bodies().walls() || !body(number).present() || body(number).has_shape()) return;
   const double known = recorded_of_walls(number, times);
   if (known >= first.time) return;
   const Bound bound = guarded(number);
@@ -235,7 +235,7 @@ void World::Engine::Answers::consider_approach(std::uint32_t a, std::uint32_t b,
   Bound bound_of_b = present(b);
   // A shape has no radius to enlarge by the distance. In that case the other body, which cannot be a shape
   // too, is enlarged instead.
-  double& radius = body(a).is_static() ? bound_of_b.radius : bound_of_a.radius;
+  double& radius = body(a).has_shape() ? bound_of_b.radius : bound_of_a.radius;
   radius = rounding::sum_up(radius, distance);
   const CollisionShape extent_of_a = collision_shape_of(engine_.bodies(), a, bound_of_a);
   const CollisionShape extent_of_b = collision_shape_of(engine_.bodies(), b, bound_of_b);
@@ -247,7 +247,7 @@ void World::Engine::Answers::consider_approach(std::uint32_t a, std::uint32_t b,
 
 void World::Engine::Answers::consider_approach_to_walls(std::uint32_t number, double distance,
                                                         ContactBoundary& first) const {
-  if (!engine_.bodies().walls() || !body(number).present() || body(number).is_static()) return;
+  if (!engine_.bodies().walls() || !body(number).present() || body(number).has_shape()) return;
   const Bound bound = present(number);
   for (const Wall wall : walls) {
     if (first.touching || !stands(*engine_.bodies().walls(), wall)) continue;
@@ -274,7 +274,7 @@ ContactBoundary World::Engine::Answers::approach_of_body(std::uint32_t number, d
   consider_approach_to_walls(number, distance, first);
   for (std::uint32_t other = 0; other < engine_.bodies().numbers(); ++other) {
     const bool counts = other != number && body(other).present() &&
-                        !(body(number).is_static() && body(other).is_static()) &&
+                        !(body(number).has_shape() && body(other).has_shape()) &&
                         engine_.bodies().may_meet(number, other);
     if (counts) consider_approach(number, other, distance, first);
   }

@@ -24,6 +24,23 @@ inline CertainSphere certain_sphere_of(const Body& body, double now) {
   return {bound.centre_at(now), body.radius + deviation, body.radius - deviation};
 }
 
+/// The shape of a body. Its origin is within `spread` (length) of `origin`; both are zero for a shape at
+/// rest.
+struct CertainShape {
+  const Shape& shape;
+  Vec3 origin{};
+  double spread = 0.0;
+};
+
+/// Returns nullopt for a ball, also for a static one.
+inline std::optional<CertainShape> certain_shape_of(const Bodies& bodies, std::uint32_t number, double now) {
+  const Body& body = bodies[number];
+  if (!body.has_shape() || std::holds_alternative<Ball>(bodies.shapes.of(body))) return std::nullopt;
+  if (body.is_static()) return CertainShape{bodies.shapes.of(body)};
+  const CertainSphere ball = certain_sphere_of(body, now);
+  return CertainShape{bodies.shapes.of(body), ball.centre, ball.outer - body.radius};
+}
+
 /// Returns a bound that contains the body from now on. After a velocity change or new motion limits, the last
 /// report determines only the present position and, without a velocity change, the velocity.
 inline Bound present_bound(const Body& body, const Change* change, double now) {

@@ -122,15 +122,17 @@ PlainGap::PlainGap(const CollisionShape& a, const CollisionShape& b, const Vec3&
     : moving_(a.shape ? b.bound : a.bound),
       other_(a.shape ? a.bound : b.bound),
       shape_(a.shape ? a.shape : b.shape),
+      is_carried_(a.is_carried() || b.is_carried()),
+      shape_radius_(a.shape ? a.carried_radius : b.carried_radius),
       period_(period) {}
 
 PlainGap::Limits PlainGap::distance(double time) const {
   const Point at = centre(moving_, time);
   Long size = norm_one(moving_.position) + size_of_way(moving_, time) + radii() + growth(time);
+  if (shape_ == nullptr || is_carried_) size += norm_one(other_.position) + size_of_way(other_, time);
   Range range{};
   if (shape_ == nullptr) {
     Point way = centre(other_, time) - at;
-    size += norm_one(other_.position) + size_of_way(other_, time);
     if (period_.x > 0.0) way.x = std::remainder(way.x, Long(period_.x));
     if (period_.y > 0.0) way.y = std::remainder(way.y, Long(period_.y));
     if (period_.z > 0.0) way.z = std::remainder(way.z, Long(period_.z));
@@ -139,7 +141,7 @@ PlainGap::Limits PlainGap::distance(double time) const {
     std::visit(
         [&]<class Solid>(const Solid& solid) {
           if constexpr (!std::is_same_v<Solid, Ball>) {
-            range = from(at, solid);
+            range = from(is_carried_ ? at - centre(other_, time) : at, solid);
             size += magnitude_of(solid);
           }
         },
@@ -148,7 +150,9 @@ PlainGap::Limits PlainGap::distance(double time) const {
   return {rounded_down(range.lower - result_margin * size), rounded_up(range.upper + result_margin * size)};
 }
 
-double PlainGap::radii() const { return moving_.radius + (shape_ == nullptr ? other_.radius : 0.0); }
+double PlainGap::radii() const {
+  return moving_.radius + (shape_ == nullptr || is_carried_ ? other_.radius - shape_radius_ : 0.0);
+}
 
 double PlainGap::growth(double time) const {
   return static_cast<double>(growth_of(moving_, time) + growth_of(other_, time));

@@ -8,8 +8,8 @@
 
 namespace kinesphere {
 
-/// Gap between two bodies with bounds, or between a body and a shape at rest. In periodic space, the images
-/// nearest to each other at the requested time are used. Holds references to the arguments of the
+/// Gap between two bodies with bounds, or between a body and a shape, at rest or carried. In periodic space,
+/// the images nearest to each other at the requested time are used. Holds references to the arguments of the
 /// constructor.
 class PlainGap {
  public:
@@ -45,6 +45,8 @@ class PlainGap {
   const Bound& moving_;
   const Bound& other_;
   const Shape* shape_;
+  bool is_carried_;
+  double shape_radius_;  ///< part of the radius of other_ that stands for the shape
   Vec3 period_;
 };
 

@@ -27,31 +27,49 @@ double distance_to_box(const Vec3& point, const Box& box) {
 
 Bound resting(const Vec3& centre, double radius) { return {.position = centre, .radius = radius}; }
 
-/// Gap between a region (a sphere or a box) and a shape.
-GapLimits limits_of(const Bound& region, const Shape& shape) {
-  return visit_shapes({region}, {region, true, &shape},
-                      [](const Bound& bound, const auto& solid) { return gap_limits(bound, solid, 0.0); });
-}
-GapLimits limits_of(const Box& region, const Shape& shape) {
-  const Bound nothing{};
-  return visit_shapes({nothing}, {nothing, true, &shape}, [&](const Bound&, const auto& solid) -> GapLimits {
-    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(solid)>, Bound>) {
-      return {-infinity, infinity};  // not reached: a ball is not stored as a shape
-    } else {
-      return gap_limits(region, solid);
-    }
-  });
+/// Calls visit(solid) for a shape that is not a ball, which is not looked up as a shape.
+template <class Visit>
+auto visit_solid(const Shape& shape, Visit visit) {
+  return std::visit(
+      [&]<class Solid>(const Solid& solid) {
+        if constexpr (std::is_same_v<Solid, Ball>)
+          return visit(HalfSpace{});
+        else
+          return visit(solid);
+      },
+      shape);
 }
 
-RayLimits touch_of(const SweptRay& ray, const Shape& shape) {
-  const Bound sphere{.position = ray.origin, .velocity = ray.direction, .radius = ray.radius};
-  return visit_shapes({sphere}, {sphere, true, &shape}, [&](const Bound&, const auto& solid) -> RayLimits {
-    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(solid)>, Bound>) {
-      return {0.0, infinity};
-    } else {
-      return first_touch(sphere, solid, ray.length);
-    }
+/// Gap between a sphere and a shape.
+GapLimits limits_of(const Vec3& centre, double radius, const CertainShape& at) {
+  const GapLimits gap = visit_solid(at.shape, [&](const auto& solid) {
+    return gap_limits(resting(centre - at.origin, radius), solid, 0.0);
   });
+  return {gap.lower - at.spread, gap.upper + at.spread};
+}
+
+/// Gap between a box and a shape, of which only the signs count. A shape that may be elsewhere is compared
+/// with the box enlarged and, for what is certain, shrunk.
+GapLimits limits_of(const Box& region, const CertainShape& at) {
+  const Vec3 spread{at.spread, at.spread, at.spread};
+  const Box outer{region.lower - at.origin - spread, region.upper - at.origin + spread};
+  const Box inner{region.lower - at.origin + spread, region.upper - at.origin - spread};
+  const auto gap_to = [&](const Box& box) {
+    return visit_solid(at.shape, [&](const auto& solid) { return gap_limits(box, solid); });
+  };
+  const bool is_box =
+      inner.lower.x <= inner.upper.x && inner.lower.y <= inner.upper.y && inner.lower.z <= inner.upper.z;
+  return {gap_to(outer).lower, is_box ? gap_to(inner).upper : infinity};
+}
+
+RayLimits touch_of(const SweptRay& ray, const CertainShape& at) {
+  const auto touch = [&](double radius) {
+    const Bound sphere{.position = ray.origin - at.origin, .velocity = ray.direction, .radius = radius};
+    return visit_solid(at.shape, [&](const auto& solid) { return first_touch(sphere, solid, ray.length); });
+  };
+  if (at.spread == 0.0) return touch(ray.radius);
+  return {touch(ray.radius + at.spread).lower,
+          ray.radius >= at.spread ? touch(ray.radius - at.spread).upper : infinity};
 }
 
 Box box_around(const Vec3& a, const Vec3& b, double radius) {
@@ -122,7 +140,7 @@ std::vector<OverlapHit> World::Engine::Queries::overlapping(const Box& box, Dist
   std::vector<OverlapHit> found;
   const double size = norm_one(box.lower) + norm_one(box.upper);
   for (const std::uint32_t number : engine_.bodies_in(box)) {
-    if (const Shape* shape = collision_shape_of(engine_.bodies(), number).shape) {
+    if (const auto shape = certain_shape_of(engine_.bodies(), number, now_)) {
       const GapLimits gap = gap_to(*shape);
       if (gap.lower > 0.0) continue;
       found.push_back(
@@ -142,22 +160,22 @@ std::vector<OverlapHit> World::Engine::Queries::overlapping(const Box& box, Dist
 std::vector<OverlapHit> World::Engine::Queries::overlapping(const Vec3& centre, double radius) const {
   return overlapping(
       box_around(centre, centre, radius), [&](const Vec3& point) { return norm(point - centre) - radius; },
-      [&](const Shape& shape) { return limits_of(resting(centre, radius), shape); });
+      [&](const CertainShape& shape) { return limits_of(centre, radius, shape); });
 }
 
 std::vector<OverlapHit> World::Engine::Queries::overlapping(const Box& region) const {
   const Box box = engine_.bodies().space().within(region);
   return overlapping(
       box, [&](const Vec3& point) { return distance_to_box(point, box); },
-      [&](const Shape& shape) { return limits_of(box, shape); });
+      [&](const CertainShape& shape) { return limits_of(box, shape); });
 }
 
 std::vector<NearestHit> World::Engine::Queries::distances(const std::vector<std::uint32_t>& numbers,
                                                           const Vec3& point) const {
   std::vector<NearestHit> all;
   for (const std::uint32_t number : numbers) {
-    if (const Shape* shape = collision_shape_of(engine_.bodies(), number).shape) {
-      const GapLimits gap = limits_of(resting(point, 0.0), *shape);
+    if (const auto shape = certain_shape_of(engine_.bodies(), number, now_)) {
+      const GapLimits gap = limits_of(point, 0.0, *shape);
       all.push_back({engine_.bodies().id_of(number), Certainty::possibly, gap.lower, gap.upper});
       continue;
     }
@@ -218,7 +236,7 @@ std::vector<NearestHit> World::Engine::Queries::nearest(const Vec3& point, std::
 /// earliest limits over these images, or nullopt if none can be hit.
 std::optional<CastHit> World::Engine::Queries::hit(const SweptRay& ray, const Box& piece,
                                                    std::uint32_t number) const {
-  if (const Shape* shape = collision_shape_of(engine_.bodies(), number).shape) {
+  if (const auto shape = certain_shape_of(engine_.bodies(), number, now_)) {
     const RayLimits touch = touch_of(ray, *shape);
     if (touch.lower == infinity) return std::nullopt;
     return CastHit{engine_.bodies().id_of(number), Certainty::possibly, touch.lower, touch.upper};

@@ -30,7 +30,7 @@ class World::Engine::Queries {
   double finest_length() const;
   CertainSphere certain_sphere(std::uint32_t number, const Vec3& point) const;
   /// Returns the bodies that overlap a region, certainly or possibly. `distance_to(centre)` is the distance
-  /// of a point from the region, `gap_to(shape)` the gap limits of a static body's shape. `box` contains the
+  /// of a point from the region, `gap_to(shape)` the gap limits of a CertainShape. `box` contains the
   /// region.
   template <class Distance, class ShapeGap>
   std::vector<OverlapHit> overlapping(const Box& box, Distance distance_to, ShapeGap gap_to) const;

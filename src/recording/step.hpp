@@ -40,6 +40,7 @@ struct New {
 };
 using Add = New<BodyDefinition, &World::add>;
 using AddStatic = New<StaticDefinition, &World::add_static>;
+using AddMovingShape = New<MovingShape, &World::add_moving_shape>;
 
 /// Change of one body without an argument, through the World member `call`.
 template <Result<void> (World::*call)(BodyId)>
@@ -138,7 +139,7 @@ using Step = std::variant<step::Asking, step::Add, step::AddStatic, step::Remove
                           step::Teleport, step::SetRadius, step::SetMotionLimits, step::Disable, step::Enable,
                           step::SetFilter, step::SetPairFilter, step::RefreshFilter, step::SetSolid,
                           step::SetSensor, step::SetSensorClass, step::SetUserData, step::End,
-                          step::SleepBody, step::Wake, step::SetShape, step::SetMass>;
+                          step::SleepBody, step::Wake, step::SetShape, step::SetMass, step::AddMovingShape>;
 
 /// Running hash over the outcomes of all steps so far: events to the last bit, and all work counters.
 class StepHash {

@@ -105,25 +105,43 @@ Result<void> World::Preconditions::pair(BodyId first, BodyId second) const {
                std::string(call_) + ": second must be another body than first, but is " + text_of(second)};
 }
 
-Result<void> World::Preconditions::no_overlap(const BodyDefinition& body, BodyId id) const {
+Result<void> World::Preconditions::no_overlap(const CollisionShape& shape, const BodyDefinition& body,
+                                              BodyId id, std::string_view argument) const {
   if (definition().allow_overlap) return {};
-  const auto other = engine_->overlaps().of_body(id, {bound_now(body, engine_->time())}, body);
-  return other ? Result<void>(overlap_error(call_, *other, text_of(*other))) : Result<void>();
+  const auto other = engine_->overlaps().of_body(id, shape, body);
+  return other ? Result<void>(overlap_error(call_, *other, text_of(*other), argument)) : Result<void>();
+}
+
+Result<void> World::Preconditions::no_overlap(const BodyDefinition& body, BodyId id) const {
+  return no_overlap({bound_now(body, engine_->time())}, body, id, "position");
 }
 
 Result<void> World::Preconditions::no_static_overlap(const StaticDefinition& added, BodyId id) const {
-  if (definition().allow_overlap) return {};
-  const Bound bound = bound_now(body_of(added), engine_->time());
-  const auto other = engine_->overlaps().of_body(id, collision_shape_of(bound, added.shape), body_of(added));
-  return other ? Result<void>(overlap_error(call_, *other, text_of(*other), "shape")) : Result<void>();
+  const BodyDefinition body = body_of(added);
+  const Bound bound = bound_now(body, engine_->time());
+  return no_overlap(collision_shape_of(bound, added.shape), body, id, "shape");
+}
+
+Result<void> World::Preconditions::no_overlap(const MovingShape& added, BodyId id) const {
+  const BodyDefinition body = body_of(added);
+  const Bound bound = bound_now(body, engine_->time());
+  return no_overlap({bound, false, &added.shape, body.radius}, body, id, "shape");
+}
+
+WorldDefinition World::Preconditions::domain_of(bool has_shape) const {
+  WorldDefinition domain = definition();
+  if (has_shape) domain.box.reset();
+  return domain;
 }
 
 Result<void> World::Preconditions::moved(BodyId id, const State& state) const {
+  const Body& body = engine_->bodies()[id.index];
   BodyDefinition moved = engine_->bodies().definition_of(id.index);
-  if (auto valid = check_state(state, moved, id, definition(), call_); !valid) return valid;
+  if (auto valid = check_state(state, moved, id, domain_of(body.has_shape()), call_); !valid) return valid;
   moved.position = state.position;
   moved.velocity = state.velocity;
-  return no_overlap(moved, id);
+  return body.carries_shape ? no_overlap(MovingShape{moved, engine_->bodies().shapes.of(body)}, id)
+                            : no_overlap(moved, id);
 }
 
 Result<void> World::Preconditions::growth(const BodyDefinition& changed, BodyId id,
@@ -132,15 +150,13 @@ Result<void> World::Preconditions::growth(const BodyDefinition& changed, BodyId 
   const Body& body = engine_->bodies().table()[id.index];
   const Bound bound = bound_with(engine_->bodies(), id.index, changed, engine_->time());
   if (definition().allow_overlap || !body.enabled || bound.radius <= body.bound.radius) return {};
-  if (const auto wall = engine_->overlaps().of_wall(bound)) {
+  if (const auto wall = body.has_shape() ? std::nullopt : engine_->overlaps().of_wall(bound)) {
     return Error{ErrorCode::outside_domain, std::string(argument), id,
                  std::string(call_) + ": " + std::string(argument) + " of " + text_of(id) +
                      " must keep the whole sphere in the box, but it would overlap the wall " +
                      std::string(name_of(*wall))};
   }
-  if (const auto other = engine_->overlaps().of_body(id, {bound}, changed))
-    return overlap_error(call_, *other, text_of(*other), argument);
-  return {};
+  return no_overlap(collision_shape_of(engine_->bodies(), id.index, bound), changed, id, argument);
 }
 
 Result<void> World::Preconditions::reach(const BodyDefinition& changed, BodyId id,
@@ -165,12 +181,22 @@ Result<StaticDefinition> World::Preconditions::new_static(const StaticDefinition
   return accepted;
 }
 
+Result<MovingShape> World::Preconditions::new_moving_shape(const MovingShape& added, BodyId id) const {
+  if (auto valid = check_carried_shape(added.shape, definition(), call_); !valid) return valid.error();
+  const MovingShape accepted{added.body, normalized_carried(added.shape, definition())};
+  if (auto valid = check_body(body_of(accepted), domain_of(true), call_); !valid) return valid.error();
+  if (auto space = no_overlap(accepted, id); !space) return space.error();
+  return accepted;
+}
+
 Result<Shape> World::Preconditions::reshaped(BodyId id, const Shape& shape) const {
   if (auto valid = changeable(id); !valid) return valid.error();
   const Body& body = engine_->bodies().table()[id.index];
   if (!body.is_static())
-    return error_about(ErrorCode::unsupported, id,
-                       "body must be static, but " + text_of(id) + " can move; set_radius() changes it");
+    return error_about(
+        ErrorCode::unsupported, id,
+        "body must be static, but " + text_of(id) +
+            (body.carries_shape ? " carries its shape" : " can move; set_radius() changes it"));
   StaticDefinition changed = static_definition(engine_->bodies(), id);
   changed.shape = shape;
   const auto accepted = new_static(changed, id);

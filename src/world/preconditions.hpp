@@ -52,6 +52,7 @@ class World::Preconditions {
   /// If overlaps are forbidden, the body overlaps no other body at its position.
   Result<void> no_overlap(const BodyDefinition& body, BodyId id) const;
   Result<void> no_static_overlap(const StaticDefinition& added, BodyId id) const;
+  Result<void> no_overlap(const MovingShape& added, BodyId id) const;
   /// The body may be put into this state at the present time.
   Result<void> moved(BodyId id, const State& state) const;
   /// The body may grow at its present position: reach() holds, and if overlaps are forbidden, it overlaps
@@ -64,12 +65,19 @@ class World::Preconditions {
   /// The definition is valid for adding a static body. Returns it with its shape normalized, as the world
   /// stores it.
   Result<StaticDefinition> new_static(const StaticDefinition& added, BodyId id) const;
+  /// The definition is valid for adding a moving shape. Returns it with its shape normalized, as the world
+  /// stores it.
+  Result<MovingShape> new_moving_shape(const MovingShape& added, BodyId id) const;
   /// The world is idle, the body is known and static, and it may have this shape. Returns the shape
   /// normalized, as the world stores it.
   Result<Shape> reshaped(BodyId id, const Shape& shape) const;
 
  private:
   const WorldDefinition& definition() const { return engine_->definition(); }
+  /// Returns the definition of the world, without its walls for a body with a shape.
+  WorldDefinition domain_of(bool has_shape) const;
+  Result<void> no_overlap(const CollisionShape& shape, const BodyDefinition& body, BodyId id,
+                          std::string_view argument) const;
   bool is_foreign(BodyId body) const;
   // Precondition: the body is known.
   Result<void> is_enabled(BodyId body, bool enabled) const;

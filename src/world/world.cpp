@@ -197,6 +197,9 @@ Result<void> World::wake(BodyId body) {
 Result<void> World::set_radius(BodyId body, double radius) {
   auto valid = Preconditions(*this, "set_radius").moving(body);
   if (!valid) return valid;
+  if (engine_->bodies()[body.index].carries_shape)
+    return Error{ErrorCode::unsupported, "body", body,
+                 "set_radius: body must be a ball, but " + text_of(body) + " carries a shape"};
   BodyDefinition changed = engine_->bodies().definition_of(body.index);
   changed.radius = radius;
   valid = check_radius(changed, body, engine_->definition(), "set_radius");

@@ -84,9 +84,10 @@ void World::Run::deliver() {
 }
 
 Result<bool> World::Run::work() {
-  // Recording and profiling require events to be processed one at a time.
-  const bool alone =
-      lease_.count() == 1 || world_.recorder_ || world_.profiling_ || !world_.undelivered_->empty();
+  // Recording and profiling require events to be processed one at a time. Clusters know of no shapes that
+  // move.
+  const bool alone = lease_.count() == 1 || world_.recorder_ || world_.profiling_ ||
+                     world_.engine_->bodies().shapes.any_carried() || !world_.undelivered_->empty();
   if (alone || world_.engine_->epoch_end() == one_by_one_) return step();
   return step_batch();
 }

@@ -1,4 +1,4 @@
-// Static bodies and zones of a world: the public calls.
+// Static bodies, zones and moving shapes of a world: the public calls.
 #include "world/changing.hpp"
 #include "world/preconditions.hpp"
 
@@ -27,6 +27,14 @@ Result<BodyId> World::add_zone(const Shape& shape, std::uint64_t user_data) {
   return changing(step::AddStatic{*accepted}).add_static(*accepted);
 }
 
+Result<BodyId> World::add_moving_shape(const MovingShape& body) {
+  const Preconditions check(*this, "add_moving_shape");
+  if (auto idle = check.idle(); !idle) return idle.error();
+  const auto accepted = check.new_moving_shape(body, engine_->bodies().table().next_id());
+  if (!accepted) return accepted.error();
+  return changing(step::AddMovingShape{*accepted}).add_moving_shape(*accepted);
+}
+
 Result<std::vector<BodyId>> World::add_static_all(std::span<const StaticDefinition> bodies) {
   if (auto idle = Preconditions(*this, "add_static_all").idle(); !idle) return idle.error();
   std::vector<StaticDefinition> accepted;
@@ -48,7 +56,7 @@ Result<std::vector<BodyId>> World::add_static_all(std::span<const StaticDefiniti
 Result<Shape> World::shape_of(BodyId body) const {
   if (auto valid = Preconditions(*this, "shape_of").known(body); !valid) return valid.error();
   const Body& known = engine_->bodies()[body.index];
-  if (known.is_static()) return engine_->bodies().shapes.of(known);
+  if (known.has_shape()) return engine_->bodies().shapes.of(known);
   return Shape(Ball{known.bound.position, known.radius});
 }
 

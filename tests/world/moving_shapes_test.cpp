@@ -1,0 +1,223 @@
+// Moving shapes: balls and carried boxes and triangles on random courses compared with brute force, and the
+// events, answers and errors that they have.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "kinesphere/motion/ballistic.hpp"
+#include "kinesphere/recording.hpp"
+#include "kinesphere/response.hpp"
+#include "number/infinity.hpp"
+#include "support/expect_error.hpp"
+#include "support/playground.hpp"
+#include "world/surroundings.hpp"
+
+namespace kinesphere::moving_shapes_test {
+namespace {
+
+constexpr double eps = 1e-5;
+
+struct Kind {
+  ContactEvents mode;
+  double velocity_error;
+  std::uint64_t seed;
+};
+
+std::ostream& operator<<(std::ostream& out, const Kind& kind) {
+  return out << (kind.mode == ContactEvents::impacts ? "impacts" : "begin_and_end") << ", velocity error "
+             << kind.velocity_error << ", seed " << kind.seed;
+}
+
+class RandomMovingShapes : public testing::TestWithParam<Kind> {
+ protected:
+  RandomMovingShapes() : p({.contact_tolerance = eps, .contacts = GetParam().mode}), random(GetParam().seed) {
+    for (int k = 0; k < 6; ++k) come();
+    for (int k = 0; k < 8; ++k) balls.push_back(p.add(any_body()));
+  }
+
+  BodyDefinition any_body() {
+    return {.radius = random.bits() % 4 == 0 ? 0.0 : 0.05 + 0.5 * random.uniform(),
+            .acceleration_limit = 2,
+            .velocity_error = GetParam().velocity_error,
+            .position = 2.0 * random.point_in_ball(),
+            .velocity = 1.5 * random.point_in_ball()};
+  }
+
+  Shape any_shape() {
+    if (random.bits() % 2 == 0)
+      return Triangle{2.0 * random.unit_vector(), 2.0 * random.unit_vector(), 2.0 * random.unit_vector()};
+    // Flat ones, and such as have their position outside of them.
+    const Vec3 lower = 1.5 * random.point_in_ball() - Vec3{0.5, 0.5, 0.5};
+    return Box{lower,
+               lower + Vec3{random.uniform(), 2.0 * random.uniform(), random.bits() % 3 == 0 ? 0.0 : 1.0}};
+  }
+
+  void come() {
+    const BodyDefinition body = any_body();
+    const Shape shape = any_shape();
+    const auto id = p.world.add_moving_shape({body, shape});
+    if (!id) return come();  // a triangle too thin
+    p.start_course(*id, body);
+    shapes.push_back(*id);
+    carried[*id] = shape;
+  }
+
+  void change() {
+    const std::size_t k = random.bits() % shapes.size();
+    const BodyId shape = shapes[k];
+    switch (random.bits() % 8) {
+      case 0: {
+        p.world.remove(shape).value();
+        std::erase_if(touching,
+                      [=](const auto& pair) { return pair.first == shape || pair.second == shape; });
+        carried.erase(shape);
+        shapes.erase(shapes.begin() + static_cast<std::ptrdiff_t>(k));
+        return come();
+      }
+      case 1:
+        return p.set_velocity(shape, 2.0 * random.point_in_ball());
+      case 2: {
+        const State to{2.0 * random.point_in_ball(), random.point_in_ball()};
+        p.set_position(shape, to.position);
+        p.set_velocity_unseen(shape, to.velocity);
+        return p.world.teleport(shape, to).value();
+      }
+      case 3:
+        return p.world = World::restore(p.world.save().value()).value(), void();
+      default:
+        return;
+    }
+  }
+
+  /// Steers the body back towards the middle.
+  void steer(BodyId body) {
+    const Vec3 away = p.state(body).position;
+    p.steer(body, -1.0 * away / (norm(away) + 0.1) + 0.9 * random.point_in_ball());
+  }
+
+  void note(const Event& event) {
+    if (GetParam().mode == ContactEvents::impacts) return;
+    const auto pair = std::pair(event.first, event.second);
+    if (event.kind == EventKind::contact_begin) {
+      EXPECT_EQ(touching.insert(pair).second, !event.already_touching) << event;
+    } else if (event.kind == EventKind::contact_end) {
+      const bool known = p.world.contains(event.first) && p.world.contains(event.second);
+      EXPECT_TRUE(touching.erase(pair) == 1 || !known) << event;
+    }
+  }
+
+  double gap(BodyId ball, BodyId shape) const {
+    return distance(carried.at(shape), p.state(ball).position - p.state(shape).position) - p.radius(ball);
+  }
+
+  void check_gaps() {
+    for (const BodyId ball : balls)
+      for (const BodyId shape : shapes) {
+        const bool touch = touching.contains(std::minmax(ball, shape));
+        const double gap = this->gap(ball, shape);
+        const auto limits = p.world.distance_limits(ball, shape, p.world.time()).value();
+        ASSERT_LE(limits.lower, gap + 1e-12);
+        ASSERT_GE(limits.upper, gap - 1e-12);
+        if (GetParam().mode == ContactEvents::impacts) continue;
+        ASSERT_TRUE(gap >= -eps - 1e-12 || touch) << ball << " is unreported in " << shape << " by " << gap;
+        ASSERT_TRUE(gap <= 5 * eps + 1e-12 || !touch)
+            << ball << " and " << shape << " are apart, gap " << gap;
+      }
+  }
+
+  /// Compares what queries say with the true gaps of a ball and a ray to all moving shapes.
+  void check_queries() {
+    const Vec3 centre = 2.0 * random.point_in_ball();
+    const double radius = random.uniform();
+    std::map<BodyId, Certainty> found;
+    for (const OverlapHit& hit : p.world.overlapping(centre, radius).value()) found[hit.body] = hit.certainty;
+    std::map<BodyId, Certainty> in_box;
+    const Vec3 half{radius, radius, radius};
+    for (const OverlapHit& hit : p.world.overlapping(Box{centre - half, centre + half}).value())
+      in_box[hit.body] = hit.certainty;
+    const Vec3 direction = random.unit_vector();
+    std::map<BodyId, CastHit> met;
+    for (const CastHit& hit : p.world.ray_cast(centre, direction, 3.0).value()) met[hit.body] = hit;
+    constexpr double step = 0.02;
+    double first = infinity;
+    for (const BodyId shape : shapes) {
+      const Vec3 origin = p.state(shape).position;
+      const auto gap_at = [&](const Vec3& point) { return distance(carried.at(shape), point - origin); };
+      const bool overlaps = gap_at(centre) <= radius;
+      const auto known = found.find(shape);
+      ASSERT_TRUE(!overlaps || known != found.end()) << shape;
+      ASSERT_TRUE(overlaps || known == found.end() || known->second == Certainty::possibly) << shape;
+      // The box contains the ball.
+      ASSERT_TRUE(!overlaps || in_box.contains(shape)) << shape;
+      const bool apart = gap_at(centre) > std::sqrt(3.0) * radius + 1e-9;
+      ASSERT_TRUE(!apart || !in_box.contains(shape) || in_box[shape] == Certainty::possibly) << shape;
+      double enters = infinity;
+      for (double at = 0.0; at <= 3.0 && enters == infinity; at += step)
+        if (gap_at(centre + direction * at) <= 0.0) enters = at;
+      first = std::min(first, enters);
+      if (const auto hit = met.find(shape); hit != met.end()) {
+        ASSERT_LE(hit->second.lower, enters + 1e-9) << shape;
+        ASSERT_TRUE(enters == infinity || hit->second.upper >= enters - step) << shape;
+      }
+    }
+    // Something is met no later than the first shape that the samples meet.
+    ASSERT_TRUE(first == infinity || !met.empty());
+  }
+
+  Playground p;
+  Random random;
+  std::vector<BodyId> shapes, balls;
+  std::map<BodyId, Shape> carried;
+  std::set<std::pair<BodyId, BodyId>> touching;
+};
+
+TEST_P(RandomMovingShapes, MeetWhatTheyTouch) {
+  std::size_t begins = 0;
+  for (int stop = 1; stop <= 600 && !HasFatalFailure(); ++stop) {
+    change();
+    for (const BodyId ball : balls) steer(ball);
+    for (const BodyId shape : shapes) steer(shape);
+    const double quiet = p.world.safe_until()->time;
+    p.run(p.world.time() + 0.2 * random.uniform(), [&](const Event& event) {
+      note(event);
+      if (event.kind != EventKind::contact_begin) return;
+      ++begins;
+      const auto carries = [&](BodyId body) { return carried.contains(body); };
+      ASSERT_FALSE(carries(event.first) && carries(event.second)) << event;
+      EXPECT_TRUE(GetParam().mode == ContactEvents::impacts || event.time >= quiet) << event;
+      if (carries(event.first) || carries(event.second)) {
+        const BodyId shape = carries(event.first) ? event.first : event.second;
+        const BodyId ball = event.first == shape ? event.second : event.first;
+        EXPECT_NEAR(event.gap, gap(ball, shape), 1e-10) << event;
+        const Vec3 apart = p.state(ball).velocity - p.state(shape).velocity;
+        EXPECT_NEAR(event.approach_speed, dot(event.normal, event.first == ball ? apart : -1.0 * apart),
+                    1e-9);
+      }
+      if (GetParam().mode == ContactEvents::impacts) {
+        const Bounce after = kinesphere::bounce(event, 1.0);
+        p.set_velocity(event.first, after.first_velocity);
+        p.set_velocity(event.second, after.second_velocity);
+      }
+    });
+    ASSERT_TRUE(is_clean(p.world));
+    check_gaps();
+    if (stop % 8 == 0) check_queries();
+  }
+  EXPECT_GT(begins, 50u);
+  const Counters& counters = p.world.counters();
+  EXPECT_LE(counters.pair_checks, 2 * counters.probes);
+}
+
+INSTANTIATE_TEST_SUITE_P(, RandomMovingShapes,
+                         testing::Values(Kind{ContactEvents::begin_and_end, 0.0, 1},
+                                         Kind{ContactEvents::begin_and_end, 0.0, 2},
+                                         Kind{ContactEvents::begin_and_end, 0.5, 3},
+                                         Kind{ContactEvents::impacts, 0.0, 4},
+                                         Kind{ContactEvents::impacts, 0.0, 5},Kind{ContactEvents::impacts, 0.0, 6},Kind{ContactEvents::impacts, 0.0, 7},Kind{ContactEvents::impacts, 0.0, 8},Kind{ContactEvents::impacts, 0.01, 9},Kind{ContactEvents::impacts, 0.01, 10}));
+
+}  // namespace
+}  // namespace kinesphere::moving_shapes_test
