@@ -157,7 +157,7 @@ bool Bodies::carried_shape_is_valid(const Body& body, const BodyDefinition& defi
   const Shape& shape = shapes.of(body);
   return check_carried_shape(shape, definition_, "restore") &&
          same(normalized_carried(shape, definition_), shape) &&
-         body.radius == body_of({definition, shape}).radius;
+         body.radius == body_of({definition, shape}, definition_).radius;
 }
 
 /// A sleeping body is present and not static; its bound stands still unless a change still waits for a

@@ -33,13 +33,13 @@ BodyDefinition body_of(const StaticDefinition& definition) {
           .mass = infinity};
 }
 
-BodyDefinition body_of(const MovingShape& definition) {
-  const auto farthest_of = [&]<class Solid>(const Solid& solid) {
+BodyDefinition body_of(const MovingShape& definition, const WorldDefinition& world) {
+  const auto farthest_of = [&world]<class Solid>(const Solid& solid) {
     double square = 0.0;
     if constexpr (std::is_same_v<Solid, Triangle>) {
       for (const Vec3& corner : {solid.a, solid.b, solid.c}) square = std::max(square, norm_squared(corner));
     } else if constexpr (std::is_same_v<Solid, Box>) {
-      for (int axis = 0; axis < 3; ++axis)
+      for (int axis = 0; axis < world.dimensions; ++axis)
         square += std::max(solid.lower[axis] * solid.lower[axis], solid.upper[axis] * solid.upper[axis]);
     }
     return std::sqrt(square) * (1.0 + rounding::margin);

@@ -7,9 +7,9 @@ namespace kinesphere {
 
 /// Returns a body of infinite mass that stands still at one point of the shape, with zero motion limits.
 BodyDefinition body_of(const StaticDefinition& definition);
-/// Returns the body with the radius of the ball around its position that contains the shape. Precondition:
-/// check_carried_shape().
-BodyDefinition body_of(const MovingShape& definition);
+/// Returns the body with the radius of the ball (in two dimensions the disc) around its position that
+/// contains the shape. Precondition: check_carried_shape().
+BodyDefinition body_of(const MovingShape& definition, const WorldDefinition& world);
 StaticDefinition static_definition(const Bodies& bodies, BodyId id);
 /// Returns the shape in normal form: the normal of a half-space has length 1 to double precision, a ball is
 /// moved into the box in periodic space, a box is unbounded in z in two dimensions. Precondition:

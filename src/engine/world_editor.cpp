@@ -29,7 +29,7 @@ BodyId World::WorldEditor::add_static(const StaticDefinition& definition) {
 }
 
 BodyId World::WorldEditor::add_moving_shape(const MovingShape& definition) {
-  const BodyDefinition body = body_of(definition);
+  const BodyDefinition body = body_of(definition, bodies().definition());
   const std::uint32_t number = state_.bodies.add(body);
   state_.bodies.give_shape(number, definition.shape, true);
   state_.contacts.add(number, bodies()[number].largest_acceleration());

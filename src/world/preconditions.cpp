@@ -123,7 +123,7 @@ Result<void> World::Preconditions::no_static_overlap(const StaticDefinition& add
 }
 
 Result<void> World::Preconditions::no_overlap(const MovingShape& added, BodyId id) const {
-  const BodyDefinition body = body_of(added);
+  const BodyDefinition body = body_of(added, definition());
   const Bound bound = bound_now(body, engine_->time());
   return no_overlap({bound, false, &added.shape, body.radius}, body, id, "shape");
 }
@@ -184,7 +184,8 @@ Result<StaticDefinition> World::Preconditions::new_static(const StaticDefinition
 Result<MovingShape> World::Preconditions::new_moving_shape(const MovingShape& added, BodyId id) const {
   if (auto valid = check_carried_shape(added.shape, definition(), call_); !valid) return valid.error();
   const MovingShape accepted{added.body, normalized_carried(added.shape, definition())};
-  if (auto valid = check_body(body_of(accepted), domain_of(true), call_); !valid) return valid.error();
+  if (auto valid = check_body(body_of(accepted, definition()), domain_of(true), call_); !valid)
+    return valid.error();
   if (auto space = no_overlap(accepted, id); !space) return space.error();
   return accepted;
 }
