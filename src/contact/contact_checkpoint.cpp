@@ -42,7 +42,7 @@ void ContactCheckpoint::restore_alone(ContactGraph& graph, std::uint32_t body) c
 }
 
 void ContactCheckpoint::update_static(ContactGraph& graph, std::uint32_t body) const {
-  const auto is_static = [&graph](std::uint32_t other) { return graph.flags_[other].is_static; };
+  const auto is_static = [&graph](std::uint32_t other) { return graph.flags_[other].is_static(); };
   for (const ContactRecord& gone : missing(partners.all(), graph.partners_of(body)))
     if (is_static(gone.partner)) graph.partners_[gone.partner].erase(body);
   for (const ContactRecord& come : missing(graph.partners_of(body), partners.all()))

@@ -62,7 +62,7 @@ void ContactGraph::set_state(const Event& contact, const ContactState& state) {
 /// Sets the state of `partner` in the list of `body` only; nullptr removes it. Lists of static bodies stay
 /// unchanged while statics_deferred_, and have no states.
 void ContactGraph::set_half(std::uint32_t body, std::uint32_t partner, const ContactState* state) {
-  const bool is_static = flags_[body].is_static;
+  const bool is_static = flags_[body].is_static();
   if (statics_deferred_ && is_static) return;
   if (state != nullptr) {
     if (body >= partners_.size()) partners_.resize(body + std::size_t{1});
@@ -75,7 +75,7 @@ void ContactGraph::set_half(std::uint32_t body, std::uint32_t partner, const Con
 /// Adds or removes an overlap in the list of `body` only. Lists of static bodies stay unchanged while
 /// statics_deferred_.
 void ContactGraph::set_overlap(std::uint32_t body, std::uint32_t partner, const Event& overlap, bool within) {
-  if (statics_deferred_ && flags_[body].is_static) return;
+  if (statics_deferred_ && flags_[body].is_static()) return;
   const OverlapRecord record{partner, overlap.distance, overlap.senses};
   if (within) {
     overlaps_.add(body, record);
@@ -135,7 +135,7 @@ std::span<const std::uint32_t> ContactGraph::counting(const Event& contact,
                                                       std::array<std::uint32_t, 2>& buffer) const {
   std::size_t count = 0;
   for (const BodyId id : {contact.first, contact.second})
-    if (id != no_body && !flags_[number_of(id)].has_shape) buffer[count++] = number_of(id);
+    if (id != no_body && flags_[number_of(id)].form == Form::ball) buffer[count++] = number_of(id);
   return std::span(buffer).first(count);
 }
 
@@ -179,7 +179,7 @@ bool ContactGraph::contacts_are_valid(const std::optional<Box>& box) const {
     if ((flags_[body].walls & ~standing) != 0) return false;
     for (const auto& [partner, state] : partners_of(body)) {
       if (!state.is_valid() || partner >= flags_.size()) return false;
-      const bool has_state = !flags_[body].is_static && !flags_[partner].is_static;
+      const bool has_state = !flags_[body].is_static() && !flags_[partner].is_static();
       const auto [approach, jams, guard_reported] = has_state ? state : ContactState{};
       there.emplace_back(body, partner, contact, Senses::neither, approach, jams, guard_reported);
       back.emplace_back(partner, body, contact, Senses::neither, approach, jams, guard_reported);

@@ -42,8 +42,14 @@ class ContactGraph {
   /// Marks a body as one with a shape. Only its partners count contacts with it, because many bodies may
   /// touch it at one time.
   void set_shape(std::uint32_t body, bool is_static) {
-    flags_[body].has_shape = true;
-    flags_[body].is_static = is_static;
+    flags_[body].form = is_static ? Form::shape_at_rest : Form::carried_shape;
+  }
+
+  /// Returns true if set_shape() has been called with these facts, or never for a ball. Call after reading.
+  bool has_form_of(std::uint32_t body, bool has_shape, bool is_static) const {
+    return flags_[body].form == (is_static   ? Form::shape_at_rest
+                                 : has_shape ? Form::carried_shape
+                                             : Form::ball);
   }
 
   // Existing contacts and overlaps.
@@ -79,12 +85,12 @@ class ContactGraph {
   /// Returns the overlaps of one pair, by falling distance. Cost: O(log n) for n overlaps of the body
   /// searched.
   OverlapRecords::List overlaps_of(std::uint32_t a, std::uint32_t b) const {
-    return flags_[a].is_static ? overlaps_.of(b, a) : overlaps_.of(a, b);
+    return flags_[a].is_static() ? overlaps_.of(b, a) : overlaps_.of(a, b);
   }
   /// Returns true if the two are within a sensor distance. Cost: that of overlaps_of(a, b), or O(1) if the
   /// body that would be searched has no overlaps.
   bool overlap(std::uint32_t a, std::uint32_t b) const {
-    return !overlaps_.of(flags_[a].is_static ? b : a).empty() && !overlaps_of(a, b).empty();
+    return !overlaps_.of(flags_[a].is_static() ? b : a).empty() && !overlaps_of(a, b).empty();
   }
   /// Begins or ends the contact or overlap that the event names, between two bodies or a body and a wall. No
   /// event is queued.
@@ -136,25 +142,27 @@ class ContactGraph {
  private:
   friend struct ContactCheckpoint;
 
+  enum class Form : std::uint8_t { ball, carried_shape, shape_at_rest };
   /// Per-body data other than lists.
   struct Flags {
     std::uint8_t walls = 0;  ///< walls in touch
-    bool has_shape = false;
-    bool is_static = false;
+    Form form = Form::ball;
     std::uint8_t wall_guards = 0;       ///< walls with ContactState::guard_reported
     std::uint8_t wall_jams = 0;         ///< ContactState::jams, of all walls together
     std::uint16_t wall_approaches = 0;  ///< two bits for each wall: ApproachState
 
+    bool is_static() const { return form == Form::shape_at_rest; }
+
     static void serialize(auto& self, auto& archive) {
-      auto& [touched_walls, shaped, is_static, wall_guards, wall_jams, wall_approaches] = self;
-      archive(touched_walls, shaped, is_static, wall_guards, wall_jams, wall_approaches);
+      auto& [touched_walls, kind, wall_guards, wall_jams, wall_approaches] = self;
+      archive(touched_walls, kind, wall_guards, wall_jams, wall_approaches);
     }
   };
 
   /// Returns the state of a contact, or nullptr if the two do not touch. The list of a static body has no
   /// states.
   const ContactState* contact_of(std::uint32_t a, std::uint32_t b) const {
-    if (flags_[a].is_static) std::swap(a, b);
+    if (flags_[a].is_static()) std::swap(a, b);
     return a < partners_.size() ? partners_[a].find(b) : nullptr;
   }
   ContactState wall_state(std::uint32_t body, Wall wall) const;

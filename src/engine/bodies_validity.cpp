@@ -7,7 +7,7 @@
 #include "archive/archive.hpp"
 #include "archive/fields.hpp"
 #include "engine/bodies.hpp"
-#include "engine/static_body.hpp"
+#include "engine/shaped_body.hpp"
 #include "engine/validation.hpp"
 #include "kinesphere/limits.hpp"
 

@@ -93,11 +93,12 @@ const char* World::Engine::first_invalid_part() const {
   if (!broad_phase().is_valid(bodies().numbers()) || !state_.window_policy.is_valid()) return "windows";
   if (!queue_is_valid() || !window_ends_are_valid()) return "certificates";
   for (std::uint32_t number = 0; number < bodies().numbers(); ++number) {
-    const bool takes_part = bodies()[number].present();
+    const Body& body = bodies()[number];
+    const bool takes_part = body.present();
     const bool registered = broad_phase().contains(number);
+    if (body.alive && !contacts().has_form_of(number, body.has_shape(), body.is_static())) return "contacts";
     if (takes_part ? !registered && !bodies()[number].dirty : registered) return "windows";
-    if (registered && bodies()[number].is_static() && broad_phase().end_of(number) != infinity)
-      return "windows";
+    if (registered && body.is_static() && broad_phase().end_of(number) != infinity) return "windows";
     if (!takes_part && (!contacts().partners_of(number).empty() || !contacts().overlaps_of(number).empty() ||
                         contacts().walls_of(number) != 0))
       return "contacts";

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "engine/static_body.hpp"
+#include "engine/shaped_body.hpp"
 #include "engine/validation.hpp"
 #include "input/input_check.hpp"
 #include "world/run.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "engine/engine.hpp"
-#include "engine/static_body.hpp"
+#include "engine/shaped_body.hpp"
 #include "engine/validation.hpp"
 #include "input/input_check.hpp"
 #include "query/body_view.hpp"

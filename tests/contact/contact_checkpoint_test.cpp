@@ -11,7 +11,7 @@ class ContactCheckpointTest : public ::testing::Test {
  protected:
   ContactCheckpointTest() {
     for (std::uint32_t body = 0; body < 4; ++body) book.add(body, 0.0);
-    book.set_static(3);
+    book.set_shape(3, true);
   }
 
   void touch(std::uint32_t a, std::uint32_t b, bool touching) {

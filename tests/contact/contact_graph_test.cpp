@@ -14,7 +14,7 @@ class ContactGraphTest : public ::testing::Test {
   }
 
   Sphere sphere(std::uint32_t body) const {
-    return {{body, 0}, 1.0, {{2.0 * body, 0, 0}, velocities[body]}, nullptr, 0, 1.0, {}, wanted};
+    return {{body, 0}, 1.0, {{2.0 * body, 0, 0}, velocities[body]}, nullptr, false, 0, 1.0, {}, wanted};
   }
 
   Event begin(std::uint32_t a, std::uint32_t b) const {

@@ -148,7 +148,7 @@ TEST(Clusters, AreThoseOfAPlainListOfSets) {
 
 TEST(Clusters, AFixedBodyJoinsNobody) {
   Bodies bodies = some_bodies();
-  bodies.fix(7, Ball{{}, 1.0});
+  bodies.give_shape(7, Ball{{}, 1.0}, false);
   Clusters groups;
   std::vector<BatchState::BodySlot> places;
   groups.form(

@@ -1,5 +1,5 @@
 // Conversion of a body with a shape to a body definition and to a shape.
-#include "engine/static_body.hpp"
+#include "engine/shaped_body.hpp"
 
 #include <algorithm>
 #include <cmath>
