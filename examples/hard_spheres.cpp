@@ -11,30 +11,30 @@
 using namespace kinesphere;
 
 int main() {
-  const int side = 8, count = side * side * side;
+  const int count = 500;
   const double filled = 0.25, diameter = 1.0;
   const double length = std::cbrt(count * std::numbers::pi / 6 / filled);
+  const Box box{{0, 0, 0}, {length, length, length}};
+  const Axes everywhere{true, true, true};
+  const std::vector<double> radii(count, diameter / 2);
+  const std::vector<Vec3> centres = place_spheres(radii, box, {.periodic = everywhere, .seed = 1}).value();
 
   std::vector<State> start;
   Random random(1);
   Vec3 drift;
-  for (int k = 0; k < count; ++k) {
-    const int x = k % side, y = k / side % side, z = k / side / side;
-    const Vec3 place{0.5 + x, 0.5 + y, 0.5 + z};
-    start.push_back({place * (length / side), random.point_in_ball()});
+  for (const Vec3& centre : centres) {
+    start.push_back({centre, random.point_in_ball()});
     drift += start.back().velocity / count;
   }
   double energy = 0;
   for (State& state : start) energy += 0.5 * norm_squared(state.velocity -= drift);
 
   Ballistic spheres = Ballistic::create({.start = start}).value();
-  World world = World::create({.box = Box{{0, 0, 0}, {length, length, length}},
-                               .periodic = {true, true, true},
-                               .contacts = ContactEvents::impacts})
-                    .value();
+  World world =
+      World::create({.box = box, .periodic = everywhere, .contacts = ContactEvents::impacts}).value();
   for (std::uint32_t k = 0; k < spheres.size(); ++k) {
     BodyDefinition sphere = spheres.definition(k, 0.0);
-    sphere.radius = diameter / 2;
+    sphere.radius = radii[k];
     world.add(sphere).value();
   }
 

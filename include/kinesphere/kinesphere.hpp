@@ -25,6 +25,7 @@
 #include "kinesphere/motion/steered_motion.hpp"
 #include "kinesphere/motion/trajectory.hpp"
 #include "kinesphere/motion/velocity_field.hpp"
+#include "kinesphere/placement.hpp"
 #include "kinesphere/probe.hpp"
 #include "kinesphere/queries.hpp"
 #include "kinesphere/random.hpp"

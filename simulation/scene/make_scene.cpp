@@ -7,10 +7,10 @@
 #include "kinesphere/motion/ballistic.hpp"
 #include "kinesphere/motion/random_forces.hpp"
 #include "kinesphere/motion/velocity_field.hpp"
+#include "kinesphere/placement.hpp"
 #include "kinesphere/random.hpp"
 #include "kinesphere/response.hpp"
 #include "simulation/scene/make_scene.hpp"
-#include "simulation/scene/placement.hpp"
 #include "simulation/scene/scene.hpp"
 
 namespace kinesphere {
@@ -136,8 +136,10 @@ Result<Scene> make_scene(const SceneParameters& parameters) {
   scene.world.contacts =
       p.response == SceneResponse::bounce ? ContactEvents::impacts : ContactEvents::begin_and_end;
 
-  const auto centres = place_spheres(radii, p.box, 4.0 * p.contact_tolerance,
-                                     Random::at(p.seed, placement_stream, 0).bits(), p.periodic);
+  const auto centres = place_spheres(radii, p.box,
+                                     {.periodic = scene.world.periodic,
+                                      .gap = 4.0 * p.contact_tolerance,
+                                      .seed = Random::at(p.seed, placement_stream, 0).bits()});
   if (!centres) {
     return Error{ErrorCode::out_of_range, "bodies", no_body,
                  "make_scene: bodies must fit into the box without overlap, but no room was found for " +

@@ -22,7 +22,7 @@ struct SceneParameters {
   Vec3 gravity{};                                                         ///< planned acceleration
   Box box{{0, 0, 0}, {200, 200, 200}};
   /// Part of the box that the bodies fill, in [0, 1). If positive, the box is scaled from its lower corner
-  /// until they do; 0 leaves the box as it is. Up to about 0.55 spheres of one size find room.
+  /// until they do; 0 leaves the box as it is. Up to about 0.6 spheres of one size find room.
   double packing = 0.0;
   bool walls = true;
   /// Repeats space with the box on all three axes, without walls. The velocities at the start are then

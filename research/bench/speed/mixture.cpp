@@ -8,10 +8,9 @@
 #include "kinesphere/motion/ballistic.hpp"
 #include "kinesphere/motion/piecewise_acceleration.hpp"
 #include "kinesphere/motion/random_forces.hpp"
+#include "kinesphere/placement.hpp"
 #include "kinesphere/random.hpp"
 #include "program_error.hpp"
-#include "simulation/scene/placement.hpp"
-#include "simulation/scene/relaxation.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -91,8 +90,9 @@ Scene make_mixture(const MixtureParameters& p, SceneResponse response) {
       limits.push_back(kind.limit);
     }
   }
-  const auto centres = place_spheres(radii, p.box, std::max(p.gap, 4.0 * scene.world.contact_tolerance),
-                                     Random::at(p.seed, placement_stream, 0).bits());
+  const auto centres = place_spheres(radii, p.box,
+                                     {.gap = std::max(p.gap, 4.0 * scene.world.contact_tolerance),
+                                      .seed = Random::at(p.seed, placement_stream, 0).bits()});
   if (!centres) throw ProgramError("bench: the bodies of a scene do not fit into its box");
   std::vector<State> start;
   for (std::size_t body = 0; body < radii.size(); ++body) {
@@ -125,13 +125,14 @@ Scene make_crowd(const CrowdParameters& p, SceneResponse response) {
 Scene make_gas(const GasParameters& p, SceneResponse response) {
   constexpr double radius = 0.5;
   constexpr double volume = 3.14159265358979 / 6.0;
-  constexpr double gap = 0.03;  // at less, half of the bodies collide at once
   Scene scene = empty_scene(response, p.seconds);
   const double edge = std::cbrt(volume * p.bodies / p.filled);
   scene.world.box = Box{{0, 0, 0}, {edge, edge, edge}};
   scene.world.periodic = {true, true, true};
-  const auto centres = relax_spheres(std::vector<double>(p.bodies, radius), *scene.world.box, gap,
-                                     Random::at(p.seed, placement_stream, 0).bits());
+  const auto centres = place_spheres(std::vector<double>(p.bodies, radius), *scene.world.box,
+                                     {.periodic = scene.world.periodic,
+                                      .gap = 4.0 * scene.world.contact_tolerance,
+                                      .seed = Random::at(p.seed, placement_stream, 0).bits()});
   if (!centres) throw ProgramError("bench: the spheres of a gas do not fit into its box");
   std::vector<State> start;
   for (std::uint32_t body = 0; body < p.bodies; ++body) {
