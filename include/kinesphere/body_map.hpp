@@ -61,6 +61,12 @@ class BodyMap {
   /// Errors: unknown_body or stale_body, and those of World::add_moving_shape(). Throws as add().
   Result<BodyId> add_moving_shape(World& world, Motion& motion, std::uint32_t number, MovingShape like);
 
+  /// Notes that a motion moves a body of a world, as add() does: for a world and motions that were restored
+  /// from bytes. Errors: unknown_body or stale_body if the motion has no such body; unknown_body for no_body.
+  Result<void> connect(BodyId body, Motion& motion, std::uint32_t number);
+  /// Returns the bodies that this map knows, by rising index. Cost: O(n).
+  std::vector<BodyId> bodies() const;
+
   // Changes at world.time() of a body in the world and in its motion. Errors of all: unknown_body for a
   // body that this map does not know, and those of the functions of equal name of Motion and World.
 
@@ -119,7 +125,7 @@ class BodyMap {
 
   /// Returns the entry of the body. Throws BadResult: unknown_body.
   const Entry& known(std::string_view call, BodyId body) const;
-  void connect(BodyId body, Motion& motion, std::uint32_t number);
+  void note(BodyId body, Motion& motion, std::uint32_t number);
   const Entry* entry(BodyId body) const {
     if (body.index >= entries_.size()) return nullptr;
     const Entry& found = entries_[body.index];

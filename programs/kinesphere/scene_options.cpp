@@ -62,6 +62,17 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
                      "Scale the box until the bodies fill this part of it, 0 to 1",
                      [](SceneParameters& p, double packing) { p.packing = packing; })
       ->check(finite_number());
+  command
+      .add_flag_callback(
+          "--periodic",
+          [&options] {
+            options.changes.push_back([](SceneSource& source) {
+              source.lines.erase("periodic");
+              source.parameters.periodic = true;
+            });
+          },
+          "Repeat space with the box, without walls")
+      ->group(scene_group);
   add_change<double>(command, options, "--tolerance", "contact_tolerance", "Contact tolerance (length)",
                      [](SceneParameters& p, double tolerance) { p.contact_tolerance = tolerance; })
       ->check(finite_number());

@@ -63,6 +63,7 @@ from ._kinesphere import (
     monitor_event_dtype,
     no_body,
     pair_answer_dtype,
+    place_spheres,
     scene_names,
     settle,
     zone_class,
@@ -74,6 +75,7 @@ from .events import Events, MonitorEvents
 from .ids import BodyId, index_of
 from .kinds import EventKind, MonitorEventKind, Senses, Verdict, Wall
 from .recordings import RecordedRun, read_recording
+from .scene_files import read_scene
 from .track_files import tracks_in
 
 __all__ = [
@@ -141,7 +143,9 @@ __all__ = [
     "monitor_event_dtype",
     "no_body",
     "pair_answer_dtype",
+    "place_spheres",
     "read_recording",
+    "read_scene",
     "scene_names",
     "settle",
     "tracks",

@@ -1,11 +1,13 @@
-"""What pickle calls to make motions and scenes again, under names that it can write down."""
+"""What pickle calls to make motions and maps again, under names that it can write down."""
 
 from __future__ import annotations
 
 import copy
 from typing import Any
 
-from ._kinesphere import Motion, RecordedTracks
+import numpy as np
+
+from ._kinesphere import BodyMap, FrameMotion, Motion, RecordedTracks
 
 Call = tuple[Any, tuple[Any, ...]]
 
@@ -46,4 +48,68 @@ def _motion(kind: type[Motion], options: dict[str, Any], bodies: int) -> Motion:
     if issubclass(kind, RecordedTracks):
         return kind([((0.0, 1.0), (place, place))] * bodies)
     motion: Motion = made(kind, (), {**options, "positions": [place] * bodies})
+    return motion
+
+
+def restored_map(motions: list[Motion], bodies: list[tuple[int, int, int]]) -> BodyMap:
+    """Makes a map of bodies: the id of each, the place of its motion in the list, and its number there."""
+    bodies_of_motions = BodyMap()
+    for body, place, number in bodies:
+        bodies_of_motions._connect(body, motions[place], number)
+    return bodies_of_motions
+
+
+_rest = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+
+
+def reduced_frames(motion: FrameMotion) -> Call:
+    """A call as reduced_motion(). Numbers removed since the latest frame are not used again before the next."""
+    size = len(motion)
+    spare, next_frame = copy.copy(motion), copy.copy(motion)
+    free = list(iter(lambda: spare.add(spare.latest_time, *_rest), size))[::-1]
+    bodies = [motion.write_body(number) if number in motion else None for number in range(size)]
+    present = [number for number in range(size) if number in motion]
+    for number in present:
+        next_frame.remove(number)
+    next_frame.push(np.full((size, 3), np.nan))
+    order = [next_frame.add(next_frame.latest_time, *_rest) for _ in range(size)][::-1]
+    removed = order[len(free) : size - len(present)]
+    return restored_frames, (
+        type(motion),
+        motion._common_arguments(),
+        motion.latest_frame,
+        bodies,
+        free,
+        removed,
+    )
+
+
+def restored_frames(
+    kind: type[FrameMotion],
+    options: dict[str, Any],
+    latest_frame: int,
+    bodies: list[bytes | None],
+    free: list[int],
+    removed: list[int],
+) -> FrameMotion:
+    nobody = np.empty((0, 3))
+    motion, size = kind(nobody, **options), len(bodies)
+    for _ in range(latest_frame - 1):
+        motion.push(nobody)
+    used = [number for number in range(size) if number not in free]
+    if latest_frame > 0:
+        # The last number that is removed is the first to be used again.
+        for _ in range(size):
+            motion.add(motion.latest_time, *_rest)
+        for number in [*free, *reversed(used)]:
+            motion.remove(number)
+        motion.push(np.full((size, 3), np.nan))
+    for number in used:
+        body = bodies[number]
+        if body is None:
+            motion.add(motion.latest_time, *_rest)
+        else:
+            motion.read_body(body)
+    for number in removed:
+        motion.remove(number)
     return motion

@@ -18,6 +18,15 @@ void keep(BodyMapHandle& map, const py::object& motion) {
   if (std::none_of(map.motions.begin(), map.motions.end(), same)) map.motions.push_back(motion);
 }
 
+/// Returns the place of a motion in map.motions.
+std::size_t place_of(const BodyMapHandle& map, const Motion* motion) {
+  const auto is_it = [&](const py::object& kept) {
+    return kept.cast<MotionHandle&>().motion.get() == motion;
+  };
+  return static_cast<std::size_t>(std::find_if(map.motions.begin(), map.motions.end(), is_it) -
+                                  map.motions.begin());
+}
+
 BodyDefinition like(double radius, std::uint64_t category, std::uint64_t mask, std::int32_t group, bool solid,
                     SensorClass sensor_class, std::uint64_t user_data) {
   return {.radius = radius,
@@ -78,6 +87,25 @@ std::shared_ptr<BodyMapHandle> deep_copy(BodyMapHandle& map, const py::dict& mem
   }
   copy->map = map.map->with_motions(from, to).value();
   return copy;
+}
+
+/// Returns a call that makes the map again, of motions that are pickled with it and bodies by their numbers.
+py::tuple reduced_map(BodyMapHandle& map) {
+  const auto turn = map.in_use.take_alone("pickle", map_name);
+  py::list bodies;
+  for (const BodyId body : map.map->bodies()) {
+    const MovedBody moved = *map.map->find(body);
+    bodies.append(py::make_tuple(number_of(body), place_of(map, moved.motion), moved.number));
+  }
+  return py::make_tuple(package_attribute("kinesphere.pickles", "restored_map"),
+                        py::make_tuple(py::cast(map.motions), bodies));
+}
+void connect(BodyMapHandle& map, const py::object& body, const py::object& moving, std::uint32_t number) {
+  auto& motion = moving.cast<MotionHandle&>();
+  const auto turn = map.in_use.take_alone("pickle", map_name);
+  const auto turn_of_motion = motion.in_use.take_alone("pickle", "motion");
+  require(map.map->connect(id_of(body, {"BodyMap", "body"}), *motion.motion, number));
+  keep(map, moving);
 }
 
 /// Changes a body in its motion and in the world.
@@ -157,14 +185,12 @@ The world learns all new velocities, so that no contact is missed; world.time mu
           [](const BodyMapHandle& map, const py::object& body) -> py::object {
             const auto found = map.map->find(id_of(body, {"find", "body"}));
             if (!found) return py::none();
-            const auto moves_it = [&](const py::object& kept) {
-              return kept.cast<MotionHandle&>().motion.get() == found->motion;
-            };
-            return py::make_tuple(*std::find_if(map.motions.begin(), map.motions.end(), moves_it),
-                                  found->number);
+            return py::make_tuple(map.motions[place_of(map, found->motion)], found->number);
           },
           py::arg("body"), "The motion and the number there of a body; None for one that is not known.")
       .def("__deepcopy__", deep_copy)
+      .def("__reduce__", reduced_map)
+      .def("_connect", connect)
       .def("__repr__", [](const BodyMapHandle& map) {
         py::list motions;
         for (const py::object& motion : map.motions) motions.append(motion);

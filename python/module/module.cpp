@@ -29,6 +29,7 @@ PYBIND11_MODULE(_kinesphere, module) {
   bind_world(module);
   bind_body_map(module);
   bind_replay(module);
+  bind_placement(module);
   bind_scenes(module);
   bind_tracks(module);
   bind_monitor(module);

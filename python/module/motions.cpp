@@ -164,8 +164,12 @@ py::dict common_arguments(const VelocityField& motion) {
 }
 py::dict common_arguments(const SteeredMotion&) { return {}; }
 py::dict common_arguments(const RecordedTracks&) { return {}; }
-py::dict common_arguments(const FrameMotion&) {
-  throw py::type_error("pickle: a FrameMotion cannot be pickled; make one of its latest frame");
+py::dict common_arguments(const FrameMotion& motion) {
+  py::dict arguments;
+  arguments["interval"] = motion.interval();
+  arguments["position_error"] = motion.position_error();
+  arguments["start_time"] = motion.start_time();
+  return arguments;
 }
 
 /// Tries each of these kinds.
@@ -513,6 +517,13 @@ world.time must be latest_time. For other worlds: BodyMap.push().)")
                              [](const HandleOf<FrameMotion>& handle) { return handle.get().previous_time(); })
       .def_property_readonly("latest_time",
                              [](const HandleOf<FrameMotion>& handle) { return handle.get().latest_time(); })
+      .def_property_readonly(
+          "latest_frame", [](const HandleOf<FrameMotion>& handle) { return handle.get().latest_frame(); },
+          "How many frames have been pushed.")
+      .def("__reduce__",
+           [](const py::object& self) {
+             return package_attribute("kinesphere.pickles", "reduced_frames")(self);
+           })
       .def_property_readonly(
           "violation_count",
           [](const HandleOf<FrameMotion>& handle) { return handle.get().violation_count(); })

@@ -10,23 +10,6 @@
 namespace kinesphere::python {
 namespace {
 
-/// Reads True for all axes, or some of the letters "xyz".
-Axes axes_of(const py::object& given, int dimensions) {
-  const Argument argument{"World", "periodic"};
-  if (py::isinstance<py::bool_>(given)) {
-    const bool all = given.cast<bool>();
-    return {all, all, all && dimensions != 2};
-  }
-  if (!py::isinstance<py::str>(given))
-    throw py::type_error("World: periodic must be a bool or a text such as \"xy\", but is " +
-                         py::repr(given).cast<std::string>());
-  const auto text = given.cast<std::string>();
-  if (text.find_first_not_of("xyz") != std::string::npos)
-    refuse(argument, "must be a text of the letters x, y and z", "is \"" + text + "\"");
-  const auto has = [&](char axis) { return text.find(axis) != std::string::npos; };
-  return {has('x'), has('y'), has('z')};
-}
-
 std::string text_of(const Axes& axes) {
   return std::string(axes.x ? "x" : "") + (axes.y ? "y" : "") + (axes.z ? "z" : "");
 }
@@ -41,11 +24,8 @@ std::shared_ptr<WorldHandle> create_world(const py::object& box, const py::objec
                                           double zeno_interval, double start_time) {
   WorldDefinition definition;
   definition.box = box_of(box, {"World", "box"}, dimensions == 2);
-  definition.periodic = axes_of(periodic, dimensions);
+  definition.periodic = axes_of(periodic, {"World", "periodic"}, dimensions == 2);
   definition.dimensions = dimensions;
-  if (dimensions == 2 && definition.periodic.z)
-    refuse({"World", "periodic"}, "must be of x and y in two dimensions, such as \"xy\"",
-           "is " + py::repr(periodic).cast<std::string>());
   definition.contact_tolerance = contact_tolerance;
   if (!separation_distance.is_none()) {
     definition.separation_distance = separation_distance.cast<double>();
@@ -88,6 +68,23 @@ py::tuple pickled(const py::object& self) {
 }
 
 }  // namespace
+
+Axes axes_of(const py::object& given, const Argument& argument, bool plane) {
+  const auto found = [&] { return "is " + py::repr(given).cast<std::string>(); };
+  if (py::isinstance<py::bool_>(given)) {
+    const bool all = given.cast<bool>();
+    return {all, all, all && !plane};
+  }
+  if (!py::isinstance<py::str>(given))
+    throw py::type_error(std::string(argument.call) + ": " + std::string(argument.name) +
+                         " must be a bool or a text such as \"xy\", but " + found());
+  const auto text = given.cast<std::string>();
+  if (text.find_first_not_of("xyz") != std::string::npos)
+    refuse(argument, "must be a text of the letters x, y and z", "is \"" + text + "\"");
+  const auto has = [&](char axis) { return text.find(axis) != std::string::npos; };
+  if (plane && has('z')) refuse(argument, "must be of x and y in two dimensions, such as \"xy\"", found());
+  return {has('x'), has('y'), has('z')};
+}
 
 py::dict arguments_of(const WorldDefinition& definition) {
   py::dict arguments;

@@ -74,6 +74,8 @@ auto reading(const char* call, Read read) {
 
 using WorldClass = py::class_<WorldHandle, std::shared_ptr<WorldHandle>>;
 
+/// Reads True for all axes, or some of the letters "xyz".
+Axes axes_of(const py::object& given, const Argument& argument, bool plane);
 /// Returns the arguments of World() for this definition.
 py::dict arguments_of(const WorldDefinition& definition);
 /// Restores a world from these bytes.
@@ -87,6 +89,7 @@ void bind_inspection(py::module_& module, WorldClass& world);
 void bind_world(py::module_& module);
 void bind_body_map(py::module_& module);
 void bind_replay(py::module_& module);
+void bind_placement(py::module_& module);
 void bind_scenes(py::module_& module);
 void bind_tracks(py::module_& module);
 

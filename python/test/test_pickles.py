@@ -50,7 +50,7 @@ def test_a_motion_comes_back_with_its_changes_and_gaps(name: str) -> None:
     assert again.definitions(3.0).keys() == motion.definitions(3.0).keys()
 
 
-def test_tracks_and_sources_come_back_and_frames_say_that_they_do_not() -> None:
+def test_tracks_and_sources_come_back() -> None:
     tracks = ks.RecordedTracks([([0, 1, 3], rng.uniform(0, 9, (3, 3))), ([0, 4], rng.uniform(0, 9, (2, 3)))])
     tracks.remove(0)
     again = through(tracks)
@@ -61,8 +61,89 @@ def test_tracks_and_sources_come_back_and_frames_say_that_they_do_not() -> None:
         np.array_equal(through(source)([3, 20], 2.0)[0], source([3, 20], 2.0)[0])
         and len(through(source)) == 21
     )
-    with pytest.raises(TypeError, match="a FrameMotion cannot be pickled"):
-        pickle.dumps(ks.FrameMotion(positions))
+
+
+Game = tuple[ks.World, ks.FrameMotion, ks.BodyMap]
+
+
+def game_of(frames: int) -> Game:
+    """After some frames in which bodies came and went; the first has a limit."""
+    limits = np.where(np.arange(6) == 0, 9.0, np.inf)
+    motion = ks.FrameMotion(
+        positions[:6], velocities[:6], limits, interval=0.1, position_error=1e-7, start_time=2.0
+    )
+    world, bodies = ks.World(start_time=2.0), ks.BodyMap()
+    ids = bodies.add_all(world, motion, 0.1)
+    for frame in range(frames):
+        for number in {1: [4, 2], 2: [1], 3: [5]}.get(frame, []):
+            bodies.remove(world, ids[number])
+        if frame == 2:
+            number = motion.add(motion.latest_time, (9, 9, 9), (1, 0, 0))
+            assert number == 2 and bodies.add(world, motion, number) is not None
+        step((world, motion, bodies), 0.01 * frame)
+    return world, motion, bodies
+
+
+def step(game: Game, distance: float) -> None:
+    world, motion, bodies = game
+    bodies.push(world, motion, motion.latest() + (distance, 0, 0))
+    for _ in world.events(motion.latest_time, bodies):
+        pass
+
+
+@pytest.mark.parametrize("frames", [0, 1, 2, 3, 4, 7])
+@pytest.mark.parametrize("removed", [(), (0,), (3, 0)])
+def test_frames_come_back_and_use_numbers_again_in_the_same_order(
+    frames: int, removed: tuple[int, ...]
+) -> None:
+    world, motion, bodies = game = game_of(frames)
+    for number in removed:
+        bodies.remove(world, number)
+    again = through(game)
+    assert again[1].latest_frame == frames and again[1].violation_count == 0
+    for distance in (0.3, 0.2):
+        there = [number for number in range(len(motion)) if number in motion]
+        assert there == [number for number in range(len(again[1])) if number in again[1]]
+        here, back = (one.definitions(motion.latest_time, there) for one in (motion, again[1]))
+        assert [np.array_equal(a, b) for a, b in zip(here.values(), back.values())] == [True] * 6
+        new = [
+            [one.add(one.latest_time, (40, 40, 40), (0, 0, 0)) for _ in range(4)]
+            for one in (motion, again[1])
+        ]
+        assert new[0] == new[1]
+        for one in (game, again):
+            for number in new[0]:
+                one[2].add(one[0], one[1], number, 0.1)
+            step(one, distance)
+        np.testing.assert_array_equal(motion.latest(), again[1].latest())
+        assert motion.previous_time == again[1].previous_time
+
+
+def test_a_map_comes_back_with_its_world_and_motions() -> None:
+    world, flight, frames = (
+        ks.World(),
+        ks.Ballistic(positions[:3]),
+        ks.FrameMotion(positions[3:5], interval=0.5),
+    )
+    bodies = ks.BodyMap()
+    gone = bodies.add(world, flight, 1)
+    bodies.remove(world, gone)
+    ids = [
+        *bodies.add_all(world, frames, 0.1),
+        bodies.add(world, flight, 0, 0.1),
+        bodies.add(world, flight, 2, 0.1),
+    ]
+    game = (world, flight, frames, bodies)
+    again = through(game)
+    assert again[3].find(ids[0])[0] is again[2] and again[3].find(ids[2])[0] is again[1]
+    assert [again[3].find(one)[1] for one in ids] == [bodies.find(one)[1] for one in ids]  # type: ignore[index]
+    assert again[3].find(gone) is None
+    for here, free, stepped, known in (game, again):
+        known.set_velocity(here, ids[3], (0, 0, 5))
+        known.push(here, stepped, stepped.latest() + 0.25)
+        assert list(here.events(0.5, known)) == []
+    assert np.array_equal(frames.latest(), again[2].latest())
+    assert np.array_equal(flight.states(0.5, [0, 2])[0], again[1].states(0.5, [0, 2])[0])
 
 
 def moved(ids: Any, t: float, since: Any, places: Any, speeds: Any) -> tuple[Any, Any]:

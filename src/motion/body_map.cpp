@@ -29,16 +29,30 @@ Result<BodyDefinition> definition_of(std::string_view call, const Motion& motion
 
 }  // namespace
 
-void BodyMap::connect(BodyId body, Motion& motion, std::uint32_t number) {
+void BodyMap::note(BodyId body, Motion& motion, std::uint32_t number) {
   if (body.index >= entries_.size()) entries_.resize(std::size_t{body.index} + 1);
   entries_[body.index] = {&motion, number, body.generation};
+}
+
+Result<void> BodyMap::connect(BodyId body, Motion& motion, std::uint32_t number) {
+  if (const auto error = wrong_body("BodyMap::connect", motion, number)) return *error;
+  if (body == no_body) return unknown("connect", body);
+  note(body, motion, number);
+  return {};
+}
+
+std::vector<BodyId> BodyMap::bodies() const {
+  std::vector<BodyId> bodies;
+  for (std::uint32_t index = 0; index < entries_.size(); ++index)
+    if (entries_[index].motion != nullptr) bodies.push_back({index, entries_[index].generation});
+  return bodies;
 }
 
 Result<BodyId> BodyMap::add(World& world, Motion& motion, std::uint32_t number, const BodyDefinition& like) {
   const auto definition = definition_of("add", motion, number, world.time(), like);
   if (!definition) return definition.error();
   auto id = world.add(*definition);
-  if (id) connect(*id, motion, number);
+  if (id) note(*id, motion, number);
   return id;
 }
 
@@ -48,7 +62,7 @@ Result<BodyId> BodyMap::add_moving_shape(World& world, Motion& motion, std::uint
   if (!definition) return definition.error();
   like.body = *definition;
   auto id = world.add_moving_shape(like);
-  if (id) connect(*id, motion, number);
+  if (id) note(*id, motion, number);
   return id;
 }
 
@@ -74,7 +88,7 @@ Result<std::vector<BodyId>> BodyMap::add_all(World& world, Motion& motion, std::
   }
   auto ids = world.add_all(definitions);
   if (!ids) return ids;
-  for (std::size_t k = 0; k < numbers.size(); ++k) connect((*ids)[k], motion, numbers[k]);
+  for (std::size_t k = 0; k < numbers.size(); ++k) note((*ids)[k], motion, numbers[k]);
   return ids;
 }
 

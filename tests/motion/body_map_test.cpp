@@ -113,6 +113,31 @@ TEST(BodyMap, SaysWhatIsWrong) {
   EXPECT_FALSE(world.contains(recorded));
 }
 
+TEST(BodyMap, IsMadeAgainForWhatWasRestored) {
+  Ballistic balls = rows(3, 0);
+  World world = World::create({}).value();
+  BodyMap map;
+  const BodyId removed = map.add(world, balls, 2).value();
+  map.remove(world, removed).value();
+  const BodyId late = map.add(world, balls, 1).value();  // in the place of the removed one
+  const BodyId other = map.add(world, balls, 0).value();
+  EXPECT_EQ(map.bodies(), (std::vector{late, other}));
+
+  Ballistic balls_again = balls;
+  BodyMap again;
+  for (const BodyId body : map.bodies()) again.connect(body, balls_again, map.find(body)->number).value();
+  EXPECT_EQ(again.bodies(), map.bodies());
+  EXPECT_EQ(again.find(late)->motion, &balls_again);
+  EXPECT_EQ(again.state(late, 1.0).position, map.state(late, 1.0).position);
+  EXPECT_FALSE(again.find(removed));
+  expect_error(again.connect(late, balls_again, 7), ErrorCode::unknown_body, "body",
+               "BodyMap::connect: ", BodyId{7, 0});
+  expect_error(again.connect(late, balls_again, 2), ErrorCode::stale_body, "body",
+               "BodyMap::connect: ", BodyId{2, 0});
+  expect_error(again.connect(no_body, balls_again, 0), ErrorCode::unknown_body, "body",
+               "BodyMap::connect: ", no_body);
+}
+
 TEST(BodyMap, LeavesBodiesToMotionsThatCannotRemoveThem) {
   Still motion;
   World world = World::create({}).value();

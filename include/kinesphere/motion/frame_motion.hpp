@@ -113,6 +113,11 @@ class FrameMotion final : public Motion {
   /// is start_time.
   double previous_time() const;
   double latest_time() const;
+  /// Returns the number of frames that have been pushed.
+  std::uint64_t latest_frame() const { return latest_frame_; }
+  double interval() const { return interval_; }
+  double position_error() const { return position_error_; }
+  double start_time() const { return start_time_; }
 
   /// Returns the positions at latest_time(), including changes; NaN for removed bodies.
   const std::vector<Vec3>& latest() const { return latest_; }
