@@ -50,7 +50,7 @@ fi
 "$clean" -m kinesphere.bench --program "$KINESPHERE_PROGRAM" --bodies 2000 --repeats 1
 
 cd "$work/pictures"
-for example in gas drones certainty side_by_side alerts; do
+for example in gas drones certainty side_by_side alerts vicsek packing traffic; do
   echo "example $example:"
   "$clean" "$source/examples/$example.py"
 done

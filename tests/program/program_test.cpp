@@ -153,6 +153,16 @@ TEST_F(ProgramTest, RunsScenesOfNothing) {
   }
 }
 
+TEST_F(ProgramTest, RepeatsSpaceOnRequest) {
+  const std::string gas =
+      R"({"motion": "ballistic", "bodies": 40, "limit": [0, 0], "seconds": 1, "packing": 0.2)";
+  const std::string periodic =
+      run("run " + write("p.json", gas + R"(, "periodic": true})") + " --hash-only").out;
+  const std::string walled = write("w.json", gas + R"(, "periodic": false})");
+  EXPECT_EQ(run("run " + walled + " --periodic --hash-only").out, periodic);
+  EXPECT_NE(run("run " + walled + " --hash-only").out, periodic);
+}
+
 TEST_F(ProgramTest, PrintsNothingButTheHash) {
   const std::string scene = "run " + write("s.json", small_scene) + " --hash-only";
   const ProgramRun result = run(scene);
