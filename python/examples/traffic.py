@@ -34,7 +34,8 @@ def reaches(t: Doubles, way: Doubles) -> float:
     return float(np.interp(0.0, way, t))
 
 
-times, ids, positions, at_crossing = [], [], [], []
+times, ids, positions = [], [], []
+at_crossing: list[tuple[int, float]] = []
 for vehicle in range(vehicles):
     eastbound = vehicle % 2 == 0
     enters, speed = 3.5 * (vehicle // 2) + rng.uniform(0, 1.0), rng.uniform(11.0, 15.0)

@@ -25,7 +25,7 @@ def order_at(noise: float) -> float:
     heading = rng.uniform(-np.pi, np.pi, birds)
 
     def velocities() -> Doubles:
-        return speed * np.stack([np.cos(heading), np.sin(heading)], axis=1)
+        return np.stack([speed * np.cos(heading), speed * np.sin(heading)], axis=1)
 
     motion = ks.Ballistic(rng.uniform(0, side, (birds, 2)), velocities())
     world = ks.World(box=((0, 0), (side, side)), periodic=True, dimensions=2)

@@ -76,9 +76,11 @@ from .ids import BodyId, index_of
 from .kinds import EventKind, MonitorEventKind, Senses, Verdict, Wall
 from .recordings import RecordedRun, read_recording
 from .scene_files import read_scene
+from .streams import Alerts, watch
 from .track_files import tracks_in
 
 __all__ = [
+    "Alerts",
     "Approaches",
     "Ball",
     "Ballistic",
@@ -150,5 +152,6 @@ __all__ = [
     "settle",
     "tracks",
     "tracks_in",
+    "watch",
     "zone_class",
 ]

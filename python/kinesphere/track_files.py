@@ -5,10 +5,7 @@ from __future__ import annotations
 import csv
 import os
 import re
-import shutil
-import subprocess
 import tempfile
-import warnings
 from pathlib import Path
 from typing import Any, Literal, Optional, Sequence, Union
 
@@ -16,15 +13,14 @@ import numpy as np
 import numpy.typing as npt
 
 from .approaches import Approaches
-from .errors import InvalidValue
-
-PathLike = Union[str, "os.PathLike[str]"]
+from .programs import PathLike, run_program
 
 
 def tracks_in(
     files: Union[PathLike, Sequence[PathLike]],
-    distance: Union[float, str],
+    distance: Union[float, str, None] = None,
     *,
+    separation: Optional[str] = None,
     format: Optional[str] = None,
     columns: Optional[str] = None,
     where: Optional[str] = None,
@@ -40,6 +36,11 @@ def tracks_in(
     max_gap: Optional[float] = None,
     interpolate: Literal["spline", "linear"] = "spline",
     tolerance: Optional[float] = None,
+    sizes: bool = False,
+    from_: Union[float, str, None] = None,
+    until: Union[float, str, None] = None,
+    only: Union[str, int, Sequence[Union[str, int]], None] = None,
+    min_duration: Optional[float] = None,
     program: Optional[PathLike] = None,
 ) -> Approaches:
     """Finds every time that two bodies recorded in text files were closer to each other than `distance`.
@@ -48,7 +49,10 @@ def tracks_in(
     and units by their names, files of known tools, GPX, XYZ and dumps of LAMMPS.
 
     files: one or several; an id goes on from one to the next. distance: in metres, or in the file's lengths
-    where their unit is not known; a text may have a unit, as "5NM".
+    where their unit is not known; a text may have a unit, as "5NM". separation: instead of a distance, as
+    "cylinder:5NM:1000ft"; approaches then have horizontal_distance and vertical_distance, too.
+    sizes: distances are between bodies as wide and long as the file says. from_, until: a window of time, as
+    numbers or dates of the file. only: approaches of this id, or of these. min_duration: in seconds.
     format: a known tool, such as "movebank", where the header does not tell it. columns: which column is what,
     as "id=who,time=3:ms,x=east,y=north,z=up:ft". where: the rows that count, as "id != -1 and speed < 40".
     dates: what 03/04/2025 begins with. frame_rate: frames per second. time_unit, unit: of numbers whose column
@@ -62,34 +66,24 @@ def tracks_in(
     Raises InvalidValue with the program's question or error, FileNotFoundError without the program; what the
     program warns about becomes a warning.
     """
-    where_it_is = program if program is not None else shutil.which("kinesphere")
-    if where_it_is is None:
-        raise FileNotFoundError(
-            "tracks_in: there is no program `kinesphere` in PATH, so program must say where it is"
-        )
+    if (distance is None) == (separation is None):
+        raise TypeError("tracks_in: either distance or separation must be given")
     names = [files] if isinstance(files, (str, os.PathLike)) else list(files)
-    options = {
-        "format": format, "columns": columns, "where": where, "dates": dates, "frame-rate": frame_rate,
-        "time-unit": time_unit, "unit": unit, "positions": positions, "projection": projection, "missing": missing,
-        "duplicates": duplicates, "max-speed": max_speed, "max-gap": max_gap, "interpolate": interpolate,
-        "tolerance": tolerance, "distance": distance,
+    ids = only if only is None or isinstance(only, (str, int)) else ",".join(map(str, only))
+    options: dict[str, Any] = {
+        "format": format, "columns": columns, "where": where, "dates": dates, "frame_rate": frame_rate,
+        "time_unit": time_unit, "unit": unit, "positions": positions, "projection": projection, "missing": missing,
+        "duplicates": duplicates, "max_speed": max_speed, "max_gap": max_gap, "interpolate": interpolate,
+        "tolerance": tolerance, "sizes": sizes, "from": from_, "until": until, "only": ids,
+        "min_duration": min_duration, "distance": distance, "separation": separation,
     }  # fmt: skip
     with tempfile.TemporaryDirectory() as folder:
         table = Path(folder) / "approaches.csv"
-        command = [os.fspath(where_it_is), "tracks", f"--contacts={table}"]
-        command += [f"--{name}={value}" for name, value in options.items() if value is not None]
-        command += ["--", *(os.path.abspath(name) for name in names)]
-        run = subprocess.run(command, capture_output=True, text=True)
-        if run.returncode != 0:
-            raise InvalidValue(
-                f"tracks_in: {run.stderr.strip().removeprefix('kinesphere: ')}", "out_of_range", "files"
-            )
-        for line in run.stderr.splitlines():
-            if line.startswith("kinesphere: warning: "):
-                warnings.warn(line.removeprefix("kinesphere: warning: "), stacklevel=2)
+        options["contacts"] = table
+        printed = run_program("tracks_in", program, "tracks", options, names, argument="files")
         with table.open(newline="") as lines:
             rows = list(csv.DictReader(lines))
-    probes = re.search(r"^probes +([\d,]+)", run.stdout, re.MULTILINE)
+    probes = re.search(r"^probes +([\d,]+)", printed, re.MULTILINE)
     return Approaches(_array_of(rows), int(probes[1].replace(",", "")) if probes else 0)
 
 
@@ -117,6 +111,9 @@ def _array_of(rows: list[dict[str, str]]) -> npt.NDArray[np.void]:
         "second_position": place("second"),
         "relative_speed": numbers("relative_speed"),
     }
+    for name in ("horizontal_distance", "vertical_distance"):
+        if rows and name in rows[0]:
+            columns[name] = numbers(name)
     kinds: list[Any] = [(name, column.dtype, column.shape[1:]) for name, column in columns.items()]
     array: npt.NDArray[np.void] = np.zeros(len(rows), dtype=kinds)
     for name, column in columns.items():

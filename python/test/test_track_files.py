@@ -53,6 +53,26 @@ def test_every_option_of_reading_reaches_the_program(tmp_path: Path) -> None:
     assert len(ks.tracks_in(frames, 95, columns="id=1,time=2,x=3,y=4", time_unit="ms", program=program)) == 1
 
 
+def test_separations_sizes_and_windows(tmp_path: Path) -> None:
+    file = written(
+        tmp_path,
+        "id,time,x,y,z,length,width\n"
+        + "".join(
+            f"a,{t},{10 * t},0,0,4,2\nb,{t},10,{10 * t - 10},1,4,2\nc,{t},{10 * t},9,9,4,2\n"
+            for t in range(3)
+        ),
+    )
+    flat = ks.tracks_in(file, separation="cylinder:5m:2m", unit="m", program=program)
+    assert len(flat) == 1 and flat["vertical_distance"][0] == pytest.approx(1.0)
+    assert ks.tracks_in(file, 5, sizes=True, program=program)["closest_distance"][0] < -3
+    assert [len(ks.tracks_in(file, 13, only=ids, program=program)) for ids in ("c", ["a", "c"])] == [2, 3]
+    assert len(ks.tracks_in(file, 13, from_=0.5, until=1.5, min_duration=0.9, program=program)) == 2
+    assert len(ks.tracks_in(file, 5, from_=1.9, program=program)) == 0
+    for wrong in ({}, {"distance": 1.0, "separation": "sphere:5m"}):
+        with pytest.raises(TypeError, match="either distance or separation"):
+            ks.tracks_in(file, **wrong, program=program)  # type: ignore[arg-type]
+
+
 def test_questions_are_errors_and_warnings_are_warnings(tmp_path: Path) -> None:
     with pytest.raises(ks.InvalidValue, match="the id -1 is that of nobody"):
         ks.tracks_in(written(tmp_path, "id,t,x,y\n-1,0,0,0\n"), 1, program=program)
