@@ -26,8 +26,8 @@ struct PlacementOptions {
   /// one sphere for each radius.
   double packing = 0.0;
   /// Least distance (>= 0, length) between the surfaces of two spheres, and between a sphere and a wall.
-  /// Less than 2^-48 of the largest coordinate of the box counts as that, so that no rounding makes spheres
-  /// overlap.
+  /// Less than 2^-48 of the distance of the box's farthest corner from the origin counts as that, so that
+  /// no rounding makes spheres overlap.
   double gap = 0.0;
   std::uint64_t seed = 1;
 };
@@ -38,8 +38,9 @@ struct PlacementOptions {
 /// Where little is filled (up to 28 % by spheres of about one size, 40 % by others, 40 % of a plane by discs)
 /// each sphere gets a place drawn from all that are free, the largest first. Where more is filled, spheres at
 /// random places push each other apart, and random moves then make the neighbourhood of each similar to that
-/// in a gas. That reaches 60 % with spheres of one size, 80 % with discs and more with mixtures. Neither is
-/// equilibrium: what has to be in equilibrium should be run until all have met many others.
+/// in a gas. That reaches 60 % with spheres of one size, 80 % with discs and more with mixtures; walls take
+/// some of it from small boxes. Neither is equilibrium: what has to be in equilibrium should be run until all
+/// have met many others.
 ///
 /// Errors: not_finite or out_of_range for a radius, box or option; out_of_range for `radii` if a sphere is
 /// too large for the box (diameter and gap may be at most its size) or if no arrangement without overlap was

@@ -66,7 +66,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
       .add_flag_callback(
           "--periodic",
           [&options] {
-            options.changes.push_back([](SceneSource& source) {
+            options.changes.emplace_back([](SceneSource& source) {
               source.lines.erase("periodic");
               source.parameters.periodic = true;
             });

@@ -24,15 +24,16 @@ constexpr std::uint64_t tries_each = 200;
 /// Squares of lengths up to this do not overflow.
 constexpr double largest_coordinate = limits::largest_length * limits::largest_contact_tolerance;
 
-Result<void> check_placement(std::span<const double> radii, const Box& box, const PlacementOptions& options) {
+Result<void> check_placement(std::span<const double> radii, const SphereRoom& room,
+                             const PlacementOptions& options) {
   InputCheck check("place_spheres");
   const int dimensions = options.dimensions;
   check
       .require(dimensions == 2 || dimensions == 3, ErrorCode::out_of_range, {"dimensions"}, "must be 2 or 3",
                static_cast<double>(dimensions))
-      .box({"box"}, box)
-      .within({"box"}, box.lower, largest_coordinate)
-      .within({"box"}, box.upper, largest_coordinate)
+      .box({"box"}, room.box)
+      .within({"box"}, room.box.lower, largest_coordinate)
+      .within({"box"}, room.box.upper, largest_coordinate)
       .require(dimensions == 3 || !options.periodic.z, ErrorCode::out_of_range, {"periodic"},
                "must be x, y or both in two dimensions, where there is no z", std::string_view("z, too"))
       .require(options.packing >= 0.0 && options.packing < 1.0, ErrorCode::out_of_range, {"packing"},
@@ -43,8 +44,7 @@ Result<void> check_placement(std::span<const double> radii, const Box& box, cons
   for (std::uint32_t sphere = 0; sphere < radii.size() && !check.error(); ++sphere) {
     check.not_negative({"radii", {sphere, 0}}, radii[sphere]);
     for (int axis = 0; axis < dimensions; ++axis) {
-      const double most =
-          0.5 * (box.upper[axis] - box.lower[axis]) - (options.periodic[axis] ? 0.5 : 1.0) * options.gap;
+      const double most = 0.5 * room.size(axis) - (room.periodic[axis] ? 0.5 : 1.0) * room.gap;
       check.require(radii[sphere] <= most, ErrorCode::out_of_range, {"radii", {sphere, 0}},
                     "must leave room in the box, with", most, radii[sphere]);
     }
@@ -53,33 +53,30 @@ Result<void> check_placement(std::span<const double> radii, const Box& box, cons
 }
 
 /// Returns the part of the box that spheres of these radii, each larger by `margin`, would fill.
-double filled_part(std::span<const double> radii, const Box& box, int dimensions, double margin = 0.0) {
+double filled_part(std::span<const double> radii, const SphereRoom& room, double margin = 0.0) {
   double filled = 0.0;
   for (const double inner : radii) {
     const double radius = inner + margin;
-    filled += dimensions == 2 ? 3.1415926535897931 * radius * radius
-                              : 4.1887902047863905 * radius * radius * radius;
+    filled += room.dimensions == 2 ? 3.1415926535897931 * radius * radius
+                                   : 4.1887902047863905 * radius * radius * radius;
   }
-  const Vec3 size = box.upper - box.lower;
-  return filled / (size.x * size.y * (dimensions == 2 ? 1.0 : size.z));
+  return filled / (room.size(0) * room.size(1) * room.size(2));
 }
 
 /// Returns the radii used in turn, as often as they fill no more than `packing`; out_of_range if that is
 /// without end.
-Result<std::vector<double>> repeated(std::span<const double> radii, const Box& box,
-                                     const PlacementOptions& options) {
-  if (options.packing == 0.0) return std::vector<double>(radii.begin(), radii.end());
-  const double of_each = filled_part(radii, box, options.dimensions) / static_cast<double>(radii.size());
+Result<std::vector<double>> repeated(std::span<const double> radii, const SphereRoom& room, double packing) {
+  if (packing == 0.0) return std::vector<double>(radii.begin(), radii.end());
+  const double of_each = filled_part(radii, room) / static_cast<double>(radii.size());
   InputCheck check("place_spheres");
-  check.require(options.packing < of_each * no_body.index, ErrorCode::out_of_range, {"packing"},
-                "must be 0 where this part takes more spheres than", std::size_t{no_body.index},
-                options.packing);
+  check.require(packing < of_each * no_body.index, ErrorCode::out_of_range, {"packing"},
+                "must be 0 where this part takes more spheres than", std::size_t{no_body.index}, packing);
   if (check.error()) return *check.error();
   std::vector<double> result;
   for (double filled = 0.0;;) {
     const double radius = radii[result.size() % radii.size()];
-    filled += filled_part({&radius, 1}, box, options.dimensions);
-    if (filled > options.packing) return result;
+    filled += filled_part({&radius, 1}, room);
+    if (filled > packing) return result;
     result.push_back(radius);
   }
 }
@@ -120,23 +117,19 @@ std::optional<std::vector<Vec3>> place_at_random(const SphereRoom& room, Random 
 
 }  // namespace
 
-Result<std::vector<Vec3>> place_spheres(std::span<const double> radii, const Box& given,
+Result<std::vector<Vec3>> place_spheres(std::span<const double> radii, const Box& box,
                                         const PlacementOptions& options) {
-  Box box = given;
-  if (options.dimensions == 2) box.lower.z = -1.0, box.upper.z = 1.0;
-  if (auto valid = check_placement(radii, box, options); !valid) return valid.error();
-  double largest = 0.0;
-  for (int axis = 0; axis < options.dimensions; ++axis)
-    largest = std::max({largest, std::abs(box.lower[axis]), std::abs(box.upper[axis])});
-  auto all = repeated(radii, box, options);
+  const int dimensions = options.dimensions;
+  SphereRoom room{.box = box, .periodic = options.periodic, .dimensions = dimensions, .gap = options.gap};
+  if (dimensions == 2) room.box.lower.z = room.box.upper.z = 0.0;
+  room.gap = std::max(room.gap, 0x1p-48 * std::max(norm(room.box.lower), norm(room.box.upper)));
+  if (dimensions == 2) room.box.upper.z = 1.0;
+  if (auto valid = check_placement(radii, room, options); !valid) return valid.error();
+  auto all = repeated(radii, room, options.packing);
   if (!all) return all.error();
   if (all->empty()) return std::vector<Vec3>{};
-  const SphereRoom room{.box = box,
-                        .periodic = options.periodic,
-                        .dimensions = options.dimensions,
-                        .gap = std::max(options.gap, 0x1p-48 * largest),
-                        .radii = std::move(*all)};
-  const double filled = filled_part(room.radii, box, options.dimensions, 0.5 * room.gap);
+  room.radii = std::move(*all);
+  const double filled = filled_part(room.radii, room, 0.5 * room.gap);
   std::optional<std::vector<Vec3>> centres;
   if (!will_jam(room, filled)) centres = place_at_random(room, Random::at(options.seed, 0, 0));
   if (!centres && filled <= 1.0) centres = relax_spheres(room, options.seed);

@@ -34,6 +34,7 @@ constexpr int moving_sweeps = 20;
 template <class Item>
 std::vector<Item> reordered(const std::vector<Item>& items, const std::vector<std::uint32_t>& order) {
   std::vector<Item> result;
+  result.reserve(order.size());
   for (const std::uint32_t item : order) result.push_back(items[item]);
   return result;
 }
@@ -219,6 +220,7 @@ std::optional<std::vector<Vec3>> relax_spheres(const SphereRoom& room, std::uint
     places.emplace_back(grid.order(sphere, centres[sphere]), sphere);
   std::sort(places.begin(), places.end());
   std::vector<std::uint32_t> order;
+  order.reserve(places.size());
   for (const auto& [place, sphere] : places) order.push_back(sphere);
 
   SphereRoom sorted = room;

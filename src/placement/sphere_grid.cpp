@@ -27,7 +27,8 @@ SphereGrid::SphereGrid(const SphereRoom& room, const std::vector<double>& ranges
 /// Chooses cells as small as a range and a half, which takes the least time, but about two for a sphere at
 /// most.
 void SphereGrid::divide(Level& level) const {
-  const double longest = std::max({room_.size(0), room_.size(1), room_.size(2)});
+  const double longest =
+      std::max({room_.size(0), room_.size(1), room_.dimensions == 2 ? 0.0 : room_.size(2)});
   double edge = std::max(1.5 * level.range, 0x1p-20 * longest);
   for (;; edge *= 1.25) {
     double cells = 1.0;

@@ -54,8 +54,9 @@ class SphereGrid {
   };
 
   void divide(Level& level) const;
-  static int in_turn(int index, int count) {
-    return index < 0 ? index + count : index >= count ? index - count : index;
+  /// Returns the cell of this index on a periodic axis. Precondition: -count <= index < 2 count.
+  static std::uint32_t in_turn(int index, int count) {
+    return static_cast<std::uint32_t>(index < 0 ? index + count : index >= count ? index - count : index);
   }
   int index(const Level& level, int axis, double coordinate) const {
     return static_cast<int>(std::floor((coordinate - room_.box.lower[axis]) * level.cells_per_length[axis]));
@@ -85,10 +86,12 @@ class SphereGrid {
     const auto& [columns, rows, cells] = level.cells;
     for (int x = low[0]; x <= high[0]; ++x) {
       for (int y = low[1]; y <= high[1]; ++y) {
-        const int row = (in_turn(x, columns) * rows + in_turn(y, rows)) * cells;
+        const std::uint32_t* const row =
+            &level.first[(std::size_t{in_turn(x, columns)} * static_cast<std::size_t>(rows) +
+                          in_turn(y, rows)) *
+                         static_cast<std::size_t>(cells)];
         for (int z = low[2]; z <= high[2]; ++z)
-          for (auto other = level.first[static_cast<std::size_t>(row + in_turn(z, cells))]; other != none;
-               other = next_[other])
+          for (std::uint32_t other = row[in_turn(z, cells)]; other != none; other = next_[other])
             if (!visit(other)) return false;
       }
     }

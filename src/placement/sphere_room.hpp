@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -18,7 +19,7 @@ struct SphereRoom {
   Axes periodic;
   int dimensions;  ///< with 2, all centres have z = 0
   double gap;      ///< least distance of two spheres, and of a sphere and a wall (length)
-  std::vector<double> radii;
+  std::vector<double> radii{};
   Vec3 half_period = halves();  ///< of the box on each periodic axis, infinite on the others
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(radii.size()); }
@@ -47,12 +48,12 @@ struct SphereRoom {
         centre[axis] = std::clamp(centre[axis], lowest(sphere, axis), highest(sphere, axis));
     return centre;
   }
-  /// Returns the image in the box of a point that is less than a box away from it.
+  /// Returns the image of a point that is in the box.
   Vec3 wrapped(Vec3 point) const {
     for (int axis = 0; axis < dimensions; ++axis) {
-      if (!periodic[axis]) continue;
-      if (point[axis] < box.lower[axis]) point[axis] += size(axis);
-      if (point[axis] >= box.upper[axis]) point[axis] -= size(axis);
+      if (!periodic[axis] || (box.lower[axis] <= point[axis] && point[axis] < box.upper[axis])) continue;
+      point[axis] -= size(axis) * std::floor((point[axis] - box.lower[axis]) / size(axis));
+      if (!(box.lower[axis] <= point[axis] && point[axis] < box.upper[axis])) point[axis] = box.lower[axis];
     }
     return point;
   }
