@@ -24,8 +24,8 @@ SphereGrid::SphereGrid(const SphereRoom& room, const std::vector<double>& ranges
   for (Level& level : levels_) divide(level);
 }
 
-/// Chooses cells as small as a range and a half, which takes the least time, but about two for a sphere at
-/// most.
+/// Chooses cells as wide as the largest range and a half (one to three take about as long), but no more than
+/// about two for each sphere.
 void SphereGrid::divide(Level& level) const {
   const double longest =
       std::max({room_.size(0), room_.size(1), room_.dimensions == 2 ? 0.0 : room_.size(2)});
