@@ -9,7 +9,7 @@
 #include "input/input_check.hpp"
 #include "kinesphere/bound.hpp"
 #include "number/infinity.hpp"
-#include "simulation/grid/hash_grid.hpp"
+#include "research/grid/hash_grid.hpp"
 #include "simulation/oracle/gap_course.hpp"
 
 namespace kinesphere {

@@ -7,10 +7,10 @@
 #include "engine/validation.hpp"
 #include "input/input_check.hpp"
 #include "number/infinity.hpp"
+#include "research/grid/hash_grid.hpp"
 #include "research/rivals/rivals.hpp"
 #include "simulation/detector/checked_detector.hpp"
 #include "simulation/detector/detector.hpp"
-#include "simulation/grid/hash_grid.hpp"
 
 namespace kinesphere {
 namespace {

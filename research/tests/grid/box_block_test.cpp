@@ -1,5 +1,5 @@
 // A block of boxes compares them all at once as it would one by one, whatever the numbers are.
-#include "simulation/grid/box_block.hpp"
+#include "research/grid/box_block.hpp"
 
 #include <gtest/gtest.h>
 

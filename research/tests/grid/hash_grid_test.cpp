@@ -1,5 +1,5 @@
 // The hash grid finds what a plain list of boxes finds, each once, for boxes of any kind.
-#include "simulation/grid/hash_grid.hpp"
+#include "research/grid/hash_grid.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "kinesphere/random.hpp"
-#include "support/mirrored_grid.hpp"
+#include "research/tests/grid/mirrored_grid.hpp"
 
 namespace kinesphere::hash_grid_test {
 namespace {

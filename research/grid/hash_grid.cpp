@@ -1,5 +1,5 @@
 // Registration of boxes in the hierarchical hash grid.
-#include "simulation/grid/hash_grid.hpp"
+#include "research/grid/hash_grid.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "simulation/grid/hash_grid.hpp"
+#include "research/grid/hash_grid.hpp"
 
 namespace kinesphere {
 

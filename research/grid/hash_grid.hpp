@@ -18,9 +18,9 @@
 #include <vector>
 
 #include "kinesphere/vec3.hpp"
-#include "simulation/grid/box_block.hpp"
-#include "simulation/grid/float_box.hpp"
-#include "simulation/grid/prefetch.hpp"
+#include "research/grid/box_block.hpp"
+#include "research/grid/float_box.hpp"
+#include "research/grid/prefetch.hpp"
 
 namespace kinesphere {
 
