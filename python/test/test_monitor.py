@@ -365,7 +365,7 @@ def test_a_poll_may_ask_but_neither_change_nor_be_in_another_thread() -> None:
 
 
 def test_an_interrupted_call_loses_no_event_and_no_report() -> None:
-    sky = Sky(seed=8, reports=60_000)
+    sky = Sky(seed=8, reports=240_000)
     plain, stopped = (watching(Separation.sphere(12.0, look_ahead=10.0), start_time=0.0) for _ in range(2))
     expected = plain.feed(**sky.columns, arrivals=sky.arrivals)
 
