@@ -20,9 +20,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array<std::string_view, 3> motion_names{"random_forces", "velocity_field", "ballistic"};
-constexpr std::array<std::string_view, 2> response_names{"pass_through", "bounce"};
-
 template <class Names>
 std::size_t index_in(const Names& names, std::string_view text, std::string_view where) {
   const auto found = std::find(names.begin(), names.end(), text);

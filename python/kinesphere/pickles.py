@@ -96,7 +96,7 @@ def restored_frames(
     motion, size = kind(nobody, **options), len(bodies)
     for _ in range(latest_frame - 1):
         motion.push(nobody)
-    used = [number for number in range(size) if number not in free]
+    used = sorted(set(range(size)).difference(free))
     if latest_frame > 0:
         # The last number that is removed is the first to be used again.
         for _ in range(size):

@@ -101,13 +101,17 @@ def watch(
     """
     for name in _not_here & options.keys():
         raise TypeError(f"watch: {name} must not be given: it is an option of the program alone")
+    file: PathLike = "-"
     lines: Optional[bytes] = None
-    if not isinstance(stream, (str, os.PathLike)):
+    if isinstance(stream, (str, os.PathLike)):
+        file = stream
+    else:
         lines = b"\n".join(line.encode() if isinstance(line, str) else line for line in stream) + b"\n"
-    files: list[PathLike] = ["-" if lines is not None else os.path.abspath(stream)]  # type: ignore[arg-type]
     wanted = [separation] if isinstance(separation, str) else list(separation)
     with tempfile.TemporaryDirectory() as folder:
         summary = Path(folder) / "summary.json"
         options = {**options, "separation": wanted, "summary": summary}
-        told = run_program("watch", program, "watch", options, files, argument="stream", standard_input=lines)
+        told = run_program(
+            "watch", program, "watch", options, [file], argument="stream", standard_input=lines
+        )
         return Alerts([json.loads(line) for line in told.splitlines()], json.loads(summary.read_text()))

@@ -96,9 +96,6 @@ constexpr SceneField named_field(std::string_view name) {
           }};
 }
 
-constexpr std::array<std::string_view, 3> motion_names{"random_forces", "velocity_field", "ballistic"};
-constexpr std::array<std::string_view, 2> response_names{"pass_through", "bounce"};
-
 constexpr SceneField scene_fields[] = {
     field<&SceneParameters::name>("name"),
     named_field<&SceneParameters::motion, motion_names>("motion"),

@@ -1,8 +1,10 @@
 // Scenes drawn at random from a few parameters and a seed.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kinesphere/result.hpp"
@@ -10,6 +12,10 @@
 #include "simulation/scene/scene.hpp"
 
 namespace kinesphere {
+
+/// What scene files call the values of SceneParameters::MotionKind and of SceneResponse, in their order.
+inline constexpr std::array<std::string_view, 3> motion_names{"random_forces", "velocity_field", "ballistic"};
+inline constexpr std::array<std::string_view, 2> response_names{"pass_through", "bounce"};
 
 /// The parameters of the paper's experiments, from which scene files and the built-in scenes are made.
 struct SceneParameters {
