@@ -48,7 +48,7 @@ class Bodies {
   std::uint32_t add(const BodyDefinition& definition, std::uint32_t name);
   /// Gives the body a shape: a carried one, or else one at rest, which makes the body static.
   void give_shape(std::uint32_t number, const Shape& shape, bool carried);
-  /// Gives a static body another shape. Its bound must follow.
+  /// Gives a body with a shape another one. Its bound must follow.
   void reshape(std::uint32_t number, const Shape& shape) { shapes.replace(table_[number], shape); }
   void remove(std::uint32_t number);
 

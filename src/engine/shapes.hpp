@@ -32,7 +32,7 @@ class Shapes {
       shapes_[body.shape_number] = shape;
     }
   }
-  /// Gives a static body another shape.
+  /// Gives a body with a shape another one.
   void replace(const Body& body, const Shape& shape) { shapes_[body.shape_number] = shape; }
   /// Removes the shape of a body that is being removed, if it has one.
   void remove(const Body& body) {

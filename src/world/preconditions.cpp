@@ -193,11 +193,16 @@ Result<MovingShape> World::Preconditions::new_moving_shape(const MovingShape& ad
 Result<Shape> World::Preconditions::reshaped(BodyId id, const Shape& shape) const {
   if (auto valid = changeable(id); !valid) return valid.error();
   const Body& body = engine_->bodies().table()[id.index];
-  if (!body.is_static())
-    return error_about(
-        ErrorCode::unsupported, id,
-        "body must be static, but " + text_of(id) +
-            (body.carries_shape ? " carries its shape" : " can move; set_radius() changes it"));
+  if (!body.has_shape())
+    return error_about(ErrorCode::unsupported, id,
+                       "body must have a shape, but " + text_of(id) + " is a ball; set_radius() changes it");
+  if (body.carries_shape) {
+    BodyDefinition carrier = engine_->bodies().definition_of(id.index);
+    carrier.position = body.bound.centre_at(engine_->time());
+    const auto accepted = new_moving_shape({carrier, shape}, id);
+    if (!accepted) return accepted.error();
+    return accepted->shape;
+  }
   StaticDefinition changed = static_definition(engine_->bodies(), id);
   changed.shape = shape;
   const auto accepted = new_static(changed, id);
