@@ -163,14 +163,14 @@ class World {
   /// Returns the shape of a static body as the world stores it, that of a moving shape relative to its
   /// position, or, for any other body, a ball at the position of its last report.
   Result<Shape> shape_of(BodyId body) const;
-  /// Gives a static body, a zone or a moving shape another shape from the current time on: it grows, shrinks, turns or moves.
-  /// Contacts and sensor overlaps that the new shape certainly ends are reported as ended, with the states
-  /// and the shape from before; those that it may end are decided at once from fresh reports. Those that
-  /// persist cause no event, so a zone that grows around a body inside it reports nothing. Those that the new
-  /// shape creates begin at once. Nothing is swept in between: a body that the shape jumps over is not
-  /// reported. Errors: as add_static(); unsupported for a ball that can move. Cost: O(1 + contacts) here
-  /// (plus a search if allow_overlap is false), and a search and one state for each linked body at the next
-  /// advance.
+  /// Gives a static body, a zone or a moving shape another shape from the current time on: it grows, shrinks,
+  /// turns or moves. Contacts and sensor overlaps that the new shape certainly ends are reported as ended,
+  /// with the states and the shape from before; those that it may end are decided at once from fresh reports.
+  /// Those that persist cause no event, so a zone that grows around a body inside it reports nothing. Those
+  /// that the new shape creates begin at once. Nothing is swept in between: a body that the shape jumps over
+  /// is not reported. Errors: as add_static(); unsupported for a ball that can move. Cost: O(1 + contacts)
+  /// here (plus a search if allow_overlap is false), and a search and one state for each linked body at the
+  /// next advance.
   Result<void> set_shape(BodyId body, const Shape& shape);
 
   /// Removes a body. Its contacts end: the next advance reports their ends, with the body's state
