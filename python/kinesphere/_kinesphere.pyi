@@ -310,6 +310,21 @@ class BodyMap:
         sensor_class: int = 0,
         user_data: int = 0,
     ) -> Ids: ...
+    def add_moving_shape(
+        self,
+        world: World,
+        motion: Motion,
+        number: int,
+        shape: Shape,
+        *,
+        category: int = 1,
+        mask: int = ...,
+        group: int = 0,
+        solid: bool = True,
+        sensor_class: int = 0,
+        user_data: int = 0,
+        mass: float = 1.0,
+    ) -> BodyId: ...
     def set_velocity(self, world: World, body: SupportsIndex, velocity: Array) -> None: ...
     def teleport(self, world: World, body: SupportsIndex, position: Array, velocity: Array) -> None: ...
     def remove(self, world: World, body: SupportsIndex) -> None: ...
@@ -604,6 +619,24 @@ class World:
         solid: bool = True,
         sensor_class: int = 0,
         user_data: int = 0,
+    ) -> BodyId: ...
+    def add_moving_shape(
+        self,
+        shape: Shape,
+        position: Array,
+        velocity: Optional[Array] = None,
+        acceleration_limit: float = 0.0,
+        *,
+        planned_acceleration: Optional[Array] = None,
+        position_error: float = 0.0,
+        velocity_error: float = 0.0,
+        category: int = 1,
+        mask: int = ...,
+        group: int = 0,
+        solid: bool = True,
+        sensor_class: int = 0,
+        user_data: int = 0,
+        mass: float = 1.0,
     ) -> BodyId: ...
     def add_zone(self, shape: Shape, user_data: int = 0) -> BodyId: ...
     def add_mesh(

@@ -206,6 +206,36 @@ py::object add_static(WorldHandle& handle, const py::object& shape, std::uint64_
   return object_of(id);
 }
 
+py::object add_moving_shape(WorldHandle& handle, const py::object& shape, const py::object& position,
+                            const py::object& velocity, double acceleration_limit,
+                            const py::object& planned_acceleration, double position_error,
+                            double velocity_error, std::uint64_t category, std::uint64_t mask,
+                            const py::object& group, bool solid, std::uint64_t sensor_class,
+                            std::uint64_t user_data, double mass) {
+  const std::string_view call = "add_moving_shape";
+  const auto turn = handle.take(call);
+  const auto vector = [&](const py::object& given, const char* name) {
+    return given.is_none() ? Vec3{} : vector_of(given, {call, name}, handle.is_plane());
+  };
+  const BodyId id =
+      handle.world
+          .add_moving_shape({{.acceleration_limit = acceleration_limit,
+                              .planned_acceleration = vector(planned_acceleration, "planned_acceleration"),
+                              .position_error = position_error,
+                              .velocity_error = velocity_error,
+                              .position = vector(position, "position"),
+                              .velocity = vector(velocity, "velocity"),
+                              .filter = {category, mask, group_of(group, {call, "group"})},
+                              .solid = solid,
+                              .sensor_class = sensor_class_of(sensor_class, {call, "sensor_class"}),
+                              .user_data = user_data,
+                              .mass = mass},
+                             shape_of(shape, {call, "shape"})})
+          .value();
+  end_call(handle);
+  return object_of(id);
+}
+
 py::object add_zone(WorldHandle& handle, const py::object& shape, std::uint64_t user_data) {
   const auto turn = handle.take("add_zone");
   const BodyId id = handle.world.add_zone(shape_of(shape, {"add_zone", "shape"}), user_data).value();
@@ -391,6 +421,17 @@ and promises are the motion's at world.time.)")
            R"(Adds a body that never moves: a Ball, Box, HalfSpace or Triangle. Returns its BodyId.
 
 It may reach out of the box of the world; it is never probed. Where space repeats it has to be a Ball.)")
+      .def(
+          "add_moving_shape", add_moving_shape, py::arg("shape"), py::arg("position"),
+          py::arg("velocity") = py::none(), py::arg("acceleration_limit") = 0.0, py::kw_only(),
+          py::arg("planned_acceleration") = py::none(), py::arg("position_error") = 0.0,
+          py::arg("velocity_error") = 0.0, py::arg("category") = 1, py::arg("mask") = all_categories,
+          py::arg("group") = 0, py::arg("solid") = true, py::arg("sensor_class") = 0,
+          py::arg("user_data") = 0, py::arg("mass") = 1.0,
+          R"(Adds a body that carries a Box or a Triangle, given relative to its position: a lift, a door, a piston.
+
+It moves like a body of add(), without turning, and is probed. It meets no walls and no other shapes. A mass of
+inf makes a body that no contact turns. While there is one, run() uses one thread. Returns its BodyId.)")
       .def("add_zone", add_zone, py::arg("shape"), py::arg("user_data") = 0,
            R"(Adds a zone: it touches nobody and tells who comes in and goes.
 

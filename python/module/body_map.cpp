@@ -4,6 +4,7 @@
 #include "errors.hpp"
 #include "exchange.hpp"
 #include "motions.hpp"
+#include "shapes.hpp"
 #include "world.hpp"
 
 namespace kinesphere::python {
@@ -47,6 +48,23 @@ py::object add_moved(BodyMapHandle& map, WorldHandle& world, const py::object& m
                         ->add(world.world, *motion.motion, number,
                               like(radius, category, mask, group, solid, sensor_class, user_data))
                         .value();
+  keep(map, moving);
+  end_call(world);
+  return object_of(id);
+}
+
+py::object add_moved_shape(BodyMapHandle& map, WorldHandle& world, const py::object& moving,
+                           std::uint32_t number, const py::object& shape, std::uint64_t category,
+                           std::uint64_t mask, std::int32_t group, bool solid, SensorClass sensor_class,
+                           std::uint64_t user_data, double mass) {
+  auto& motion = moving.cast<MotionHandle&>();
+  const auto turn = map.in_use.take_alone("add_moving_shape", map_name);
+  const auto turn_of_motion = motion.in_use.take_alone("add_moving_shape", "motion");
+  const auto turn_of_world = world.take("add_moving_shape");
+  MovingShape carried{like(0.0, category, mask, group, solid, sensor_class, user_data),
+                      shape_of(shape, {"add_moving_shape", "shape"})};
+  carried.body.mass = mass;
+  const BodyId id = map.map->add_moving_shape(world.world, *motion.motion, number, carried).value();
   keep(map, moving);
   end_call(world);
   return object_of(id);
@@ -139,6 +157,11 @@ together, for rollback.)")
            py::arg("solid") = true, py::arg("sensor_class") = 0, py::arg("user_data") = 0,
            "All bodies of the motion, in the order of their numbers; radii is one number, or one of each. "
            "Returns ids, shape (n,).")
+      .def("add_moving_shape", add_moved_shape, py::arg("world"), py::arg("motion"), py::arg("number"),
+           py::arg("shape"), py::kw_only(), py::arg("category") = 1, py::arg("mask") = all_categories,
+           py::arg("group") = 0, py::arg("solid") = true, py::arg("sensor_class") = 0,
+           py::arg("user_data") = 0, py::arg("mass") = 1.0,
+           "Adds a body of a motion that carries a shape: see World.add_moving_shape(). Returns its BodyId.")
       .def(
           "set_velocity",
           [](BodyMapHandle& map, WorldHandle& world, const py::object& body, const py::object& velocity) {
