@@ -126,6 +126,11 @@ double world_add_static(World* world, int kind, const double* shape, const doubl
                                      .user_data = static_cast<std::uint64_t>(user_data)});
   return is_good(id) ? number_of(*id) : no_id;
 }
+KINESPHERE_EXPORT(world_add_moving_shape)
+double world_add_moving_shape(World* world, int kind, const double* shape, const double* body) {
+  const auto id = world->add_moving_shape({body_at(body), shape_at(kind, shape)});
+  return is_good(id) ? number_of(*id) : no_id;
+}
 KINESPHERE_EXPORT(world_add_zone)
 double world_add_zone(World* world, int kind, const double* shape, const double* filter, double user_data) {
   const auto id = world->add_zone(shape_at(kind, shape), static_cast<std::uint64_t>(user_data));

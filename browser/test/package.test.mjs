@@ -510,3 +510,24 @@ test("a static body is infinitely heavy, a zone finds its events, and a zone cha
   assert.deepEqual([...after.first, ...after.second], [-5, 0, 0, 0, 0, 0]);
   assert.throws(() => world.setMass(post, 1), { code: "static_body" });
 });
+
+test("a moving shape is met with its velocity", () => {
+  const world = new World();
+  const lift = world.addMovingShape(
+    { box: { lower: [-1, -1, -0.5], upper: [1, 1, 0] } },
+    { position: [0, 0, 0], velocity: [0, 0, 2], mass: Infinity });
+  const ball = world.add({ position: [0.5, 0, 4], velocity: [0, 0, -1], radius: 0.5 });
+  const probe = (bodies, time, states) => {
+    for (let k = 0; k < bodies.length; ++k)
+      states.set(bodies[k] === lift ? [0, 0, 2 * time, 0, 0, 2] : [0.5, 0, 4 - time, 0, 0, -1], 6 * k);
+  };
+  const event = world.advance(5, probe);
+  assert.equal(event.kind, "contact_begin");
+  assert.ok(Math.abs(event.time - 3.5 / 3) < 1e-5);
+  assert.ok(Math.abs(event.approachSpeed - 3) < 1e-12);
+  assert.deepEqual([event.first, event.second], [lift, ball]);
+  assert.throws(() => world.addMovingShape({ halfSpace: { normal: [0, 0, 1], offset: 0 } }, { position: [0, 0, 0] }),
+                /addMovingShape|add_moving_shape: shape must be a box or a triangle/);
+  assert.throws(() => world.addMovingShape({ box: { lower: [0, 0, 0], upper: [1, 1, 1] } }, { position: [0, 0, 0], radius: 1 }),
+                /addMovingShape: body has no key radius/);
+});

@@ -48,6 +48,9 @@ export interface BodyDefinition extends BodyOptions {
   radius?: number;
 }
 
+/** A body that carries a shape, which stands for its radius. */
+export type ShapeCarrier = Omit<BodyDefinition, "radius">;
+
 /** The options beside a motion, which gives state and limits. */
 export type MovedOptions = Omit<BodyOptions, keyof MotionLimits>;
 /** A body of a motion. */
@@ -78,6 +81,8 @@ export const movedKeys: Keys<MovedOptions> = {
 };
 export const movedBodyKeys: Keys<MovedBodyDefinition> = { ...movedKeys, radius: true };
 export const bodyKeys: Keys<BodyDefinition> = { ...limitKeys, ...movedKeys, position: true, velocity: true, radius: true };
+const { radius: ___, ...carrierKeys } = bodyKeys;
+export const shapeCarrierKeys: Keys<ShapeCarrier> = carrierKeys;
 const { accelerationLimit: _, ...commonLimitKeys } = limitKeys;
 const { mass: __, ...commonKeys } = movedKeys;
 export const batchKeys: Keys<BodyBatch> = {

@@ -2,7 +2,8 @@
 import { asking, moving, type Probe, responded, runKeys, type RunOptions } from "./asking.js";
 import {
   batchKeys, type BodyBatch, type BodyDefinition, bodyKeys, bodyNumbers, type Filter, filterNumbers, limitKeys, maskNumber,
-  type MotionLimits, movedKeys, type MovedOptions, putBody, putOptions, type Shape, shapeNumbers, staticKeys,
+  type MotionLimits, movedKeys, type MovedOptions, putBody, putOptions, type Shape, type ShapeCarrier,
+  shapeCarrierKeys, shapeNumbers, staticKeys,
   type StaticOptions, whole, zoneKeys, type ZoneOptions,
 } from "./body.js";
 import { BodyMap } from "./body_map.js";
@@ -400,6 +401,22 @@ export class World extends WorldView {
       putBody(numbers, k * bodyNumbers, { ...options, ...known, radius: sizes[k]! }, call);
     }
     return this.addNumbers(numbers);
+  }
+  /**
+   * Adds a body that carries a box or a triangle, given relative to its position, without turning it: a lift, a door, a
+   * piston. It meets no walls and no other shapes. A mass of Infinity makes a body that no contact turns.
+   */
+  addMovingShape(shape: Shape, body: ShapeCarrier): BodyId {
+    const call = "addMovingShape";
+    checkKeys(body, shapeCarrierKeys, "body", call);
+    const module = theModule();
+    const [kind, parts] = shapeNumbers(shape, call);
+    const numbers = new Float64Array(bodyNumbers);
+    putBody(numbers, 0, body, call);
+    const id = module.with((scratch) =>
+      module.call("world_add_moving_shape", this.address, kind, scratch.numbers(parts), scratch.numbers(numbers)));
+    if (id < 0) throw module.error();
+    return id;
   }
   /** Adds a static body. */
   addStatic(shape: Shape, options: StaticOptions = {}): BodyId {
