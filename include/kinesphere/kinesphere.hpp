@@ -3,6 +3,7 @@
 #pragma once
 
 #include "kinesphere/answers.hpp"
+#include "kinesphere/approaches.hpp"
 #include "kinesphere/body.hpp"
 #include "kinesphere/body_id.hpp"
 #include "kinesphere/body_map.hpp"
