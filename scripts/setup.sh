@@ -9,7 +9,7 @@ browser=(emscripten nodejs)
 # Node.js's own package brings npm.
 if ! command -v npm >/dev/null; then browser+=(npm); fi
 python=(python3-dev python3-pip python3-venv python3-setuptools python3-wheel python3-skbuild pybind11-dev python3-numpy)
-python_testing=(python3-pytest python3-pandas python3-matplotlib python3-scipy mypy black)
+python_testing=(python3-pytest python3-sgp4 python3-pandas python3-matplotlib python3-scipy mypy black)
 proving=(coq libcoq-flocq)
 # For the clients of the C interface in Rust, which may have come without Debian, and C#.
 clients=(mono-mcs mono-runtime)

@@ -122,7 +122,8 @@ class Approaches {
 
 /// Returns the parts of a vector in the frame of a body's orbit about the origin: radial (away from the
 /// origin), in-track (at right angles to it, on the side of the velocity) and cross-track (along position x
-/// velocity), as CCSDS's RTN. NaN where position and velocity have one direction, or either is zero.
+/// velocity), as CCSDS's RTN. NaN where that has no direction: the last two parts on a way straight from or
+/// to the origin.
 Vec3 in_orbital_frame(const State& body, const Vec3& vector);
 
 }  // namespace kinesphere

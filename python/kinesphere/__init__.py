@@ -74,6 +74,7 @@ from .errors import BodyError, InvalidValue, KinesphereError, StateError
 from .events import Events, MonitorEvents
 from .ids import BodyId, index_of
 from .kinds import EventKind, MonitorEventKind, Senses, Verdict, Wall
+from .paths import PathApproaches, PolynomialPaths
 from .recordings import RecordedRun, read_recording
 from .scene_files import read_scene
 from .streams import Alerts, watch
@@ -115,6 +116,8 @@ __all__ = [
     "Motion",
     "MotionSource",
     "PairAnswer",
+    "PathApproaches",
+    "PolynomialPaths",
     "RandomForces",
     "RecordedRun",
     "RecordedTracks",

@@ -1133,3 +1133,18 @@ def _approaches(
     straight: bool,
     plane: bool,
 ) -> tuple[Table, int]: ...
+def _path_approaches(
+    bodies: npt.NDArray[np.uint32],
+    begins: Doubles,
+    ends: Doubles,
+    coefficients: Doubles,
+    terms: int,
+    errors: Doubles,
+    is_chebyshev: bool,
+    distance: float,
+    body: Optional[int],
+    begin: Optional[float],
+    end: Optional[float],
+    threads: Union[int, Workers],
+    progress: Optional[Callable[[float], object]],
+) -> tuple[Table, Table, float]: ...

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from ._kinesphere import _approaches
 from .errors import InvalidValue
-from .events import html_of
+from .events import columns_of, html_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -73,14 +73,7 @@ class Approaches:
         """A data frame with a row for each approach, and a column for each coordinate."""
         import pandas as pd
 
-        columns: dict[str, Any] = {}
-        for name in self.array.dtype.names or ():
-            column = self[name]
-            if column.ndim == 2:
-                columns.update({f"{name}_{letter}": column[:, axis] for axis, letter in enumerate("xyz")})
-            else:
-                columns[name] = column
-        return pd.DataFrame(columns)
+        return pd.DataFrame(columns_of(self.array))
 
 
 @overload

@@ -44,6 +44,18 @@ def html_of(table: _HasFrame, text: str) -> Optional[str]:
     return f"<p>{escape(text)}</p>{frame.to_html(notebook=True)}{end}"
 
 
+def columns_of(array: npt.NDArray[np.void]) -> dict[str, Any]:
+    """The columns of a structured array by their names, one for each coordinate."""
+    columns: dict[str, Any] = {}
+    for name in array.dtype.names or ():
+        column = array[name]
+        if column.ndim == 2:
+            columns.update({f"{name}_{letter}": column[:, axis] for axis, letter in enumerate("xyz")})
+        else:
+            columns[name] = column
+    return columns
+
+
 class _Table(Sequence[Row], Generic[Row, Kind]):
     """Rows of a structured array with a column "kind"."""
 
@@ -169,14 +181,7 @@ class Events(_Table[Event, EventKind]):
 
         from ._kinesphere import no_body
 
-        columns: dict[str, Any] = {}
-        for name in self.array.dtype.names or ():
-            column = self[name]
-            if column.ndim == 2:
-                for axis, letter in enumerate("xyz"):
-                    columns[f"{name}_{letter}"] = column[:, axis]
-            else:
-                columns[name] = column
+        columns = columns_of(self.array)
         columns["kind"] = self._categories("kind", EventKind)
         columns["senses"] = self._categories("senses", Senses)
         walls = self._categories("wall", Wall)

@@ -4,11 +4,11 @@
 
 #include "errors.hpp"
 #include "exchange.hpp"
-#include "kinesphere/workers.hpp"
 #include "mover.hpp"
 #include "moving.hpp"
 #include "scenes.hpp"
 #include "simulation/run/scene_answer.hpp"
+#include "threads.hpp"
 #include "world.hpp"
 
 namespace kinesphere::python {
@@ -115,24 +115,6 @@ class Responding {
   py::object given_;
   const Bouncing* bouncing_ = nullptr;
   const Scene* scene_ = nullptr;
-};
-
-/// Threads: a number, or an existing Workers object.
-class Threads {
- public:
-  explicit Threads(const py::object& given) {
-    if (py::isinstance<Workers>(given)) {
-      workers_ = &given.cast<Workers&>();
-    } else if (given.cast<int>() != 1) {
-      own_.emplace(Workers::create(given.cast<int>()).value());
-      workers_ = &*own_;
-    }
-  }
-  Workers* workers() { return workers_; }
-
- private:
-  std::optional<Workers> own_;
-  Workers* workers_ = nullptr;
 };
 
 /// Tells a function, or the bar of the package for True, which time a run has reached.

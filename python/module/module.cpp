@@ -32,6 +32,7 @@ PYBIND11_MODULE(_kinesphere, module) {
   bind_placement(module);
   bind_scenes(module);
   bind_tracks(module);
+  bind_paths(module);
   bind_monitor(module);
   // Users see the names of the package.
   for (const auto& [name, member] : py::reinterpret_borrow<py::dict>(module.attr("__dict__")))

@@ -92,6 +92,7 @@ void bind_replay(py::module_& module);
 void bind_placement(py::module_& module);
 void bind_scenes(py::module_& module);
 void bind_tracks(py::module_& module);
+void bind_paths(py::module_& module);
 
 /// Returns a filter that calls a Python function; empty for None.
 PairFilter pair_filter_of(const py::object& function, const std::shared_ptr<FilterTrouble>& trouble);

@@ -50,7 +50,7 @@ fi
 "$clean" -m kinesphere.bench --program "$KINESPHERE_PROGRAM" --bodies 2000 --repeats 1
 
 cd "$work/pictures"
-for example in gas drones certainty side_by_side alerts vicsek packing traffic; do
+for example in gas drones certainty side_by_side alerts vicsek packing traffic drone_show; do
   echo "example $example:"
   "$clean" "$source/examples/$example.py"
 done
@@ -60,6 +60,13 @@ if [[ -e $recording ]]; then
   "$clean" "$source/examples/walkers.py" "$recording"
 else
   echo "example walkers: skipped, as there is no $recording"
+fi
+echo "example conjunctions:"
+catalogue=${KINESPHERE_DATA:-$source/../../shared/data}/tle/catalogue_2026-05-30.tle.gz
+if [[ -e $catalogue ]]; then
+  "$clean" "$source/examples/conjunctions.py" "$catalogue" --every 40 --hours 3 --distance 30
+else
+  "$clean" "$source/examples/conjunctions.py" --distance 50 --hours 6
 fi
 wait $mypy || { cat "$work/mypy.log"; exit 1; }
 cat "$work/mypy.log"

@@ -68,8 +68,8 @@ class World::Preconditions {
   /// The definition is valid for adding a moving shape. Returns it with its shape normalized, as the world
   /// stores it.
   Result<MovingShape> new_moving_shape(const MovingShape& added, BodyId id) const;
-  /// The world is idle, the body is known, static or a moving shape, and it may have this shape. Returns the shape
-  /// normalized, as the world stores it.
+  /// The world is idle, the body is known, static or a moving shape, and it may have this shape. Returns the
+  /// shape normalized, as the world stores it.
   Result<Shape> reshaped(BodyId id, const Shape& shape) const;
 
  private:
