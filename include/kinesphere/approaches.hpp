@@ -102,10 +102,9 @@ class Approaches {
   /// two errors next to them, which may be none of the true paths; an approach has at least one. Distances
   /// and times are right to within rounding: about 2^-44 of the largest coordinate.
   ///
-  /// Cost: for each body and step of time about a quarter of a microsecond; steps are chosen by trial to suit
+  /// Cost: half a microsecond to one for each body and step of time; steps are chosen by trial to suit
   /// speeds, density and curvature. Some microseconds for each pair and step that pass near each other.
-  /// Distances from the origin do not matter. Memory: about 80 bytes for each body and 16 steps in each
-  /// thread, 8 for each arc, and the results.
+  /// Memory: 1.3 kB for each body in each thread, 8 bytes for each arc, and the results.
   ///
   /// Errors: out_of_range or not_finite, naming argument and body, for arrays that do not fit each other,
   /// times out of order, and numbers beyond limits.hpp; unknown_body; workers_busy; null_callback.
