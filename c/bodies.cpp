@@ -113,6 +113,16 @@ ks_status ks_world_add_static(ks_world world, const ks_static_definition* bodies
       [](World& to, std::span<const StaticDefinition> added) { return to.add_static_all(added); });
 }
 
+ks_status ks_world_add_moving_shape(ks_world world, const ks_body_definition* body, const ks_shape* shape,
+                                    ks_body_id* id) {
+  return changing(__func__, world, [&, call = __func__](WorldObject& object) {
+    require_record(call, body, "body");
+    require_pointer(call, shape, "shape");
+    require_pointer(call, id, "id");
+    *id = c_id(object.world().add_moving_shape({body_of(call, *body), shape_of(call, *shape)}).value());
+  });
+}
+
 ks_status ks_world_add_zone(ks_world world, const ks_shape* shape, uint64_t user_data, ks_body_id* id) {
   return changing(__func__, world, [&, call = __func__](WorldObject& object) {
     require_pointer(call, shape, "shape");

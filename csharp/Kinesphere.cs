@@ -86,6 +86,16 @@ namespace Kinesphere
             Native.Check(Native.ks_world_add_static(handle, new[] { body }, Count(ids), ids));
             return ids[0];
         }
+        /// <summary>
+        /// Adds a body that carries a box or a triangle, relative to its position; the radius is ignored. The probe
+        /// moves it. It meets no walls and no other body with a shape.
+        /// </summary>
+        public BodyId AddMovingShape(BodyDefinition body, Shape shape)
+        {
+            BodyId id;
+            Native.Check(Native.ks_world_add_moving_shape(handle, ref body, ref shape, out id));
+            return id;
+        }
         /// <summary>Adds a zone, which reports who enters and leaves it.</summary>
         public BodyId AddZone(Shape shape, ulong userData = 0)
         {

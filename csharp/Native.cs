@@ -441,6 +441,9 @@ namespace Kinesphere
         [DllImport(library)]
         public static extern int ks_world_add_static(ulong world, StaticDefinition[] bodies, UIntPtr count, [Out] BodyId[] ids);
         [DllImport(library)]
+        public static extern int ks_world_add_moving_shape(
+            ulong world, ref BodyDefinition body, ref Shape shape, out BodyId id);
+        [DllImport(library)]
         public static extern int ks_world_add_zone(ulong world, ref Shape shape, ulong userData, out BodyId id);
         [DllImport(library)] public static extern int ks_world_remove(ulong world, BodyId[] bodies, UIntPtr count);
         [DllImport(library)] public static extern int ks_world_set_velocity(ulong world, BodyId body, Vector velocity);

@@ -172,7 +172,7 @@ typedef struct ks_box {
 typedef int32_t ks_shape_kind;
 enum { KS_SHAPE_BALL = 0, KS_SHAPE_HALF_SPACE = 1, KS_SHAPE_BOX = 2, KS_SHAPE_TRIANGLE = 3 };
 
-/// Shape of a static body or zone, best made by one of the functions below.
+/// Shape of a static body, a zone or a body that carries it, best made by one of the functions below.
 typedef struct ks_shape {
   ks_shape_kind kind;
   ks_vec3 points[3];  ///< centre; normal; lower and upper corner; three corners
@@ -326,6 +326,10 @@ KS_API ks_status ks_world_add(ks_world world, const ks_body_definition* bodies, 
                               ks_body_id* ids);
 KS_API ks_status ks_world_add_static(ks_world world, const ks_static_definition* bodies, size_t count,
                                      ks_body_id* ids);
+/// Adds a body that carries a box or a triangle (kinesphere/shape.hpp), relative to its position; the radius
+/// is ignored. The probe of the world moves it. Errors: those of World::add_moving_shape().
+KS_API ks_status ks_world_add_moving_shape(ks_world world, const ks_body_definition* body,
+                                           const ks_shape* shape, ks_body_id* id);
 /// Adds a zone, which reports who enters and leaves it, by KS_EVENT_SENSOR_ENTER and KS_EVENT_SENSOR_LEAVE.
 KS_API ks_status ks_world_add_zone(ks_world world, const ks_shape* shape, uint64_t user_data, ks_body_id* id);
 /// Reserves memory for this number of bodies in total.

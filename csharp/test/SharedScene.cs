@@ -95,6 +95,35 @@ static class SharedScene
         RequireStatus("bad_snapshot", () => World.Restore(new byte[] { 1, 2, 3 }));
     }
 
+    // A plate rises at 2 towards a ball that falls at 1, from a gap of 2.5.
+    static void MovingShape()
+    {
+        using (var world = new World(WorldDefinition.Default))
+        {
+            var body = BodyDefinition.Default;
+            body.Velocity.Z = 2;
+            body.Mass = double.PositiveInfinity;
+            var lift = world.AddMovingShape(body, Shape.Box(new Vector(-1, -1, 0), new Vector(1, 1, 0.5)));
+            var ball = BodyDefinition.Default;
+            ball.Position = new Vector(0.25, 0.5, 4);
+            ball.Velocity.Z = -1;
+            var falling = world.Add(ball);
+            Probe probe = (ids, time, states) =>
+            {
+                for (int k = 0; k < ids.Length; ++k)
+                {
+                    var from = ids[k].Equals(lift) ? body : ball;
+                    states[k].Position = from.Position + from.Velocity * time;
+                    states[k].Velocity = from.Velocity;
+                }
+            };
+            var met = world.Advance(5, probe);
+            Require(met.Kind == EventKind.ContactBegin && Math.Abs(met.Time - 2.5 / 3) < 1e-5, "a lift meets a ball");
+            Require(met.First.Equals(lift) && met.Second.Equals(falling), "the lift comes first");
+            RequireStatus("unsupported", () => world.AddMovingShape(body, Shape.Ball(new Vector(0, 0, 0), 1)));
+        }
+    }
+
     static int Main()
     {
         ulong random = 1;
@@ -117,6 +146,7 @@ static class SharedScene
         AtOnce(NewWorld(start, radii), null, 1);
         AtOnce(NewWorld(start, radii), happened => happened.Bounce(0.9), 2);
         WrongUse();
+        MovingShape();
         return 0;
     }
 }

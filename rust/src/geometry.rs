@@ -68,7 +68,8 @@ pub struct Box3 {
     pub upper: Vec3,
 }
 
-/// Shape of a static body or a zone. Bodies may be where `dot(normal, p) >= offset` of a half-space.
+/// Shape of a static body, a zone or a body that carries it. Bodies may be where `dot(normal, p) >= offset` of a
+/// half-space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
     Ball { centre: Vec3, radius: f64 },

@@ -355,6 +355,7 @@ extern "C" {
     pub fn ks_world_save(world: ks_world, bytes: *mut u8, capacity: usize, count: *mut usize) -> ks_status;
     pub fn ks_world_restore(bytes: *const u8, count: usize, filter: Option<ks_pair_filter>, user: *mut c_void, world: *mut ks_world) -> ks_status;
     pub fn ks_world_add(world: ks_world, bodies: *const ks_body_definition, count: usize, ids: *mut BodyId) -> ks_status;
+    pub fn ks_world_add_moving_shape(world: ks_world, body: *const ks_body_definition, shape: *const ks_shape, id: *mut BodyId) -> ks_status;
     pub fn ks_world_add_static(world: ks_world, bodies: *const ks_static_definition, count: usize, ids: *mut BodyId) -> ks_status;
     pub fn ks_world_add_zone(world: ks_world, shape: *const ks_shape, user_data: u64, id: *mut BodyId) -> ks_status;
     pub fn ks_world_remove(world: ks_world, bodies: *const BodyId, count: usize) -> ks_status;

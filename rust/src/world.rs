@@ -271,6 +271,14 @@ impl World {
         Ok(id)
     }
 
+    /// Adds a body that carries a box or a triangle, relative to its position; the radius is ignored. The probe moves
+    /// it. It meets no walls and no other body with a shape. An infinite mass makes a body that no contact turns.
+    pub fn add_moving_shape(&mut self, body: &BodyDefinition, shape: &Shape) -> Result<BodyId> {
+        let mut id = BodyId::default();
+        check(unsafe { sys::ks_world_add_moving_shape(self.handle, &body.raw(), &shape.raw(), &mut id) })?;
+        Ok(id)
+    }
+
     /// Adds a zone, which reports who enters and leaves it.
     pub fn add_zone(&mut self, shape: &Shape, user_data: u64) -> Result<BodyId> {
         let mut id = BodyId::default();

@@ -35,6 +35,32 @@ fn two_balls_meet() {
 }
 
 #[test]
+fn a_ball_meets_a_moving_shape() {
+    // A plate rises at 2 towards a ball that falls at 1, from a gap of 2.5.
+    let mut world = World::new(&WorldDefinition::default()).unwrap();
+    let start = [
+        State { position: Vec3::default(), velocity: Vec3::new(0.0, 0.0, 2.0) },
+        State { position: Vec3::new(0.25, 0.5, 4.0), velocity: Vec3::new(0.0, 0.0, -1.0) },
+    ];
+    let plate = Shape::Box(Box3 { lower: Vec3::new(-1.0, -1.0, 0.0), upper: Vec3::new(1.0, 1.0, 0.5) });
+    let heavy = BodyDefinition { mass: f64::INFINITY, ..start[0].into() };
+    let lift = world.add_moving_shape(&heavy, &plate).unwrap();
+    let ball = world.add(&start[1].into()).unwrap();
+    let probe = |ids: &[BodyId], time: f64, states: &mut [State]| {
+        for (id, state) in ids.iter().zip(states) {
+            let from = start[id.index()];
+            *state = State { position: from.position + from.velocity * time, ..from };
+        }
+    };
+    let event = world.advance(5.0, probe).unwrap().unwrap();
+    assert_eq!((event.kind, event.first, event.second), (EventKind::ContactBegin, lift, Some(ball)));
+    assert!((event.time - 2.5 / 3.0).abs() < 1e-5);
+    let sphere = Shape::Ball { centre: Vec3::default(), radius: 1.0 };
+    let error = world.add_moving_shape(&heavy, &sphere).unwrap_err();
+    assert_eq!((error.name, error.argument.as_str()), ("unsupported", "shape"));
+}
+
+#[test]
 fn wrong_use_is_an_error() {
     let (mut world, [left, _], probe) = two_balls();
     let error = world.set_radius(left, -1.0).unwrap_err();

@@ -117,6 +117,29 @@ static void zones_sensors_and_filters(void) {
   CHECK_OK(ks_world_destroy(world));
 }
 
+/// A plate rises at 2 towards a ball that falls at 1, from a gap of 2.5.
+static void moving_shapes(void) {
+  flight f;
+  memset(&f, 0, sizeof f);
+  const ks_world world = new_world();
+  ks_body_definition lift = ks_default_body_definition();
+  lift.velocity = vec3(0, 0, 2);
+  lift.mass = HUGE_VAL;
+  const ks_shape plate = ks_solid_box(vec3(-1, -1, 0), vec3(1, 1, 0.5));
+  ks_body_id id;
+  CHECK_OK(ks_world_add_moving_shape(world, &lift, &plate, &id));
+  f.start[id.index].velocity = lift.velocity;
+  const ks_body_id ball = add_ball(world, &f, vec3(0.25, 0.5, 4), vec3(0, 0, -1));
+  const ks_event event = next_event(world, 5, &f);
+  CHECK(event.kind == KS_EVENT_CONTACT_BEGIN && fabs(event.time - 2.5 / 3) < 1e-5);
+  CHECK(ks_same_body(event.first, id) && ks_same_body(event.second, ball) && event.first_traits == 0);
+  CHECK(fabs(event.approach_speed - 3) < 1e-12 && event.normal.z == 1);
+  ks_response after;
+  CHECK_OK(ks_bounce(&event, 1.0, 0.0, &after));
+  CHECK(!after.turns_first && after.turns_second && fabs(after.second_velocity.z - 5) < 1e-12);
+  CHECK_OK(ks_world_destroy(world));
+}
+
 static int32_t only_even(ks_body_id first, ks_body_id second, void* user) {
   ++*(int*)user;
   return (first.index + second.index) % 2 == 0;
@@ -534,6 +557,7 @@ static void frames(void) {
 int main(void) {
   contacts_and_velocities();
   zones_sensors_and_filters();
+  moving_shapes();
   pair_filters();
   answers();
   changes_of_bodies();

@@ -213,6 +213,23 @@ static void wrong_bodies(ks_world world) {
   CHECK_OK(ks_world_destroy(other));
 }
 
+static void wrong_shapes(ks_world world) {
+  ks_body_definition lift = ks_default_body_definition();
+  const ks_shape ball = ks_ball(vec3(0, 0, 0), 1), plate = ks_solid_box(vec3(-1, -1, 0), vec3(1, 1, 0.5));
+  const ks_shape inside_out = ks_solid_box(vec3(1, 1, 1), vec3(0, 0, 0));
+  ks_body_id id;
+  REFUSED(ks_world_add_moving_shape(world, &lift, &ball, &id), UNSUPPORTED);
+  CHECK(strcmp(ks_last_error_argument(), "shape") == 0);
+  REFUSED(ks_world_add_moving_shape(world, &lift, &inside_out, &id), OUT_OF_RANGE);
+  REFUSED(ks_world_add_moving_shape(world, NULL, &plate, &id), NULL_ARGUMENT);
+  REFUSED(ks_world_add_moving_shape(world, &lift, NULL, &id), NULL_ARGUMENT);
+  REFUSED(ks_world_add_moving_shape(world, &lift, &plate, NULL), NULL_ARGUMENT);
+  lift.mass = -1;
+  REFUSED(ks_world_add_moving_shape(world, &lift, &plate, &id), OUT_OF_RANGE);
+  lift.struct_size = 1;
+  REFUSED(ks_world_add_moving_shape(world, &lift, &plate, &id), BAD_STRUCT);
+}
+
 static void wrong_time(ks_world world) {
   ks_event event = ks_new_event();
   REFUSED(ks_world_advance(world, NAN, stand_still, NULL, &event), NOT_FINITE);
@@ -341,6 +358,7 @@ int main(void) {
   wrong_handles();
   wrong_records(world);
   wrong_bodies(world);
+  wrong_shapes(world);
   wrong_time(world);
   wrong_motions();
   wrong_snapshots(world);
