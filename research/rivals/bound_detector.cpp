@@ -101,9 +101,9 @@ void BoundDetector::predict_changes() {
 
 Sphere BoundDetector::sphere(std::uint32_t number) const {
   const Bound& bound = bodies_[number].bound;
-  return {
-      {number, 0}, bound.radius,        {bound.centre_at(time_), bound.velocity_at(time_)}, nullptr, 0, 1.0,
-      {},          definition_.contacts};
+  return {{number, 0}, bound.radius, {bound.centre_at(time_), bound.velocity_at(time_)},
+          nullptr,     false,        0,
+          1.0,         {},           definition_.contacts};
 }
 
 State BoundDetector::report(std::uint32_t number) {

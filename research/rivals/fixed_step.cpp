@@ -88,7 +88,7 @@ class FixedStep final : public Detector {
   };
 
   Sphere sphere(std::uint32_t number) const {
-    return {{number, 0}, bodies_[number].radius, bodies_[number].state, nullptr, 0, 1.0,
+    return {{number, 0}, bodies_[number].radius, bodies_[number].state, nullptr, false, 0, 1.0,
             {},          definition_.contacts};
   }
 
