@@ -17,6 +17,10 @@ namespace kinesphere {
 inline CollisionShape collision_shape_of(const Bound& bound, const Shape& shape) {
   return {bound, true, std::holds_alternative<Ball>(shape) ? nullptr : &shape};
 }
+/// Returns the collision shape of a body that carries a shape. `radius` is that of the ball around the shape.
+inline CollisionShape carried_shape_of(const Bound& bound, const Shape& shape, double radius) {
+  return {bound, false, &shape, radius};
+}
 /// Returns the bound of a body with this definition that is at its defined position at time `now`.
 Bound bound_now(const BodyDefinition& body, double now);
 /// Returns the bound that the body would have with the radius and the errors of `changed`.
@@ -26,8 +30,7 @@ inline CollisionShape collision_shape_of(const Bodies& bodies, std::uint32_t num
   const Body& body = bodies[number];
   if (!body.has_shape()) return {bound};
   const Shape& shape = bodies.shapes.of(body);
-  return body.carries_shape ? CollisionShape{bound, false, &shape, body.radius}
-                            : collision_shape_of(bound, shape);
+  return body.carries_shape ? carried_shape_of(bound, shape, body.radius) : collision_shape_of(bound, shape);
 }
 inline CollisionShape collision_shape_of(const Bodies& bodies, std::uint32_t number) {
   return collision_shape_of(bodies, number, bodies[number].bound);

@@ -119,14 +119,15 @@ void World::WorldEditor::set_shape(BodyId id, const Shape& shape) {
   const std::uint32_t number = id.index;
   const bool enabled = bodies()[number].enabled;
   const bool carried = bodies()[number].carries_shape;
-  BodyDefinition changed = body_of(StaticDefinition{.shape = shape});
-  if (carried) changed = body_of({bodies().definition_of(number), shape}, bodies().definition());
+  const BodyDefinition changed = carried
+                                     ? body_of({bodies().definition_of(number), shape}, bodies().definition())
+                                     : body_of(StaticDefinition{.shape = shape});
   const Bound bound = carried ? bound_with(bodies(), number, changed, time()) : bound_now(changed, time());
   if (enabled) {
     sleeping().wake(number);
     state_.contacts.turn_reported(number);
-    end_contacts_outside(number, carried ? CollisionShape{bound, false, &shape, changed.radius}
-                                         : collision_shape_of(bound, shape));
+    end_contacts_outside(
+        number, carried ? carried_shape_of(bound, shape, changed.radius) : collision_shape_of(bound, shape));
   }
   state_.bodies[number].radius = changed.radius;
   state_.bodies[number].bound = bound;

@@ -125,7 +125,7 @@ Result<void> World::Preconditions::no_static_overlap(const StaticDefinition& add
 Result<void> World::Preconditions::no_overlap(const MovingShape& added, BodyId id) const {
   const BodyDefinition body = body_of(added, definition());
   const Bound bound = bound_now(body, engine_->time());
-  return no_overlap({bound, false, &added.shape, body.radius}, body, id, "shape");
+  return no_overlap(carried_shape_of(bound, added.shape, body.radius), body, id, "shape");
 }
 
 WorldDefinition World::Preconditions::domain_of(bool has_shape) const {
