@@ -14,7 +14,7 @@ if [[ ! $part =~ ^(all|text|research)$ ]]; then echo "lint: usage: lint.sh [text
 
 find include src c simulation programs research browser/module python/module examples tests \( -name '*.[ch]' -o -name '*.[ch]pp' \) \
   -print0 | xargs -0 clang-format --dry-run -Werror
-/usr/bin/black --config python/pyproject.toml --quiet --diff --check python
+/usr/bin/black --config python/pyproject.toml --quiet --diff --check python docs
 
 if grep -rn '#include ["<]\(simulation\|research\)/' include examples src c ||
   grep -rn '#include ["<]research/' simulation programs browser python tests; then

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Builds the Python package `kinesphere` as a wheel, from its source distribution, installs it into a clean virtual
-# environment, and tests it there: the ten lines of its README, types (mypy), tests (pytest), and every example.
+# environment, and tests it there: the ten lines of its README, types (mypy), tests (pytest), whether the pictures of the
+# docs are as the package makes them, and every example.
 # Nothing is asked of any network. The interpreter is Debian's, for which its packages are; PYTHON names another.
 # Usage: run.sh <build folder with the library, simulation/ and the native program>
 set -euo pipefail
@@ -48,6 +49,9 @@ else
 fi
 
 "$clean" -m kinesphere.bench --program "$KINESPHERE_PROGRAM" --bodies 2000 --repeats 1
+
+echo "pictures of the docs:"
+"$clean" -B "$source/../docs/pictures/make.py" --check
 
 cd "$work/pictures"
 for example in gas drones certainty side_by_side alerts vicsek packing traffic drone_show; do

@@ -48,7 +48,7 @@ ArcBounds bounds_of(const PolynomialPaths& paths, std::size_t arc) {
 
 /// Requires that the arrays have one entry for each arc and body.
 void check_sizes(InputCheck& check, const PolynomialPaths& paths) {
-  constexpr std::size_t most = std::size_t{1} << 32;
+  constexpr std::uint64_t most = std::uint64_t{1} << 32;  // size_t has 32 bits in WebAssembly
   const std::size_t arcs = paths.bodies.size();
   const auto size = [&](std::string_view argument, std::size_t expected, std::size_t came) {
     check.require(came == expected, ErrorCode::out_of_range, {argument}, "must have a size of", expected,
