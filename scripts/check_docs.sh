@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Fails unless the docs are true:
 # - The C++ example of README.md is examples/first_contact.cpp, word for word, and prints the quoted output; so does the
-#   main job, timings aside.
+#   main job in docs/program.md, timings aside.
 # - The three examples of docs/watch.md print what follows them, its table counts the alerts of their streams, and
 #   make_streams.py makes these streams.
 # - Each line of C, Rust and C# in docs/c.md is in an example of its language.
@@ -36,7 +36,7 @@ diff <(block_after README.md '^## Thirty lines$') examples/first_contact.cpp
 printed=$("$1")
 diff <(block_after README.md '^prints$') - <<<"$printed"
 printed=$("$3" run paper1)
-diff <(block_after README.md '^`scripts.run.sh` prints' | untimed) <(untimed <<<"$printed")
+diff <(block_after docs/program.md '^`scripts.run.sh` prints' | untimed) <(untimed <<<"$printed")
 printed=$("$2")
 diff <(block_after docs/worlds.md '^Sensors see fast bodies') - <<<"$printed"
 

@@ -32,10 +32,10 @@ cd "$work"
 "$python" -m mypy --config-file "$source/mypy.ini" --cache-dir "$work/mypy" --python-executable "$clean" \
   "$source/kinesphere" "$source/test" "$source/examples" >"$work/mypy.log" 2>&1 &
 mypy=$!
-# Prints the first block of Python in a page: the README of the project shows it too.
+# Prints the first block of Python in a page: the guide shows it too.
 python_of() { awk '/^```python/ {on = 1; next} on && /^```/ {exit} on' "$1"; }
 python_of "$source/README.md" >"$work/ten_lines.py"
-diff "$work/ten_lines.py" <(python_of "$source/../README.md")
+diff "$work/ten_lines.py" <(python_of "$source/../docs/python.md")
 "$clean" "$work/ten_lines.py"
 export KINESPHERE_PROGRAM=$build/programs/kinesphere
 "$clean" -B -m pytest -q -p no:cacheprovider "$source/test"
