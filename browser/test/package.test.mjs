@@ -526,6 +526,12 @@ test("a moving shape is met with its velocity", () => {
   assert.ok(Math.abs(event.time - 3.5 / 3) < 1e-5);
   assert.ok(Math.abs(event.approachSpeed - 3) < 1e-12);
   assert.deepEqual([event.first, event.second], [lift, ball]);
+  assert.deepEqual(world.shapeOf(lift), { box: { lower: [-1, -1, -0.5], upper: [1, 1, 0] } });
+  assert.equal(world.shapeOf(ball).ball.radius, 0.5);
+  for (const shape of [{ ball: { centre: [1, 2, 3], radius: 4 } }, { halfSpace: { normal: [0, 0, 1], offset: -5 } },
+                       { triangle: [[0, 0, 9], [1, 0, 9], [0, 1, 9]] }])
+    assert.deepEqual(world.shapeOf(world.addStatic(shape)), shape);
+  assert.throws(() => world.shapeOf(99), /body/);
   assert.throws(() => world.addMovingShape({ halfSpace: { normal: [0, 0, 1], offset: 0 } }, { position: [0, 0, 0] }),
                 /addMovingShape|add_moving_shape: shape must be a box or a triangle/);
   assert.throws(() => world.addMovingShape({ box: { lower: [0, 0, 0], upper: [1, 1, 1] } }, { position: [0, 0, 0], radius: 1 }),

@@ -148,6 +148,15 @@ export function whole(value: number, most: number, what: string, call: string): 
   return value;
 }
 
+/** Reads a shape from its kind and its numbers. */
+export function shapeFrom([kind, ...parts]: number[]): Shape {
+  const at = (first: number): Vec3 => [parts[first]!, parts[first + 1]!, parts[first + 2]!];
+  if (kind === 0) return { ball: { centre: at(0), radius: parts[3]! } };
+  if (kind === 1) return { halfSpace: { normal: at(0), offset: parts[3]! } };
+  if (kind === 2) return { box: { lower: at(0), upper: at(3) } };
+  return { triangle: [at(0), at(3), at(6)] };
+}
+
 export function shapeNumbers(shape: Shape, call: string): [kind: number, numbers: number[]] {
   const of = (values: Vec3, what: string) => vector(values, what, call);
   checkKeys<Partial<Record<ShapeName, unknown>>>(shape, shapeKeys, "shape", call);

@@ -3,7 +3,7 @@ import { asking, moving, type Probe, responded, runKeys, type RunOptions } from 
 import {
   batchKeys, type BodyBatch, type BodyDefinition, bodyKeys, bodyNumbers, type Filter, filterNumbers, limitKeys, maskNumber,
   type MotionLimits, movedKeys, type MovedOptions, putBody, putOptions, type Shape, type ShapeCarrier,
-  shapeCarrierKeys, shapeNumbers, staticKeys,
+  shapeCarrierKeys, shapeFrom, shapeNumbers, staticKeys,
   type StaticOptions, whole, zoneKeys, type ZoneOptions,
 } from "./body.js";
 import { BodyMap } from "./body_map.js";
@@ -157,6 +157,15 @@ export class WorldView extends Owned {
         filter: { category: numbers[30]!, mask: numbers[31]!, group: numbers[32]! },
       };
     });
+  }
+  /**
+   * Returns the shape of a static body, that of a moving shape relative to its position, or, for any other body, a ball at
+   * the position of its last report.
+   */
+  shapeOf(body: BodyId): Shape {
+    const module = theModule();
+    module.require(module.call("world_shape_of", this.address, body));
+    return shapeFrom(Array.from(module.answer()));
   }
   /** Returns the bodies that the body touches, in order of their begins. */
   touching(body: BodyId): Float64Array {

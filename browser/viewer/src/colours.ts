@@ -12,6 +12,9 @@ export interface Palette {
   missed: Color;
   held: Color;
   zone: Color;
+  trail: Color;
+  /** Where a loop looks at a fast body. */
+  look: Color;
   /** Colours from the smallest to the largest. */
   sizes: readonly Color[];
   /** Colours from now to long ago, or from soon to far off. */
@@ -30,6 +33,8 @@ export const dark: Palette = {
   missed: new Color("#ff4256"),
   held: new Color("#ffffff"),
   zone: new Color("#3ddbd0"),
+  trail: new Color("#a5c8ff"),
+  look: new Color("#c8f7c5"),
   sizes: colours("#ffd479", "#f58a5e", "#d95b8b", "#8a62d8", "#4079e0"),
   times: colours("#ff5a4e", "#ffb04f", "#5fc9a8", "#3f7fd0", "#3a4874"),
   light: 1,
@@ -44,6 +49,8 @@ export const bright: Palette = {
   missed: new Color("#e00025"),
   held: new Color("#101828"),
   zone: new Color("#009f98"),
+  trail: new Color("#3f78d8"),
+  look: new Color("#0b6b2e"),
   sizes: colours("#f0b429", "#ee7445", "#d24480", "#7c4fd0", "#2f68d8"),
   times: colours("#e2382c", "#ee9a2b", "#45b392", "#4a8ad8", "#a9b6d3"),
   light: 1.2,

@@ -70,6 +70,7 @@ export class Hand {
     const { origin, direction } = this.ray.ray;
     const positions = simulation.positions();
     const radii = simulation.radii();
+    const shapes = simulation.shapes();
     const { camera, canvas } = this.stage;
     const slackPerDistance = (2 * slack * Math.tan((camera.fov * Math.PI) / 360)) / canvas.clientHeight;
     const middle = new Vector3();
@@ -77,7 +78,7 @@ export class Hand {
     let foundHit = false;
     let least = Infinity;
     for (let k = 0; k < radii.length; ++k) {
-      if (Number.isNaN(positions[3 * k])) continue;
+      if (Number.isNaN(positions[3 * k]) || shapes.has(k)) continue;
       middle.fromArray(positions, 3 * k).sub(origin);
       const along = middle.dot(direction);
       if (along <= camera.near) continue;

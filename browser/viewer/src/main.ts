@@ -5,10 +5,11 @@ import { along, bright, dark, type Palette, placeOfDuration, placesOfSizes, safe
 import { Hand } from "./hand.ts";
 import { Hud, type Times } from "./hud.ts";
 import { Overlays } from "./overlays.ts";
+import { Legend } from "./legend.ts";
 import { makePanel } from "./panel.ts";
 import { Recording } from "./recording.ts";
 import type { TrackTable } from "./scenes/crowd.ts";
-import { sceneAbout, scenes } from "./scenes/list.ts";
+import { sceneAbout, sceneKeys, scenes } from "./scenes/list.ts";
 import { type Colouring, firstSettings } from "./settings.ts";
 import type { Shown, ReportedEvent } from "./shown.ts";
 import { Simulation } from "./simulation.ts";
@@ -26,6 +27,7 @@ const element = <E extends HTMLElement>(id: string): E => document.querySelector
 
 const settings = firstSettings();
 const hud = new Hud();
+const legend = new Legend();
 try {
   await load();
 } catch (error) {
@@ -59,6 +61,22 @@ function show(next: Shown): void {
   overlays.show(shown);
   hud.show(shown);
   hud.update(shown, times, settings.overlays.busiest);
+  legend.update(shown, settings, palette);
+  leaveFree();
+  stage.lookFromFront();
+}
+
+/** On a phone the picture is between the numbers and the legend. */
+function leaveFree(): void {
+  const box = (id: string) => element(id).getBoundingClientRect();
+  // The legend may be empty, and then has no place.
+  const legendBox = element("legend").childElementCount > 0 ? box("legend") : null;
+  if (matchMedia("(max-width: 720px) and (orientation: portrait)").matches)
+    stage.leaveFree({ left: 0, top: box("hud").bottom, right: 0, bottom: innerHeight - (legendBox ?? box("transport")).top });
+  else if (matchMedia("(max-height: 500px) and (orientation: landscape)").matches)
+    stage.leaveFree({ left: box("hud").right, top: 0, right: legendBox === null ? 0 : innerWidth - legendBox.left,
+                      bottom: innerHeight - box("transport").top });
+  else stage.leaveFree({ left: 0, top: 0, right: 0, bottom: 0 });
 }
 
 /** The earlier choice stays if the scene cannot be made. */
@@ -178,11 +196,7 @@ const keys: Record<string, () => void> = {
     repaint();
   },
   "?": () => element<HTMLDialogElement>("help").showModal(),
-  // 1 to 9, and 0 for the tenth.
-  ...Object.fromEntries(scenes.map(({ name }, k) => [String((k + 1) % 10), () => {
-    settings.scene = name;
-    chooseScene();
-  }])),
+  ...Object.fromEntries(scenes.map(({ name }, k) => [sceneKeys[k], () => viewer.choose(name)])),
 };
 addEventListener("keydown", (event) => {
   if (event.ctrlKey || event.metaKey || event.altKey || element<HTMLDialogElement>("help").open) return;
@@ -214,6 +228,10 @@ addEventListener("drop", (event) => {
   void openFile(event.dataTransfer?.files[0]);
 });
 darkQuery.addEventListener("change", repaint);
+addEventListener("resize", () => {
+  leaveFree();
+  stage.lookFromFront();
+});
 
 const colour = new Color();
 
@@ -232,7 +250,7 @@ function draw(seconds: number): void {
   overlays.update(shown, views, positions, settings, seconds, calmQuery.matches, pixels);
   const safe = colouring === "safe" ? safeDurations(shown, views!) : null;
   const { time } = shown.view;
-  stage.draw(positions, radii, (body) => {
+  stage.draw(positions, radii, shown.shapes(), (body) => {
     if (body === hand.body) return colour.copy(palette.held);
     if (safe !== null) along(palette.times, placeOfDuration(safe[body]!), colour);
     else if (colouring === "asked") along(palette.times, placeOfDuration(time - views![body]!.reportTime), colour);
@@ -270,10 +288,16 @@ function frame(now: number): void {
   if (now - hudTime < 200) return;
   hudTime = now;
   hud.update(shown, times, settings.overlays.busiest);
+  legend.update(shown, settings, palette);
 }
 
 /** For tests, and for the console. */
 const viewer = {
+  choose(name: string): void {
+    settings.scene = name;
+    chooseScene();
+    refreshPanel();
+  },
   get simulation(): Shown { return shown; },
   settings,
   stage,

@@ -8,8 +8,11 @@ import { along, type Palette, placeOfDuration } from "./colours.ts";
 import type { Settings } from "./settings.ts";
 import { shiftInto, type Shown, type ReportedEvent, wrapInto } from "./shown.ts";
 import { Spheres } from "./spheres.ts";
+import { Trails } from "./trails.ts";
 
 const sparkCount = 512;
+/** Life of the spark of a contact that a loop misses, of which there are few; that of others is 1. */
+const missedLife = 2;
 
 const sparkVertices = `
   attribute vec4 tint;
@@ -110,10 +113,11 @@ export class Overlays {
   private readonly certificates = new Lines(0.9);
   private readonly alarms = new Lines(0.95);
   private readonly pull = new Lines(0.9);
+  private readonly trails: Trails;
   private readonly zoneMaterial = new MeshBasicMaterial({ transparent: true, opacity: 0.2, depthWrite: false });
   private zone: Mesh | null = null;
   private zoneFlash = 0;
-  /** The rest of each spark's life, from 1 to 0, and its initial brightness. */
+  /** The rest of each spark's life, down to 0, and its initial brightness, which falls from 1 on. */
   private readonly life = new Float32Array(sparkCount);
   private readonly strength = new Float32Array(sparkCount);
   private readonly places = new BufferAttribute(new Float32Array(3 * sparkCount), 3);
@@ -132,6 +136,7 @@ export class Overlays {
       .setAttribute("tint", this.tints).setAttribute("size", this.sizes), this.sparkMaterial);
     sparks.frustumCulled = false;
     sparks.renderOrder = 3;
+    this.trails = new Trails(scene);
     scene.add(sparks, this.bounds.object, this.boxes.object, this.cells.object, this.certificates.object,
               this.alarms.object, this.pull.object);
   }
@@ -145,6 +150,7 @@ export class Overlays {
   show(shown: Shown): void {
     this.life.fill(0);
     this.glow = new Float32Array(0);
+    this.trails.show(shown);
     if (this.zone !== null) {
       this.scene.remove(this.zone);
       this.zone.geometry.dispose();
@@ -162,11 +168,11 @@ export class Overlays {
         this.zoneFlash = 1;
         this.spark(event.firstState.position, this.palette!.zone, 0.4, extent / 16);
       } else if (event.kind === "sensor_leave" && missed) {
-        this.spark(event.firstState.position, this.palette!.missed, 1, extent / 18);
+        this.spark(event.firstState.position, this.palette!.missed, 1, extent / 18, missedLife);
       } else if (event.kind === "contact_begin") {
         const point = wrapInto(event.point.slice(), shown.box, shown.periodic);
         const colour = missed ? this.palette!.missed : this.palette!.contact;
-        this.spark(point, colour, missed ? 1 : 0.75, extent / (missed ? 14 : 22));
+        this.spark(point, colour, missed ? 1 : 0.75, extent / (missed ? 9 : 22), missed ? missedLife : 1);
       } else if (event.kind === "wall_begin") {
         this.spark(event.point, this.palette!.contact, 0.3, extent / 30);
       }
@@ -191,6 +197,7 @@ export class Overlays {
     else this.cells.hide();
     if (views !== null && on.certificates) this.drawCertificates(shown, views, positions);
     else this.certificates.hide();
+    this.trails.update(shown, positions, on.trails, this.palette!);
     this.drawAlarms(shown, positions);
   }
 
@@ -214,10 +221,10 @@ export class Overlays {
     return mesh;
   }
 
-  private spark(place: ArrayLike<number>, colour: Color, strength: number, size: number): void {
+  private spark(place: ArrayLike<number>, colour: Color, strength: number, size: number, life = 1): void {
     const k = this.nextSpark;
     this.nextSpark = (k + 1) % sparkCount;
-    this.life[k] = 1;
+    this.life[k] = life;
     this.strength[k] = strength;
     this.places.setXYZ(k, place[0]!, place[1]!, place[2]!);
     this.tints.setXYZW(k, colour.r, colour.g, colour.b, 0);
@@ -229,8 +236,8 @@ export class Overlays {
     for (let k = 0; k < sparkCount; ++k) {
       this.life[k] = Math.max(0, this.life[k]! - seconds / duration);
       // In calm mode sparks appear slowly, too.
-      const shape = calm ? 0.35 * Math.min(1, 4 * (1 - this.life[k]!)) : 1;
-      this.tints.setW(k, this.strength[k]! * this.life[k]! * shape);
+      const shape = calm ? 0.35 * Math.min(1, Math.max(0, 4 * (1 - this.life[k]!))) : 1;
+      this.tints.setW(k, this.strength[k]! * Math.min(1, this.life[k]!) * shape);
     }
     for (const attribute of [this.places, this.tints, this.sizes]) attribute.needsUpdate = true;
   }

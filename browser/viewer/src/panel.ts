@@ -12,13 +12,15 @@ export interface PanelActions {
 
 export function makePanel(settings: Settings, actions: PanelActions): GUI {
   const gui = new GUI({ title: "Settings", container: document.querySelector<HTMLElement>("#panel")! });
-  gui.add(settings, "scene", Object.fromEntries(scenes.map(({ title, name }) => [title, name]))).name("scene").onChange(actions.chooseScene);
+  gui.add(settings, "scene", Object.fromEntries(scenes.map(({ title, name }) => [title, name]))).name("scene").onChange(actions.chooseScene)
+    .domElement.classList.add("scene");
   gui.add(settings, "speed", 0.02, 5, 0.01).name("speed");
   gui.add(settings, "bodies", 10, 10_000, 10).name("bodies").onFinishChange(actions.restart);
   gui.add(settings, "seed", 1, 1000, 1).name("seed").onFinishChange(actions.restart);
   gui.add(settings, "colouring", { size: "size", "asked lately": "asked", "safe until": "safe" }).name("colour");
   const overlays = gui.addFolder("Show");
   overlays.add(settings.overlays, "contacts").name("contacts");
+  overlays.add(settings.overlays, "trails").name("trails");
   overlays.add(settings.overlays, "probes").name("who is asked");
   overlays.add(settings.overlays, "bounds").name("bounds");
   overlays.add(settings.overlays, "certificates").name("certificates");
@@ -27,6 +29,6 @@ export function makePanel(settings: Settings, actions: PanelActions): GUI {
   overlays.add(settings.overlays, "cells").name("cells");
   gui.add(settings, "theme", ["system", "dark", "bright"]).onChange(actions.repaint);
   gui.add({ open: actions.openFile }, "open").name("open a recording …");
-  if (matchMedia("(max-width: 900px)").matches) gui.close();
+  if (matchMedia("(max-width: 1100px), (max-height: 500px)").matches) gui.close();
   return gui;
 }

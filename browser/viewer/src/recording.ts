@@ -1,5 +1,6 @@
 // A recording for display: bodies are drawn at the centres of their bounds, since nothing else is recorded.
 import { type BodyView, type Box, type BusyBody, EventHash, Replay, type WorldView } from "kinesphere";
+import { type CarriedShapes, carriedShapes } from "./carried_shapes.ts";
 import { isMissedByLoop } from "./missed.ts";
 import { emptyTally, RecentRate, type Shown, type Tally, type ReportedEvent, wrapInto } from "./shown.ts";
 
@@ -7,6 +8,7 @@ export class Recording implements Shown {
   readonly about = "A recording, gone through again. Bodies are drawn in the middle of their bounds. R leads back to the scene.";
   readonly region = null;
   readonly zone = null;
+  readonly trails = [];
   readonly alarms = null;
   readonly near = [];
   readonly box: Box | null;
@@ -16,6 +18,9 @@ export class Recording implements Shown {
   private counts = emptyTally();
   private rate = new RecentRate();
   private shownTime: number;
+  private carried: CarriedShapes = new Map();
+  /** The ids of the moving bodies whose shapes are known. */
+  private carriers = "";
 
   /** Throws KinesphereError for bytes that are no recording. */
   constructor(readonly title: string, private readonly bytes: Uint8Array) {
@@ -42,6 +47,15 @@ export class Recording implements Shown {
   }
   radii(): Float64Array {
     return Float64Array.from(this.views(), (view) => view.radius);
+  }
+  shapes(): CarriedShapes {
+    const views = this.views();
+    const carriers = views.map(({ id }) => id).join(" ");
+    if (carriers !== this.carriers) {
+      this.carriers = carriers;
+      this.carried = carriedShapes(this.replay.world, views);
+    }
+    return this.carried;
   }
   positions(): Float64Array {
     const views = this.views();
@@ -96,7 +110,8 @@ export class Recording implements Shown {
     let missed = false;
     if (event.kind === "contact_begin") {
       const [first, second] = world.bodyViews([event.first, event.second!]);
-      missed = isMissedByLoop(event, first!.radius + second!.radius);
+      const isOfBalls = [first!, second!].every(({ id }) => "ball" in world.shapeOf(id));
+      missed = isOfBalls && isMissedByLoop(event, first!.radius + second!.radius);
       this.counts.contacts += 1;
       if (missed) this.counts.missed += 1;
     } else if (event.kind === "wall_begin") {

@@ -13,6 +13,7 @@ export interface Settings {
   theme: Theme;
   overlays: {
     contacts: boolean;
+    trails: boolean;
     probes: boolean;
     bounds: boolean;
     boxes: boolean;
@@ -23,12 +24,12 @@ export interface Settings {
 }
 
 export const firstSettings = (): Settings => ({
-  scene: "paper1",
-  bodies: 500,
+  scene: "missed",
+  bodies: 160,
   seed: 1,
-  speed: 2,
+  speed: 0.1,
   playing: true,
   colouring: "size",
   theme: "system",
-  overlays: { contacts: true, probes: true, bounds: false, boxes: false, cells: false, certificates: false, busiest: false },
+  overlays: { contacts: true, trails: true, probes: true, bounds: false, boxes: false, cells: false, certificates: false, busiest: false },
 });

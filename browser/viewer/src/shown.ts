@@ -1,5 +1,6 @@
 // A simulation or a recording on the page, in a form for drawing and numbers.
 import type { BodyId, BodyView, Box, BusyBody, Event, WorldView } from "kinesphere";
+import type { CarriedShapes } from "./carried_shapes.ts";
 import type { AlarmDistances } from "./scenes/live_scene.ts";
 
 /** An event, and whether a loop of 60 Hz would miss it. */
@@ -44,6 +45,8 @@ export interface Shown {
   /** The camera's target if there are no walls. */
   readonly region: Box | null;
   readonly zone: Box | null;
+  /** Places in the picture of the fast bodies that leave trails. */
+  readonly trails: readonly number[];
   /** Distances at which pairs are reported before they touch. */
   readonly alarms: AlarmDistances | null;
   /** Pairs that may be within one of these distances now. */
@@ -62,6 +65,8 @@ export interface Shown {
   busiest(count: number): BusyBody[];
   /** Returns the radii, by place in the picture. */
   radii(): Float64Array;
+  /** Returns the shapes that bodies carry; the same object until they change. */
+  shapes(): CarriedShapes;
   /** Returns three numbers for each body, in the box if space is periodic; NaN for absent ones. */
   positions(): Float64Array;
   /** Returns the moving bodies as the world knows them, in the order of positions(). */

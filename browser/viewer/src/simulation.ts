@@ -1,5 +1,6 @@
 // A running scene with single steps and a way back, in which bodies can be pushed. Needs no page.
 import { type BodyId, type BodyView, type Box, type BusyBody, type Event, EventHash, type Vec3, type World } from "kinesphere";
+import { type CarriedShapes, carriedShapes } from "./carried_shapes.ts";
 import { isMissedByLoop, loopLooksWithin } from "./missed.ts";
 import type { TrackTable } from "./scenes/crowd.ts";
 import { sceneAbout, setUp } from "./scenes/list.ts";
@@ -41,10 +42,12 @@ export class Simulation implements Shown {
   readonly box: Box | null;
   readonly region: Box | null;
   readonly zone: Box | null;
+  readonly trails: readonly number[];
   readonly alarms: AlarmDistances | null;
   readonly endTime: number;
   readonly periodic: readonly boolean[];
   private readonly setup: Setup;
+  private readonly carried: CarriedShapes;
   private now: Moment;
   /** Snapshots in order of time. */
   private snapshots: Moment[] = [];
@@ -58,15 +61,17 @@ export class Simulation implements Shown {
     this.setup = setUp(choice, opened);
     this.title = this.setup.title ?? about.title;
     this.about = this.setup.about ?? about.about;
-    const { scene, zone, alarms, region, endTime } = this.setup;
+    const { scene, zone, trails, alarms, region, endTime } = this.setup;
     const { box, periodic } = scene.world.definition;
     this.box = box ?? null;
     this.region = region ?? null;
     this.zone = zone?.box ?? null;
+    this.trails = trails ?? [];
     this.alarms = alarms ?? null;
     this.endTime = endTime ?? Infinity;
     this.periodic = [periodic.x === true, periodic.y === true, periodic.z === true];
     this.now = { scene, hash: new EventHash(), tally: emptyTally(), inZone: new Map(), near: new Map() };
+    this.carried = carriedShapes(scene.world, this.views());
     this.keepSnapshot();
   }
 
@@ -96,6 +101,9 @@ export class Simulation implements Shown {
   }
   radii(): Float64Array {
     return this.setup.radii;
+  }
+  shapes(): CarriedShapes {
+    return this.carried;
   }
   positions(): Float64Array {
     const states = this.now.scene.states();
@@ -183,7 +191,7 @@ export class Simulation implements Shown {
         tally.contacts += 1;
         // If bodies report with errors, true contacts are unknown.
         if (this.alarms !== null) return false;
-        const missed = isMissedByLoop(event, this.setup.radii[event.first]! + this.setup.radii[event.second!]!);
+        const missed = !this.isOfShape(event) && isMissedByLoop(event, this.setup.radii[event.first]! + this.setup.radii[event.second!]!);
         if (missed) tally.missed += 1;
         return missed;
       }
@@ -217,6 +225,11 @@ export class Simulation implements Shown {
       default:
         return false;
     }
+  }
+
+  /** True if the event is of a body that carries a shape. What a loop misses is counted for balls alone. */
+  private isOfShape({ first, second }: Event): boolean {
+    return this.carried.has(first) || (second !== null && this.carried.has(second));
   }
 
   private keepSnapshot(): void {

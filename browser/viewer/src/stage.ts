@@ -5,9 +5,17 @@ import {
   MeshBasicMaterial, PerspectiveCamera, Scene, Sphere, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { type CarriedShapes, CarriedShapeMeshes } from "./carried_shapes.ts";
 import type { Palette } from "./colours.ts";
 import type { Shown } from "./shown.ts";
 import { Spheres } from "./spheres.ts";
+
+export interface Margins {
+  left: number;
+  top: number;
+  right: number;
+  bottom: number;
+}
 
 export class Stage {
   readonly scene = new Scene();
@@ -21,7 +29,10 @@ export class Stage {
   private readonly lineMaterial = new LineBasicMaterial({ transparent: true, opacity: 0.7 });
   private readonly wallMaterial = new MeshBasicMaterial({ transparent: true, opacity: 0.07, side: BackSide, depthWrite: false, fog: false });
   private readonly bodies = new Spheres();
+  private readonly shapes = new CarriedShapeMeshes();
   private lightStrength = 1;
+  /** Pixels at the edges that something else covers. */
+  private covered: Margins = { left: 0, top: 0, right: 0, bottom: 0 };
 
   constructor(readonly canvas: HTMLCanvasElement) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
@@ -31,7 +42,7 @@ export class Stage {
     this.controls.enableDamping = true;
     this.controls.dampingFactor = 0.12;
     this.scene.fog = this.fog;
-    this.scene.add(this.surroundings, this.bodies.object);
+    this.scene.add(this.surroundings, this.bodies.object, this.shapes.object);
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.resize();
   }
@@ -78,14 +89,17 @@ export class Stage {
   lookFromFront(): void {
     const { center, radius } = this.extent;
     const half = (this.camera.fov * Math.PI) / 360;
-    const narrow = Math.min(Math.atan(Math.tan(half) * this.camera.aspect), half);
+    const { clientWidth, clientHeight } = this.canvas;
+    const { left, top, right, bottom } = this.covered;
+    const free = Math.min(clientWidth - left - right, clientHeight - top - bottom) / Math.max(clientHeight, 1);
+    const narrow = Math.atan(Math.tan(half) * Math.max(free, 0.2));
     const distance = radius / Math.sin(narrow);
     this.camera.position.set(0.55, -1, 0.42).setLength(distance).add(center);
     this.camera.near = radius / 100;
     this.camera.far = distance + radius * 12;
     this.camera.updateProjectionMatrix();
     // A little below the centre, since the buttons cover the lower edge.
-    const lift = new Vector3(0, 0, -0.07 * radius);
+    const lift = new Vector3(0, 0, bottom > 0 ? 0 : -0.07 * radius);
     this.camera.position.add(lift);
     this.controls.target.copy(center).add(lift);
     this.controls.minDistance = radius / 20;
@@ -93,15 +107,22 @@ export class Stage {
     this.controls.update();
   }
 
-  /** Draws bodies: three numbers for each, and its colour. */
-  draw(positions: Float64Array, radii: Float64Array, colourOf: (body: number) => Color): void {
+  /** Puts the picture into the part of the canvas that nothing else covers. */
+  leaveFree(covered: Margins): void {
+    this.covered = covered;
+    this.resize();
+  }
+
+  /** Draws bodies: three numbers for each, the shape that it carries or else its radius, and its colour. */
+  draw(positions: Float64Array, radii: Float64Array, shapes: CarriedShapes, colourOf: (body: number) => Color): void {
     this.bodies.resize(radii.length);
     for (let k = 0; k < radii.length; ++k) {
-      const isThere = !Number.isNaN(positions[3 * k]);
-      if (isThere) this.bodies.put(k, positions[3 * k]!, positions[3 * k + 1]!, positions[3 * k + 2]!, radii[k]!, colourOf(k));
+      const isBall = !Number.isNaN(positions[3 * k]) && !shapes.has(k);
+      if (isBall) this.bodies.put(k, positions[3 * k]!, positions[3 * k + 1]!, positions[3 * k + 2]!, radii[k]!, colourOf(k));
       else this.bodies.hide(k);
     }
     this.bodies.done();
+    this.shapes.draw(shapes, positions, colourOf);
   }
 
   render(): void {
@@ -120,6 +141,8 @@ export class Stage {
     if (clientWidth === 0 || clientHeight === 0) return;
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
+    const { left, top, right, bottom } = this.covered;
+    this.camera.setViewOffset(clientWidth, clientHeight, (right - left) / 2, (bottom - top) / 2, clientWidth, clientHeight);
     this.camera.updateProjectionMatrix();
   }
 }

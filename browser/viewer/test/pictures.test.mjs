@@ -75,6 +75,9 @@ async function pictureOf({ scene, bodies, seed = 1, time, theme, overlays = {}, 
 
 const wide = { width: 1200, height: 800 };
 const pictures = {
+  "missed": { scene: "missed", bodies: 160, time: 0.2, theme: "dark" },
+  "missed-sideways": { scene: "missed", bodies: 160, time: 0.2, theme: "bright", viewport: { width: 844, height: 390 } },
+  "piston": { scene: "piston", bodies: 151, time: 1, theme: "bright" },
   "paper1-dark": { scene: "paper1", bodies: 500, time: 2, theme: "dark" },
   "paper1-bright": { scene: "paper1", bodies: 500, time: 2, theme: "bright" },
   "paper1-phone": { scene: "paper1", bodies: 300, time: 1, theme: "dark", viewport: { width: 390, height: 844 } },

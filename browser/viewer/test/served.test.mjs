@@ -31,7 +31,7 @@ async function viewed(options, action) {
 test("without a file it shows the first scene", async () => {
   await viewed([], async (page) => {
     await page.waitForFunction(() => window.kinesphereViewer.simulation.time > 0.1, null, { timeout: 60_000 });
-    assert.equal(await page.textContent("#title"), "Random forces");
+    assert.equal(await page.textContent("#title"), "What 60 Hz misses");
   });
 });
 

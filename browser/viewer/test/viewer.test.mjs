@@ -27,6 +27,20 @@ before(async () => {
   page = await inBrowser.open();
 });
 
+test("it begins with what 60 Hz misses", async () => {
+  await page.waitForFunction(() => window.kinesphereViewer.simulation.tally.missed > 3, null, { timeout: 60_000 });
+  const seen = await page.evaluate(() => {
+    const { simulation, settings } = window.kinesphereViewer;
+    return { scene: settings.scene, contacts: simulation.tally.contacts, trails: simulation.trails.length,
+             legend: Array.from(document.querySelectorAll("#legend li"), (item) => item.textContent) };
+  });
+  assert.equal(seen.scene, "missed");
+  assert.ok(seen.contacts > 3);
+  assert.equal(seen.trails, 40);
+  for (const words of ["contact that 60 Hz misses", "trail", "where 60 Hz looks"]) assert.ok(seen.legend.includes(words), words);
+  await page.keyboard.press("2");
+});
+
 const state = () => page.evaluate(() => {
   const { simulation, settings } = window.kinesphereViewer;
   return { time: simulation.time, hash: simulation.hash, playing: settings.playing, contacts: simulation.tally.contacts,
@@ -177,7 +191,8 @@ test("a throw while time stands still counts", async () => {
 });
 
 test("every scene can be chosen", async () => {
-  for (const key of ["1", "2", "3", "4", "5", "6", "7", "8", "9"]) {
+  const names = new Set();
+  for (const key of "1234567890-=") {
     await page.keyboard.press(key);
     const name = await page.evaluate(() => window.kinesphereViewer.simulation.choice.name);
     await page.waitForFunction(() => window.kinesphereViewer.simulation.time > 0.02, null, { timeout: 60_000 });
@@ -192,7 +207,9 @@ test("every scene can be chosen", async () => {
       await page.waitForFunction((count) => window.kinesphereViewer.pictures > count + 1, pictures, { timeout: 60_000 });
     }
     assert.equal(await page.evaluate(() => window.kinesphereViewer.simulation.view.audit()), null, name);
+    names.add(name);
   }
+  assert.equal(names.size, 12);
 });
 
 test("ten thousand bodies find room", async () => {
@@ -207,18 +224,67 @@ test("ten thousand bodies find room", async () => {
     }, scene);
     assert.deepEqual(found, { bodies: 10_000, scene, said: "" });
   }
-  await page.keyboard.press("9");
 });
 
-test("the scene of a recorded crowd says what it takes, and the one before goes on", async () => {
-  await page.keyboard.press("0");
-  await page.waitForSelector("#message:not([hidden])");
-  assert.match(await page.textContent("#message-text"), /kinesphere view FILE/);
-  assert.equal(await page.evaluate(() => window.kinesphereViewer.settings.scene), "game");
+test("without a recording a crowd is made up", async () => {
+  await page.keyboard.press("=");
+  const { bodies, contacts, message } = await page.evaluate(() => {
+    const { simulation } = window.kinesphereViewer;
+    simulation.run(30);
+    return { bodies: simulation.bodyCount, contacts: simulation.tally.contacts, message: document.querySelector("#message").hidden };
+  });
+  assert.ok(bodies > 20 && contacts > 10, `${bodies} bodies, ${contacts} contacts`);
+  assert.equal(message, true);
+});
+
+test("a piston is drawn as its shape, and no ball is where it is", async () => {
+  await page.keyboard.press("-");
+  const seen = await page.evaluate(() => {
+    const { simulation, stage } = window.kinesphereViewer;
+    const [[piston, shape], ...others] = simulation.shapes();
+    let deepest = 0;
+    for (let step = 0; step < 100; ++step) {
+      simulation.run(simulation.time + 0.05);
+      const positions = simulation.positions();
+      for (let ball = 0; ball < piston; ++ball)
+        deepest = Math.max(deepest, simulation.radii()[ball] + 0.2 - Math.abs(positions[3 * ball + 2] - positions[3 * piston + 2]));
+    }
+    return { shape, others: others.length, deepest, violations: simulation.tally.violations };
+  });
+  assert.deepEqual(seen.shape, { box: { lower: [-4.95, -4.95, -0.2], upper: [4.95, 4.95, 0.2] } });
+  assert.equal(seen.others, 0);
+  assert.equal(seen.violations, 0);
+  assert.ok(seen.deepest < 1e-5, `${seen.deepest}`);
+});
+
+for (const [width, height] of [[390, 844], [844, 390], [360, 640], [768, 1024], [1024, 768], [1440, 900]]) {
+  test(`at ${width} x ${height} nothing is cut, and the parts of the page leave each other room`, async () => {
+    page = await inBrowser.open("", { viewport: { width, height }, hasTouch: width < 1000, isMobile: width < 1000 });
+    const seen = await page.evaluate(() => {
+      const box = (id) => document.querySelector(id).getBoundingClientRect();
+      const parts = ["#hud", "#panel", "#legend", "#transport"].map((id) => [id, box(id)]);
+      const overlaps = parts.flatMap(([one, a], k) => parts.slice(0, k).filter(([, b]) =>
+        a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom).map(([other]) => `${one} ${other}`));
+      const outside = parts.filter(([, { left, top, right, bottom }]) =>
+        left < 0 || top < 0 || right > innerWidth + 0.5 || bottom > innerHeight + 0.5).map(([id]) => id);
+      const cut = Array.from(document.querySelectorAll("#hud *, #panel *, #legend *"))
+        .filter((part) => part.children.length === 0 && part.clientWidth > 0 && part.scrollWidth > part.clientWidth + 1 &&
+                          getComputedStyle(part).overflow !== "visible").map((part) => part.textContent);
+      const small = matchMedia("(pointer: coarse)").matches ? Array.from(document.querySelectorAll("button, select"), (part) => [part, part.getBoundingClientRect()])
+        .filter(([, { width, height }]) => width > 0 && Math.min(width, height) < 43.5).map(([part]) => part.textContent) : [];
+      return { overlaps, outside, cut, small };
+    });
+    assert.deepEqual(seen, { overlaps: [], outside: [], cut: [], small: [] });
+  });
+}
+
+test("back on a wide page", async () => {
+  page = await inBrowser.open();
+  await page.evaluate(() => window.kinesphereViewer.setPlaying(false));
 });
 
 test("drones are warned before they touch, and alarms are undone by going back", async () => {
-  await page.keyboard.press("8");
+  await page.keyboard.press("9");
   await page.keyboard.press("Space");
   const seen = await page.evaluate(() => {
     const { simulation } = window.kinesphereViewer;
@@ -242,7 +308,7 @@ test("drones are warned before they touch, and alarms are undone by going back",
 });
 
 test("no ball of the game passes through another, though a loop would miss many", async () => {
-  await page.keyboard.press("9");
+  await page.keyboard.press("0");
   const { tally, hash, again, deepest } = await page.evaluate(() => {
     const { simulation } = window.kinesphereViewer;
     let deepest = 0;

@@ -28,5 +28,5 @@ export function bullets({ bodies, seed }: SceneChoice): Setup {
   const radii = new Float64Array(bodies).fill(radius);
   world.addMotion(motion, radii);
   const zone = { id: world.addZone({ box: zoneBox }), box: zoneBox };
-  return { scene: new MovedScene(world, motion, { restitution: 1 }), radii, zone };
+  return { scene: new MovedScene(world, motion, { restitution: 1 }), radii, zone, trails: Array.from(radii.keys()) };
 }

@@ -5,6 +5,9 @@ import { drones } from "./drones.ts";
 import { game } from "./game.ts";
 import { ofLibrary } from "./library.ts";
 import type { SceneChoice, Setup } from "./live_scene.ts";
+import { madeUpCrowd } from "./made_up_crowd.ts";
+import { missed } from "./missed.ts";
+import { piston } from "./piston.ts";
 
 export interface SceneAbout {
   name: string;
@@ -16,6 +19,8 @@ export interface SceneAbout {
 }
 
 export const scenes: readonly SceneAbout[] = [
+  { name: "missed", title: "What 60 Hz misses", bodies: 160, speed: 0.1,
+    about: "Slow motion. A loop of 60 Hz looks at the dots alone, and misses each red contact. Kinesphere finds all." },
   { name: "paper1", title: "Random forces", bodies: 500, speed: 2,
     about: "Sizes 1 to 100, pushed by forces that nobody knows in advance: only their limits are promised." },
   { name: "paper2", title: "Strong forces, from rest", bodies: 500, speed: 1,
@@ -32,8 +37,10 @@ export const scenes: readonly SceneAbout[] = [
     about: "They report where they are with errors of a metre. Two that may be within 20 m are warned, and climb or sink; at 6 m there is an alarm." },
   { name: "game", title: "A game loop", bodies: 200, speed: 0.25,
     about: "A game moves its balls 60 times a second, up to a unit each time, and hands each frame over. None passes through another." },
-  { name: "crowd", title: "A recorded crowd", bodies: 10_000, speed: 1,
-    about: "People as they were recorded. Two that come within half a metre are reported." },
+  { name: "piston", title: "A piston", bodies: 151, speed: 0.5,
+    about: "A moving shape. The world knows how strongly the piston may accelerate, and nothing else of its course." },
+  { name: "crowd", title: "A crowd", bodies: 10_000, speed: 2,
+    about: "Two that come within half a metre are reported. kinesphere view FILE shows people as they were recorded." },
 ];
 
 export function sceneAbout(name: string): SceneAbout {
@@ -42,19 +49,24 @@ export function sceneAbout(name: string): SceneAbout {
   return found;
 }
 
+/** The key of a scene, by its place in the list. */
+export const sceneKeys = "1234567890-=";
+
 /** `opened` are the tracks that the server was given, if any. */
 export function setUp(choice: SceneChoice, opened: TrackTable | null): Setup {
   switch (choice.name) {
+    case "missed":
+      return missed(choice);
     case "bullets":
       return bullets(choice);
     case "drones":
       return drones(choice);
     case "game":
       return game(choice);
+    case "piston":
+      return piston(choice);
     case "crowd":
-      if (opened === null)
-        throw new RangeError("This scene takes a recording of people, a table of who was where when: kinesphere view FILE shows it.");
-      return crowd(choice, opened);
+      return opened === null ? { ...crowd(choice, madeUpCrowd(choice.seed)), about: sceneAbout(choice.name).about } : crowd(choice, opened);
     default:
       return ofLibrary(choice);
   }

@@ -24,6 +24,8 @@ export interface Setup {
   about?: string;
   /** Radius of each body. */
   radii: Float64Array;
+  /** Fast bodies whose trails are shown. */
+  trails?: readonly BodyId[];
   /** A thin zone; its crossings are counted. */
   zone?: { id: BodyId; box: Box };
   /** Distances between surfaces at which there is a warning and an alarm. */
