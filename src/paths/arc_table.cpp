@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "input/input_check.hpp"
 #include "kinesphere/limits.hpp"
