@@ -228,7 +228,9 @@ addEventListener("drop", (event) => {
   void openFile(event.dataTransfer?.files[0]);
 });
 darkQuery.addEventListener("change", repaint);
-addEventListener("resize", () => {
+addEventListener("resize", leaveFree);
+// A phone that is turned: the camera's place was chosen for the other way.
+matchMedia("(orientation: portrait)").addEventListener("change", () => {
   leaveFree();
   stage.lookFromFront();
 });
