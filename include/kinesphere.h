@@ -74,6 +74,7 @@ extern "C" {
 // -----------------------------------------------------------------------------------------------------------
 // Statuses and errors
 
+/// KS_OK or the code of an error. ks_status_name() returns the names.
 typedef int32_t ks_status;
 enum {
   KS_OK = 0,
@@ -131,6 +132,7 @@ typedef struct ks_body_id {
 static inline int32_t ks_is_no_body(ks_body_id body) {
   return body.index == UINT32_MAX && body.generation == 0;
 }
+/// Returns true if both ids name one body.
 static inline int32_t ks_same_body(ks_body_id a, ks_body_id b) {
   return a.index == b.index && a.generation == b.generation;
 }
@@ -154,6 +156,7 @@ KS_API uint32_t ks_abi_version(void);
 // -----------------------------------------------------------------------------------------------------------
 // Geometry. Lengths, times and masses are in any consistent units.
 
+/// A vector or a point.
 typedef struct ks_vec3 {
   double x, y, z;
 } ks_vec3;
@@ -164,11 +167,13 @@ typedef struct ks_state {
   ks_vec3 velocity;
 } ks_state;
 
+/// All points p with lower <= p <= upper on every axis.
 typedef struct ks_box {
   ks_vec3 lower;
   ks_vec3 upper;
 } ks_box;
 
+/// One of KS_SHAPE_...
 typedef int32_t ks_shape_kind;
 enum { KS_SHAPE_BALL = 0, KS_SHAPE_HALF_SPACE = 1, KS_SHAPE_BOX = 2, KS_SHAPE_TRIANGLE = 3 };
 
@@ -194,12 +199,14 @@ static inline ks_shape ks_half_space(ks_vec3 normal, double offset) {
   shape.kind = KS_SHAPE_HALF_SPACE;
   return shape;
 }
+/// All points p with lower <= p <= upper on every axis.
 static inline ks_shape ks_solid_box(ks_vec3 lower, ks_vec3 upper) {
   ks_shape shape = ks_ball(lower, 0.0);
   shape.kind = KS_SHAPE_BOX;
   shape.points[1] = upper;
   return shape;
 }
+/// A two-sided triangle without thickness.
 static inline ks_shape ks_triangle(ks_vec3 a, ks_vec3 b, ks_vec3 c) {
   ks_shape shape = ks_solid_box(a, b);
   shape.kind = KS_SHAPE_TRIANGLE;
@@ -409,6 +416,7 @@ KS_API ks_status ks_world_probe_count(ks_world world, uint64_t* probes);
 // -----------------------------------------------------------------------------------------------------------
 // Events (kinesphere/event.hpp)
 
+/// One of KS_EVENT_...
 typedef int32_t ks_event_kind;
 enum {
   KS_EVENT_NONE = 0,  ///< nothing more happens until the time that was asked for
@@ -423,6 +431,7 @@ enum {
   KS_EVENT_WOKE = 9
 };
 
+/// One of KS_WALL_...
 typedef int32_t ks_wall;
 enum {
   KS_WALL_NONE = 0,
@@ -498,6 +507,7 @@ typedef struct ks_event_hash {
   uint64_t sum;
   uint64_t count;
 } ks_event_hash;
+/// Adds an event.
 KS_API ks_status ks_event_hash_add(ks_event_hash* hash, const ks_event* event);
 /// Equal sets of events have equal values.
 KS_API ks_status ks_event_hash_value(const ks_event_hash* hash, uint64_t* value);
@@ -531,6 +541,7 @@ typedef int32_t (*ks_respond)(const ks_event* event, ks_response* response, void
 /// the run.
 typedef int32_t (*ks_sink)(const ks_event* event, void* user);
 
+/// How ks_world_run() answers events.
 typedef struct ks_run_definition {
   uint32_t struct_size;
   int32_t threads;       ///< from 1 to 256, with the calling one; the outcome is the same
@@ -555,6 +566,7 @@ KS_API ks_status ks_world_run(ks_world world, double until, const ks_run_definit
 
 // Ready-made motions, owned by the world (kinesphere/motion/).
 
+/// One of KS_MOTION_...
 typedef int32_t ks_motion_kind;
 enum {
   KS_MOTION_BALLISTIC = 0,  ///< free flight under `gravity`
@@ -565,6 +577,7 @@ enum {
   KS_MOTION_FRAMES = 2
 };
 
+/// Bodies that a ready-made motion moves.
 typedef struct ks_motion_definition {
   uint32_t struct_size;
   ks_motion_kind kind;
@@ -650,6 +663,7 @@ typedef struct ks_hit {
   double upper;
 } ks_hit;
 
+/// The bodies that may overlap a sphere or a box, as World::overlapping() finds them.
 KS_API ks_status ks_world_overlapping_sphere(ks_world world, ks_vec3 centre, double radius, ks_probe probe,
                                              void* user, ks_hit* hits, size_t capacity, size_t* count);
 KS_API ks_status ks_world_overlapping_box(ks_world world, const ks_box* box, ks_probe probe, void* user,
@@ -670,6 +684,7 @@ typedef struct ks_monitor {
   uint64_t value;
 } ks_monitor;
 
+/// One of KS_BOUND_...
 typedef int32_t ks_bound_kind;
 enum { KS_BOUND_BALL = 0, KS_BOUND_CYLINDER = 1 };
 
@@ -701,6 +716,7 @@ typedef struct ks_track_class {
   ks_vec3 planned_acceleration;
 } ks_track_class;
 
+/// One of KS_SEPARATION_...: kinesphere/monitor/separation.hpp explains each.
 typedef int32_t ks_separation_shape;
 enum { KS_SEPARATION_ELLIPSOID = 0, KS_SEPARATION_CYLINDER = 1, KS_SEPARATION_WELL_CLEAR = 2 };
 
@@ -769,9 +785,11 @@ static inline ks_track_report ks_default_track_report(void) {
   return report;
 }
 
+/// One of KS_VERDICT_...
 typedef int32_t ks_verdict;
 enum { KS_VERDICT_APART = 0, KS_VERDICT_UNDECIDED = 1, KS_VERDICT_WITHIN = 2 };
 
+/// One of KS_MONITOR_...
 typedef int32_t ks_monitor_event_kind;
 enum {
   KS_MONITOR_NONE = 0,  ///< nothing more happens until the time that was asked for
@@ -870,6 +888,7 @@ typedef struct ks_track_place {
 typedef int32_t (*ks_poll)(const uint64_t* tracks, size_t count, double time, ks_track_report* reports,
                            uint8_t* has_report, void* user);
 
+/// Create and destroy a monitor; write it to bytes, and restore it from them. Errors: as in C++.
 KS_API ks_status ks_monitor_create(const ks_monitor_definition* definition, ks_monitor* monitor);
 KS_API ks_status ks_monitor_destroy(ks_monitor monitor);
 KS_API ks_status ks_monitor_save(ks_monitor monitor, void* bytes, size_t capacity, size_t* count);

@@ -34,6 +34,7 @@ namespace kinesphere {
 /// begin later than others, end earlier, or be absent in between. Where one arc ends and the next begins at
 /// the same time the path may jump; it is then taken to go straight from one place to the other at that time.
 struct PolynomialPaths {
+  /// What the coefficients multiply.
   enum class Basis {
     chebyshev,  ///< sum of c_k T_k(u), with u = (2 t - begin - end) / (end - begin) in [-1, 1]
     monomial    ///< sum of c_k (t - begin)^k
@@ -69,6 +70,7 @@ class Approaches {
     State first{}, second{};  ///< of the polynomials
     bool is_cut_off = false;  ///< the distance still falls toward the begin or end of a path or of the search
 
+    /// Return the position and the velocity of the second body relative to the first.
     Vec3 relative_position() const { return second.position - first.position; }
     Vec3 relative_velocity() const { return second.velocity - first.velocity; }
   };
@@ -84,6 +86,7 @@ class Approaches {
     std::size_t closest = 0;        ///< index of its least minimum
   };
 
+  /// What a search leaves out, and the threads that it may use.
   struct Options {
     /// Approaches of this body alone, instead of all pairs.
     std::optional<std::uint32_t> body{};

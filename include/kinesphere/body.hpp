@@ -64,6 +64,7 @@ struct MotionLimits {
   double velocity_error = 0.0;
 };
 
+/// Returns the motion limits of `body`.
 inline MotionLimits motion_limits_of(const BodyDefinition& body) {
   return {body.acceleration_limit, body.planned_acceleration, body.position_error, body.velocity_error};
 }

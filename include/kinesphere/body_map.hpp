@@ -106,6 +106,7 @@ class BodyMap {
   /// state(), origin() and set_origin() of the motions.
   class MapSource final : public MotionSource {
    public:
+    /// BodyMap::source() makes one.
     explicit MapSource(const BodyMap& bodies) : bodies_(bodies) {}
     void states(std::span<const BodyId> ids, double time, std::span<State> states) override;
     MotionOrigin origin(BodyId body) const override;

@@ -20,8 +20,10 @@ class Callback;
 template <class Returned, class... Arguments>
 class Callback<Returned(Arguments...)> {
  public:
+  /// A plain function of this signature.
   using Function = Returned (*)(Arguments...);
 
+  /// Refers to a named callable, or owns a temporary one.
   template <class Callable>
   requires(std::is_invocable_r_v<Returned, Callable&, Arguments...> &&
            !std::is_function_v<std::remove_reference_t<Callable>> &&

@@ -8,6 +8,7 @@
 
 namespace kinesphere {
 
+/// Counts of the work that a world has done since it was created. World::counters() returns them.
 struct Counters {
   /// Events delivered, by EventKind.
   std::array<std::uint64_t, event_kind_count> events{};
@@ -36,6 +37,7 @@ struct Counters {
   /// Contacts within the Zeno interval of an earlier contact of the same body.
   std::uint64_t repeated_contacts = 0;
 
+  /// Adds each count.
   Counters& operator+=(const Counters& more) {
     for (std::size_t kind = 0; kind < events.size(); ++kind) events[kind] += more.events[kind];
     probes += more.probes;
@@ -54,6 +56,7 @@ struct Counters {
   }
   /// Returns the number of window starts, restarts, pair checks and wall checks.
   std::uint64_t steps() const { return starts + restarts + pair_checks + wall_checks; }
+  /// Returns the number of delivered events of one kind.
   std::uint64_t count(EventKind kind) const { return events[static_cast<std::size_t>(kind)]; }
 };
 

@@ -38,6 +38,7 @@ enum class EventKind : std::uint8_t {
   /// precede the remaining events of their instant.
   woke,
 };
+/// Number of event kinds.
 inline constexpr int event_kind_count = 9;
 
 /// Returns true for events at a sensor distance (Event::distance).
@@ -47,6 +48,7 @@ constexpr bool is_of_sensor(EventKind kind) {
 
 /// The walls of the box, by axis and side.
 enum class Wall : std::uint8_t { none, x_lower, x_upper, y_lower, y_upper, z_lower, z_upper };
+/// Number of enumerators of Wall that are walls.
 inline constexpr int wall_count = 6;
 
 /// Which of the two bodies of a sensor event senses the other one at the event's distance.
@@ -70,6 +72,7 @@ struct BodyTraits {
   friend constexpr bool operator==(const BodyTraits&, const BodyTraits&) = default;
 };
 
+/// What happened to a body or between two, at its exact time.
 struct Event {
   EventKind kind = EventKind::contact_begin;
   double time = 0.0;

@@ -18,8 +18,10 @@ namespace kinesphere {
 /// of delivery of events at one instant.
 class EventHash {
  public:
+  /// Add an event, and the events of another hash.
   void add(const Event& event);
   EventHash& operator+=(const EventHash& other);
+  /// Returns the hash as one number. Equal sets of events have equal values.
   std::uint64_t value() const;
   /// parts() returns the whole content of a hash, for messages and files; of() makes a hash from it.
   std::array<std::uint64_t, 2> parts() const { return {sum_, count_}; }

@@ -46,13 +46,16 @@ class [[nodiscard]] EventRange {
     EventRange* range_ = nullptr;
   };
 
+  /// World::events() makes a range.
   EventRange(World& world, double until, Probe probe)
       : world_(&world), until_(until), probe_(std::move(probe)) {}
 
+  /// Advances to the first event.
   Iterator begin() {
     go_on();
     return Iterator(*this);
   }
+  /// The end of every range.
   std::default_sentinel_t end() const { return {}; }
 
  private:

@@ -34,6 +34,7 @@ struct Memory {
   std::size_t recording = 0;  ///< the recording so far
   std::size_t other = 0;
 
+  /// Returns the sum of all parts.
   std::size_t total() const { return bodies + windows + pairs + contacts + recording + other; }
 };
 

@@ -15,6 +15,7 @@
 
 namespace kinesphere {
 
+/// How place_spheres() fills a box.
 struct PlacementOptions {
   /// Axes on which space repeats with the box, without walls: centres are as dense at these faces as
   /// anywhere, and spheres keep clear of the images of others.

@@ -19,6 +19,7 @@
 
 namespace kinesphere {
 
+/// How sure a result is.
 enum class Certainty { possibly, certainly };
 
 /// A body that overlaps a region; touching the region counts as overlap.

@@ -9,8 +9,10 @@
 
 namespace kinesphere {
 
+/// A generator of random numbers that gives the same sequence on every machine. Not for secrets.
 class Random {
  public:
+  /// Equal seeds give equal sequences.
   explicit constexpr Random(std::uint64_t seed) : counter_(seed) {}
 
   /// Returns the generator that depends on (seed, stream, index) alone; different triples give independent

@@ -36,6 +36,7 @@ struct ProbedState {
   State state{};
 };
 
+/// Repeats a recording of a world, and compares each outcome with the recorded one.
 class Replay {
  public:
   /// Opens a recording; the bytes are copied. A world that was recorded with a pair filter needs a filter

@@ -13,6 +13,7 @@
 
 namespace kinesphere {
 
+/// Velocities (length / time) of both bodies after a contact.
 struct Bounce {
   Vec3 first_velocity;
   Vec3 second_velocity;  ///< zero for a wall

@@ -18,6 +18,7 @@
 
 namespace kinesphere {
 
+/// Why a call failed. name_of() returns the names.
 enum class ErrorCode {
   not_finite,          ///< a number is NaN or infinite
   out_of_range,        ///< a number is finite but outside its documented range
@@ -53,6 +54,7 @@ enum class ErrorCode {
 /// Returns the name of a code, such as "not_finite".
 std::string_view name_of(ErrorCode code);
 
+/// Why a call failed, and what is to blame.
 struct Error {
   ErrorCode code = ErrorCode::out_of_range;
   /// The invalid argument, spelled as in its declaration.
@@ -66,6 +68,7 @@ struct Error {
 /// Exception that Result::value() throws. Code that checks its results never sees it.
 class BadResult : public std::runtime_error {
  public:
+  /// The error of the failed call; what() is its message.
   explicit BadResult(Error error) : std::runtime_error(error.message), error_(std::move(error)) {}
   const Error& error() const { return error_; }
 
@@ -106,10 +109,13 @@ namespace detail {
 template <class T>
 class [[nodiscard]] Result {
  public:
+  /// A success, and a failure.
   Result(T value) : content_(std::in_place_index<0>, std::move(value)) {}
   Result(Error error) : content_(std::in_place_index<1>, std::move(error)) {}
 
+  /// Returns true for a success.
   explicit operator bool() const { return content_.index() == 0; }
+  /// Returns the error of a failure; throws std::logic_error for a success.
   const Error& error() const& {
     require_error();
     return std::get<1>(content_);
@@ -119,6 +125,7 @@ class [[nodiscard]] Result {
     return std::get<1>(std::move(content_));
   }
 
+  /// Return the value of a success; throw BadResult for a failure.
   T& value() & {
     require_value();
     return std::get<0>(content_);
@@ -158,9 +165,12 @@ template <>
 class [[nodiscard]] Result<void> {
  public:
   Result() = default;
+  /// A failure.
   Result(Error error) : error_(std::make_shared<const Error>(std::move(error))) {}
 
+  /// Returns true for a success.
   explicit operator bool() const { return !error_; }
+  /// Returns the error of a failure; throws std::logic_error for a success.
   const Error& error() const& {
     require_error();
     return *error_;
@@ -169,6 +179,7 @@ class [[nodiscard]] Result<void> {
     require_error();
     return *error_;
   }
+  /// Throws BadResult for a failure.
   void value() const {
     if (error_) detail::bad_result(*error_);
   }

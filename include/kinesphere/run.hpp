@@ -45,6 +45,7 @@ class MotionSource {
 
   /// Sets states[k] to the state of ids[k] at `time`, as a Probe does.
   virtual void states(std::span<const BodyId> ids, double time, std::span<State> states) = 0;
+  /// Returns the motion origin of a body: the time and state of its last change.
   virtual MotionOrigin origin(BodyId body) const = 0;
   /// Makes the body move from this origin from now on. World::run() calls it with the velocity of a
   /// response, and with an earlier origin to undo such a change. If it throws, it must already have set an

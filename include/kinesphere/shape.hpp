@@ -27,6 +27,7 @@
 
 namespace kinesphere {
 
+/// A solid ball.
 struct Ball {
   Vec3 centre{};
   double radius = 1.0;  ///< >= 0 (length)
@@ -89,6 +90,7 @@ struct SurfacePoint {
   /// Distance (length); negative inside a solid: minus the depth below the nearest face.
   double distance = 0.0;
 };
+/// Return the point of the surface of a shape nearest to `from`. Cost: O(1).
 SurfacePoint nearest_point(const HalfSpace& shape, const Vec3& from);
 SurfacePoint nearest_point(const Box& shape, const Vec3& from);
 SurfacePoint nearest_point(const Triangle& shape, const Vec3& from);
@@ -107,6 +109,7 @@ double earliest_separation(const Bound& bound, const Box& shape, double from, do
 double earliest_separation(const Bound& bound, const Triangle& shape, double from, double until,
                            double distance);
 
+/// Like gap_limits() of two bounds (bound.hpp).
 GapLimits gap_limits(const Bound& bound, const Box& shape, double t);
 GapLimits gap_limits(const Bound& bound, const Triangle& shape, double t);
 

@@ -36,6 +36,7 @@ template <class Kind = Motion>
 struct MotionId {
   std::uint32_t index = 0;
 
+  /// An id of a motion of any class.
   operator MotionId<Motion>() const requires(!std::same_as<Kind, Motion>) { return {index}; }
   friend bool operator==(MotionId, MotionId) = default;
 };
@@ -58,6 +59,7 @@ struct SimulatedBody {
 /// moved, assigned to or destroyed, and those to motions until it is assigned to or destroyed.
 class Simulation {
  public:
+  /// Takes a world, whose bodies so far no motion moves.
   explicit Simulation(World world);
   Simulation(Simulation&&) noexcept = default;
   Simulation& operator=(Simulation&&) noexcept = default;

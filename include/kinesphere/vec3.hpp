@@ -10,14 +10,17 @@
 
 namespace kinesphere {
 
+/// A vector or a point, in any consistent unit.
 struct Vec3 {
   double x = 0.0;
   double y = 0.0;
   double z = 0.0;
 
+  /// Return the part along axis 0, 1 or 2.
   constexpr double& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
   constexpr double operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
 
+  /// Change all three parts.
   [[gnu::always_inline]] constexpr Vec3& operator+=(const Vec3& other) {
     return *this = {x + other.x, y + other.y, z + other.z};
   }
@@ -31,6 +34,7 @@ struct Vec3 {
   friend constexpr bool operator==(const Vec3&, const Vec3&) = default;
 };
 
+/// Return the result for each of the three parts.
 [[gnu::always_inline]] constexpr Vec3 operator+(Vec3 a, const Vec3& b) { return a += b; }
 [[gnu::always_inline]] constexpr Vec3 operator-(Vec3 a, const Vec3& b) { return a -= b; }
 [[gnu::always_inline]] constexpr Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
@@ -40,6 +44,7 @@ struct Vec3 {
   return {a.x / divisor, a.y / divisor, a.z / divisor};
 }
 
+/// Return the scalar and the vector product, and the length of a vector and its square.
 [[gnu::always_inline]] constexpr double dot(const Vec3& a, const Vec3& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -54,6 +59,7 @@ struct Vec3 {
   return std::abs(a.x) + std::abs(a.y) + std::abs(a.z);
 }
 
+/// Returns true if no part is NaN or infinite.
 inline bool is_finite(const Vec3& a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }

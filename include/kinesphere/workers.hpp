@@ -14,6 +14,7 @@ class ThreadPool;
 /// from 0 to item_count exactly once. The ranges may be called sequentially or concurrently, in any order
 /// and in any threads.
 struct TaskSystem {
+  /// What a task system calls: works on the items from the first to before the last.
   using Task = void (*)(std::size_t begin, std::size_t end, void* task_context);
 
   /// Number of threads that work on tasks, including the one that calls World::run(): from 1 to 256.
@@ -32,6 +33,7 @@ struct TaskSystem {
 /// Idle threads yield a hundred times while they look for work, and then sleep.
 class Workers {
  public:
+  /// Largest number of threads.
   static constexpr int most_threads = 256;
 
   /// Creates workers with `threads` threads in total, including the one that calls World::run(): from 1,

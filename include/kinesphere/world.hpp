@@ -259,12 +259,15 @@ class World {
   /// a body of the class, which the error names. Cost: O(n) here, and a search for each body of the class
   /// at the next advance.
   Result<void> set_sensor(SensorClass sensor_class, const Sensor& sensor);
+  /// Gives a body another sensor class. Errors and cost: as set_sensor(), for the body alone.
   Result<void> set_sensor_class(BodyId body, SensorClass sensor_class);
+  /// Returns the sensor of a class; without distances if it has none.
   const Sensor& sensor(SensorClass sensor_class) const;
 
   /// Sets the mass that events have from now on (BodyDefinition::mass). Errors: static_body; not_finite for
   /// NaN; out_of_range for a negative mass.
   Result<void> set_mass(BodyId body, double mass);
+  /// Sets and returns the number that the world stores for the caller.
   Result<void> set_user_data(BodyId body, std::uint64_t data);
   Result<std::uint64_t> user_data(BodyId body) const;
 
@@ -319,14 +322,17 @@ class World {
   /// comes from `probe`. Errors and interruptions: as the run() above.
   Result<void> run(double until, const Probe& probe, const EventFn& sink, Workers* workers = nullptr);
 
+  /// Return the current time, the number of bodies that have not been removed, and the definition.
   double time() const;
   std::size_t size() const;
   const WorldDefinition& definition() const;
   /// True if this world issued the id and the body has not been removed.
   bool contains(BodyId body) const;
+  /// Returns what the world knows of a body now.
   Result<BodyView> body(BodyId id) const;
   /// Returns all bodies that have not been removed, including disabled ones, by index.
   std::vector<BodyId> bodies() const;
+  /// Returns the counts of work so far.
   const Counters& counters() const;
 
   // Current contacts and sensor overlaps, as the events so far have reported them.
@@ -463,6 +469,7 @@ class World {
   /// Stops recording and returns the recording, for Replay::open(). Errors: probe_in_progress;
   /// not_recording. Cost: as save().
   Result<std::vector<std::byte>> stop_recording();
+  /// True while the world is being recorded.
   bool recording() const;
 
  private:

@@ -15,11 +15,13 @@ struct Axes {
   bool y = false;
   bool z = false;
 
+  /// Return whether axis 0, 1 or 2 belongs to it, and whether any does.
   constexpr bool operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
   constexpr bool any() const { return x || y || z; }
   friend constexpr bool operator==(const Axes&, const Axes&) = default;
 };
 
+/// Space, tolerance and events of a world: World::create().
 struct WorldDefinition {
   /// Box whose faces are the walls. Without a box the world is unbounded.
   std::optional<Box> box{};

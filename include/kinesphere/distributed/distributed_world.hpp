@@ -104,6 +104,7 @@ class DistributedWorld {
   [[nodiscard]] static Result<DistributedWorld> restore(std::span<const std::vector<std::byte>> parts,
                                                         Motion& motion);
 
+  /// Return the current time, the number of this rank and of all ranks, and the definition. Not collective.
   double time() const;
   int rank() const;
   int ranks() const;

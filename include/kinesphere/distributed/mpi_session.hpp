@@ -8,6 +8,7 @@ namespace kinesphere {
 /// thread-safe: all calls come from the thread that created it.
 class MpiSession {
  public:
+  /// Starts MPI with the arguments of main(), unless it has been started already.
   MpiSession(int& argc, char**& argv);
   MpiSession(const MpiSession&) = delete;
   MpiSession& operator=(const MpiSession&) = delete;

@@ -44,6 +44,7 @@ struct Shard {
   std::uint64_t first = 0;  ///< The monitor watches shards first, ..., first + count - 1.
   std::uint64_t count = 1;  ///< Number of watched shards, > 0; first + count <= of.
 
+  /// Returns true if the monitor watches the pairs whose lower id is this one.
   bool contains(TrackId id) const { return id % of - first < count; }
 
   friend bool operator==(const Shard&, const Shard&) = default;
@@ -187,6 +188,7 @@ struct TrackView {
   std::size_t track_class = 0;
   double timestamp = 0.0;  ///< Timestamp of the latest report.
   bool stale = false;
+  /// A ball or a cylinder in which the track may be, and the velocity of its centre.
   struct Place {
     Vec3 centre{};
     Vec3 velocity{};
@@ -246,11 +248,13 @@ class Monitor {
   [[nodiscard]] MonitorEventRange events(double until);
   [[nodiscard]] MonitorEventRange events(double until, Poll poll);
 
+  /// Return the current time, the definition, and the counts of work so far.
   double time() const;
   const MonitorDefinition& definition() const;
   const MonitorCounters& counters() const;
   /// Returns the ids of all tracks, in ascending order.
   std::vector<TrackId> tracks() const;
+  /// Return the number of tracks, and whether a track is known.
   std::size_t size() const;
   bool contains(TrackId id) const;
   /// Returns what is known about a track now. Errors: unknown_body.
@@ -318,12 +322,15 @@ class [[nodiscard]] MonitorEventRange {
     MonitorEventRange* range_ = nullptr;
   };
 
+  /// Monitor::events() makes a range.
   MonitorEventRange(Monitor& monitor, double until, std::optional<Poll> poll)
       : monitor_(&monitor), until_(until), poll_(std::move(poll)) {}
+  /// Advances to the first event.
   Iterator begin() {
     go_on();
     return Iterator(*this);
   }
+  /// The end of every range.
   std::default_sentinel_t end() const { return {}; }
 
  private:

@@ -11,6 +11,7 @@ namespace kinesphere {
 /// Identifies a track; chosen by the caller, for example a transponder address or an MMSI.
 using TrackId = std::uint64_t;
 
+/// What a monitor reports.
 enum class MonitorEventKind {
   /// The verdict about two tracks and a separation changes at this time.
   verdict,
@@ -46,6 +47,7 @@ std::string_view name_of(MonitorEventKind kind);
 /// Returns "apart", "undecided" or "within".
 std::string_view name_of(Verdict verdict);
 
+/// What became certain, is predicted or was noticed about one track or two, at its exact time.
 struct MonitorEvent {
   double time = 0.0;
   MonitorEventKind kind = MonitorEventKind::verdict;

@@ -18,6 +18,7 @@ namespace kinesphere {
 class ErrorBound {
  public:
   constexpr ErrorBound() = default;
+  /// A ball.
   constexpr ErrorBound(double radius) : horizontal_(radius), vertical_(radius), total_(radius) {}
   /// Returns the bound for which the horizontal and the vertical limit hold simultaneously.
   static ErrorBound cylinder(double horizontal, double vertical) {
@@ -28,6 +29,7 @@ class ErrorBound {
     return error;
   }
 
+  /// Return the limit in the plane, and that along z.
   constexpr double horizontal() const { return horizontal_; }
   constexpr double vertical() const { return vertical_; }
   /// Returns the total limit with lengths along z multiplied by `stretch` >= 0.
@@ -40,6 +42,7 @@ class ErrorBound {
   constexpr ErrorBound flat() const { return ErrorBound(horizontal_); }
 
   friend constexpr bool operator==(const ErrorBound&, const ErrorBound&) = default;
+  /// Bounds of the sum of two errors, and of a multiple (factor >= 0) of one.
   friend ErrorBound operator+(const ErrorBound& a, const ErrorBound& b) {
     return of(a.horizontal_ + b.horizontal_, a.vertical_ + b.vertical_, a.total_ + b.total_);
   }

@@ -10,6 +10,7 @@ namespace kinesphere {
 /// A region around a track. Two tracks are *within* a separation if the position of one lies in this region
 /// around the position of the other. For well_clear the region depends on their velocities.
 struct Separation {
+  /// When two tracks are within the separation.
   enum class Shape {
     ellipsoid,  ///< (horizontal distance / horizontal)^2 + (vertical distance / vertical)^2 <= 1
     cylinder,   ///< horizontal distance <= horizontal, and vertical distance <= vertical
@@ -30,6 +31,7 @@ struct Separation {
   double look_ahead = 0.0;
   double modified_tau = 0.0;  ///< Time, >= 0; 0 for shapes other than well_clear.
 
+  /// Return a separation of the shape in the name, predicted `look_ahead` (time) ahead.
   static constexpr Separation sphere(double distance, double look_ahead = 0.0) {
     return {Shape::ellipsoid, distance, distance, look_ahead};
   }

@@ -12,6 +12,7 @@
 
 namespace kinesphere {
 
+/// The bodies of a Ballistic motion.
 struct BallisticDefinition {
   /// States at start_time, by body.
   std::vector<State> start;

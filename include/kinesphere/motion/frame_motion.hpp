@@ -26,6 +26,7 @@ namespace kinesphere {
 
 class World;
 
+/// Frame 0 of a FrameMotion, and what its bodies promise.
 struct FrameMotionDefinition {
   /// Positions (length) in frame 0, by body.
   std::vector<Vec3> start;
@@ -115,6 +116,7 @@ class FrameMotion final : public Motion {
   double latest_time() const;
   /// Returns the number of frames that have been pushed.
   std::uint64_t latest_frame() const { return latest_frame_; }
+  /// Return these fields of the definition.
   double interval() const { return interval_; }
   double position_error() const { return position_error_; }
   double start_time() const { return start_time_; }

@@ -118,6 +118,7 @@ class Motion {
 /// motion.
 class SingleMotionSource final : public MotionSource {
  public:
+  /// Moves the bodies by this motion.
   explicit SingleMotionSource(Motion& motion) : motion_(motion) {}
 
   void states(std::span<const BodyId> ids, double time, std::span<State> states) override;

@@ -22,6 +22,7 @@
 
 namespace kinesphere {
 
+/// A motion whose accelerations are constant in each interval of time; a base class for motions of your own.
 class PiecewiseAcceleration : public Motion {
  public:
   std::size_t size() const final { return paths_.size(); }

@@ -12,6 +12,7 @@
 
 namespace kinesphere {
 
+/// The bodies of a RandomForces motion, and their forces.
 struct RandomForcesDefinition {
   /// States at start_time, by body.
   std::vector<State> start;
@@ -37,6 +38,7 @@ class RandomForces final : public PiecewiseAcceleration {
   /// Errors: not_finite; out_of_range for a negative limit and for times beyond 2^50 intervals.
   Result<std::uint32_t> add(double t, const State& state, double acceleration_limit);
 
+  /// Returns the seed of the definition.
   std::uint64_t seed() const { return seed_; }
 
   BodyDefinition definition(std::uint32_t body, double t) const override;

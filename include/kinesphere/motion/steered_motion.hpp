@@ -15,6 +15,7 @@
 
 namespace kinesphere {
 
+/// The bodies of a SteeredMotion.
 struct SteeredMotionDefinition {
   /// States at start_time, by body.
   std::vector<State> start;

@@ -17,6 +17,7 @@ struct Segment {
   Vec3 acceleration{};
   Vec3 jerk{};
 
+  /// Returns position and velocity at time t.
   State state_at(double t) const;
   /// Returns the acceleration at time t.
   [[gnu::always_inline]] Vec3 acceleration_at(double t) const { return acceleration + jerk * (t - begin); }

@@ -24,9 +24,11 @@ struct Circulation {
   Box box;             ///< with lower < upper on every axis
   double speed = 0.0;  ///< (length / time)
 
+  /// Returns the velocity at a position.
   Vec3 operator()(const Vec3& position) const;
 };
 
+/// The bodies of a VelocityField, and the field that they follow.
 struct VelocityFieldDefinition {
   /// Velocity by position: a Circulation, or a user-defined function, which must always return the same
   /// finite value for the same argument.
