@@ -5,8 +5,9 @@
 # - The three examples of docs/watch.md print what follows them, its table counts the alerts of their streams, and
 #   make_streams.py makes these streams.
 # - Each line of C, Rust and C# in docs/c.md is in an example of its language.
-# - Each line of C++ in the guides (docs/worlds.md, running.md, recipes.md, from-box2d.md, distributed.md) is in an example,
-#   and examples/sensors.cpp prints its output in docs/worlds.md.
+# - Each line of C++ in the guides (docs/worlds.md, running.md, recipes.md, from-box2d.md, distributed.md) and in
+#   docs/lessons is in an example, and examples/sensors.cpp prints its output in docs/worlds.md.
+# - Each example that a lesson runs prints what the lesson says.
 # - Each mark "proved" or "tested" in docs/guarantee.md names an existing theorem or test, and the tables of
 #   proof/README.md have all theorems of proof/.
 # Usage: check_docs.sh <example first_contact> <example sensors> <program kinesphere>
@@ -52,13 +53,23 @@ python3 examples/streams/make_streams.py "$made"
 for stream in "$made"/*; do cmp "$stream" "examples/streams/${stream##*/}"; done
 
 # Each line of C++ in the guides stands in an example.
-for page in docs/worlds.md docs/running.md docs/recipes.md docs/from-box2d.md docs/distributed.md; do
+for page in docs/worlds.md docs/running.md docs/recipes.md docs/from-box2d.md docs/distributed.md docs/lessons/*.md; do
   awk '/^```/ {on = $0 == "```cpp"; next} on && NF {print}' "$page" | while IFS= read -r line; do
     if ! grep -qxF -- "$line" examples/*.cpp; then
       echo "$page: no example has the line: $line" >&2
       exit 1
     fi
   done
+done
+
+# Each example of a lesson that has been built here prints the block of text after its command. With any number of
+# processes example_distributed prints the same.
+for page in docs/lessons/*.md; do
+  name=$(sed -nE 's|^.*build/lessons/examples/(example_[a-z_]+)$|\1|p' "$page")
+  if [[ -z $name ]]; then echo "$page: runs no example" >&2 && exit 1; fi
+  if [[ ! -e ${1%/*}/$name ]]; then continue; fi
+  printed=$("${1%/*}/$name")
+  diff <(awk '/^```/ {on = $0 == "```text"; next} on' "$page") - <<<"$printed"
 done
 
 # Each line of C, Rust and C# in docs/c.md stands in an example.

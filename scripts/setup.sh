@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that are missing here. Where none is, it does nothing, without network.
-# Usage: setup.sh run | mpi | browser | python | research | prove | test | all | coverage
+# Usage: setup.sh run | mpi | browser | python | research | prove | docs | test | all | coverage
 set -euo pipefail
 
 packages=(g++ cmake ninja-build libhwy-dev libcli11-dev libfmt-dev nlohmann-json3-dev libsimdjson-dev zlib1g-dev libgeographiclib-dev libexpat1-dev libnats-dev)
@@ -14,7 +14,8 @@ proving=(coq libcoq-flocq)
 # For the clients of the C interface in Rust, which may have come without Debian, and C#.
 clients=(mono-mcs mono-runtime)
 if ! command -v cargo >/dev/null; then clients+=(rustc cargo); fi
-testing=("${mpi[@]}" "${python[@]}" "${python_testing[@]}" "${clients[@]}" libcpp-httplib-dev libgtest-dev libtbb-dev nats-server librapidcheck-dev clang libclang-rt-dev clang-format clang-tidy pkg-config valgrind)
+documenting=(mkdocs mkdocs-material doxygen)
+testing=("${mpi[@]}" "${documenting[@]}" "${python[@]}" "${python_testing[@]}" "${clients[@]}" libcpp-httplib-dev libgtest-dev libtbb-dev nats-server librapidcheck-dev clang libclang-rt-dev clang-format clang-tidy pkg-config valgrind)
 case ${1:-} in
   run) ;;
   mpi) packages+=("${mpi[@]}") ;;
@@ -23,9 +24,10 @@ case ${1:-} in
   research) packages+=(gnuplot-nox libbullet-dev libgtest-dev librapidcheck-dev clang clang-format clang-tidy black) ;;
   test) packages+=("${testing[@]}") ;;
   all) packages+=("${testing[@]}" "${browser[@]}" chromium "${proving[@]}") ;;
+  docs) packages+=("${documenting[@]}" "${python[@]}") ;;
   prove) packages=("${proving[@]}" g++ libgtest-dev) ;;
   coverage) packages+=("${testing[@]}" gcovr) ;;
-  *) echo "setup: usage: setup.sh run | mpi | browser | python | research | prove | test | all | coverage" >&2 && exit 2 ;;
+  *) echo "setup: usage: setup.sh run | mpi | browser | python | research | prove | docs | test | all | coverage" >&2 && exit 2 ;;
 esac
 
 if ! command -v apt-get >/dev/null; then

@@ -69,9 +69,11 @@ class Alerts(Sequence[dict[str, Any]]):
         return f"<{len(self)} alerts>"
 
     def of(self, *events: str) -> Alerts:
+        """The alerts whose event is one of these."""
         return Alerts([row for row in self.rows if row["event"] in events], self.summary)
 
     def to_pandas(self) -> pd.DataFrame:
+        """A data frame with a row for each alert."""
         import pandas as pd
 
         return pd.DataFrame(self.rows)

@@ -469,7 +469,8 @@ changed.)")
           },
           py::arg("bodies"), py::arg("positions"), py::arg("velocities") = py::none(),
           "These bodies are in other states from now on; shapes as in set_velocity().")
-      .def("set_radius", set_radius, py::arg("bodies"), py::arg("radii"))
+      .def("set_radius", set_radius, py::arg("bodies"), py::arg("radii"),
+           "The radii (length, >= 0) of these bodies from now on.")
       .def("set_shape", set_shape, py::arg("body"), py::arg("shape"),
            R"(Gives a static body or a zone another shape from now on: it grows, shrinks or moves.
 
@@ -515,7 +516,8 @@ the call of the world that asked it, and counts as True.)")
             change_each(handle, bodies, "set_solid",
                         [&](BodyId body, std::size_t) { return handle.world.set_solid(body, solid); });
           },
-          py::arg("bodies"), py::arg("solid"))
+          py::arg("bodies"), py::arg("solid"),
+          "Whether these bodies touch others from now on, or only sense and are sensed, as zones do.")
       .def("set_sensor", set_sensor, py::arg("sensor_class"), py::arg("distances"),
            py::arg("mask") = all_categories,
            R"(From now on all bodies of this class sense others at these distances (length, each >= 0).
@@ -529,7 +531,8 @@ categories are sensed. Cost: O(n).)")
             change_each(handle, bodies, "set_sensor_class",
                         [&](BodyId body, std::size_t) { return handle.world.set_sensor_class(body, given); });
           },
-          py::arg("bodies"), py::arg("sensor_class"))
+          py::arg("bodies"), py::arg("sensor_class"),
+          "These bodies have the sensor of this class from now on; see set_sensor().")
       .def(
           "set_user_data",
           [](WorldHandle& handle, const py::object& bodies, const py::object& data) {
@@ -539,7 +542,8 @@ categories are sensed. Cost: O(n).)")
               return handle.world.set_user_data(body, each[k]);
             });
           },
-          py::arg("bodies"), py::arg("data"));
+          py::arg("bodies"), py::arg("data"),
+          "Stores one whole number for all, or one of each body, shape (n,): events have it.");
 }
 
 }  // namespace kinesphere::python

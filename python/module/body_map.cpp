@@ -182,14 +182,16 @@ together, for rollback.)")
             change(map, world, "teleport",
                    [&](BodyMap& known, World& of) { return known.teleport(of, id, state); });
           },
-          py::arg("world"), py::arg("body"), py::arg("position"), py::arg("velocity"))
+          py::arg("world"), py::arg("body"), py::arg("position"), py::arg("velocity"),
+          "Puts a body elsewhere, in its motion, too: World.teleport().")
       .def(
           "remove",
           [](BodyMapHandle& map, WorldHandle& world, const py::object& body) {
             const BodyId id = id_of(body, {"remove", "body"});
             change(map, world, "remove", [&](BodyMap& known, World& of) { return known.remove(of, id); });
           },
-          py::arg("world"), py::arg("body"))
+          py::arg("world"), py::arg("body"),
+          "Removes a body from the world, and from its motion if that can remove bodies.")
       .def(
           "push",
           [](BodyMapHandle& map, WorldHandle& world, HandleOf<FrameMotion>& frames,

@@ -351,7 +351,7 @@ axes without repetition positions come back as they are.)")
             const auto turn = handle.take("user_data");
             return handle.world.user_data(id_of(body, {"user_data", "body"})).value();
           },
-          py::arg("body"))
+          py::arg("body"), "The number that set_user_data() or add() stored for the body.")
       .def("touching", touching, py::arg("body"),
            "Whom the body touches, in the order in which the contacts began.")
       .def("sensor_overlaps", sensed, py::arg("body"),

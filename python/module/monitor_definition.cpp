@@ -155,7 +155,8 @@ go straight on; with 0 nothing is predicted.)")
                }),
            py::arg("shape"), py::arg("horizontal"), py::arg("vertical"), look_ahead,
            py::arg("modified_tau") = 0.0)
-      .def_static("sphere", &Separation::sphere, py::arg("distance"), look_ahead)
+      .def_static("sphere", &Separation::sphere, py::arg("distance"), look_ahead,
+                  "The distance (length) is at most `distance`, predicted look_ahead (time) ahead.")
       .def_static("ellipsoid", &Separation::ellipsoid, py::arg("horizontal"), py::arg("vertical"), look_ahead,
                   "(horizontal distance / horizontal)^2 + (vertical distance / vertical)^2 <= 1.")
       .def_static("cylinder", &Separation::cylinder, py::arg("horizontal"), py::arg("vertical"), look_ahead,

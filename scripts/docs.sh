@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# Builds the documentation site, static files for any web server: the guides (MkDocs with Material), and the references of
+# C++ and C (Doxygen), Python, and TypeScript (TypeDoc, if asked for or installed already). Any warning, broken link or
+# public symbol without a description fails. Look at it with: python3 -m http.server --directory build/docs/site
+# Usage: docs.sh [--typescript] [output folder, else build/docs/site]
+#   --typescript: gets TypeDoc from npm, once
+# KINESPHERE_PYTHON names an interpreter that has the Python package; else the package is built, once, in minutes.
+set -euo pipefail
+
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+typescript=no
+if [[ ${1:-} == --typescript ]]; then typescript=yes && shift; fi
+work=$PWD/build/docs
+site=$(realpath -m "${1:-$work/site}")
+scripts/setup.sh docs
+mkdir -p "$work" && rm -rf "$work/generated" "$site"
+export KINESPHERE_GENERATED=$work/generated
+quietly() { "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; echo "docs: failed: $1" >&2; exit 1; }; }
+
+# A wheel of the package in a virtual environment of its own, anew after a change of its sources.
+python=${KINESPHERE_PYTHON:-$work/python/bin/python}
+if [[ -z ${KINESPHERE_PYTHON:-} ]] && ! { [[ -e $python ]] && [[ -z $(find python/module python/kinesphere -newer "$python") ]]; }; then
+  echo "docs: building the Python package for its reference"
+  rm -rf "$work/python"
+  quietly /usr/bin/python3 -m venv --system-site-packages --without-pip "$work/python"
+  quietly "$python" -m pip --isolated install --no-build-isolation --no-index --no-deps ./python
+  touch "$python"
+fi
+quietly "$python" scripts/docs/python_reference.py "$KINESPHERE_GENERATED/reference/python.md"
+
+/usr/bin/python3 -m mkdocs build --strict --quiet --site-dir "$site"
+
+version=$(sed -n 's/^project(kinesphere VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+mkdir -p "$site/reference"
+doxygen - <<<"$(cat scripts/docs/Doxyfile)
+PROJECT_NUMBER = $version
+OUTPUT_DIRECTORY = $site/reference
+HTML_OUTPUT = cpp"
+
+tools=$work/typedoc
+typedoc=$tools/node_modules/.bin/typedoc
+if [[ $typescript == yes && ! -x $typedoc ]]; then
+  mkdir -p "$tools" && cp scripts/docs/package.json scripts/docs/package-lock.json "$tools"
+  quietly npm --prefix "$tools" ci --no-audit --no-fund
+fi
+if [[ -x $typedoc ]]; then
+  rm -rf "$tools/src" && cp -r browser/package/src browser/package/tsconfig.json browser/package/README.md scripts/docs/typedoc.json "$tools"
+  quietly env -C "$tools" "$typedoc" --out "$site/reference/typescript"
+else
+  echo "docs: without the reference of TypeScript: --typescript gets TypeDoc"
+fi
+
+/usr/bin/python3 scripts/docs/check_links.py "$site"
