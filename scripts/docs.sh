@@ -4,7 +4,7 @@
 # public symbol without a description fails. Look at it with: python3 -m http.server --directory build/docs/site
 # Usage: docs.sh [--typescript] [output folder, else build/docs/site]
 #   --typescript: gets TypeDoc from npm, once
-# KINESPHERE_PYTHON names an interpreter that has the Python package; else the package is built, once, in minutes.
+# KINESPHERE_PYTHON names an interpreter that has the Python package; if there is none the package is built, in minutes.
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -18,13 +18,16 @@ export KINESPHERE_GENERATED=$work/generated
 quietly() { "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; echo "docs: failed: $1" >&2; exit 1; }; }
 
 # A wheel of the package in a virtual environment of its own, anew after a change of its sources.
-python=${KINESPHERE_PYTHON:-$work/python/bin/python}
-if [[ -z ${KINESPHERE_PYTHON:-} ]] && ! { [[ -e $python ]] && [[ -z $(find python/module python/kinesphere -newer "$python") ]]; }; then
+python=${KINESPHERE_PYTHON:-}
+if [[ ! -x $python ]]; then python=$work/python/bin/python; fi
+if [[ $python == "$work"/* ]] && { [[ ! -x $python ]] || [[ -n $(find python/module python/kinesphere -newer "$work/python/made") ]]; }; then
   echo "docs: building the Python package for its reference"
   rm -rf "$work/python"
   quietly /usr/bin/python3 -m venv --system-site-packages --without-pip "$work/python"
-  quietly "$python" -m pip --isolated install --no-build-isolation --no-index --no-deps ./python
-  touch "$python"
+  quietly env -C python /usr/bin/python3 setup.py -q egg_info --egg-base "$work" sdist --dist-dir "$work/python"
+  quietly /usr/bin/python3 -m pip --isolated --python "$python" install --no-build-isolation --no-index --no-deps \
+    "$work"/python/kinesphere-*.tar.gz
+  touch "$work/python/made"
 fi
 quietly "$python" scripts/docs/python_reference.py "$KINESPHERE_GENERATED/reference/python.md"
 

@@ -14,7 +14,15 @@ if [[ ! $part =~ ^(all|text|research)$ ]]; then echo "lint: usage: lint.sh [text
 
 find include src c simulation programs research browser/module python/module examples tests \( -name '*.[ch]' -o -name '*.[ch]pp' \) \
   -print0 | xargs -0 clang-format --dry-run -Werror
-/usr/bin/black --config python/pyproject.toml --quiet --diff --check python docs
+/usr/bin/black --config python/pyproject.toml --quiet --diff --check python docs scripts packaging
+
+version=$(sed -n 's/^project(kinesphere VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+for file in browser/package/package.json browser/viewer/package.json rust/Cargo.toml packaging/vcpkg/kinesphere/vcpkg.json packaging/debian/changelog; do
+  if ! grep -qE "^(version = |  \"version\": )\"$version\"|^kinesphere \($version\)" "$file"; then
+    echo "lint: $file: its version is not $version, that of CMakeLists.txt" >&2
+    exit 1
+  fi
+done
 
 if grep -rn '#include ["<]\(simulation\|research\)/' include examples src c ||
   grep -rn '#include ["<]research/' simulation programs browser python tests; then

@@ -62,7 +62,10 @@ def source_page(path: str) -> str:
     here = root / path
     if here.is_dir():
         entries = sorted(entry for entry in here.iterdir() if entry.name[0] not in "._" and is_shown(entry))
-        rows = [f"- [{one.name}{'/' * one.is_dir()}]({posixpath.relpath(one.relative_to(root), path)})" for one in entries]
+        rows = [
+            f"- [{one.name}{'/' * one.is_dir()}]({posixpath.relpath(one.relative_to(root), path)})"
+            for one in entries
+        ]
         return f"# {path}/\n\n" + "\n".join(rows) + "\n"
     if here.suffix in (".png", ".jpg", ".gz", ".svg"):
         return f"# {path}\n\nThis file is in the repository.\n"
@@ -73,19 +76,28 @@ def source_page(path: str) -> str:
 
 
 def is_shown(entry: Path) -> bool:
-    return entry.is_dir() or entry.suffix in languages or entry.suffix in (".txt", ".nmea", ".jsonl", ".csv", ".md")
+    return (
+        entry.is_dir()
+        or entry.suffix in languages
+        or entry.suffix in (".txt", ".nmea", ".jsonl", ".csv", ".md")
+    )
 
 
 def linked(path: str, text: str) -> list[str]:
     """The paths in the repository that a page links to."""
-    found = [posixpath.normpath(posixpath.join(posixpath.dirname(path), link[1])) for link in LINK.finditer(text)]
+    found = [
+        posixpath.normpath(posixpath.join(posixpath.dirname(path), link[1])) for link in LINK.finditer(text)
+    ]
     return [one for one in found if (root / one).exists()]
 
 
 def on_files(files: Any, config: Any) -> Any:
     """Adds the pages that docs/ does not have."""
     made = generated / "pages"
-    waiting = ["docs/" + file.src_path for file in files.documentation_pages()] + ["CHANGELOG.md", "CONTRIBUTING.md"]
+    waiting = ["docs/" + file.src_path for file in files.documentation_pages()] + [
+        "CHANGELOG.md",
+        "CONTRIBUTING.md",
+    ]
     seen: set[str] = set()
     while waiting:
         path = waiting.pop()

@@ -52,12 +52,23 @@ def documentation(name: str, thing: Any) -> str:
             in_code, toggled = is_code, is_code != in_code
             if toggled and is_code:
                 lines.append("")
-        lines.append(re.sub(r"^(\w+(?:, \w+)*): (?=\S)", r"- **\1**: ", line) if not line.startswith(" ") else line)
+        lines.append(
+            re.sub(r"^(\w+(?:, \w+)*): (?=\S)", r"- **\1**: ", line) if not line.startswith(" ") else line
+        )
     shown: list[str] = []
     for line in lines:
-        if line.startswith("- **") and shown and shown[-1].strip() and not shown[-1].startswith(("- **", " ")):
+        if (
+            line.startswith("- **")
+            and shown
+            and shown[-1].strip()
+            and not shown[-1].startswith(("- **", " "))
+        ):
             shown.append("")
-        shown.append("    " + line if shown and shown[-1].startswith(("- **", "    ")) and line and line[0] not in "- " else line)
+        shown.append(
+            "    " + line
+            if shown and shown[-1].startswith(("- **", "    ")) and line and line[0] not in "- "
+            else line
+        )
     return "\n".join(shown).replace("<", "&lt;")
 
 
@@ -86,7 +97,11 @@ def is_kind(node: ast.FunctionDef, kind: str) -> bool:
 def of_class(name: str, thing: Any) -> str:
     text = f"### {name}\n\n"
     functions = [node for node in stubs[name][0].body if isinstance(node, ast.FunctionDef)]
-    makers = [node for node in functions if node.name == "__init__" and len(node.args.args + node.args.kwonlyargs) > 1]
+    makers = [
+        node
+        for node in functions
+        if node.name == "__init__" and len(node.args.args + node.args.kwonlyargs) > 1
+    ]
     if makers:
         calls = "\n".join(signature(node, True).removesuffix(" -> None") for node in makers)
         text += f"```python\n{calls.replace('__init__', name)}\n```\n\n"
@@ -97,7 +112,11 @@ def of_class(name: str, thing: Any) -> str:
             continue
         member = inspect.getattr_static(thing, node.name, None)
         if is_kind(node, "property"):
-            about = inspect.cleandoc(getattr(member, "__doc__", None) or "").replace("\n", " ").replace("|", "\\|")
+            about = (
+                inspect.cleandoc(getattr(member, "__doc__", None) or "")
+                .replace("\n", " ")
+                .replace("|", "\\|")
+            )
             rows.append(f"| `{node.name}` | `{ast.unparse(node.returns)}` | {about} |".replace("<", "&lt;"))
         else:
             members.setdefault(node.name, []).append(node)
@@ -111,7 +130,9 @@ def of_class(name: str, thing: Any) -> str:
     values = [
         f"| `{line.targets[0].id}` | {text_of(after)} |"
         for line, after in zip(body, body[1:] + [ast.Pass()])
-        if isinstance(line, ast.Assign) and isinstance(line.targets[0], ast.Name) and issubclass(thing, IntEnum)
+        if isinstance(line, ast.Assign)
+        and isinstance(line.targets[0], ast.Name)
+        and issubclass(thing, IntEnum)
     ]
     return text + ("| value | |\n|---|---|\n" + "\n".join(values) + "\n\n" if values else "")
 
@@ -123,7 +144,9 @@ def text_of(node: ast.stmt) -> str:
 
 
 text = "# Reference of the Python package\n\n" + documentation("kinesphere", kinesphere) + "\n\n"
-text += "Exceptions say what was wrong, as the `Error` of C++ does. `Array` is anything that NumPy converts.\n\n"
+text += (
+    "Exceptions say what was wrong, as the `Error` of C++ does. `Array` is anything that NumPy converts.\n\n"
+)
 named = " ".join(GROUPS.values()).split()
 if sorted(named) != sorted(kinesphere.__all__):
     sys.exit(f"python_reference: groups and __all__ differ: {sorted(set(named) ^ set(kinesphere.__all__))}")
@@ -134,10 +157,14 @@ for group, names in GROUPS.items():
         if inspect.isclass(thing):
             text += of_class(name, thing)
         elif callable(thing):
-            calls = "\n".join(signature(node, False) for node in stubs[name] if isinstance(node, ast.FunctionDef))
+            calls = "\n".join(
+                signature(node, False) for node in stubs[name] if isinstance(node, ast.FunctionDef)
+            )
             text += f"### {name}\n\n```python\n{calls}\n```\n\n{documentation(name, thing)}\n\n"
         else:
-            shown = str(thing) if isinstance(thing, (int, str)) else "a NumPy dtype: " + ", ".join(thing.names)
+            shown = (
+                str(thing) if isinstance(thing, (int, str)) else "a NumPy dtype: " + ", ".join(thing.names)
+            )
             text += f"### {name}\n\n`{shown}`\n\n"
 if missing:
     sys.exit("python_reference: no docstring: " + ", ".join(missing))

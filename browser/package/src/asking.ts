@@ -33,6 +33,7 @@ export interface Bounces {
   restingSpeed?: number;
 }
 
+/** What a run may be told besides its motion and its end. */
 export interface RunOptions {
   /** The source of states: a motion whose numbers are the indices of the ids, or a map. */
   motion: Motion | BodyMap;

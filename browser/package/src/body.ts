@@ -4,6 +4,7 @@ import type { Vec3 } from "./event.js";
 import { type PerBody, type States, vector } from "./motion.js";
 import { checkKeys, type Keys } from "./options.js";
 
+/** What a body promises: the fields of BodyDefinition with these names. */
 export interface MotionLimits {
   /** >= 0 (length / time^2): the largest deviation from the planned acceleration. */
   accelerationLimit?: number;
@@ -66,6 +67,7 @@ export interface BodyBatch extends States, Omit<BodyOptions, "accelerationLimit"
   masses?: PerBody;
 }
 
+/** Shape of a static body, of a zone, or of a body that carries it. */
 export type Shape =
   | { ball: { centre: Vec3; radius: number } }
   /** All points p with normal . p <= offset are solid. */
@@ -89,11 +91,13 @@ export const batchKeys: Keys<BodyBatch> = {
   ...commonLimitKeys, ...commonKeys, positions: true, velocities: true, radii: true, accelerationLimits: true,
   masses: true,
 };
+/** What a zone has besides its shape. */
 export interface ZoneOptions {
   /** Which bodies it reports. */
   filter?: Filter;
   userData?: number;
 }
+/** What a static body has besides its shape. */
 export interface StaticOptions extends ZoneOptions {
   solid?: boolean;
   sensorClass?: number;

@@ -4,6 +4,7 @@ import type { Module } from "./module.js";
 import { vector } from "./motion.js";
 import { checkKeys, type Keys } from "./options.js";
 
+/** All points with lower <= p <= upper on every axis. */
 export interface Box {
   lower: Vec3;
   upper: Vec3;

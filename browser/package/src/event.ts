@@ -7,6 +7,7 @@ export type Vec3 = ArrayLike<number>;
 /** A body's id: a whole number, valid in its own world alone; usable as a key. */
 export type BodyId = number;
 
+/** Position (length) and velocity (length / time). */
 export interface State {
   position: Vec3;
   velocity: Vec3;
@@ -16,10 +17,12 @@ const kinds = [
   "bound_violation", "contact_begin", "contact_end", "wall_begin", "wall_end", "zeno_guard", "sensor_enter",
   "sensor_leave", "woke",
 ] as const;
+/** The names of kinds; the C++ header event.hpp explains each. */
 export type EventKind = (typeof kinds)[number];
 export const eventKinds: readonly EventKind[] = kinds;
 
 const walls = ["x_lower", "x_upper", "y_lower", "y_upper", "z_lower", "z_upper"] as const;
+/** A wall of the box, by axis and side. */
 export type Wall = (typeof walls)[number];
 export function wallOf(number: number): Wall | null {
   return number === 0 ? null : walls[number - 1]!;
@@ -115,11 +118,13 @@ export class Events implements Iterable<Event> {
   /** @internal */
   constructor(readonly numbers: Float64Array) {}
   get length(): number { return this.numbers.length / eventNumbers; }
+  /** Returns the event at a place, from 0, or undefined beyond the last. */
   at(place: number): Event | undefined {
     const from = place < 0 ? place + this.length : place;
     if (!(from >= 0 && from < this.length)) return undefined;
     return new Event(this.numbers.subarray(from * eventNumbers, (from + 1) * eventNumbers));
   }
+  /** Goes through all events in order. */
   *[Symbol.iterator](): Iterator<Event> {
     for (let k = 0; k < this.length; ++k) yield this.at(k)!;
   }
@@ -133,6 +138,7 @@ export class EventHash {
   /** Two numbers of 64 bits and the value, each as two halves. */
   private parts = new Float64Array(6);
 
+  /** Adds one event or several. */
   add(events: Event | Events): this {
     const module = theModule();
     module.with((scratch) => {
@@ -152,6 +158,7 @@ export class EventHash {
   get count(): number {
     return this.parts[2]! + this.parts[3]! * 2 ** 32;
   }
+  /** Returns a copy. */
   clone(): EventHash {
     const copy = new EventHash();
     copy.parts = this.parts.slice();

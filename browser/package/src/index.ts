@@ -9,14 +9,14 @@ export {
 export { bounce, type Bounce, type BounceOptions } from "./response.js";
 export type { Answer, Bounces, Probe, ProbeFunction, RespondFunction, RunOptions } from "./asking.js";
 export type {
-  BodyBatch, BodyDefinition, BodyOptions, Filter, MotionLimits, MovedBodyDefinition, MovedOptions, Shape, StaticOptions,
+  BodyBatch, BodyDefinition, BodyOptions, Filter, MotionLimits, MovedBodyDefinition, MovedOptions, Shape, ShapeCarrier, StaticOptions,
   ZoneOptions,
 } from "./body.js";
 export { BodyMap } from "./body_map.js";
 export {
   type BodyView, type BusyBody, type Certain, type Counters, type Earliest, type Located, type ProbeReason, World, WorldView,
 } from "./world.js";
-export type { Box, Definition, WorldDefinition } from "./definition.js";
+export type { Box, ContactEvents, Definition, WorldDefinition } from "./definition.js";
 export { Scene, sceneNames, type SceneSettings } from "./scene.js";
 export { Replay } from "./replay.js";
 export {

@@ -202,6 +202,7 @@ const simdProbe = new Uint8Array([
   0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11,
 ]);
 
+/** How load() gets the WebAssembly module. */
 export interface LoadOptions {
   /** Whether to use the build with SIMD; by default if the engine supports it. */
   simd?: boolean;
@@ -278,6 +279,7 @@ export abstract class Owned {
     theModule().call(this.#free, this.#address);
     this.#address = 0;
   }
+  /** Releases the memory at the end of a block that declares it with `using`. */
   [Symbol.dispose](): void {
     this.free();
   }

@@ -203,9 +203,11 @@ export class Monitor extends Owned {
   get size(): number {
     return theModule().call("monitor_size", this.address);
   }
+  /** True if the monitor knows the track. */
   contains(track: TrackId): boolean {
     return Number.isSafeInteger(track) && track >= 0 && theModule().call("monitor_contains", this.address, track) !== 0;
   }
+  /** What is known of a track now. */
   track(track: TrackId): TrackView {
     const module = theModule();
     module.require(module.call("monitor_track", this.address, trackId(track, "track", "track")));

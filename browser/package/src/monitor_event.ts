@@ -66,11 +66,13 @@ export class MonitorEvents implements Iterable<MonitorEvent> {
   /** @internal */
   constructor(readonly numbers: Float64Array) {}
   get length(): number { return this.numbers.length / monitorEventNumbers; }
+  /** Returns the event at a place, from 0, or undefined beyond the last. */
   at(place: number): MonitorEvent | undefined {
     const from = place < 0 ? place + this.length : place;
     if (!(from >= 0 && from < this.length)) return undefined;
     return new MonitorEvent(this.numbers.subarray(from * monitorEventNumbers, (from + 1) * monitorEventNumbers));
   }
+  /** Goes through all events in order. */
   *[Symbol.iterator](): Iterator<MonitorEvent> {
     for (let k = 0; k < this.length; ++k) yield this.at(k)!;
   }

@@ -81,6 +81,7 @@ export class Motion extends Owned {
   get size(): number {
     return theModule().call("motion_size", this.address);
   }
+  /** True if the motion has a body of this number. */
   contains(body: number): boolean {
     return body >= 0 && body < this.size && theModule().call("motion_contains", this.address, body) !== 0;
   }
@@ -98,6 +99,7 @@ export class Motion extends Owned {
       return module.numbersAt(states, 6 * count).slice();
     });
   }
+  /** The state of a body at a time. Throws for an unknown body, and for a time before its last change. */
   state(body: number, time: number): State {
     const numbers = this.states(time, [body]);
     return { position: numbers.subarray(0, 3), velocity: numbers.subarray(3, 6) };
@@ -154,6 +156,7 @@ export class Motion extends Owned {
   }
 }
 
+/** What a motion promises of a body, and its state at a time. */
 export interface MotionDefinition extends State {
   accelerationLimit: number;
   plannedAcceleration: Vec3;
@@ -182,6 +185,7 @@ function limited<Options extends LimitedMotion>(name: string, call: string, star
     module.call(name, count, scratch.numbers(numbers), scratch.numbers(limits), ...more, options.startTime ?? 0))));
 }
 
+/** The bodies of a Ballistic motion, and their gravity. */
 export interface BallisticOptions {
   /** Length / time^2. */
   gravity?: Vec3;
@@ -247,6 +251,7 @@ export class SteeredMotion extends Motion {
   }
 }
 
+/** Frame 0 of a FrameMotion, and what its bodies promise. */
 export interface FrameMotionOptions {
   /**
    * >= 0 (length / time^2), gravity included; infinite (the default) for bodies without a limit, whose velocities are
@@ -302,6 +307,7 @@ export class FrameMotion extends Motion {
    * world, all bodies must have limits and keep them.
    */
   push(world: World, positions: ArrayLike<number>): void;
+  /** Appends the next frame, without a world. */
   push(positions: ArrayLike<number>): void;
   push(first: World | ArrayLike<number>, second?: ArrayLike<number>): void {
     const world = second === undefined ? 0 : (first as World).address;

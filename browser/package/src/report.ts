@@ -65,6 +65,7 @@ export interface ReportBatch {
   plans?: PlanBatch;
 }
 
+/** Plans of the reports of a batch. */
 export interface PlanBatch {
   /** Three numbers for each report; by default 0. */
   accelerations?: ArrayLike<number>;

@@ -13,6 +13,7 @@ import { Owned, type Scratch, theModule } from "./module.js";
 import { checkKeys } from "./options.js";
 import { countOf, each, Motion, type MotionDefinition, type PerBody, sixOf, vector } from "./motion.js";
 
+/** What the world knows of a body now. */
 export interface BodyView {
   id: BodyId;
   /** The centre of the bound now, and its radius: the bound contains the body. */
@@ -48,10 +49,12 @@ export interface Earliest {
   now: boolean;
 }
 
+/** A body that a query found, and whether that is certain. */
 export interface Certain { body: BodyId; certainly: boolean }
 /** A body with limits of its distance. */
 export interface Located extends Certain { lower: number; upper: number }
 
+/** Counts of the work so far. */
 export interface Counters {
   events: Record<EventKind, number>;
   probes: number;
@@ -115,6 +118,7 @@ export class WorldView extends Owned {
     const module = theModule();
     return definitionAt(module, module.call("world_definition", this.address));
   }
+  /** True if this world issued the id and the body has not been removed. */
   contains(body: BodyId): boolean {
     return theModule().call("world_contains", this.address, body) !== 0;
   }
@@ -124,6 +128,7 @@ export class WorldView extends Owned {
     module.call("world_bodies", this.address);
     return module.answer();
   }
+  /** What the world knows of a body now. */
   body(id: BodyId): BodyView {
     return this.bodyViews([id])[0]!;
   }
@@ -243,6 +248,7 @@ export class WorldView extends Owned {
 
   /** Returns a time before which no contact begins: in the whole world, or of the two bodies. */
   safeUntil(): number;
+  /** Returns a time before which the two bodies do not begin to touch. */
   safeUntil(first: BodyId, second: BodyId): number;
   safeUntil(first?: BodyId, second?: BodyId): number {
     if (first === undefined) return this.earliest("world_safe_until").time;
@@ -358,6 +364,7 @@ export class World extends WorldView {
       module.require(module.call("world_restore", scratch.bytes(snapshot), snapshot.length))));
   }
 
+  /** Adds a body at the current time. */
   add(body: BodyDefinition): BodyId {
     checkKeys(body, bodyKeys, "body", "add");
     const numbers = new Float64Array(bodyNumbers);
@@ -442,6 +449,7 @@ export class World extends WorldView {
     checkKeys(options, zoneKeys, "options", "addZone");
     return this.addSurroundings("world_add_zone", shape, options, "addZone");
   }
+  /** Removes a body. Its contacts end with events; its id is stale for ever. */
   remove(body: BodyId): void {
     this.change("world_remove", body);
   }
@@ -460,9 +468,11 @@ export class World extends WorldView {
       module.require(module.call("world_set_velocity_all", this.address, bodies.length, scratch.numbers(bodies),
                                  scratch.numbers(velocities))));
   }
+  /** Puts a body elsewhere. */
   teleport(body: BodyId, state: State): void {
     this.change("world_teleport", body, sixOf(state, "teleport"));
   }
+  /** Gives a body another radius (length, >= 0) from now on. */
   setRadius(body: BodyId, radius: number): void {
     const module = theModule();
     module.require(module.call("world_set_radius", this.address, body, radius));
@@ -479,6 +489,7 @@ export class World extends WorldView {
     const module = theModule();
     module.require(module.call("world_set_mass", this.address, body, mass));
   }
+  /** Gives a body other motion limits from now on. */
   setMotionLimits(body: BodyId, limits: MotionLimits): void {
     checkKeys(limits, limitKeys, "limits", "setMotionLimits");
     this.change("world_set_motion_limits", body, [
@@ -492,6 +503,7 @@ export class World extends WorldView {
   disable(body: BodyId): void {
     this.change("world_disable", body);
   }
+  /** Brings a disabled body back, in this state. */
   enable(body: BodyId, state: State): void {
     this.change("world_enable", body, sixOf(state, "enable"));
   }
@@ -499,6 +511,7 @@ export class World extends WorldView {
   sleep(body: BodyId): void {
     this.change("world_sleep", body);
   }
+  /** Wakes a sleeping body. */
   wake(body: BodyId): void {
     this.change("world_wake", body);
   }
@@ -523,11 +536,13 @@ export class World extends WorldView {
     module.with((scratch) => module.require(module.call(
       "world_set_sensor", this.address, number, distances.length, scratch.numbers(distances), sensed)));
   }
+  /** Gives a body the sensor of another class from now on. */
   setSensorClass(body: BodyId, sensorClass: number): void {
     const module = theModule();
     const number = whole(sensorClass, 255, "sensorClass", "setSensorClass");
     module.require(module.call("world_set_sensor_class", this.address, body, number));
   }
+  /** Stores a whole number for the caller: events have it. */
   setUserData(body: BodyId, userData: number): void {
     const module = theModule();
     const data = whole(userData, 2 ** 53, "userData", "setUserData");
