@@ -35,7 +35,10 @@ quietly "$python" scripts/docs/python_reference.py "$KINESPHERE_GENERATED/refere
 
 version=$(sed -n 's/^project(kinesphere VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 mkdir -p "$site/reference"
+doxygen -l "$work/layout.xml"
+sed -i 's|<navindex>|&<tab type="user" url="../../index.html" title="Guides"/>|' "$work/layout.xml"
 doxygen - <<<"$(cat scripts/docs/Doxyfile)
+LAYOUT_FILE = $work/layout.xml
 PROJECT_NUMBER = $version
 OUTPUT_DIRECTORY = $site/reference
 HTML_OUTPUT = cpp"

@@ -89,6 +89,8 @@ enum class CallState;
 class Recorder;
 class Workers;
 
+/// Moving bodies with unknown trajectories, and every contact among them in time order.
+///
 /// Errors. Every call validates its arguments in every build type, and a call that returns an error has
 /// changed nothing. Besides the errors listed at each call,
 ///   - a call that names a body may return unknown_body, stale_body (the body has been removed) or

@@ -65,6 +65,14 @@ def counterpart(line: str, record: str) -> str:
     return ""
 
 
+def as_text(line: str) -> str:
+    """A line without what Doxygen would take for tags, and with the words in bold that people look for."""
+    line = re.sub(r"<(\w+)>", r"\\<\1\\>", line)
+    return re.sub(
+        r"(^|[.;] )( ?)(Errors|Cost|Threads|Lifetimes|Guarantee|Throws)(?= |:|\. )", r"\1\2<b>\3</b>", line
+    )
+
+
 def with_code(comment: list[str]) -> list[str]:
     """Marks the indented lines of a comment, but for those of a list, as code."""
     marked, in_code, in_list = [], False, False
@@ -75,7 +83,7 @@ def with_code(comment: list[str]) -> list[str]:
         if is_code != in_code and (is_code or text.strip()):
             marked.append("/// @code{.cpp}" if is_code else "/// @endcode")
             in_code = is_code
-        marked.append("///" + (text if in_code else re.sub(r"<(\w+)>", r"\\<\1\\>", text)))
+        marked.append("///" + (text if in_code else as_text(text)))
     return marked + ["/// @endcode"] * in_code
 
 

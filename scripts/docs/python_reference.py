@@ -32,6 +32,8 @@ GROUPS = {
     "Constants and types of tables": "no_body zone_class index_of event_dtype monitor_event_dtype pair_answer_dtype"
     " __version__",
 }
+# `name: what it is`, or `name (unit): what it is`.
+ARGUMENT = re.compile(r"^([a-z]\w*(?:(?:, | and )\w+)*)( \([^)]*\))?: (?=\S)")
 missing: list[str] = []
 
 
@@ -46,15 +48,13 @@ def documentation(name: str, thing: Any) -> str:
         missing.append(name)
     lines, in_code = [], False
     for line in text.strip().splitlines():
-        # Indented blocks are code; `name: what it is` begins an argument.
+        # Indented blocks are code.
         if line.strip():
             is_code = line.startswith("    ")
             in_code, toggled = is_code, is_code != in_code
             if toggled and is_code:
                 lines.append("")
-        lines.append(
-            re.sub(r"^(\w+(?:, \w+)*): (?=\S)", r"- **\1**: ", line) if not line.startswith(" ") else line
-        )
+        lines.append(ARGUMENT.sub(r"- **\1**\2: ", line) if not line.startswith(" ") else line)
     shown: list[str] = []
     for line in lines:
         if (
@@ -123,8 +123,9 @@ def of_class(name: str, thing: Any) -> str:
     if rows:
         text += "| attribute | type | |\n|---|---|---|\n" + "\n".join(rows) + "\n\n"
     for member, nodes in members.items():
-        calls = "\n".join(signature(node, not is_kind(node, "staticmethod")) for node in nodes)
-        text += f"#### {name}.{member}\n\n```python\n{calls}\n```\n\n"
+        # The last of several signatures takes what all of them take.
+        call = signature(nodes[-1], not is_kind(nodes[-1], "staticmethod"))
+        text += f"#### {name}.{member}\n\n```python\n{call}\n```\n\n"
         text += documentation(f"{name}.{member}", getattr(thing, member)) + "\n\n"
     body = stubs[name][0].body
     values = [
