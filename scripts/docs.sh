@@ -12,6 +12,10 @@ typescript=no
 if [[ ${1:-} == --typescript ]]; then typescript=yes && shift; fi
 work=$PWD/build/docs
 site=$(realpath -m "${1:-$work/site}")
+if [[ -n $(ls -A "$site" 2>/dev/null || true) && ! -e $site/search/search_index.json ]]; then
+  echo "docs: $site is no site, so it is not replaced" >&2
+  exit 1
+fi
 scripts/setup.sh docs
 mkdir -p "$work" && rm -rf "$work/generated" "$site"
 export KINESPHERE_GENERATED=$work/generated
@@ -20,7 +24,7 @@ quietly() { "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; echo "docs: failed:
 # A wheel of the package in a virtual environment of its own, anew after a change of its sources.
 python=${KINESPHERE_PYTHON:-}
 if [[ ! -x $python ]]; then python=$work/python/bin/python; fi
-if [[ $python == "$work"/* ]] && { [[ ! -x $python ]] || [[ -n $(find python/module python/kinesphere -newer "$work/python/made") ]]; }; then
+if [[ $python == "$work"/* ]] && { [[ ! -e $work/python/made ]] || [[ -n $(find python/module python/kinesphere -newer "$work/python/made") ]]; }; then
   echo "docs: building the Python package for its reference"
   rm -rf "$work/python"
   quietly /usr/bin/python3 -m venv --system-site-packages --without-pip "$work/python"
@@ -30,6 +34,13 @@ if [[ $python == "$work"/* ]] && { [[ ! -x $python ]] || [[ -n $(find python/mod
   touch "$work/python/made"
 fi
 quietly "$python" scripts/docs/python_reference.py "$KINESPHERE_GENERATED/reference/python.md"
+
+tools=$work/typedoc
+typedoc=$tools/node_modules/.bin/typedoc
+if [[ $typescript == yes && ! -x $typedoc ]]; then
+  mkdir -p "$tools" && cp scripts/docs/package.json scripts/docs/package-lock.json "$tools"
+  quietly npm --prefix "$tools" ci --no-audit --no-fund
+fi
 
 /usr/bin/python3 -m mkdocs build --strict --quiet --site-dir "$site"
 
@@ -43,12 +54,6 @@ PROJECT_NUMBER = $version
 OUTPUT_DIRECTORY = $site/reference
 HTML_OUTPUT = cpp"
 
-tools=$work/typedoc
-typedoc=$tools/node_modules/.bin/typedoc
-if [[ $typescript == yes && ! -x $typedoc ]]; then
-  mkdir -p "$tools" && cp scripts/docs/package.json scripts/docs/package-lock.json "$tools"
-  quietly npm --prefix "$tools" ci --no-audit --no-fund
-fi
 if [[ -x $typedoc ]]; then
   rm -rf "$tools/src" && cp -r browser/package/src browser/package/tsconfig.json browser/package/README.md scripts/docs/typedoc.json "$tools"
   quietly env -C "$tools" "$typedoc" --out "$site/reference/typescript"

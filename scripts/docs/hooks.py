@@ -37,10 +37,15 @@ LIST_ITEM = re.compile(r" *([-*]|\d+\.) ")
 # A link that MkDocs is not to check: scripts/docs/check_links.py does so when all parts of the site are there.
 UNCHECKED = "/site-root/"
 page_of_repository: dict[str, str] = {}
+references = {"python/kinesphere/_kinesphere.pyi": "reference/python.md"}
+if (root / "build/docs/typedoc/node_modules/.bin/typedoc").exists():
+    references["browser/package/src/index.ts"] = UNCHECKED + "reference/typescript/index.html"
 
 
 def page_for(path: str) -> Optional[str]:
     """Where the site shows a file or folder of the repository, by its path there."""
+    if path in references:
+        return references[path]
     if path.startswith("docs/"):
         return path[len("docs/") :]
     if path == "README.md":
@@ -102,7 +107,7 @@ def on_files(files: Any, config: Any) -> Any:
     while waiting:
         path = waiting.pop()
         page = page_for(path)
-        if path in seen or page is None or page.startswith(UNCHECKED):
+        if path in seen or page is None or path in references or page.startswith(UNCHECKED):
             continue
         seen.add(path)
         if path.startswith("docs/"):
