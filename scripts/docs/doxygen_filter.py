@@ -94,7 +94,8 @@ def text_of(comment: list[str]) -> str:
 # Of a line with several fields Doxygen would explain the first one alone.
 SEVERAL = re.compile(r"^( +[\w:<>]+(?: [\w:<>]+)?) (\w+[^,;(]*(?:, \w+[^,;(]*)+);(.*)$", re.M)
 HIDDEN = re.compile(
-    r"^( *)template <(class Self, class Archive)?>\n.*?(serialize|std::hash).*?^\1\};?\n", re.M | re.S
+    r"^( *)template <(class Self, class Archive)?>\n *(static void serialize|struct std::hash).*?^\1\};?\n",
+    re.M | re.S,
 )
 
 
