@@ -116,8 +116,7 @@ ks_status ks_world_advance(ks_world world, double until, ks_probe probe, void* u
     const auto next = with_probe(call, object.simulation, probe, user, [&](const Probe& combined) {
       return object.world().advance(until, combined).value();
     });
-    *event = c_event(next.value_or(Event{.time = object.world().time()}));
-    if (!next) event->kind = KS_EVENT_NONE;
+    write_next(next, object.world().time(), event);
   });
 }
 

@@ -117,6 +117,11 @@ ks_event c_event(const Event& event) {
           .second_mass = event.second_mass};
 }
 
+void write_next(const std::optional<Event>& next, double time, ks_event* event) {
+  *event = c_event(next.value_or(Event{.time = time}));
+  if (!next) event->kind = KS_EVENT_NONE;
+}
+
 Event event_of(std::string_view call, const ks_event& event) {
   require_number(call, "event.kind", event.kind, KS_EVENT_BOUND_VIOLATION, KS_EVENT_WOKE);
   require_number(call, "event.wall", event.wall, KS_WALL_NONE, KS_WALL_Z_UPPER);

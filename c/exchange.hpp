@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -64,6 +65,8 @@ ErrorBound bound_of(std::string_view call, const ks_error_bound& bound);
 ks_error_bound c_bound(const ErrorBound& bound);
 
 ks_event c_event(const Event& event);
+/// Writes what an advance returned, with the world at `time`.
+void write_next(const std::optional<Event>& next, double time, ks_event* event);
 /// Throws BadResult unless the event is one that c_event() can have made.
 Event event_of(std::string_view call, const ks_event& event);
 

@@ -20,7 +20,10 @@ ks_monitor_definition c_monitor(const MonitorDefinition& definition) {
           .prediction_hold = definition.prediction_hold,
           .prediction_confirmation = definition.prediction_confirmation,
           .prediction_margin = definition.prediction_margin,
-          .prediction_error_part = definition.prediction_error_part};
+          .prediction_error_part = definition.prediction_error_part,
+          .shard_of = definition.shard.of,
+          .shard_first = definition.shard.first,
+          .shard_count = definition.shard.count};
 }
 
 SeparationRule rule_of(std::string_view call, const ks_separation_rule& given) {
@@ -44,7 +47,8 @@ MonitorDefinition monitor_of(std::string_view call, const ks_monitor_definition&
                                .prediction_hold = given.prediction_hold,
                                .prediction_confirmation = given.prediction_confirmation,
                                .prediction_margin = given.prediction_margin,
-                               .prediction_error_part = given.prediction_error_part};
+                               .prediction_error_part = given.prediction_error_part,
+                               .shard = {given.shard_of, given.shard_first, given.shard_count}};
   if (given.has_start_time) definition.start_time = given.start_time;
   require_array(call, given.classes, given.class_count, "definition.classes");
   for (const ks_track_class& one : std::span(given.classes, given.class_count))
@@ -260,6 +264,16 @@ ks_status ks_monitor_open_pairs(ks_monitor monitor, ks_open_pair* pairs, size_t 
     write_all(call, object.monitor.open_pairs(), pairs, capacity, count, [](const OpenPair& pair) {
       return ks_open_pair{pair.first, pair.second, pair.level, static_cast<ks_verdict>(pair.verdict),
                           pair.since};
+    });
+  });
+}
+
+ks_status ks_monitor_predicted_pairs(ks_monitor monitor, ks_predicted_pair* pairs, size_t capacity,
+                                     size_t* count) {
+  return reading(__func__, monitor, [&, call = __func__](const MonitorObject& object) {
+    write_all(call, object.monitor.predicted_pairs(), pairs, capacity, count, [](const PredictedPair& pair) {
+      return ks_predicted_pair{pair.first,       pair.second,       pair.level,           pair.since,
+                               pair.likely_time, pair.closest_time, pair.closest_distance};
     });
   });
 }

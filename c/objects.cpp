@@ -49,6 +49,11 @@ HandleTable<MonitorObject>& table_of(ks_monitor) {
   return *table;
 }
 
+HandleTable<ReplayObject>& table_of(ks_replay) {
+  static auto* const table = new HandleTable<ReplayObject>(3);
+  return *table;
+}
+
 void refuse_handle(std::string_view call, HandleState state) {
   const bool stale = state == HandleState::stale;
   throw Failure{stale ? KS_ERROR_STALE_HANDLE : KS_ERROR_INVALID_HANDLE, "handle",

@@ -1,15 +1,18 @@
 // The objects behind handles, and how calls reach them.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "boundary.hpp"
 #include "handle_table.hpp"
 #include "kinesphere/monitor/monitor.hpp"
+#include "kinesphere/recording.hpp"
 #include "kinesphere/simulation.hpp"
 #include "kinesphere/workers.hpp"
 #include "number/scope_guard.hpp"
@@ -21,7 +24,8 @@ struct WorldObject {
   explicit WorldObject(Simulation of) : simulation(std::move(of)) {}
 
   Simulation simulation;
-  std::optional<Workers> workers{};  ///< of the last run with several threads
+  std::optional<Workers> workers{};                   ///< of the last run with several threads
+  std::optional<std::vector<std::byte>> recording{};  ///< the last one that has been stopped
   Usage usage{};
 
   World& world() { return simulation.world(); }
@@ -35,12 +39,20 @@ struct MonitorObject {
   Usage usage{};
 };
 
+struct ReplayObject {
+  explicit ReplayObject(Replay of) : replay(std::move(of)) {}
+
+  Replay replay;
+  Usage usage{};
+};
+
 /// Throws BadResult inside callbacks of the world: for changes that do not begin with a call of the world.
 inline void require_idle(World& world) { world.reserve(0).value(); }
 
 /// The tables live as long as the program: handles are checked even while it ends.
 HandleTable<WorldObject>& table_of(ks_world);
 HandleTable<MonitorObject>& table_of(ks_monitor);
+HandleTable<ReplayObject>& table_of(ks_replay);
 
 [[noreturn]] void refuse_handle(std::string_view call, HandleState state);
 [[noreturn]] void refuse_use(std::string_view call);

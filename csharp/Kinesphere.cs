@@ -43,7 +43,7 @@ namespace Kinesphere
         ulong handle;
 
         public World(WorldDefinition definition) { Native.Check(Native.ks_world_create(ref definition, out handle)); }
-        World(ulong handle) { this.handle = handle; }
+        internal World(ulong handle) { this.handle = handle; }
         ~World() { Native.ks_world_destroy(handle); }
         /// <summary>Destroys the world; each later call throws.</summary>
         public void Dispose()
@@ -247,6 +247,34 @@ namespace Kinesphere
                 Native.ks_world_cast(handle, origin, direction, length, radius, null, IntPtr.Zero, hits, capacity, out count));
         }
 
+        /// <summary>Switches profiling on, from zero, or off.</summary>
+        public void SetProfiling(bool on) { Native.Check(Native.ks_world_set_profiling(handle, on ? 1 : 0)); }
+        public Timings Timings
+        {
+            get
+            {
+                Timings timings;
+                Native.Check(Native.ks_world_timings(handle, out timings));
+                return timings;
+            }
+        }
+        /// <summary>The bodies that were probed most often while profiling was on, the most probed first.</summary>
+        public BusyBody[] Busiest(int most)
+        {
+            return Filled<BusyBody>((BusyBody[] bodies, UIntPtr capacity, out UIntPtr count) =>
+                Native.ks_world_busiest(handle, (UIntPtr)most, bodies, capacity, out count));
+        }
+
+        /// <summary>Starts to record all input and output of the world, in memory.</summary>
+        public void StartRecording() { Native.Check(Native.ks_world_start_recording(handle)); }
+        /// <summary>Stops recording and returns the recording, for a Replay.</summary>
+        public byte[] StopRecording()
+        {
+            Native.Check(Native.ks_world_stop_recording(handle));
+            return Filled<byte>((byte[] bytes, UIntPtr capacity, out UIntPtr count) =>
+                Native.ks_world_recording(handle, bytes, capacity, out count));
+        }
+
         static Native.Probe Callback(Probe probe, Caught caught)
         {
             return (bodies, count, time, states, user) => caught.Call(() =>
@@ -306,6 +334,67 @@ namespace Kinesphere
         }
     }
 
+    /// <summary>A recording that is being replayed.</summary>
+    public sealed class Replay : IDisposable
+    {
+        readonly ulong handle;
+
+        public Replay(byte[] recording)
+        {
+            Native.Check(Native.ks_replay_open(recording, World.Count(recording), IntPtr.Zero, IntPtr.Zero, out handle));
+        }
+        ~Replay() { Native.ks_replay_destroy(handle); }
+        public void Dispose()
+        {
+            Native.Check(Native.ks_replay_destroy(handle));
+            GC.SuppressFinalize(this);
+        }
+        /// <summary>Repeats everything up to the end of the next recorded advance, or of the recording, and returns what
+        /// that advance returned. The error "diverged" names the step that differs.</summary>
+        public Event Advance()
+        {
+            var next = Event.New;
+            Native.Check(Native.ks_replay_advance(handle, ref next));
+            return next;
+        }
+        /// <summary>True if no step is left and the world has ended as the recorded one did, to the last bit.</summary>
+        public bool Finished
+        {
+            get
+            {
+                int finished;
+                Native.Check(Native.ks_replay_finished(handle, out finished));
+                return finished != 0;
+            }
+        }
+        /// <summary>The number of steps repeated so far, and in total.</summary>
+        public int Step { get { return Steps(false); } }
+        public int StepCount { get { return Steps(true); } }
+        int Steps(bool all)
+        {
+            UIntPtr repeated, total;
+            Native.Check(Native.ks_replay_steps(handle, out repeated, out total));
+            return (int)(all ? total : repeated);
+        }
+        /// <summary>The hash of all outcomes so far.</summary>
+        public ulong Hash
+        {
+            get
+            {
+                ulong hash;
+                Native.Check(Native.ks_replay_hash(handle, out hash));
+                return hash;
+            }
+        }
+        /// <summary>Returns a copy of the world after the last repeated step, without motions.</summary>
+        public World CopyWorld()
+        {
+            ulong copy;
+            Native.Check(Native.ks_replay_world(handle, out copy));
+            return new World(copy);
+        }
+    }
+
     /// <summary>The separation levels between two classes of tracks, the widest first.</summary>
     public sealed class SeparationRule
     {
@@ -320,6 +409,8 @@ namespace Kinesphere
         public TrackClass[] Classes = new TrackClass[0];
         public SeparationRule[] Separations = new SeparationRule[0];
         public double Tolerance, TimeResolution, Window, StaleAfter, DropAfter;
+        /// <summary>The monitor watches this many shards of all pairs, from the first one.</summary>
+        public ulong ShardOf = 1, ShardFirst, ShardCount = 1;
 
         public MonitorDefinition()
         {
@@ -350,6 +441,9 @@ namespace Kinesphere
             definition.Window = Window;
             definition.StaleAfter = StaleAfter;
             definition.DropAfter = DropAfter;
+            definition.ShardOf = ShardOf;
+            definition.ShardFirst = ShardFirst;
+            definition.ShardCount = ShardCount;
             var rules = new Native.SeparationRule[Separations.Length];
             var pinned = new GCHandle[Separations.Length];
             try
@@ -429,6 +523,12 @@ namespace Kinesphere
         {
             return World.Filled<OpenPair>((OpenPair[] pairs, UIntPtr capacity, out UIntPtr count) =>
                 Native.ks_monitor_open_pairs(handle, pairs, capacity, out count));
+        }
+        /// <summary>The pairs that are predicted to come within a separation.</summary>
+        public PredictedPair[] PredictedPairs()
+        {
+            return World.Filled<PredictedPair>((PredictedPair[] pairs, UIntPtr capacity, out UIntPtr count) =>
+                Native.ks_monitor_predicted_pairs(handle, pairs, capacity, out count));
         }
     }
 }

@@ -15,6 +15,7 @@ namespace Kinesphere
     {
         None, Verdict, Predicted, PredictionEnded, Contradiction, Resolved, Stale, Resumed, Dropped, Reclassified
     }
+    public enum ProbeReason { Touching, NarrowMisses, LooseLimit, Contacts, Travel, Changes, Queries }
     public enum SeparationShape { Ellipsoid, Cylinder, WellClear }
     [Flags] public enum Axes : uint { None = 0, X = 1, Y = 2, Z = 4 }
     [Flags] public enum Senses : uint { Neither = 0, First = 1, Second = 2 }
@@ -331,6 +332,35 @@ namespace Kinesphere
         public double Since;
     }
 
+    /// <summary>A pair that is predicted to come within a separation.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct PredictedPair
+    {
+        public ulong First, Second;
+        public uint Level;
+        public double Since, LikelyTime, ClosestTime, ClosestDistance;
+    }
+
+    /// <summary>Wall-clock time spent (seconds) since profiling was switched on.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Timings
+    {
+        public ulong Advances;
+        public double Advance, Probes;
+    }
+
+    /// <summary>A body that was probed while profiling was on, and why.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct BusyBody
+    {
+        public BodyId Body;
+        public ProbeReason Reason;
+        public ulong Probes, Touching, NearOthers, Windows, Changes, Queries, Contacts;
+        public double AccelerationLimit, LargestAcceleration;
+        /// <summary>What the reason means, and what makes such a body cheaper.</summary>
+        public string Advice { get { return Marshal.PtrToStringAnsi(Native.ks_probe_reason_advice(Reason)); } }
+    }
+
     /// <summary>A call was refused; nothing has changed.</summary>
     public sealed class KinesphereException : Exception
     {
@@ -400,6 +430,7 @@ namespace Kinesphere
             public UIntPtr SeparationCount;
             public double Tolerance, TimeResolution, Window, StaleAfter, DropAfter, PredictionHold;
             public double PredictionConfirmation, PredictionMargin, PredictionErrorPart;
+            public ulong ShardOf, ShardFirst, ShardCount;
         }
 
         public const int BufferTooSmall = 6;
@@ -486,6 +517,25 @@ namespace Kinesphere
         public static extern int ks_world_cast(ulong world, Vector origin, Vector direction, double length, double radius, Probe probe,
             IntPtr user, [Out] Hit[] hits, UIntPtr capacity, out UIntPtr count);
 
+        [DllImport(library)] public static extern int ks_world_set_profiling(ulong world, int on);
+        [DllImport(library)] public static extern int ks_world_timings(ulong world, out Timings timings);
+        [DllImport(library)]
+        public static extern int ks_world_busiest(ulong world, UIntPtr most, [Out] BusyBody[] bodies, UIntPtr capacity, out UIntPtr count);
+        [DllImport(library)] public static extern IntPtr ks_probe_reason_advice(ProbeReason reason);
+
+        [DllImport(library)] public static extern int ks_world_start_recording(ulong world);
+        [DllImport(library)] public static extern int ks_world_stop_recording(ulong world);
+        [DllImport(library)]
+        public static extern int ks_world_recording(ulong world, byte[] bytes, UIntPtr capacity, out UIntPtr count);
+        [DllImport(library)]
+        public static extern int ks_replay_open(byte[] bytes, UIntPtr count, IntPtr filter, IntPtr user, out ulong replay);
+        [DllImport(library)] public static extern int ks_replay_destroy(ulong replay);
+        [DllImport(library)] public static extern int ks_replay_advance(ulong replay, ref Event next);
+        [DllImport(library)] public static extern int ks_replay_finished(ulong replay, out int finished);
+        [DllImport(library)] public static extern int ks_replay_steps(ulong replay, out UIntPtr repeated, out UIntPtr total);
+        [DllImport(library)] public static extern int ks_replay_hash(ulong replay, out ulong hash);
+        [DllImport(library)] public static extern int ks_replay_world(ulong replay, out ulong copy);
+
         [DllImport(library)]
         public static extern int ks_monitor_create(ref MonitorDefinition definition, out ulong monitor);
         [DllImport(library)] public static extern int ks_monitor_destroy(ulong monitor);
@@ -499,5 +549,8 @@ namespace Kinesphere
         public static extern int ks_monitor_answer(ulong monitor, ulong first, ulong second, uint level, ref PairAnswer answer);
         [DllImport(library)]
         public static extern int ks_monitor_open_pairs(ulong monitor, [Out] OpenPair[] pairs, UIntPtr capacity, out UIntPtr count);
+        [DllImport(library)]
+        public static extern int ks_monitor_predicted_pairs(ulong monitor, [Out] PredictedPair[] pairs, UIntPtr capacity,
+            out UIntPtr count);
     }
 }

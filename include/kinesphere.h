@@ -28,8 +28,8 @@
 // with a handle may fail with KS_ERROR_INVALID_HANDLE, KS_ERROR_STALE_HANDLE and KS_ERROR_IN_USE. No
 // exception leaves the library.
 //
-// Handles. A ks_world or ks_monitor names an object of the library. The library recognises handles of
-// destroyed objects and numbers that never were handles; it never takes one for another object.
+// Handles. A ks_world, ks_monitor or ks_replay names an object of the library. The library recognises handles
+// of destroyed objects and numbers that never were handles; it never takes one for another object.
 //
 // Threads. One thread at a time may change an object or advance it; several may read it while none does. A
 // call that finds the object in use by another thread fails with KS_ERROR_IN_USE. Different objects are
@@ -413,6 +413,54 @@ KS_API ks_status ks_world_sensor_overlaps(ks_world world, ks_body_id body, ks_se
 /// The number of states that the world has asked for so far.
 KS_API ks_status ks_world_probe_count(ks_world world, uint64_t* probes);
 
+// Profiling (kinesphere/inspection.hpp): where the time goes, and which bodies are asked most.
+
+/// Wall-clock time spent (seconds) since profiling was switched on.
+typedef struct ks_timings {
+  uint64_t advances;  ///< calls of ks_world_advance()
+  double advance;     ///< in ks_world_advance(), including probes
+  double probes;      ///< in the caller's probes
+} ks_timings;
+
+/// Main reason for the probes of a body.
+typedef int32_t ks_probe_reason;
+enum {
+  KS_PROBE_REASON_TOUCHING = 0,
+  KS_PROBE_REASON_NARROW_MISSES = 1,
+  KS_PROBE_REASON_LOOSE_LIMIT = 2,
+  KS_PROBE_REASON_CONTACTS = 3,
+  KS_PROBE_REASON_TRAVEL = 4,
+  KS_PROBE_REASON_CHANGES = 5,
+  KS_PROBE_REASON_QUERIES = 6
+};
+
+/// A body that was probed while profiling was on; `probes` is the sum of the next five fields.
+typedef struct ks_busy_body {
+  ks_body_id body;
+  ks_probe_reason reason;
+  uint64_t probes;
+  uint64_t touching;
+  uint64_t near_others;
+  uint64_t windows;
+  uint64_t changes;
+  uint64_t queries;
+  uint64_t contacts;
+  double acceleration_limit;    ///< now (length / time^2)
+  double largest_acceleration;  ///< that reports prove (length / time^2)
+} ks_busy_body;
+
+/// Switches profiling on, from zero, or off.
+KS_API ks_status ks_world_set_profiling(ks_world world, int32_t on);
+KS_API ks_status ks_world_timings(ks_world world, ks_timings* timings);
+/// The bodies that were probed most often, at most `most`, the most probed first. Errors:
+/// KS_ERROR_NOT_PROFILING if profiling was never on.
+KS_API ks_status ks_world_busiest(ks_world world, size_t most, ks_busy_body* bodies, size_t capacity,
+                                  size_t* count);
+/// Return the name of a reason, such as "narrow_misses", and two sentences on what it means and what makes
+/// such a body cheaper; "" for numbers that are no reason.
+KS_API const char* ks_probe_reason_name(ks_probe_reason reason);
+KS_API const char* ks_probe_reason_advice(ks_probe_reason reason);
+
 // -----------------------------------------------------------------------------------------------------------
 // Events (kinesphere/event.hpp)
 
@@ -677,6 +725,40 @@ KS_API ks_status ks_world_cast(ks_world world, ks_vec3 origin, ks_vec3 direction
                                size_t* count);
 
 // -----------------------------------------------------------------------------------------------------------
+// Recordings (kinesphere/recording.hpp): all input and output of a world, for replay on any machine
+
+/// Starts to record the world, in memory. Errors: KS_ERROR_RECORDING if it is already recorded.
+KS_API ks_status ks_world_start_recording(ks_world world);
+/// Stops recording. The world keeps the recording until the next one starts. Errors:
+/// KS_ERROR_NOT_RECORDING.
+KS_API ks_status ks_world_stop_recording(ks_world world);
+/// Writes the last recording of the world. Errors: KS_ERROR_NOT_RECORDING if none has been stopped.
+KS_API ks_status ks_world_recording(ks_world world, void* bytes, size_t capacity, size_t* count);
+
+/// A recording that is being replayed. A handle of zero never names one.
+typedef struct ks_replay {
+  uint64_t value;
+} ks_replay;
+
+/// Opens a recording; the bytes are copied. Destroy the replay with ks_replay_destroy(). `filter` returns the
+/// results of the pair filter that the world had, or is NULL. Errors: those of Replay::open().
+KS_API ks_status ks_replay_open(const void* bytes, size_t count, ks_pair_filter filter, void* user,
+                                ks_replay* replay);
+KS_API ks_status ks_replay_destroy(ks_replay replay);
+/// Repeats everything up to the end of the next recorded advance, or of the recording, and writes what that
+/// advance returned: an event, or one of kind KS_EVENT_NONE. Errors: KS_ERROR_DIVERGED, which names the step
+/// and what differs; every further call returns it again.
+KS_API ks_status ks_replay_advance(ks_replay replay, ks_event* event);
+/// *finished is 1 if no step is left and the world has ended as the recorded one did, to the last bit.
+KS_API ks_status ks_replay_finished(ks_replay replay, int32_t* finished);
+/// The numbers of steps repeated so far and in total.
+KS_API ks_status ks_replay_steps(ks_replay replay, size_t* repeated, size_t* total);
+/// The hash of all outcomes so far.
+KS_API ks_status ks_replay_hash(ks_replay replay, uint64_t* hash);
+/// Creates a copy of the world after the last repeated step, which can be read and can go on with a probe.
+KS_API ks_status ks_replay_world(ks_replay replay, ks_world* copy);
+
+// -----------------------------------------------------------------------------------------------------------
 // Monitors: what is certain about tracks that report when they like (kinesphere/monitor/monitor.hpp)
 
 /// A monitor. A handle of zero never names one.
@@ -756,6 +838,11 @@ typedef struct ks_monitor_definition {
   double prediction_confirmation;
   double prediction_margin;
   double prediction_error_part;
+  /// The monitor watches shards shard_first, ..., shard_first + shard_count - 1 of all pairs, out of
+  /// shard_of; a pair is in the shard that the lower of its ids modulo shard_of says.
+  uint64_t shard_of;
+  uint64_t shard_first;
+  uint64_t shard_count;
 } ks_monitor_definition;
 KS_API ks_status ks_monitor_definition_init(ks_monitor_definition* definition, uint32_t struct_size);
 static inline ks_monitor_definition ks_default_monitor_definition(void) {
@@ -868,6 +955,17 @@ typedef struct ks_open_pair {
   double since;
 } ks_open_pair;
 
+/// A pair that is predicted to come within a separation; times and distance as in ks_monitor_event, from now.
+typedef struct ks_predicted_pair {
+  uint64_t first;
+  uint64_t second;
+  uint32_t level;
+  double since;  ///< time of its event KS_MONITOR_PREDICTED
+  double likely_time;
+  double closest_time;
+  double closest_distance;
+} ks_predicted_pair;
+
 /// A report of `track` is needed by the time `by` for its verdict with `other` to stay certain.
 typedef struct ks_report_request {
   uint64_t track;
@@ -913,6 +1011,8 @@ KS_API ks_status ks_monitor_answer(ks_monitor monitor, uint64_t first, uint64_t 
                                    ks_pair_answer* answer);
 KS_API ks_status ks_monitor_open_pairs(ks_monitor monitor, ks_open_pair* pairs, size_t capacity,
                                        size_t* count);
+KS_API ks_status ks_monitor_predicted_pairs(ks_monitor monitor, ks_predicted_pair* pairs, size_t capacity,
+                                            size_t* count);
 /// The reports that are needed by `until` for no verdict to turn undecided, in the order of their times.
 KS_API ks_status ks_monitor_needed(ks_monitor monitor, double until, ks_report_request* requests,
                                    size_t capacity, size_t* count);

@@ -124,6 +124,54 @@ static class SharedScene
         }
     }
 
+    static void RecordingAndProfiling()
+    {
+        using (var world = new World(WorldDefinition.Default))
+        {
+            var states = new[] { new State(new Vector(0, 0, 0), new Vector(1, 0, 0)), new State(new Vector(10, 0, 0), new Vector()) };
+            world.AddBallistic(states, BodyDefinition.Default, new Vector());
+            world.StartRecording();
+            world.SetProfiling(true);
+            var met = world.Advance(20);
+            var recording = world.StopRecording();
+            Require(met.Kind == EventKind.ContactBegin && world.Timings.Advances == 1, "two balls meet");
+            Require(world.Busiest(1).Single().Probes > 0 && world.Busiest(1)[0].Advice.Length > 20, "the busiest");
+            using (var replay = new Replay(recording))
+            {
+                var again = replay.Advance();
+                Require(again.Time == met.Time && again.First.Equals(met.First), "they meet again");
+                Require(!replay.Finished && replay.Advance().Kind == EventKind.None, "the end of the recording");
+                Require(replay.Finished && replay.Step == replay.StepCount && replay.Hash != 0, "the end of a replay");
+                using (var copy = replay.CopyWorld()) Require(copy.Time == met.Time && copy.Size == 2, "its world");
+            }
+            RequireStatus("bad_recording", () => new Replay(new byte[] { 1, 2, 3 }));
+        }
+    }
+
+    static void Predictions()
+    {
+        var unlimited = ErrorBound.Ball(double.PositiveInfinity);
+        var level = Separation.Sphere(50);
+        level.LookAhead = 60;
+        var definition = new MonitorDefinition
+        {
+            Classes = new[] { new TrackClass { AccelerationLimit = ErrorBound.Ball(0.5), LargestSpeed = unlimited } },
+            Separations = new[] { new SeparationRule { Levels = new[] { level } } },
+        };
+        using (var monitor = new Monitor(definition))
+        {
+            for (ulong k = 0; k < 2; ++k)
+            {
+                var report = TrackReport.Default;
+                report.State = new State(new Vector(500.0 * k, 0, 0), new Vector(10 - 20.0 * k, 0, 0));
+                report.VelocityError = ErrorBound.Ball(0);
+                monitor.Report(k, report);
+            }
+            Require(monitor.Advance(1).Kind == MonitorEventKind.Predicted, "two tracks will meet");
+            Require(monitor.PredictedPairs().Single().ClosestDistance < 1e-6, "where they will be");
+        }
+    }
+
     static int Main()
     {
         ulong random = 1;
@@ -147,6 +195,8 @@ static class SharedScene
         AtOnce(NewWorld(start, radii), happened => happened.Bounce(0.9), 2);
         WrongUse();
         MovingShape();
+        RecordingAndProfiling();
+        Predictions();
         return 0;
     }
 }

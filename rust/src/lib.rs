@@ -34,6 +34,8 @@ mod error;
 mod events;
 mod geometry;
 mod monitor;
+mod profiling;
+mod recording;
 mod world;
 
 pub use bodies::{BodyDefinition, Contacts, Filter, MotionLimits, StaticDefinition};
@@ -42,8 +44,10 @@ pub use events::{Event, EventHash, EventKind, Response, Wall};
 pub use geometry::{BodyId, Box3, Shape, State, Vec3};
 pub use monitor::{
     ErrorBound, Monitor, MonitorDefinition, MonitorEvent, MonitorEventKind, OpenPair, PairAnswer,
-    ReportRequest, Separation, SeparationRule, TrackClass, TrackReport, Verdict,
+    PredictedPair, ReportRequest, Separation, SeparationRule, Shard, TrackClass, TrackReport, Verdict,
 };
+pub use profiling::{BusyBody, ProbeReason, Timings};
+pub use recording::Replay;
 pub use world::{Hit, Motion, Prediction, Run, World, WorldDefinition};
 
 /// Returns the version of the library, such as "0.3.0".

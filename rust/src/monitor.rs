@@ -80,6 +80,15 @@ pub struct SeparationRule {
     pub levels: Vec<Separation>,
 }
 
+/// The part of all pairs that a monitor watches: shards `first` to `first + count - 1` out of `of`. A pair is in the
+/// shard that the lower of its ids modulo `of` says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    pub of: u64,
+    pub first: u64,
+    pub count: u64,
+}
+
 /// Parameters of a monitor (`MonitorDefinition` in C++).
 #[derive(Clone, Debug, PartialEq)]
 pub struct MonitorDefinition {
@@ -96,6 +105,7 @@ pub struct MonitorDefinition {
     pub prediction_confirmation: f64,
     pub prediction_margin: f64,
     pub prediction_error_part: f64,
+    pub shard: Shard,
 }
 
 fn default_definition() -> sys::ks_monitor_definition {
@@ -117,6 +127,9 @@ fn default_definition() -> sys::ks_monitor_definition {
         prediction_confirmation: 0.0,
         prediction_margin: 0.0,
         prediction_error_part: 0.0,
+        shard_of: 0,
+        shard_first: 0,
+        shard_count: 0,
     };
     unsafe { sys::ks_monitor_definition_init(&mut raw, size_of::<sys::ks_monitor_definition>() as u32) };
     raw
@@ -140,6 +153,7 @@ impl Default for MonitorDefinition {
             prediction_confirmation: raw.prediction_confirmation,
             prediction_margin: raw.prediction_margin,
             prediction_error_part: raw.prediction_error_part,
+            shard: Shard { of: raw.shard_of, first: raw.shard_first, count: raw.shard_count },
         }
     }
 }
@@ -309,6 +323,18 @@ pub struct OpenPair {
     pub since: f64,
 }
 
+/// A pair that is predicted to come within a separation; times and distance as in `MonitorEvent`, from now.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PredictedPair {
+    pub first: u64,
+    pub second: u64,
+    pub level: u32,
+    pub since: f64,
+    pub likely_time: f64,
+    pub closest_time: f64,
+    pub closest_distance: f64,
+}
+
 /// A report of `track` is needed by the time `by` for its verdict with `other` to stay certain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReportRequest {
@@ -392,6 +418,9 @@ impl Monitor {
             prediction_confirmation: definition.prediction_confirmation,
             prediction_margin: definition.prediction_margin,
             prediction_error_part: definition.prediction_error_part,
+            shard_of: definition.shard.of,
+            shard_first: definition.shard.first,
+            shard_count: definition.shard.count,
             ..default_definition()
         };
         let mut handle = sys::ks_monitor { value: 0 };
@@ -482,6 +511,22 @@ impl Monitor {
             level: raw.level,
             verdict: Verdict::of(raw.verdict),
             since: raw.since,
+        };
+        Ok(found.iter().map(of).collect())
+    }
+    /// The pairs that are predicted to come within a separation.
+    pub fn predicted_pairs(&self) -> Result<Vec<PredictedPair>> {
+        let found: Vec<sys::ks_predicted_pair> = filled(|pairs, capacity, count| unsafe {
+            sys::ks_monitor_predicted_pairs(self.handle, pairs, capacity, count)
+        })?;
+        let of = |raw: &sys::ks_predicted_pair| PredictedPair {
+            first: raw.first,
+            second: raw.second,
+            level: raw.level,
+            since: raw.since,
+            likely_time: raw.likely_time,
+            closest_time: raw.closest_time,
+            closest_distance: raw.closest_distance,
         };
         Ok(found.iter().map(of).collect())
     }

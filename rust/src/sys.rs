@@ -18,6 +18,12 @@ pub struct ks_world {
 
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ks_replay {
+    pub value: u64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ks_monitor {
     pub value: u64,
 }
@@ -201,6 +207,30 @@ pub struct ks_hit {
 
 #[repr(C)]
 #[derive(Clone, Copy, Default)]
+pub struct ks_timings {
+    pub advances: u64,
+    pub advance: f64,
+    pub probes: f64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
+pub struct ks_busy_body {
+    pub body: BodyId,
+    pub reason: i32,
+    pub probes: u64,
+    pub touching: u64,
+    pub near_others: u64,
+    pub windows: u64,
+    pub changes: u64,
+    pub queries: u64,
+    pub contacts: u64,
+    pub acceleration_limit: f64,
+    pub largest_acceleration: f64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
 pub struct ks_error_bound {
     pub kind: i32,
     pub horizontal: f64,
@@ -252,6 +282,9 @@ pub struct ks_monitor_definition {
     pub prediction_confirmation: f64,
     pub prediction_margin: f64,
     pub prediction_error_part: f64,
+    pub shard_of: u64,
+    pub shard_first: u64,
+    pub shard_count: u64,
 }
 
 #[repr(C)]
@@ -324,6 +357,18 @@ pub struct ks_open_pair {
 
 #[repr(C)]
 #[derive(Clone, Copy, Default)]
+pub struct ks_predicted_pair {
+    pub first: u64,
+    pub second: u64,
+    pub level: u32,
+    pub since: f64,
+    pub likely_time: f64,
+    pub closest_time: f64,
+    pub closest_distance: f64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
 pub struct ks_report_request {
     pub track: u64,
     pub other: u64,
@@ -381,6 +426,23 @@ extern "C" {
     pub fn ks_world_touching(world: ks_world, body: BodyId, partners: *mut BodyId, capacity: usize, count: *mut usize) -> ks_status;
     pub fn ks_world_sensor_overlaps(world: ks_world, body: BodyId, overlaps: *mut ks_sensor_overlap, capacity: usize, count: *mut usize) -> ks_status;
 
+    pub fn ks_world_set_profiling(world: ks_world, on: i32) -> ks_status;
+    pub fn ks_world_timings(world: ks_world, timings: *mut ks_timings) -> ks_status;
+    pub fn ks_world_busiest(world: ks_world, most: usize, bodies: *mut ks_busy_body, capacity: usize, count: *mut usize) -> ks_status;
+    pub fn ks_probe_reason_name(reason: i32) -> *const c_char;
+    pub fn ks_probe_reason_advice(reason: i32) -> *const c_char;
+
+    pub fn ks_world_start_recording(world: ks_world) -> ks_status;
+    pub fn ks_world_stop_recording(world: ks_world) -> ks_status;
+    pub fn ks_world_recording(world: ks_world, bytes: *mut u8, capacity: usize, count: *mut usize) -> ks_status;
+    pub fn ks_replay_open(bytes: *const u8, count: usize, filter: Option<ks_pair_filter>, user: *mut c_void, replay: *mut ks_replay) -> ks_status;
+    pub fn ks_replay_destroy(replay: ks_replay) -> ks_status;
+    pub fn ks_replay_advance(replay: ks_replay, event: *mut ks_event) -> ks_status;
+    pub fn ks_replay_finished(replay: ks_replay, finished: *mut i32) -> ks_status;
+    pub fn ks_replay_steps(replay: ks_replay, repeated: *mut usize, total: *mut usize) -> ks_status;
+    pub fn ks_replay_hash(replay: ks_replay, hash: *mut u64) -> ks_status;
+    pub fn ks_replay_world(replay: ks_replay, copy: *mut ks_world) -> ks_status;
+
     pub fn ks_event_kind_name(kind: i32) -> *const c_char;
     pub fn ks_bounce(event: *const ks_event, restitution: f64, resting_speed: f64, response: *mut ks_response) -> ks_status;
     pub fn ks_event_hash_add(hash: *mut ks_event_hash, event: *const ks_event) -> ks_status;
@@ -415,5 +477,6 @@ extern "C" {
     pub fn ks_monitor_tracks(monitor: ks_monitor, tracks: *mut u64, capacity: usize, count: *mut usize) -> ks_status;
     pub fn ks_monitor_answer(monitor: ks_monitor, first: u64, second: u64, level: u32, answer: *mut ks_pair_answer) -> ks_status;
     pub fn ks_monitor_open_pairs(monitor: ks_monitor, pairs: *mut ks_open_pair, capacity: usize, count: *mut usize) -> ks_status;
+    pub fn ks_monitor_predicted_pairs(monitor: ks_monitor, pairs: *mut ks_predicted_pair, capacity: usize, count: *mut usize) -> ks_status;
     pub fn ks_monitor_needed(monitor: ks_monitor, until: f64, requests: *mut ks_report_request, capacity: usize, count: *mut usize) -> ks_status;
 }

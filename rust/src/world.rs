@@ -170,7 +170,7 @@ type PairFilter = Box<dyn Fn(BodyId, BodyId) -> bool + Send + Sync>;
 
 /// A world of moving spheres. Methods have the meanings, errors and costs of those of `World` in C++.
 pub struct World {
-    handle: sys::ks_world,
+    pub(crate) handle: sys::ks_world,
     /// Keeps alive what the library has a pointer to.
     filter: Option<Arc<PairFilter>>,
 }
@@ -224,10 +224,14 @@ unsafe extern "C" fn pair_filter(first: BodyId, second: BodyId, user: *mut c_voi
 }
 
 impl World {
+    pub(crate) fn of(handle: sys::ks_world) -> World {
+        World { handle, filter: None }
+    }
+
     pub fn new(definition: &WorldDefinition) -> Result<World> {
         let mut handle = sys::ks_world { value: 0 };
         check(unsafe { sys::ks_world_create(&definition.raw(), &mut handle) })?;
-        Ok(World { handle, filter: None })
+        Ok(World::of(handle))
     }
 
     /// Returns a copy that continues as this world does, with its motions and ids: for rollback.
@@ -248,7 +252,7 @@ impl World {
         check(unsafe {
             sys::ks_world_restore(snapshot.as_ptr(), snapshot.len(), None, ptr::null_mut(), &mut handle)
         })?;
-        Ok(World { handle, filter: None })
+        Ok(World::of(handle))
     }
 
     pub fn add(&mut self, body: &BodyDefinition) -> Result<BodyId> {
@@ -601,7 +605,7 @@ impl World {
     }
 }
 
-fn new_event() -> sys::ks_event {
+pub(crate) fn new_event() -> sys::ks_event {
     sys::ks_event { struct_size: size_of::<sys::ks_event>() as u32, ..Default::default() }
 }
 

@@ -147,6 +147,56 @@ fn snapshots_queries_and_predictions() {
 }
 
 #[test]
+fn a_replay_repeats_a_recording() {
+    let (mut world, [left, right], probe) = two_balls();
+    world.start_recording().unwrap();
+    world.set_profiling(true).unwrap();
+    let event = world.advance(20.0, &probe).unwrap().unwrap();
+    let recording = world.stop_recording().unwrap();
+    assert!(world.timings().unwrap().advances == 1);
+    let busiest = world.busiest(1).unwrap();
+    assert!(busiest.len() == 1 && busiest[0].probes > 0 && busiest[0].reason.advice().len() > 20);
+    assert_eq!(busiest[0].reason.to_string(), busiest[0].reason.name());
+
+    let mut replay = Replay::open(&recording).unwrap();
+    let again = replay.advance().unwrap().unwrap();
+    assert_eq!((again.time, again.first, again.second), (event.time, left, Some(right)));
+    assert!(!replay.finished() && replay.advance().unwrap().is_none());
+    assert!(replay.finished() && replay.hash() != 0 && replay.steps().0 == replay.steps().1);
+    let mut copy = replay.world().unwrap();
+    drop(replay);
+    assert_eq!(copy.advance(20.0, &probe).unwrap().unwrap().kind, EventKind::ContactEnd);
+    assert_eq!(Replay::open(b"nothing").err().unwrap().name, "bad_recording");
+}
+
+#[test]
+fn a_monitor_predicts() {
+    let class = TrackClass { acceleration_limit: ErrorBound::Ball(0.5), ..Default::default() };
+    let level = Separation::Ellipsoid { horizontal: 50.0, vertical: 50.0, look_ahead: 60.0 };
+    let mut definition = MonitorDefinition {
+        classes: vec![class],
+        separations: vec![SeparationRule { classes: (0, 0), levels: vec![level] }],
+        ..Default::default()
+    };
+    for shards in 1..3 {
+        definition.shard.of = shards; // The pair of 1 and 2 is in the second of two shards.
+        let mut monitor = Monitor::new(&definition).unwrap();
+        for k in 0..2 {
+            let state = State {
+                position: Vec3::new(500.0 * k as f64, 0.0, 0.0),
+                velocity: Vec3::new(10.0 - 20.0 * k as f64, 0.0, 0.0),
+            };
+            let report = TrackReport { state, velocity_error: ErrorBound::Ball(0.0), ..Default::default() };
+            monitor.report(k + 1, &report).unwrap();
+        }
+        let event = monitor.advance(1.0).unwrap();
+        let pairs = monitor.predicted_pairs().unwrap();
+        assert_eq!((event.is_some(), pairs.len()), (shards == 1, (shards == 1) as usize));
+        assert!(pairs.iter().all(|pair| (pair.first, pair.second) == (1, 2) && pair.closest_distance < 1e-6));
+    }
+}
+
+#[test]
 fn a_monitor_polls() {
     let class = TrackClass { acceleration_limit: ErrorBound::Ball(3.0), ..Default::default() };
     let rule = SeparationRule { classes: (0, 0), levels: vec![Separation::sphere(50.0)] };

@@ -267,6 +267,81 @@ static void snapshots_and_clones(void) {
   CHECK_OK(ks_world_destroy(clone));
 }
 
+/// What happens while a world is recorded happens again in its replay, which ends as the world did.
+static void recordings(void) {
+  flight f;
+  memset(&f, 0, sizeof f);
+  const ks_world world = new_world();
+  CHECK_STATUS(ks_world_stop_recording(world), KS_ERROR_NOT_RECORDING);
+  CHECK_OK(ks_world_start_recording(world));
+  CHECK_STATUS(ks_world_start_recording(world), KS_ERROR_RECORDING);
+  for (int k = 0; k < 6; ++k) add_ball(world, &f, vec3(5 * k, 0, 0), vec3(3 - k, 0, 0));
+  size_t size;
+  CHECK_STATUS(ks_world_recording(world, NULL, 0, &size), KS_ERROR_NOT_RECORDING);
+  const uint64_t hash = hash_of_rest(world, 30, probe_flight, &f);
+  CHECK_OK(ks_world_stop_recording(world));
+  CHECK_STATUS(ks_world_recording(world, NULL, 0, &size), KS_ERROR_BUFFER_TOO_SMALL);
+  char* const bytes = (char*)malloc(size);
+  CHECK_OK(ks_world_recording(world, bytes, size, &size));
+
+  ks_replay replay, damaged;
+  CHECK_OK(ks_replay_open(bytes, size, NULL, NULL, &replay));
+  bytes[size / 2] ^= 1;
+  CHECK_STATUS(ks_replay_open(bytes, size, NULL, NULL, &damaged), KS_ERROR_BAD_RECORDING);
+  free(bytes);
+  size_t step, steps;
+  CHECK_OK(ks_replay_steps(replay, &step, &steps));
+  CHECK(step == 0 && steps > 6);
+  ks_event_hash again = {0, 0};
+  int32_t finished = 0;
+  ks_event event = ks_new_event();
+  for (;;) {
+    CHECK_OK(ks_replay_finished(replay, &finished));
+    if (finished) break;
+    CHECK_OK(ks_replay_advance(replay, &event));
+    if (event.kind != KS_EVENT_NONE) CHECK_OK(ks_event_hash_add(&again, &event));
+  }
+  uint64_t value, outcomes;
+  CHECK_OK(ks_event_hash_value(&again, &value));
+  CHECK(value == hash && hash != 0);
+  CHECK_OK(ks_replay_hash(replay, &outcomes));
+  CHECK_OK(ks_replay_steps(replay, &step, &steps));
+  CHECK(outcomes != 0 && step == steps);
+
+  // Its world goes on as the recorded one does.
+  ks_world copy;
+  CHECK_OK(ks_replay_world(replay, &copy));
+  CHECK_OK(ks_replay_destroy(replay));
+  CHECK_STATUS(ks_replay_advance(replay, &event), KS_ERROR_STALE_HANDLE);
+  CHECK(hash_of_rest(copy, 60, probe_flight, &f) == hash_of_rest(world, 60, probe_flight, &f));
+  CHECK_OK(ks_world_destroy(copy));
+  CHECK_OK(ks_world_destroy(world));
+}
+
+static void profiling(void) {
+  flight f;
+  memset(&f, 0, sizeof f);
+  const ks_world world = new_world();
+  for (int k = 0; k < 6; ++k) add_ball(world, &f, vec3(5 * k, 0, 0), vec3(3 - k, 0, 0));
+  ks_busy_body busy[2];
+  size_t count;
+  CHECK_STATUS(ks_world_busiest(world, 2, busy, 2, &count), KS_ERROR_NOT_PROFILING);
+  CHECK_OK(ks_world_set_profiling(world, 1));
+  hash_of_rest(world, 30, probe_flight, &f);
+  ks_timings timings;
+  CHECK_OK(ks_world_timings(world, &timings));
+  CHECK(timings.advances > 1 && timings.advance > timings.probes && timings.probes > 0);
+  CHECK_OK(ks_world_busiest(world, 2, busy, 2, &count));
+  CHECK(count == 2 && busy[0].probes >= busy[1].probes && busy[1].probes > 0);
+  for (int k = 0; k < 2; ++k) {
+    const ks_busy_body* const b = &busy[k];
+    CHECK(b->probes == b->touching + b->near_others + b->windows + b->changes + b->queries);
+    CHECK(ks_probe_reason_name(b->reason)[0] != 0 && strlen(ks_probe_reason_advice(b->reason)) > 20);
+  }
+  CHECK_OK(ks_world_set_profiling(world, 0));
+  CHECK_OK(ks_world_destroy(world));
+}
+
 static int32_t turn_back(const ks_event* event, ks_response* response, void* user) {
   ++*(int*)user;
   if (event->kind != KS_EVENT_WALL_BEGIN) return 0;
@@ -374,6 +449,9 @@ static void names(void) {
   CHECK(strcmp(ks_monitor_event_kind_name(KS_MONITOR_RECLASSIFIED), "reclassified") == 0);
   CHECK(strcmp(ks_monitor_event_kind_name(10), "") == 0);
   CHECK(strcmp(ks_verdict_name(KS_VERDICT_WITHIN), "within") == 0 && strcmp(ks_verdict_name(3), "") == 0);
+  CHECK(strcmp(ks_probe_reason_name(KS_PROBE_REASON_TOUCHING), "touching") == 0);
+  CHECK(strcmp(ks_probe_reason_name(KS_PROBE_REASON_QUERIES), "queries") == 0);
+  CHECK(ks_probe_reason_name(7)[0] == 0 && ks_probe_reason_advice(-1)[0] == 0);
   CHECK(ks_abi_version() == KS_ABI_VERSION && strchr(ks_version(), '.') != NULL);
 }
 
@@ -503,6 +581,46 @@ static void monitors(void) {
   CHECK_OK(ks_monitor_destroy(polling));
 }
 
+/// Two tracks fly towards each other. Of two monitors that divide the pairs, one predicts that they meet.
+static void predictions_and_shards(void) {
+  const ks_track_class drone = {ks_error_ball(0.5), ks_error_ball(INFINITY), {0, 0, 0}};
+  const ks_separation level = {KS_SEPARATION_ELLIPSOID, 50, 50, 60, 0};
+  const ks_separation_rule rule = {0, 0, &level, 1};
+  ks_monitor_definition definition = ks_default_monitor_definition();
+  CHECK(definition.shard_of == 1 && definition.shard_first == 0 && definition.shard_count == 1);
+  definition.classes = &drone;
+  definition.class_count = 1;
+  definition.separations = &rule;
+  definition.separation_count = 1;
+  definition.shard_of = 2;
+  const uint64_t tracks[2] = {1, 2};
+  ks_track_report reports[2] = {ks_default_track_report(), ks_default_track_report()};
+  for (int k = 0; k < 2; ++k) {
+    reports[k].velocity_error = ks_error_ball(0.0);
+    reports[k].state.position.x = 500 * k;
+    reports[k].state.velocity.x = 10 - 20 * k;
+  }
+  for (int shard = 0; shard < 2; ++shard) {
+    ks_monitor monitor;
+    definition.shard_first = (uint64_t)shard;
+    CHECK_OK(ks_monitor_create(&definition, &monitor));
+    CHECK_OK(ks_monitor_report(monitor, tracks, reports, 2));
+    ks_monitor_event event = ks_new_monitor_event();
+    CHECK_OK(ks_monitor_advance(monitor, 1, NULL, NULL, &event));
+    CHECK(event.kind == (shard == 1 ? KS_MONITOR_PREDICTED : KS_MONITOR_NONE));
+    ks_predicted_pair pair;
+    size_t count;
+    CHECK_OK(ks_monitor_predicted_pairs(monitor, &pair, 1, &count));
+    CHECK(count == (size_t)shard);  // the lower id is 1
+    if (count == 1) {
+      CHECK(pair.first == 1 && pair.second == 2 && pair.level == 0 && pair.since == event.time);
+      CHECK(fabs(pair.likely_time - 22.5) < 1e-6 && fabs(pair.closest_time - 25) < 1e-6);
+      CHECK(pair.closest_distance < 1e-6);
+    }
+    CHECK_OK(ks_monitor_destroy(monitor));
+  }
+}
+
 /// A game moves a ball at 5 frames a unit of time, towards a wall, and takes its place back after each frame.
 static void frames(void) {
   ks_world_definition definition = ks_default_world_definition();
@@ -562,12 +680,15 @@ int main(void) {
   answers();
   changes_of_bodies();
   snapshots_and_clones();
+  recordings();
+  profiling();
   motions_and_runs();
   motions_and_probes();
   frames();
   names();
   status_names();
   monitors();
+  predictions_and_shards();
   puts("all parts of the interface work");
   return 0;
 }

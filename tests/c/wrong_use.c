@@ -1,4 +1,4 @@
-// Wrong use in more than 45 ways. Nothing crashes, nothing is silently wrong: each call returns its code, and
+// Wrong use in a hundred ways. Nothing crashes, nothing is silently wrong: each call returns its code, and
 // leaves a message that names the argument. The sanitizers have nothing to say.
 #include "check.h"
 
@@ -313,6 +313,69 @@ static void wrong_snapshots(ks_world world) {
   REFUSED(ks_monitor_restore(bytes, count, &monitor), BAD_SNAPSHOT);
 }
 
+static int32_t record_inside(const ks_body_id* bodies, size_t count, double time, ks_state* states,
+                             void* user) {
+  game* const g = (game*)user;
+  g->inside = ks_world_start_recording(g->world);
+  return stand_still(bodies, count, time, states, user);
+}
+
+static int32_t profile_inside(const ks_body_id* bodies, size_t count, double time, ks_state* states,
+                              void* user) {
+  game* const g = (game*)user;
+  g->inside = ks_world_set_profiling(g->world, 1);
+  return stand_still(bodies, count, time, states, user);
+}
+
+static void wrong_recordings(void) {
+  unsigned char bytes[1 << 14];
+  size_t count;
+  ks_world_definition definition = ks_default_world_definition();
+  ks_world world;
+  CHECK_OK(ks_world_create(&definition, &world));
+  REFUSED(ks_world_stop_recording(world), NOT_RECORDING);
+  CHECK_OK(ks_world_start_recording(world));
+  REFUSED(ks_world_start_recording(world), RECORDING);
+  REFUSED(ks_world_recording(world, bytes, sizeof bytes, &count), NOT_RECORDING);  // it is not stopped
+  ks_event event = ks_new_event();
+  CHECK_OK(ks_world_advance(world, 1.0, stand_still, NULL, &event));
+  CHECK_OK(ks_world_stop_recording(world));
+  REFUSED(ks_world_recording(world, bytes, 10, &count), BUFFER_TOO_SMALL);
+  REFUSED(ks_world_recording(world, NULL, sizeof bytes, &count), NULL_ARGUMENT);
+  CHECK_OK(ks_world_recording(world, bytes, sizeof bytes, &count));  // nothing is lost
+  CHECK_OK(ks_world_destroy(world));
+
+  ks_replay replay, other, never = {0};
+  const ks_replay of_world = {world.value};
+  REFUSED(ks_replay_open(bytes, count - 1, NULL, NULL, &replay), BAD_RECORDING);
+  REFUSED(ks_replay_open(NULL, count, NULL, NULL, &replay), NULL_ARGUMENT);
+  REFUSED(ks_replay_open(bytes, count, NULL, NULL, NULL), NULL_ARGUMENT);
+  CHECK_OK(ks_replay_open(bytes, count, NULL, NULL, &replay));
+  bytes[count / 2] ^= 1;
+  REFUSED(ks_replay_open(bytes, count, NULL, NULL, &other), BAD_RECORDING);
+  REFUSED(ks_replay_advance(replay, NULL), NULL_ARGUMENT);
+  event.struct_size = 3;
+  REFUSED(ks_replay_advance(replay, &event), BAD_STRUCT);
+  event = ks_new_event();
+  REFUSED(ks_replay_advance(never, &event), INVALID_HANDLE);
+  REFUSED(ks_replay_advance(of_world, &event), INVALID_HANDLE);
+  REFUSED(ks_replay_steps(replay, &count, NULL), NULL_ARGUMENT);
+  CHECK_OK(ks_replay_destroy(replay));
+  uint64_t hash;
+  REFUSED(ks_replay_hash(replay, &hash), STALE_HANDLE);
+  REFUSED(ks_replay_world(replay, &world), STALE_HANDLE);
+  REFUSED(ks_replay_destroy(replay), STALE_HANDLE);
+  REFUSED(inside_probe(record_inside, 0), PROBE_IN_PROGRESS);
+}
+
+static void wrong_profiling(ks_world world) {
+  ks_busy_body busy;
+  size_t count;
+  REFUSED(ks_world_busiest(world, 1, &busy, 1, &count), NOT_PROFILING);
+  REFUSED(ks_world_timings(world, NULL), NULL_ARGUMENT);
+  REFUSED(inside_probe(profile_inside, 0), PROBE_IN_PROGRESS);
+}
+
 static void wrong_monitors(void) {
   ks_monitor_definition tower = ks_default_monitor_definition();
   ks_track_class drone = {ks_error_ball(3.0), ks_error_ball(INFINITY), {0, 0, 0}};
@@ -326,6 +389,9 @@ static void wrong_monitors(void) {
   tower.tolerance = 0.0;
   REFUSED(ks_monitor_create(&tower, &monitor), OUT_OF_RANGE);
   tower.tolerance = 1e-3;
+  tower.shard_first = 1;  // of one
+  REFUSED(ks_monitor_create(&tower, &monitor), OUT_OF_RANGE);
+  tower.shard_first = 0;
   levels[0].shape = 3;
   REFUSED(ks_monitor_create(&tower, &monitor), OUT_OF_RANGE);
   levels[0].shape = KS_SEPARATION_CYLINDER;
@@ -346,6 +412,7 @@ static void wrong_monitors(void) {
   REFUSED(ks_monitor_answer(monitor, 1, 1, 0, &answer), OUT_OF_RANGE);
   REFUSED(ks_monitor_answer(monitor, 1, 3, 0, &answer), UNKNOWN_BODY);
   REFUSED(ks_monitor_remove(monitor, 3), UNKNOWN_BODY);
+  REFUSED(ks_monitor_predicted_pairs(monitor, NULL, 0, NULL), NULL_ARGUMENT);
   ks_monitor_event event = ks_new_monitor_event();
   REFUSED(ks_monitor_advance(monitor, -1.0, NULL, NULL, &event), TIME_BACKWARDS);
   CHECK_OK(ks_monitor_destroy(monitor));
@@ -362,6 +429,8 @@ int main(void) {
   wrong_time(world);
   wrong_motions();
   wrong_snapshots(world);
+  wrong_recordings();
+  wrong_profiling(world);
   wrong_monitors();
   CHECK_OK(ks_world_destroy(world));
   printf("%d ways, each noticed\n", ways);
