@@ -74,6 +74,6 @@ done
 
 # Each line of C, Rust and C# in docs/c.md stands in an example.
 lines_of() { awk -v fence='```'"$1" '/^```/ {on = $0 == fence; next} on && NF {print}' docs/c.md; }
-missing=$({ lines_of c | grep -vxFf <(cat examples/c/*.c); lines_of rust | grep -vxFf <(cat rust/examples/*.rs)
+missing=$({ lines_of c | grep -vxFf <(cat examples/c/*.c examples/c/*/*.c); lines_of rust | grep -vxFf <(cat rust/examples/*.rs)
   lines_of csharp | grep -vxFf <(cat csharp/examples/*.cs); } || true)
 if [[ -n $missing ]]; then echo "docs/c.md: no example has the line: $missing" >&2 && exit 1; fi

@@ -7,6 +7,7 @@
 #include "research/bench/gas.hpp"
 #include "research/bench/monitoring.hpp"
 #include "research/bench/paper.hpp"
+#include "research/bench/paths.hpp"
 #include "research/bench/soak.hpp"
 #include "research/bench/speed/speed.hpp"
 #include "research/bench/vessels.hpp"
@@ -22,6 +23,7 @@ int main(int argc, char** argv) {
   program::VesselOptions vessel_options;
   program::MonitoringOptions monitoring_options;
   program::SoakOptions soak_options;
+  program::PathOptions path_options;
   program::RunOptions run_options;
   program::VerifyOptions verify_options;
   program::DetectorOptions detector_options;
@@ -31,6 +33,7 @@ int main(int argc, char** argv) {
   const CLI::App& vessels = *add_bench_vessels_command(app, vessel_options);
   const CLI::App& monitoring = *add_bench_monitoring_command(app, monitoring_options);
   const CLI::App& soak = *add_bench_soak_command(app, soak_options);
+  const CLI::App& paths = *add_bench_paths_command(app, path_options);
   CLI::App& run = *add_run_command(app, run_options);
   CLI::App& verify = *add_verify_command(app, verify_options);
   for (CLI::App* command : {&run, &verify}) add_detector_options(*command, detector_options);
@@ -41,6 +44,7 @@ int main(int argc, char** argv) {
     if (vessels) return bench_vessels(vessel_options);
     if (monitoring) return bench_monitoring(monitoring_options);
     if (soak) return bench_soak(soak_options);
+    if (paths) return bench_paths(path_options);
     if (run) {
       if (detector_options.name != "world" && (run_options.threads || !run_options.record.empty()))
         throw program::ProgramError("--threads, --record: expected only with --detector world");
@@ -48,7 +52,8 @@ int main(int argc, char** argv) {
     }
     if (verify) return program::verify(verify_options, detector_options.chosen());
     throw program::ProgramError(
-        "expected a command: paper, speed, gas, vessels, monitoring, soak, run or verify (see --help)");
+        "expected a command: paper, speed, gas, vessels, monitoring, soak, paths, run or verify (see "
+        "--help)");
   };
   return program::run_program(app, run_command, argc, argv);
 }

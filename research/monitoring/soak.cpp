@@ -1,22 +1,12 @@
 #include "research/monitoring/soak.hpp"
 
-#include <sys/resource.h>
-
 #include <chrono>
 #include <vector>
 
+#include "research/measures/peak_memory.hpp"
 #include "research/monitoring/verdict_check.hpp"
 
 namespace kinesphere {
-namespace {
-
-std::uint64_t largest_memory() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
-}
-
-}  // namespace
 
 Soak soak(const SoakSettings& settings, const std::function<void(std::uint64_t)>& progress) {
   using Clock = std::chrono::steady_clock;
@@ -44,7 +34,7 @@ Soak soak(const SoakSettings& settings, const std::function<void(std::uint64_t)>
     result.monitor_seconds += std::chrono::duration<double>(Clock::now() - begin).count();
     check.compare(monitor.time(), reported);
     reported.clear();
-    if (result.memory_early == 0 && 4 * taken >= settings.reports) result.memory_early = largest_memory();
+    if (result.memory_early == 0 && 4 * taken >= settings.reports) result.memory_early = peak_memory();
     if (progress && taken % (64 * at_once) == 0) progress(taken);
   }
   result.faults = reports.counts();
@@ -54,7 +44,7 @@ Soak soak(const SoakSettings& settings, const std::function<void(std::uint64_t)>
   result.missed = check.missed;
   result.warnings = check.warnings;
   result.wrongly_within = check.wrongly_within;
-  result.memory = largest_memory();
+  result.memory = peak_memory();
   result.open = monitor.open_pairs().size();
   return result;
 }
