@@ -40,6 +40,18 @@ double map_add(BodyMapHandle* handle, World* world, const MotionHandle* moving, 
   return number_of(*id);
 }
 
+/// Adds a body that carries a shape. Returns its id.
+KINESPHERE_EXPORT(map_add_moving_shape)
+double map_add_moving_shape(BodyMapHandle* handle, World* world, const MotionHandle* moving, double number,
+                            int kind, const double* shape, const double* like) {
+  if (auto reason = why_unknown(*moving->motion, number, world->time())) return fail(*reason), no_id;
+  const auto id = handle->map->add_moving_shape(*world, *moving->motion, static_cast<std::uint32_t>(number),
+                                                {body_at(like), shape_at(kind, shape)});
+  if (!is_good(id)) return no_id;
+  keep(*handle, moving->motion);
+  return number_of(*id);
+}
+
 /// Adds all bodies of the motion or, on an error, none. `radii` has one for each of `count` numbers.
 KINESPHERE_EXPORT(map_add_all)
 bool map_add_all(BodyMapHandle* handle, World* world, const MotionHandle* moving, std::size_t count,

@@ -21,13 +21,6 @@ WorldDefinition definition_at(const double* numbers) {
   return definition;
 }
 
-Shape shape_at(int kind, const double* numbers) {
-  if (kind == 0) return Ball{vector_at(numbers), numbers[3]};
-  if (kind == 1) return HalfSpace{vector_at(numbers), numbers[3]};
-  if (kind == 2) return Box{vector_at(numbers), vector_at(numbers + 3)};
-  return Triangle{vector_at(numbers), vector_at(numbers + 3), vector_at(numbers + 6)};
-}
-
 World* handle_of(Result<World> world) { return is_good(world) ? new World(std::move(*world)) : nullptr; }
 
 }  // namespace
@@ -38,6 +31,13 @@ std::uint64_t mask_of(double number) {
 
 Filter filter_at(const double* numbers) {
   return {static_cast<std::uint64_t>(numbers[0]), mask_of(numbers[1]), static_cast<std::int32_t>(numbers[2])};
+}
+
+Shape shape_at(int kind, const double* numbers) {
+  if (kind == 0) return Ball{vector_at(numbers), numbers[3]};
+  if (kind == 1) return HalfSpace{vector_at(numbers), numbers[3]};
+  if (kind == 2) return Box{vector_at(numbers), vector_at(numbers + 3)};
+  return Triangle{vector_at(numbers), vector_at(numbers + 3), vector_at(numbers + 6)};
 }
 
 BodyDefinition body_at(const double* numbers) {

@@ -97,6 +97,26 @@ test("a game hands over frames beside a motion of its own", () => {
   refuses(() => bodies.push(world, flights, [1, 2, 3]), "unsupported", /push: frames must be a FrameMotion/);
 });
 
+test("a steered lift lifts a ball", () => {
+  const world = new World();
+  const lifts = new SteeredMotion({ positions: [0, 0, 0] }, { accelerationLimits: 5 });
+  const balls = new Ballistic({ positions: [0.5, 0, 4], velocities: [0, 0, -1] });
+  const bodies = new BodyMap();
+  const shape = { box: { lower: [-1, -1, -0.5], upper: [1, 1, 0] } };
+  const lift = bodies.addMovingShape(world, lifts, 0, shape, { mass: Infinity, userData: 3 });
+  const [ball] = bodies.addAll(world, balls, 0.5);
+  assert.equal(world.body(lift).userData, 3);
+  assert.ok(bodies.find(lift).motion === lifts);
+  bodies.setVelocity(world, lift, [0, 0, 2]);
+  const event = world.advance(5, bodies);
+  assert.deepEqual([event.kind, event.first, event.second], ["contact_begin", lift, ball]);
+  assert.ok(Math.abs(event.time - 3.5 / 3) < 1e-5 && Math.abs(event.approachSpeed - 3) < 1e-12);
+  assert.equal(world.audit(), null);
+  refuses(() => bodies.addMovingShape(world, lifts, 7, shape), "unknown_body", /body/);
+  refuses(() => bodies.addMovingShape(world, balls, 0, { ball: { centre: [0, 0, 0], radius: 1 } }), "unsupported", /shape/);
+  assert.throws(() => bodies.addMovingShape(world, lifts, 0, shape, { radius: 1 }), /BodyMap.addMovingShape: options has no key radius/);
+});
+
 test("wrong use of a map is named", () => {
   const { world, ships, flights, bodies, one } = game();
   refuses(() => bodies.setVelocity(world, 77, [0, 0, 0]), "unknown_body", /was not added through this map/);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "input/input_check.hpp"
 #include "kinesphere/limits.hpp"
@@ -49,7 +50,7 @@ ArcBounds bounds_of(const PolynomialPaths& paths, std::size_t arc) {
 
 /// Requires that the arrays have one entry for each arc and body.
 void check_sizes(InputCheck& check, const PolynomialPaths& paths) {
-  constexpr std::uint64_t most = std::uint64_t{1} << 32;  // size_t has 32 bits in WebAssembly
+  constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max();
   const std::size_t arcs = paths.bodies.size();
   const auto size = [&](std::string_view argument, std::size_t expected, std::size_t came) {
     check.require(came == expected, ErrorCode::out_of_range, {argument}, "must have a size of", expected,
@@ -60,8 +61,10 @@ void check_sizes(InputCheck& check, const PolynomialPaths& paths) {
   size("paths.begins", arcs, paths.begins.size());
   size("paths.ends", arcs, paths.ends.size());
   size("paths.coefficients", 3 * paths.terms * arcs, paths.coefficients.size());
-  check.require(paths.body_count() < most, ErrorCode::out_of_range, {"paths.bodies"}, "must be less than",
-                most, paths.body_count());
+  // Where std::size_t has 32 bits, the count of a number equal to `most` wraps to 0.
+  check.require(paths.body_count() <= most && (arcs == 0 || paths.bodies.back() < most),
+                ErrorCode::out_of_range, {"paths.bodies"}, "must be of at most as many bodies as", most,
+                paths.body_count());
   if (!paths.errors.empty() && arcs > 0)
     check.require(paths.bodies.back() < paths.errors.size(), ErrorCode::out_of_range, {"paths.errors"},
                   "must have one number for each body, and so more than", std::size_t{paths.bodies.back()},

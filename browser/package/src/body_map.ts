@@ -1,6 +1,8 @@
 // BodyMap: which body of a world is which body of which motion.
 import { type BodyId, type State, type Vec3 } from "./event.js";
-import { bodyNumbers, type MovedBodyDefinition, movedBodyKeys, movedKeys, type MovedOptions, putBody } from "./body.js";
+import {
+  bodyNumbers, type MovedBodyDefinition, movedBodyKeys, movedKeys, type MovedOptions, putBody, type Shape, shapeNumbers,
+} from "./body.js";
 import { Owned, theModule } from "./module.js";
 import { countOf, each, type FrameMotion, type Motion, type PerBody, sixOf, vector } from "./motion.js";
 import { checkKeys } from "./options.js";
@@ -39,6 +41,19 @@ export class BodyMap extends Owned {
     const module = theModule();
     const id = module.with((scratch) => module.call(
       "map_add", this.address, world.address, motion.address, number, scratch.numbers(like(body, call))));
+    if (id < 0) throw module.error();
+    this.keep(motion);
+    return id;
+  }
+  /** Adds a body of a motion that carries a box or a triangle: see World.addMovingShape(). Returns its id. */
+  addMovingShape(world: World, motion: Motion, number: number, shape: Shape, options: MovedOptions = {}): BodyId {
+    const call = "BodyMap.addMovingShape";
+    checkKeys(options, movedKeys, "options", call);
+    const [kind, parts] = shapeNumbers(shape, call);
+    const module = theModule();
+    const id = module.with((scratch) => module.call(
+      "map_add_moving_shape", this.address, world.address, motion.address, number, kind, scratch.numbers(parts),
+      scratch.numbers(like(options, call))));
     if (id < 0) throw module.error();
     this.keep(motion);
     return id;
