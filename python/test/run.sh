@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds the Python package `kinesphere` as a wheel, from its source distribution, installs it into a clean virtual
-# environment, and tests it there: the ten lines of its README, types (mypy), tests (pytest), whether the pictures of the
-# docs are as the package makes them, and every example.
+# environment, and tests it there: the ten lines of its README, types (mypy, stubtest), tests (pytest), whether the
+# pictures of the docs are as the package makes them, and every example.
 # Nothing is asked of any network. The interpreter is Debian's, for which its packages are; PYTHON names another.
 # Usage: run.sh <build folder with the library, simulation/ and the native program>
 set -euo pipefail
@@ -28,9 +28,13 @@ clean=$work/venv/bin/python
 quietly "$clean" -m pip --isolated install --no-index --no-warn-script-location "$work"/wheel/kinesphere-*.whl
 
 cd "$work"
-# mypy runs alone, since it needs most of the time.
-"$python" -m mypy --config-file "$source/mypy.ini" --cache-dir "$work/mypy" --python-executable "$clean" \
-  "$source/kinesphere" "$source/test" "$source/examples" >"$work/mypy.log" 2>&1 &
+# mypy runs alone, since it needs most of the time. stubtest compares the types with the module as it is.
+{
+  "$python" -m mypy --config-file "$source/mypy.ini" --cache-dir "$work/mypy" --python-executable "$clean" \
+    "$source/kinesphere" "$source/test" "$source/examples" &&
+    "$clean" -m mypy.stubtest kinesphere --concise --mypy-config-file "$source/mypy.ini" \
+      --allowlist "$source/test/stubtest_allowed.txt" --ignore-unused-allowlist
+} >"$work/mypy.log" 2>&1 &
 mypy=$!
 # Prints the first block of Python in a page: the guide shows it too.
 python_of() { awk '/^```python/ {on = 1; next} on && /^```/ {exit} on' "$1"; }
@@ -72,5 +76,6 @@ if [[ -e $catalogue ]]; then
 else
   "$clean" "$source/examples/conjunctions.py" --distance 50 --hours 6
 fi
+"$clean" "$source/examples/check_conjunctions.py" --distance 50 --hours 6
 wait $mypy || { cat "$work/mypy.log"; exit 1; }
 cat "$work/mypy.log"

@@ -325,6 +325,23 @@ def test_a_mover_of_numpy_is_answered_as_a_motion_is(threads: int) -> None:
     assert str(hash) == hash_of(again.run(0.5, motion, scene))
 
 
+def test_a_mover_is_called_once_for_each_instant() -> None:
+    scene = ks.Scene("gas", bodies=500, seconds=2.0)
+    start = scene.motion().definitions(0.0)
+    world = ks.World(**scene.definition)
+    world.add(**start, radii=scene.radii)
+    times, asked = [], 0
+
+    def counted(ids: Any, t: float, since: Any, positions: Any, velocities: Any) -> tuple[Any, Any]:
+        nonlocal asked
+        times.append(t)
+        asked += len(ids)
+        return straight_on(ids, t, since, positions, velocities)
+
+    world.run(2.0, ks.MotionSource(counted, start["positions"], start["velocities"]), scene)
+    assert len(times) == len(set(times)) and asked > 1.5 * len(times) > 100
+
+
 def test_wrong_movers_are_named() -> None:
     with pytest.raises(TypeError, match="function must be a function"):
         ks.MotionSource(5, positions)  # type: ignore[arg-type]
