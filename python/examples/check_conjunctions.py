@@ -19,6 +19,7 @@ from scipy.spatial import cKDTree
 
 Doubles = npt.NDArray[np.float64]
 Whole = npt.NDArray[np.int64]
+Minimum = tuple[int, int, float, float]
 
 step = 10.0
 sampling = 0.05
@@ -62,7 +63,7 @@ def near_pairs(at: Doubles, distance: float) -> Whole:
 
 def minima_by_sampling(
     satellites: list[Any], start: tuple[float, float], seconds: float, distance: float
-) -> list[tuple[int, int, float, float]]:
+) -> list[Minimum]:
     """First and second object, time and distance of each minimum within the distance."""
     times = np.arange(0.0, seconds + step / 2, step)
     at = np.stack([positions(one, start, times) for one in satellites], axis=1)
@@ -86,6 +87,33 @@ def minima_by_sampling(
             if least <= distance + shallow:
                 found.append((int(a), int(b), float(time), least))
     return found
+
+
+def certain(minima: list[Minimum], distance: float) -> list[Minimum]:
+    """Those that both sides must find."""
+    return [one for one in minima if one[3] <= distance - shallow]
+
+
+def compared(
+    truth: list[Minimum], searched: Any, distance: float
+) -> tuple[list[Minimum], list[Minimum], str]:
+    """The minima that the search has missed, those that are none, and how far all others differ."""
+    by_pair: dict[tuple[int, int], list[tuple[float, float]]] = {}
+    for row in searched:
+        by_pair.setdefault((int(row["first"]), int(row["second"])), []).append((row["time"], row["distance"]))
+    missed: list[Minimum] = []
+    farthest, latest = 0.0, 0.0
+    for a, b, time, least in truth:
+        others = by_pair.get((a, b), [])
+        same = min(others, key=lambda other: abs(other[0] - time), default=None)
+        if same is None or abs(same[0] - time) > 2.0:
+            missed.append((a, b, time, least))
+            continue
+        others.remove(same)
+        farthest, latest = max(farthest, abs(same[1] - least)), max(latest, abs(same[0] - time))
+    spare = [(*pair, *other) for pair, others in by_pair.items() for other in others]
+    differences = f"distances differ by at most {farthest:.1g} km, times by {latest:.1g} s"
+    return certain(missed, distance), certain(spare, distance), differences
 
 
 def main() -> int:
@@ -112,38 +140,17 @@ def main() -> int:
         if one[2] < min(ends[one[0]], ends[one[1]])
     ]
 
-    by_pair: dict[tuple[int, int], list[tuple[float, float]]] = {}
-    for row in searched:
-        by_pair.setdefault((int(row["first"]), int(row["second"])), []).append((row["time"], row["distance"]))
-    missed, worst, worst_time = 0, 0.0, 0.0
-    for a, b, time, least in truth:
-        others = by_pair.get((a, b), [])
-        same = min(others, key=lambda other: abs(other[0] - time), default=None)
-        if same is None or abs(same[0] - time) > 2.0:
-            if least <= options.distance - shallow:
-                missed += 1
-                print(f"missed: {a} and {b} at {time:.3f} s, {least:.6f} km")
-            continue
-        others.remove(same)
-        worst, worst_time = max(worst, abs(same[1] - least)), max(worst_time, abs(same[0] - time))
-    spare = [
-        (*pair, *other)
-        for pair, others in by_pair.items()
-        for other in others
-        if other[1] <= options.distance - shallow
-    ]
-    for a, b, time, least in spare:
-        print(f"not a minimum: {a} and {b} at {time:.3f} s, {least:.6f} km")
-    within = [
-        sum(least <= options.distance for least in all)
-        for all in ([one[3] for one in truth], searched["distance"])
-    ]
+    missed, spare, differences = compared(truth, searched, options.distance)
+    for what, found in (("missed", missed), ("not a minimum", spare)):
+        for a, b, time, least in found:
+            print(f"{what}: {a} and {b} at {time:.3f} s, {least:.6f} km")
+    by_brute_force = sum(least <= options.distance for *_, least in truth)
+    by_search = int((searched["distance"] <= options.distance).sum())
     print(
-        f"{options.hours:g} h, within {options.distance:g} km: {within[0]} minima by brute force, {within[1]} by the "
-        f"search; {missed} missed, {len(spare)} that are none; distances differ by at most {worst:.1g} km, times by "
-        f"{worst_time:.1g} s"
+        f"{options.hours:g} h, within {options.distance:g} km: {by_brute_force} minima by brute force, {by_search} by the "
+        f"search; {len(missed)} missed, {len(spare)} that are none; {differences}"
     )
-    return 1 if missed > 0 or len(spare) > 0 else 0
+    return 1 if missed or spare else 0
 
 
 if __name__ == "__main__":
