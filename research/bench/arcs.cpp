@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <limits>
 #include <numbers>
 
 #include "kinesphere/random.hpp"
@@ -29,10 +28,11 @@ struct Ellipse {
 
   Vec3 at(double time) const {
     const double mean = mean_anomaly + rate * time;
-    double anomaly = mean;
-    for (int k = 0; k < 12; ++k) {
-      anomaly -=
-          (anomaly - eccentricity * std::sin(anomaly) - mean) / (1.0 - eccentricity * std::cos(anomaly));
+    // Newton's method, from a start (Danby's) from which it converges for each ellipse.
+    double anomaly = mean + std::copysign(0.85 * eccentricity, std::sin(mean));
+    for (int k = 0; k < 8; ++k) {
+      const double wrong = anomaly - eccentricity * std::sin(anomaly) - mean;
+      anomaly -= wrong / (1.0 - eccentricity * std::cos(anomaly));
     }
     const double minor = semimajor * std::sqrt(1.0 - eccentricity * eccentricity);
     return semimajor * (std::cos(anomaly) - eccentricity) * to_perigee + minor * std::sin(anomaly) * across;
@@ -52,7 +52,8 @@ Ellipse drawn(Random random) {
   const double perigee = is_low ? random.uniform(6778.0, 7578.0) : random.uniform(6678.0, 7378.0);
   const double e = is_low ? 0.003 * random.uniform() : random.uniform(0.1, 0.73);
   const double semimajor = perigee / (1.0 - e);
-  const double inclination = degree * (inclinations[random.bits() % 4] + random.uniform(-1.0, 1.0));
+  const double shell = inclinations[random.bits() % 4];
+  const double inclination = degree * (shell + random.uniform(-1.0, 1.0));
   const double node = tau * random.uniform(), argument = tau * random.uniform();
   const Vec3 ascending{std::cos(node), std::sin(node), 0.0};
   const Vec3 beyond{-std::cos(inclination) * std::sin(node), std::cos(inclination) * std::cos(node),

@@ -6,7 +6,6 @@
 #include <array>
 #include <chrono>
 #include <limits>
-#include <optional>
 #include <span>
 #include <vector>
 
