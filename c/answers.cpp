@@ -1,5 +1,5 @@
 // Certified answers: predictions and spatial queries.
-#include "kinesphere/answers.hpp"
+#include "kinesphere/certificates.hpp"
 
 #include "exchange.hpp"
 #include "kinesphere/queries.hpp"
@@ -83,31 +83,31 @@ ks_status query(std::string_view call, ks_world world, ks_probe probe, void* use
 using namespace kinesphere;
 using namespace kinesphere::c;
 
-// `probes` below is a probe, or nothing: each call of World has an overload for both.
+// `probes` below is a probe, or nothing: World has facets with and without one.
 
 ks_status ks_world_safe_until(ks_world world, ks_probe probe, void* user, ks_prediction* prediction) {
   return predict(__func__, world, probe, user, prediction,
-                 [](auto& of, const auto&... probes) { return of.safe_until(probes...); });
+                 [](auto& of, const auto&... probes) { return of.certificates(probes...).safe_until(); });
 }
 
 ks_status ks_world_earliest_contact(ks_world world, ks_body_id body, ks_probe probe, void* user,
                                     ks_prediction* prediction) {
   return predict(__func__, world, probe, user, prediction, [&](auto& of, const auto&... probes) {
-    return of.earliest_contact(id_of(body), probes...);
+    return of.certificates(probes...).earliest_contact(id_of(body));
   });
 }
 
 ks_status ks_world_earliest_approach(ks_world world, ks_body_id body, double distance, ks_probe probe,
                                      void* user, ks_prediction* prediction) {
   return predict(__func__, world, probe, user, prediction, [&](auto& of, const auto&... probes) {
-    return of.earliest_approach(id_of(body), distance, probes...);
+    return of.certificates(probes...).earliest_approach(id_of(body), distance);
   });
 }
 
 ks_status ks_world_pair_safe_until(ks_world world, ks_body_id first, ks_body_id second, double distance,
                                    ks_probe probe, void* user, ks_prediction* prediction) {
   return predict(__func__, world, probe, user, prediction, [&](auto& of, const auto&... probes) {
-    return of.safe_until(id_of(first), id_of(second), distance, probes...);
+    return of.certificates(probes...).safe_until(id_of(first), id_of(second), distance);
   });
 }
 
@@ -116,7 +116,7 @@ ks_status ks_world_distance_limits(ks_world world, ks_body_id first, ks_body_id 
   return answering(
       __func__, world, probe, user, lower != nullptr ? Target{upper, "upper"} : Target{lower, "lower"},
       [&](auto& of, const auto&... probes) {
-        return of.distance_limits(id_of(first), id_of(second), time, probes...);
+        return of.certificates(probes...).distance_limits(id_of(first), id_of(second), time);
       },
       [&](const DistanceLimits& limits) {
         *lower = limits.lower;
@@ -127,7 +127,7 @@ ks_status ks_world_distance_limits(ks_world world, ks_body_id first, ks_body_id 
 ks_status ks_world_overlapping_sphere(ks_world world, ks_vec3 centre, double radius, ks_probe probe,
                                       void* user, ks_hit* hits, size_t capacity, size_t* count) {
   return query(__func__, world, probe, user, {hits, capacity, count}, [&](auto& of, const auto&... probes) {
-    return of.overlapping(vector_of(centre), radius, probes...);
+    return of.queries(probes...).overlapping(vector_of(centre), radius);
   });
 }
 
@@ -136,20 +136,20 @@ ks_status ks_world_overlapping_box(ks_world world, const ks_box* box, ks_probe p
   return query(__func__, world, probe, user, {hits, capacity, count},
                [&, call = __func__](auto& of, const auto&... probes) {
                  require_pointer(call, box, "box");
-                 return of.overlapping(box_of(*box), probes...);
+                 return of.queries(probes...).overlapping(box_of(*box));
                });
 }
 
 ks_status ks_world_nearest(ks_world world, ks_vec3 point, size_t bodies, ks_probe probe, void* user,
                            ks_hit* hits, size_t capacity, size_t* count) {
   return query(__func__, world, probe, user, {hits, capacity, count}, [&](auto& of, const auto&... probes) {
-    return of.nearest(vector_of(point), bodies, probes...);
+    return of.queries(probes...).nearest(vector_of(point), bodies);
   });
 }
 
 ks_status ks_world_cast(ks_world world, ks_vec3 origin, ks_vec3 direction, double length, double radius,
                         ks_probe probe, void* user, ks_hit* hits, size_t capacity, size_t* count) {
   return query(__func__, world, probe, user, {hits, capacity, count}, [&](auto& of, const auto&... probes) {
-    return of.sphere_cast(vector_of(origin), radius, vector_of(direction), length, probes...);
+    return of.queries(probes...).sphere_cast(vector_of(origin), radius, vector_of(direction), length);
   });
 }

@@ -69,7 +69,7 @@ void remove_with_motions(Simulation& simulation, std::span<const BodyId> bodies)
     (simulation.find(body) ? simulation.remove(body) : simulation.world().remove(body)).value();
 }
 
-/// Throws BadResult as World::remove_all() would.
+/// Throws BadResult as World::remove() would.
 void require_removable(std::string_view call, const World& world, std::span<const BodyId> bodies) {
   for (const BodyId body : bodies) (void)world.body(body).value();
   std::vector<BodyId> sorted(bodies.begin(), bodies.end());
@@ -142,7 +142,7 @@ ks_status ks_world_remove(ks_world world, const ks_body_id* bodies, size_t count
     const std::span ids = ids_of(bodies, count);
     const bool moved =
         std::any_of(ids.begin(), ids.end(), [&](BodyId body) { return simulation.find(body).has_value(); });
-    if (!moved) return simulation.world().remove_all(ids).value();
+    if (!moved) return simulation.world().remove(ids).value();
     require_idle(simulation.world());
     require_removable(call, simulation.world(), ids);
     remove_with_motions(simulation, ids);
@@ -163,7 +163,7 @@ ks_status ks_world_set_velocities(ks_world world, const ks_body_id* bodies, cons
     require_array(call, velocities, count, "velocities");
     const std::span ids = ids_of(bodies, count);
     const std::span given = vectors_of(velocities, count);
-    object.world().set_velocity_all(ids, given).value();
+    object.world().set_velocities(ids, given).value();
     for (std::size_t k = 0; k < count; ++k) turn(object, ids[k], given[k]);
   });
 }
@@ -174,20 +174,23 @@ ks_status ks_world_teleport(ks_world world, ks_body_id body, const ks_state* sta
 }
 
 ks_status ks_world_set_radius(ks_world world, ks_body_id body, double radius) {
-  return change_body(__func__, world, body, [&](World& of, BodyId id) { return of.set_radius(id, radius); });
+  return change_body(__func__, world, body,
+                     [&](World& of, BodyId id) { return of.change(id, {.radius = radius}); });
 }
 
 ks_status ks_world_set_mass(ks_world world, ks_body_id body, double mass) {
-  return change_body(__func__, world, body, [&](World& of, BodyId id) { return of.set_mass(id, mass); });
+  return change_body(__func__, world, body,
+                     [&](World& of, BodyId id) { return of.change(id, {.mass = mass}); });
 }
 
 ks_status ks_world_set_motion_limits(ks_world world, ks_body_id body, const ks_motion_limits* limits) {
   return change_body(__func__, world, body, [&, call = __func__](World& of, BodyId id) {
     require_pointer(call, limits, "limits");
-    return of.set_motion_limits(id, {.acceleration_limit = limits->acceleration_limit,
-                                     .planned_acceleration = vector_of(limits->planned_acceleration),
-                                     .position_error = limits->position_error,
-                                     .velocity_error = limits->velocity_error});
+    return of.change(
+        id, {.motion_limits = MotionLimits{.acceleration_limit = limits->acceleration_limit,
+                                           .planned_acceleration = vector_of(limits->planned_acceleration),
+                                           .position_error = limits->position_error,
+                                           .velocity_error = limits->velocity_error}});
   });
 }
 
@@ -216,13 +219,14 @@ ks_status ks_world_wake(ks_world world, ks_body_id body) {
 }
 
 ks_status ks_world_set_user_data(ks_world world, ks_body_id body, uint64_t data) {
-  return change_body(__func__, world, body, [&](World& of, BodyId id) { return of.set_user_data(id, data); });
+  return change_body(__func__, world, body,
+                     [&](World& of, BodyId id) { return of.change(id, {.user_data = data}); });
 }
 
 ks_status ks_world_set_filter(ks_world world, ks_body_id body, const ks_filter* filter) {
   return change_body(__func__, world, body, [&, call = __func__](World& of, BodyId id) {
     require_pointer(call, filter, "filter");
-    return of.set_filter(id, filter_of(*filter));
+    return of.change(id, {.filter = filter_of(*filter)});
   });
 }
 
@@ -238,7 +242,7 @@ ks_status ks_world_refresh_filter(ks_world world, ks_body_id body) {
 
 ks_status ks_world_set_solid(ks_world world, ks_body_id body, int32_t solid) {
   return change_body(__func__, world, body,
-                     [&](World& of, BodyId id) { return of.set_solid(id, solid != 0); });
+                     [&](World& of, BodyId id) { return of.change(id, {.solid = solid != 0}); });
 }
 
 ks_status ks_world_set_sensor(ks_world world, int32_t sensor_class, const double* distances, size_t count,
@@ -254,6 +258,6 @@ ks_status ks_world_set_sensor(ks_world world, int32_t sensor_class, const double
 
 ks_status ks_world_set_sensor_class(ks_world world, ks_body_id body, int32_t sensor_class) {
   return change_body(__func__, world, body, [&, call = __func__](World& of, BodyId id) {
-    return of.set_sensor_class(id, sensor_class_of(call, sensor_class));
+    return of.change(id, {.sensor_class = sensor_class_of(call, sensor_class)});
   });
 }

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "boundary.hpp"
-#include "kinesphere/answers.hpp"
 #include "kinesphere/body.hpp"
+#include "kinesphere/certificates.hpp"
 #include "kinesphere/event.hpp"
 #include "kinesphere/filter.hpp"
 #include "kinesphere/monitor/report.hpp"

@@ -109,7 +109,7 @@ AddedMotion add_motion(std::string_view call, WorldObject& object, const ks_moti
   const MotionId<> motion = add(call, object.simulation, definition);
   auto bodies = object.simulation.add_all(motion, properties.radii, properties.like).value();
   for (std::size_t k = 0; k < bodies.size(); ++k)
-    object.world().set_mass(bodies[k], properties.masses[k]).value();
+    object.world().change(bodies[k], {.mass = properties.masses[k]}).value();
   return {motion, std::move(bodies)};
 }
 

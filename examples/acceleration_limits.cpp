@@ -1,5 +1,5 @@
 // What acceleration limits cost: fifteen balls that lie in a heap, and a gas whose limits are too wide.
-// Prints the tables of docs/acceleration-limits.md; World::busiest() names the reason in each.
+// Prints the tables of docs/acceleration-limits.md; World::Inspection::busiest() names the reason in each.
 #include <kinesphere/kinesphere.hpp>
 
 #include <algorithm>
@@ -43,7 +43,7 @@ Cost heap(double limit, bool asleep) {
   const auto start = std::chrono::steady_clock::now();
   for (const Event& event : world.events(1.0, probe)) (void)event;
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-  const std::vector<BusyBody> busiest = world.busiest(1).value();
+  const std::vector<BusyBody> busiest = world.inspection().busiest(1).value();
   return {world.counters().probes - before, time.count(),
           busiest.empty() ? ProbeReason::travel : busiest.front().reason};
 }
@@ -77,7 +77,7 @@ Cost gas(double width) {
   const auto started = std::chrono::steady_clock::now();
   world.run(5.0, source, respond, [](const Event&) {}).value();
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - started;
-  return {world.counters().probes, time.count(), world.busiest(1)->front().reason};
+  return {world.counters().probes, time.count(), world.inspection().busiest(1)->front().reason};
 }
 
 /// Returns the cost, with the least time of three runs.

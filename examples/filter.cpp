@@ -41,7 +41,7 @@ int main() {
     const double now = 0.01 * round;
     if (round == 50) {  // takes effect at once, also for bullets in flight
       for (const auto& [id, side] : name)
-        if (side == "red") world.set_filter(id, {.category = red}).value();
+        if (side == "red") world.change(id, {.filter = Filter{.category = red}}).value();
     }
     const Vec3 muzzle{0, 4.0 * (round % 5) + 0.3, 0};
     const BodyId bullet = world

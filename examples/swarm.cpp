@@ -1,5 +1,6 @@
 // Some four hundred drones wander about. Each knows how long it is certain to touch no other, and queries the
 // world again only when that time runs out; it turns away from a drone that it may meet too soon.
+#include <kinesphere/certificates.hpp>
 #include <kinesphere/motion/steered_motion.hpp>
 #include <kinesphere/random.hpp>
 #include <kinesphere/world.hpp>
@@ -42,7 +43,7 @@ int main() {
       Vec3 wish = 0.05 * (middle - self.position) - 0.5 * self.velocity;
       if (certain_until[id.index] < now + reaction) {
         ++questions;
-        const EarliestContact contact = world.earliest_contact(id, drones.probe()).value();
+        const EarliestContact contact = world.certificates(drones.probe()).earliest_contact(id).value();
         certain_until[id.index] = contact.time;
         if (contact.time < now + reaction) {
           ++turns;

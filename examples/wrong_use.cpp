@@ -44,13 +44,13 @@ int main() {
   half.resize(half.size() / 2);
   const Event hit{.first = a, .second = b, .normal = {1, 0, 0}, .approach_speed = 1};
   // clang-format off
-  refused(w.remove({77, 0}), unknown_body);                 refused(w.set_velocity(no_body, {}), unknown_body);
-  refused(w.set_radius(gone, 1), stale_body);               refused(w.teleport(foreign, {}), foreign_body);
-  refused(w.remove_all(std::vector{a, a}), stale_body);     refused(w.safe_until(a, a), out_of_range);
-  refused(w.safe_until(a, foreign, 50.0), foreign_body);    refused(w.earliest_approach(a, -1.0), out_of_range);
+  refused(w.remove(BodyId{77, 0}), unknown_body);                 refused(w.set_velocity(no_body, {}), unknown_body);
+  refused(w.change(gone, {.radius = 1}), stale_body);               refused(w.teleport(foreign, {}), foreign_body);
+  refused(w.remove(std::vector{a, a}), stale_body);     refused(w.certificates().safe_until(a, a), out_of_range);
+  refused(w.certificates().safe_until(a, foreign, 50.0), foreign_body);    refused(w.certificates().earliest_approach(a, -1.0), out_of_range);
   refused(w.add({.velocity = {0, nan, 0}}), not_finite);    refused(w.add({.radius = -0.5}), out_of_range);
-  refused(w.set_radius(a, nan), not_finite);                refused(w.sleep(post), static_body);
-  refused(w.set_motion_limits(a, {.acceleration_limit = -1}), out_of_range);
+  refused(w.change(a, {.radius = nan}), not_finite);                refused(w.sleep(post), static_body);
+  refused(w.change(a, {.motion_limits = MotionLimits{.acceleration_limit = -1}}), out_of_range);
   refused(w.set_velocity(a, bounce(hit, nan, 1, 1).first_velocity), not_finite);
   refused(w.add({.position = {500, 0, 0}}), outside_domain); refused(w.teleport(a, {{0, 0, -101}, {}}), outside_domain);
   refused(tight.add({.position = {1e9, 0, 0}}), out_of_range); refused(tight.add({.position = {1, 0, 0}}), overlapping);
@@ -64,7 +64,7 @@ int main() {
   refused(w.add_zone(Triangle{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}), out_of_range);
   refused(w.set_sensor(1, {.distances = {5.0, -1.0}}), out_of_range);
   refused(w.set_velocity(post, {}), static_body);            refused(w.enable(a, {}), enabled_body);
-  refused(w.ray_cast({}, {}, 1.0), out_of_range);           refused(w.nearest({nan, 0, 0}, 1), not_finite);
+  refused(w.queries().ray_cast({}, {}, 1.0), out_of_range);           refused(w.queries().nearest({nan, 0, 0}, 1), not_finite);
   refused(w.advance(nan, motion.probe()), not_finite);      refused(w.advance(-1, motion.probe()), time_backwards);
   refused(w.advance(1, Probe::Function{nullptr}), null_probe);
   refused(w.advance(1, std::function<void(std::span<const BodyId>, double, std::span<State>)>()), null_probe);

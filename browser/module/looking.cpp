@@ -1,5 +1,8 @@
 // Reading a world: bodies, counters, certificates, answers and queries.
 #include "exchange.hpp"
+#include "kinesphere/certificates.hpp"
+#include "kinesphere/inspection.hpp"
+#include "kinesphere/queries.hpp"
 
 namespace kinesphere::browser {
 
@@ -95,13 +98,13 @@ KINESPHERE_EXPORT(world_counters) void world_counters(const World* world) {
 /// Answers triples of two ids and a time; and boxes (6 numbers) with their number of bodies.
 KINESPHERE_EXPORT(world_certificates) void world_certificates(const World* world) {
   answer().clear();
-  for (const Certificate& certificate : world->certificates())
+  for (const Certificate& certificate : world->inspection().certificates())
     answer().insert(answer().end(),
                     {number_of(certificate.first), number_of(certificate.second), certificate.until});
 }
-/// Numbers for each body that World.busiest() in package/src/world.ts reads.
+/// Numbers for each body that World.inspection().busiest() in package/src/world.ts reads.
 KINESPHERE_EXPORT(world_busiest) bool world_busiest(const World* world, std::size_t count) {
-  const auto busiest = world->busiest(count);
+  const auto busiest = world->inspection().busiest(count);
   if (!is_good(busiest)) return false;
   answer().clear();
   for (const BusyBody& busy : *busiest) {
@@ -121,25 +124,25 @@ KINESPHERE_EXPORT(advice) void advice(unsigned reason) {
 }
 KINESPHERE_EXPORT(world_cells) void world_cells(const World* world) {
   answer().clear();
-  for (const CellView& cell : world->cells())
+  for (const CellView& cell : world->inspection().cells())
     answer().insert(answer().end(), {cell.box.lower.x, cell.box.lower.y, cell.box.lower.z, cell.box.upper.x,
                                      cell.box.upper.y, cell.box.upper.z, static_cast<double>(cell.bodies)});
 }
 
 /// Answers time, partner, wall, touching or within.
 KINESPHERE_EXPORT(world_safe_until) bool world_safe_until(const World* world) {
-  const auto safe = world->safe_until();
+  const auto safe = world->certificates().safe_until();
   if (safe) answer().assign({safe->time, no_id, 0.0, safe->touching ? 1.0 : 0.0});
   return is_good(safe);
 }
 KINESPHERE_EXPORT(world_safe_until_of_pair)
 bool world_safe_until_of_pair(const World* world, double first, double second) {
-  const auto safe = world->safe_until(body_of(first), body_of(second));
+  const auto safe = world->certificates().safe_until(body_of(first), body_of(second));
   if (safe) answer().assign({safe->time, no_id, 0.0, safe->touching ? 1.0 : 0.0});
   return is_good(safe);
 }
 KINESPHERE_EXPORT(world_earliest_contact) bool world_earliest_contact(const World* world, double body) {
-  const auto contact = world->earliest_contact(body_of(body));
+  const auto contact = world->certificates().earliest_contact(body_of(body));
   if (contact)
     answer().assign({contact->time, number_of(contact->partner), static_cast<double>(contact->wall),
                      contact->touching ? 1.0 : 0.0});
@@ -147,7 +150,7 @@ KINESPHERE_EXPORT(world_earliest_contact) bool world_earliest_contact(const Worl
 }
 KINESPHERE_EXPORT(world_earliest_approach)
 bool world_earliest_approach(const World* world, double body, double distance) {
-  const auto approach = world->earliest_approach(body_of(body), distance);
+  const auto approach = world->certificates().earliest_approach(body_of(body), distance);
   if (approach)
     answer().assign({approach->time, number_of(approach->partner), static_cast<double>(approach->wall),
                      approach->within ? 1.0 : 0.0});
@@ -182,30 +185,30 @@ bool answer_overlaps(const Result<std::vector<OverlapHit>>& results) {
 
 KINESPHERE_EXPORT(world_nearest)
 bool world_nearest(const World* world, const double* point, std::size_t count) {
-  return answer_all(world->nearest(vector_at(point), count));
+  return answer_all(world->queries().nearest(vector_at(point), count));
 }
 KINESPHERE_EXPORT(world_ray_cast)
 bool world_ray_cast(const World* world, const double* origin, const double* direction, double length) {
-  return answer_all(world->ray_cast(vector_at(origin), vector_at(direction), length));
+  return answer_all(world->queries().ray_cast(vector_at(origin), vector_at(direction), length));
 }
 KINESPHERE_EXPORT(world_sphere_cast)
 bool world_sphere_cast(const World* world, const double* origin, const double* direction, double length,
                        double radius) {
-  return answer_all(world->sphere_cast(vector_at(origin), radius, vector_at(direction), length));
+  return answer_all(world->queries().sphere_cast(vector_at(origin), radius, vector_at(direction), length));
 }
 KINESPHERE_EXPORT(world_overlapping)
 bool world_overlapping(const World* world, const double* centre, double radius) {
-  return answer_overlaps(world->overlapping(vector_at(centre), radius));
+  return answer_overlaps(world->queries().overlapping(vector_at(centre), radius));
 }
 KINESPHERE_EXPORT(world_overlapping_box)
 bool world_overlapping_box(const World* world, const double* corners) {
-  return answer_overlaps(world->overlapping(Box{vector_at(corners), vector_at(corners + 3)}));
+  return answer_overlaps(world->queries().overlapping(Box{vector_at(corners), vector_at(corners + 3)}));
 }
 
 /// Answers an empty text if there is no defect.
 KINESPHERE_EXPORT(world_audit) void world_audit(const World* world) {
   answer_bytes().clear();
-  const auto finding = world->audit();
+  const auto finding = world->inspection().audit();
   if (!finding) return;
   for (const char c : finding->where + ": " + finding->what)
     answer_bytes().push_back(static_cast<std::byte>(c));

@@ -136,7 +136,7 @@ double world_add_zone(World* world, int kind, const double* shape, const double*
   const auto id = world->add_zone(shape_at(kind, shape), static_cast<std::uint64_t>(user_data));
   if (!is_good(id)) return no_id;
   const Filter given = filter_at(filter);
-  return given == Filter{} || is_good(world->set_filter(*id, given)) ? number_of(*id) : no_id;
+  return given == Filter{} || is_good(world->change(*id, {.filter = given})) ? number_of(*id) : no_id;
 }
 
 KINESPHERE_EXPORT(world_remove) bool world_remove(World* world, double body) {
@@ -154,25 +154,25 @@ bool world_set_velocity_all(World* world, std::size_t count, const double* bodie
     ids.push_back(body_of(bodies[k]));
     each.push_back(vector_at(velocities + 3 * k));
   }
-  return is_good(world->set_velocity_all(ids, each));
+  return is_good(world->set_velocities(ids, each));
 }
 KINESPHERE_EXPORT(world_teleport) bool world_teleport(World* world, double body, const double* state) {
   return is_good(world->teleport(body_of(body), state_at(state)));
 }
 KINESPHERE_EXPORT(world_set_radius) bool world_set_radius(World* world, double body, double radius) {
-  return is_good(world->set_radius(body_of(body), radius));
+  return is_good(world->change(body_of(body), {.radius = radius}));
 }
 KINESPHERE_EXPORT(world_set_shape)
 bool world_set_shape(World* world, double body, int kind, const double* shape) {
   return is_good(world->set_shape(body_of(body), shape_at(kind, shape)));
 }
 KINESPHERE_EXPORT(world_set_mass) bool world_set_mass(World* world, double body, double mass) {
-  return is_good(world->set_mass(body_of(body), mass));
+  return is_good(world->change(body_of(body), {.mass = mass}));
 }
 KINESPHERE_EXPORT(world_set_motion_limits)
 bool world_set_motion_limits(World* world, double body, const double* limits) {
-  return is_good(
-      world->set_motion_limits(body_of(body), {limits[0], vector_at(limits + 1), limits[4], limits[5]}));
+  return is_good(world->change(body_of(body), {.motion_limits = MotionLimits{limits[0], vector_at(limits + 1),
+                                                                             limits[4], limits[5]}}));
 }
 KINESPHERE_EXPORT(world_disable) bool world_disable(World* world, double body) {
   return is_good(world->disable(body_of(body)));
@@ -187,17 +187,17 @@ KINESPHERE_EXPORT(world_wake) bool world_wake(World* world, double body) {
   return is_good(world->wake(body_of(body)));
 }
 KINESPHERE_EXPORT(world_set_filter) bool world_set_filter(World* world, double body, const double* filter) {
-  return is_good(world->set_filter(body_of(body), filter_at(filter)));
+  return is_good(world->change(body_of(body), {.filter = filter_at(filter)}));
 }
 KINESPHERE_EXPORT(world_set_solid) bool world_set_solid(World* world, double body, bool solid) {
-  return is_good(world->set_solid(body_of(body), solid));
+  return is_good(world->change(body_of(body), {.solid = solid}));
 }
 KINESPHERE_EXPORT(world_set_user_data) bool world_set_user_data(World* world, double body, double data) {
-  return is_good(world->set_user_data(body_of(body), static_cast<std::uint64_t>(data)));
+  return is_good(world->change(body_of(body), {.user_data = static_cast<std::uint64_t>(data)}));
 }
 KINESPHERE_EXPORT(world_set_sensor_class)
 bool world_set_sensor_class(World* world, double body, int sensor_class) {
-  return is_good(world->set_sensor_class(body_of(body), static_cast<SensorClass>(sensor_class)));
+  return is_good(world->change(body_of(body), {.sensor_class = static_cast<SensorClass>(sensor_class)}));
 }
 KINESPHERE_EXPORT(world_set_sensor)
 bool world_set_sensor(World* world, int sensor_class, std::size_t count, const double* distances,

@@ -73,6 +73,8 @@ class Approaches {
     /// Return the position and the velocity of the second body relative to the first.
     Vec3 relative_position() const { return second.position - first.position; }
     Vec3 relative_velocity() const { return second.velocity - first.velocity; }
+
+    friend constexpr bool operator==(const Minimum&, const Minimum&) = default;
   };
 
   /// A span of time during which two bodies may be within the distance of each other: the distance of their
@@ -84,6 +86,8 @@ class Approaches {
     bool ends_with_path = false;    ///< a path, or the search, ends at `end`
     bool is_certain = false;        ///< the two are within the distance, whatever the errors are
     std::size_t closest = 0;        ///< index of its least minimum
+
+    friend constexpr bool operator==(const Approach&, const Approach&) = default;
   };
 
   /// What a search leaves out, and the threads that it may use.

@@ -53,6 +53,8 @@ struct BodyDefinition {
   /// Infinity for a body that moves but that no contact turns; 0 is the limit of small masses. The world does
   /// not interpret it.
   double mass = 1.0;
+
+  friend constexpr bool operator==(const BodyDefinition&, const BodyDefinition&) = default;
 };
 
 /// Limits of a body's motion and of its report errors, without radius and state. Fields: see
@@ -62,6 +64,8 @@ struct MotionLimits {
   Vec3 planned_acceleration{};
   double position_error = 0.0;
   double velocity_error = 0.0;
+
+  friend constexpr bool operator==(const MotionLimits&, const MotionLimits&) = default;
 };
 
 /// Returns the motion limits of `body`.

@@ -9,9 +9,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <iosfwd>
 #include <limits>
+#include <span>
 #include <string>
+#include <type_traits>
 
 namespace kinesphere {
 
@@ -45,6 +48,17 @@ struct BodyId {
 
 /// The id that names no body, such as the second body of a wall event.
 inline constexpr BodyId no_body{};
+
+/// One body or several, as an argument of a call: an id, a list of ids in braces, or whatever std::span
+/// takes. It refers to them, so it is valid within the call's expression.
+class BodyIds : public std::span<const BodyId> {
+ public:
+  BodyIds(const BodyId& body) : span(&body, 1) {}
+  BodyIds(std::initializer_list<BodyId> bodies) : span(bodies.begin(), bodies.size()) {}
+  template <class Bodies>
+  requires std::is_constructible_v < std::span<const BodyId>,
+  const Bodies& > BodyIds(const Bodies& bodies) : span(bodies) {}
+};
 
 /// Returns "7", "7 (generation 2)" or, for no_body, "no_body".
 std::string to_string(const BodyId& body);

@@ -32,6 +32,8 @@ namespace kinesphere {
 struct MovedBody {
   Motion* motion;
   std::uint32_t number;
+
+  friend constexpr bool operator==(const MovedBody&, const MovedBody&) = default;
 };
 
 /// Lifetimes: a motion must keep its address while the map refers to its bodies. A map cannot be moved or

@@ -52,6 +52,8 @@ struct Bound {
   [[gnu::always_inline]] Vec3 velocity_at(double t) const {
     return velocity + planned_acceleration * (t - time);
   }
+
+  friend constexpr bool operator==(const Bound&, const Bound&) = default;
 };
 
 /// Returns the bound of a body that reports `state` at `time`.
@@ -112,6 +114,8 @@ Box swept_box(const Bound& bound, double from, double to);
 struct GapLimits {
   double lower;
   double upper;
+
+  friend constexpr bool operator==(const GapLimits&, const GapLimits&) = default;
 };
 GapLimits gap_limits(const Bound& a, const Bound& b, double t);
 GapLimits gap_limits(const Bound& bound, const HalfSpace& wall, double t);

@@ -23,6 +23,9 @@ class Callback<Returned(Arguments...)> {
   /// A plain function of this signature.
   using Function = Returned (*)(Arguments...);
 
+  /// Makes an empty Callback.
+  Callback() = default;
+
   /// Refers to a named callable, or owns a temporary one.
   template <class Callable>
   requires(std::is_invocable_r_v<Returned, Callable&, Arguments...> &&

@@ -58,6 +58,8 @@ struct Counters {
   std::uint64_t steps() const { return starts + restarts + pair_checks + wall_checks; }
   /// Returns the number of delivered events of one kind.
   std::uint64_t count(EventKind kind) const { return events[static_cast<std::size_t>(kind)]; }
+
+  friend constexpr bool operator==(const Counters&, const Counters&) = default;
 };
 
 }  // namespace kinesphere

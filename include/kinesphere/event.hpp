@@ -166,6 +166,8 @@ struct Event {
     if (senses == Senses::neither) return 0;
     return senses == Senses::second ? first_user_data : second_user_data;
   }
+
+  friend constexpr bool operator==(const Event&, const Event&) = default;
 };
 
 }  // namespace kinesphere

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <limits>
+#include <type_traits>
+#include <utility>
 
 #include "kinesphere/body_id.hpp"
+#include "kinesphere/callback.hpp"
 
 namespace kinesphere {
 
@@ -27,8 +29,16 @@ constexpr bool passes(const Filter& a, const Filter& b) {
   return (a.category & b.mask) != 0 && (b.category & a.mask) != 0;
 }
 
-/// Predicate that returns true if two bodies whose filters let them touch may do so.
-/// World::set_pair_filter() gives its preconditions and the calls that it may make.
-using PairFilter = std::function<bool(BodyId, BodyId)>;
+/// Any callable `bool(BodyId, BodyId)` that returns true if two bodies whose filters let them touch may do
+/// so, or none, which lets all of them. The world keeps it, so unlike other callbacks it owns its callable,
+/// named or not. World::set_pair_filter() gives its preconditions and the calls that it may make.
+class PairFilter : public Callback<bool(BodyId, BodyId)> {
+ public:
+  PairFilter() = default;
+  template <class Callable>
+  requires(!std::is_same_v<Callable, PairFilter> && std::is_constructible_v<Callback, Callable>)
+      PairFilter(Callable callable)
+      : Callback(std::move(callable)) {}
+};
 
 }  // namespace kinesphere

@@ -5,22 +5,28 @@
 //     draw(body.bound.centre_at(world.time()), body.bound.radius_at(world.time()));
 //     draw(body.box);
 //   }
-//   for (const CellView& cell : world.cells()) draw(cell.box);
-//   for (const Certificate& c : world.certificates()) draw(c.first, c.second, c.until - world.time());
+//   for (const CellView& cell : world.inspection().cells()) draw(cell.box);
+//   for (const Certificate& c : world.inspection().certificates())
+//     draw(c.first, c.second, c.until - world.time());
 //
 //   world.set_profiling(true).value();
 //   ... // let time pass
-//   for (const BusyBody& busy : world.busiest(10).value()) print(busy.body, name_of(busy.reason));
+//   for (const BusyBody& busy : world.inspection().busiest(10).value()) print(busy.body,
+//   name_of(busy.reason));
 //
 // All results are copies: changing them does not change the world.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "kinesphere/body_id.hpp"
 #include "kinesphere/vec3.hpp"
+#include "kinesphere/world.hpp"
 
 namespace kinesphere {
 
@@ -36,6 +42,8 @@ struct Memory {
 
   /// Returns the sum of all parts.
   std::size_t total() const { return bodies + windows + pairs + contacts + recording + other; }
+
+  friend constexpr bool operator==(const Memory&, const Memory&) = default;
 };
 
 /// Wall-clock time spent (seconds) since World::set_profiling(true).
@@ -43,9 +51,11 @@ struct Timings {
   std::uint64_t advances = 0;  ///< calls of advance()
   double advance = 0.0;        ///< in advance(), including probes
   double probes = 0.0;         ///< in the caller's probes
+
+  friend constexpr bool operator==(const Timings&, const Timings&) = default;
 };
 
-/// Main reason for the probes of a body (World::busiest()).
+/// Main reason for the probes of a body (World::Inspection::busiest()).
 enum class ProbeReason : std::uint8_t {
   touching,       ///< it stays in touch, and its acceleration limit would let it leave at any time
   narrow_misses,  ///< it comes near other bodies, walls or sensor distances without touching them
@@ -88,6 +98,8 @@ struct BusyBody {
 struct CellView {
   Box box{};
   std::size_t bodies = 0;  ///< number of bodies with the centre of their box in the cell
+
+  friend constexpr bool operator==(const CellView&, const CellView&) = default;
 };
 
 /// Certificate of a pair, or of a body and the walls. Before `until` the pair does not begin or end to
@@ -99,6 +111,54 @@ struct Certificate {
   BodyId first;   ///< first < second
   BodyId second;  ///< no_body for the walls
   double until;   ///< may be infinite
+
+  friend constexpr bool operator==(const Certificate&, const Certificate&) = default;
 };
+
+/// First discrepancy that World::Inspection::audit() found.
+struct AuditFinding {
+  /// One of "registration", "certificate", "contact", "sensor", "wall", "filter", "queue"; "call" if the
+  /// audit could not run.
+  std::string where;
+  std::string what;  ///< the bodies, the recorded value and the expected value
+
+  friend bool operator==(const AuditFinding&, const AuditFinding&) = default;
+};
+
+/// What World::inspection() returns: the internal state of one world, as it is at each call. The world must
+/// outlive it and keep its address.
+class [[nodiscard]] World::Inspection {
+ public:
+  /// Returns the memory in use, by part. Cost: O(n).
+  Memory memory() const;
+  /// Returns the non-empty cells of the broad phase. Cost: O(n).
+  std::vector<CellView> cells() const;
+  /// Returns the certificates of pairs, and of bodies and the walls, that may fail before the earliest
+  /// box_end of their bodies, in no particular order. Cost: O(certificates).
+  std::vector<Certificate> certificates() const;
+  /// Returns the time spent while profiling was on (World::set_profiling).
+  Timings timings() const;
+  /// Returns the bodies that were probed most often while profiling was on, at most `count`, each with the
+  /// reason: the most probed first, equally probed ones by index. Bodies without a probe and removed bodies
+  /// are left out. Switch profiling off and on to count anew. While no body has been removed, all bodies add
+  /// up to the increase of Counters::probes. Unlike timings(), the result is deterministic, and equal for a
+  /// loop over advance() and for run() with any number of workers. Errors: not_profiling, if profiling was
+  /// never on. Cost: O(n).
+  Result<std::vector<BusyBody>> busiest(std::size_t count) const;
+  /// True from World::start_recording() to stop_recording().
+  bool is_recording() const;
+
+  /// Recomputes from scratch every registration, certificate and contact, and returns the first difference
+  /// from the stored ones, or nothing. Intended for tests. Called inside a probe or pair filter of this
+  /// world, it only returns a finding that says so. Cost: O(n^2).
+  std::optional<AuditFinding> audit() const;
+
+  explicit Inspection(const World& world) : world_(&world) {}
+
+ private:
+  const World* world_;
+};
+
+inline World::Inspection World::inspection() const& { return Inspection(*this); }
 
 }  // namespace kinesphere

@@ -2,13 +2,13 @@
 // responses and recordings.
 #pragma once
 
-#include "kinesphere/answers.hpp"
 #include "kinesphere/approaches.hpp"
 #include "kinesphere/body.hpp"
 #include "kinesphere/body_id.hpp"
 #include "kinesphere/body_map.hpp"
 #include "kinesphere/bound.hpp"
 #include "kinesphere/callback.hpp"
+#include "kinesphere/certificates.hpp"
 #include "kinesphere/counters.hpp"
 #include "kinesphere/event.hpp"
 #include "kinesphere/event_hash.hpp"
@@ -37,6 +37,7 @@
 #include "kinesphere/sensor.hpp"
 #include "kinesphere/shape.hpp"
 #include "kinesphere/simulation.hpp"
+#include "kinesphere/to_string.hpp"
 #include "kinesphere/vec3.hpp"
 #include "kinesphere/version.hpp"
 #include "kinesphere/workers.hpp"

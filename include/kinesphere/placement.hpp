@@ -31,6 +31,8 @@ struct PlacementOptions {
   /// no rounding makes spheres overlap.
   double gap = 0.0;
   std::uint64_t seed = 1;
+
+  friend constexpr bool operator==(const PlacementOptions&, const PlacementOptions&) = default;
 };
 
 /// Returns the centres of spheres of these radii (>= 0, length), all inside the box, none of which overlap:

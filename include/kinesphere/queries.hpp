@@ -1,21 +1,28 @@
-// Results of the spatial queries at a world's current time: World::overlapping, nearest, ray_cast,
-// sphere_cast.
+// Spatial queries at a world's current time.
 //
-//   for (const OverlapHit& hit : world.overlapping({1, 2, 3}, 5.0).value())
+//   for (const OverlapHit& hit : *world.queries().overlapping({1, 2, 3}, 5.0))
 //     if (hit.certainty == Certainty::certainly) ...
+//   const auto shot = world.queries(probe).ray_cast(muzzle, aim, 100.0, {.except = shooter});
 //
 // Between probes the world knows a body only as a sphere that contains it. Results are therefore
 // three-valued: bodies that are left out certainly do not match; the returned bodies match possibly or
-// certainly. The overloads that take a Probe probe the undecided bodies. Then `possibly` remains only where
-// position errors or rounding (relative 2^-45) decide. The world handles these reports like all others
-// (answers.hpp).
+// certainly. World::queries(probe) probes the undecided bodies. Then `possibly` remains only where position
+// errors or rounding (relative 2^-45) decide. The world handles these reports like all others
+// (certificates.hpp).
 //
 // A static body counts with its whole shape. A ray through an edge of a triangle is as undecided as one
 // that grazes a sphere. On periodic axes, regions, distances and rays extend across the border, and a body
 // counts once, in its nearest image or in the first image that is hit.
 #pragma once
 
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
 #include "kinesphere/body.hpp"
+#include "kinesphere/world.hpp"
 
 namespace kinesphere {
 
@@ -26,6 +33,8 @@ enum class Certainty { possibly, certainly };
 struct OverlapHit {
   BodyId body;
   Certainty certainty;
+
+  friend constexpr bool operator==(const OverlapHit&, const OverlapHit&) = default;
 };
 
 /// A body that is among the k nearest. Its surface is between `lower` and `upper` (length) from the point;
@@ -35,6 +44,8 @@ struct NearestHit {
   Certainty certainty;
   double lower;
   double upper;
+
+  friend constexpr bool operator==(const NearestHit&, const NearestHit&) = default;
 };
 
 /// A body that a ray or a moving sphere hits first, after a distance between `lower` and `upper` (length):
@@ -44,6 +55,81 @@ struct CastHit {
   Certainty certainty;
   double lower;
   double upper;
+
+  friend constexpr bool operator==(const CastHit&, const CastHit&) = default;
 };
+
+/// Which bodies a query looks at. It passes through all others.
+struct QueryOptions {
+  /// If given, those that a body with this filter may touch by their filters. The pair filter is not asked.
+  std::optional<Filter> filter{};
+  /// Not this one, such as the body that casts the ray.
+  BodyId except = no_body;
+
+  friend constexpr bool operator==(const QueryOptions&, const QueryOptions&) = default;
+};
+
+/// What World::queries() returns: the queries of one world, with or without a probe. Each call answers for
+/// the present state of the world. Copies cost little. The world must outlive it and keep its address; so
+/// must a named probe (callback.hpp), whereas a temporary one is owned.
+///
+/// Each query takes `storage`, whose memory the returned list reuses, so that a caller that passes the
+/// previous list allocates none for results:
+///   hits = world.queries().overlapping(centre, radius, {}, std::move(hits)).value();
+///
+/// Errors of all queries: probe_in_progress; not_finite or out_of_range for points and lengths beyond
+/// limits.hpp and for negative lengths; with a probe null_probe, and not_finite or out_of_range for an
+/// invalid state, which is discarded. Cost: a search, its results, and the bodies that were added or changed
+/// since the last advance.
+class [[nodiscard]] World::Queries {
+ public:
+  /// Returns the bodies that may overlap a sphere, by index. With a probe: one state for each undecided
+  /// body.
+  Result<std::vector<OverlapHit>> overlapping(const Vec3& centre, double radius,
+                                              const QueryOptions& options = {},
+                                              std::vector<OverlapHit> storage = {}) const;
+  /// Returns the bodies that may overlap a box (lower <= upper on each axis), by index. With a probe: one
+  /// state for each undecided body.
+  Result<std::vector<OverlapHit>> overlapping(const Box& box, const QueryOptions& options = {},
+                                              std::vector<OverlapHit> storage = {}) const;
+  /// Returns all bodies that may be among the `count` nearest to a point, ordered by the lower limit of
+  /// their distance: at least `count`, or all bodies if there are fewer. With a probe, all returned bodies
+  /// are probed, and there are exactly `count` except for ties and position errors. Cost: searches of
+  /// doubling size.
+  Result<std::vector<NearestHit>> nearest(const Vec3& point, std::size_t count,
+                                          const QueryOptions& options = {},
+                                          std::vector<NearestHit> storage = {}) const;
+  /// Returns all bodies that a ray may hit first, ordered by the lower limit of the distance along the ray.
+  /// The result is empty if the ray certainly hits nothing within `length`, and a single body that is
+  /// certainly the first is marked Certainty::certainly. `direction` may have any length > 0. With a probe,
+  /// all returned bodies are probed. Walls are ignored. Errors: on periodic axes, out_of_range for a length
+  /// of more than 64 boxes or a sphere radius of more than half a box. Cost: at most 64 searches along the
+  /// ray.
+  Result<std::vector<CastHit>> ray_cast(const Vec3& origin, const Vec3& direction, double length,
+                                        const QueryOptions& options = {},
+                                        std::vector<CastHit> storage = {}) const;
+  /// Returns all bodies that a sphere of this radius may hit first on its way along the ray. Errors and
+  /// cost: as ray_cast().
+  Result<std::vector<CastHit>> sphere_cast(const Vec3& origin, double radius, const Vec3& direction,
+                                           double length, const QueryOptions& options = {},
+                                           std::vector<CastHit> storage = {}) const;
+
+  /// Probes those of the bodies whose last report is older than the current time, in one call of the probe,
+  /// so that queries and certificates without a probe rest on these reports. Disabled bodies are left out.
+  /// Returns true if there were any. Errors: those of a call that names a body; without a probe, null_probe.
+  Result<bool> refresh(BodyIds bodies) const;
+
+  explicit Queries(Facet facet) : facet_(std::move(facet)) {}
+
+ private:
+  template <class Hit, class Valid, class Ask>
+  Result<std::vector<Hit>> answer(std::string_view call, const QueryOptions& options, std::vector<Hit> found,
+                                  Valid valid, Ask ask) const;
+
+  Facet facet_;
+};
+
+inline World::Queries World::queries() const& { return Queries({this}); }
+inline World::Queries World::queries(Probe probe) & { return Queries({this, this, std::move(probe)}); }
 
 }  // namespace kinesphere

@@ -34,6 +34,8 @@ struct ProbedState {
   double time = 0.0;
   BodyId body = no_body;
   State state{};
+
+  friend constexpr bool operator==(const ProbedState&, const ProbedState&) = default;
 };
 
 /// Repeats a recording of a world, and compares each outcome with the recorded one.
@@ -78,6 +80,8 @@ struct RecordedRun {
   std::vector<Event> events{};
   /// In recorded order, without the states of probes that failed.
   std::vector<ProbedState> probed_states{};
+
+  friend bool operator==(const RecordedRun&, const RecordedRun&) = default;
 };
 
 /// Reads a recording without replaying it. Errors: as Replay::open().

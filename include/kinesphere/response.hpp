@@ -17,6 +17,8 @@ namespace kinesphere {
 struct Bounce {
   Vec3 first_velocity;
   Vec3 second_velocity;  ///< zero for a wall
+
+  friend constexpr bool operator==(const Bounce&, const Bounce&) = default;
 };
 
 /// Returns the velocities after a frictionless central bounce with restitution in [0, 1], and with the masses

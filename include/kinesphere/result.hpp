@@ -3,6 +3,13 @@
 //   auto id = world.add({.radius = -1});
 //   if (!id) std::puts(id.error().message.c_str());
 //   // add: radius must be >= 0, but is -1
+//
+// Which calls return errors, and which throw? A call that returns a Result returns every error in it. A call
+// that returns anything else throws BadResult, with the same Error. These are the calls that are used inside
+// expressions and other calls: plain values of an object that only a moved-from one lacks (World::time()),
+// definitions and states of motions, and the probes and sources made of them; and the steps of a loop over
+// events. Exceptions of the caller's own callbacks pass through the call that called them. Apart from these
+// only std::bad_alloc is thrown and, as the caller asks for it, BadResult by Result::value().
 #pragma once
 
 #include <cstdio>
@@ -63,6 +70,8 @@ struct Error {
   BodyId body = no_body;
   /// One line for a person: the call, the argument, the body, the expected and the actual value.
   std::string message;
+
+  friend bool operator==(const Error&, const Error&) = default;
 };
 
 /// Exception that Result::value() throws. Code that checks its results never sees it.
@@ -114,7 +123,9 @@ class [[nodiscard]] Result {
   Result(Error error) : content_(std::in_place_index<1>, std::move(error)) {}
 
   /// Returns true for a success.
-  explicit operator bool() const { return content_.index() == 0; }
+  /// Returns true for a success.
+  bool has_value() const { return content_.index() == 0; }
+  explicit operator bool() const { return has_value(); }
   /// Returns the error of a failure; throws std::logic_error for a success.
   const Error& error() const& {
     require_error();
@@ -141,6 +152,15 @@ class [[nodiscard]] Result {
   T value() const&& {
     require_value();
     return std::get<0>(content_);
+  }
+  /// Returns the value or, after an error, `other`.
+  template <class Other>
+  T value_or(Other&& other) const& {
+    return has_value() ? std::get<0>(content_) : static_cast<T>(std::forward<Other>(other));
+  }
+  template <class Other>
+  T value_or(Other&& other) && {
+    return has_value() ? std::get<0>(std::move(content_)) : static_cast<T>(std::forward<Other>(other));
   }
   T& operator*() & { return value(); }
   const T& operator*() const& { return value(); }
@@ -169,7 +189,9 @@ class [[nodiscard]] Result<void> {
   Result(Error error) : error_(std::make_shared<const Error>(std::move(error))) {}
 
   /// Returns true for a success.
-  explicit operator bool() const { return !error_; }
+  /// Returns true for a success.
+  bool has_value() const { return !error_; }
+  explicit operator bool() const { return has_value(); }
   /// Returns the error of a failure; throws std::logic_error for a success.
   const Error& error() const& {
     require_error();

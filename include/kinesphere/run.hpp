@@ -27,6 +27,8 @@ namespace kinesphere {
 struct MotionOrigin {
   double time = 0.0;
   State state{};
+
+  friend constexpr bool operator==(const MotionOrigin&, const MotionOrigin&) = default;
 };
 
 /// Moves the bodies of a world for World::run(). SingleMotionSource adapts a Motion; BodyMap::source()
@@ -59,6 +61,8 @@ class MotionSource {
 struct Response {
   std::optional<Vec3> first_velocity{};
   std::optional<Vec3> second_velocity{};
+
+  friend constexpr bool operator==(const Response&, const Response&) = default;
 };
 
 /// Any callable `Response(const Event&)`. It must return the same response for the same event, at any time

@@ -59,6 +59,8 @@ struct StaticDefinition {
   SensorClass sensor_class = 0;
   /// Stored for the caller; the world does not interpret it.
   std::uint64_t user_data = 0;
+
+  friend bool operator==(const StaticDefinition&, const StaticDefinition&) = default;
 };
 
 /// Definition of a body whose surface is that of a shape, which it carries along without turning it:
@@ -70,6 +72,8 @@ struct MovingShape {
   /// A Box or a Triangle, relative to the body's position. The position should be near the middle of the
   /// shape: the world searches within that ball.
   Shape shape = Box{};
+
+  friend bool operator==(const MovingShape&, const MovingShape&) = default;
 };
 
 /// Returns one triangle for each triple of indices into `vertices`, all with this filter; user_data is the
@@ -89,6 +93,8 @@ struct SurfacePoint {
   Vec3 normal{};
   /// Distance (length); negative inside a solid: minus the depth below the nearest face.
   double distance = 0.0;
+
+  friend constexpr bool operator==(const SurfacePoint&, const SurfacePoint&) = default;
 };
 /// Return the point of the surface of a shape nearest to `from`. Cost: O(1).
 SurfacePoint nearest_point(const HalfSpace& shape, const Vec3& from);

@@ -45,6 +45,8 @@ struct MotionId {
 struct SimulatedBody {
   MotionId<> motion;
   std::uint32_t number;
+
+  friend constexpr bool operator==(const SimulatedBody&, const SimulatedBody&) = default;
 };
 
 /// Owns a world, the motions of its bodies, and the map between the two. A BodyMap refers to motions that

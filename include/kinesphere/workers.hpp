@@ -8,8 +8,6 @@
 
 namespace kinesphere {
 
-class ThreadPool;
-
 /// A program's own task system. A task is a function to be called for ranges that together cover the items
 /// from 0 to item_count exactly once. The ranges may be called sequentially or concurrently, in any order
 /// and in any threads.
@@ -33,6 +31,8 @@ struct TaskSystem {
 /// Idle threads yield a hundred times while they look for work, and then sleep.
 class Workers {
  public:
+  class Pool;  ///< of the library
+
   /// Largest number of threads.
   static constexpr int most_threads = 256;
 
@@ -53,10 +53,9 @@ class Workers {
   int count() const;
 
  private:
-  friend class ThreadPool;
-  explicit Workers(std::unique_ptr<ThreadPool> pool);
+  explicit Workers(std::unique_ptr<Pool> pool);
 
-  std::unique_ptr<ThreadPool> pool_;
+  std::unique_ptr<Pool> pool_;
 };
 
 }  // namespace kinesphere

@@ -35,20 +35,16 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
-#include "kinesphere/answers.hpp"
 #include "kinesphere/body.hpp"
 #include "kinesphere/bound.hpp"
 #include "kinesphere/counters.hpp"
 #include "kinesphere/event.hpp"
 #include "kinesphere/event_range.hpp"
 #include "kinesphere/filter.hpp"
-#include "kinesphere/inspection.hpp"
 #include "kinesphere/probe.hpp"
-#include "kinesphere/queries.hpp"
 #include "kinesphere/result.hpp"
 #include "kinesphere/run.hpp"
 #include "kinesphere/sensor.hpp"
@@ -70,23 +66,40 @@ struct BodyView {
   /// path that starts where the caller last placed the body (add, teleport, enable).
   std::array<std::int64_t, 3> image{};
   bool enabled;  ///< false for a disabled body: bound and box are stale then
-  /// True for a static body. World::shape_of() returns its shape; its state is that of one point of the
-  /// shape, and box_end is infinite.
+  /// True for a static body. Its state is that of one point of its shape, and box_end is infinite.
   bool is_static;
   /// True while the body sleeps (World::sleep): it is not probed, and its bound stays constant.
   bool sleeping;
+  /// The shape of a static body as the world stores it, that of a moving shape relative to its position, or,
+  /// for any other body, a ball at the position of its last report.
+  Shape shape{};
+
+  friend bool operator==(const BodyView&, const BodyView&) = default;
 };
 
-/// First discrepancy that World::audit() found.
-struct AuditFinding {
-  /// One of "registration", "certificate", "contact", "sensor", "wall", "filter", "queue"; "call" if the
-  /// audit could not run.
-  std::string where;
-  std::string what;  ///< the bodies, the recorded value and the expected value
+/// Properties that World::change() gives a body; those that are not given stay as they are.
+struct BodyChange {
+  /// As BodyDefinition::radius. Errors: static_body (set_shape() changes a static body); unsupported for a
+  /// moving shape.
+  std::optional<double> radius{};
+  /// Limits within which the body moves from now on. Errors: static_body.
+  std::optional<MotionLimits> motion_limits{};
+  /// Contacts that the new filter excludes end. Overlaps that it newly admits begin at once, also if
+  /// allow_overlap is false.
+  std::optional<Filter> filter{};
+  /// Whether the body has contacts from now on (BodyDefinition::solid).
+  std::optional<bool> solid{};
+  std::optional<SensorClass> sensor_class{};
+  /// The mass that events have from now on (BodyDefinition::mass). Errors: static_body; not_finite for NaN.
+  std::optional<double> mass{};
+  std::optional<std::uint64_t> user_data{};
+
+  friend constexpr bool operator==(const BodyChange&, const BodyChange&) = default;
 };
 
 enum class CallState;
 class Recorder;
+struct Timings;
 class Workers;
 
 /// Moving bodies with unknown trajectories, and every contact among them in time order.
@@ -102,7 +115,7 @@ class Workers;
 ///   - a call that takes a Probe may return null_probe and, for an invalid state, not_finite or
 ///     out_of_range;
 ///   - a moved-from world answers every call with moved_from, or throws BadResult where a call returns no
-///     Result.
+///     Result (result.hpp says which calls return errors and which throw).
 ///
 /// Threads. One thread at a time may use a world; run() may use further threads (Workers). Const calls may
 /// run concurrently with other const calls of the same world if its pair filter may be called concurrently.
@@ -114,6 +127,10 @@ class Workers;
 /// call. Everything else is returned by value.
 class World {
  public:
+  class Queries;
+  class Certificates;
+  class Inspection;
+
   /// Creates a world without bodies, at start_time. Errors: not_finite or out_of_range, naming the field.
   [[nodiscard]] static Result<World> create(const WorldDefinition& definition);
 
@@ -149,7 +166,7 @@ class World {
   /// Adds a zone: a static body that has no contacts and reports the bodies that enter and leave it, with
   /// sensor_enter and sensor_leave at distance 0. Zones belong to the sensor class zone_class (255). If
   /// that class has no sensor distance yet, the first zone sets it to 0. set_sensor(zone_class, ...)
-  /// changes the distances and the mask of all zones; set_filter() changes the filter of one zone. Errors
+  /// changes the distances and the mask of all zones; change() the filter of one zone. Errors
   /// and cost: as add_static().
   Result<BodyId> add_zone(const Shape& shape, std::uint64_t user_data = 0);
   /// Adds all static bodies or, on an error, none. Errors: as add_static(), naming the body.
@@ -162,9 +179,6 @@ class World {
   /// neither a Box nor a Triangle, and where an axis is periodic. Cost: as add(), with the radius of the ball
   /// around the position that contains the shape.
   Result<BodyId> add_moving_shape(const MovingShape& body);
-  /// Returns the shape of a static body as the world stores it, that of a moving shape relative to its
-  /// position, or, for any other body, a ball at the position of its last report.
-  Result<Shape> shape_of(BodyId body) const;
   /// Gives a static body, a zone or a moving shape another shape from the current time on: it grows, shrinks,
   /// turns or moves. Contacts and sensor overlaps that the new shape certainly ends are reported as ended,
   /// with the states and the shape from before; those that it may end are decided at once from fresh reports.
@@ -175,13 +189,11 @@ class World {
   /// next advance.
   Result<void> set_shape(BodyId body, const Shape& shape);
 
-  /// Removes a body. Its contacts end: the next advance reports their ends, with the body's state
-  /// extrapolated from its last report (ContactEvents::impacts reports no ends). Errors: probe_in_progress.
-  /// Cost: O(1 + contacts).
-  Result<void> remove(BodyId body);
-  /// Removes all bodies or, on an error, none. Errors: as remove(), naming the body; a body that is listed
-  /// twice is stale_body the second time.
-  Result<void> remove_all(std::span<const BodyId> bodies);
+  /// Removes a body or several; on an error, none. Their contacts end: the next advance reports their ends,
+  /// with the bodies' states extrapolated from their last reports (ContactEvents::impacts reports no ends).
+  /// Errors: probe_in_progress; a body that is listed twice is stale_body the second time. Cost: O(1 +
+  /// contacts) for each.
+  Result<void> remove(BodyIds bodies);
 
   /// Informs the world that this body has the velocity `velocity` from the current time on. The probe must
   /// agree; otherwise a bound_violation reports the difference. The call invalidates every certificate of
@@ -192,7 +204,7 @@ class World {
   Result<void> set_velocity(BodyId body, const Vec3& velocity);
   /// Sets the velocities of all these bodies or, on an error, of none. Errors: as set_velocity(), naming the
   /// body; out_of_range if the number of velocities differs from the number of bodies.
-  Result<void> set_velocity_all(std::span<const BodyId> bodies, std::span<const Vec3> velocities);
+  Result<void> set_velocities(std::span<const BodyId> bodies, std::span<const Vec3> velocities);
 
   // Further changes. The next advance reports a contact that a change certainly ends as ended, before all
   // other events, with the states from before the change. A contact that persists causes no event. An
@@ -204,11 +216,9 @@ class World {
   /// Puts the body into another state from the current time on. A static body moves by set_shape(). The
   /// body's next approach to any partner is reported, also in touch. Errors: disabled_body, static_body.
   Result<void> teleport(BodyId body, const State& state);
-  /// Sets the radius (length) from the current time on. Errors: static_body (set_shape() changes a static
-  /// body); unsupported for a moving shape.
-  Result<void> set_radius(BodyId body, double radius);
-  /// Sets the limits within which the body moves from the current time on. Errors: static_body.
-  Result<void> set_motion_limits(BodyId body, const MotionLimits& limits);
+  /// Changes one property of the body or several from the current time on or, on an error, none. Several
+  /// are changed in the order of BodyChange, and each must be valid after those before it.
+  Result<void> change(BodyId body, const BodyChange& change);
 
   /// Disables the body: it has no contacts and is never probed. It keeps its id, and everything except its
   /// state may be set. Its contacts end as in remove(). Errors: disabled_body.
@@ -223,7 +233,8 @@ class World {
   /// velocity must then be zero. The event EventKind::woke reports that a body is awake again, with its
   /// former motion limits. A body wakes by
   ///   - an event contact_begin or contact_end in which it takes part;
-  ///   - set_velocity, teleport, set_radius and set_motion_limits of the body itself, and wake();
+  ///   - set_velocity, teleport and a change of the radius or of the motion limits of the body itself, and
+  ///     wake();
   ///   - the waking, removal, disabling, teleport or change of radius or shape of a body in contact with it,
   ///     one whose gap to it is at most the separation distance plus the tolerance. A whole island therefore
   ///     wakes together.
@@ -234,26 +245,20 @@ class World {
   /// static_body.
   Result<void> wake(BodyId body);
 
-  /// Sets the filter of the body. Contacts that the new filter excludes end. Overlaps that it newly admits
-  /// begin at once, also if allow_overlap is false.
-  Result<void> set_filter(BodyId body, const Filter& filter);
   /// Sets a user-defined predicate for pairs whose filters let them touch; an empty one lets all of them
   /// touch. The world calls it for pairs that may meet soon, in audit(), and in the search for certain
-  /// overlaps (with the id that a new body is about to get), and for the contacts of a body in set_filter()
-  /// and refresh_filter(). Its results must not change between calls of set_pair_filter() and
-  /// refresh_filter(). It must be symmetric and must not throw.
+  /// overlaps (with the id that a new body is about to get), and for the contacts of a body in
+  /// refresh_filter() and a change of its filter. Its results must not change between calls of
+  /// set_pair_filter() and refresh_filter(). It must be symmetric and must not throw.
   ///
   /// Inside the predicate, these members of this world may be called: body(), bodies(), user_data(),
-  /// shape_of(), contains(), touching(), sensor_overlaps(), sensor(), time(), size(), definition() and
-  /// counters(). All other calls, which would change the world or call the predicate again, fail with
-  /// filter_in_progress; audit() returns a finding that says so. Cost: all bodies search again at the next
-  /// advance.
+  /// contains(), touching(), sensor_overlaps(), sensor(), time(), size(), definition() and counters(). All
+  /// other calls, which would change the world or call the predicate again, fail with filter_in_progress;
+  /// Inspection::audit() returns a finding that says so. Cost: all bodies search again at the next advance.
   Result<void> set_pair_filter(PairFilter filter);
   /// Informs the world that the pair filter's results for this body have changed.
   Result<void> refresh_filter(BodyId body);
 
-  /// Sets whether the body has contacts from now on (BodyDefinition::solid).
-  Result<void> set_solid(BodyId body, bool solid);
   /// Sets the sensor of all bodies of this class from now on; a class without a sensor senses nothing. For
   /// bodies within a distance that no longer applies, the next advance reports sensor_leave; for bodies
   /// within a distance that newly applies, it reports sensor_enter. Errors: probe_in_progress; not_finite
@@ -261,16 +266,10 @@ class World {
   /// a body of the class, which the error names. Cost: O(n) here, and a search for each body of the class
   /// at the next advance.
   Result<void> set_sensor(SensorClass sensor_class, const Sensor& sensor);
-  /// Gives a body another sensor class. Errors and cost: as set_sensor(), for the body alone.
-  Result<void> set_sensor_class(BodyId body, SensorClass sensor_class);
   /// Returns the sensor of a class; without distances if it has none.
   const Sensor& sensor(SensorClass sensor_class) const;
 
-  /// Sets the mass that events have from now on (BodyDefinition::mass). Errors: static_body; not_finite for
-  /// NaN; out_of_range for a negative mass.
-  Result<void> set_mass(BodyId body, double mass);
-  /// Sets and returns the number that the world stores for the caller.
-  Result<void> set_user_data(BodyId body, std::uint64_t data);
+  /// Returns BodyDefinition::user_data; cheaper than body().
   Result<std::uint64_t> user_data(BodyId body) const;
 
   /// Returns a range over all events up to time `until`:
@@ -345,109 +344,27 @@ class World {
   /// the largest distance to the smallest.
   Result<std::vector<SensorOverlap>> sensor_overlaps(BodyId body) const;
 
-  // Inspection of the internal state (inspection.hpp).
+  // Facets: groups of calls, each in a header of its own. A facet refers to the world.
 
-  /// Returns the memory in use, by part. Cost: O(n).
-  Memory memory() const;
-  /// Returns the non-empty cells of the broad phase. Cost: O(n).
-  std::vector<CellView> cells() const;
-  /// Returns the certificates of pairs, and of bodies and the walls, that may fail before the earliest
-  /// box_end of their bodies, in no particular order. Cost: O(certificates).
-  std::vector<Certificate> certificates() const;
+  /// Returns the spatial queries at the current time (queries.hpp), which use what is known or, given a
+  /// probe, ask for what is undecided.
+  Queries queries() const&;
+  Queries queries(Probe probe) &;
+  Queries queries() const&& = delete;
+  /// Returns the certified predictions (certificates.hpp), from what is known or from fresh reports of a
+  /// probe.
+  Certificates certificates() const&;
+  Certificates certificates(Probe probe) &;
+  Certificates certificates() const&& = delete;
+  /// Returns what there is to see of the internal state (inspection.hpp): memory, cells, profile, audit.
+  Inspection inspection() const&;
+  Inspection inspection() const&& = delete;
+
   /// Switches profiling on or off; it is off at first. Switched on, it starts from zero, and costs two
   /// clock reads per call of advance() and per probe, a few operations per probed state, and 64 bytes per
   /// body; switched off, it costs nothing. run() processes events one at a time meanwhile. Snapshots, clones
   /// and recordings do not contain it. Errors: probe_in_progress.
   Result<void> set_profiling(bool on);
-  /// Returns the time spent while profiling was on.
-  Timings timings() const;
-  /// Returns the bodies that were probed most often while profiling was on, at most `count`, each with the
-  /// reason: the most probed first, equally probed ones by index. Bodies without a probe and removed bodies
-  /// are left out. Switch profiling off and on to count anew. While no body has been removed, all bodies add
-  /// up to the increase of Counters::probes. Unlike timings(), the result is deterministic, and equal for a
-  /// loop over advance() and for run() with any number of workers. Errors: not_profiling, if profiling was
-  /// never on. Cost: O(n).
-  Result<std::vector<BusyBody>> busiest(std::size_t count) const;
-
-  /// Recomputes from scratch every registration, certificate and contact, and returns the first difference
-  /// from the stored ones, or nothing. Intended for tests. Called inside a probe or pair filter of this
-  /// world, it only returns a finding that says so. Cost: O(n^2).
-  std::optional<AuditFinding> audit() const;
-
-  // Certified predictions (answers.hpp). Errors of all: probe_in_progress. Overloads with a Probe also
-  // return the errors of advance(): null_probe; not_finite or out_of_range for an invalid state, which is
-  // discarded.
-
-  /// Returns a time before which the two bodies do not begin to touch. Errors: out_of_range for the same
-  /// body twice. Cost: O(certificates of the world); with a probe, at most two states.
-  Result<SafeTime> safe_until(BodyId first, BodyId second) const;
-  Result<SafeTime> safe_until(BodyId first, BodyId second, Probe probe);
-  /// Returns a time before which the body begins to touch no other body and no wall. Cost: O(n), for most
-  /// bodies a single comparison; with a probe, as much again for each state that limits the result.
-  Result<SafeTime> safe_until(BodyId body) const;
-  Result<SafeTime> safe_until(BodyId body, Probe probe);
-  /// Returns a time before which no contact begins in this world. Cost: O(n) in a dense scene; O(n^2) if
-  /// the first contact is far in the future. With a probe, as much again, at most 32 times.
-  Result<SafeTime> safe_until() const;
-  Result<SafeTime> safe_until(Probe probe);
-  /// Returns the result of safe_until(body) together with the partner or wall that may come first. Errors
-  /// and cost: as safe_until(body).
-  Result<EarliestContact> earliest_contact(BodyId body) const;
-  Result<EarliestContact> earliest_contact(BodyId body, Probe probe);
-  /// Returns a time before which the surfaces of the two bodies do not come within `distance` (length >= 0,
-  /// at most limits::largest_query_length) of each other. The result depends on positions alone: filters
-  /// and `solid` are ignored. For two static bodies that are not both balls nothing is known, and the
-  /// result is the current time. Errors: as safe_until(first, second); not_finite or out_of_range for
-  /// `distance`. Cost: O(1); with a probe, at most two states.
-  Result<SafeSeparation> safe_until(BodyId first, BodyId second, double distance) const;
-  Result<SafeSeparation> safe_until(BodyId first, BodyId second, double distance, Probe probe);
-  /// Returns a time before which no partner of the body comes within `distance` of it, and the partner that
-  /// may be the first. Partners are the walls and all bodies that the filters and the pair filter let the
-  /// body meet, including bodies that are not solid. Two static bodies do not meet. Errors: as
-  /// safe_until(body); not_finite or out_of_range for `distance`. Cost: O(n); with a probe, as much again
-  /// for each state that limits the result.
-  Result<EarliestApproach> earliest_approach(BodyId body, double distance) const;
-  Result<EarliestApproach> earliest_approach(BodyId body, double distance, Probe probe);
-  /// Returns lower and upper limits of the distance between the two bodies at `time` >= time(). For two
-  /// static bodies that are not both balls nothing is known. Errors: as safe_until(first, second);
-  /// not_finite or time_backwards for `time`. Cost: O(1); with a probe, at most two states.
-  Result<DistanceLimits> distance_limits(BodyId first, BodyId second, double time) const;
-  Result<DistanceLimits> distance_limits(BodyId first, BodyId second, double time, Probe probe);
-
-  // Spatial queries at the current time (queries.hpp). Errors of all: probe_in_progress; not_finite or
-  // out_of_range for points and lengths beyond limits.hpp and for negative lengths; overloads with a Probe
-  // also return the errors of the predictions above. Cost: a search, its results, and the bodies that were
-  // added or changed since the last advance.
-
-  /// Returns the bodies that may overlap a sphere, by index. With a probe: one state for each undecided
-  /// body.
-  Result<std::vector<OverlapHit>> overlapping(const Vec3& centre, double radius) const;
-  Result<std::vector<OverlapHit>> overlapping(const Vec3& centre, double radius, Probe probe);
-  /// Returns the bodies that may overlap a box (lower <= upper on each axis), by index. With a probe: one
-  /// state for each undecided body.
-  Result<std::vector<OverlapHit>> overlapping(const Box& box) const;
-  Result<std::vector<OverlapHit>> overlapping(const Box& box, Probe probe);
-  /// Returns all bodies that may be among the `count` nearest to a point, ordered by the lower limit of
-  /// their distance: at least `count`, or all bodies if there are fewer. With a probe, all returned bodies
-  /// are probed, and there are exactly `count` except for ties and position errors. Cost: searches of
-  /// doubling size.
-  Result<std::vector<NearestHit>> nearest(const Vec3& point, std::size_t count) const;
-  Result<std::vector<NearestHit>> nearest(const Vec3& point, std::size_t count, Probe probe);
-  /// Returns all bodies that a ray may hit first, ordered by the lower limit of the distance along the ray.
-  /// The result is empty if the ray certainly hits nothing within `length`, and a single body that is
-  /// certainly the first is marked Certainty::certainly. `direction` may have any length > 0. With a probe,
-  /// all returned bodies are probed. Walls are ignored. Errors: on periodic axes, out_of_range for a length
-  /// of more than 64 boxes or a sphere radius of more than half a box. Cost: at most 64 searches along the
-  /// ray.
-  Result<std::vector<CastHit>> ray_cast(const Vec3& origin, const Vec3& direction, double length) const;
-  Result<std::vector<CastHit>> ray_cast(const Vec3& origin, const Vec3& direction, double length,
-                                        Probe probe);
-  /// Returns all bodies that a sphere of this radius may hit first on its way along the ray. Errors and
-  /// cost: as ray_cast().
-  Result<std::vector<CastHit>> sphere_cast(const Vec3& origin, double radius, const Vec3& direction,
-                                           double length) const;
-  Result<std::vector<CastHit>> sphere_cast(const Vec3& origin, double radius, const Vec3& direction,
-                                           double length, Probe probe);
 
   /// Serializes the whole world; possible at any stop. A world restored from these bytes continues bit for
   /// bit as this one does, with the same events, probes and counters, in any process and on any machine.
@@ -471,11 +388,14 @@ class World {
   /// Stops recording and returns the recording, for Replay::open(). Errors: probe_in_progress;
   /// not_recording. Cost: as save().
   Result<std::vector<std::byte>> stop_recording();
-  /// True while the world is being recorded.
-  bool recording() const;
 
  private:
-  friend class Replay;
+  /// What a facet refers to.
+  struct Facet {
+    const World* world;
+    World* probing = nullptr;  ///< the same world, if the facet may probe
+    Probe probe{};
+  };
   class Engine;
   class WorldEditor;
   class Preconditions;
@@ -504,7 +424,7 @@ class World {
   std::unique_ptr<Recorder> recorder_;              ///< null unless the world is recorded
   std::unique_ptr<UndeliveredEvents> undelivered_;  ///< null until the first run()
   bool running_ = false;                            ///< true inside run()
-  Timings timings_{};
+  std::unique_ptr<Timings> timings_;                ///< null before profiling
   bool profiling_ = false;
 };
 

@@ -1,8 +1,10 @@
 // Definition of a world: its walls and its contact criteria. limits.hpp gives the ranges of the numbers.
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <optional>
+#include <tuple>
 
 #include "kinesphere/contact_events.hpp"
 #include "kinesphere/vec3.hpp"
@@ -51,6 +53,17 @@ struct WorldDefinition {
   /// tolerance.
   double zeno_interval = 0.0;
   double start_time = 0.0;
+
+  /// Two default separation distances (NaN) are equal.
+  friend bool operator==(const WorldDefinition& a, const WorldDefinition& b) {
+    const auto others = [](const WorldDefinition& world) {
+      return std::tie(world.box, world.periodic, world.dimensions, world.contact_tolerance, world.contacts,
+                      world.allow_overlap, world.zeno_interval, world.start_time);
+    };
+    return others(a) == others(b) &&
+           (a.separation_distance == b.separation_distance ||
+            (std::isnan(a.separation_distance) && std::isnan(b.separation_distance)));
+  }
 };
 
 }  // namespace kinesphere

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "kinesphere/inspection.hpp"
 #include "summary.hpp"
 
 namespace kinesphere::program {

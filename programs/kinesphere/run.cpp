@@ -1,5 +1,6 @@
 // `kinesphere run`: simulates a scene and prints its events and cost.
 #include "run.hpp"
+#include "kinesphere/inspection.hpp"
 
 #include <fmt/format.h>
 

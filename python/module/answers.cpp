@@ -6,6 +6,8 @@
 
 #include "errors.hpp"
 #include "exchange.hpp"
+#include "kinesphere/certificates.hpp"
+#include "kinesphere/queries.hpp"
 #include "moving.hpp"
 #include "shapes.hpp"
 #include "world.hpp"
@@ -32,30 +34,30 @@ py::object safe_until(WorldHandle& handle, const py::object& first, const py::ob
              "there are fewer (earliest_approach() is for one)");
     const BodyId a = id_of(first, {call, "first"}), b = id_of(second, {call, "second"});
     return py::cast(asked(handle, call, probe, [&](World& world, auto&&... with) {
-      return world.safe_until(a, b, length, std::forward<decltype(with)>(with)...);
+      return world.certificates(std::forward<decltype(with)>(with)...).safe_until(a, b, length);
     }));
   }
   if (!second.is_none()) {
     const BodyId a = id_of(first, {call, "first"}), b = id_of(second, {call, "second"});
     return py::cast(asked(handle, call, probe, [&](World& world, auto&&... with) {
-      return world.safe_until(a, b, std::forward<decltype(with)>(with)...);
+      return world.certificates(std::forward<decltype(with)>(with)...).safe_until(a, b);
     }));
   }
   if (!first.is_none()) {
     const BodyId body = id_of(first, {call, "first"});
     return py::cast(asked(handle, call, probe, [&](World& world, auto&&... with) {
-      return world.safe_until(body, std::forward<decltype(with)>(with)...);
+      return world.certificates(std::forward<decltype(with)>(with)...).safe_until(body);
     }));
   }
   return py::cast(asked(handle, call, probe, [&](World& world, auto&&... with) {
-    return world.safe_until(std::forward<decltype(with)>(with)...);
+    return world.certificates(std::forward<decltype(with)>(with)...).safe_until();
   }));
 }
 
 EarliestContact earliest_contact(WorldHandle& handle, const py::object& body, const py::object& probe) {
   const BodyId id = id_of(body, {"earliest_contact", "body"});
   return asked(handle, "earliest_contact", probe, [&](World& world, auto&&... with) {
-    return world.earliest_contact(id, std::forward<decltype(with)>(with)...);
+    return world.certificates(std::forward<decltype(with)>(with)...).earliest_contact(id);
   });
 }
 
@@ -63,7 +65,7 @@ EarliestApproach earliest_approach(WorldHandle& handle, const py::object& body, 
                                    const py::object& probe) {
   const BodyId id = id_of(body, {"earliest_approach", "body"});
   return asked(handle, "earliest_approach", probe, [&](World& world, auto&&... with) {
-    return world.earliest_approach(id, distance, std::forward<decltype(with)>(with)...);
+    return world.certificates(std::forward<decltype(with)>(with)...).earliest_approach(id, distance);
   });
 }
 
@@ -72,7 +74,7 @@ DistanceLimits distance_limits(WorldHandle& handle, const py::object& first, con
   const BodyId a = id_of(first, {"distance_limits", "first"}),
                b = id_of(second, {"distance_limits", "second"});
   return asked(handle, "distance_limits", probe, [&](World& world, auto&&... with) {
-    return world.distance_limits(a, b, time, std::forward<decltype(with)>(with)...);
+    return world.certificates(std::forward<decltype(with)>(with)...).distance_limits(a, b, time);
   });
 }
 
@@ -123,7 +125,7 @@ py::object overlapping(WorldHandle& handle, const py::object& centre, double rad
                        const py::object& probe) {
   const Vec3 middle = vector_of(centre, {"overlapping", "centre"}, handle.is_plane());
   return found_table(asked(handle, "overlapping", probe, [&](World& world, auto&&... with) {
-    return world.overlapping(middle, radius, std::forward<decltype(with)>(with)...);
+    return world.queries(std::forward<decltype(with)>(with)...).overlapping(middle, radius);
   }));
 }
 
@@ -132,14 +134,14 @@ py::object overlapping_box(WorldHandle& handle, const py::object& given, const p
   const auto box = box_of(given, argument, handle.is_plane());
   if (!box) throw py::type_error("overlapping_box: box must be a Box or two corners, but is None");
   return found_table(asked(handle, "overlapping_box", probe, [&](World& world, auto&&... with) {
-    return world.overlapping(*box, std::forward<decltype(with)>(with)...);
+    return world.queries(std::forward<decltype(with)>(with)...).overlapping(*box);
   }));
 }
 
 py::object nearest(WorldHandle& handle, const py::object& point, std::size_t count, const py::object& probe) {
   const Vec3 from = vector_of(point, {"nearest", "point"}, handle.is_plane());
   return found_table(asked(handle, "nearest", probe, [&](World& world, auto&&... with) {
-    return world.nearest(from, count, std::forward<decltype(with)>(with)...);
+    return world.queries(std::forward<decltype(with)>(with)...).nearest(from, count);
   }));
 }
 
@@ -148,7 +150,7 @@ py::object ray_cast(WorldHandle& handle, const py::object& origin, const py::obj
   const Vec3 from = vector_of(origin, {"ray_cast", "origin"}, handle.is_plane());
   const Vec3 towards = vector_of(direction, {"ray_cast", "direction"}, handle.is_plane());
   return found_table(asked(handle, "ray_cast", probe, [&](World& world, auto&&... with) {
-    return world.ray_cast(from, towards, length, std::forward<decltype(with)>(with)...);
+    return world.queries(std::forward<decltype(with)>(with)...).ray_cast(from, towards, length);
   }));
 }
 
@@ -157,7 +159,7 @@ py::object sphere_cast(WorldHandle& handle, const py::object& origin, double rad
   const Vec3 from = vector_of(origin, {"sphere_cast", "origin"}, handle.is_plane());
   const Vec3 towards = vector_of(direction, {"sphere_cast", "direction"}, handle.is_plane());
   return found_table(asked(handle, "sphere_cast", probe, [&](World& world, auto&&... with) {
-    return world.sphere_cast(from, radius, towards, length, std::forward<decltype(with)>(with)...);
+    return world.queries(std::forward<decltype(with)>(with)...).sphere_cast(from, radius, towards, length);
   }));
 }
 

@@ -183,7 +183,7 @@ py::object add_motion(WorldHandle& handle, MotionHandle& moved, const py::object
   const std::vector<BodyId> ids = add_all(handle, bodies, "add_motion");
   for (std::size_t k = 0; k < ids.size(); ++k) {
     if (ids[k].index == k) continue;
-    require(handle.world.remove_all(ids));
+    require(handle.world.remove(ids));
     refuse(argument, "must be added to a world that never had bodies, so that its numbers are ids",
            "some have been removed (a BodyMap has no such need)");
   }
@@ -265,7 +265,7 @@ py::object add_mesh(WorldHandle& handle, const py::object& vertices, const py::o
 void remove(WorldHandle& handle, const py::object& bodies) {
   const auto turn = handle.take("remove");
   const Ids named = ids_of(bodies, {"remove", "bodies"});
-  require(named.is_single ? handle.world.remove(named.ids.front()) : handle.world.remove_all(named.ids));
+  require(handle.world.remove(named.ids));
   end_call(handle);
 }
 
@@ -299,7 +299,7 @@ void set_velocity(WorldHandle& handle, const py::object& bodies, const py::objec
   const Ids named = ids_of(bodies, {"set_velocity", "bodies"});
   const std::vector<Vec3> each = vectors_for(handle, bodies, velocities, {"set_velocity", "velocities"});
   require(named.is_single ? handle.world.set_velocity(named.ids.front(), each.front())
-                          : handle.world.set_velocity_all(named.ids, each));
+                          : handle.world.set_velocities(named.ids, each));
   end_call(handle);
 }
 
@@ -319,7 +319,7 @@ void set_radius(WorldHandle& handle, const py::object& bodies, const py::object&
   const std::vector<double> each =
       each_of(radii, {"set_radius", "radii"}, ids_of(bodies, {"set_radius", "bodies"}).ids.size());
   change_each(handle, bodies, "set_radius",
-              [&](BodyId body, std::size_t k) { return handle.world.set_radius(body, each[k]); });
+              [&](BodyId body, std::size_t k) { return handle.world.change(body, {.radius = each[k]}); });
 }
 
 void set_shape(WorldHandle& handle, const py::object& body, const py::object& shape) {
@@ -333,7 +333,7 @@ void set_mass(WorldHandle& handle, const py::object& bodies, const py::object& m
   const std::vector<double> each =
       each_of(masses, {"set_mass", "masses"}, ids_of(bodies, {"set_mass", "bodies"}).ids.size());
   change_each(handle, bodies, "set_mass",
-              [&](BodyId body, std::size_t k) { return handle.world.set_mass(body, each[k]); });
+              [&](BodyId body, std::size_t k) { return handle.world.change(body, {.mass = each[k]}); });
 }
 
 void set_motion_limits(WorldHandle& handle, const py::object& bodies, double acceleration_limit,
@@ -342,14 +342,14 @@ void set_motion_limits(WorldHandle& handle, const py::object& bodies, double acc
                             vector_of(plan, {"set_motion_limits", "planned_acceleration"}, handle.is_plane()),
                             position_error, velocity_error};
   change_each(handle, bodies, "set_motion_limits",
-              [&](BodyId body, std::size_t) { return handle.world.set_motion_limits(body, limits); });
+              [&](BodyId body, std::size_t) { return handle.world.change(body, {.motion_limits = limits}); });
 }
 
 void set_filter(WorldHandle& handle, const py::object& bodies, std::uint64_t category, std::uint64_t mask,
                 const py::object& group) {
   const Filter filter{category, mask, group_of(group, {"set_filter", "group"})};
   change_each(handle, bodies, "set_filter",
-              [&](BodyId body, std::size_t) { return handle.world.set_filter(body, filter); });
+              [&](BodyId body, std::size_t) { return handle.world.change(body, {.filter = filter}); });
 }
 
 void set_pair_filter(WorldHandle& handle, const py::object& function) {
@@ -513,8 +513,9 @@ the call of the world that asked it, and counts as True.)")
       .def(
           "set_solid",
           [](WorldHandle& handle, const py::object& bodies, bool solid) {
-            change_each(handle, bodies, "set_solid",
-                        [&](BodyId body, std::size_t) { return handle.world.set_solid(body, solid); });
+            change_each(handle, bodies, "set_solid", [&](BodyId body, std::size_t) {
+              return handle.world.change(body, {.solid = solid});
+            });
           },
           py::arg("bodies"), py::arg("solid"),
           "Whether these bodies touch others from now on, or only sense and are sensed, as zones do.")
@@ -528,8 +529,9 @@ categories are sensed. Cost: O(n).)")
           "set_sensor_class",
           [](WorldHandle& handle, const py::object& bodies, std::uint64_t sensor_class) {
             const SensorClass given = sensor_class_of(sensor_class, {"set_sensor_class", "sensor_class"});
-            change_each(handle, bodies, "set_sensor_class",
-                        [&](BodyId body, std::size_t) { return handle.world.set_sensor_class(body, given); });
+            change_each(handle, bodies, "set_sensor_class", [&](BodyId body, std::size_t) {
+              return handle.world.change(body, {.sensor_class = given});
+            });
           },
           py::arg("bodies"), py::arg("sensor_class"),
           "These bodies have the sensor of this class from now on; see set_sensor().")
@@ -539,7 +541,7 @@ categories are sensed. Cost: O(n).)")
             const std::vector<std::uint64_t> each = each_whole_of(
                 data, {"set_user_data", "data"}, ids_of(bodies, {"set_user_data", "bodies"}).ids.size());
             change_each(handle, bodies, "set_user_data", [&](BodyId body, std::size_t k) {
-              return handle.world.set_user_data(body, each[k]);
+              return handle.world.change(body, {.user_data = each[k]});
             });
           },
           py::arg("bodies"), py::arg("data"),

@@ -8,6 +8,7 @@
 
 #include "errors.hpp"
 #include "exchange.hpp"
+#include "kinesphere/inspection.hpp"
 #include "kinesphere/recording.hpp"
 #include "shapes.hpp"
 #include "world.hpp"
@@ -99,7 +100,7 @@ py::tuple sensor(const WorldHandle& handle, std::uint64_t sensor_class) {
 py::list certificates(WorldHandle& handle) {
   const auto turn = handle.take("certificates");
   py::list list;
-  for (const Certificate& known : handle.world.certificates())
+  for (const Certificate& known : handle.world.inspection().certificates())
     list.append(py::make_tuple(object_of(known.first), object_of(known.second), known.until));
   return list;
 }
@@ -107,14 +108,15 @@ py::list certificates(WorldHandle& handle) {
 py::list cells(WorldHandle& handle) {
   const auto turn = handle.take("cells");
   py::list list;
-  for (const CellView& cell : handle.world.cells()) list.append(py::make_tuple(cell.box, cell.bodies));
+  for (const CellView& cell : handle.world.inspection().cells())
+    list.append(py::make_tuple(cell.box, cell.bodies));
   return list;
 }
 
 /// Returns None, or the place and the defect.
 py::object audit(WorldHandle& handle) {
   const auto turn = handle.take("audit");
-  const auto finding = without_gil(handle, [&] { return handle.world.audit(); });
+  const auto finding = without_gil(handle, [&] { return handle.world.inspection().audit(); });
   if (!finding) return py::none();
   return py::make_tuple(finding->where, finding->what);
 }
@@ -122,7 +124,7 @@ py::object audit(WorldHandle& handle) {
 py::list busiest(WorldHandle& handle, std::size_t count) {
   const auto turn = handle.take("busiest");
   py::list list;
-  for (const BusyBody& busy : handle.world.busiest(count).value()) list.append(busy);
+  for (const BusyBody& busy : handle.world.inspection().busiest(count).value()) list.append(busy);
   return list;
 }
 
@@ -342,7 +344,7 @@ axes without repetition positions come back as they are.)")
           "shape_of",
           [](WorldHandle& handle, const py::object& body) {
             const auto turn = handle.take("shape_of");
-            return object_of(handle.world.shape_of(id_of(body, {"shape_of", "body"})).value());
+            return object_of(handle.world.body(id_of(body, {"shape_of", "body"})).value().shape);
           },
           py::arg("body"), "Of a static body; of any other a Ball at its last report.")
       .def(
@@ -361,7 +363,7 @@ axes without repetition positions come back as they are.)")
       .def("memory",
            reading("memory",
                    [](const World& now) {
-                     const Memory memory = now.memory();
+                     const Memory memory = now.inspection().memory();
                      py::dict parts;
                      parts["bodies"] = memory.bodies;
                      parts["windows"] = memory.windows;
@@ -387,7 +389,7 @@ events one at a time.)")
       .def("timings",
            reading("timings",
                    [](const World& now) {
-                     const Timings timings = now.timings();
+                     const Timings timings = now.inspection().timings();
                      py::dict parts;
                      parts["advances"] = timings.advances;
                      parts["advance"] = timings.advance;
@@ -410,8 +412,9 @@ first. Raises StateError (not_profiling) if profiling was never on. Cost: O(n).)
           "From now on all that goes into the world and comes out of it is recorded, in memory.")
       .def("stop_recording", stop_recording,
            "The recording as bytes, for Replay, read_recording() and `kinesphere replay`.")
-      .def_property_readonly("recording",
-                             reading("recording", [](const World& now) { return now.recording(); }));
+      .def_property_readonly("recording", reading("recording", [](const World& now) {
+                               return now.inspection().is_recording();
+                             }));
 }
 
 }  // namespace kinesphere::python

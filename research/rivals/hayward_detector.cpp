@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "kinesphere/inspection.hpp"
 #include "research/rivals/bound_detector.hpp"
 #include "research/rivals/rivals.hpp"
 #include "simulation/detector/checked_detector.hpp"

@@ -1,4 +1,5 @@
 #include "simulation/detector/checked_detector.hpp"
+#include "kinesphere/inspection.hpp"
 
 #include <string>
 #include <utility>

@@ -1,5 +1,6 @@
 // The default answers of a detector: run, recording and profiling are unsupported.
 #include "simulation/detector/detector.hpp"
+#include "kinesphere/inspection.hpp"
 
 #include <string>
 

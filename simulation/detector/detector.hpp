@@ -13,6 +13,7 @@
 #include "kinesphere/body.hpp"
 #include "kinesphere/bound.hpp"
 #include "kinesphere/event.hpp"
+#include "kinesphere/inspection.hpp"
 #include "kinesphere/motion/motion.hpp"
 #include "kinesphere/result.hpp"
 #include "kinesphere/workers.hpp"
@@ -55,7 +56,7 @@ class Detector {
   // unsupported, and those of World.
   virtual Result<void> start_recording();
   virtual Result<std::vector<std::byte>> stop_recording();
-  // The bodies that cost most probes (World::busiest()), for detectors that are a World. Errors: unsupported,
+  // The bodies that cost most probes (World::Inspection::busiest()), for detectors that are a World. Errors: unsupported,
   // and those of World.
   virtual Result<void> set_profiling(bool on);
   virtual Result<std::vector<BusyBody>> busiest(std::size_t count) const;

@@ -2,6 +2,7 @@
 #include <utility>
 #include <vector>
 
+#include "kinesphere/inspection.hpp"
 #include "simulation/detector/checked_detector.hpp"
 #include "simulation/detector/detector.hpp"
 #include "simulation/detector/numbered_event.hpp"
@@ -93,13 +94,13 @@ class WorldDetector final : public Detector {
   double time() const override { return world_.time(); }
   DetectorCounters counters() const override { return {world_.counters()}; }
   Result<Bound> bound(std::uint32_t number) const override { return world_.body(ids_[number])->bound; }
-  std::optional<AuditFinding> audit() const override { return world_.audit(); }
-  std::optional<Memory> memory() const override { return world_.memory(); }
+  std::optional<AuditFinding> audit() const override { return world_.inspection().audit(); }
+  std::optional<Memory> memory() const override { return world_.inspection().memory(); }
   Result<void> start_recording() override { return world_.start_recording(); }
   Result<std::vector<std::byte>> stop_recording() override { return world_.stop_recording(); }
   Result<void> set_profiling(bool on) override { return world_.set_profiling(on); }
   Result<std::vector<BusyBody>> busiest(std::size_t count) const override {
-    auto busiest = world_.busiest(count);
+    auto busiest = world_.inspection().busiest(count);
     if (busiest)
       for (BusyBody& busy : *busiest) busy.body = {numbers_[busy.body.index], 0};
     return busiest;

@@ -10,6 +10,7 @@
 #include <functional>
 #include <vector>
 
+#include "kinesphere/inspection.hpp"
 #include "kinesphere/motion/trajectory.hpp"
 #include "kinesphere/vec3.hpp"
 

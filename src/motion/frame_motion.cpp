@@ -30,7 +30,7 @@ bool has_nan(const Vec3& vector) {
 
 /// Informs the world of the velocities of those of these bodies that are enabled there.
 Result<void> inform(World& world, std::vector<BodyId> bodies, std::vector<Vec3> velocities) {
-  auto informed = world.set_velocity_all(bodies, velocities);
+  auto informed = world.set_velocities(bodies, velocities);
   if (informed || informed.error().code != ErrorCode::disabled_body) return informed;
   std::size_t kept = 0;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
@@ -39,7 +39,7 @@ Result<void> inform(World& world, std::vector<BodyId> bodies, std::vector<Vec3> 
     bodies[kept] = bodies[k];
     velocities[kept++] = velocities[k];
   }
-  return world.set_velocity_all(std::span(bodies).first(kept), std::span(velocities).first(kept));
+  return world.set_velocities(std::span(bodies).first(kept), std::span(velocities).first(kept));
 }
 
 /// Returns the error of a push without a world for a body with a new velocity.
@@ -165,7 +165,7 @@ Result<void> FrameMotion::push(std::string_view call, World& world, std::span<co
   auto next = next_frame(call, positions);
   if (!next) return next.error();
   // A world that was moved from has no time to compare; a call for no body returns its error.
-  if (auto idle = world.set_velocity_all({}, {}); !idle) return idle;
+  if (auto idle = world.set_velocities({}, {}); !idle) return idle;
   InputCheck check(call);
   check.require(world.time() == latest_time(), ErrorCode::out_of_range, {"world"},
                 "must have advanced to the latest frame,", latest_time(), world.time());

@@ -54,12 +54,12 @@ class SharedRange {
   std::size_t failed_at_ = 0;
 };
 
-class ThreadPool {
+class Workers::Pool {
  public:
-  virtual ~ThreadPool() = default;
-  ThreadPool() = default;
-  ThreadPool(const ThreadPool&) = delete;
-  ThreadPool& operator=(const ThreadPool&) = delete;
+  virtual ~Pool() = default;
+  Pool() = default;
+  Pool(const Pool&) = delete;
+  Pool& operator=(const Pool&) = delete;
 
   virtual int count() const = 0;
   /// Processes all items on the calling thread, as worker 0, and on others, each with its own number less
@@ -67,13 +67,15 @@ class ThreadPool {
   virtual void run(SharedRange& items) = 0;
 
   /// Returns the pool of `workers`. Precondition: they have not been moved from.
-  static ThreadPool& of(Workers& workers) { return *workers.pool_; }
-  static Workers made(std::unique_ptr<ThreadPool> pool) { return Workers(std::move(pool)); }
+  static Pool& of(Workers& workers) { return *workers.pool_; }
+  static Workers made(std::unique_ptr<Pool> pool) { return Workers(std::move(pool)); }
 
  private:
   friend class PoolLease;
   std::atomic<bool> busy_ = false;
 };
+
+using ThreadPool = Workers::Pool;
 
 /// Acquires the pool for the lifetime of the lease, if it is free. Without workers, the calling thread works
 /// alone.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/engine.hpp"
+#include "kinesphere/certificates.hpp"
 
 namespace kinesphere {
 

@@ -14,7 +14,8 @@ BodyView body_view(const Bodies& bodies, const BroadPhase& windows, std::uint32_
                 {},
                 body.enabled,
                 body.is_static(),
-                body.is_sleeping()};
+                body.is_sleeping(),
+                body.has_shape() ? bodies.shapes.of(body) : Ball{body.bound.position, body.radius}};
   if (windows.contains(number)) {
     view.box = windows.box_of(number, now);
     view.box_end = windows.end_of(number);
@@ -23,6 +24,7 @@ BodyView body_view(const Bodies& bodies, const BroadPhase& windows, std::uint32_
   const auto [position, images] = space.wrapped(body.bound.position);
   const Vec3 shift = space.shift_of(images);
   view.definition.position = view.bound.position = position;
+  if (!body.has_shape()) view.shape = Ball{position, body.radius};
   view.box = {view.box.lower - shift, view.box.upper - shift};
   for (int axis = 0; axis < 3; ++axis) {
     constexpr double limit = 0x1p62;

@@ -120,6 +120,14 @@ void keep_first_of_each_body(std::vector<CastHit>& hits) {
 
 }  // namespace
 
+void World::Engine::Queries::restrict(std::vector<std::uint32_t>& numbers) const {
+  if (options_.except == no_body && !options_.filter) return;
+  std::erase_if(numbers, [this](std::uint32_t number) {
+    return engine_.bodies().id_of(number) == options_.except ||
+           (options_.filter && !passes(*options_.filter, engine_.bodies().filters.of(number)));
+  });
+}
+
 /// Approximate size of the smallest bodies (length).
 double World::Engine::Queries::finest_length() const {
   const double tolerance = engine_.definition().contact_tolerance;
@@ -134,12 +142,13 @@ CertainSphere World::Engine::Queries::certain_sphere(std::uint32_t number, const
 }
 
 template <class Distance, class ShapeGap>
-std::vector<OverlapHit> World::Engine::Queries::overlapping(const Box& box, Distance distance_to,
-                                                            ShapeGap gap_to) const {
+void World::Engine::Queries::overlapping(const Box& box, Distance distance_to, ShapeGap gap_to,
+                                         std::vector<OverlapHit>& found) const {
   const Vec3 middle = 0.5 * (box.lower + box.upper);
-  std::vector<OverlapHit> found;
   const double size = norm_one(box.lower) + norm_one(box.upper);
-  for (const std::uint32_t number : engine_.bodies_in(box)) {
+  std::vector<std::uint32_t> numbers = engine_.bodies_in(box);
+  restrict(numbers);
+  for (const std::uint32_t number : numbers) {
     if (const auto shape = certain_shape_of(engine_.bodies(), number, now_)) {
       const GapLimits gap = gap_to(*shape);
       if (gap.lower > 0.0) continue;
@@ -154,25 +163,24 @@ std::vector<OverlapHit> World::Engine::Queries::overlapping(const Box& box, Dist
     const bool certain = distance + wrong <= at.inner;
     found.push_back({engine_.bodies().id_of(number), certain ? Certainty::certainly : Certainty::possibly});
   }
-  return found;
 }
 
-std::vector<OverlapHit> World::Engine::Queries::overlapping(const Vec3& centre, double radius) const {
-  return overlapping(
+void World::Engine::Queries::overlapping(const Vec3& centre, double radius,
+                                         std::vector<OverlapHit>& found) const {
+  overlapping(
       box_around(centre, centre, radius), [&](const Vec3& point) { return norm(point - centre) - radius; },
-      [&](const CertainShape& shape) { return limits_of(centre, radius, shape); });
+      [&](const CertainShape& shape) { return limits_of(centre, radius, shape); }, found);
 }
 
-std::vector<OverlapHit> World::Engine::Queries::overlapping(const Box& region) const {
+void World::Engine::Queries::overlapping(const Box& region, std::vector<OverlapHit>& found) const {
   const Box box = engine_.bodies().space().within(region);
-  return overlapping(
+  overlapping(
       box, [&](const Vec3& point) { return distance_to_box(point, box); },
-      [&](const CertainShape& shape) { return limits_of(box, shape); });
+      [&](const CertainShape& shape) { return limits_of(box, shape); }, found);
 }
 
-std::vector<NearestHit> World::Engine::Queries::distances(const std::vector<std::uint32_t>& numbers,
-                                                          const Vec3& point) const {
-  std::vector<NearestHit> all;
+void World::Engine::Queries::add_distances(const std::vector<std::uint32_t>& numbers, const Vec3& point,
+                                           std::vector<NearestHit>& all) const {
   for (const std::uint32_t number : numbers) {
     if (const auto shape = certain_shape_of(engine_.bodies(), number, now_)) {
       const GapLimits gap = limits_of(point, 0.0, *shape);
@@ -185,32 +193,38 @@ std::vector<NearestHit> World::Engine::Queries::distances(const std::vector<std:
     all.push_back({engine_.bodies().id_of(number), Certainty::possibly, distance - at.outer - wrong,
                    distance - at.inner + wrong});
   }
-  return all;
 }
 
-/// Returns a superset of the `count` nearest bodies: the half edge of a cube is enlarged until `count` bodies
-/// are certainly within that distance. All bodies not returned are outside the cube.
-std::vector<std::uint32_t> World::Engine::Queries::around(const Vec3& point, std::size_t count) const {
+/// Finds a superset of the `count` nearest bodies: the half edge of a cube is enlarged until `count` bodies
+/// are certainly within that distance. All bodies not found are outside the cube.
+void World::Engine::Queries::add_around(const Vec3& point, std::size_t count,
+                                        std::vector<NearestHit>& all) const {
   const double farthest = 8.0 * coordinate_limit(engine_.definition());
   for (double reach = finest_length(); reach <= farthest; reach *= 2.0) {
     std::vector<std::uint32_t> numbers = engine_.bodies_in(box_around(point, point, reach));
-    const std::vector<NearestHit> all = distances(numbers, point);
+    const bool is_everyone = numbers.size() == engine_.bodies().table().present_count();
+    restrict(numbers);
+    all.clear();
+    add_distances(numbers, point, all);
     const auto within =
         std::count_if(all.begin(), all.end(), [=](const NearestHit& n) { return n.upper <= reach; });
-    if (static_cast<std::size_t>(within) >= count ||
-        numbers.size() == engine_.bodies().table().present_count())
-      return numbers;
+    if (static_cast<std::size_t>(within) >= count || is_everyone) return;
   }
   std::vector<std::uint32_t> main;
   for (std::uint32_t number = 0; number < engine_.bodies().numbers(); ++number)
     if (engine_.bodies()[number].present()) main.push_back(number);
-  return main;
+  restrict(main);
+  all.clear();
+  add_distances(main, point, all);
 }
 
-std::vector<NearestHit> World::Engine::Queries::nearest(const Vec3& point, std::size_t count) const {
+void World::Engine::Queries::nearest(const Vec3& point, std::size_t count,
+                                     std::vector<NearestHit>& all) const {
   count = std::min(count, engine_.bodies().table().present_count());
-  if (count == 0) return {};
-  std::vector<NearestHit> all = distances(around(point, count), point);
+  if (count == 0) return;
+  add_around(point, count, all);
+  count = std::min(count, all.size());
+  if (count == 0) return;
   std::vector<double> uppers;
   uppers.reserve(all.size());
   for (const NearestHit& near : all) uppers.push_back(near.upper);
@@ -229,7 +243,6 @@ std::vector<NearestHit> World::Engine::Queries::nearest(const Vec3& point, std::
     if (static_cast<std::size_t>(std::distance(all.begin(), not_farther)) <= count)
       near.certainty = Certainty::certainly;
   }
-  return all;
 }
 
 /// Intersects the ray with a body, in those of its images that come near this piece of the ray. Returns the
@@ -259,8 +272,7 @@ std::optional<CastHit> World::Engine::Queries::hit(const SweptRay& ray, const Bo
   return first;
 }
 
-std::vector<CastHit> World::Engine::Queries::cast(const SweptRay& ray) const {
-  std::vector<CastHit> hits;
+void World::Engine::Queries::cast(const SweptRay& ray, std::vector<CastHit>& hits) const {
   double sure = infinity;  // something is certainly hit within this distance
   const double piece = std::max({ray.length / most_pieces, 2.0 * ray.radius, finest_length()});
   std::vector<std::uint32_t> seen;
@@ -269,7 +281,8 @@ std::vector<CastHit> World::Engine::Queries::cast(const SweptRay& ray) const {
     const Box box =
         box_around(ray.origin + ray.direction * (k * piece), ray.origin + ray.direction * end, ray.radius);
     std::vector<std::uint32_t> fresh;
-    const std::vector<std::uint32_t> here = engine_.bodies_in(box);
+    std::vector<std::uint32_t> here = engine_.bodies_in(box);
+    restrict(here);
     std::set_difference(here.begin(), here.end(), seen.begin(), seen.end(), std::back_inserter(fresh));
     for (const std::uint32_t number : fresh) {
       const std::optional<CastHit> found = hit(ray, box, number);
@@ -289,7 +302,6 @@ std::vector<CastHit> World::Engine::Queries::cast(const SweptRay& ray) const {
     return a.lower != b.lower ? a.lower < b.lower : a.body < b.body;
   });
   if (hits.size() == 1 && hits[0].upper < infinity) hits[0].certainty = Certainty::certainly;
-  return hits;
 }
 
 }  // namespace kinesphere

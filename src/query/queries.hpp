@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/engine.hpp"
+#include "kinesphere/queries.hpp"
 #include "query/certain_sphere.hpp"
 
 namespace kinesphere {
@@ -19,26 +20,33 @@ struct SweptRay {
 
 class World::Engine::Queries {
  public:
-  explicit Queries(const Engine& engine) : engine_(engine), now_(engine.time()) {}
+  Queries(const Engine& engine, const QueryOptions& options)
+      : engine_(engine), options_(options), now_(engine.time()) {}
 
-  std::vector<OverlapHit> overlapping(const Vec3& centre, double radius) const;
-  std::vector<OverlapHit> overlapping(const Box& region) const;
-  std::vector<NearestHit> nearest(const Vec3& point, std::size_t count) const;
-  std::vector<CastHit> cast(const SweptRay& ray) const;
+  // Each appends its results to an empty list.
+  void overlapping(const Vec3& centre, double radius, std::vector<OverlapHit>& found) const;
+  void overlapping(const Box& region, std::vector<OverlapHit>& found) const;
+  void nearest(const Vec3& point, std::size_t count, std::vector<NearestHit>& all) const;
+  void cast(const SweptRay& ray, std::vector<CastHit>& hits) const;
 
  private:
+  /// Removes the bodies that the options leave out.
+  void restrict(std::vector<std::uint32_t>& numbers) const;
   double finest_length() const;
   CertainSphere certain_sphere(std::uint32_t number, const Vec3& point) const;
-  /// Returns the bodies that overlap a region, certainly or possibly. `distance_to(centre)` is the distance
+  /// Finds the bodies that overlap a region, certainly or possibly. `distance_to(centre)` is the distance
   /// of a point from the region, `gap_to(shape)` the gap limits of a CertainShape. `box` contains the
   /// region.
   template <class Distance, class ShapeGap>
-  std::vector<OverlapHit> overlapping(const Box& box, Distance distance_to, ShapeGap gap_to) const;
+  void overlapping(const Box& box, Distance distance_to, ShapeGap gap_to,
+                   std::vector<OverlapHit>& found) const;
   std::optional<CastHit> hit(const SweptRay& ray, const Box& piece, std::uint32_t number) const;
-  std::vector<std::uint32_t> around(const Vec3& point, std::size_t count) const;
-  std::vector<NearestHit> distances(const std::vector<std::uint32_t>& numbers, const Vec3& point) const;
+  void add_around(const Vec3& point, std::size_t count, std::vector<NearestHit>& all) const;
+  void add_distances(const std::vector<std::uint32_t>& numbers, const Vec3& point,
+                     std::vector<NearestHit>& all) const;
 
   const Engine& engine_;
+  const QueryOptions& options_;
   double now_;
 };
 

@@ -43,7 +43,7 @@ using AddStatic = New<StaticDefinition, &World::add_static>;
 using AddMovingShape = New<MovingShape, &World::add_moving_shape>;
 
 /// Change of one body without an argument, through the World member `call`.
-template <Result<void> (World::*call)(BodyId)>
+template <auto call>
 struct Plain {
   BodyId body{};
 
@@ -75,15 +75,32 @@ struct With {
 using SetVelocity = With<BodyId, Vec3, const Vec3&, &World::set_velocity>;
 using Teleport = With<BodyId, State, const State&, &World::teleport>;
 using Enable = With<BodyId, State, const State&, &World::enable>;
-using SetRadius = With<BodyId, double, double, &World::set_radius>;
-using SetMotionLimits = With<BodyId, MotionLimits, const MotionLimits&, &World::set_motion_limits>;
-using SetFilter = With<BodyId, Filter, const Filter&, &World::set_filter>;
-using SetSolid = With<BodyId, bool, bool, &World::set_solid>;
 using SetSensor = With<SensorClass, Sensor, const Sensor&, &World::set_sensor>;
-using SetSensorClass = With<BodyId, SensorClass, SensorClass, &World::set_sensor_class>;
 using SetShape = With<BodyId, Shape, const Shape&, &World::set_shape>;
-using SetMass = With<BodyId, double, double, &World::set_mass>;
-using SetUserData = With<BodyId, std::uint64_t, std::uint64_t, &World::set_user_data>;
+
+/// Change of one property of a body, a member of BodyChange.
+template <class Argument, std::optional<Argument> BodyChange::*property>
+struct Set {
+  BodyId body{};
+  Argument argument{};
+
+  Result<void> repeat(World& world) const {
+    BodyChange change;
+    change.*property = argument;
+    return world.change(body, change);
+  }
+  static void serialize(auto& self, auto& archive) {
+    auto& [changed, value] = self;
+    archive(changed, value);
+  }
+};
+using SetRadius = Set<double, &BodyChange::radius>;
+using SetMotionLimits = Set<MotionLimits, &BodyChange::motion_limits>;
+using SetFilter = Set<Filter, &BodyChange::filter>;
+using SetSolid = Set<bool, &BodyChange::solid>;
+using SetSensorClass = Set<SensorClass, &BodyChange::sensor_class>;
+using SetMass = Set<double, &BodyChange::mass>;
+using SetUserData = Set<std::uint64_t, &BodyChange::user_data>;
 
 /// Change of the pair filter. A predicate is code and cannot be recorded, so this holds only whether there is
 /// one.

@@ -40,21 +40,21 @@ Memory World::Engine::memory() const {
   return memory;
 }
 
-Memory World::memory() const {
-  Memory memory = engine("memory").memory();
-  if (recorder_) memory.recording = recorder_->memory();
+Memory World::Inspection::memory() const {
+  Memory memory = world_->engine("memory").memory();
+  if (world_->recorder_) memory.recording = world_->recorder_->memory();
   return memory;
 }
 
-std::vector<CellView> World::cells() const {
+std::vector<CellView> World::Inspection::cells() const {
   std::vector<CellView> all;
-  for (const GridLevel& layer : engine("cells").broad_phase().levels())
+  for (const GridLevel& layer : world_->engine("cells").broad_phase().levels())
     layer.for_each_cell([&](const Box& box, std::size_t bodies) { all.push_back({box, bodies}); });
   return all;
 }
 
-std::vector<Certificate> World::certificates() const {
-  const Engine& engine = this->engine("certificates");
+std::vector<Certificate> World::Inspection::certificates() const {
+  const Engine& engine = world_->engine("certificates");
   std::vector<Certificate> all;
   for (const PairCertificate& pair : engine.certificates()) {
     if (pair.kind() == PairCertificate::Kind::window_end) continue;
@@ -69,30 +69,42 @@ Result<void> World::set_profiling(bool on) {
   auto valid = Preconditions(*this, "set_profiling").idle();
   if (!valid) return valid;
   if (on == profiling_) return valid;
-  if (on) timings_ = {};
+  if (on) timings_ = std::make_unique<Timings>();
   changeable().set_profiling(on);
   profiling_ = on;
   return valid;
 }
 
-Timings World::timings() const {
-  (void)engine("timings");
-  return timings_;
+Timings World::Inspection::timings() const {
+  (void)world_->engine("timings");
+  return world_->timings_ ? *world_->timings_ : Timings{};
 }
 
-Result<std::vector<BusyBody>> World::busiest(std::size_t count) const {
-  const Engine& engine = this->engine("busiest");
+Result<std::vector<BusyBody>> World::Inspection::busiest(std::size_t count) const {
+  const Engine& engine = world_->engine("busiest");
   if (engine.profile() == nullptr)
     return Error{ErrorCode::not_profiling, "world", no_body,
                  "busiest: the world counts probes while profiling is on: call set_profiling(true) first"};
   return engine.profile()->busiest(engine.bodies(), count);
 }
 
+bool World::Inspection::is_recording() const {
+  (void)world_->engine("is_recording");
+  return world_->recorder_ != nullptr;
+}
+
+std::optional<AuditFinding> World::Inspection::audit() const {
+  const Engine& audited = world_->engine("audit");
+  if (const auto idle = Preconditions(*world_, "audit").idle(); !idle)
+    return AuditFinding{"call", idle.error().message};
+  return audited.audit();
+}
+
 Result<std::optional<Event>> World::timed_advance(double until, const Probe& probe) {
-  ++timings_.advances;
-  const Stopwatch whole(timings_.advance);
+  ++timings_->advances;
+  const Stopwatch whole(timings_->advance);
   return recorded_advance(until, [&](std::span<const BodyId> ids, double time, std::span<State> states) {
-    const Stopwatch asking(timings_.probes);
+    const Stopwatch asking(timings_->probes);
     probe(ids, time, states);
   });
 }

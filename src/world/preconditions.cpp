@@ -144,6 +144,33 @@ Result<void> World::Preconditions::moved(BodyId id, const State& state) const {
                             : no_overlap(moved, id);
 }
 
+Result<void> World::Preconditions::changed(BodyId id, const BodyChange& change) const {
+  const bool is_of_moving = change.radius || change.motion_limits || change.mass;
+  auto valid = is_of_moving ? moving(id) : changeable(id);
+  if (!valid || !(is_of_moving || change.sensor_class)) return valid;
+  BodyDefinition changed = engine_->bodies().definition_of(id.index);
+  if (change.radius) {
+    if (engine_->bodies()[id.index].carries_shape)
+      return error_about(ErrorCode::unsupported, id,
+                         "body must be a ball, but " + text_of(id) + " carries a shape");
+    changed.radius = *change.radius;
+    valid = check_radius(changed, id, definition(), call_);
+    if (valid) valid = growth(changed, id, "radius");
+  }
+  if (valid && change.motion_limits) {
+    changed = with_motion_limits(changed, *change.motion_limits);
+    valid = check_limits(changed, id, definition(), call_);
+    if (valid) valid = growth(changed, id, "position_error");
+  }
+  if (valid && change.sensor_class) {
+    changed.sensor_class = *change.sensor_class;
+    valid = reach(changed, id, "sensor_class");
+  }
+  if (valid && change.mass)
+    valid = InputCheck(call_).not_negative_or_infinite({"mass", id}, *change.mass).result();
+  return valid;
+}
+
 Result<void> World::Preconditions::growth(const BodyDefinition& changed, BodyId id,
                                           std::string_view argument) const {
   if (auto valid = reach(changed, id, argument); !valid) return valid;

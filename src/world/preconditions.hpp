@@ -26,6 +26,8 @@ class World::Preconditions {
   Result<void> all_delivered() const;
   /// The world is idle, and `probe` is not empty (ErrorCode::null_probe).
   Result<void> may_ask(const Probe& probe) const;
+  /// The world is idle, and the facet's probe, if it has one, is not empty.
+  Result<void> may_ask(const Facet& facet) const { return facet.probing ? may_ask(facet.probe) : idle(); }
 
   // Bodies named in arguments.
 
@@ -53,6 +55,8 @@ class World::Preconditions {
   Result<void> no_overlap(const BodyDefinition& body, BodyId id) const;
   Result<void> no_static_overlap(const StaticDefinition& added, BodyId id) const;
   Result<void> no_overlap(const MovingShape& added, BodyId id) const;
+  /// The body may be changed so.
+  Result<void> changed(BodyId id, const BodyChange& change) const;
   /// The body may be put into this state at the present time.
   Result<void> moved(BodyId id, const State& state) const;
   /// The body may grow at its present position: reach() holds, and if overlaps are forbidden, it overlaps

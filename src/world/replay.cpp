@@ -7,9 +7,9 @@
 
 #include "engine/engine.hpp"
 #include "input/input_check.hpp"
+#include "kinesphere/queries.hpp"
 #include "number/bit_cast.hpp"
 #include "recording/step.hpp"
-#include "world/preconditions.hpp"
 
 namespace kinesphere {
 namespace {
@@ -159,13 +159,9 @@ class Replay::Player {
   }
 
   Result<bool> refresh(const step::Asking& recorded, const Probe& probe) {
-    std::vector<std::uint32_t> numbers;
-    for (const step::Answer& answer : recorded.answers) {
-      if (auto valid = World::Preconditions(world_, "refresh").enabled(answer.report.body, true); !valid)
-        return valid.error();
-      numbers.push_back(answer.report.body.index);
-    }
-    return world_.refresh(numbers, probe, "refresh");
+    std::vector<BodyId> bodies;
+    for (const step::Answer& answer : recorded.answers) bodies.push_back(answer.report.body);
+    return world_.queries(probe).refresh(bodies);
   }
 
   void diverge(const std::string& what) {

@@ -1,4 +1,4 @@
-// A probe for queries outside advance().
+// The probe of a facet, if it has one.
 #pragma once
 
 #include <cstdint>
@@ -10,26 +10,19 @@
 namespace kinesphere {
 
 /// Probes those of the given bodies whose reports are not from the present time. Returns true if there were
-/// any.
+/// any; false without a probe.
 class World::StaleProber {
  public:
-  StaleProber(World& world, const Probe& probe, std::string_view call)
-      : world_(world), probe_(probe), call_(call) {}
+  StaleProber(const Facet& facet, std::string_view call) : facet_(facet), call_(call) {}
 
+  bool has_probe() const { return facet_.probing != nullptr; }
   Result<bool> operator()(std::span<const std::uint32_t> numbers) const {
-    return world_.refresh(numbers, probe_, call_);
+    return has_probe() ? facet_.probing->refresh(numbers, facet_.probe, call_) : Result<bool>(false);
   }
 
  private:
-  World& world_;
-  const Probe& probe_;
+  const Facet& facet_;
   std::string_view call_;
 };
-
-/// Stands in for StaleProber in queries without a probe.
-struct WithoutProbe {
-  Result<bool> operator()(std::span<const std::uint32_t>) const { return false; }
-};
-inline constexpr WithoutProbe without_probe;
 
 }  // namespace kinesphere

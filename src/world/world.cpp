@@ -11,6 +11,7 @@
 #include "engine/shaped_body.hpp"
 #include "engine/validation.hpp"
 #include "input/input_check.hpp"
+#include "kinesphere/inspection.hpp"
 #include "query/body_view.hpp"
 #include "recording/recorder.hpp"
 #include "world/changing.hpp"
@@ -28,7 +29,7 @@ World& World::operator=(World&& other) noexcept {
   engine_ = std::move(other.engine_);
   recorder_ = std::move(other.recorder_);
   undelivered_ = std::move(other.undelivered_);
-  timings_ = other.timings_;
+  timings_ = std::move(other.timings_);
   profiling_ = other.profiling_;
   return *this;
 }
@@ -111,17 +112,11 @@ Result<std::vector<BodyId>> World::add_all(std::span<const BodyDefinition> bodie
   return ids;
 }
 
-Result<void> World::remove(BodyId body) {
-  auto valid = Preconditions(*this, "remove").changeable(body);
-  if (valid) changing(step::Remove{body}).remove(body);
-  return valid;
-}
-
-Result<void> World::remove_all(std::span<const BodyId> bodies) {
-  if (auto idle = Preconditions(*this, "remove_all").idle(); !idle) return idle;
+Result<void> World::remove(BodyIds bodies) {
+  if (auto idle = Preconditions(*this, "remove").idle(); !idle) return idle;
   std::set<BodyId> earlier;
   for (std::size_t number = 0; number < bodies.size(); ++number) {
-    const std::string call = "remove_all: bodies[" + std::to_string(number) + "]";
+    const std::string call = bodies.size() == 1 ? "remove" : "remove: bodies[" + std::to_string(number) + "]";
     if (auto valid = Preconditions(*this, call).known(bodies[number]); !valid) return valid;
     if (!earlier.insert(bodies[number]).second) {
       return Error{ErrorCode::stale_body, "body", bodies[number],
@@ -139,8 +134,8 @@ Result<void> World::set_velocity(BodyId body, const Vec3& velocity) {
   return valid;
 }
 
-Result<void> World::set_velocity_all(std::span<const BodyId> bodies, std::span<const Vec3> velocities) {
-  constexpr std::string_view call = "set_velocity_all";
+Result<void> World::set_velocities(std::span<const BodyId> bodies, std::span<const Vec3> velocities) {
+  constexpr std::string_view call = "set_velocities";
   const Preconditions preconditions(*this, call);
   if (auto idle = preconditions.idle(); !idle) return idle;
   InputCheck check(call);
@@ -194,34 +189,22 @@ Result<void> World::wake(BodyId body) {
   return valid;
 }
 
-Result<void> World::set_radius(BodyId body, double radius) {
-  auto valid = Preconditions(*this, "set_radius").moving(body);
-  if (!valid) return valid;
-  if (engine_->bodies()[body.index].carries_shape)
-    return Error{ErrorCode::unsupported, "body", body,
-                 "set_radius: body must be a ball, but " + text_of(body) + " carries a shape"};
-  BodyDefinition changed = engine_->bodies().definition_of(body.index);
-  changed.radius = radius;
-  valid = check_radius(changed, body, engine_->definition(), "set_radius");
-  if (valid) valid = Preconditions(*this, "set_radius").growth(changed, body, "radius");
-  if (valid) changing(step::SetRadius{body, radius}).set_radius(body, radius);
-  return valid;
-}
-
-Result<void> World::set_motion_limits(BodyId body, const MotionLimits& limits) {
-  auto valid = Preconditions(*this, "set_motion_limits").moving(body);
-  if (!valid) return valid;
-  const BodyDefinition changed = with_motion_limits(engine_->bodies().definition_of(body.index), limits);
-  valid = check_limits(changed, body, engine_->definition(), "set_motion_limits");
-  if (valid) valid = Preconditions(*this, "set_motion_limits").growth(changed, body, "position_error");
-  if (valid) changing(step::SetMotionLimits{body, limits}).set_motion_limits(body, limits);
-  return valid;
-}
-
-Result<void> World::set_filter(BodyId body, const Filter& filter) {
-  auto valid = Preconditions(*this, "set_filter").changeable(body);
-  if (valid) changing(step::SetFilter{body, filter}).set_filter(body, filter);
-  return valid;
+Result<void> World::change(BodyId body, const BodyChange& change) {
+  if (auto valid = Preconditions(*this, "change").changed(body, change); !valid) return valid;
+  if (change.radius) changing(step::SetRadius{body, *change.radius}).set_radius(body, *change.radius);
+  if (change.motion_limits) {
+    changing(step::SetMotionLimits{body, *change.motion_limits})
+        .set_motion_limits(body, *change.motion_limits);
+  }
+  if (change.filter) changing(step::SetFilter{body, *change.filter}).set_filter(body, *change.filter);
+  if (change.solid) changing(step::SetSolid{body, *change.solid}).set_solid(body, *change.solid);
+  if (change.sensor_class) {
+    changing(step::SetSensorClass{body, *change.sensor_class}).set_sensor_class(body, *change.sensor_class);
+  }
+  if (change.mass) changing(step::SetMass{body, *change.mass}).set_mass(body, *change.mass);
+  if (change.user_data)
+    changing(step::SetUserData{body, *change.user_data}).set_user_data(body, *change.user_data);
+  return {};
 }
 
 Result<void> World::set_pair_filter(PairFilter filter) {
@@ -234,12 +217,6 @@ Result<void> World::set_pair_filter(PairFilter filter) {
 Result<void> World::refresh_filter(BodyId body) {
   auto valid = Preconditions(*this, "refresh_filter").changeable(body);
   if (valid) changing(step::RefreshFilter{body}).refresh_filter(body);
-  return valid;
-}
-
-Result<void> World::set_solid(BodyId body, bool solid) {
-  auto valid = Preconditions(*this, "set_solid").changeable(body);
-  if (valid) changing(step::SetSolid{body, solid}).set_solid(body, solid);
   return valid;
 }
 
@@ -257,31 +234,8 @@ Result<void> World::set_sensor(SensorClass sensor_class, const Sensor& sensor) {
   return valid;
 }
 
-Result<void> World::set_sensor_class(BodyId body, SensorClass sensor_class) {
-  auto valid = Preconditions(*this, "set_sensor_class").changeable(body);
-  if (!valid) return valid;
-  BodyDefinition changed = engine_->bodies().definition_of(body.index);
-  changed.sensor_class = sensor_class;
-  valid = Preconditions(*this, "set_sensor_class").reach(changed, body, "sensor_class");
-  if (valid) changing(step::SetSensorClass{body, sensor_class}).set_sensor_class(body, sensor_class);
-  return valid;
-}
-
 const Sensor& World::sensor(SensorClass sensor_class) const {
   return engine("sensor").bodies().sensors.of(sensor_class);
-}
-
-Result<void> World::set_mass(BodyId body, double mass) {
-  auto valid = Preconditions(*this, "set_mass").moving(body);
-  if (valid) valid = InputCheck("set_mass").not_negative_or_infinite({"mass", body}, mass).result();
-  if (valid) changing(step::SetMass{body, mass}).set_mass(body, mass);
-  return valid;
-}
-
-Result<void> World::set_user_data(BodyId body, std::uint64_t data) {
-  auto valid = Preconditions(*this, "set_user_data").changeable(body);
-  if (valid) changing(step::SetUserData{body, data}).set_user_data(body, data);
-  return valid;
 }
 
 Result<std::uint64_t> World::user_data(BodyId body) const {
@@ -327,21 +281,9 @@ std::size_t World::size() const { return engine("size").bodies().table().live_co
 const WorldDefinition& World::definition() const { return engine("definition").definition(); }
 const Counters& World::counters() const { return engine("counters").counters(); }
 
-std::optional<AuditFinding> World::audit() const {
-  const Engine& audited = engine("audit");
-  if (const auto idle = Preconditions(*this, "audit").idle(); !idle)
-    return AuditFinding{"call", idle.error().message};
-  return audited.audit();
-}
-
 bool World::contains(BodyId body) const {
   (void)engine("contains");
   return Preconditions(*this, "contains").is_known(body);
-}
-
-bool World::recording() const {
-  (void)engine("recording");
-  return recorder_ != nullptr;
 }
 
 Result<std::vector<std::byte>> World::save() const {

@@ -1,11 +1,11 @@
-// World's queries: checks the calls, and probes if the caller provides a probe.
+// Spatial queries: checks the calls, and probes if the facet has a probe.
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include "engine/validation.hpp"
 #include "input/input_check.hpp"
 #include "kinesphere/limits.hpp"
+#include "kinesphere/queries.hpp"
 #include "query/queries.hpp"
 #include "world/preconditions.hpp"
 #include "world/stale_prober.hpp"
@@ -72,119 +72,93 @@ bool leaves_open(const OverlapHit& found) { return found.certainty == Certainty:
 bool leaves_open(const NearestHit&) { return true; }
 bool leaves_open(const CastHit&) { return true; }
 
-/// Evaluates a query. With a probe, repeats it after probing the bodies that leave it open, until the answer
-/// rests on fresh reports. `callable` is the result of checking the call, and `valid` checks the arguments.
-template <class Queries, class Engine, class Valid, class Refresh, class Ask>
-auto answer(const Engine* engine, const Result<void>& callable, Valid valid, Refresh refresh, Ask ask)
-    -> Result<decltype(ask(Queries(*engine)))> {
-  if (!callable) return callable.error();
-  if (const Result<void> fit = valid(engine->definition()); !fit) return fit.error();
+}  // namespace
+
+/// Evaluates a query into `found`. With a probe, repeats it after probing the bodies that leave it open,
+/// until the answer rests on fresh reports. `valid` checks the arguments.
+template <class Hit, class Valid, class Ask>
+Result<std::vector<Hit>> World::Queries::answer(std::string_view call, const QueryOptions& options,
+                                                std::vector<Hit> found, Valid valid, Ask ask) const {
+  if (auto callable = Preconditions(*facet_.world, call).may_ask(facet_); !callable) return callable.error();
+  const Engine& engine = *facet_.world->engine_;
+  if (const Result<void> fit = valid(engine.definition()); !fit) return fit.error();
+  const StaleProber refresh(facet_, call);
   for (;;) {
-    auto found = ask(Queries(*engine));
-    if constexpr (std::is_same_v<Refresh, WithoutProbe>) return found;
+    found.clear();
+    ask(Engine::Queries(engine, options), found);
+    if (!refresh.has_probe()) return found;
     std::vector<std::uint32_t> open;
-    for (const auto& each : found)
+    for (const Hit& each : found)
       if (leaves_open(each)) open.push_back(each.body.index);
     const auto probed = refresh(open);
     if (!probed) return probed.error();
-    if (!probed.value()) return found;
+    if (!*probed) return found;
   }
 }
 
-auto fit_sphere(const Vec3& centre, double radius) {
-  return [=](const WorldDefinition& world) { return check_sphere(centre, radius, world); };
+Result<std::vector<OverlapHit>> World::Queries::overlapping(const Vec3& centre, double radius,
+                                                            const QueryOptions& options,
+                                                            std::vector<OverlapHit> storage) const {
+  return answer(
+      "overlapping", options, std::move(storage),
+      [&](const WorldDefinition& world) { return check_sphere(centre, radius, world); },
+      [&](const auto& queries, auto& found) { queries.overlapping(centre, radius, found); });
 }
 
-auto fit_box(const Box& box) {
-  return [=](const WorldDefinition& world) { return check_region(box, world); };
+Result<std::vector<OverlapHit>> World::Queries::overlapping(const Box& box, const QueryOptions& options,
+                                                            std::vector<OverlapHit> storage) const {
+  return answer(
+      "overlapping", options, std::move(storage),
+      [&](const WorldDefinition& world) { return check_region(box, world); },
+      [&](const auto& queries, auto& found) { queries.overlapping(box, found); });
 }
 
-auto fit_point(const Vec3& point) {
-  return [=](const WorldDefinition& world) { return check_point(point, world); };
+Result<std::vector<NearestHit>> World::Queries::nearest(const Vec3& point, std::size_t count,
+                                                        const QueryOptions& options,
+                                                        std::vector<NearestHit> storage) const {
+  return answer(
+      "nearest", options, std::move(storage),
+      [&](const WorldDefinition& world) { return check_point(point, world); },
+      [&](const auto& queries, auto& found) { queries.nearest(point, count, found); });
 }
 
-auto fit_ray(const Vec3& origin, double radius, const Vec3& direction, double length, std::string_view call) {
-  return
-      [=](const WorldDefinition& world) { return check_ray(origin, radius, direction, length, world, call); };
+Result<std::vector<CastHit>> World::Queries::ray_cast(const Vec3& origin, const Vec3& direction,
+                                                      double length, const QueryOptions& options,
+                                                      std::vector<CastHit> storage) const {
+  return answer(
+      "ray_cast", options, std::move(storage),
+      [&](const WorldDefinition& world) {
+        return check_ray(origin, 0.0, direction, length, world, "ray_cast");
+      },
+      [&](const auto& queries, auto& found) {
+        queries.cast({origin, 0.0, unit(direction), length}, found);
+      });
 }
 
-auto about_sphere(const Vec3& centre, double radius) {
-  return [=](const auto& queries) { return queries.overlapping(centre, radius); };
+Result<std::vector<CastHit>> World::Queries::sphere_cast(const Vec3& origin, double radius,
+                                                         const Vec3& direction, double length,
+                                                         const QueryOptions& options,
+                                                         std::vector<CastHit> storage) const {
+  return answer(
+      "sphere_cast", options, std::move(storage),
+      [&](const WorldDefinition& world) {
+        return check_ray(origin, radius, direction, length, world, "sphere_cast");
+      },
+      [&](const auto& queries, auto& found) {
+        queries.cast({origin, radius, unit(direction), length}, found);
+      });
 }
 
-auto about_box(const Box& box) {
-  return [=](const auto& queries) { return queries.overlapping(box); };
-}
-
-auto about_nearest(const Vec3& point, std::size_t count) {
-  return [=](const auto& queries) { return queries.nearest(point, count); };
-}
-
-auto about_ray(const Vec3& origin, double radius, const Vec3& direction, double length) {
-  return [=](const auto& queries) { return queries.cast(SweptRay{origin, radius, unit(direction), length}); };
-}
-
-}  // namespace
-
-Result<std::vector<OverlapHit>> World::overlapping(const Vec3& centre, double radius) const {
-  return answer<Engine::Queries>(engine_.get(), Preconditions(*this, "overlapping").idle(),
-                                 fit_sphere(centre, radius), without_probe, about_sphere(centre, radius));
-}
-
-Result<std::vector<OverlapHit>> World::overlapping(const Vec3& centre, double radius, Probe probe) {
-  return answer<Engine::Queries>(engine_.get(), Preconditions(*this, "overlapping").may_ask(probe),
-                                 fit_sphere(centre, radius), StaleProber(*this, probe, "overlapping"),
-                                 about_sphere(centre, radius));
-}
-
-Result<std::vector<OverlapHit>> World::overlapping(const Box& box) const {
-  return answer<Engine::Queries>(engine_.get(), Preconditions(*this, "overlapping").idle(), fit_box(box),
-                                 without_probe, about_box(box));
-}
-
-Result<std::vector<OverlapHit>> World::overlapping(const Box& box, Probe probe) {
-  return answer<Engine::Queries>(engine_.get(), Preconditions(*this, "overlapping").may_ask(probe),
-                                 fit_box(box), StaleProber(*this, probe, "overlapping"), about_box(box));
-}
-
-Result<std::vector<NearestHit>> World::nearest(const Vec3& point, std::size_t count) const {
-  return answer<Engine::Queries>(engine_.get(), Preconditions(*this, "nearest").idle(), fit_point(point),
-                                 without_probe, about_nearest(point, count));
-}
-
-Result<std::vector<NearestHit>> World::nearest(const Vec3& point, std::size_t count, Probe probe) {
-  return answer<Engine::Queries>(engine_.get(), Preconditions(*this, "nearest").may_ask(probe),
-                                 fit_point(point), StaleProber(*this, probe, "nearest"),
-                                 about_nearest(point, count));
-}
-
-Result<std::vector<CastHit>> World::ray_cast(const Vec3& origin, const Vec3& direction, double length) const {
-  return answer<Engine::Queries>(engine_.get(), Preconditions(*this, "ray_cast").idle(),
-                                 fit_ray(origin, 0.0, direction, length, "ray_cast"), without_probe,
-                                 about_ray(origin, 0.0, direction, length));
-}
-
-Result<std::vector<CastHit>> World::ray_cast(const Vec3& origin, const Vec3& direction, double length,
-                                             Probe probe) {
-  return answer<Engine::Queries>(engine_.get(), Preconditions(*this, "ray_cast").may_ask(probe),
-                                 fit_ray(origin, 0.0, direction, length, "ray_cast"),
-                                 StaleProber(*this, probe, "ray_cast"),
-                                 about_ray(origin, 0.0, direction, length));
-}
-
-Result<std::vector<CastHit>> World::sphere_cast(const Vec3& origin, double radius, const Vec3& direction,
-                                                double length) const {
-  return answer<Engine::Queries>(engine_.get(), Preconditions(*this, "sphere_cast").idle(),
-                                 fit_ray(origin, radius, direction, length, "sphere_cast"), without_probe,
-                                 about_ray(origin, radius, direction, length));
-}
-
-Result<std::vector<CastHit>> World::sphere_cast(const Vec3& origin, double radius, const Vec3& direction,
-                                                double length, Probe probe) {
-  return answer<Engine::Queries>(engine_.get(), Preconditions(*this, "sphere_cast").may_ask(probe),
-                                 fit_ray(origin, radius, direction, length, "sphere_cast"),
-                                 StaleProber(*this, probe, "sphere_cast"),
-                                 about_ray(origin, radius, direction, length));
+Result<bool> World::Queries::refresh(BodyIds bodies) const {
+  const Preconditions check(*facet_.world, "refresh");
+  auto valid = check.may_ask(facet_.probe);
+  std::vector<std::uint32_t> numbers;
+  for (const BodyId body : bodies) {
+    if (valid) valid = check.known(body);
+    numbers.push_back(body.index);
+  }
+  if (!valid) return valid.error();
+  return StaleProber(facet_, "refresh")(numbers);
 }
 
 }  // namespace kinesphere

@@ -53,13 +53,6 @@ Result<std::vector<BodyId>> World::add_static_all(std::span<const StaticDefiniti
   return ids;
 }
 
-Result<Shape> World::shape_of(BodyId body) const {
-  if (auto valid = Preconditions(*this, "shape_of").known(body); !valid) return valid.error();
-  const Body& known = engine_->bodies()[body.index];
-  if (known.has_shape()) return engine_->bodies().shapes.of(known);
-  return Shape(Ball{known.bound.position, known.radius});
-}
-
 Result<void> World::set_shape(BodyId body, const Shape& shape) {
   const auto accepted = Preconditions(*this, "set_shape").reshaped(body, shape);
   if (!accepted) return accepted.error();

@@ -1,5 +1,6 @@
 // Results: a value, or an error that value() throws.
 #include "kinesphere/result.hpp"
+#include "kinesphere/queries.hpp"
 
 #include <gtest/gtest.h>
 
@@ -29,7 +30,7 @@ void expect_throws(const Result<T>& result) {
 TEST(Result, ThatIsAnErrorThrowsItWhenAskedForItsValue) {
   World world = World::create({}).value();
   expect_throws(world.add({.radius = -1}));
-  expect_throws(world.remove({3, 0}));
+  expect_throws(world.remove(BodyId{3, 0}));
   expect_throws(world.user_data({3, 0}));
   expect_throws(World::create({.contact_tolerance = 0}));
   EXPECT_THROW((void)*world.add({.radius = -1}), BadResult);
@@ -45,6 +46,19 @@ TEST(Result, ThatIsAValueGivesIt) {
   EXPECT_NO_THROW(world.remove(added.value()).value());
 }
 
+TEST(Result, MayHaveAnotherValueInPlaceOfAnError) {
+  World world = World::create({}).value();
+  const Result<BodyId> added = world.add({}), refused = world.add({.radius = -1});
+  EXPECT_TRUE(added.has_value());
+  EXPECT_FALSE(refused.has_value());
+  EXPECT_EQ(added.value_or(no_body), (BodyId{0, 0}));
+  EXPECT_EQ(refused.value_or(no_body), no_body);
+  EXPECT_EQ(world.user_data(no_body).value_or(7), 7u);
+  EXPECT_EQ(world.body(no_body).has_value(), false);
+  EXPECT_TRUE(world.remove(*added).has_value());
+  EXPECT_FALSE(world.remove(*added).has_value());
+}
+
 TEST(Result, ThatIsTemporaryGivesItsValueAndNoReferenceIntoItself) {
   using Values = Result<std::vector<int>>;
   static_assert(std::is_same_v<decltype(*std::declval<Values>()), std::vector<int>>);
@@ -56,7 +70,7 @@ TEST(Result, ThatIsTemporaryGivesItsValueAndNoReferenceIntoItself) {
   World world = World::create({}).value();
   world.add_all(std::vector<BodyDefinition>(3)).value();
   std::size_t found = 0;
-  for (const OverlapHit& each : *world.overlapping({0, 0, 0}, 100.0)) found += each.body.index + 1u;
+  for (const OverlapHit& each : *world.queries().overlapping({0, 0, 0}, 100.0)) found += each.body.index + 1u;
   EXPECT_EQ(found, 6u);
 }
 
@@ -64,7 +78,7 @@ TEST(Result, ThatIsASuccessHasNoError) {
   World world = World::create({}).value();
   EXPECT_THROW((void)Result<void>{}.error(), std::logic_error);
   EXPECT_THROW((void)world.add({}).error(), std::logic_error);
-  const Result<void> made = world.set_user_data({0, 0}, 7);
+  const Result<void> made = world.change({0, 0}, {.user_data = 7});
   EXPECT_THROW((void)made.error(), std::logic_error);
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "kinesphere/certificates.hpp"
 #include "kinesphere/motion/ballistic.hpp"
 #include "kinesphere/motion/piecewise_motion.hpp"
 #include "kinesphere/motion/random_forces.hpp"
@@ -264,7 +265,7 @@ TEST_P(EveryMotion, ProbeRefusesABodyOfTheWorldThatIsNoneOfItsOwn) {
     const auto error = refusal([&] {
       while (world.advance(begin_ + 1.0, motion.probe()).value()) continue;
       // The bullet may not have been probed yet, without another body near it.
-      (void)world.distance_limits(bullet, first, begin_ + 2.0, motion.probe());
+      (void)world.certificates(motion.probe()).distance_limits(bullet, first, begin_ + 2.0);
     });
     ASSERT_TRUE(error);
     EXPECT_EQ(error->code, ErrorCode::unknown_body);

@@ -91,7 +91,7 @@ TEST(PushedFrames, ChangeNothingOnAnError) {
   expect_error(game.bodies.push(game.world, game.frames, Places{{1, 0, 0}, {10, nan, 0}, {}}),
                ErrorCode::not_finite, "positions", "BodyMap::push: ", game.ids[1]);
   expect_error(game.bodies.push(game.world, game.frames, Places{{1, 0, 0}, {1e110, 0, 0}, {}}),
-               ErrorCode::out_of_range, "velocity", "set_velocity_all: ", game.ids[1]);
+               ErrorCode::out_of_range, "velocity", "set_velocities: ", game.ids[1]);
   BodyMap stranger;
   expect_error(stranger.push(game.world, game.frames, moved), ErrorCode::unknown_body, "frames",
                "BodyMap::push: ", BodyId{0, 0});

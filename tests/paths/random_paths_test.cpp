@@ -120,12 +120,6 @@ RC_GTEST_PROP(RandomPaths, NothingIsMissedOrInvented, ()) {
     for (std::uint32_t a = 0; a < b; ++a) check_pair(paths, found, a, b, distance);
 }
 
-bool operator==(const Approaches::Approach& a, const Approaches::Approach& b) {
-  return a.first == b.first && a.second == b.second && a.begin == b.begin && a.end == b.end &&
-         a.closest == b.closest && a.begins_with_path == b.begins_with_path &&
-         a.ends_with_path == b.ends_with_path && a.is_certain == b.is_certain;
-}
-
 TEST(ManyPaths, ThreadsAndOneBodyChangeNothing) {
   Random random(2005);
   PathSet paths = random_paths(random, Basis::chebyshev, 6, 300);

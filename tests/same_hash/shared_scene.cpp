@@ -41,7 +41,7 @@ int main() {
           {.start = start, .acceleration_limits = std::vector<double>(64, 5.0), .interval = 0.2, .seed = 7})
           .value());
   for (const BodyId body : simulation.add_all(forces, radii).value())
-    simulation.world().set_mass(body, radii[body.index]).value();
+    simulation.world().change(body, {.mass = radii[body.index]}).value();
   simulation.world().add_zone(Box{{5, 5, 5}, {15, 15, 15}}).value();
 
   EventHash hash;

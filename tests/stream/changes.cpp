@@ -119,7 +119,7 @@ void Player::add_static(const Operation& operation) {
   require(body.filter == fixed.filter && body.solid == fixed.solid &&
               body.sensor_class == fixed.sensor_class && body.user_data == fixed.user_data,
           "add_static: other than asked for");
-  const Shape shape = world_.shape_of(*id).value();
+  const Shape shape = world_.body(*id).value().shape;
   require(shape.index() == fixed.shape.index(), "add_static: another shape");
   truth_.add_static(*id, body, shape);
   require(room_of_fixed(*id), "add_static: an overlap is not refused");
@@ -156,7 +156,7 @@ void Player::remove_all(const Operation& operation) {
     before.push_back(told_.before(world_, id));
     island.join(island_of(id));
   }
-  accepted(waking(island, [&](World& world) { return world.remove_all(ids); }));
+  accepted(waking(island, [&](World& world) { return world.remove(ids); }));
   for (std::size_t k = 0; k < ids.size(); ++k) leave(ids[k], before[k]);
 }
 
@@ -232,7 +232,7 @@ void Player::set_radius(const Operation& operation) {
   const auto before = truth_.is_present(*id) ? told_.before(world_, *id) : std::vector<Before>();
   const bool strict = !truth_.definition().allow_overlap;
   const EventProcessor island = truth_.is_present(*id) ? island_of(*id) : EventProcessor{};
-  const auto done = waking(island, [&](World& world) { return world.set_radius(*id, radius); });
+  const auto done = waking(island, [&](World& world) { return world.change(*id, {.radius = radius}); });
   if (!done) {
     require(strict && radius > truth_.at(*id).definition.radius, "set_radius: refused without a reason");
     require(done.error().code == ErrorCode::overlapping || done.error().code == ErrorCode::outside_domain,
@@ -254,8 +254,8 @@ void Player::set_motion_limits(const Operation& operation) {
   if (!id) return;
   const MotionLimits promise = limits(operation);
   const auto before = truth_.is_present(*id) ? told_.before(world_, *id) : std::vector<Before>();
-  accepted(
-      waking(island_if_resting(*id), [&](World& world) { return world.set_motion_limits(*id, promise); }));
+  accepted(waking(island_if_resting(*id),
+                  [&](World& world) { return world.change(*id, {.motion_limits = promise}); }));
   truth_.at(*id).definition = with_motion_limits(truth_.at(*id).definition, promise);
   truth_.steer(*id, acceleration(operation, promise));
   if (!truth_.is_present(*id)) return;
@@ -296,7 +296,7 @@ void Player::set_user_data(const Operation& operation) {
   const auto id = any(operation);
   if (!id) return;
   const std::uint64_t data = operation.random().bits();
-  accepted(on_world([&](World& world) { return world.set_user_data(*id, data); }));
+  accepted(on_world([&](World& world) { return world.change(*id, {.user_data = data}); }));
   truth_.at(*id).definition.user_data = data;
 }
 
@@ -322,7 +322,7 @@ void Player::set_filter(const Operation& operation) {
   const auto id = any(operation);
   if (!id) return;
   refresh_filter({*id}, [&] {
-    accepted(on_world([&](World& world) { return world.set_filter(*id, operation.filter()); }));
+    accepted(on_world([&](World& world) { return world.change(*id, {.filter = operation.filter()}); }));
     truth_.at(*id).definition.filter = operation.filter();
   });
 }
@@ -332,7 +332,7 @@ void Player::set_solid(const Operation& operation) {
   if (!id || !kind_.sensors) return;
   const bool solid = operation.byte(0) % 4 != 0;
   refresh_filter({*id}, [&] {
-    accepted(on_world([&](World& world) { return world.set_solid(*id, solid); }));
+    accepted(on_world([&](World& world) { return world.change(*id, {.solid = solid}); }));
     truth_.at(*id).definition.solid = solid;
   });
 }
@@ -342,7 +342,7 @@ void Player::set_sensor_class(const Operation& operation) {
   if (!id || !kind_.sensors) return;
   const SensorClass sensor_class = operation.sensor_class();
   refresh_filter({*id}, [&] {
-    accepted(on_world([&](World& world) { return world.set_sensor_class(*id, sensor_class); }));
+    accepted(on_world([&](World& world) { return world.change(*id, {.sensor_class = sensor_class}); }));
     truth_.at(*id).definition.sensor_class = sensor_class;
   });
 }

@@ -2,6 +2,8 @@
 // calls.
 #include <algorithm>
 
+#include "kinesphere/certificates.hpp"
+#include "kinesphere/queries.hpp"
 #include "stream/on_world.hpp"
 #include "stream/player.hpp"
 
@@ -38,8 +40,8 @@ void Player::ask(const Operation& operation) {
     const double now = truth_.time();
     for (World* world : {&world_, twin_ ? &*twin_ : nullptr}) {
       if (world == nullptr) continue;
-      const auto limits = probes ? world->distance_limits(*id, other, now, probe())
-                                 : std::as_const(*world).distance_limits(*id, other, now);
+      const auto limits = probes ? world->certificates(probe()).distance_limits(*id, other, now)
+                                 : std::as_const(*world).certificates().distance_limits(*id, other, now);
       if (!limits) throw Disagreement("distance_limits: " + limits.error().message);
       const double gap = truth_.gap(id->index < other.index ? Contact{*id, other} : Contact{other, *id});
       require(limits->lower <= gap + slack && gap <= limits->upper + slack,
@@ -50,8 +52,8 @@ void Player::ask(const Operation& operation) {
   const double radius = this->radius(operation);
   for (World* world : {&world_, twin_ ? &*twin_ : nullptr}) {
     if (world == nullptr) continue;
-    const auto found = probes ? world->overlapping(centre, radius, probe())
-                              : std::as_const(*world).overlapping(centre, radius);
+    const auto found = probes ? world->queries(probe()).overlapping(centre, radius)
+                              : std::as_const(*world).queries().overlapping(centre, radius);
     if (!found) throw Disagreement("overlapping: " + found.error().message);
     for (const BodyId body : ids) {
       if (!truth_.is_present(body)) continue;
@@ -87,7 +89,7 @@ void Player::call_wrongly(const Operation& operation) {
   switch (operation.byte(2) % 16) {
     case 0:
       refused(world_.remove(wrong), code);
-      refused(world_.remove_all(wrong_batch), code);
+      refused(world_.remove(wrong_batch), code);
       break;
     case 1:
       refused(world_.set_velocity(wrong, {}), code);
@@ -98,23 +100,22 @@ void Player::call_wrongly(const Operation& operation) {
       refused(world_.enable(wrong, state), code);
       break;
     case 3:
-      refused(world_.set_radius(wrong, 1), code);
-      refused(world_.set_motion_limits(wrong, {}), code);
+      refused(world_.change(wrong, {.radius = 1}), code);
+      refused(world_.change(wrong, {.motion_limits = MotionLimits{}}), code);
       break;
     case 4:
-      refused(world_.set_filter(wrong, {}), code);
+      refused(world_.change(wrong, {.filter = Filter{}}), code);
       refused(world_.refresh_filter(wrong), code);
-      refused(world_.set_solid(wrong, true), code);
-      refused(world_.set_sensor_class(wrong, 1), code);
+      refused(world_.change(wrong, {.solid = true}), code);
+      refused(world_.change(wrong, {.sensor_class = 1}), code);
       refused(world_.set_sensor(1, {.distances = {0.5, -1.0}}), ErrorCode::out_of_range);
       break;
     case 5:
-      refused(world_.set_user_data(wrong, 1), code);
+      refused(world_.change(wrong, {.user_data = 1}), code);
       refused(world_.user_data(wrong), code);
       refused(world_.body(wrong), code);
       refused(world_.touching(wrong), code);
       refused(world_.sensor_overlaps(wrong), code);
-      refused(world_.shape_of(wrong), code);
       break;
     case 6:
       refused(world_.add({.radius = nan}), ErrorCode::not_finite);
@@ -132,14 +133,15 @@ void Player::call_wrongly(const Operation& operation) {
     case 8:
       if (!id) break;
       if (truth_.at(*id).fixed) {
-        refused(world_.set_radius(*id, 0.5), ErrorCode::static_body);
-        refused(world_.set_motion_limits(*id, {}), ErrorCode::static_body);
+        refused(world_.change(*id, {.radius = 0.5}), ErrorCode::static_body);
+        refused(world_.change(*id, {.motion_limits = MotionLimits{}}), ErrorCode::static_body);
         refused(world_.set_velocity(*id, {}), ErrorCode::static_body);
         refused(world_.teleport(*id, state), ErrorCode::static_body);
         refused(world_.add_static({.shape = HalfSpace{{1, 1, 0}, 0}}), ErrorCode::out_of_range);
       } else {
-        refused(world_.set_radius(*id, -0.5), ErrorCode::out_of_range);
-        refused(world_.set_motion_limits(*id, {.acceleration_limit = nan}), ErrorCode::not_finite);
+        refused(world_.change(*id, {.radius = -0.5}), ErrorCode::out_of_range);
+        refused(world_.change(*id, {.motion_limits = MotionLimits{.acceleration_limit = nan}}),
+                ErrorCode::not_finite);
       }
       break;
     case 9:
@@ -156,19 +158,19 @@ void Player::call_wrongly(const Operation& operation) {
       }
       break;
     case 10:
-      if (id) refused(world_.remove_all(std::vector{*id, *id}), ErrorCode::stale_body);
+      if (id) refused(world_.remove(std::vector{*id, *id}), ErrorCode::stale_body);
       break;
     case 11:
-      refused(world_.safe_until(wrong), code);
-      refused(world_.earliest_contact(wrong), code);
-      refused(world_.safe_until(wrong, wrong), code);
-      refused(world_.distance_limits(wrong, wrong, world_.time()), code);
+      refused(world_.certificates().safe_until(wrong), code);
+      refused(world_.certificates().earliest_contact(wrong), code);
+      refused(world_.certificates().safe_until(wrong, wrong), code);
+      refused(world_.certificates().distance_limits(wrong, wrong, world_.time()), code);
       break;
     case 12:
-      refused(world_.overlapping({nan, 0, 0}, 1), ErrorCode::not_finite);
-      refused(world_.nearest({0, nan, 0}, 1), ErrorCode::not_finite);
-      refused(world_.ray_cast({}, {}, 1), ErrorCode::out_of_range);
-      refused(world_.sphere_cast({}, -1, {1, 0, 0}, 1), ErrorCode::out_of_range);
+      refused(world_.queries().overlapping({nan, 0, 0}, 1), ErrorCode::not_finite);
+      refused(world_.queries().nearest({0, nan, 0}, 1), ErrorCode::not_finite);
+      refused(world_.queries().ray_cast({}, {}, 1), ErrorCode::out_of_range);
+      refused(world_.queries().sphere_cast({}, -1, {1, 0, 0}, 1), ErrorCode::out_of_range);
       break;
     default: {
       std::vector<std::byte> damaged = before;

@@ -114,7 +114,7 @@ class Crowd {
       if (what == 1) velocity_change(id, {1, 1, 0});
       if (what == 2 && world_.sleep(id)) keep(id, {place_of(id, world_.time()), {}});
       if (what == 3) (void)world_.disable(id);
-      if (what == 4) (void)world_.set_motion_limits(id, {.acceleration_limit = 2.0});
+      if (what == 4) (void)world_.change(id, {.motion_limits = MotionLimits{.acceleration_limit = 2.0}});
       if (what == 5) (void)world_.remove(id);
     }
   }
@@ -184,30 +184,30 @@ const Original& original(std::uint8_t number) {
 /// Makes all queries of a world.
 void ask(World& world, Random& random, const Probe& probe) {
   const Vec3 point = 8.0 * random.point_in_ball();
-  (void)world.audit();
-  (void)world.cells();
-  (void)world.certificates();
-  (void)world.safe_until();
-  (void)world.overlapping(point, 2.0);
-  (void)world.overlapping(Box{point, point + Vec3{1, 1, 1}});
-  (void)world.nearest(point, 3);
-  (void)world.ray_cast(point, {1, 0.5, 0}, 10.0);
-  (void)world.sphere_cast(point, 0.5, {0, 1, 0}, 10.0);
+  (void)world.inspection().audit();
+  (void)world.inspection().cells();
+  (void)world.inspection().certificates();
+  (void)world.certificates().safe_until();
+  (void)world.queries().overlapping(point, 2.0);
+  (void)world.queries().overlapping(Box{point, point + Vec3{1, 1, 1}});
+  (void)world.queries().nearest(point, 3);
+  (void)world.queries().ray_cast(point, {1, 0.5, 0}, 10.0);
+  (void)world.queries().sphere_cast(point, 0.5, {0, 1, 0}, 10.0);
   const auto bodies = world.bodies();
   for (std::size_t k = 0; k < bodies.size() && k < 24; ++k) {
     const BodyId id = bodies[k];
     const BodyId other = bodies[random.bits() % bodies.size()];
     (void)world.body(id);
-    (void)world.shape_of(id);
+    (void)world.body(id);
     (void)world.touching(id);
     (void)world.sensor_overlaps(id);
-    (void)world.safe_until(id);
-    (void)world.earliest_contact(id);
-    (void)world.earliest_approach(id, 0.5);
-    (void)world.safe_until(id, other, 0.5);
-    (void)world.distance_limits(id, other, world.time() + 1.0);
+    (void)world.certificates().safe_until(id);
+    (void)world.certificates().earliest_contact(id);
+    (void)world.certificates().earliest_approach(id, 0.5);
+    (void)world.certificates().safe_until(id, other, 0.5);
+    (void)world.certificates().distance_limits(id, other, world.time() + 1.0);
   }
-  (void)world.nearest(point, 2, probe);
+  (void)world.queries(probe).nearest(point, 2);
 }
 
 void change(World& world, Random& random) {
@@ -227,17 +227,17 @@ void change(World& world, Random& random) {
     case 4:
       return (void)(world.disable(id) && world.enable(id, state));
     case 5:
-      return (void)world.set_filter(id, {.category = 2, .mask = 3});
+      return (void)world.change(id, {.filter = Filter{.category = 2, .mask = 3}});
     case 6:
-      return (void)world.set_sensor_class(id, 1);
+      return (void)world.change(id, {.sensor_class = 1});
     case 7:
       return (void)world.add({.radius = 0.1, .position = state.position, .velocity = state.velocity});
     case 8:
       return (void)world.add_static({.shape = Ball{state.position, 0.2}});
     case 9:
-      return (void)world.set_motion_limits(id, {.acceleration_limit = 1.0});
+      return (void)world.change(id, {.motion_limits = MotionLimits{.acceleration_limit = 1.0}});
     case 10:
-      return (void)world.set_radius(id, 0.2);
+      return (void)world.change(id, {.radius = 0.2});
     default:
       return (void)world.set_velocity(id, state.velocity);
   }

@@ -1,5 +1,6 @@
 // Plays a stream: time, events, and the checks after each operation.
 #include "stream/player.hpp"
+#include "kinesphere/inspection.hpp"
 
 #include <algorithm>
 #include <type_traits>
@@ -80,7 +81,7 @@ void Player::perform(const Operation& operation) {
 
 /// Runs the world's audit, and checks its account of the bodies.
 void Player::check_all() const {
-  if (const auto finding = world_.audit())
+  if (const auto finding = world_.inspection().audit())
     throw Disagreement("audit: " + finding->where + ": " + finding->what);
   const std::vector<BodyId> ids = truth_.ids();
   require(world_.time() == truth_.time(), "the time is not the one that was requested");
@@ -263,7 +264,7 @@ void Player::check_snapshot() const {
   const auto restored = World::restore(bytes, pair_filter());
   if (!restored) throw Disagreement("restore: " + restored.error().message);
   require(restored->save().value() == bytes, "a restored world saves other bytes");
-  if (const auto finding = restored->audit())
+  if (const auto finding = restored->inspection().audit())
     throw Disagreement("audit of a restored world: " + finding->where + ": " + finding->what);
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "kinesphere/inspection.hpp"
 #include "kinesphere/response.hpp"
 #include "stream/on_world.hpp"
 #include "stream/player.hpp"
@@ -231,7 +232,7 @@ class Run {
     require(!at_event || told_ == place_, "a run fails at another event than the callback");
     require(told_ == 0 || expected_[told_ - 1].time <= expected_[place_].time,
             "events are reported that come after a failure");
-    if (const auto finding = world_.audit())
+    if (const auto finding = world_.inspection().audit())
       throw Disagreement("audit of a run that failed: " + finding->where + ": " + finding->what);
   }
 

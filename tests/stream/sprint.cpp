@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinesphere/inspection.hpp"
 #include "number/infinity.hpp"
 #include "stream/player.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 constexpr int most_events_of_a_sprint = 20000;
 
 void require_clean(const World& world) {
-  if (const auto finding = world.audit())
+  if (const auto finding = world.inspection().audit())
     throw Disagreement("audit of a sprint: " + finding->where + ": " + finding->what);
 }
 

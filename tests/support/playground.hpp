@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "kinesphere/event_hash.hpp"
+#include "kinesphere/inspection.hpp"
 #include "kinesphere/random.hpp"
 #include "kinesphere/world.hpp"
 
@@ -143,7 +144,7 @@ inline std::vector<Event> of_kind(const std::vector<Event>& events, EventKind ki
 
 /// Expects that audit() finds nothing.
 inline testing::AssertionResult is_clean(const World& world) {
-  const auto finding = world.audit();
+  const auto finding = world.inspection().audit();
   if (!finding) return testing::AssertionSuccess();
   return testing::AssertionFailure() << "audit at time " << world.time() << ": " << finding->where << ": "
                                      << finding->what;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "archive/checksum.hpp"
+#include "kinesphere/inspection.hpp"
 #include "kinesphere/random.hpp"
 #include "kinesphere/world.hpp"
 
@@ -42,7 +43,7 @@ inline void use_for_a_while(World world, Random& random) {
     }
   };
   require(static_cast<bool>(World::restore(world.save().value())), "what was restored cannot be saved");
-  (void)world.audit();
+  (void)world.inspection().audit();
   try {
     for (int k = 0; k < 50; ++k) {
       const auto event = world.advance(world.time() + 1.0, probe);
@@ -57,7 +58,7 @@ inline void use_for_a_while(World world, Random& random) {
     }
   } catch (const std::runtime_error&) {
   }
-  (void)world.audit();
+  (void)world.inspection().audit();
   (void)world.save();
 }
 

@@ -6,6 +6,7 @@
 #include <bit>
 #include <string>
 
+#include "kinesphere/inspection.hpp"
 #include "support/playground.hpp"
 #include "support/sealed_snapshot.hpp"
 
@@ -63,21 +64,23 @@ World with_number(const World& world, double old_number, double new_number) {
   return World::restore(sealed(std::move(bytes))).value();
 }
 
+std::optional<AuditFinding> audit(const World& world) { return world.inspection().audit(); }
+
 struct Approaching : Playground {
   Approaching() {
     a = add({.radius = 1, .acceleration_limit = 0.01, .velocity = {1, 0, 0}});
     b = add({.radius = 1, .acceleration_limit = 0.01, .position = {2.5, 0.25, 0}});
-    for (double t = 0.01; world.certificates().empty(); t += 0.01) run(t);
+    for (double t = 0.01; world.inspection().certificates().empty(); t += 0.01) run(t);
   }
   BodyId a, b;
 };
 
 TEST(Audit, FindsACertificateThatIsTooLate) {
   Approaching p;
-  const auto certificates = p.world.certificates();
+  const auto certificates = p.world.inspection().certificates();
   ASSERT_EQ(certificates.size(), 1u);
   const double until = certificates[0].until;
-  const auto finding = with_number(p.world, until, until + 0.02).audit();
+  const auto finding = audit(with_number(p.world, until, until + 0.02));
   ASSERT_TRUE(finding);
   EXPECT_EQ(finding->where, "certificate") << finding->what;
 }
@@ -89,7 +92,7 @@ TEST(Audit, FindsAContactThatNoEventHasToldOf) {
   p.add({.radius = 1, .position = {2.03125, 0, 0}});
   p.run(1.0);
   ASSERT_TRUE(is_clean(p.world));
-  const auto finding = with_number(p.world, 2.03125, 1.984375).audit();
+  const auto finding = audit(with_number(p.world, 2.03125, 1.984375));
   ASSERT_TRUE(finding);
   EXPECT_EQ(finding->where, "contact") << finding->what;
   EXPECT_NE(finding->what.find("no begin has been told"), std::string::npos) << finding->what;
@@ -101,7 +104,7 @@ TEST(Audit, FindsAContactWhoseEndNoEventHasToldOf) {
   p.add({.radius = 1, .position = {1.984375, 0, 0}});
   EXPECT_EQ(p.run(1.0).size(), 1u);
   ASSERT_TRUE(is_clean(p.world));
-  const auto finding = with_number(p.world, 1.984375, 2.03125).audit();
+  const auto finding = audit(with_number(p.world, 1.984375, 2.03125));
   ASSERT_TRUE(finding);
   EXPECT_EQ(finding->where, "contact") << finding->what;
   EXPECT_NE(finding->what.find("no end has been told"), std::string::npos) << finding->what;
@@ -114,7 +117,7 @@ TEST(Audit, FindsASensorDistanceThatNoEventHasToldOf) {
   p.add({.radius = 1, .position = {2.75, 0, 0}});
   p.run(1.0);
   ASSERT_TRUE(is_clean(p.world));
-  const auto finding = with_number(p.world, 2.75, 2.25).audit();
+  const auto finding = audit(with_number(p.world, 2.75, 2.25));
   ASSERT_TRUE(finding);
   EXPECT_EQ(finding->where, "sensor") << finding->what;
 }
@@ -138,10 +141,10 @@ TEST(Audit, FindsABoxThatIsTooWideForItsPeriod) {
   constexpr double speed = 1.015625;
   for (const double time : {-100.0, 1.0, 1e6}) {
     const World world = in_a_period(time, speed);
-    EXPECT_EQ(world.audit(), std::nullopt) << time;
+    EXPECT_EQ(world.inspection().audit(), std::nullopt) << time;
     // The window is 2^-13 long; at 1e6 the shortest would be 2^-31.
     for (const double faster : {1e5, 0x1p30}) {
-      const auto finding = with_number(world, speed, faster).audit();
+      const auto finding = audit(with_number(world, speed, faster));
       ASSERT_TRUE(finding) << time << ", " << faster;
       EXPECT_NE(finding->what.find("too wide"), std::string::npos) << finding->what;
     }
@@ -150,8 +153,8 @@ TEST(Audit, FindsABoxThatIsTooWideForItsPeriod) {
 
 /// At 2^60 windows are 2^10 long, or longer.
 TEST(Audit, AllowsTheShortestWindowThatThereIs) {
-  EXPECT_EQ(in_a_period(0x1p60, 0x1p-4).audit(), std::nullopt);
-  EXPECT_EQ(in_a_period(-0x1p60, 0x1p-4).audit(), std::nullopt);
+  EXPECT_EQ(audit(in_a_period(0x1p60, 0x1p-4)), std::nullopt);
+  EXPECT_EQ(audit(in_a_period(-0x1p60, 0x1p-4)), std::nullopt);
 }
 
 }  // namespace

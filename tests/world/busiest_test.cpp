@@ -1,4 +1,4 @@
-// World::busiest: the bodies that cost most probes are named with the true reason, and no probe is lost.
+// World::Inspection::busiest: the bodies that cost most probes are named with the true reason, and no probe is lost.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,7 +47,9 @@ class Carousels {
     return at_rest(position, limit);
   }
   BodyId at_rest(const Vec3& position, double limit) { return add({position, 0.0, 0.0}, limit); }
-  Result<std::vector<BusyBody>> busiest(std::size_t count = all) const { return world.busiest(count); }
+  Result<std::vector<BusyBody>> busiest(std::size_t count = all) const {
+    return world.inspection().busiest(count);
+  }
   BusyBody of(BodyId body) const {
     for (const BusyBody& busy : busiest().value())
       if (busy.body == body) return busy;
@@ -123,14 +125,14 @@ TEST(Busiest, NamesAPileInTouch) {
             Vec3{});
   p.world.set_profiling(true).value();
   p.run(0.2);
-  const std::vector<BusyBody> busiest = p.world.busiest(all).value();
+  const std::vector<BusyBody> busiest = p.world.inspection().busiest(all).value();
   ASSERT_EQ(busiest.size(), 15u);
   for (const BusyBody& busy : busiest) EXPECT_EQ(busy.reason, ProbeReason::touching) << busy.body;
   EXPECT_EQ(sum(busiest), p.world.counters().probes);
   EXPECT_TRUE(std::is_sorted(busiest.begin(), busiest.end(), [](const BusyBody& a, const BusyBody& b) {
     return a.probes != b.probes ? a.probes > b.probes : a.body < b.body;
   }));
-  const std::vector<BusyBody> first = p.world.busiest(4).value();
+  const std::vector<BusyBody> first = p.world.inspection().busiest(4).value();
   EXPECT_EQ(first, std::vector(busiest.begin(), busiest.begin() + 4));
 }
 
@@ -180,12 +182,13 @@ TEST(Busiest, IsNoPartOfSnapshotsAndClones) {
   profiled.world.set_profiling(true).value();
   profiled.run(0.5);
   EXPECT_EQ(profiled.world.save().value(), p.world.save().value());
-  expect_error(profiled.world.clone().value().busiest(1), ErrorCode::not_profiling, "world", "busiest");
+  const World copy = profiled.world.clone().value();
+  expect_error(copy.inspection().busiest(1), ErrorCode::not_profiling, "world", "busiest");
   // An engine that is copied must not count in the profile of the first one.
   const std::uint64_t before = profiled.of(lying).probes;
   World first = std::exchange(profiled.world, profiled.world.clone().value());
   profiled.run(1.0);
-  EXPECT_EQ(first.busiest(1)->front().probes, before);
+  EXPECT_EQ(first.inspection().busiest(1)->front().probes, before);
   profiled.world = World::restore(first.save().value()).value();
   expect_error(profiled.busiest(), ErrorCode::not_profiling, "world", "busiest");
   profiled.world.set_profiling(true).value();
@@ -213,7 +216,7 @@ struct Balls : BouncingWorld<RandomForces> {
 
   void ask_for_some() {
     for (const BodyId id : world.bodies())
-      if (id.index % 7 == 0) (void)world.safe_until(id, motion.probe()).value();
+      if (id.index % 7 == 0) (void)world.certificates(motion.probe()).safe_until(id).value();
   }
 
   static std::vector<State> start() {
@@ -230,7 +233,7 @@ TEST(Busiest, CountsEachProbeOnceWithAnyNumberOfThreads) {
   Balls looped;
   looped.loop(2.0);
   looped.ask_for_some();
-  const std::vector<BusyBody> expected = looped.world.busiest(all).value();
+  const std::vector<BusyBody> expected = looped.world.inspection().busiest(all).value();
   EXPECT_EQ(expected.size(), std::size_t{Balls::count});
   EXPECT_EQ(sum(expected), looped.world.counters().probes);
   EXPECT_TRUE(
@@ -242,7 +245,7 @@ TEST(Busiest, CountsEachProbeOnceWithAnyNumberOfThreads) {
     Workers workers = Workers::create(threads).value();
     balls.run(2.0, &workers).value();
     balls.ask_for_some();
-    EXPECT_EQ(balls.world.busiest(all).value(), expected) << threads;
+    EXPECT_EQ(balls.world.inspection().busiest(all).value(), expected) << threads;
   }
 }
 

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "kinesphere/certificates.hpp"
+#include "kinesphere/queries.hpp"
 #include "world/crowd.hpp"
 
 namespace kinesphere {
@@ -85,19 +87,20 @@ class Bustle : public Crowd {
         world.teleport(id, state).value();
         return place(id, state);
       case 2:
-        return world.set_radius(id, 0.5 * random.uniform()).value();
+        return world.change(id, {.radius = 0.5 * random.uniform()}).value();
       case 3: {
         const BodyDefinition now = world.body(id).value().definition;
         const Vec3 plan = random.point_in_ball();
-        world.set_motion_limits(id, {2.0, plan, now.position_error, now.velocity_error}).value();
+        world.change(id, {.motion_limits = MotionLimits{2.0, plan, now.position_error, now.velocity_error}})
+            .value();
         return Playground::steer(id, plan + 1.9 * random.point_in_ball());
       }
       case 4:
-        return world.set_filter(id, {1 + random.bits() % 3, 1 + random.bits() % 3, 0}).value();
+        return world.change(id, {.filter = Filter{1 + random.bits() % 3, 1 + random.bits() % 3, 0}}).value();
       case 5:
         if (random.uniform() < 0.3)
           return world.set_pair_filter(random.uniform() < 0.5 ? filter_of(world) : PairFilter()).value();
-        world.set_user_data(id, random.bits() % 2).value();
+        world.change(id, {.user_data = random.bits() % 2}).value();
         return world.refresh_filter(id).value();
       case 6:
         return ask();
@@ -110,12 +113,12 @@ class Bustle : public Crowd {
       }
       case 8: {
         const BodyId ids[] = {id};
-        if (world.size() > 5) world.remove_all(ids).value();
+        if (world.size() > 5) world.remove(ids).value();
         return;
       }
       case 9:
         // Refused calls must leave no trace.
-        EXPECT_FALSE(world.set_radius(id, -1.0));
+        EXPECT_FALSE(world.change(id, {.radius = -1.0}));
         EXPECT_FALSE(world.advance(world.time() - 1.0, probe()));
         return;
       case 10:
@@ -129,16 +132,16 @@ class Bustle : public Crowd {
   }
 
   void ask() {
-    (void)world.safe_until(any(), probe());
-    (void)world.safe_until(probe());
-    (void)world.earliest_contact(any(), probe());
-    (void)world.distance_limits(any(), any(), world.time() + 1.0, probe());
-    (void)world.nearest(any_point(), 3, probe());
+    (void)world.certificates(probe()).safe_until(any());
+    (void)world.certificates(probe()).safe_until();
+    (void)world.certificates(probe()).earliest_contact(any());
+    (void)world.certificates(probe()).distance_limits(any(), any(), world.time() + 1.0);
+    (void)world.queries(probe()).nearest(any_point(), 3);
     mischief_ = random.uniform() < 0.5 ? 2 : 0;
     throws_ = false;
-    (void)world.overlapping(any_point(), 3.0, probe());
+    (void)world.queries(probe()).overlapping(any_point(), 3.0);
     mischief_ = 0;
-    (void)world.ray_cast(any_point(), {1, 0, 0}, 5.0, probe());
+    (void)world.queries(probe()).ray_cast(any_point(), {1, 0, 0}, 5.0);
   }
 
   std::vector<Event> events_;

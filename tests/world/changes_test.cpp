@@ -108,7 +108,7 @@ struct Parting : Playground {
 
 TEST(Change, OfABodyDoesNotTakeBackAnEndThatWasOnItsWay) {
   Parting p;
-  p.world.set_radius(p.d, 1.5).value();
+  p.world.change(p.d, {.radius = 1.5}).value();
   p.expect_end_and_begin(-0.5);
 }
 
@@ -126,7 +126,7 @@ TEST(Change, OfABodyDoesNotTakeBackAnEndAtAWallThatWasOnItsWay) {
   EXPECT_EQ(p.run(0.25).size(), 2u);
   const auto end = p.advance(1.0);
   ASSERT_TRUE(end && end->kind == EventKind::wall_end && end->first != last);
-  p.world.set_radius(last, 1.5).value();
+  p.world.change(last, {.radius = 1.5}).value();
   const auto events = p.run(p.world.time());
   ASSERT_EQ(events.size(), 2u) << events;
   EXPECT_EQ(events[0].kind, EventKind::wall_end);
@@ -137,9 +137,9 @@ TEST(Change, OfABodyDoesNotTakeBackAnEndAtAWallThatWasOnItsWay) {
 
 TEST(Change, SmallerRadiusEndsAndLargerBegins) {
   Touching p;
-  p.world.set_radius(p.b, 0.25).value();
+  p.world.change(p.b, {.radius = 0.25}).value();
   p.expect_end(p.run(2.0));
-  p.world.set_radius(p.b, 0.75).value();
+  p.world.change(p.b, {.radius = 0.75}).value();
   const auto events = p.run(3.0);
   ASSERT_EQ(events.size(), 1u) << events;
   EXPECT_EQ(events[0].kind, EventKind::contact_begin);
@@ -150,7 +150,7 @@ TEST(Change, RadiusOfABodyOnAWallCounts) {
   Playground p({.box = Box{{0, 0, 0}, {10, 10, 10}}});
   const BodyId a = p.add({.radius = 1, .position = {0.5, 5, 5}});
   EXPECT_EQ(p.run(1.0).size(), 1u);
-  p.world.set_radius(a, 0.25).value();
+  p.world.change(a, {.radius = 0.25}).value();
   const auto events = p.run(2.0);
   ASSERT_EQ(events.size(), 1u) << events;
   EXPECT_EQ(events[0].kind, EventKind::wall_end);
@@ -162,10 +162,10 @@ TEST(Change, PromiseHoldsFromNowOnAndTheOldOneUntilNow) {
   const BodyId a = p.add({.radius = 1, .acceleration_limit = 2, .position = {0, 0, 0}}, Vec3{1.9, 0, 0});
   const BodyId b = p.add({.radius = 1, .position = {20, 0, 0}});
   p.run(1.0);
-  p.world.set_motion_limits(a, {.planned_acceleration = {-1, 0, 0}}).value();
+  p.world.change(a, {.motion_limits = MotionLimits{.planned_acceleration = {-1, 0, 0}}}).value();
   p.steer(a, {-1, 0, 0});
   EXPECT_TRUE(p.run(2.0).empty());
-  p.world.set_motion_limits(a, {.acceleration_limit = 10}).value();
+  p.world.change(a, {.motion_limits = MotionLimits{.acceleration_limit = 10}}).value();
   p.steer(a, {9.9, 0, 0});
   const auto event = p.advance(20.0);
   ASSERT_TRUE(event);
@@ -177,7 +177,7 @@ TEST(Change, BrokenNewPromiseIsTold) {
   Playground p;
   const BodyId a = p.add({.radius = 1, .acceleration_limit = 2}, Vec3{1.9, 0, 0});
   p.run(1.0);
-  p.world.set_motion_limits(a, {}).value();
+  p.world.change(a, {.motion_limits = MotionLimits{}}).value();
   p.add({.radius = 1, .position = {6, 0, 0}});
   EXPECT_GE(of_kind(p.run(3.0), EventKind::bound_violation).size(), 1u);
 }
@@ -192,7 +192,7 @@ TEST(Change, DisabledBodyTouchesNobodyAndIsNotProbed) {
   EXPECT_EQ(p.world.size(), 2u);
   p.add({.radius = 1, .position = {1.5, 2.2, 0}});
   EXPECT_TRUE(p.run(3.0).empty());
-  p.world.set_radius(p.b, 1.25).value();
+  p.world.change(p.b, {.radius = 1.25}).value();
   p.distort = {};
   p.world.enable(p.b, {{1.5, 0, 0}, {}}).value();
   EXPECT_EQ(of_kind(p.run(4.0), EventKind::contact_begin).size(), 2u);
@@ -209,7 +209,7 @@ TEST(Change, DisabledBodyMayBeRemoved) {
 
 TEST(Change, RemoveAllEndsEachContactOnce) {
   Touching p;
-  p.world.remove_all(std::vector<BodyId>{p.a, p.b}).value();
+  p.world.remove(std::vector<BodyId>{p.a, p.b}).value();
   EXPECT_EQ(p.world.size(), 0u);
   p.expect_end(p.run(2.0));
 }
@@ -218,7 +218,7 @@ TEST(Change, UserDataIsKept) {
   Playground p;
   const BodyId a = p.add({.user_data = 7});
   EXPECT_EQ(p.world.user_data(a).value(), 7u);
-  p.world.set_user_data(a, ~std::uint64_t{0}).value();
+  p.world.change(a, {.user_data = ~std::uint64_t{0}}).value();
   EXPECT_EQ(p.world.user_data(a).value(), ~std::uint64_t{0});
 }
 
@@ -232,15 +232,15 @@ void expect_error(const Result<T>& result, ErrorCode code, const std::string& ca
 /// Expects that every change of body `id` is refused.
 void expect_all_refused(World& world, BodyId id, ErrorCode code) {
   expect_error(world.teleport(id, {}), code, "teleport");
-  expect_error(world.set_radius(id, 1), code, "set_radius");
-  expect_error(world.set_motion_limits(id, {}), code, "set_motion_limits");
+  expect_error(world.change(id, {.radius = 1}), code, "change");
+  expect_error(world.change(id, {.motion_limits = MotionLimits{}}), code, "change");
   expect_error(world.disable(id), code, "disable");
   expect_error(world.enable(id, {}), code, "enable");
-  expect_error(world.set_filter(id, {}), code, "set_filter");
+  expect_error(world.change(id, {.filter = Filter{}}), code, "change");
   expect_error(world.refresh_filter(id), code, "refresh_filter");
-  expect_error(world.set_user_data(id, 1), code, "set_user_data");
+  expect_error(world.change(id, {.user_data = 1}), code, "change");
   expect_error(world.user_data(id), code, "user_data");
-  expect_error(world.remove_all(std::span(&id, 1)), code, "remove_all: bodies[0]");
+  expect_error(world.remove(std::span(&id, 1)), code, "remove");
 }
 
 TEST(WrongChange, IsRefusedAndLeavesNoTrace) {
@@ -255,21 +255,20 @@ TEST(WrongChange, IsRefusedAndLeavesNoTrace) {
   expect_error(p.world.teleport(a, {{5, 5, 5}, {0, nan, 0}}), ErrorCode::not_finite, "teleport");
   expect_error(p.world.teleport(a, {{0.5, 5, 5}, {}}), ErrorCode::outside_domain, "teleport");
   expect_error(p.world.teleport(a, {{7, 5, 5}, {}}), ErrorCode::overlapping, "teleport");
-  expect_error(p.world.set_radius(a, -1), ErrorCode::out_of_range, "set_radius");
-  expect_error(p.world.set_radius(a, nan), ErrorCode::not_finite, "set_radius");
-  expect_error(p.world.set_radius(a, 2.5), ErrorCode::overlapping, "set_radius");
-  expect_error(p.world.set_radius(b, 2.5), ErrorCode::outside_domain, "set_radius");
-  expect_error(p.world.set_motion_limits(a, {.acceleration_limit = -1}), ErrorCode::out_of_range,
-               "set_motion_limits");
-  expect_error(p.world.set_motion_limits(a, {.planned_acceleration = {nan, 0, 0}}), ErrorCode::not_finite,
-               "set_motion_limits");
-  expect_error(p.world.set_motion_limits(a, {.position_error = 1.5}), ErrorCode::overlapping,
-               "set_motion_limits");
-  expect_error(p.world.set_motion_limits(a, {.velocity_error = nan}), ErrorCode::not_finite,
-               "set_motion_limits");
+  expect_error(p.world.change(a, {.radius = -1}), ErrorCode::out_of_range, "change");
+  expect_error(p.world.change(a, {.radius = nan}), ErrorCode::not_finite, "change");
+  expect_error(p.world.change(a, {.radius = 2.5}), ErrorCode::overlapping, "change");
+  expect_error(p.world.change(b, {.radius = 2.5}), ErrorCode::outside_domain, "change");
+  expect_error(p.world.change(a, {.motion_limits = MotionLimits{.acceleration_limit = -1}}),
+               ErrorCode::out_of_range, "change");
+  expect_error(p.world.change(a, {.motion_limits = MotionLimits{.planned_acceleration = {nan, 0, 0}}}),
+               ErrorCode::not_finite, "change");
+  expect_error(p.world.change(a, {.motion_limits = MotionLimits{.position_error = 1.5}}),
+               ErrorCode::overlapping, "change");
+  expect_error(p.world.change(a, {.motion_limits = MotionLimits{.velocity_error = nan}}),
+               ErrorCode::not_finite, "change");
   expect_error(p.world.enable(a, {{5, 5, 5}, {}}), ErrorCode::enabled_body, "enable");
-  expect_error(p.world.remove_all(std::vector<BodyId>{a, b, a}), ErrorCode::stale_body,
-               "remove_all: bodies[2]");
+  expect_error(p.world.remove(std::vector<BodyId>{a, b, a}), ErrorCode::stale_body, "remove: bodies[2]");
   EXPECT_EQ(p.world.size(), 2u);
   EXPECT_TRUE(p.run(1.0).empty());
   p.world.disable(a).value();
@@ -307,21 +306,21 @@ TEST(WrongChange, NamesEachNumberThatIsWrong) {
     refused(p.world.teleport(a, {{5, 5, 5}, v}), code, "velocity", a, "teleport");
     refused(p.world.enable(off, {v, {}}), code, "position", off, "enable");
     refused(p.world.enable(off, {{5, 5, 5}, v}), code, "velocity", off, "enable");
-    refused(p.world.set_radius(a, bad), code, "radius", a, "set_radius");
-    refused(p.world.set_motion_limits(a, {.acceleration_limit = bad}), code, "acceleration_limit", a,
-            "set_motion_limits");
-    refused(p.world.set_motion_limits(a, {.planned_acceleration = v}), code, "planned_acceleration", a,
-            "set_motion_limits");
-    refused(p.world.set_motion_limits(a, {.position_error = bad}), code, "position_error", a,
-            "set_motion_limits");
-    refused(p.world.set_motion_limits(a, {.velocity_error = bad}), code, "velocity_error", a,
-            "set_motion_limits");
+    refused(p.world.change(a, {.radius = bad}), code, "radius", a, "change");
+    refused(p.world.change(a, {.motion_limits = MotionLimits{.acceleration_limit = bad}}), code,
+            "acceleration_limit", a, "change");
+    refused(p.world.change(a, {.motion_limits = MotionLimits{.planned_acceleration = v}}), code,
+            "planned_acceleration", a, "change");
+    refused(p.world.change(a, {.motion_limits = MotionLimits{.position_error = bad}}), code, "position_error",
+            a, "change");
+    refused(p.world.change(a, {.motion_limits = MotionLimits{.velocity_error = bad}}), code, "velocity_error",
+            a, "change");
   };
   for (const double bad : {nan, infinity, -infinity}) check(bad, ErrorCode::not_finite);
   check(1e200, ErrorCode::out_of_range);
   for (const MotionLimits& bad : {MotionLimits{.acceleration_limit = -1}, MotionLimits{.position_error = -1},
                                   MotionLimits{.velocity_error = -1}})
-    expect_error(p.world.set_motion_limits(a, bad), ErrorCode::out_of_range, "set_motion_limits");
+    expect_error(p.world.change(a, {.motion_limits = bad}), ErrorCode::out_of_range, "change");
   refused(p.world.teleport(a, {{5, 5, 11}, {}}), ErrorCode::outside_domain, "position", a, "teleport");
   refused(p.world.enable(off, {{5, -1, 5}, {}}), ErrorCode::outside_domain, "position", off, "enable");
   EXPECT_FALSE(p.world.body(off).value().enabled);

@@ -161,7 +161,7 @@ class Chaos {
       MotionLimits limits;
       if (random_.bits() % 2 == 0)
         limits.acceleration_limit = random_.uniform(0.0, 3.0) * length_ / time_ / time_;
-      (void)world_.set_motion_limits(*id, limits);
+      (void)world_.change(*id, {.motion_limits = limits});
     } else if (what == 10) {
       if (world_.sleep(*id)) {
         const State now = state_at(courses_.at(id->index), world_.time());
@@ -218,7 +218,8 @@ class Chaos {
     const auto restored = World::restore(snapshot);
     if (!restored) return fail("refused: " + restored.error().message);
     if (restored->save().value() != snapshot) return fail("another snapshot of the restored world");
-    if (const auto finding = world_.audit()) fail("audit: " + finding->where + ": " + finding->what);
+    if (const auto finding = world_.inspection().audit())
+      fail("audit: " + finding->where + ": " + finding->what);
   }
   void fail(const std::string& what) {
     if (wrong_.empty())
@@ -276,9 +277,9 @@ TEST(StaticBall, OnTheBorderOfAPeriodicBoxStaysInItsImage) {
     const auto event = world.advance(10.0, probe).value();
     ASSERT_TRUE(event && event->kind == EventKind::contact_begin) << y;
     EXPECT_NEAR(event->time, 0.5, 1e-5);
-    EXPECT_EQ(world.audit(), std::nullopt) << y;
+    EXPECT_EQ(world.inspection().audit(), std::nullopt) << y;
     EXPECT_TRUE(World::restore(world.save().value())) << y;
-    EXPECT_EQ(world.body(ball)->definition.position, std::get<Ball>(world.shape_of(ball).value()).centre);
+    EXPECT_EQ(world.body(ball)->definition.position, std::get<Ball>(world.body(ball).value().shape).centre);
   }
 }
 

@@ -2,6 +2,7 @@
 // as neighbours.
 #include <gtest/gtest.h>
 
+#include "kinesphere/inspection.hpp"
 #include "support/playground.hpp"
 
 namespace kinesphere::clusters_test {
@@ -49,7 +50,7 @@ class Harbours : public Playground {
     return static_cast<double>(counters.candidates) / static_cast<double>(counters.searches);
   }
   double bytes_per_body() const {
-    return static_cast<double>(world.memory().total()) / static_cast<double>(world.size());
+    return static_cast<double>(world.inspection().memory().total()) / static_cast<double>(world.size());
   }
 
   Random random;

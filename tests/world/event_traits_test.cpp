@@ -90,7 +90,7 @@ TEST(Mass, IsInAllEventsOfABodyAndChangesAndSurvives) {
   World restored = World::restore(p.world.save().value()).value();
   EXPECT_EQ(p.world.body(heavy).value().definition.mass, 8.0);
   auto events = p.run(4.0, [&](const Event& event) {
-    if (event.kind == EventKind::contact_begin) p.world.set_mass(light, 0.5).value();
+    if (event.kind == EventKind::contact_begin) p.world.change(light, {.mass = 0.5}).value();
   });
   p.world.remove(heavy).value();
   const auto end = p.run(4.0);
@@ -115,12 +115,13 @@ TEST(Mass, IsCheckedByName) {
   const BodyId ball = p.add({.radius = 1, .mass = infinite});
   const BodyId post = p.world.add_static({.shape = Ball{{4, 0, 0}, 1.0}}).value();
   EXPECT_EQ(p.world.body(post).value().definition.mass, infinite);
-  p.world.set_mass(ball, 0.0).value();
+  p.world.change(ball, {.mass = 0.0}).value();
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  expect_error(p.world.set_mass(ball, -1.0), ErrorCode::out_of_range, "mass", "set_mass: mass of body 0",
+  expect_error(p.world.change(ball, {.mass = -1.0}), ErrorCode::out_of_range, "mass",
+               "change: mass of body 0", ball);
+  expect_error(p.world.change(ball, {.mass = nan}), ErrorCode::not_finite, "mass", "change: mass of body 0",
                ball);
-  expect_error(p.world.set_mass(ball, nan), ErrorCode::not_finite, "mass", "set_mass: mass of body 0", ball);
-  expect_error(p.world.set_mass(post, 1.0), ErrorCode::static_body, "body", "set_mass:", post);
+  expect_error(p.world.change(post, {.mass = 1.0}), ErrorCode::static_body, "body", "change:", post);
   expect_error(p.world.add({.mass = nan}), ErrorCode::not_finite, "mass", "add: mass");
   expect_error(p.world.add({.mass = -0.5}), ErrorCode::out_of_range, "mass", "add: mass");
 }

@@ -3,6 +3,9 @@
 
 #include <set>
 
+#include "kinesphere/certificates.hpp"
+#include "kinesphere/inspection.hpp"
+#include "kinesphere/queries.hpp"
 #include "support/playground.hpp"
 
 namespace kinesphere::filter_test {
@@ -29,13 +32,13 @@ struct Pair : Playground {
 TEST(Filter, InMidContactEndsAndBeginsAgain) {
   Pair p;
   EXPECT_EQ(p.run(1.0).size(), 1u);
-  p.world.set_filter(p.a, {.mask = 0}).value();
+  p.world.change(p.a, {.filter = Filter{.mask = 0}}).value();
   auto events = p.run(2.0);
   ASSERT_EQ(events.size(), 1u) << events;
   EXPECT_EQ(events[0].kind, EventKind::contact_end);
   EXPECT_EQ(events[0].time, 1.0);
   EXPECT_TRUE(is_clean(p.world));
-  p.world.set_filter(p.a, {}).value();
+  p.world.change(p.a, {.filter = Filter{}}).value();
   events = p.run(3.0);
   ASSERT_EQ(events.size(), 1u) << events;
   EXPECT_EQ(events[0].kind, EventKind::contact_begin);
@@ -55,7 +58,7 @@ TEST(Filter, AtAnotherEventOfTheInstantTakesABeginBack) {
   const BodyId c = p.add({.radius = 1, .position = {50, 0, 0}});
   p.add({.radius = 1, .position = {51, 0, 0}});
   ASSERT_TRUE(p.advance(1.0));
-  p.world.set_filter(c, {.mask = 0}).value();
+  p.world.change(c, {.filter = Filter{.mask = 0}}).value();
   EXPECT_TRUE(p.run(1.0).empty());
 }
 
@@ -79,7 +82,7 @@ TEST(Filter, PredicateAndItsChange) {
 TEST(Filter, AuditTellsOfAnAsymmetricPredicate) {
   Pair p;
   p.world.set_pair_filter([](BodyId a, BodyId b) { return a < b; }).value();
-  const auto finding = p.world.audit();
+  const auto finding = p.world.inspection().audit();
   ASSERT_TRUE(finding);
   EXPECT_EQ(finding->where, "filter");
 }
@@ -104,7 +107,7 @@ TEST(Filter, EndsImpactsSilently) {
   const BodyId a = p.add({.radius = 1, .velocity = {1, 0, 0}});
   p.add({.radius = 1, .position = {2, 0, 0}});
   EXPECT_EQ(p.run(0.5).size(), 1u);
-  p.world.set_filter(a, {.mask = 0}).value();
+  p.world.change(a, {.filter = Filter{.mask = 0}}).value();
   EXPECT_TRUE(p.run(2.0).empty());
   EXPECT_TRUE(is_clean(p.world));
 }
@@ -115,8 +118,8 @@ void ask_the_filter(Playground& p, BodyId a) {
   p.world.refresh_filter(a).value();
   p.run(p.world.time() + 1.0);
   (void)p.world.add({.radius = 1, .position = {0.5, 0, 0}});
-  (void)p.world.safe_until(a);
-  (void)p.world.audit();
+  (void)p.world.certificates().safe_until(a);
+  (void)p.world.inspection().audit();
 }
 
 TEST(PairFilter, MayReadBodiesOfTheWorldThatAsksIt) {
@@ -130,7 +133,7 @@ TEST(PairFilter, MayReadBodiesOfTheWorldThatAsksIt) {
         for (const BodyId id : {first, second}) {
           if (!p.world.contains(id)) continue;  // the body is about to be added
           EXPECT_TRUE(p.world.body(id));
-          EXPECT_TRUE(p.world.shape_of(id));
+          EXPECT_TRUE(p.world.body(id));
           EXPECT_TRUE(p.world.touching(id));
           EXPECT_TRUE(p.world.sensor_overlaps(id));
           EXPECT_EQ(p.world.user_data(id).value(), 7u);
@@ -160,32 +163,32 @@ TEST(PairFilter, CannotMakeOtherCallsToTheWorldThatAsksIt) {
       .set_pair_filter([&](BodyId first, BodyId second) {
         ++asked;
         World& w = p.world;
-        EXPECT_TRUE(refuses(w.safe_until(first, second)));
-        EXPECT_TRUE(refuses(w.safe_until(first)));
-        EXPECT_TRUE(refuses(w.safe_until()));
-        EXPECT_TRUE(refuses(w.safe_until(first, second, p.probe())));
-        EXPECT_TRUE(refuses(w.earliest_contact(first)));
-        EXPECT_TRUE(refuses(w.distance_limits(first, second, w.time())));
-        EXPECT_TRUE(refuses(w.overlapping({}, 1)));
-        EXPECT_TRUE(refuses(w.nearest({}, 1)));
+        EXPECT_TRUE(refuses(w.certificates().safe_until(first, second)));
+        EXPECT_TRUE(refuses(w.certificates().safe_until(first)));
+        EXPECT_TRUE(refuses(w.certificates().safe_until()));
+        EXPECT_TRUE(refuses(w.certificates(p.probe()).safe_until(first, second)));
+        EXPECT_TRUE(refuses(w.certificates().earliest_contact(first)));
+        EXPECT_TRUE(refuses(w.certificates().distance_limits(first, second, w.time())));
+        EXPECT_TRUE(refuses(w.queries().overlapping({}, 1)));
+        EXPECT_TRUE(refuses(w.queries().nearest({}, 1)));
         EXPECT_TRUE(refuses(w.advance(w.time() + 1, p.probe())));
         EXPECT_TRUE(refuses(w.add({})));
         EXPECT_TRUE(refuses(w.add_all({})));
         EXPECT_TRUE(refuses(w.add_static({.shape = Ball{{}, 1}})));
         EXPECT_TRUE(refuses(w.remove(first)));
         EXPECT_TRUE(refuses(w.set_velocity(first, {})));
-        EXPECT_TRUE(refuses(w.set_velocity_all({}, {})));
+        EXPECT_TRUE(refuses(w.set_velocities({}, {})));
         EXPECT_TRUE(refuses(w.teleport(first, {})));
-        EXPECT_TRUE(refuses(w.set_radius(first, 1)));
+        EXPECT_TRUE(refuses(w.change(first, {.radius = 1})));
         EXPECT_TRUE(refuses(w.disable(first)));
-        EXPECT_TRUE(refuses(w.set_filter(first, {})));
+        EXPECT_TRUE(refuses(w.change(first, {.filter = Filter{}})));
         EXPECT_TRUE(refuses(w.refresh_filter(first)));
         EXPECT_TRUE(refuses(w.set_pair_filter({})));
-        EXPECT_TRUE(refuses(w.set_user_data(first, 1)));
+        EXPECT_TRUE(refuses(w.change(first, {.user_data = 1})));
         EXPECT_TRUE(refuses(w.save()));
         EXPECT_TRUE(refuses(w.clone()));
         EXPECT_TRUE(refuses(w.start_recording()));
-        const auto finding = w.audit();
+        const auto finding = w.inspection().audit();
         EXPECT_TRUE(finding && finding->where == "call") << finding->what;
         return true;
       })
@@ -205,12 +208,15 @@ TEST(PairFilter, OfOneWorldMayAskAnother) {
   int refused = 0;
   other
       .set_pair_filter([&](BodyId first, BodyId second) {
-        refused += !p.world.safe_until(first, second);
+        refused += !p.world.certificates().safe_until(first, second);
         return true;
       })
       .value();
-  p.world.set_pair_filter([&](BodyId, BodyId) { return static_cast<bool>(other.safe_until(a, b)); }).value();
-  EXPECT_TRUE(p.world.safe_until(a, b));
+  p.world
+      .set_pair_filter(
+          [&](BodyId, BodyId) { return static_cast<bool>(other.certificates().safe_until(a, b)); })
+      .value();
+  EXPECT_TRUE(p.world.certificates().safe_until(a, b));
   EXPECT_GT(refused, 0);
 }
 

@@ -1,6 +1,9 @@
 // Ids know the world that created them.
 #include <gtest/gtest.h>
 
+#include "kinesphere/certificates.hpp"
+#include "kinesphere/inspection.hpp"
+#include "kinesphere/queries.hpp"
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
 
@@ -20,30 +23,29 @@ TEST(ForeignId, IsRefusedByEveryCallThatTakesOne) {
     EXPECT_EQ(result.error().message, call + ": body 0 is one of another world");
   };
   refused(world.remove(id), "remove");
-  refused(world.remove_all(std::vector{id}), "remove_all: bodies[0]");
+  refused(world.remove(std::vector{id}), "remove");
   refused(world.set_velocity(id, {1, 0, 0}), "set_velocity");
-  refused(world.set_velocity_all(std::vector{id}, std::vector<Vec3>(1)), "set_velocity_all");
+  refused(world.set_velocities(std::vector{id}, std::vector<Vec3>(1)), "set_velocities");
   refused(world.teleport(id, {}), "teleport");
-  refused(world.set_radius(id, 2.0), "set_radius");
-  refused(world.set_motion_limits(id, {}), "set_motion_limits");
+  refused(world.change(id, {.radius = 2.0}), "change");
+  refused(world.change(id, {.motion_limits = MotionLimits{}}), "change");
   refused(world.disable(id), "disable");
   refused(world.enable(id, {}), "enable");
   refused(world.sleep(id), "sleep");
   refused(world.wake(id), "wake");
-  refused(world.set_filter(id, {}), "set_filter");
+  refused(world.change(id, {.filter = Filter{}}), "change");
   refused(world.refresh_filter(id), "refresh_filter");
-  refused(world.set_solid(id, true), "set_solid");
-  refused(world.set_sensor_class(id, 0), "set_sensor_class");
-  refused(world.set_user_data(id, 0), "set_user_data");
+  refused(world.change(id, {.solid = true}), "change");
+  refused(world.change(id, {.sensor_class = 0}), "change");
+  refused(world.change(id, {.user_data = 0}), "change");
   refused(world.user_data(id), "user_data");
   refused(world.body(id), "body");
-  refused(world.shape_of(id), "shape_of");
   refused(world.touching(id), "touching");
   refused(world.sensor_overlaps(id), "sensor_overlaps");
-  refused(world.safe_until(id), "safe_until");
-  refused(world.safe_until(own, id), "safe_until");
-  refused(world.earliest_contact(id), "earliest_contact");
-  refused(world.distance_limits(id, own, 1.0), "distance_limits");
+  refused(world.certificates().safe_until(id), "safe_until");
+  refused(world.certificates().safe_until(own, id), "safe_until");
+  refused(world.certificates().earliest_contact(id), "earliest_contact");
+  refused(world.certificates().distance_limits(id, own, 1.0), "distance_limits");
   EXPECT_FALSE(world.contains(id));
   EXPECT_EQ(world.save().value(), before);
 }
@@ -56,10 +58,12 @@ std::vector<BodyId> given_out(Playground& p) {
     if (event.second != no_body) ids.push_back(event.second);
     for (const BodyId id : p.world.touching(event.first).value()) ids.push_back(id);
   }
-  for (const OverlapHit& found : p.world.overlapping({0, 0, 0}, 100.0).value()) ids.push_back(found.body);
-  for (const NearestHit& near : p.world.nearest({0, 0, 0}, 5).value()) ids.push_back(near.body);
-  for (const CastHit& hit : p.world.ray_cast({-50, 0, 0}, {1, 0, 0}, 100.0).value()) ids.push_back(hit.body);
-  for (const Certificate& each : p.world.certificates()) {
+  for (const OverlapHit& found : p.world.queries().overlapping({0, 0, 0}, 100.0).value())
+    ids.push_back(found.body);
+  for (const NearestHit& near : p.world.queries().nearest({0, 0, 0}, 5).value()) ids.push_back(near.body);
+  for (const CastHit& hit : p.world.queries().ray_cast({-50, 0, 0}, {1, 0, 0}, 100.0).value())
+    ids.push_back(hit.body);
+  for (const Certificate& each : p.world.inspection().certificates()) {
     ids.push_back(each.first);
     if (each.second != no_body) ids.push_back(each.second);
   }

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "kinesphere/inspection.hpp"
 #include "kinesphere/random.hpp"
 #include "support/expect_error.hpp"
 #include "world/crowd.hpp"
@@ -20,16 +21,16 @@ struct BusyCrowd : Crowd {
 
 TEST(Memory, GrowsWithTheBodiesAndBelongsToParts) {
   World world = World::create({}).value();
-  const Memory none = world.memory();
+  const Memory none = world.inspection().memory();
   EXPECT_EQ(none.bodies + none.windows + none.pairs + none.contacts + none.recording, 0u);
   EXPECT_GT(none.other, 0u);
   EXPECT_EQ(none.total(), none.other);
   BusyCrowd crowd;
-  const Memory memory = crowd.world.memory();
+  const Memory memory = crowd.world.inspection().memory();
   const std::size_t count = crowd.world.size();
   // Lower limits of the parts.
   EXPECT_GE(memory.bodies, count * sizeof(Bound));
-  EXPECT_GE(memory.pairs, crowd.world.certificates().size() * 16);
+  EXPECT_GE(memory.pairs, crowd.world.inspection().certificates().size() * 16);
   EXPECT_GE(memory.contacts, count * 24);
   EXPECT_GE(memory.windows, count * 2 * 28);
   EXPECT_EQ(memory.recording, 0u);
@@ -40,22 +41,22 @@ TEST(Memory, GrowsWithTheBodiesAndBelongsToParts) {
 
 TEST(Memory, ShowsARecordingGrow) {
   BusyCrowd crowd;
-  const std::size_t before = crowd.world.memory().total();
+  const std::size_t before = crowd.world.inspection().memory().total();
   crowd.world.start_recording().value();
-  const std::size_t at_start = crowd.world.memory().recording;
+  const std::size_t at_start = crowd.world.inspection().memory().recording;
   const std::size_t snapshot = crowd.world.save().value().size();
   EXPECT_GE(at_start, snapshot);
   crowd.run(1.0);
-  EXPECT_GT(crowd.world.memory().recording, at_start);
+  EXPECT_GT(crowd.world.inspection().memory().recording, at_start);
   const std::size_t recorded = crowd.world.stop_recording().value().size();
-  EXPECT_EQ(crowd.world.memory().recording, 0u);
+  EXPECT_EQ(crowd.world.inspection().memory().recording, 0u);
   EXPECT_GT(recorded, snapshot);
-  EXPECT_LT(crowd.world.memory().total(), before + recorded);
+  EXPECT_LT(crowd.world.inspection().memory().total(), before + recorded);
 }
 
 TEST(Cells, HoldTheMiddlesOfTheCapsules) {
   const BusyCrowd crowd{};
-  const std::vector<CellView> cells = crowd.world.cells();
+  const std::vector<CellView> cells = crowd.world.inspection().cells();
   std::size_t entries = 0;
   for (const CellView& cell : cells) {
     EXPECT_GT(cell.bodies, 0u);
@@ -73,12 +74,13 @@ TEST(Cells, HoldTheMiddlesOfTheCapsules) {
     };
     EXPECT_TRUE(std::any_of(cells.begin(), cells.end(), holds)) << id;
   }
-  EXPECT_TRUE(World::create({}).value().cells().empty());
+  const World empty = World::create({}).value();
+  EXPECT_TRUE(empty.inspection().cells().empty());
 }
 
 TEST(Certificates, AreTrueOfTheTruth) {
   BusyCrowd crowd;
-  const std::vector<Certificate> all = crowd.world.certificates();
+  const std::vector<Certificate> all = crowd.world.inspection().certificates();
   ASSERT_GT(all.size(), 20u);
   std::size_t checked = 0;
   for (const Certificate& certificate : all) {
@@ -93,7 +95,8 @@ TEST(Certificates, AreTrueOfTheTruth) {
     }
   }
   EXPECT_GT(checked, 100u);
-  EXPECT_TRUE(World::create({}).value().certificates().empty());
+  const World empty = World::create({}).value();
+  EXPECT_TRUE(empty.inspection().certificates().empty());
 }
 
 TEST(Certificates, OfWallsAreTrueOfTheTruth) {
@@ -115,7 +118,7 @@ TEST(Certificates, OfWallsAreTrueOfTheTruth) {
       EXPECT_GE(event.time, safe_until.at(event.first)) << event.first;
     }
     for (const BodyId id : p.world.bodies()) safe_until[id] = p.world.body(id).value().box_end;
-    for (const Certificate& certificate : p.world.certificates()) {
+    for (const Certificate& certificate : p.world.inspection().certificates()) {
       ASSERT_EQ(certificate.second, no_body) << "nothing else may touch";
       safe_until[certificate.first] = std::min(safe_until[certificate.first], certificate.until);
       ++recorded;
@@ -130,8 +133,8 @@ TEST(Certificates, OfBodiesThatAreKickedAreGone) {
   const auto redirected = [](BodyId id) { return id != no_body && id.index % 3 == 0; };
   for (const BodyId id : crowd.world.bodies())
     if (redirected(id)) crowd.set_velocity(id, {1, 1, 1});
-  ASSERT_FALSE(crowd.world.certificates().empty());
-  for (const Certificate& certificate : crowd.world.certificates())
+  ASSERT_FALSE(crowd.world.inspection().certificates().empty());
+  for (const Certificate& certificate : crowd.world.inspection().certificates())
     EXPECT_FALSE(redirected(certificate.first) || redirected(certificate.second));
 }
 
@@ -140,21 +143,21 @@ TEST(Timings, AreOffAtFirstAndThenTellProbesFromTheRest) {
   p.add({.acceleration_limit = 1, .position = {-5, 0, 0}, .velocity = {1, 0, 0}});
   p.add({.acceleration_limit = 1, .position = {5, 0, 0}, .velocity = {-1, 0, 0}});
   p.run(1.0);
-  EXPECT_EQ(p.world.timings().advances, 0u);
-  EXPECT_EQ(p.world.timings().advance, 0.0);
+  EXPECT_EQ(p.world.inspection().timings().advances, 0u);
+  EXPECT_EQ(p.world.inspection().timings().advance, 0.0);
   p.world.set_profiling(true).value();
   p.distort = [](BodyId, double, State&) { std::this_thread::sleep_for(std::chrono::milliseconds(2)); };
   const std::uint64_t probes = p.world.counters().probes;
   p.run(6.0);
-  const Timings timings = p.world.timings();
+  const Timings timings = p.world.inspection().timings();
   EXPECT_GT(timings.advances, 1u);
   EXPECT_GE(timings.probes, 0.002 * static_cast<double>(p.world.counters().probes - probes));
   EXPECT_GE(timings.advance, timings.probes);
   p.world.set_profiling(false).value();
   p.run(7.0);
-  EXPECT_EQ(p.world.timings().advances, timings.advances) << "kept, but not gone on with";
+  EXPECT_EQ(p.world.inspection().timings().advances, timings.advances) << "kept, but not gone on with";
   p.world.set_profiling(true).value();
-  EXPECT_EQ(p.world.timings().advances, 0u);
+  EXPECT_EQ(p.world.inspection().timings().advances, 0u);
 }
 
 TEST(Timings, CountAProbeThatThrows) {
@@ -169,8 +172,8 @@ TEST(Timings, CountAProbeThatThrows) {
     throw std::runtime_error("no answer");
   };
   EXPECT_THROW(p.advance(2.0), std::runtime_error);
-  EXPECT_GE(p.world.timings().probes, 0.002);
-  EXPECT_GE(p.world.timings().advance, p.world.timings().probes);
+  EXPECT_GE(p.world.inspection().timings().probes, 0.002);
+  EXPECT_GE(p.world.inspection().timings().advance, p.world.inspection().timings().probes);
 }
 
 TEST(Timings, AndRecordingsDoNotDisturbEachOther) {
@@ -182,8 +185,9 @@ TEST(Timings, AndRecordingsDoNotDisturbEachOther) {
   plain.run(1.0);
   EXPECT_EQ(timed.hash.value(), plain.hash.value());
   EXPECT_EQ(timed.world.save().value(), plain.world.save().value());
-  EXPECT_GT(timed.world.timings().advance, 0.0);
-  EXPECT_FALSE(timed.world.clone().value().timings().advances);
+  EXPECT_GT(timed.world.inspection().timings().advance, 0.0);
+  const World copy = timed.world.clone().value();
+  EXPECT_FALSE(copy.inspection().timings().advances);
 }
 
 TEST(WrongCalls, AProbeMayLookInsideButNotSwitchTimingOn) {
@@ -193,16 +197,16 @@ TEST(WrongCalls, AProbeMayLookInsideButNotSwitchTimingOn) {
   p.distort = [&](BodyId, double, State&) {
     ++calls;
     expect_error(p.world.set_profiling(true), ErrorCode::probe_in_progress, "probe", "set_profiling");
-    EXPECT_GT(p.world.memory().total(), 0u);
-    EXPECT_LE(p.world.cells().size(), 8u);
-    EXPECT_TRUE(p.world.certificates().empty());
+    EXPECT_GT(p.world.inspection().memory().total(), 0u);
+    EXPECT_LE(p.world.inspection().cells().size(), 8u);
+    EXPECT_TRUE(p.world.inspection().certificates().empty());
   };
   p.set_velocity({0, 0}, {1, 0, 0});
   p.advance(1.0);
   p.set_velocity({0, 0}, {2, 0, 0});
   p.advance(2.0);
   EXPECT_GT(calls, 0);
-  EXPECT_EQ(p.world.timings().advances, 0u);
+  EXPECT_EQ(p.world.inspection().timings().advances, 0u);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "kinesphere/inspection.hpp"
 #include "kinesphere/random.hpp"
 #include "kinesphere/world.hpp"
 
@@ -33,7 +34,7 @@ TEST(LargeRound, finds_every_pair_that_touches_at_the_start) {
     ASSERT_EQ((*event)->kind, EventKind::contact_begin);
     found.insert(std::minmax((*event)->first.index, (*event)->second.index));
   }
-  EXPECT_FALSE(world.audit());
+  EXPECT_FALSE(world.inspection().audit());
   std::set<std::pair<std::uint32_t, std::uint32_t>> touching;
   for (std::uint32_t a = 0; a < count; ++a)
     for (std::uint32_t b = a + 1; b < count; ++b)
@@ -68,7 +69,7 @@ TEST(LargeWorld, can_be_emptied_and_filled_again) {
     ASSERT_FALSE(world.advance(world.time() + 10.0, standing).value());
     ASSERT_TRUE(world.remove(ids.back()));
     ASSERT_FALSE(world.advance(world.time() + 10.0, standing).value());
-    EXPECT_FALSE(world.audit());
+    EXPECT_FALSE(world.inspection().audit());
   }
 }
 
@@ -78,12 +79,12 @@ TEST(Reserve, changes_nothing_but_memory) {
   World roomy = World::create({}).value();
   ASSERT_TRUE(roomy.reserve(count));
   EXPECT_EQ(roomy.size(), 0u);
-  EXPECT_GT(roomy.memory().total(), plain.memory().total());
+  EXPECT_GT(roomy.inspection().memory().total(), plain.inspection().memory().total());
   for (std::uint32_t k = 0; k < count; ++k) {
     const BodyDefinition body{.radius = 0.1, .position = {1.0 * k, 0, 0}, .velocity = {0, 1, 0}};
     ASSERT_EQ(plain.add(body).value(), roomy.add(body).value());
   }
-  EXPECT_LE(roomy.memory().bodies, plain.memory().bodies);
+  EXPECT_LE(roomy.inspection().memory().bodies, plain.inspection().memory().bodies);
   const auto flying = [](std::span<const BodyId> ids, double time, std::span<State> states) {
     for (std::size_t k = 0; k < ids.size(); ++k) states[k] = {{1.0 * ids[k].index, time, 0}, {0, 1, 0}};
   };

@@ -5,8 +5,10 @@
 #include <functional>
 #include <memory>
 
+#include "kinesphere/certificates.hpp"
 #include "kinesphere/motion/ballistic.hpp"
 #include "kinesphere/probe.hpp"
+#include "kinesphere/queries.hpp"
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
 
@@ -102,16 +104,16 @@ TEST(LentProbe, ThatIsEmptyIsRefusedByName) {
       expect_error(result, ErrorCode::null_probe, "probe", call);
     };
     refused(world.advance(1, probe), "advance");
-    refused(world.safe_until(probe), "safe_until");
-    refused(world.safe_until(a, probe), "safe_until");
-    refused(world.safe_until(a, b, probe), "safe_until");
-    refused(world.earliest_contact(a, probe), "earliest_contact");
-    refused(world.distance_limits(a, b, 1.0, probe), "distance_limits");
-    refused(world.overlapping({0, 0, 0}, 1.0, probe), "overlapping");
-    refused(world.overlapping(Box{{0, 0, 0}, {1, 1, 1}}, probe), "overlapping");
-    refused(world.nearest({0, 0, 0}, 1, probe), "nearest");
-    refused(world.ray_cast({0, 0, 0}, {1, 0, 0}, 1.0, probe), "ray_cast");
-    refused(world.sphere_cast({0, 0, 0}, 1.0, {1, 0, 0}, 1.0, probe), "sphere_cast");
+    refused(world.certificates(probe).safe_until(), "safe_until");
+    refused(world.certificates(probe).safe_until(a), "safe_until");
+    refused(world.certificates(probe).safe_until(a, b), "safe_until");
+    refused(world.certificates(probe).earliest_contact(a), "earliest_contact");
+    refused(world.certificates(probe).distance_limits(a, b, 1.0), "distance_limits");
+    refused(world.queries(probe).overlapping({0, 0, 0}, 1.0), "overlapping");
+    refused(world.queries(probe).overlapping(Box{{0, 0, 0}, {1, 1, 1}}), "overlapping");
+    refused(world.queries(probe).nearest({0, 0, 0}, 1), "nearest");
+    refused(world.queries(probe).ray_cast({0, 0, 0}, {1, 0, 0}, 1.0), "ray_cast");
+    refused(world.queries(probe).sphere_cast({0, 0, 0}, 1.0, {1, 0, 0}, 1.0), "sphere_cast");
   }
   function = &stand_still;
   EXPECT_TRUE(world.advance(1, function));

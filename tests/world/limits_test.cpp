@@ -1,6 +1,7 @@
 // The limits of kinesphere/limits.hpp: a value at a limit is accepted and works, a value beyond it is
 // refused; within them contacts are found at all sizes, speeds and times.
 #include "kinesphere/limits.hpp"
+#include "kinesphere/queries.hpp"
 
 #include <gtest/gtest.h>
 
@@ -47,7 +48,7 @@ std::vector<Limit> limits_of_a_world() {
     return [set](World& world, BodyId id, double value) {
       MotionLimits changed;
       set(changed, value);
-      return world.set_motion_limits(id, changed);
+      return world.change(id, {.motion_limits = changed});
     };
   };
   const auto answer = [](auto set) {
@@ -91,8 +92,8 @@ std::vector<Limit> limits_of_a_world() {
        add([](BodyDefinition& b, double v) { b.acceleration_limit = v; }), false},
       {"planned_acceleration", -limits::largest_acceleration, "add",
        add([](BodyDefinition& b, double v) { b.planned_acceleration.x = v; }), false},
-      {"radius", largest_length, "set_radius",
-       [](World& world, BodyId id, double value) { return world.set_radius(id, value); }},
+      {"radius", largest_length, "change",
+       [](World& world, BodyId id, double value) { return world.change(id, {.radius = value}); }},
       {"velocity", -limits::largest_speed, "set_velocity",
        [](World& world, BodyId id, double value) {
          return world.set_velocity(id, {0, 0, value});
@@ -105,13 +106,13 @@ std::vector<Limit> limits_of_a_world() {
        [](World& world, BodyId id, double value) {
          return world.teleport(id, {{}, {value, 0, 0}});
        }},
-      {"acceleration_limit", limits::largest_acceleration, "set_motion_limits",
+      {"acceleration_limit", limits::largest_acceleration, "change",
        promise([](MotionLimits& p, double v) { p.acceleration_limit = v; })},
-      {"planned_acceleration", limits::largest_acceleration, "set_motion_limits",
+      {"planned_acceleration", limits::largest_acceleration, "change",
        promise([](MotionLimits& p, double v) { p.planned_acceleration.y = v; })},
-      {"position_error", largest_length, "set_motion_limits",
+      {"position_error", largest_length, "change",
        promise([](MotionLimits& p, double v) { p.position_error = v; })},
-      {"velocity_error", limits::largest_speed, "set_motion_limits",
+      {"velocity_error", limits::largest_speed, "change",
        promise([](MotionLimits& p, double v) { p.velocity_error = v; })},
       {"position", largest_length, "advance", answer([](State& s, double v) { s.position.y = v; })},
       {"velocity", -limits::largest_speed, "advance", answer([](State& s, double v) { s.velocity.y = v; })},
@@ -130,19 +131,22 @@ std::vector<Limit> limits_of_a_world() {
        false},
       {"centre", largest_length, "overlapping",
        [](World& world, BodyId, double value) {
-         return without_value(world.overlapping({value, 0, 0}, 1.0));
+         return without_value(world.queries().overlapping({value, 0, 0}, 1.0));
        },
        false},
       {"radius", limits::largest_query_length * tolerance, "overlapping",
-       [](World& world, BodyId, double value) { return without_value(world.overlapping({}, value)); }, false},
+       [](World& world, BodyId, double value) {
+         return without_value(world.queries().overlapping({}, value));
+       },
+       false},
       {"length", limits::largest_query_length * tolerance, "ray_cast",
        [](World& world, BodyId, double value) {
-         return without_value(world.ray_cast({}, {1, 0, 0}, value));
+         return without_value(world.queries().ray_cast({}, {1, 0, 0}, value));
        },
        false},
       {"direction", limits::largest_direction, "ray_cast",
        [](World& world, BodyId, double value) {
-         return without_value(world.ray_cast({}, {0, value, 0}, 1.0));
+         return without_value(world.queries().ray_cast({}, {0, value, 0}, 1.0));
        },
        false},
   };

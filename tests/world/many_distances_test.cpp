@@ -96,10 +96,10 @@ TEST(ManyDistances, MayChangeAtAnyTime) {
   EXPECT_TRUE(is_clean(p.world));
   // The other body senses, too, with some equal and some other distances.
   p.world.set_sensor(2, sensor_of(count, 0.001, 0.0125)).value();
-  p.world.set_sensor_class(passage.comes, 2).value();
+  p.world.change(passage.comes, {.sensor_class = 2}).value();
   while (const auto event = p.advance(p.world.time())) EXPECT_EQ(event->kind, EventKind::sensor_enter);
   EXPECT_TRUE(is_clean(p.world));
-  p.world.set_sensor_class(passage.rests, 0).value();
+  p.world.change(passage.rests, {.sensor_class = 0}).value();
   std::size_t left = 0;
   while (const auto event = p.advance(p.world.time())) {
     EXPECT_EQ(event->kind, EventKind::sensor_leave);

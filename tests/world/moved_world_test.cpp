@@ -4,6 +4,9 @@
 #include <memory>
 #include <optional>
 
+#include "kinesphere/certificates.hpp"
+#include "kinesphere/inspection.hpp"
+#include "kinesphere/queries.hpp"
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
 
@@ -25,48 +28,47 @@ TEST(MovedFromWorld, AnswersEveryCallWithAnError) {
   refused(world.add_all({}), "add_all");
   refused(world.add_static({}), "add_static");
   refused(world.add_static_all({}), "add_static_all");
-  refused(world.shape_of(id), "shape_of");
   refused(world.remove(id), "remove");
-  refused(world.remove_all({}), "remove_all");
+  refused(world.remove({}), "remove");
   refused(world.set_velocity(id, {}), "set_velocity");
-  refused(world.set_velocity_all({}, {}), "set_velocity_all");
+  refused(world.set_velocities({}, {}), "set_velocities");
   refused(world.teleport(id, {}), "teleport");
-  refused(world.set_radius(id, 1.0), "set_radius");
-  refused(world.set_motion_limits(id, {}), "set_motion_limits");
+  refused(world.change(id, {.radius = 1.0}), "change");
+  refused(world.change(id, {.motion_limits = MotionLimits{}}), "change");
   refused(world.disable(id), "disable");
   refused(world.enable(id, {}), "enable");
   refused(world.sleep(id), "sleep");
   refused(world.wake(id), "wake");
   refused(world.add_zone({}), "add_zone");
-  refused(world.set_filter(id, {}), "set_filter");
+  refused(world.change(id, {.filter = Filter{}}), "change");
   refused(world.set_pair_filter({}), "set_pair_filter");
   refused(world.refresh_filter(id), "refresh_filter");
-  refused(world.set_solid(id, true), "set_solid");
+  refused(world.change(id, {.solid = true}), "change");
   refused(world.set_sensor(0, {}), "set_sensor");
-  refused(world.set_sensor_class(id, 0), "set_sensor_class");
-  refused(world.set_user_data(id, 0), "set_user_data");
+  refused(world.change(id, {.sensor_class = 0}), "change");
+  refused(world.change(id, {.user_data = 0}), "change");
   refused(world.user_data(id), "user_data");
   refused(world.advance(1.0, idle_probe), "advance");
   refused(world.body(id), "body");
   refused(world.touching(id), "touching");
   refused(world.sensor_overlaps(id), "sensor_overlaps");
   refused(world.set_profiling(true), "set_profiling");
-  refused(world.safe_until(), "safe_until");
-  refused(world.safe_until(id), "safe_until");
-  refused(world.safe_until(id, id), "safe_until");
-  refused(world.earliest_contact(id), "earliest_contact");
-  refused(world.distance_limits(id, id, 1.0), "distance_limits");
-  refused(world.safe_until(idle_probe), "safe_until");
-  refused(world.safe_until(id, idle_probe), "safe_until");
-  refused(world.safe_until(id, id, idle_probe), "safe_until");
-  refused(world.earliest_contact(id, idle_probe), "earliest_contact");
-  refused(world.distance_limits(id, id, 1.0, idle_probe), "distance_limits");
-  refused(world.overlapping({}, 1.0), "overlapping");
-  refused(world.overlapping({}, 1.0, idle_probe), "overlapping");
-  refused(world.overlapping(Box{}), "overlapping");
-  refused(world.nearest({}, 1), "nearest");
-  refused(world.ray_cast({}, {1, 0, 0}, 1.0), "ray_cast");
-  refused(world.sphere_cast({}, 1.0, {1, 0, 0}, 1.0), "sphere_cast");
+  refused(world.certificates().safe_until(), "safe_until");
+  refused(world.certificates().safe_until(id), "safe_until");
+  refused(world.certificates().safe_until(id, id), "safe_until");
+  refused(world.certificates().earliest_contact(id), "earliest_contact");
+  refused(world.certificates().distance_limits(id, id, 1.0), "distance_limits");
+  refused(world.certificates(idle_probe).safe_until(), "safe_until");
+  refused(world.certificates(idle_probe).safe_until(id), "safe_until");
+  refused(world.certificates(idle_probe).safe_until(id, id), "safe_until");
+  refused(world.certificates(idle_probe).earliest_contact(id), "earliest_contact");
+  refused(world.certificates(idle_probe).distance_limits(id, id, 1.0), "distance_limits");
+  refused(world.queries().overlapping({}, 1.0), "overlapping");
+  refused(world.queries(idle_probe).overlapping({}, 1.0), "overlapping");
+  refused(world.queries().overlapping(Box{}), "overlapping");
+  refused(world.queries().nearest({}, 1), "nearest");
+  refused(world.queries().ray_cast({}, {1, 0, 0}, 1.0), "ray_cast");
+  refused(world.queries().sphere_cast({}, 1.0, {1, 0, 0}, 1.0), "sphere_cast");
   refused(world.save(), "save");
   refused(world.clone(), "clone");
   refused(world.start_recording(), "start_recording");
@@ -79,12 +81,12 @@ TEST(MovedFromWorld, AnswersEveryCallWithAnError) {
   EXPECT_THROW((void)world.bodies(), BadResult);
   EXPECT_THROW((void)world.counters(), BadResult);
   EXPECT_THROW((void)world.sensor(0), BadResult);
-  EXPECT_THROW((void)world.memory(), BadResult);
-  EXPECT_THROW((void)world.cells(), BadResult);
-  EXPECT_THROW((void)world.certificates(), BadResult);
-  EXPECT_THROW((void)world.timings(), BadResult);
-  EXPECT_THROW((void)world.audit(), BadResult);
-  EXPECT_THROW((void)world.recording(), BadResult);
+  EXPECT_THROW((void)world.inspection().memory(), BadResult);
+  EXPECT_THROW((void)world.inspection().cells(), BadResult);
+  EXPECT_THROW((void)world.inspection().certificates(), BadResult);
+  EXPECT_THROW((void)world.inspection().timings(), BadResult);
+  EXPECT_THROW((void)world.inspection().audit(), BadResult);
+  EXPECT_THROW((void)world.inspection().is_recording(), BadResult);
   // NOLINTEND(bugprone-use-after-move)
 }
 
@@ -102,7 +104,7 @@ TEST(MovedWorld, TakesItsRecordingAlong) {
   World world = World::create({}).value();
   world.start_recording().value();
   World taken = std::move(world);
-  EXPECT_TRUE(taken.recording());
+  EXPECT_TRUE(taken.inspection().is_recording());
   EXPECT_TRUE(taken.stop_recording());
 }
 

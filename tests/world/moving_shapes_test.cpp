@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "kinesphere/body_map.hpp"
+#include "kinesphere/certificates.hpp"
 #include "kinesphere/motion/ballistic.hpp"
+#include "kinesphere/queries.hpp"
 #include "kinesphere/recording.hpp"
 #include "kinesphere/response.hpp"
 #include "number/infinity.hpp"
@@ -126,7 +128,7 @@ class RandomMovingShapes : public testing::TestWithParam<Kind> {
       for (const BodyId shape : shapes) {
         const bool touch = touching.contains(std::minmax(ball, shape));
         const double gap = this->gap(ball, shape);
-        const auto limits = p.world.distance_limits(ball, shape, p.world.time()).value();
+        const auto limits = p.world.certificates().distance_limits(ball, shape, p.world.time()).value();
         ASSERT_LE(limits.lower, gap + 1e-12);
         ASSERT_GE(limits.upper, gap - 1e-12);
         if (GetParam().mode == ContactEvents::impacts) continue;
@@ -141,14 +143,15 @@ class RandomMovingShapes : public testing::TestWithParam<Kind> {
     const Vec3 centre = 2.0 * random.point_in_ball();
     const double radius = random.uniform();
     std::map<BodyId, Certainty> found;
-    for (const OverlapHit& hit : p.world.overlapping(centre, radius).value()) found[hit.body] = hit.certainty;
+    for (const OverlapHit& hit : p.world.queries().overlapping(centre, radius).value())
+      found[hit.body] = hit.certainty;
     std::map<BodyId, Certainty> in_box;
     const Vec3 half{radius, radius, radius};
-    for (const OverlapHit& hit : p.world.overlapping(Box{centre - half, centre + half}).value())
+    for (const OverlapHit& hit : p.world.queries().overlapping(Box{centre - half, centre + half}).value())
       in_box[hit.body] = hit.certainty;
     const Vec3 direction = random.unit_vector();
     std::map<BodyId, CastHit> met;
-    for (const CastHit& hit : p.world.ray_cast(centre, direction, 3.0).value()) met[hit.body] = hit;
+    for (const CastHit& hit : p.world.queries().ray_cast(centre, direction, 3.0).value()) met[hit.body] = hit;
     constexpr double step = 0.02;
     double first = infinity;
     for (const BodyId shape : shapes) {
@@ -188,7 +191,7 @@ TEST_P(RandomMovingShapes, MeetWhatTheyTouch) {
     change();
     for (const BodyId ball : balls) steer(ball);
     for (const BodyId shape : shapes) steer(shape);
-    const double quiet = p.world.safe_until()->time;
+    const double quiet = p.world.certificates().safe_until()->time;
     p.run(p.world.time() + 0.2 * random.uniform(), [&](const Event& event) {
       note(event);
       if (event.kind != EventKind::contact_begin) return;
@@ -245,7 +248,7 @@ TEST(MovingShapes, AreMetWithTheirVelocity) {
   EXPECT_EQ(after.first_velocity, lift.velocity);
   EXPECT_NEAR(after.second_velocity.z, 5.0, 1e-12);
   EXPECT_FALSE(response_of(*event, after).first_velocity) << "a body of infinite mass keeps its velocity";
-  EXPECT_EQ(std::get<Box>(p.world.shape_of(plate_id).value()), plate);
+  EXPECT_EQ(std::get<Box>(p.world.body(plate_id).value().shape), plate);
   EXPECT_FALSE(p.world.body(plate_id)->is_static);
   EXPECT_NEAR(p.world.body(plate_id)->definition.radius, 1.5, 1e-12);
   EXPECT_TRUE(p.world.contains(ball));
@@ -370,7 +373,7 @@ TEST(MovingShapes, AreRefusedWithAReason) {
   refused({{.acceleration_limit = -1}, plate}, ErrorCode::out_of_range, "acceleration_limit");
   refused({{.position = {NAN, 0, 0}}, plate}, ErrorCode::not_finite, "position");
   const BodyId lift = world.add_moving_shape({{}, plate}).value();
-  expect_error(world.set_radius(lift, 2.0), ErrorCode::unsupported, "body", "set_radius", lift);
+  expect_error(world.change(lift, {.radius = 2.0}), ErrorCode::unsupported, "body", "change", lift);
   expect_error(world.set_shape(lift, Ball{}), ErrorCode::unsupported, "shape", "set_shape");
   World periodic =
       World::create({.box = Box{{0, 0, 0}, {9, 9, 9}}, .periodic = {.x = true, .y = true, .z = true}})

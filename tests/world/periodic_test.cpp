@@ -5,6 +5,8 @@
 #include <map>
 #include <set>
 
+#include "kinesphere/certificates.hpp"
+#include "kinesphere/queries.hpp"
 #include "number/infinity.hpp"
 #include "support/expect_error.hpp"
 #include "world/periodic_world.hpp"
@@ -105,8 +107,9 @@ TEST_P(Periodic, AnswersAreNeverLate) {
     for (const BodyId a : p.ids) {
       for (const BodyId b : p.ids) {
         if (!(a < b)) continue;
-        const SafeTime safe = p.world.safe_until(a, b).value();
-        const DistanceLimits limits = p.world.distance_limits(a, b, p.world.time() + 0.01).value();
+        const SafeTime safe = p.world.certificates().safe_until(a, b).value();
+        const DistanceLimits limits =
+            p.world.certificates().distance_limits(a, b, p.world.time() + 0.01).value();
         const double gap = p.true_gap(a, b, p.world.time() + 0.01);
         EXPECT_LE(limits.lower, gap + 1e-9);
         EXPECT_GE(limits.upper, gap - 1e-9);
@@ -118,15 +121,16 @@ TEST_P(Periodic, AnswersAreNeverLate) {
         const auto overlaps = p.overlaps(a, b, end);
         if (overlaps.empty()) continue;
         EXPECT_LE(safe.time, overlaps[0].begin + 1e-9) << a << " " << b << " at " << p.world.time();
-        const SafeTime fresh = p.world.safe_until(a, b, p.probe()).value();
+        const SafeTime fresh = p.world.certificates(p.probe()).safe_until(a, b).value();
         EXPECT_LE(fresh.time, overlaps[0].begin + 1e-9) << a << " " << b;
         first_of_all = std::min(first_of_all, overlaps[0].begin);
         for (const BodyId id : {a, b}) first_of[id] = std::min(first_of[id], overlaps[0].begin);
       }
     }
-    for (const BodyId id : p.ids) EXPECT_LE(p.world.safe_until(id).value().time, first_of[id] + 1e-9) << id;
-    EXPECT_LE(p.world.safe_until().value().time, first_of_all + 1e-9);
-    EXPECT_GE(p.world.safe_until().value().touching, any_touching);  // or a wall is touched
+    for (const BodyId id : p.ids)
+      EXPECT_LE(p.world.certificates().safe_until(id).value().time, first_of[id] + 1e-9) << id;
+    EXPECT_LE(p.world.certificates().safe_until().value().time, first_of_all + 1e-9);
+    EXPECT_GE(p.world.certificates().safe_until().value().touching, any_touching);  // or a wall is touched
     EXPECT_TRUE(is_clean(p.world));
   }
 }
@@ -177,25 +181,25 @@ TEST_P(Periodic, QueriesReachAcrossTheBorder) {
     if (stop % 2 == 0) centre.x = p.kind.box.upper.x;
     const double reach = 0.3 * size * p.random.uniform();
     const auto from_centre = [&](const Vec3& at) { return norm(at - centre) - reach; };
-    expect_found(p, p.world.overlapping(centre, reach).value(), from_centre);
-    expect_found(p, p.world.overlapping(centre, reach, p.probe()).value(), from_centre);
+    expect_found(p, p.world.queries().overlapping(centre, reach).value(), from_centre);
+    expect_found(p, p.world.queries(p.probe()).overlapping(centre, reach).value(), from_centre);
     const Vec3 half = p.flat(Vec3{1, 1, 1} * (0.5 * reach));
     const Box region{centre - half, centre + half};
     const auto from_region = [&](const Vec3& at) { return distance_to(region, at); };
-    expect_found(p, p.world.overlapping(region).value(), from_region);
-    expect_found(p, p.world.overlapping(region, p.probe()).value(), from_region);
+    expect_found(p, p.world.queries().overlapping(region).value(), from_region);
+    expect_found(p, p.world.queries(p.probe()).overlapping(region).value(), from_region);
 
     std::vector<std::pair<double, BodyId>> truth;
     for (const BodyId id : p.ids)
       truth.emplace_back(norm(p.shortest(p.state(id).position - centre)) - p.radius(id), id);
     std::sort(truth.begin(), truth.end());
-    const auto near = p.world.nearest(centre, 3, p.probe()).value();
+    const auto near = p.world.queries(p.probe()).nearest(centre, 3).value();
     ASSERT_EQ(near.size(), 3u);
     for (std::size_t k = 0; k < 3; ++k) {
       EXPECT_EQ(near[k].body, truth[k].second);
       EXPECT_NEAR(near[k].lower, truth[k].first, 1e-9);
     }
-    EXPECT_GE(p.world.nearest(centre, 3).value().size(), 3u);
+    EXPECT_GE(p.world.queries().nearest(centre, 3).value().size(), 3u);
 
     const Vec3 direction = p.flat(p.random.point_in_ball());
     const Vec3 unit = direction / norm(direction);
@@ -209,14 +213,14 @@ TEST_P(Periodic, QueriesReachAcrossTheBorder) {
         if (square <= 0.0 || along + std::sqrt(square) < 0.0) continue;
         first = std::min(first, std::max(0.0, along - std::sqrt(square)));
       }
-    const auto hits = p.world.ray_cast(centre, direction, length, p.probe()).value();
+    const auto hits = p.world.queries(p.probe()).ray_cast(centre, direction, length).value();
     if (first < length - 1e-9) {
       ASSERT_FALSE(hits.empty());
       EXPECT_NEAR(hits[0].lower, first, 1e-7);
     } else if (first > length + 1e-9) {
       EXPECT_TRUE(hits.empty());
     }
-    const auto rough = p.world.ray_cast(centre, direction, length).value();
+    const auto rough = p.world.queries().ray_cast(centre, direction, length).value();
     if (first < length) {
       ASSERT_FALSE(rough.empty());
       EXPECT_LE(rough[0].lower, first + 1e-9);
@@ -386,9 +390,9 @@ TEST(PeriodicBox, HoldsThroughEveryKindOfChange) {
         p.world.teleport(id, {place, p.state(id).velocity}).value();
         p.set_position(id, place);
       } else if (choice < 0.7) {
-        p.world.set_radius(id, 0.6 * p.random.uniform()).value();
+        p.world.change(id, {.radius = 0.6 * p.random.uniform()}).value();
       } else if (choice < 0.85) {
-        p.world.set_motion_limits(id, {.acceleration_limit = p.random.uniform()}).value();
+        p.world.change(id, {.motion_limits = MotionLimits{.acceleration_limit = p.random.uniform()}}).value();
       } else {
         p.world.remove(id).value();
         p.add({.radius = 0.3,
@@ -518,16 +522,17 @@ TEST(WrongPeriodic, IsRefused) {
                "add");
   const BodyId id = world.add({.radius = 1.0, .position = {-3, 55, 5}}).value();
   const auto bytes = world.save().value();
-  expect_error(world.set_radius(id, 1.9), ErrorCode::out_of_range, "radius", "set_radius", id);
-  expect_error(world.set_motion_limits(id, {.position_error = 0.3}), ErrorCode::out_of_range,
-               "position_error", "set_motion_limits", id);
-  expect_error(world.sphere_cast({1, 1, 1}, 5.1, {1, 0, 0}, 10), ErrorCode::out_of_range, "radius",
+  expect_error(world.change(id, {.radius = 1.9}), ErrorCode::out_of_range, "radius", "change", id);
+  expect_error(world.change(id, {.motion_limits = MotionLimits{.position_error = 0.3}}),
+               ErrorCode::out_of_range, "position_error", "change", id);
+  expect_error(world.queries().sphere_cast({1, 1, 1}, 5.1, {1, 0, 0}, 10), ErrorCode::out_of_range, "radius",
                "sphere_cast");
-  expect_error(world.ray_cast({1, 1, 1}, {1, 0, 0}, 641), ErrorCode::out_of_range, "length", "ray_cast");
+  expect_error(world.queries().ray_cast({1, 1, 1}, {1, 0, 0}, 641), ErrorCode::out_of_range, "length",
+               "ray_cast");
   EXPECT_EQ(world.save().value(), bytes);
-  EXPECT_TRUE(world.ray_cast({1, 1, 1}, {1, 0, 0}, 640));
-  EXPECT_TRUE(world.overlapping({1, 1, 1}, 1e6));
-  EXPECT_EQ(world.overlapping({1, 1, 1}, 1e6).value().size(), 2u);
+  EXPECT_TRUE(world.queries().ray_cast({1, 1, 1}, {1, 0, 0}, 640));
+  EXPECT_TRUE(world.queries().overlapping({1, 1, 1}, 1e6));
+  EXPECT_EQ(world.queries().overlapping({1, 1, 1}, 1e6).value().size(), 2u);
 }
 
 }  // namespace

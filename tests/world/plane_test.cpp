@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "kinesphere/certificates.hpp"
+#include "kinesphere/queries.hpp"
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
 
@@ -142,18 +144,18 @@ TEST(Plane, QueriesAndAnswersAreThoseOfThePlane) {
     return ids;
   };
   const Vec3 centre{4, 5, 0};
-  EXPECT_EQ(ids_of(discs.world.overlapping(centre, 2.0, discs.probe()).value()),
-            ids_of(spheres.world.overlapping(centre, 2.0, spheres.probe()).value()));
+  EXPECT_EQ(ids_of(discs.world.queries(discs.probe()).overlapping(centre, 2.0).value()),
+            ids_of(spheres.world.queries(spheres.probe()).overlapping(centre, 2.0).value()));
   // The z of a region does not matter.
-  EXPECT_EQ(ids_of(discs.world.overlapping({{2, 2, 30}, {5, 5, 40}}, discs.probe()).value()),
-            ids_of(spheres.world.overlapping({{2, 2, 0}, {5, 5, 0}}, spheres.probe()).value()));
-  EXPECT_EQ(ids_of(discs.world.nearest(centre, 5, discs.probe()).value()),
-            ids_of(spheres.world.nearest(centre, 5, spheres.probe()).value()));
-  EXPECT_EQ(ids_of(discs.world.ray_cast({0, 0, 0}, {1, 1, 0}, 14, discs.probe()).value()),
-            ids_of(spheres.world.ray_cast({0, 0, 0}, {1, 1, 0}, 14, spheres.probe()).value()));
+  EXPECT_EQ(ids_of(discs.world.queries(discs.probe()).overlapping({{2, 2, 30}, {5, 5, 40}}).value()),
+            ids_of(spheres.world.queries(spheres.probe()).overlapping({{2, 2, 0}, {5, 5, 0}}).value()));
+  EXPECT_EQ(ids_of(discs.world.queries(discs.probe()).nearest(centre, 5).value()),
+            ids_of(spheres.world.queries(spheres.probe()).nearest(centre, 5).value()));
+  EXPECT_EQ(ids_of(discs.world.queries(discs.probe()).ray_cast({0, 0, 0}, {1, 1, 0}, 14).value()),
+            ids_of(spheres.world.queries(spheres.probe()).ray_cast({0, 0, 0}, {1, 1, 0}, 14).value()));
   World lonely = World::create(definition(2)).value();
   const BodyId id = lonely.add({.radius = 1, .position = {5, 5, 0}, .velocity = {0, 1, 0}}).value();
-  const EarliestContact first = lonely.earliest_contact(id).value();
+  const EarliestContact first = lonely.certificates().earliest_contact(id).value();
   EXPECT_EQ(first.wall, Wall::y_upper);
   EXPECT_NEAR(first.time, 4.0, 1e-3);
 }
@@ -177,16 +179,19 @@ TEST(WrongPlane, IsRefused) {
   expect_error(p.world.set_velocity(id, {0, 0, 1}), ErrorCode::out_of_range, "velocity", "set_velocity", id);
   expect_error(p.world.teleport(id, {{0, 0, 1}, {}}), ErrorCode::out_of_range, "position", "teleport", id);
   expect_error(p.world.teleport(id, {{}, {0, 0, 1}}), ErrorCode::out_of_range, "velocity", "teleport", id);
-  expect_error(p.world.set_motion_limits(id, {.planned_acceleration = {0, 0, 1}}), ErrorCode::out_of_range,
-               "planned_acceleration", "set_motion_limits", id);
-  expect_error(p.world.overlapping({0, 0, 1}, 1.0), ErrorCode::out_of_range, "centre", "overlapping");
-  expect_error(p.world.nearest({0, 0, 1}, 1), ErrorCode::out_of_range, "point", "nearest");
-  expect_error(p.world.ray_cast({0, 0, 1}, {1, 0, 0}, 1), ErrorCode::out_of_range, "origin", "ray_cast");
-  expect_error(p.world.ray_cast({0, 0, 0}, {1, 0, 1}, 1), ErrorCode::out_of_range, "direction", "ray_cast");
+  expect_error(p.world.change(id, {.motion_limits = MotionLimits{.planned_acceleration = {0, 0, 1}}}),
+               ErrorCode::out_of_range, "planned_acceleration", "change", id);
+  expect_error(p.world.queries().overlapping({0, 0, 1}, 1.0), ErrorCode::out_of_range, "centre",
+               "overlapping");
+  expect_error(p.world.queries().nearest({0, 0, 1}, 1), ErrorCode::out_of_range, "point", "nearest");
+  expect_error(p.world.queries().ray_cast({0, 0, 1}, {1, 0, 0}, 1), ErrorCode::out_of_range, "origin",
+               "ray_cast");
+  expect_error(p.world.queries().ray_cast({0, 0, 0}, {1, 0, 1}, 1), ErrorCode::out_of_range, "direction",
+               "ray_cast");
   EXPECT_EQ(p.world.save().value(), bytes);
   for (const bool velocity : {false, true}) {
     p.distort = [=](BodyId, double, State& state) { (velocity ? state.velocity : state.position).z = 0.5; };
-    expect_error(p.world.nearest({}, 1, p.probe()), ErrorCode::out_of_range,
+    expect_error(p.world.queries(p.probe()).nearest({}, 1), ErrorCode::out_of_range,
                  velocity ? "velocity" : "position", "nearest", id);
   }
 }

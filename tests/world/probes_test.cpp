@@ -4,6 +4,8 @@
 #include <set>
 #include <vector>
 
+#include "kinesphere/certificates.hpp"
+#include "kinesphere/inspection.hpp"
 #include "kinesphere/response.hpp"
 #include "support/playground.hpp"
 
@@ -32,13 +34,13 @@ TEST_P(TwoAtRest, AreProbedWhenTheirBoundsMeet) {
 }
 
 TEST_P(TwoAtRest, AreNotProbedAsLongAsALaterReportSuffices) {
-  world.distance_limits(a, far, 2.0, probe()).value();
+  world.certificates(probe()).distance_limits(a, far, 2.0).value();
   const std::uint64_t before = probes();
   run(2.87);  // until s^2 + (s - 2)^2 = 9
   EXPECT_EQ(probes(), before);
   run(2.88);
   EXPECT_EQ(probes(), before + 1);
-  EXPECT_FALSE(world.audit());
+  EXPECT_FALSE(world.inspection().audit());
 }
 
 /// In the second case the two sense each other from the start.

@@ -6,6 +6,7 @@
 #include <functional>
 #include <set>
 
+#include "kinesphere/queries.hpp"
 #include "number/infinity.hpp"
 #include "world/crowd.hpp"
 
@@ -64,8 +65,8 @@ class Queries : public testing::TestWithParam<CrowdKind> {
   void ask_sphere() {
     const Vec3 centre = crowd.any_point();
     const double radius = 3.0 * crowd.random.uniform();
-    const auto found = probing ? crowd.world.overlapping(centre, radius, crowd.probe())
-                               : crowd.world.overlapping(centre, radius);
+    const auto found = probing ? crowd.world.queries(crowd.probe()).overlapping(centre, radius)
+                               : crowd.world.queries().overlapping(centre, radius);
     compare(*found,
             [&](BodyId id) { return norm(crowd.state(id).position - centre) - radius - crowd.radius(id); });
   }
@@ -73,7 +74,8 @@ class Queries : public testing::TestWithParam<CrowdKind> {
   void ask_box() {
     const Vec3 corner = crowd.any_point();
     const Box box{corner, corner + Vec3{crowd.random.uniform(), 2.0, 3.0 * crowd.random.uniform()}};
-    const auto found = probing ? crowd.world.overlapping(box, crowd.probe()) : crowd.world.overlapping(box);
+    const auto found = probing ? crowd.world.queries(crowd.probe()).overlapping(box)
+                               : crowd.world.queries().overlapping(box);
     compare(*found, [&](BodyId id) {
       const Vec3 at = crowd.state(id).position;
       const Vec3 nearest{std::clamp(at.x, box.lower.x, box.upper.x),
@@ -92,8 +94,8 @@ class Queries : public testing::TestWithParam<CrowdKind> {
     std::vector<BodyId> order = crowd.world.bodies();
     std::sort(order.begin(), order.end(), [&](BodyId a, BodyId b) { return distance(a) < distance(b); });
     order.resize(std::min(count, order.size()));
-    const auto found =
-        probing ? crowd.world.nearest(point, count, crowd.probe()) : crowd.world.nearest(point, count);
+    const auto found = probing ? crowd.world.queries(crowd.probe()).nearest(point, count)
+                               : crowd.world.queries().nearest(point, count);
     ASSERT_GE(found->size(), order.size());
     if (probing && GetParam().noise == 0.0) {
       ASSERT_EQ(found->size(), order.size());
@@ -123,11 +125,11 @@ class Queries : public testing::TestWithParam<CrowdKind> {
     const Vec3 direction = 7.0 * unit;
     const double length = 12.0 * crowd.random.uniform();
     World& world = crowd.world;
-    const auto found = radius == 0.0
-                           ? (probing ? world.ray_cast(origin, direction, length, crowd.probe())
-                                      : world.ray_cast(origin, direction, length))
-                           : (probing ? world.sphere_cast(origin, radius, direction, length, crowd.probe())
-                                      : world.sphere_cast(origin, radius, direction, length));
+    const auto found =
+        radius == 0.0 ? (probing ? world.queries(crowd.probe()).ray_cast(origin, direction, length)
+                                 : world.queries().ray_cast(origin, direction, length))
+                      : (probing ? world.queries(crowd.probe()).sphere_cast(origin, radius, direction, length)
+                                 : world.queries().sphere_cast(origin, radius, direction, length));
     const auto way = [&](BodyId id) {
       return true_way(origin, radius, unit, crowd.state(id).position, crowd.radius(id));
     };
@@ -202,12 +204,12 @@ TEST(QueryOfAViolatedBound, FindsTheBodyWhereItIsNow) {
   p.add({.radius = 1, .position = {20, 0, 0}});
   EXPECT_FALSE(p.advance(1.0));
   p.set_position(a, {50, 0, 0});
-  EXPECT_EQ(p.world.nearest({1, 0, 0}, 1, p.probe())->front().body.index, 1u);
+  EXPECT_EQ(p.world.queries(p.probe()).nearest({1, 0, 0}, 1)->front().body.index, 1u);
   // The world has not advanced, so the body is not registered at its new place.
-  ASSERT_EQ(p.world.overlapping({52, 0, 0}, 1.5)->size(), 1u);
-  EXPECT_EQ(p.world.overlapping({52, 0, 0}, 1.5)->front().body, a);
-  EXPECT_TRUE(p.world.overlapping({0, 0, 0}, 1.5)->empty());
-  EXPECT_EQ(p.world.ray_cast({100, 0, 0}, {-1, 0, 0}, 60.0)->front().body, a);
+  ASSERT_EQ(p.world.queries().overlapping({52, 0, 0}, 1.5)->size(), 1u);
+  EXPECT_EQ(p.world.queries().overlapping({52, 0, 0}, 1.5)->front().body, a);
+  EXPECT_TRUE(p.world.queries().overlapping({0, 0, 0}, 1.5)->empty());
+  EXPECT_EQ(p.world.queries().ray_cast({100, 0, 0}, {-1, 0, 0}, 60.0)->front().body, a);
   const auto event = p.advance(2.0);
   ASSERT_TRUE(event);
   EXPECT_EQ(event->kind, EventKind::bound_violation);
@@ -219,25 +221,25 @@ TEST(RayCast, TellsWayAndCertainty) {
   const BodyId near = p.add({.radius = 1, .position = {5, 0, 0}});
   p.add({.radius = 1, .position = {9, 0, 0}});
   for (const Vec3 direction : {Vec3{1, 0, 0}, Vec3{1e-90, 0, 0}, Vec3{1e90, 0, 0}}) {
-    const auto hits = p.world.ray_cast({0, 0, 0}, direction, 100.0).value();
+    const auto hits = p.world.queries().ray_cast({0, 0, 0}, direction, 100.0).value();
     ASSERT_EQ(hits.size(), 1u);
     EXPECT_EQ(hits[0].body, near);
     EXPECT_EQ(hits[0].certainty, Certainty::certainly);
     EXPECT_NEAR(hits[0].lower, 4.0, 1e-9);
     EXPECT_NEAR(hits[0].upper, 4.0, 1e-9);
   }
-  EXPECT_NEAR(p.world.sphere_cast({0, 0, 0}, 0.5, {1, 0, 0}, 100.0)->front().lower, 3.5, 1e-9);
-  EXPECT_TRUE(p.world.ray_cast({0, 0, 0}, {1, 0, 0}, 3.9)->empty()) << "too short";
-  EXPECT_TRUE(p.world.ray_cast({0, 0, 0}, {-1, 0, 0}, 100.0)->empty()) << "behind";
-  EXPECT_TRUE(p.world.ray_cast({0, 1.1, 0}, {1, 0, 0}, 100.0)->empty()) << "beside";
-  EXPECT_EQ(p.world.ray_cast({5, 0.5, 0}, {0, 1, 0}, 0.0)->front().upper, 0.0) << "inside";
+  EXPECT_NEAR(p.world.queries().sphere_cast({0, 0, 0}, 0.5, {1, 0, 0}, 100.0)->front().lower, 3.5, 1e-9);
+  EXPECT_TRUE(p.world.queries().ray_cast({0, 0, 0}, {1, 0, 0}, 3.9)->empty()) << "too short";
+  EXPECT_TRUE(p.world.queries().ray_cast({0, 0, 0}, {-1, 0, 0}, 100.0)->empty()) << "behind";
+  EXPECT_TRUE(p.world.queries().ray_cast({0, 1.1, 0}, {1, 0, 0}, 100.0)->empty()) << "beside";
+  EXPECT_EQ(p.world.queries().ray_cast({5, 0.5, 0}, {0, 1, 0}, 0.0)->front().upper, 0.0) << "inside";
 }
 
 TEST(RayCast, FindsTheFarEndOfALongWay) {
   Playground p;
   const BodyId far = p.add({.radius = 1, .position = {3e5, 4e5, 0}});
   p.add({.radius = 0.001, .position = {0, 1, 0}});
-  const auto hits = p.world.ray_cast({0, 0, 0}, {3, 4, 0}, 1e6).value();
+  const auto hits = p.world.queries().ray_cast({0, 0, 0}, {3, 4, 0}, 1e6).value();
   ASSERT_EQ(hits.size(), 1u);
   EXPECT_EQ(hits[0].body, far);
   EXPECT_NEAR(hits[0].lower, 5e5 - 1.0, 1e-6);
@@ -245,11 +247,11 @@ TEST(RayCast, FindsTheFarEndOfALongWay) {
 
 TEST(Nearest, OfFewGivesAll) {
   Playground p;
-  EXPECT_TRUE(p.world.nearest({0, 0, 0}, 3)->empty());
+  EXPECT_TRUE(p.world.queries().nearest({0, 0, 0}, 3)->empty());
   const BodyId far = p.add({.radius = 1, .position = {2e6, 0, 0}});
-  EXPECT_TRUE(p.world.nearest({0, 0, 0}, 0)->empty());
+  EXPECT_TRUE(p.world.queries().nearest({0, 0, 0}, 0)->empty());
   const BodyId here = p.add({.radius = 1});
-  const auto found = p.world.nearest({0, 0, 0}, 3).value();
+  const auto found = p.world.queries().nearest({0, 0, 0}, 3).value();
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[0].body, here);
   EXPECT_NEAR(found[0].upper, -1.0, 1e-9);
@@ -272,34 +274,38 @@ TEST(WrongQueries, AreRefused) {
   ASSERT_FALSE(p.advance(1.0));
   const auto check = [&](ErrorCode code, double bad) {
     const Vec3 v{0, bad, 0};
-    expect_refusal(p.world.overlapping(v, 1.0), code, "centre", "overlapping");
-    expect_refusal(p.world.overlapping(v, 1.0, p.probe()), code, "centre", "overlapping");
-    expect_refusal(p.world.overlapping({}, bad), code, "radius", "overlapping");
-    expect_refusal(p.world.overlapping(Box{{}, v}), code, "box", "overlapping");
-    expect_refusal(p.world.overlapping(Box{{}, v}, p.probe()), code, "box", "overlapping");
-    expect_refusal(p.world.nearest(v, 1), code, "point", "nearest");
-    expect_refusal(p.world.nearest(v, 1, p.probe()), code, "point", "nearest");
-    expect_refusal(p.world.ray_cast(v, {1, 0, 0}, 1.0), code, "origin", "ray_cast");
-    expect_refusal(p.world.ray_cast({}, {1, 0, 0}, bad), code, "length", "ray_cast");
-    expect_refusal(p.world.ray_cast({}, {1, 0, 0}, bad, p.probe()), code, "length", "ray_cast");
-    expect_refusal(p.world.ray_cast({}, v, 1.0), code, "direction", "ray_cast");
-    expect_refusal(p.world.ray_cast({}, v, 1.0, p.probe()), code, "direction", "ray_cast");
-    expect_refusal(p.world.sphere_cast(v, 1.0, {1, 0, 0}, 1.0), code, "origin", "sphere_cast");
-    expect_refusal(p.world.sphere_cast({}, 1.0, v, 1.0), code, "direction", "sphere_cast");
-    expect_refusal(p.world.sphere_cast({}, 1.0, {1, 0, 0}, bad), code, "length", "sphere_cast");
-    expect_refusal(p.world.sphere_cast({}, bad, {1, 0, 0}, 1.0), code, "radius", "sphere_cast");
-    expect_refusal(p.world.sphere_cast({}, bad, {1, 0, 0}, 1.0, p.probe()), code, "radius", "sphere_cast");
+    expect_refusal(p.world.queries().overlapping(v, 1.0), code, "centre", "overlapping");
+    expect_refusal(p.world.queries(p.probe()).overlapping(v, 1.0), code, "centre", "overlapping");
+    expect_refusal(p.world.queries().overlapping({}, bad), code, "radius", "overlapping");
+    expect_refusal(p.world.queries().overlapping(Box{{}, v}), code, "box", "overlapping");
+    expect_refusal(p.world.queries(p.probe()).overlapping(Box{{}, v}), code, "box", "overlapping");
+    expect_refusal(p.world.queries().nearest(v, 1), code, "point", "nearest");
+    expect_refusal(p.world.queries(p.probe()).nearest(v, 1), code, "point", "nearest");
+    expect_refusal(p.world.queries().ray_cast(v, {1, 0, 0}, 1.0), code, "origin", "ray_cast");
+    expect_refusal(p.world.queries().ray_cast({}, {1, 0, 0}, bad), code, "length", "ray_cast");
+    expect_refusal(p.world.queries(p.probe()).ray_cast({}, {1, 0, 0}, bad), code, "length", "ray_cast");
+    expect_refusal(p.world.queries().ray_cast({}, v, 1.0), code, "direction", "ray_cast");
+    expect_refusal(p.world.queries(p.probe()).ray_cast({}, v, 1.0), code, "direction", "ray_cast");
+    expect_refusal(p.world.queries().sphere_cast(v, 1.0, {1, 0, 0}, 1.0), code, "origin", "sphere_cast");
+    expect_refusal(p.world.queries().sphere_cast({}, 1.0, v, 1.0), code, "direction", "sphere_cast");
+    expect_refusal(p.world.queries().sphere_cast({}, 1.0, {1, 0, 0}, bad), code, "length", "sphere_cast");
+    expect_refusal(p.world.queries().sphere_cast({}, bad, {1, 0, 0}, 1.0), code, "radius", "sphere_cast");
+    expect_refusal(p.world.queries(p.probe()).sphere_cast({}, bad, {1, 0, 0}, 1.0), code, "radius",
+                   "sphere_cast");
   };
   for (const double bad : {nan, infinity, -infinity}) check(ErrorCode::not_finite, bad);
   for (const double bad : {1e200, -1e200}) check(ErrorCode::out_of_range, bad);
-  expect_refusal(p.world.ray_cast({}, {0, 0, 0}, 1.0), ErrorCode::out_of_range, "direction", "ray_cast");
-  expect_refusal(p.world.overlapping(Box{{1, 0, 0}, {0, 1, 1}}), ErrorCode::out_of_range, "box",
+  expect_refusal(p.world.queries().ray_cast({}, {0, 0, 0}, 1.0), ErrorCode::out_of_range, "direction",
+                 "ray_cast");
+  expect_refusal(p.world.queries().overlapping(Box{{1, 0, 0}, {0, 1, 1}}), ErrorCode::out_of_range, "box",
                  "overlapping");
-  expect_refusal(p.world.overlapping({}, -1.0), ErrorCode::out_of_range, "radius", "overlapping");
-  expect_refusal(p.world.ray_cast({}, {1, 0, 0}, -1.0), ErrorCode::out_of_range, "length", "ray_cast");
-  expect_refusal(p.world.sphere_cast({}, -1.0, {1, 0, 0}, 1.0), ErrorCode::out_of_range, "radius",
+  expect_refusal(p.world.queries().overlapping({}, -1.0), ErrorCode::out_of_range, "radius", "overlapping");
+  expect_refusal(p.world.queries().ray_cast({}, {1, 0, 0}, -1.0), ErrorCode::out_of_range, "length",
+                 "ray_cast");
+  expect_refusal(p.world.queries().sphere_cast({}, -1.0, {1, 0, 0}, 1.0), ErrorCode::out_of_range, "radius",
                  "sphere_cast");
-  expect_refusal(p.world.sphere_cast({}, 1.0, {}, 1.0), ErrorCode::out_of_range, "direction", "sphere_cast");
+  expect_refusal(p.world.queries().sphere_cast({}, 1.0, {}, 1.0), ErrorCode::out_of_range, "direction",
+                 "sphere_cast");
   EXPECT_EQ(p.world.counters().probes, 0u);
 }
 

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "kinesphere/certificates.hpp"
 #include "world/surroundings.hpp"
 
 namespace kinesphere::random_surroundings_test {
@@ -92,7 +93,7 @@ class RandomSurroundings : public testing::TestWithParam<Kind> {
       case 2: {
         const Filter shut{.category = 2, .mask = 0};
         const bool open = p.world.body(shape)->definition.filter == Filter{};
-        return p.world.set_filter(shape, open ? shut : Filter{}).value();
+        return p.world.change(shape, {.filter = open ? shut : Filter{}}).value();
       }
       case 3: {
         const Vec3 back = (Vec3{4, 4, 4} - p.state(ball).position) * 0.5;
@@ -145,7 +146,7 @@ class RandomSurroundings : public testing::TestWithParam<Kind> {
         if (!may_touch(shape)) continue;
         const bool touch = touching.contains(std::minmax(ball, shape));
         const double gap = distance(p.fixed.at(shape), p.state(ball).position) - p.radius(ball);
-        const auto limits = p.world.distance_limits(ball, shape, p.world.time()).value();
+        const auto limits = p.world.certificates().distance_limits(ball, shape, p.world.time()).value();
         ASSERT_LE(limits.lower, gap + 1e-12);
         ASSERT_GE(limits.upper, gap - 1e-12);
         if (GetParam().mode == ContactEvents::impacts) continue;
@@ -167,8 +168,8 @@ TEST_P(RandomSurroundings, NothingIsMissed) {
   for (int stop = 1; stop <= 1500 && !HasFatalFailure(); ++stop) {
     change();
     for (const BodyId ball : balls) steer(ball);
-    const double quiet = p.world.safe_until()->time;
-    const double quiet_of_one = p.world.safe_until(balls[0])->time;
+    const double quiet = p.world.certificates().safe_until()->time;
+    const double quiet_of_one = p.world.certificates().safe_until(balls[0])->time;
     p.run(p.world.time() + 0.2 * random.uniform(), [&](const Event& event) {
       note(event);
       if (event.kind == EventKind::contact_begin) {

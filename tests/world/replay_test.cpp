@@ -6,6 +6,7 @@
 #include <string>
 
 #include "archive/checksum.hpp"
+#include "kinesphere/inspection.hpp"
 #include "kinesphere/recording.hpp"
 #include "recording/format.hpp"
 #include "recording/step.hpp"
@@ -106,13 +107,14 @@ TEST(RecordingOfAWorld, GoesWithAWorldThatIsMovedAndNotWithAClone) {
   Playground p;
   p.add({});
   p.world.start_recording().value();
-  EXPECT_FALSE(p.world.clone().value().recording());
+  const World copy = p.world.clone().value();
+  EXPECT_FALSE(copy.inspection().is_recording());
   World moved = std::move(p.world);
-  EXPECT_TRUE(moved.recording());
+  EXPECT_TRUE(moved.inspection().is_recording());
   p.world = std::move(moved);
   p.set_velocity({0, 0}, {1, 0, 0});
   Replay replay = Replay::open(p.world.stop_recording().value()).value();
-  EXPECT_FALSE(p.world.recording());
+  EXPECT_FALSE(p.world.inspection().is_recording());
   EXPECT_FALSE(replay.advance().value());
   EXPECT_TRUE(replay.finished());
   EXPECT_EQ(replay.world().body({0, 0})->definition.velocity, (Vec3{1, 0, 0}));

@@ -97,8 +97,8 @@ TEST(Run, TimesWhatItDoes) {
   Bouncing run;
   run.world.set_profiling(true).value();
   run.run().value();
-  EXPECT_EQ(run.world.timings().advances, run.reported + 1);
-  EXPECT_GT(run.world.timings().probes, 0.0);
+  EXPECT_EQ(run.world.inspection().timings().advances, run.reported + 1);
+  EXPECT_GT(run.world.inspection().timings().probes, 0.0);
 }
 
 TEST(Run, MovesBodiesOfAMap) {
@@ -412,7 +412,7 @@ TEST(WrongRun, CannotKickABodyThatHasGone) {
   World world = World::create({}).value();
   for (std::uint32_t k = 0; k < 2; ++k) world.add(motion.definition(k, 0.0)).value();
   ASSERT_TRUE(world.advance(1.0, motion.probe()).value());
-  world.remove({1, 0}).value();
+  world.remove(BodyId{1, 0}).value();
   SingleMotionSource source(motion);
   const auto respond = [](const Event&) { return Response{.second_velocity = Vec3{}}; };
   expect_error(world.run(1.0, source, respond, silent), ErrorCode::stale_body, "second_velocity",
@@ -430,12 +430,12 @@ void expect_refused_inside(Bouncing& b) {
   expect_error(b.world.advance(end, b.motion.probe()), busy, "world", "advance:");
   expect_error(b.world.set_velocity({3, 0}, {}), busy, "world", "set_velocity:");
   expect_error(b.world.add({}), busy, "world", "add:");
-  expect_error(b.world.remove({3, 0}), busy, "world", "remove:");
+  expect_error(b.world.remove(BodyId{3, 0}), busy, "world", "remove:");
   expect_error(b.world.save(), busy, "world", "save:");
   expect_error(b.world.clone(), busy, "world", "clone:");
   expect_error(b.world.start_recording(), busy, "world", "start_recording:");
-  expect_error(b.world.overlapping({6, 6, 6}, 1.0), busy, "world", "overlapping:");
-  EXPECT_EQ(b.world.audit()->where, "call");
+  expect_error(b.world.queries().overlapping({6, 6, 6}, 1.0), busy, "world", "overlapping:");
+  EXPECT_EQ(b.world.inspection().audit()->where, "call");
 }
 
 TEST(WrongRun, RefusesCallsFromInside) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <tuple>
 
+#include "kinesphere/certificates.hpp"
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
 
@@ -92,9 +93,9 @@ TEST(Sensor, ObeysFilters) {
   const BodyId a = p.add({.radius = 1, .filter = {.group = -1}});
   p.add({.radius = 1, .position = {4, 0, 0}, .filter = {.group = -1}});
   EXPECT_TRUE(p.run(1.0).empty());
-  p.world.set_filter(a, {}).value();
+  p.world.change(a, {.filter = Filter{}}).value();
   EXPECT_EQ(of_kind(p.run(2.0), EventKind::sensor_enter).size(), 1u);
-  p.world.set_filter(a, {.group = -1}).value();
+  p.world.change(a, {.filter = Filter{.group = -1}}).value();
   EXPECT_EQ(of_kind(p.run(3.0), EventKind::sensor_leave).size(), 1u);
   EXPECT_TRUE(is_clean(p.world));
 }
@@ -107,14 +108,15 @@ TEST(Sensor, ZoneIsNotTouchedButLooksThrough) {
   const std::vector<std::tuple<EventKind, double>> expected{{sensor_enter, 0}, {sensor_leave, 0}};
   ASSERT_EQ(crossings(events), expected) << events;
   EXPECT_NEAR(events[0].time, 9.8, eps);
-  EXPECT_EQ(p.world.safe_until(p.rests, p.comes).value().time, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(p.world.certificates().safe_until(p.rests, p.comes).value().time,
+            std::numeric_limits<double>::infinity());
 }
 
 TEST(Sensor, ZoneMayLieOverOthersWhereOverlapsAreNotAllowed) {
   World world = World::create({.allow_overlap = false}).value();
   const BodyId zone = world.add({.radius = 5, .solid = false}).value();
   EXPECT_TRUE(world.add({.radius = 1}));
-  ASSERT_TRUE(world.set_solid(zone, true)) << "what overlaps begins to touch";
+  ASSERT_TRUE(world.change(zone, {.solid = true})) << "what overlaps begins to touch";
 }
 
 TEST(Sensor, EveryWayOutOfAWorldLeavesTheInnerDistanceFirst) {
@@ -126,8 +128,8 @@ TEST(Sensor, EveryWayOutOfAWorldLeavesTheInnerDistanceFirst) {
        [](World& world, BodyId id) {
          world.teleport(id, {{0, 999, 0}, {}}).value();
        }},
-      {"filter", [](World& world, BodyId id) { world.set_filter(id, {.mask = 0}).value(); }},
-      {"class", [](World& world, BodyId id) { world.set_sensor_class(id, 0).value(); }},
+      {"filter", [](World& world, BodyId id) { world.change(id, {.filter = Filter{.mask = 0}}).value(); }},
+      {"class", [](World& world, BodyId id) { world.change(id, {.sensor_class = 0}).value(); }},
       {"sensor", [](World& world, BodyId) { world.set_sensor(watchful, {}).value(); }},
   };
   for (const auto& [name, leave] : ways) {
@@ -220,8 +222,9 @@ TEST(Sensor, RefusesDistancesThatAreNone) {
   expect_error(world.set_sensor(1, {.distances = {1e9}}), ErrorCode::out_of_range, "sensor", "set_sensor");
   EXPECT_TRUE(world.sensor(1).distances.empty());
   const BodyId never{5, 0};
-  expect_error(world.set_sensor_class(never, 1), ErrorCode::unknown_body, "body", "set_sensor_class", never);
-  expect_error(world.set_solid(never, true), ErrorCode::unknown_body, "body", "set_solid", never);
+  expect_error(world.change(never, {.sensor_class = 1}), ErrorCode::unknown_body, "body", "change",
+               never);
+  expect_error(world.change(never, {.solid = true}), ErrorCode::unknown_body, "body", "change", never);
   expect_error(world.touching(never), ErrorCode::unknown_body, "body", "touching", never);
   expect_error(world.sensor_overlaps(never), ErrorCode::unknown_body, "body", "sensor_overlaps", never);
   world.add({}).value();
@@ -229,8 +232,8 @@ TEST(Sensor, RefusesDistancesThatAreNone) {
     for (State& state : states) state = {};
     const auto busy = ErrorCode::probe_in_progress;
     expect_error(world.set_sensor(1, {}), busy, "probe", "set_sensor");
-    expect_error(world.set_sensor_class(ids[0], 1), busy, "probe", "set_sensor_class");
-    expect_error(world.set_solid(ids[0], false), busy, "probe", "set_solid");
+    expect_error(world.change(ids[0], {.sensor_class = 1}), busy, "probe", "change");
+    expect_error(world.change(ids[0], {.solid = false}), busy, "probe", "change");
   };
   world.advance(1.0, calls_back).value();
   world.set_velocity({0, 0}, {}).value();
@@ -274,11 +277,11 @@ class SensingCrowd : public testing::TestWithParam<std::uint64_t> {
         return p.world.set_sensor(some_class(), sensor).value();
       }
       case 1:
-        return p.world.set_sensor_class(id, some_class()).value();
+        return p.world.change(id, {.sensor_class = some_class()}).value();
       case 2:
-        return p.world.set_solid(id, random.uniform() < 0.5).value();
+        return p.world.change(id, {.solid = random.uniform() < 0.5}).value();
       case 3:
-        return p.world.set_filter(id, some_filter()).value();
+        return p.world.change(id, {.filter = some_filter()}).value();
       case 4:
         if (view.enabled) return p.world.disable(id).value();
         p.set_position(id, anywhere());
@@ -288,7 +291,7 @@ class SensingCrowd : public testing::TestWithParam<std::uint64_t> {
         p.set_position(id, anywhere());
         return p.world.teleport(id, p.state(id)).value();
       case 6:
-        return p.world.set_radius(id, 0.5 * random.uniform()).value();
+        return p.world.change(id, {.radius = 0.5 * random.uniform()}).value();
       case 7:
         p.world.remove(id).value();
         std::erase(alive, id);

@@ -24,7 +24,7 @@ TEST(SetShape, OfAZoneAroundABodyInsideReportsNothing) {
            Box{{0, 0, 0}, {12, 12, 12}}, Box{{-3, 2, 4}, {6, 8, 9}}, Ball{{4, 5, 5}, 3.0},
            HalfSpace{{0, 0, 1}, 100.0}, Box{{5, 5, 5}, {5, 5, 5}}}) {
     p.world.set_shape(zone, around).value();
-    EXPECT_EQ(p.world.shape_of(zone).value().index(), around.index());
+    EXPECT_EQ(p.world.body(zone).value().shape.index(), around.index());
     const auto events = p.run(time += 0.25);
     EXPECT_TRUE(events.empty()) << events;
     EXPECT_TRUE(is_clean(p.world));
@@ -215,7 +215,7 @@ TEST(SetShape, IsRefusedByName) {
                "set_shape: shape must not overlap", ball);
   p.world.set_shape(zone, Ball{{0, 0, 5}, 3.0}).value();
   p.world.set_shape(floor, HalfSpace{{0, 0, 1}, 4.0}).value();
-  for (const auto& refused : {p.world.set_radius(zone, 3.0), p.world.teleport(zone, {})}) {
+  for (const auto& refused : {p.world.change(zone, {.radius = 3.0}), p.world.teleport(zone, {})}) {
     expect_error(refused, ErrorCode::static_body, "body", "", zone);
     EXPECT_NE(refused.error().message.find("set_shape() changes it"), std::string::npos);
   }
@@ -226,7 +226,7 @@ TEST(SetShape, IsRefusedByName) {
   expect_error(repeating.world.set_shape(post, Box{{0, 0, 0}, {1, 1, 1}}), ErrorCode::unsupported, "shape",
                "set_shape:");
   repeating.world.set_shape(post, Ball{{12, 1, 1}, 0.5}).value();
-  EXPECT_EQ(std::get<Ball>(repeating.world.shape_of(post).value()).centre, (Vec3{2, 1, 1}));
+  EXPECT_EQ(std::get<Ball>(repeating.world.body(post).value().shape).centre, (Vec3{2, 1, 1}));
   repeating.run(1.0);
   EXPECT_TRUE(is_clean(repeating.world));
 }

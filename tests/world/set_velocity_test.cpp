@@ -65,7 +65,10 @@ TEST(VelocityChange, WaitsForTheReportWhileOthersThatWereKickedGo) {
   p.run(1.0);
   for (int k = 0; k < 4; ++k) {
     p.set_velocity(bodies[static_cast<std::size_t>(k)], {0, 1.0 + k, 0});
-    p.world.set_motion_limits(bodies[static_cast<std::size_t>(k)], {.acceleration_limit = 0.5 + k}).value();
+    p.world
+        .change(bodies[static_cast<std::size_t>(k)],
+                {.motion_limits = MotionLimits{.acceleration_limit = 0.5 + k}})
+        .value();
   }
   p.world.remove(bodies[1]).value();
   p.world.disable(bodies[0]).value();
@@ -195,20 +198,20 @@ TEST(VelocityChange, OfManyIsThatOfEachOrOfNone) {
     std::vector<BodyId> wrong_bodies = bodies;
     std::vector<Vec3> wrong = velocities;
     wrong[k].y = std::numeric_limits<double>::quiet_NaN();
-    expect_error(all.world.set_velocity_all(bodies, wrong), ErrorCode::not_finite, "velocity",
-                 "set_velocity_all: ", bodies[k]);
+    expect_error(all.world.set_velocities(bodies, wrong), ErrorCode::not_finite, "velocity",
+                 "set_velocities: ", bodies[k]);
     wrong_bodies[k] = {1000, 0};
-    expect_error(all.world.set_velocity_all(wrong_bodies, velocities), ErrorCode::unknown_body, "body",
-                 "set_velocity_all: ", BodyId{1000, 0});
+    expect_error(all.world.set_velocities(wrong_bodies, velocities), ErrorCode::unknown_body, "body",
+                 "set_velocities: ", BodyId{1000, 0});
   }
-  expect_error(all.world.set_velocity_all(bodies, std::vector<Vec3>(3)), ErrorCode::out_of_range,
-               "velocities", "set_velocity_all: ");
+  expect_error(all.world.set_velocities(bodies, std::vector<Vec3>(3)), ErrorCode::out_of_range, "velocities",
+               "set_velocities: ");
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     EXPECT_EQ(all.world.body(bodies[k])->bound.velocity, (Vec3{0, 0, 0.01 * static_cast<double>(k)}));
     one.set_velocity(same[k], velocities[k]);
     all.set_velocity_unseen(bodies[k], velocities[k]);
   }
-  all.world.set_velocity_all(bodies, velocities).value();
+  all.world.set_velocities(bodies, velocities).value();
   const auto expected = one.run(20.0), events = all.run(20.0);
   EXPECT_GT(events.size(), 5u);
   ASSERT_EQ(events.size(), expected.size());

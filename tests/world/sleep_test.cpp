@@ -124,12 +124,15 @@ TEST_P(Modes, EachChangeWakesTheIsland) {
         p.world.teleport(id, p.state(id)).value();
       },
       true);
-  islands([](Rested& p, BodyId id) { p.world.set_radius(id, 0.5).value(); }, true);
-  islands([](Rested& p, BodyId id) { p.world.set_motion_limits(id, {.acceleration_limit = 1}).value(); },
-          true);
+  islands([](Rested& p, BodyId id) { p.world.change(id, {.radius = 0.5}).value(); }, true);
+  islands(
+      [](Rested& p, BodyId id) {
+        p.world.change(id, {.motion_limits = MotionLimits{.acceleration_limit = 1}}).value();
+      },
+      true);
   islands([](Rested& p, BodyId id) { p.world.remove(id).value(); }, false);
   islands([](Rested& p, BodyId id) { p.world.disable(id).value(); }, false);
-  islands([](Rested& p, BodyId) { p.world.remove({0, 0}).value(); }, true);
+  islands([](Rested& p, BodyId) { p.world.remove(BodyId{0, 0}).value(); }, true);
   islands([](Rested& p, BodyId) { p.world.disable({0, 0}).value(); }, true);
 }
 

@@ -221,7 +221,7 @@ TEST(ClustersThatWereInterrupted, LeaveBodiesWhereQueriesFindThem) {
     EXPECT_TRUE(!windows_end(run.world) || is_clean(run.world));
     for (const BodyId id : run.world.bodies()) {
       const Vec3 centre = run.world.body(id).value().bound.centre_at(last);
-      const auto found = run.world.overlapping(centre, 0.0).value();
+      const auto found = run.world.queries().overlapping(centre, 0.0).value();
       if (std::none_of(found.begin(), found.end(), [&](const auto& one) { return one.body == id; }))
         ++not_found;
     }

@@ -3,6 +3,8 @@
 
 #include <set>
 
+#include "kinesphere/certificates.hpp"
+#include "kinesphere/queries.hpp"
 #include "number/infinity.hpp"
 #include "support/expect_error.hpp"
 #include "world/surroundings.hpp"
@@ -128,11 +130,11 @@ TEST(Surroundings, OverlapsBeginAtOnceAndEndWithEitherBody) {
   EXPECT_NEAR(again->gap, -1.5, 1e-12);
   EXPECT_TRUE(is_clean(p.world));
   // A filter ends the contact, and no new one begins.
-  p.world.set_filter(box, {.category = 2, .mask = 0}).value();
+  p.world.change(box, {.filter = Filter{.category = 2, .mask = 0}}).value();
   EXPECT_EQ(p.advance(3.0)->kind, EventKind::contact_end);
   EXPECT_FALSE(p.advance(3.0));
   EXPECT_TRUE(is_clean(p.world));
-  p.world.set_filter(box, {}).value();
+  p.world.change(box, {.filter = Filter{}}).value();
   EXPECT_EQ(p.advance(4.0)->kind, EventKind::contact_begin);
   EXPECT_TRUE(is_clean(p.world));
   p.world.remove(box).value();
@@ -141,7 +143,7 @@ TEST(Surroundings, OverlapsBeginAtOnceAndEndWithEitherBody) {
   EXPECT_TRUE(is_clean(p.world));
   // The body's index and its shape's slot are used again.
   EXPECT_EQ(p.place(flat).index, box.index);
-  EXPECT_EQ(std::get<Triangle>(p.world.shape_of({box.index, box.generation + 1}).value()), flat);
+  EXPECT_EQ(std::get<Triangle>(p.world.body({box.index, box.generation + 1}).value().shape), flat);
   EXPECT_EQ(p.advance(6.0)->kind, EventKind::contact_begin);
   p.set_position(ball, {0, 0, 50});
   p.world.teleport(ball, p.state(ball)).value();
@@ -162,7 +164,7 @@ TEST(Surroundings, FixedBodiesDoNotConcernEachOther) {
   EXPECT_TRUE(is_clean(p.world));
   EXPECT_EQ(p.world.counters().probes, 0u);
   EXPECT_EQ(p.world.counters().certificates, 0u);
-  EXPECT_EQ(p.world.safe_until().value().time, infinity);
+  EXPECT_EQ(p.world.certificates().safe_until().value().time, infinity);
 }
 
 /// Six half-spaces and twelve triangles for the walls of a box: the events inside are equal.
@@ -438,21 +440,21 @@ TEST(Surroundings, AnswersAreCertifiedAndNear) {
   const BodyId triangle = p.place(flat);
   const BodyId box = p.place(Box{{10, -1, -1}, {12, 1, 1}});
   const BodyId ball = p.add({.radius = 1, .position = {1, 1, 6}, .velocity = {0, 0, -1}});
-  EXPECT_NEAR(p.world.safe_until(triangle, ball)->time, 5.0, 1e-3);
-  EXPECT_NEAR(p.world.safe_until(ball)->time, 5.0, 1e-3);
-  EXPECT_NEAR(p.world.safe_until()->time, 5.0, 1e-3);
-  EXPECT_EQ(p.world.earliest_contact(ball)->partner, triangle);
-  EXPECT_EQ(p.world.earliest_contact(triangle)->partner, ball);
-  EXPECT_EQ(p.world.safe_until(box, triangle)->time, infinity);
-  EXPECT_EQ(p.world.earliest_contact(box)->time, infinity);
+  EXPECT_NEAR(p.world.certificates().safe_until(triangle, ball)->time, 5.0, 1e-3);
+  EXPECT_NEAR(p.world.certificates().safe_until(ball)->time, 5.0, 1e-3);
+  EXPECT_NEAR(p.world.certificates().safe_until()->time, 5.0, 1e-3);
+  EXPECT_EQ(p.world.certificates().earliest_contact(ball)->partner, triangle);
+  EXPECT_EQ(p.world.certificates().earliest_contact(triangle)->partner, ball);
+  EXPECT_EQ(p.world.certificates().safe_until(box, triangle)->time, infinity);
+  EXPECT_EQ(p.world.certificates().earliest_contact(box)->time, infinity);
   EXPECT_FALSE(p.advance(2.0));
-  const auto now = p.world.distance_limits(ball, triangle, 2.0, p.probe()).value();
+  const auto now = p.world.certificates(p.probe()).distance_limits(ball, triangle, 2.0).value();
   EXPECT_NEAR(now.lower, 3.0, 1e-9);
   EXPECT_NEAR(now.upper, 3.0, 1e-9);
   EXPECT_LE(now.lower, 3.0);
   EXPECT_GE(now.upper, 3.0);
-  EXPECT_EQ(p.world.distance_limits(box, triangle, 3.0)->upper, infinity);
-  EXPECT_NEAR(p.world.safe_until(ball, p.probe())->time, 5.0, 1e-3);
+  EXPECT_EQ(p.world.certificates().distance_limits(box, triangle, 3.0)->upper, infinity);
+  EXPECT_NEAR(p.world.certificates(p.probe()).safe_until(ball)->time, 5.0, 1e-3);
 }
 
 TEST(Surroundings, QueriesKnowTheirShapes) {
@@ -471,27 +473,29 @@ TEST(Surroundings, QueriesKnowTheirShapes) {
     return all;
   };
   using Ids = std::vector<BodyId>;
-  EXPECT_EQ(ids(p.world.overlapping(Vec3{1, 1, 1}, 1.001).value()), Ids{triangle});
-  EXPECT_EQ(ids(p.world.overlapping(Vec3{3, 3, 0}, 1.41).value()), Ids{}) << "beside the long side";
-  EXPECT_EQ(ids(p.world.overlapping(Vec3{3, 3, 0}, 1.42).value()), Ids{triangle});
-  EXPECT_EQ(ids(p.world.overlapping(Vec3{11, 0, 0}, 0.1).value()), Ids{box});
-  EXPECT_EQ(ids(p.world.overlapping(Vec3{0, 0, 0}, 20.001).value()), (Ids{triangle, box, floor, ball}));
-  EXPECT_EQ(ids(p.world.overlapping(Box{{2.1, 2.1, -1}, {3, 3, 1}}).value()), Ids{}) << "only its box does";
-  EXPECT_EQ(ids(p.world.overlapping(Box{{1.9, 1.9, -1}, {3, 3, 1}}).value()), Ids{triangle});
-  EXPECT_EQ(ids(p.world.overlapping(Box{{11.5, 0, 0}, {20, 1, 1}}).value()), Ids{box});
-  EXPECT_EQ(ids(p.world.overlapping(Box{{0, 0, -30}, {1, 1, -25}}).value()), Ids{floor});
-  const auto grazed = p.world.overlapping(Vec3{1, 1, 1}, 1.0).value();
+  EXPECT_EQ(ids(p.world.queries().overlapping(Vec3{1, 1, 1}, 1.001).value()), Ids{triangle});
+  EXPECT_EQ(ids(p.world.queries().overlapping(Vec3{3, 3, 0}, 1.41).value()), Ids{}) << "beside the long side";
+  EXPECT_EQ(ids(p.world.queries().overlapping(Vec3{3, 3, 0}, 1.42).value()), Ids{triangle});
+  EXPECT_EQ(ids(p.world.queries().overlapping(Vec3{11, 0, 0}, 0.1).value()), Ids{box});
+  EXPECT_EQ(ids(p.world.queries().overlapping(Vec3{0, 0, 0}, 20.001).value()),
+            (Ids{triangle, box, floor, ball}));
+  EXPECT_EQ(ids(p.world.queries().overlapping(Box{{2.1, 2.1, -1}, {3, 3, 1}}).value()), Ids{})
+      << "only its box does";
+  EXPECT_EQ(ids(p.world.queries().overlapping(Box{{1.9, 1.9, -1}, {3, 3, 1}}).value()), Ids{triangle});
+  EXPECT_EQ(ids(p.world.queries().overlapping(Box{{11.5, 0, 0}, {20, 1, 1}}).value()), Ids{box});
+  EXPECT_EQ(ids(p.world.queries().overlapping(Box{{0, 0, -30}, {1, 1, -25}}).value()), Ids{floor});
+  const auto grazed = p.world.queries().overlapping(Vec3{1, 1, 1}, 1.0).value();
   ASSERT_EQ(grazed.size(), 1u);
   EXPECT_EQ(grazed[0].certainty, Certainty::possibly) << "rounding decides";
-  const auto near = p.world.nearest({1, 1, 3}, 2).value();
+  const auto near = p.world.queries().nearest({1, 1, 3}, 2).value();
   ASSERT_EQ(near.size(), 2u);
   EXPECT_EQ(near[0].body, triangle);
   EXPECT_NEAR(near[0].lower, 3.0, 1e-9);
   EXPECT_EQ(near[1].body, ball);
-  EXPECT_EQ(p.world.nearest({0, 0, -21}, 1)->front().body, floor);
+  EXPECT_EQ(p.world.queries().nearest({0, 0, -21}, 1)->front().body, floor);
 
   const auto hit = [&](const Vec3& origin, double radius, const Vec3& direction) {
-    const auto hits = p.world.sphere_cast(origin, radius, direction, 100.0).value();
+    const auto hits = p.world.queries().sphere_cast(origin, radius, direction, 100.0).value();
     EXPECT_EQ(hits.size(), 1u);
     if (hits.empty()) return std::pair(no_body, 0.0);
     EXPECT_EQ(hits[0].certainty, Certainty::certainly);
@@ -506,8 +510,8 @@ TEST(Surroundings, QueriesKnowTheirShapes) {
   EXPECT_EQ(hit({11, 0, 0}, 0.0, {1, 0, 0}), std::pair(box, 0.0));
   EXPECT_EQ(hit({-5, -5, 0}, 1.0, {0, 0, -1}), std::pair(floor, 19.0));
   EXPECT_EQ(hit({0, 0, 20}, 1.0, {0, 0, -1}), std::pair(ball, 7.0));
-  EXPECT_TRUE(p.world.ray_cast({3, 3, 5}, {0, 0, -1}, 10.0)->empty());
-  EXPECT_FALSE(p.world.ray_cast({2, 0, 5}, {0, 0, -1}, 10.0)->empty()) << "an edge is possibly hit";
+  EXPECT_TRUE(p.world.queries().ray_cast({3, 3, 5}, {0, 0, -1}, 10.0)->empty());
+  EXPECT_FALSE(p.world.queries().ray_cast({2, 0, 5}, {0, 0, -1}, 10.0)->empty()) << "an edge is possibly hit";
 }
 
 TEST(Surroundings, WrongCalls) {
@@ -532,9 +536,9 @@ TEST(Surroundings, WrongCalls) {
   EXPECT_EQ(w.size(), 1u);
   expect_error(w.set_velocity(box, {}), ErrorCode::static_body, "body", "set_velocity: ", box);
   expect_error(w.teleport(box, {}), ErrorCode::static_body, "body", "teleport: ", box);
-  expect_error(w.set_radius(box, 1), ErrorCode::static_body, "body", "set_radius: ", box);
-  expect_error(w.set_motion_limits(box, {}), ErrorCode::static_body, "body", "set_motion_limits: ", box);
-  expect_error(w.shape_of({7, 0}), ErrorCode::unknown_body, "body", "shape_of: ", {7, 0});
+  expect_error(w.change(box, {.radius = 1}), ErrorCode::static_body, "body", "change: ", box);
+  expect_error(w.change(box, {.motion_limits = MotionLimits{}}), ErrorCode::static_body, "body",
+               "change: ", box);
   expect_error(w.add({.radius = 1, .position = {1.5, 0, 0}}), ErrorCode::overlapping, "position",
                "add: ", box);
   const BodyId ball = p.add({.radius = 1, .position = {0, 0, 2}});
@@ -546,8 +550,8 @@ TEST(Surroundings, WrongCalls) {
   expect_error(w.enable(box, {}), ErrorCode::overlapping, "shape", "enable: ", ball);
   EXPECT_EQ(w.body(box)->is_static, true);
   EXPECT_EQ(w.body(ball)->is_static, false);
-  EXPECT_EQ(std::get<Box>(w.shape_of(box).value()), unit_box);
-  EXPECT_EQ(std::get<Ball>(w.shape_of(ball).value()).radius, 1.0);
+  EXPECT_EQ(std::get<Box>(w.body(box).value().shape), unit_box);
+  EXPECT_EQ(std::get<Ball>(w.body(ball).value().shape).radius, 1.0);
   p.place(HalfSpace{{0, 0, 1 + 1e-9}, -5});
   const auto inside = [&](std::span<const BodyId>, double, std::span<State> states) {
     expect_error(w.add_static({.shape = ground}), ErrorCode::probe_in_progress, "probe", "add_static: ");

@@ -1,6 +1,7 @@
 // Interactions of features, found by random mixtures of all of them.
 #include <gtest/gtest.h>
 
+#include "kinesphere/certificates.hpp"
 #include "kinesphere/recording.hpp"
 #include "support/playground.hpp"
 
@@ -30,12 +31,12 @@ TEST(AnswersAfterALooserPromise, AreNotLaterThanTheContact) {
   const BodyId post = p.world.add_static({.shape = Ball{{95, 50, 50}, 1}}).value();
   p.run(10.0);
   p.steer(runner, {5, 0, 0});
-  p.world.set_motion_limits(runner, {.acceleration_limit = 5}).value();
-  const double of_world = p.world.safe_until()->time;
-  const double of_body = p.world.safe_until(runner)->time;
-  const double of_pair = p.world.safe_until(runner, post)->time;
-  const double of_first = p.world.earliest_contact(runner)->time;
-  const DistanceLimits limits = p.world.distance_limits(runner, post, 13.0).value();
+  p.world.change(runner, {.motion_limits = MotionLimits{.acceleration_limit = 5}}).value();
+  const double of_world = p.world.certificates().safe_until()->time;
+  const double of_body = p.world.certificates().safe_until(runner)->time;
+  const double of_pair = p.world.certificates().safe_until(runner, post)->time;
+  const double of_first = p.world.certificates().earliest_contact(runner)->time;
+  const DistanceLimits limits = p.world.certificates().distance_limits(runner, post, 13.0).value();
   const double gap = 95.0 - p.state(runner, 13.0).position.x - 2.0;
   EXPECT_LE(limits.lower, gap);
   EXPECT_GE(limits.upper, gap);

@@ -1,6 +1,8 @@
 // Interactions of features: queries and snapshots of worlds with disabled and filtered bodies.
 #include <gtest/gtest.h>
 
+#include "kinesphere/certificates.hpp"
+#include "kinesphere/queries.hpp"
 #include "number/infinity.hpp"
 #include "support/playground.hpp"
 
@@ -15,7 +17,7 @@ class Together : public ::testing::Test {
       ids.push_back(
           p.add({.radius = 1, .position = {4.0 * k, 0, 0}, .velocity = {k == 0 ? 1.0 : 0.0, 0, 0}}));
     p.world.disable(ids[2]).value();
-    p.world.set_filter(ids[3], {.category = 2, .mask = 0}).value();
+    p.world.change(ids[3], {.filter = Filter{.category = 2, .mask = 0}}).value();
   }
 
   Playground p;
@@ -23,25 +25,25 @@ class Together : public ::testing::Test {
 };
 
 TEST_F(Together, DisabledAndFilteredBodiesLimitNoAnswer) {
-  EXPECT_NEAR(p.world.safe_until()->time, 2.0, 1e-3);
-  EXPECT_EQ(p.world.earliest_contact(ids[0])->partner, ids[1]);
-  EXPECT_EQ(p.world.safe_until(ids[0], ids[2])->time, infinity);
-  EXPECT_EQ(p.world.safe_until(ids[0], ids[3])->time, infinity);
-  EXPECT_EQ(p.world.safe_until(ids[2])->time, infinity);
-  EXPECT_EQ(p.world.safe_until(ids[3])->time, infinity);
+  EXPECT_NEAR(p.world.certificates().safe_until()->time, 2.0, 1e-3);
+  EXPECT_EQ(p.world.certificates().earliest_contact(ids[0])->partner, ids[1]);
+  EXPECT_EQ(p.world.certificates().safe_until(ids[0], ids[2])->time, infinity);
+  EXPECT_EQ(p.world.certificates().safe_until(ids[0], ids[3])->time, infinity);
+  EXPECT_EQ(p.world.certificates().safe_until(ids[2])->time, infinity);
+  EXPECT_EQ(p.world.certificates().safe_until(ids[3])->time, infinity);
 }
 
 TEST_F(Together, DisabledBodiesAreNowhere) {
-  const auto everywhere = p.world.overlapping(Vec3{6, 0, 0}, 100.0).value();
+  const auto everywhere = p.world.queries().overlapping(Vec3{6, 0, 0}, 100.0).value();
   EXPECT_EQ(everywhere.size(), 3u);
-  EXPECT_EQ(p.world.nearest({8, 0, 0}, 4)->size(), 3u);
+  EXPECT_EQ(p.world.queries().nearest({8, 0, 0}, 4)->size(), 3u);
   p.world.enable(ids[2], {{8, 0, 0}, {}}).value();
-  EXPECT_EQ(p.world.nearest({8, 0, 0}, 1)->front().body, ids[2]);
+  EXPECT_EQ(p.world.queries().nearest({8, 0, 0}, 1)->front().body, ids[2]);
 }
 
 TEST_F(Together, SnapshotsKeepThem) {
   World back = World::restore(p.world.save().value()).value();
-  p.world.set_user_data(ids[1], 7).value();
+  p.world.change(ids[1], {.user_data = 7}).value();
   for (int stop = 0; stop < 2; ++stop) {
     EXPECT_EQ(back.save().value() == p.world.save().value(), stop == 1) << "user data belong to it";
     back = p.world.clone().value();

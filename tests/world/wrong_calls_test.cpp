@@ -153,7 +153,7 @@ std::uint64_t hash_of_scene(const WorldDefinition& definition,
       if (budget > 0) disturb(p);
     });
     disturb(p);
-    if (stop == 2) p.world.remove({3, 0}).value();
+    if (stop == 2) p.world.remove(BodyId{3, 0}).value();
     if (stop == 3) p.add({.radius = 0.1, .position = {5, 5, 4.9}, .velocity = {0, 0, -7}});
   }
   EXPECT_GT(p.world.counters().count(EventKind::contact_begin), 2u);

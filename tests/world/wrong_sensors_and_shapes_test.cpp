@@ -18,15 +18,14 @@ TEST(WrongIdOfAStaticBody, IsStaleEverywhere) {
   const auto stale = [&](const auto& result, const std::string& call) {
     expect_error(result, ErrorCode::stale_body, "body", call, gone);
   };
-  stale(world.shape_of(gone), "shape_of");
   stale(world.touching(gone), "touching");
   stale(world.sensor_overlaps(gone), "sensor_overlaps");
-  stale(world.set_solid(gone, false), "set_solid");
-  stale(world.set_sensor_class(gone, 1), "set_sensor_class");
+  stale(world.change(gone, {.solid = false}), "change");
+  stale(world.change(gone, {.sensor_class = 1}), "change");
   stale(world.set_velocity(gone, {}), "set_velocity");
   stale(world.teleport(gone, {}), "teleport");
-  stale(world.set_radius(gone, 1), "set_radius");
-  stale(world.set_motion_limits(gone, {}), "set_motion_limits");
+  stale(world.change(gone, {.radius = 1}), "change");
+  stale(world.change(gone, {.motion_limits = MotionLimits{}}), "change");
   stale(world.disable(gone), "disable");
   stale(world.enable(gone, {}), "enable");
 }
@@ -51,10 +50,10 @@ TEST(WrongSensor, HasToFitWhereSpaceRepeats) {
                fixed);
   EXPECT_TRUE(world.sensor(1).distances.empty());
   world.set_sensor(3, {.distances = {1.0}}).value();
-  expect_error(world.set_sensor_class(ball, 3), ErrorCode::out_of_range, "sensor_class", "set_sensor_class",
-               ball);
-  expect_error(world.set_sensor_class(fixed, 3), ErrorCode::out_of_range, "sensor_class", "set_sensor_class",
-               fixed);
+  expect_error(world.change(ball, {.sensor_class = 3}), ErrorCode::out_of_range, "sensor_class",
+               "change", ball);
+  expect_error(world.change(fixed, {.sensor_class = 3}), ErrorCode::out_of_range, "sensor_class",
+               "change", fixed);
   expect_error(world.add({.radius = 1, .position = {8, 5, 5}, .sensor_class = 3}), ErrorCode::out_of_range,
                "sensor_class", "add");
   world.disable(ball).value();

@@ -53,7 +53,7 @@ TEST_F(WrongUse, 02_TheErrorOfASuccess) { EXPECT_THROW((void)world.reserve(5).er
 
 TEST_F(WrongUse, 03_ALoopOverATemporaryAnswer) {
   std::size_t count = 0;
-  for (const OverlapHit& found : *world.overlapping({0, 0, 0}, 200.0))
+  for (const OverlapHit& found : *world.queries().overlapping({0, 0, 0}, 200.0))
     count += world.contains(found.body) ? 1u : 0u;
   EXPECT_EQ(count, 3u);
 }
@@ -73,7 +73,7 @@ TEST_F(WrongUse, 05_AWorldThatHasBeenMovedFrom) {
 // Ids.
 
 TEST_F(WrongUse, 06_AnIdOfABodyThatNeverWas) {
-  expect_error(world.remove({77, 0}), ErrorCode::unknown_body, "body", "remove: body 77", {77, 0});
+  expect_error(world.remove(BodyId{77, 0}), ErrorCode::unknown_body, "body", "remove: body 77", {77, 0});
 }
 
 TEST_F(WrongUse, 07_NoBody) {
@@ -81,7 +81,8 @@ TEST_F(WrongUse, 07_NoBody) {
 }
 
 TEST_F(WrongUse, 08_AnIdOfABodyThatHasGone) {
-  expect_error(world.set_radius(gone, 1.0), ErrorCode::stale_body, "body", "set_radius: body 2", gone);
+  expect_error(world.change(gone, {.radius = 1.0}), ErrorCode::stale_body, "body", "change: body 2",
+               gone);
 }
 
 TEST_F(WrongUse, 09_AnIdOfAnotherWorld) {
@@ -90,13 +91,14 @@ TEST_F(WrongUse, 09_AnIdOfAnotherWorld) {
 }
 
 TEST_F(WrongUse, 10_RemovingTwice) {
-  expect_error(world.remove_all(std::vector{ball, ball}), ErrorCode::stale_body, "body",
-               "remove_all: bodies[1]", ball);
+  expect_error(world.remove(std::vector{ball, ball}), ErrorCode::stale_body, "body", "remove: bodies[1]",
+               ball);
   EXPECT_TRUE(world.contains(ball)) << "then none is removed";
 }
 
 TEST_F(WrongUse, 11_TheSameBodyAsBothOfAPair) {
-  expect_error(world.safe_until(ball, ball), ErrorCode::out_of_range, "second", "safe_until:", ball);
+  expect_error(world.certificates().safe_until(ball, ball), ErrorCode::out_of_range, "second",
+               "safe_until:", ball);
 }
 
 // Numbers.
@@ -107,12 +109,12 @@ TEST_F(WrongUse, 12_ANaNInADefinition) {
 
 TEST_F(WrongUse, 13_ANegativeRadius) {
   expect_error(world.add({.radius = -0.5}), ErrorCode::out_of_range, "radius", "add:");
-  expect_error(world.set_radius(ball, -0.5), ErrorCode::out_of_range, "radius", "set_radius:", ball);
+  expect_error(world.change(ball, {.radius = -0.5}), ErrorCode::out_of_range, "radius", "change:", ball);
 }
 
 TEST_F(WrongUse, 14_ANegativeLimit) {
-  expect_error(world.set_motion_limits(ball, {.acceleration_limit = -1}), ErrorCode::out_of_range,
-               "acceleration_limit", "set_motion_limits:", ball);
+  expect_error(world.change(ball, {.motion_limits = MotionLimits{.acceleration_limit = -1}}),
+               ErrorCode::out_of_range, "acceleration_limit", "change:", ball);
 }
 
 TEST_F(WrongUse, 15_AnInfiniteVelocity) {
@@ -265,7 +267,8 @@ TEST_F(WrongUse, 40_ABodyInsideAnother) {
 }
 
 TEST_F(WrongUse, 41_ARayWithoutADirection) {
-  expect_error(world.ray_cast({0, 0, 0}, {0, 0, 0}, 1.0), ErrorCode::out_of_range, "direction", "ray_cast:");
+  expect_error(world.queries().ray_cast({0, 0, 0}, {0, 0, 0}, 1.0), ErrorCode::out_of_range, "direction",
+               "ray_cast:");
 }
 
 // Bytes.
@@ -319,7 +322,7 @@ TEST_F(WrongUse, 49_ContactEventsThatAreNone) {
 }
 
 TEST_F(WrongUse, 50_TheBusiestBodiesWithoutProfiling) {
-  expect_error(world.busiest(3), ErrorCode::not_profiling, "world", "busiest:");
+  expect_error(world.inspection().busiest(3), ErrorCode::not_profiling, "world", "busiest:");
 }
 
 }  // namespace

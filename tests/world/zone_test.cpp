@@ -121,7 +121,7 @@ TEST(SensorEvent, OfALeaveSaysWhatItsEnterSaid) {
   const auto entered = p.run(1.0);
   ASSERT_EQ(entered.size(), 1u) << entered;
   EXPECT_EQ(entered[0].sensor(), watcher);
-  p.world.set_sensor_class(other, 1).value();
+  p.world.change(other, {.sensor_class = 1}).value();
   EXPECT_TRUE(p.run(2.0).empty()) << "they are within that distance already";
   p.world.set_sensor(1, {}).value();
   const auto left = p.run(3.0);

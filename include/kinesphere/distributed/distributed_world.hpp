@@ -40,6 +40,8 @@ struct OrderedEvent {
 
   /// Orders events as one World reports them: by time, round, kind, bodies, wall and distance.
   friend bool operator<(const OrderedEvent& a, const OrderedEvent& b);
+
+  friend constexpr bool operator==(const OrderedEvent&, const OrderedEvent&) = default;
 };
 
 /// Any callable `void(const OrderedEvent&)`.
@@ -56,6 +58,8 @@ struct RankFigures {
   std::uint64_t rounds = 0;       ///< exchange rounds within batches
   std::uint64_t partitions = 0;   ///< number of times that space was partitioned
   double seconds_in_mpi = 0.0;    ///< processor time in MPI, including time spent waiting for other ranks
+
+  friend constexpr bool operator==(const RankFigures&, const RankFigures&) = default;
 };
 
 /// One rank's handle to a distributed world. Collective functions have to be called on all ranks, in an equal

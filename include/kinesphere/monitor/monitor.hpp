@@ -95,6 +95,8 @@ struct MonitorDefinition {
   double prediction_error_part = 0.0;
   /// Pairs that this monitor watches, if other monitors watch the remaining ones.
   Shard shard{};
+
+  friend bool operator==(const MonitorDefinition&, const MonitorDefinition&) = default;
 };
 
 /// Counts of the work that a monitor has done since it was created.
@@ -108,6 +110,8 @@ struct MonitorCounters {
   std::uint64_t searches = 0;        ///< Broad-phase searches for the neighbours of a hypothesis.
   std::uint64_t near_pairs = 0;      ///< Pairs found by those searches.
   std::uint64_t rechecks = 0;        ///< Evaluations of a pair at one separation level.
+
+  friend constexpr bool operator==(const MonitorCounters&, const MonitorCounters&) = default;
 };
 
 /// The verdict about two tracks and a separation now, and a forecast. Times are absolute.
@@ -150,6 +154,8 @@ struct PairAnswer {
   double ask_by = 0.0;
   /// True from MonitorEventKind::predicted to MonitorEventKind::prediction_ended.
   bool predicted = false;
+
+  friend constexpr bool operator==(const PairAnswer&, const PairAnswer&) = default;
 };
 
 /// A pair that is not certainly apart at one separation level.
@@ -159,6 +165,8 @@ struct OpenPair {
   std::uint32_t level = 0;
   Verdict verdict = Verdict::undecided;
   double since = 0.0;
+
+  friend constexpr bool operator==(const OpenPair&, const OpenPair&) = default;
 };
 
 /// A pair that is predicted to come within a separation (MonitorEventKind::predicted).
@@ -171,6 +179,8 @@ struct PredictedPair {
   double likely_time = 0.0;
   double closest_time = 0.0;
   double closest_distance = 0.0;
+
+  friend constexpr bool operator==(const PredictedPair&, const PredictedPair&) = default;
 };
 
 /// A request for a report of `track` by time `by`. Without the report, a verdict about `track` and `other`
@@ -179,6 +189,8 @@ struct ReportRequest {
   TrackId track = 0;
   double by = 0.0;
   TrackId other = 0;
+
+  friend constexpr bool operator==(const ReportRequest&, const ReportRequest&) = default;
 };
 
 /// What a monitor knows about a track now. The track certainly lies within `radius` of `centre` of one of the
@@ -193,8 +205,12 @@ struct TrackView {
     Vec3 centre{};
     Vec3 velocity{};
     ErrorBound radius{};
+
+    friend bool operator==(const Place&, const Place&) = default;
   };
   std::vector<Place> places;
+
+  friend bool operator==(const TrackView&, const TrackView&) = default;
 };
 
 /// Any callable `void(std::span<const TrackId> ids, double time, std::span<std::optional<TrackReport>>

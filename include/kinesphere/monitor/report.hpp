@@ -93,6 +93,8 @@ struct TrackClass {
   Vec3 planned_acceleration{};
   /// Largest speed (length / time).
   ErrorBound largest_speed = std::numeric_limits<double>::infinity();
+
+  friend constexpr bool operator==(const TrackClass&, const TrackClass&) = default;
 };
 
 /// A reported state of a track. The errors are bounds. If a source gives an accuracy that holds only with
@@ -120,12 +122,16 @@ struct TrackReport {
     Vec3 acceleration{};
     ErrorBound acceleration_limit{};
     double valid_until = std::numeric_limits<double>::infinity();
+
+    friend constexpr bool operator==(const Plan&, const Plan&) = default;
   };
   std::optional<Plan> plan{};
 
   /// Class of the track, an index into MonitorDefinition::classes. A report with another class than those
   /// before starts the track anew, for example when a vessel anchors.
   std::size_t track_class = 0;
+
+  friend constexpr bool operator==(const TrackReport&, const TrackReport&) = default;
 };
 
 }  // namespace kinesphere

@@ -19,6 +19,8 @@ struct BallisticDefinition {
   /// Gravity of all bodies (length / time^2).
   Vec3 gravity;
   double start_time = 0.0;
+
+  friend bool operator==(const BallisticDefinition&, const BallisticDefinition&) = default;
 };
 
 /// Free flight: gravity is the planned acceleration, and the acceleration limit is 0.

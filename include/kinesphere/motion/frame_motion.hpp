@@ -41,6 +41,8 @@ struct FrameMotionDefinition {
   /// their number format.
   double position_error = 0.0;
   double start_time = 0.0;
+
+  friend bool operator==(const FrameMotionDefinition&, const FrameMotionDefinition&) = default;
 };
 
 /// A body whose pushed position violates its acceleration limit: see FrameMotion.
@@ -52,6 +54,8 @@ struct FrameViolation {
   double acceleration;
   /// (length / time): velocity of the body in the pushed frame.
   Vec3 velocity;
+
+  friend constexpr bool operator==(const FrameViolation&, const FrameViolation&) = default;
 };
 
 /// Bodies without an acceleration limit (the default). Their velocities are news at every frame: nothing is
@@ -99,7 +103,7 @@ class FrameMotion final : public Motion {
   /// disabled there is skipped. For other worlds: BodyMap::push(). Needs world.time() == latest_time().
   /// Errors, which leave motion and world unchanged: out_of_range for a wrong number of positions or another
   /// time of the world; not_finite, naming the body; stale_body for a removed body whose position is not
-  /// NaN; those of World::set_velocity_all(). Cost: O(n).
+  /// NaN; those of World::set_velocities(). Cost: O(n).
   Result<void> push(World& world, std::span<const Vec3> positions);
   /// Appends the next frame if no world has to be informed of a new velocity: all bodies have a limit and
   /// keep it. Errors: as above; out_of_range, naming the first body with a new velocity.

@@ -22,6 +22,8 @@ struct RandomForcesDefinition {
   double interval = 0.2;
   std::uint64_t seed = 1;
   double start_time = 0.0;
+
+  friend bool operator==(const RandomForcesDefinition&, const RandomForcesDefinition&) = default;
 };
 
 /// During each interval a body has a constant acceleration, drawn uniformly from the ball of radius A. The

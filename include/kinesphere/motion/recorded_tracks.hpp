@@ -13,6 +13,8 @@ namespace kinesphere {
 struct TrackSample {
   double time = 0.0;
   Vec3 position;
+
+  friend constexpr bool operator==(const TrackSample&, const TrackSample&) = default;
 };
 
 /// The samples of one body, in the order of their times.

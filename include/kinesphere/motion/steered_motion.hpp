@@ -22,6 +22,8 @@ struct SteeredMotionDefinition {
   /// A >= 0 (length / time^2), by body.
   std::vector<double> acceleration_limits;
   double start_time = 0.0;
+
+  friend bool operator==(const SteeredMotionDefinition&, const SteeredMotionDefinition&) = default;
 };
 
 /// Each body keeps its acceleration, at first zero, until it is steered again. Steering does not change

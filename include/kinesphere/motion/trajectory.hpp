@@ -21,6 +21,8 @@ struct Segment {
   State state_at(double t) const;
   /// Returns the acceleration at time t.
   [[gnu::always_inline]] Vec3 acceleration_at(double t) const { return acceleration + jerk * (t - begin); }
+
+  friend constexpr bool operator==(const Segment&, const Segment&) = default;
 };
 
 /// Consecutive segments: each begins where the one before it ends.

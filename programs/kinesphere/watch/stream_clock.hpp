@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "columns/time_text.hpp"
+#include "kinesphere/inspection.hpp"
 #include "kinesphere/vec3.hpp"
 
 namespace kinesphere::program {

@@ -1,4 +1,5 @@
 #include "research/bench/speed/transcript.hpp"
+#include "kinesphere/inspection.hpp"
 
 #include <cassert>
 #include <memory>

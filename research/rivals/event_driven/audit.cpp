@@ -4,6 +4,7 @@
 #include <string>
 
 #include "input/input_check.hpp"
+#include "kinesphere/inspection.hpp"
 #include "research/rivals/event_driven/event_driven_detector.hpp"
 
 namespace kinesphere {

@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "kinesphere/inspection.hpp"
 #include "research/rivals/bound_detector.hpp"
 #include "research/rivals/event_driven/event_tree.hpp"
 #include "research/rivals/event_driven/grids.hpp"

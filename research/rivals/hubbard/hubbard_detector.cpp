@@ -28,6 +28,7 @@
 #include <vector>
 
 #include "bound/rounding.hpp"
+#include "kinesphere/inspection.hpp"
 #include "research/rivals/bound_detector.hpp"
 #include "research/rivals/hubbard/hypertrapezoid.hpp"
 #include "research/rivals/hubbard/space_time_sweep.hpp"
