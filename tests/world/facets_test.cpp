@@ -162,6 +162,7 @@ TEST(Change, OfSeveralPropertiesIsWholeOrNone) {
                                    .acceleration_limit = 4,
                                    .filter = {.category = 8},
                                    .solid = false,
+                                   .contacts = ContactEvents::all,
                                    .sensor_class = 3,
                                    .user_data = 6,
                                    .mass = 5}));
