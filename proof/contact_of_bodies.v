@@ -14,7 +14,7 @@ Definition describes (f : inputs.bound) (b : body) (x : report) : Prop :=
   Vector (B (inputs.position_x f)) (B (inputs.position_y f)) (B (inputs.position_z f)) = at_place x /\
   Vector (B (inputs.velocity_x f)) (B (inputs.velocity_y f)) (B (inputs.velocity_z f)) = with_velocity x /\
   Vector (B (inputs.plan_x f)) (B (inputs.plan_y f)) (B (inputs.plan_z f)) = g b /\
-  r b + e0 b <= B (inputs.radius f) * (1 + 3 * u) /\ e1 b <= B (inputs.growth_speed f) /\ A b <= B (inputs.growth_acceleration f).
+  r b + e0 b <= B (inputs.radius f) * (1 + 3 * u) /\ e1 b <= B (inputs.growth_speed f) /\ A b <= B (inputs.acceleration_limit f).
 
 Lemma rounded_radius (x y : floats.double) : 0 <= B x + B y -> finite (floats.add x y) -> B x + B y <= B (floats.add x y) * (1 + 3 * u).
 Proof.
@@ -64,7 +64,7 @@ Proof.
   intros (T & _ & _ & _ & H0 & H1 & H2) Ht. unfold earliest_meeting.radius_at, meeting_coefficients.moved, bound_from, bound_of, rho.
   cbn [size growth_speed growth]. rewrite T. set (s := t - at_time x). assert (0 <= s) as P by (unfold s; lra).
   assert (e1 b * s <= B (inputs.growth_speed f) * s) by (apply Rmult_le_compat_r; assumption).
-  assert (A b * (s * s) <= B (inputs.growth_acceleration f) * (s * s)) by (apply Rmult_le_compat_r; nra). lra.
+  assert (A b * (s * s) <= B (inputs.acceleration_limit f) * (s * s)) by (apply Rmult_le_compat_r; nra). lra.
 Qed.
 
 (* Until the answer of earliest_meeting, or the end of the span, the gap of two bodies is above the distance that was
@@ -99,5 +99,5 @@ Proof.
   intros P0 P1 F. assert (0 <= B r' + B e0') as P by lra. generalize (rounded_radius r' e0' P F).
   unfold describes, kernels.bound_of. cbn [inputs.time inputs.position_x inputs.position_y inputs.position_z inputs.velocity_x
     inputs.velocity_y inputs.velocity_z inputs.plan_x inputs.plan_y inputs.plan_z inputs.radius inputs.growth_speed
-    inputs.growth_acceleration r A g e0 e1 at_time at_place with_velocity]. intros L. repeat split; lra.
+    inputs.acceleration_limit r A g e0 e1 at_time at_place with_velocity]. intros L. repeat split; lra.
 Qed.

@@ -11,7 +11,7 @@ Local Opaque add sub mul div root neg magnitude widened capped B2R first_crossin
 (* At the time t: the radius of a bound, and the distance of the centres of two, exactly. With
      moved x v g s = x + v s + 1/2 g s^2  and  norm x y z = sqrt (x^2 + y^2 + z^2). *)
 Definition radius_at (a : bound) (t : R) : R :=
-  moved (B a.(radius)) (B a.(growth_speed)) (B a.(growth_acceleration)) (t - B a.(time)).
+  moved (B a.(radius)) (B a.(growth_speed)) (B a.(acceleration_limit)) (t - B a.(time)).
 Definition distance_at (a b : bound) (t : R) : R :=
   norm (moved (B a.(position_x)) (B a.(velocity_x)) (B a.(plan_x)) (t - B a.(time))
         - moved (B b.(position_x)) (B b.(velocity_x)) (B b.(plan_x)) (t - B b.(time)))
@@ -26,7 +26,7 @@ Definition all_finite (a : bound) : Prop :=
   (finite a.(position_x) /\ finite a.(position_y) /\ finite a.(position_z)) /\
   (finite a.(velocity_x) /\ finite a.(velocity_y) /\ finite a.(velocity_z)) /\
   (finite a.(plan_x) /\ finite a.(plan_y) /\ finite a.(plan_z)) /\
-  (finite a.(radius) /\ finite a.(growth_speed) /\ finite a.(growth_acceleration)).
+  (finite a.(radius) /\ finite a.(growth_speed) /\ finite a.(acceleration_limit)).
 Definition apart (a b : bound) (distance : double) (t : R) : Prop :=
   (all_finite a /\ all_finite b /\ finite distance) /\
   radius_at a t + radius_at b t + B distance + 3 * u * (B a.(radius) + B b.(radius)) < distance_at a b t.
@@ -189,7 +189,7 @@ Definition one_of_two (x v : Z) : bound :=
   let o := literal 0 0 in
   {| time := o; position_x := literal x 0; position_y := o; position_z := o;
      velocity_x := literal v 0; velocity_y := o; velocity_z := o; plan_x := o; plan_y := o; plan_z := o;
-     radius := literal 1 0; growth_speed := o; growth_acceleration := literal 1 (-3) |}.
+     radius := literal 1 0; growth_speed := o; acceleration_limit := literal 1 (-3) |}.
 Theorem a_meeting_is_found :
   let a := one_of_two (-3) 1 in let b := one_of_two 3 (-1) in let o := literal 0 0 in
   let r := earliest_meeting a b o infinity o in

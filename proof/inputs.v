@@ -10,7 +10,7 @@ Record bound := {
   plan_x : double; plan_y : double; plan_z : double;
   radius : double;
   growth_speed : double;
-  growth_acceleration : double
+  acceleration_limit : double
 }.
 
 Record swept_sphere := {

@@ -307,15 +307,15 @@ Definition meeting_step (a b : bound) (from distance d : double) : double :=
   if (literal 1 (-500)) <? t22 then
     if (literal 0 0) <? t22 then
       let t23 := (a.(radius) + b.(radius)) + distance in
-      let t24 := ((a.(growth_speed) + (((literal 1 (-1)) * a.(growth_acceleration)) * t1)) * t1) + ((b.(growth_speed) + (((literal 1 (-1)) * b.(growth_acceleration)) * t3)) * t3) in
-      let t25 := (a.(growth_speed) + (a.(growth_acceleration) * t1)) + (b.(growth_speed) + (b.(growth_acceleration) * t3)) in
-      let t26 := a.(growth_acceleration) + b.(growth_acceleration) in
+      let t24 := ((a.(growth_speed) + (((literal 1 (-1)) * a.(acceleration_limit)) * t1)) * t1) + ((b.(growth_speed) + (((literal 1 (-1)) * b.(acceleration_limit)) * t3)) * t3) in
+      let t25 := (a.(growth_speed) + (a.(acceleration_limit) * t1)) + (b.(growth_speed) + (b.(acceleration_limit) * t3)) in
+      let t26 := a.(acceleration_limit) + b.(acceleration_limit) in
       let t27 := t25 + (((literal 1 (-1)) * t26) * d) in
       let t28 := t24 + (t27 * d) in
-      let t29 := widened ((((magnitude a.(plan_x)) + (magnitude a.(plan_y))) + (magnitude a.(plan_z))) + a.(growth_acceleration)) in
+      let t29 := widened ((((magnitude a.(plan_x)) + (magnitude a.(plan_y))) + (magnitude a.(plan_z))) + a.(acceleration_limit)) in
       let t30 := (widened ((((magnitude a.(velocity_x)) + (magnitude a.(velocity_y))) + (magnitude a.(velocity_z))) + a.(growth_speed))) + (t29 * t1) in
       let t31 := (widened ((((magnitude a.(position_x)) + (magnitude a.(position_y))) + (magnitude a.(position_z))) + a.(radius))) + (t30 * t1) in
-      let t32 := widened ((((magnitude b.(plan_x)) + (magnitude b.(plan_y))) + (magnitude b.(plan_z))) + b.(growth_acceleration)) in
+      let t32 := widened ((((magnitude b.(plan_x)) + (magnitude b.(plan_y))) + (magnitude b.(plan_z))) + b.(acceleration_limit)) in
       let t33 := (widened ((((magnitude b.(velocity_x)) + (magnitude b.(velocity_y))) + (magnitude b.(velocity_z))) + b.(growth_speed))) + (t32 * t3) in
       let t34 := (widened ((((magnitude b.(position_x)) + (magnitude b.(position_y))) + (magnitude b.(position_z))) + b.(radius))) + (t33 * t3) in
       let t35 := capped (t30 + t33) in
@@ -336,15 +336,15 @@ Definition meeting_step (a b : bound) (from distance d : double) : double :=
       first_crossing t39 ((t46 - t47) - t48) (((((t40 * t7) + (t42 * t13)) + (t44 * t18)) - t26) - t49)
     else
     let t23 := (a.(radius) + b.(radius)) + distance in
-    let t24 := ((a.(growth_speed) + (((literal 1 (-1)) * a.(growth_acceleration)) * t1)) * t1) + ((b.(growth_speed) + (((literal 1 (-1)) * b.(growth_acceleration)) * t3)) * t3) in
-    let t25 := (a.(growth_speed) + (a.(growth_acceleration) * t1)) + (b.(growth_speed) + (b.(growth_acceleration) * t3)) in
-    let t26 := a.(growth_acceleration) + b.(growth_acceleration) in
+    let t24 := ((a.(growth_speed) + (((literal 1 (-1)) * a.(acceleration_limit)) * t1)) * t1) + ((b.(growth_speed) + (((literal 1 (-1)) * b.(acceleration_limit)) * t3)) * t3) in
+    let t25 := (a.(growth_speed) + (a.(acceleration_limit) * t1)) + (b.(growth_speed) + (b.(acceleration_limit) * t3)) in
+    let t26 := a.(acceleration_limit) + b.(acceleration_limit) in
     let t27 := t25 + (((literal 1 (-1)) * t26) * d) in
     let t28 := t24 + (t27 * d) in
-    let t29 := widened ((((magnitude a.(plan_x)) + (magnitude a.(plan_y))) + (magnitude a.(plan_z))) + a.(growth_acceleration)) in
+    let t29 := widened ((((magnitude a.(plan_x)) + (magnitude a.(plan_y))) + (magnitude a.(plan_z))) + a.(acceleration_limit)) in
     let t30 := (widened ((((magnitude a.(velocity_x)) + (magnitude a.(velocity_y))) + (magnitude a.(velocity_z))) + a.(growth_speed))) + (t29 * t1) in
     let t31 := (widened ((((magnitude a.(position_x)) + (magnitude a.(position_y))) + (magnitude a.(position_z))) + a.(radius))) + (t30 * t1) in
-    let t32 := widened ((((magnitude b.(plan_x)) + (magnitude b.(plan_y))) + (magnitude b.(plan_z))) + b.(growth_acceleration)) in
+    let t32 := widened ((((magnitude b.(plan_x)) + (magnitude b.(plan_y))) + (magnitude b.(plan_z))) + b.(acceleration_limit)) in
     let t33 := (widened ((((magnitude b.(velocity_x)) + (magnitude b.(velocity_y))) + (magnitude b.(velocity_z))) + b.(growth_speed))) + (t32 * t3) in
     let t34 := (widened ((((magnitude b.(position_x)) + (magnitude b.(position_y))) + (magnitude b.(position_z))) + b.(radius))) + (t33 * t3) in
     let t35 := capped (t30 + t33) in
@@ -363,15 +363,15 @@ Definition meeting_step (a b : bound) (from distance d : double) : double :=
     first_crossing t39 t45 t47
   else
   let t23 := (a.(radius) + b.(radius)) + distance in
-  let t24 := ((a.(growth_speed) + (((literal 1 (-1)) * a.(growth_acceleration)) * t1)) * t1) + ((b.(growth_speed) + (((literal 1 (-1)) * b.(growth_acceleration)) * t3)) * t3) in
-  let t25 := (a.(growth_speed) + (a.(growth_acceleration) * t1)) + (b.(growth_speed) + (b.(growth_acceleration) * t3)) in
-  let t26 := a.(growth_acceleration) + b.(growth_acceleration) in
+  let t24 := ((a.(growth_speed) + (((literal 1 (-1)) * a.(acceleration_limit)) * t1)) * t1) + ((b.(growth_speed) + (((literal 1 (-1)) * b.(acceleration_limit)) * t3)) * t3) in
+  let t25 := (a.(growth_speed) + (a.(acceleration_limit) * t1)) + (b.(growth_speed) + (b.(acceleration_limit) * t3)) in
+  let t26 := a.(acceleration_limit) + b.(acceleration_limit) in
   let t27 := t25 + (((literal 1 (-1)) * t26) * d) in
   let t28 := t24 + (t27 * d) in
-  let t29 := widened ((((magnitude a.(plan_x)) + (magnitude a.(plan_y))) + (magnitude a.(plan_z))) + a.(growth_acceleration)) in
+  let t29 := widened ((((magnitude a.(plan_x)) + (magnitude a.(plan_y))) + (magnitude a.(plan_z))) + a.(acceleration_limit)) in
   let t30 := (widened ((((magnitude a.(velocity_x)) + (magnitude a.(velocity_y))) + (magnitude a.(velocity_z))) + a.(growth_speed))) + (t29 * t1) in
   let t31 := (widened ((((magnitude a.(position_x)) + (magnitude a.(position_y))) + (magnitude a.(position_z))) + a.(radius))) + (t30 * t1) in
-  let t32 := widened ((((magnitude b.(plan_x)) + (magnitude b.(plan_y))) + (magnitude b.(plan_z))) + b.(growth_acceleration)) in
+  let t32 := widened ((((magnitude b.(plan_x)) + (magnitude b.(plan_y))) + (magnitude b.(plan_z))) + b.(acceleration_limit)) in
   let t33 := (widened ((((magnitude b.(velocity_x)) + (magnitude b.(velocity_y))) + (magnitude b.(velocity_z))) + b.(growth_speed))) + (t32 * t3) in
   let t34 := (widened ((((magnitude b.(position_x)) + (magnitude b.(position_y))) + (magnitude b.(position_z))) + b.(radius))) + (t33 * t3) in
   let t35 := capped (t30 + t33) in

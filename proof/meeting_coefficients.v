@@ -97,10 +97,10 @@ Notation acceleration_sum := (whole_acceleration G H).
 Definition axis (p v g q w h t : R) : R := moved p v g (S + t) - moved q w h (T + t).
 Definition axis_speed (v g w h t : R) : R := (v + g * (S + t)) - (w + h * (T + t)).
 Definition radii (t : R) : R :=
-  moved (B a.(radius)) (B a.(growth_speed)) (B a.(growth_acceleration)) (S + t)
-  + moved (B b.(radius)) (B b.(growth_speed)) (B b.(growth_acceleration)) (T + t).
+  moved (B a.(radius)) (B a.(growth_speed)) (B a.(acceleration_limit)) (S + t)
+  + moved (B b.(radius)) (B b.(growth_speed)) (B b.(acceleration_limit)) (T + t).
 Definition radii_speed (t : R) : R :=
-  (B a.(growth_speed) + B a.(growth_acceleration) * (S + t)) + (B b.(growth_speed) + B b.(growth_acceleration) * (T + t)).
+  (B a.(growth_speed) + B a.(acceleration_limit) * (S + t)) + (B b.(growth_speed) + B b.(acceleration_limit) * (T + t)).
 
 Definition into (p v g q w h : double) : R :=
   into_centre (Rabs (B p)) (Rabs (B v)) (Rabs (B g)) S L (Rabs (B q)) (Rabs (B w)) (Rabs (B h)) T K D.
@@ -129,11 +129,11 @@ Lemma parts_positive :
   ((0 <= Rabs (B a.(position_x)) /\ 0 <= Rabs (B a.(position_y)) /\ 0 <= Rabs (B a.(position_z)) /\
     0 <= Rabs (B a.(velocity_x)) /\ 0 <= Rabs (B a.(velocity_y)) /\ 0 <= Rabs (B a.(velocity_z)) /\
     0 <= Rabs (B a.(plan_x)) /\ 0 <= Rabs (B a.(plan_y)) /\ 0 <= Rabs (B a.(plan_z)))
-   /\ (0 <= B a.(radius) /\ 0 <= B a.(growth_speed) /\ 0 <= B a.(growth_acceleration))
+   /\ (0 <= B a.(radius) /\ 0 <= B a.(growth_speed) /\ 0 <= B a.(acceleration_limit))
    /\ (0 <= Rabs (B b.(position_x)) /\ 0 <= Rabs (B b.(position_y)) /\ 0 <= Rabs (B b.(position_z)) /\
     0 <= Rabs (B b.(velocity_x)) /\ 0 <= Rabs (B b.(velocity_y)) /\ 0 <= Rabs (B b.(velocity_z)) /\
     0 <= Rabs (B b.(plan_x)) /\ 0 <= Rabs (B b.(plan_y)) /\ 0 <= Rabs (B b.(plan_z)))
-   /\ (0 <= B b.(radius) /\ 0 <= B b.(growth_speed) /\ 0 <= B b.(growth_acceleration))).
+   /\ (0 <= B b.(radius) /\ 0 <= B b.(growth_speed) /\ 0 <= B b.(acceleration_limit))).
 Proof.
   destruct (known_radii _ _ _ _ _ _ _ _ facts) as [RA RB].
   split; [repeat split; apply Rabs_pos|]. split; [exact RA|]. split; [repeat split; apply Rabs_pos|exact RB].
@@ -162,7 +162,7 @@ Proof.
   destruct (known_plans_a _ _ _ _ _ _ _ _ facts) as (_ & _ & _ & HL & _).
   destruct (known_plans_b _ _ _ _ _ _ _ _ facts) as (_ & _ & _ & HK & _).
   assert (CG := growth_then_close s r d S T D L K Cs Cr Cd L_pos K_pos
-    a.(growth_speed) a.(growth_acceleration) b.(growth_speed) b.(growth_acceleration) HL HK).
+    a.(growth_speed) a.(acceleration_limit) b.(growth_speed) b.(acceleration_limit) HL HK).
   rewrite (Rabs_pos_eq _ EA), (Rabs_pos_eq _ EB), (Rabs_pos_eq _ CA), (Rabs_pos_eq _ CB) in CG.
   fold (growth a b from d) in CG.
   generalize (close_positive _ RA) (close_positive _ RB) (close_exact distance). intros CRA CRB CD.
@@ -176,7 +176,7 @@ Proof.
     (margin * (size_then a b from d + magnitude distance))%float
     (X - (radii D + B distance))
     (into_places + (B a.(radius) + B b.(radius) + Rabs (B distance)) +
-     into_growth (B a.(growth_speed)) (B a.(growth_acceleration)) S L (B b.(growth_speed)) (B b.(growth_acceleration)) T K D)
+     into_growth (B a.(growth_speed)) (B a.(acceleration_limit)) S L (B b.(growth_speed)) (B b.(acceleration_limit)) T K D)
     1900 T' (4000 * u * tiny) F).
   destruct X1 as [X1 X2].
   - eapply close_as; [find_close| |intros _; apply Rle_refl|hundredths].
@@ -186,7 +186,7 @@ Proof.
     revert PY. generalize tiny. clear. intros. rewrite u_value. lra.
   - replace (4000 * u * tiny / (20 * u)) with (200 * tiny) by (rewrite u_value; field).
     assert (MG : into_places + (B (radius a) + B (radius b)) +
-       into_growth (B a.(growth_speed)) (B a.(growth_acceleration)) S L (B b.(growth_speed)) (B b.(growth_acceleration)) T K D
+       into_growth (B a.(growth_speed)) (B a.(acceleration_limit)) S L (B b.(growth_speed)) (B b.(acceleration_limit)) T K D
       <= 3 / 2 * length_sum + 200 * tiny) by (unfold into_places, into; eapply magnitudes_of_gap; fact).
     revert MG. unfold T'. generalize (Rabs_pos (B distance)).
     match goal with |- context [into_growth ?a ?b ?c ?d ?e ?f ?g ?h ?i] => generalize (into_growth a b c d e f g h i) end.
@@ -244,7 +244,7 @@ Proof.
   destruct (known_speeds_a _ _ _ _ _ _ _ _ facts) as (HMx & HMy & HMz & _).
   destruct (known_speeds_b _ _ _ _ _ _ _ _ facts) as (HNx & HNy & HNz & _).
   assert (CG := growth_speed_then_close s r d S T D L K Cs Cr Cd L_pos K_pos
-    a.(growth_speed) a.(growth_acceleration) b.(growth_speed) b.(growth_acceleration) HL HK).
+    a.(growth_speed) a.(acceleration_limit) b.(growth_speed) b.(acceleration_limit) HL HK).
   rewrite (Rabs_pos_eq _ EA), (Rabs_pos_eq _ EB), (Rabs_pos_eq _ CA), (Rabs_pos_eq _ CB) in CG.
   fold (faster a b from d) in CG.
   assert (C1 := speed_close a.(velocity_x) _ b.(velocity_x) _ HLx HKx). assert (V1 := velocity_loss _ _ _ _ HMx HNx HLx HKx).
@@ -259,7 +259,7 @@ Proof.
     (1 * into_speeds a.(velocity_x) a.(plan_x) b.(velocity_x) b.(plan_x) + speed_loss L K M N
      + (1 * into_speeds a.(velocity_y) a.(plan_y) b.(velocity_y) b.(plan_y) + speed_loss L K M N)
      + (1 * into_speeds a.(velocity_z) a.(plan_z) b.(velocity_z) b.(plan_z) + speed_loss L K M N)
-     + into_speed (B a.(growth_speed)) (B a.(growth_acceleration)) S L (B b.(growth_speed)) (B b.(growth_acceleration)) T K D)
+     + into_speed (B a.(growth_speed)) (B a.(acceleration_limit)) S L (B b.(growth_speed)) (B b.(acceleration_limit)) T K D)
     1900 speed_sum (4000 * u * (L + K)) F).
   destruct X1 as [X1 _].
   - unfold dot. eapply close_as; [find_close| |intros _; apply Rle_refl|hundredths].
@@ -280,7 +280,7 @@ Definition along_acceleration : R :=
 Lemma acceleration_below :
   finite (acceleration a b x y z) ->
   B (acceleration a b x y z) <=
-    along_acceleration - (B a.(growth_acceleration) + B b.(growth_acceleration)) - 25 * u * acceleration_sum.
+    along_acceleration - (B a.(acceleration_limit) + B b.(acceleration_limit)) - 25 * u * acceleration_sum.
 Proof.
   intros F. unfold acceleration in *.
   destruct (sub_finite _ _ F) as (_ & Fm & _).
@@ -294,11 +294,11 @@ Proof.
   generalize (close_positive _ CA) (close_positive _ CB). intros CCA CCB.
   assert (PT' : 0 <= acceleration_sum) by apply (proj1 (sums_pos a b from d L K M N facts)).
   assert (X1 := lowered (dot x y z (plan_x a - plan_x b)%float (plan_y a - plan_y b)%float (plan_z a - plan_z b)%float
-      - (growth_acceleration a + growth_acceleration b))%float
+      - (acceleration_limit a + acceleration_limit b))%float
     (margin * acceleration_size a b)%float
-    (along_acceleration - (B a.(growth_acceleration) + B b.(growth_acceleration)))
+    (along_acceleration - (B a.(acceleration_limit) + B b.(acceleration_limit)))
     (1 * (Rabs (B a.(plan_x)) + Rabs (B b.(plan_x))) + (L + K) + (1 * (Rabs (B a.(plan_y)) + Rabs (B b.(plan_y))) + (L + K))
-     + (1 * (Rabs (B a.(plan_z)) + Rabs (B b.(plan_z))) + (L + K)) + (B a.(growth_acceleration) + B b.(growth_acceleration)))
+     + (1 * (Rabs (B a.(plan_z)) + Rabs (B b.(plan_z))) + (L + K)) + (B a.(acceleration_limit) + B b.(acceleration_limit)))
     1400 acceleration_sum 0 F).
   destruct X1 as [X1 _].
   - unfold dot. eapply close_as; [find_close|reflexivity|intros _; apply Rle_refl|hundredths].
@@ -338,7 +338,7 @@ Proof.
       (Rabs_pos (B b.(position_x))) (Rabs_pos (B b.(position_y))) (Rabs_pos (B b.(position_z))). lra. }
   destruct (gap_below l _ C Fc) as [Uc Lower]. assert (Ub := speed_below Fb). assert (Ua := acceleration_below Fa).
   assert (quadratic (along D - (radii D + B distance)) (along_speed D - radii_speed D)
-    (along_acceleration - (B a.(growth_acceleration) + B b.(growth_acceleration))) e
+    (along_acceleration - (B a.(acceleration_limit) + B b.(acceleration_limit))) e
     = along (D + e) - (radii (D + e) + B distance)) as <-.
   { unfold quadratic, along, along_speed, along_acceleration, radii, radii_speed, axis, axis_speed, moved. field. }
   assert (tiny * 70368744177664 <= bpow radix2 (-975) * / 2) as Tiny.
@@ -354,7 +354,7 @@ Proof.
   assert (PA : 0 <= acceleration_sum) by (apply Rplus_le_le_0_compat; assumption).
   revert RT Uc Lower Ub Ua Lc LK1 LK2 PS PA Tiny PY. generalize LK_pos (B a.(radius) + B b.(radius)).
   generalize (along D - (radii D + B distance)) (along_speed D - radii_speed D)
-    (along_acceleration - (B a.(growth_acceleration) + B b.(growth_acceleration))).
+    (along_acceleration - (B a.(acceleration_limit) + B b.(acceleration_limit))).
   generalize (B (gap a b from distance d l)) (B (speed a b from d x y z)) (B (acceleration a b x y z)).
   generalize (length_sum + Rabs (B distance)) speed_sum acceleration_sum (L + K) tiny (bpow radix2 (-975)).
   clear - Pe.

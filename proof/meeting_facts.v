@@ -10,7 +10,7 @@ Local Opaque add sub mul div root neg magnitude widened capped B2R.
    not from the future. NaNs pass. *)
 Definition sound (a : bound) (from : double) : Prop :=
   less a.(radius) (literal 0 0) = false /\ less a.(growth_speed) (literal 0 0) = false /\
-  less a.(growth_acceleration) (literal 0 0) = false /\ less from a.(time) = false.
+  less a.(acceleration_limit) (literal 0 0) = false /\ less from a.(time) = false.
 
 Lemma elapsed_close (from t : double) : less from t = false -> finite (from - t)%float ->
   finite from /\ finite t /\ 0 <= B from - B t /\ close (from - t)%float (B from - B t) (B from - B t) 100.
@@ -25,13 +25,13 @@ Lemma bound_sizes (a : bound) (from : double) :
   sound a from -> finite (plan_size a) -> finite (speed_size a) -> finite (place_size a) ->
   let G := B (plan_size a) in let V := B (speed_size a) in let P := B (place_size a) in
   (0 <= P /\ 0 <= V /\ 0 <= G) /\
-  (0 <= B a.(radius) /\ 0 <= B a.(growth_speed) /\ 0 <= B a.(growth_acceleration)) /\
+  (0 <= B a.(radius) /\ 0 <= B a.(growth_speed) /\ 0 <= B a.(acceleration_limit)) /\
   (Rabs (B a.(position_x)) + Rabs (B a.(position_y)) + Rabs (B a.(position_z)) + B a.(radius) <= 9 / 8 * P /\
    Rabs (B a.(velocity_x)) + Rabs (B a.(velocity_y)) + Rabs (B a.(velocity_z)) + B a.(growth_speed) <= 9 / 8 * V /\
-   Rabs (B a.(plan_x)) + Rabs (B a.(plan_y)) + Rabs (B a.(plan_z)) + B a.(growth_acceleration) <= 9 / 8 * G) /\
+   Rabs (B a.(plan_x)) + Rabs (B a.(plan_y)) + Rabs (B a.(plan_z)) + B a.(acceleration_limit) <= 9 / 8 * G) /\
   (exists L, (0 <= L /\ L <= tiny /\ L <= few * G) /\
     (B a.(plan_x) <> 0 -> tiny <= L) /\ (B a.(plan_y) <> 0 -> tiny <= L) /\ (B a.(plan_z) <> 0 -> tiny <= L) /\
-    (B a.(growth_acceleration) <> 0 -> tiny <= L) /\ (B (plan_size a) <> 0 -> tiny <= L)) /\
+    (B a.(acceleration_limit) <> 0 -> tiny <= L) /\ (B (plan_size a) <> 0 -> tiny <= L)) /\
   (exists L, (0 <= L /\ L <= few * V) /\
     (B a.(velocity_x) <> 0 -> tiny <= L) /\ (B a.(velocity_y) <> 0 -> tiny <= L) /\ (B a.(velocity_z) <> 0 -> tiny <= L) /\
     (B (speed_size a) <> 0 -> tiny <= L)).
@@ -119,22 +119,22 @@ Record known (L K M N : R) : Prop := {
   known_s : close s S S 100;
   known_r : close r T T 100;
   known_sizes : 0 <= P /\ 0 <= V /\ 0 <= G /\ 0 <= Q /\ 0 <= W /\ 0 <= H;
-  known_radii : (0 <= B a.(radius) /\ 0 <= B a.(growth_speed) /\ 0 <= B a.(growth_acceleration)) /\
-    (0 <= B b.(radius) /\ 0 <= B b.(growth_speed) /\ 0 <= B b.(growth_acceleration));
+  known_radii : (0 <= B a.(radius) /\ 0 <= B a.(growth_speed) /\ 0 <= B a.(acceleration_limit)) /\
+    (0 <= B b.(radius) /\ 0 <= B b.(growth_speed) /\ 0 <= B b.(acceleration_limit));
   known_a :
     Rabs (B a.(position_x)) + Rabs (B a.(position_y)) + Rabs (B a.(position_z)) + B a.(radius) <= 9 / 8 * P /\
     Rabs (B a.(velocity_x)) + Rabs (B a.(velocity_y)) + Rabs (B a.(velocity_z)) + B a.(growth_speed) <= 9 / 8 * V /\
-    Rabs (B a.(plan_x)) + Rabs (B a.(plan_y)) + Rabs (B a.(plan_z)) + B a.(growth_acceleration) <= 9 / 8 * G;
+    Rabs (B a.(plan_x)) + Rabs (B a.(plan_y)) + Rabs (B a.(plan_z)) + B a.(acceleration_limit) <= 9 / 8 * G;
   known_b :
     Rabs (B b.(position_x)) + Rabs (B b.(position_y)) + Rabs (B b.(position_z)) + B b.(radius) <= 9 / 8 * Q /\
     Rabs (B b.(velocity_x)) + Rabs (B b.(velocity_y)) + Rabs (B b.(velocity_z)) + B b.(growth_speed) <= 9 / 8 * W /\
-    Rabs (B b.(plan_x)) + Rabs (B b.(plan_y)) + Rabs (B b.(plan_z)) + B b.(growth_acceleration) <= 9 / 8 * H;
+    Rabs (B b.(plan_x)) + Rabs (B b.(plan_y)) + Rabs (B b.(plan_z)) + B b.(acceleration_limit) <= 9 / 8 * H;
   known_loss_a : 0 <= L /\ L <= tiny /\ L <= few * G;
   known_loss_b : 0 <= K /\ K <= tiny /\ K <= few * H;
   known_plans_a : (B a.(plan_x) <> 0 -> tiny <= L) /\ (B a.(plan_y) <> 0 -> tiny <= L) /\ (B a.(plan_z) <> 0 -> tiny <= L) /\
-    (B a.(growth_acceleration) <> 0 -> tiny <= L) /\ (B (plan_size a) <> 0 -> tiny <= L);
+    (B a.(acceleration_limit) <> 0 -> tiny <= L) /\ (B (plan_size a) <> 0 -> tiny <= L);
   known_plans_b : (B b.(plan_x) <> 0 -> tiny <= K) /\ (B b.(plan_y) <> 0 -> tiny <= K) /\ (B b.(plan_z) <> 0 -> tiny <= K) /\
-    (B b.(growth_acceleration) <> 0 -> tiny <= K) /\ (B (plan_size b) <> 0 -> tiny <= K);
+    (B b.(acceleration_limit) <> 0 -> tiny <= K) /\ (B (plan_size b) <> 0 -> tiny <= K);
   known_loss_of_speeds : (0 <= M /\ M <= few * V) /\ (0 <= N /\ N <= few * W);
   known_speeds_a : (B a.(velocity_x) <> 0 -> tiny <= M) /\ (B a.(velocity_y) <> 0 -> tiny <= M) /\
     (B a.(velocity_z) <> 0 -> tiny <= M) /\ (B (speed_size a) <> 0 -> tiny <= M);

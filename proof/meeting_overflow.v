@@ -39,7 +39,7 @@ Ltac upwards :=
   | |- upward (magnitude _) => apply upward_magnitude
   | |- upward (radius _) => apply upward_not_less; first [apply sound_a|apply sound_b]
   | |- upward (growth_speed _) => apply upward_not_less; first [apply sound_a|apply sound_b]
-  | |- upward (growth_acceleration _) => apply upward_not_less; first [apply sound_a|apply sound_b]
+  | |- upward (acceleration_limit _) => apply upward_not_less; first [apply sound_a|apply sound_b]
   | |- upward _ => first [exact us|exact ur|exact ud|exact uh|exact um]
   end.
 
@@ -106,7 +106,7 @@ Proof.
     apply rnd_nonpos. lra. }
   assert (B (margin * acceleration_size a b)%float <= 0) as Na.
   { apply (below_zero _ _ Fa Pa). rewrite Ea1, Za.
-    assert (0 <= B (growth_acceleration a + growth_acceleration b)%float)
+    assert (0 <= B (acceleration_limit a + acceleration_limit b)%float)
       by (apply upward_finite; [upwards|exact Fg]).
     apply rnd_nonpos. lra. }
   assert (Mb := speed_margin a b from d d_pos L K M N facts Ft Fbm).

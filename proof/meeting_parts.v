@@ -24,7 +24,7 @@ Definition growth_speed_then (e c s f k r d : double) : double := (growth_speed_
 
 Definition sum_of_sizes (x y z r : double) : double := widened (magnitude x + magnitude y + magnitude z + r)%float.
 Definition plan_size (a : bound) : double :=
-  sum_of_sizes a.(plan_x) a.(plan_y) a.(plan_z) a.(growth_acceleration).
+  sum_of_sizes a.(plan_x) a.(plan_y) a.(plan_z) a.(acceleration_limit).
 Definition speed_size (a : bound) : double :=
   sum_of_sizes a.(velocity_x) a.(velocity_y) a.(velocity_z) a.(growth_speed).
 Definition place_size (a : bound) : double :=
@@ -59,8 +59,8 @@ Definition speed_y : double := velocity_then a.(velocity_y) a.(plan_y) s b.(velo
 Definition speed_z : double := velocity_then a.(velocity_z) a.(plan_z) s b.(velocity_z) b.(plan_z) r d.
 
 Definition reach : double := (a.(radius) + b.(radius) + distance)%float.
-Definition growth : double := growth_then a.(growth_speed) a.(growth_acceleration) s b.(growth_speed) b.(growth_acceleration) r d.
-Definition faster : double := growth_speed_then a.(growth_speed) a.(growth_acceleration) s b.(growth_speed) b.(growth_acceleration) r d.
+Definition growth : double := growth_then a.(growth_speed) a.(acceleration_limit) s b.(growth_speed) b.(acceleration_limit) r d.
+Definition faster : double := growth_speed_then a.(growth_speed) a.(acceleration_limit) s b.(growth_speed) b.(acceleration_limit) r d.
 Definition length : double := length_of place_x place_y place_z.
 
 (* The coefficients, for a direction and the distance of the centres along it. *)
@@ -69,7 +69,7 @@ Definition speed (x y z : double) : double :=
   ((dot x y z speed_x speed_y speed_z - faster) - margin * (velocity_size + acceleration_size * d))%float.
 Definition acceleration (x y z : double) : double :=
   ((dot x y z (a.(plan_x) - b.(plan_x)) (a.(plan_y) - b.(plan_y)) (a.(plan_z) - b.(plan_z))
-    - (a.(growth_acceleration) + b.(growth_acceleration))) - margin * acceleration_size)%float.
+    - (a.(acceleration_limit) + b.(acceleration_limit))) - margin * acceleration_size)%float.
 
 Definition step_along (l x y z : double) : double := first_crossing (gap l) (speed x y z) (acceleration x y z).
 

@@ -26,16 +26,16 @@ namespace kinesphere {
 
 /// A growing, moving sphere that certainly contains the body. With s = t - time >= 0,
 ///   centre  c(s)   = position + velocity s + 1/2 planned_acceleration s^2
-///   radius  rho(s) = radius + growth_speed s + 1/2 growth_acceleration s^2
+///   radius  rho(s) = radius + growth_speed s + 1/2 acceleration_limit s^2
 /// (paper, eqs 3-6, which are the case of zero plan and zero growth_speed).
 struct Bound {
   double time = 0.0;  ///< time of the report
   Vec3 position{};
   Vec3 velocity{};
   Vec3 planned_acceleration{};
-  double radius = 0.0;               ///< r + e0
-  double growth_speed = 0.0;         ///< e1
-  double growth_acceleration = 0.0;  ///< A
+  double radius = 0.0;              ///< r + e0
+  double growth_speed = 0.0;        ///< e1
+  double acceleration_limit = 0.0;  ///< A
 
   /// Centre and radius at time t >= time; each step is correctly rounded, without a margin.
   [[gnu::always_inline]] Vec3 centre_at(double t) const {
@@ -44,10 +44,10 @@ struct Bound {
   }
   [[gnu::always_inline]] double radius_at(double t) const {
     const double s = t - time;
-    return radius + (growth_speed + 0.5 * growth_acceleration * s) * s;
+    return radius + (growth_speed + 0.5 * acceleration_limit * s) * s;
   }
   /// True if the centre moves exactly as planned and the radius does not grow.
-  [[gnu::always_inline]] bool is_exact() const { return growth_speed == 0.0 && growth_acceleration == 0.0; }
+  [[gnu::always_inline]] bool is_exact() const { return growth_speed == 0.0 && acceleration_limit == 0.0; }
   /// Velocity of the centre at time t >= time.
   [[gnu::always_inline]] Vec3 velocity_at(double t) const {
     return velocity + planned_acceleration * (t - time);

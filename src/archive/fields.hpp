@@ -74,8 +74,8 @@ void serialize(Some<MotionLimits> auto& self, auto& archive) {
 }
 
 void serialize(Some<Bound> auto& self, auto& archive) {
-  auto& [time, position, velocity, planned_acceleration, radius, growth_speed, growth_acceleration] = self;
-  archive(time, position, velocity, planned_acceleration, radius, growth_speed, growth_acceleration);
+  auto& [time, position, velocity, planned_acceleration, radius, growth_speed, acceleration_limit] = self;
+  archive(time, position, velocity, planned_acceleration, radius, growth_speed, acceleration_limit);
 }
 
 void serialize(Some<HalfSpace> auto& self, auto& archive) {

@@ -14,7 +14,7 @@ Bound bound_of(const BodyDefinition& body, const State& state, double time) {
           .planned_acceleration = body.planned_acceleration,
           .radius = body.radius + body.position_error,
           .growth_speed = body.velocity_error,
-          .growth_acceleration = body.acceleration_limit};
+          .acceleration_limit = body.acceleration_limit};
 }
 
 namespace {
@@ -50,9 +50,9 @@ Box swept_box(const Bound& bound, double from, double to) {
     const double v = bound.velocity[axis];
     const double g = bound.planned_acceleration[axis];
     box.upper[axis] =
-        greatest(p + bound.radius, v + bound.growth_speed, g + bound.growth_acceleration, s0, s1);
+        greatest(p + bound.radius, v + bound.growth_speed, g + bound.acceleration_limit, s0, s1);
     box.lower[axis] =
-        -greatest(bound.radius - p, bound.growth_speed - v, bound.growth_acceleration - g, s0, s1);
+        -greatest(bound.radius - p, bound.growth_speed - v, bound.acceleration_limit - g, s0, s1);
   }
   return box;
 }
@@ -64,12 +64,12 @@ GapLimits gap_limits(const Bound& a, const Bound& b, double t) {
 
 GapLimits gap_limits(const Bound& bound, const HalfSpace& wall, double t) {
   const double s = t - bound.time;
-  const double growth = (bound.growth_speed + 0.5 * bound.growth_acceleration * s) * s;
+  const double growth = (bound.growth_speed + 0.5 * bound.acceleration_limit * s) * s;
   const double gap = dot(wall.normal, bound.centre_at(t)) - wall.offset - bound.radius;
   using rounding::widened;
   const double size = widened(norm_one(bound.position) + bound.radius) +
                       (widened(norm_one(bound.velocity) + bound.growth_speed) +
-                       widened(norm_one(bound.planned_acceleration) + bound.growth_acceleration) * s) *
+                       widened(norm_one(bound.planned_acceleration) + bound.acceleration_limit) * s) *
                           s +
                       std::abs(wall.offset);
   return limits_around(gap, growth, size);

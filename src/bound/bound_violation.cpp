@@ -12,7 +12,7 @@ std::optional<BoundViolation> bound_violation(const Bound& before, const Bound& 
   const Vec3 expected = new_velocity.value_or(before.velocity_at(after.time));
   const Vec3 turn = after.velocity - expected;
   const double change_limit =
-      (new_velocity ? 0.0 : before.growth_acceleration * s) + (before.growth_speed + after.growth_speed);
+      (new_velocity ? 0.0 : before.acceleration_limit * s) + (before.growth_speed + after.growth_speed);
   const double position_slack = contact_tolerance / 16.0;
   const double deviation = norm(way);
   const double change = norm(turn);

@@ -30,7 +30,7 @@ std::optional<BoundViolation> bound_violation(const Bound& before, const Bound& 
   const double s = time - before.time;
   const double position_errors = (before.radius - radius) + (before.radius - radius);
   const double deviation_limit = before.radius_at(time) - before.radius + position_errors;
-  const double change_limit = before.growth_acceleration * s + (before.growth_speed + before.growth_speed);
+  const double change_limit = before.acceleration_limit * s + (before.growth_speed + before.growth_speed);
   return norm_squared(report.position - before.centre_at(time)) <= deviation_limit * deviation_limit &&
          norm_squared(report.velocity - before.velocity_at(time)) <= change_limit * change_limit;
 }

@@ -37,8 +37,7 @@ struct MotionBesideShape {
               .planned_acceleration = motion.acceleration,
               .radius = motion.radii - shape_radius,
               .growth_speed = motion.growth_speed + rounding::margin * motion.velocity_size,
-              .growth_acceleration =
-                  motion.growth_acceleration + rounding::margin * motion.acceleration_size},
+              .acceleration_limit = motion.acceleration_limit + rounding::margin * motion.acceleration_size},
         slack(motion.growth + rounding::margin * motion.offset_size) {}
 };
 

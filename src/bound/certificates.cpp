@@ -46,11 +46,11 @@ struct Projection {
         position(p + (v + 0.5 * a * elapsed) * elapsed),
         velocity(v + a * elapsed),
         acceleration(a),
-        growth((bound.growth_speed + 0.5 * bound.growth_acceleration * elapsed) * elapsed),
-        growth_speed(bound.growth_speed + bound.growth_acceleration * elapsed) {}
+        growth((bound.growth_speed + 0.5 * bound.acceleration_limit * elapsed) * elapsed),
+        growth_speed(bound.growth_speed + bound.acceleration_limit * elapsed) {}
 
   void add_up(double position_part, double velocity_part, double acceleration_part, const Bound& bound) {
-    acceleration_size = rounding::capped(rounding::widened(acceleration_part + bound.growth_acceleration));
+    acceleration_size = rounding::capped(rounding::widened(acceleration_part + bound.acceleration_limit));
     velocity_size =
         rounding::capped(rounding::widened(velocity_part + bound.growth_speed) + acceleration_size * s);
     position_size = rounding::capped(rounding::widened(position_part + bound.radius) + velocity_size * s);
@@ -73,7 +73,7 @@ double earliest_meeting(const Bound& a, const Bound& b, double from, double unti
     const double speed = dot(n, motion.velocity_at(d)) - motion.growth_speed_at(d) -
                          margin * (motion.velocity_size + motion.acceleration_size * d);
     const double acceleration =
-        dot(n, motion.acceleration) - motion.growth_acceleration - margin * motion.acceleration_size;
+        dot(n, motion.acceleration) - motion.acceleration_limit - margin * motion.acceleration_size;
     return rounding::first_crossing(c, speed, acceleration);
   });
 }
@@ -90,7 +90,7 @@ double earliest_separation(const Bound& a, const Bound& b, double from, double u
     const double slack = reach - motion.growth_at(d);  // S(d)
     if (!(slack > margin * size)) return 0.0;
     const double shrinking = motion.growth_speed_at(d);  // -S'(d)
-    const double alpha = motion.growth_acceleration;
+    const double alpha = motion.acceleration_limit;
     const double length = norm(centre) + margin * size;
 
     // p(d + e) = q0 + q1 e + q2 e^2 + q3 e^3 + q4 e^4, each coefficient lowered by its possible rounding
@@ -138,7 +138,7 @@ double earliest_meeting(const Bound& bound, const HalfSpace& wall, double from, 
   return time_of_crossing(from, until,
                           (p.position - wall.offset) - bound.radius - p.growth - distance - margin * size,
                           p.velocity - p.growth_speed - margin * p.velocity_size,
-                          p.acceleration - bound.growth_acceleration - margin * p.acceleration_size);
+                          p.acceleration - bound.acceleration_limit - margin * p.acceleration_size);
 }
 
 double earliest_separation(const Bound& bound, const HalfSpace& wall, double from, double until,
@@ -148,7 +148,7 @@ double earliest_separation(const Bound& bound, const HalfSpace& wall, double fro
   return time_of_crossing(from, until,
                           (wall.offset - p.position) + bound.radius - p.growth + distance - margin * size,
                           -p.velocity - p.growth_speed - margin * p.velocity_size,
-                          -p.acceleration - bound.growth_acceleration - margin * p.acceleration_size);
+                          -p.acceleration - bound.acceleration_limit - margin * p.acceleration_size);
 }
 
 double earliest_exit(const Bound& bound, const Box& box, double from, double until) {
@@ -158,7 +158,7 @@ double earliest_exit(const Bound& bound, const Box& box, double from, double unt
     if (box.upper[axis] == infinity) continue;
     const Projection p(bound, axis, from);
     const double speed_margin = p.growth_speed + margin * p.velocity_size;
-    const double acceleration_margin = bound.growth_acceleration + margin * p.acceleration_size;
+    const double acceleration_margin = bound.acceleration_limit + margin * p.acceleration_size;
     const auto crossing = [&](double distance, double wall, double velocity, double acceleration) {
       const double c = distance - bound.radius - p.growth - margin * (p.position_size + std::abs(wall));
       const double b = velocity - speed_margin;

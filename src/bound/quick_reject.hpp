@@ -20,7 +20,7 @@ struct BoundAt {
   double radius, speed, growth;
 
   [[gnu::always_inline]] BoundAt(const Bound& bound, double from)
-      : acceleration(bound.planned_acceleration), growth(bound.growth_acceleration) {
+      : acceleration(bound.planned_acceleration), growth(bound.acceleration_limit) {
     const double s = from - bound.time;
     velocity = bound.velocity;
     centre = bound.position + velocity * s;

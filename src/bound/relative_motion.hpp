@@ -8,14 +8,14 @@ namespace kinesphere {
 
 /// Relative motion in terms of d = t - from >= 0:
 ///   centre difference  C(d) = offset + velocity d + 1/2 acceleration d^2
-///   growth             Gamma(d) = growth + growth_speed d + 1/2 growth_acceleration d^2
+///   growth             Gamma(d) = growth + growth_speed d + 1/2 acceleration_limit d^2
 /// Growth is the increase of the two radii since the reports. Each size bounds the sum of the magnitudes of
 /// the terms in its coefficient, and is widened and capped (rounding.hpp). Precondition: `from` is not before
 /// either report.
 struct RelativeMotion {
   Vec3 offset, velocity, acceleration;
   double radii;  ///< sum of r + e0 over the two bodies
-  double growth, growth_speed, growth_acceleration;
+  double growth, growth_speed, acceleration_limit;
   double offset_size, velocity_size, acceleration_size;
 
   RelativeMotion(const Bound& a, const Bound& b, double from)
@@ -23,8 +23,8 @@ struct RelativeMotion {
 
   Vec3 centre_at(double d) const { return offset + (velocity + acceleration * (0.5 * d)) * d; }
   Vec3 velocity_at(double d) const { return velocity + acceleration * d; }
-  double growth_at(double d) const { return growth + (growth_speed + 0.5 * growth_acceleration * d) * d; }
-  double growth_speed_at(double d) const { return growth_speed + growth_acceleration * d; }
+  double growth_at(double d) const { return growth + (growth_speed + 0.5 * acceleration_limit * d) * d; }
+  double growth_speed_at(double d) const { return growth_speed + acceleration_limit * d; }
   double size_at(double d) const { return offset_size + (velocity_size + 0.5 * acceleration_size * d) * d; }
 
  private:
@@ -36,17 +36,17 @@ struct RelativeMotion {
           velocity(bound.velocity + bound.planned_acceleration * s),
           acceleration(bound.planned_acceleration),
           radius(bound.radius),
-          growth((bound.growth_speed + 0.5 * bound.growth_acceleration * s) * s),
-          growth_speed(bound.growth_speed + bound.growth_acceleration * s),
-          growth_acceleration(bound.growth_acceleration),
-          acceleration_size(rounding::widened(norm_one(acceleration) + growth_acceleration)),
+          growth((bound.growth_speed + 0.5 * bound.acceleration_limit * s) * s),
+          growth_speed(bound.growth_speed + bound.acceleration_limit * s),
+          acceleration_limit(bound.acceleration_limit),
+          acceleration_size(rounding::widened(norm_one(acceleration) + acceleration_limit)),
           velocity_size(rounding::widened(norm_one(bound.velocity) + bound.growth_speed) +
                         acceleration_size * s),
           offset_size(rounding::widened(norm_one(bound.position) + radius) + velocity_size * s) {}
 
     double s;
     Vec3 centre, velocity, acceleration;
-    double radius, growth, growth_speed, growth_acceleration;
+    double radius, growth, growth_speed, acceleration_limit;
     double acceleration_size, velocity_size, offset_size;
   };
 
@@ -57,7 +57,7 @@ struct RelativeMotion {
         radii(a.radius + b.radius),
         growth(a.growth + b.growth),
         growth_speed(a.growth_speed + b.growth_speed),
-        growth_acceleration(a.growth_acceleration + b.growth_acceleration),
+        acceleration_limit(a.acceleration_limit + b.acceleration_limit),
         offset_size(rounding::capped(a.offset_size + b.offset_size)),
         velocity_size(rounding::capped(a.velocity_size + b.velocity_size)),
         acceleration_size(rounding::capped(a.acceleration_size + b.acceleration_size)) {}

@@ -135,7 +135,7 @@ double separation(const Bound& bound, const Solid& solid, double from, double un
 struct Reported {
   Reported(const Bound& bound, double t) : centre(bound.centre_at(t)) {
     const double s = t - bound.time;
-    growth = (bound.growth_speed + 0.5 * bound.growth_acceleration * s) * s;
+    growth = (bound.growth_speed + 0.5 * bound.acceleration_limit * s) * s;
     size = norm_one(bound.position) + norm_one(bound.velocity) * s +
            norm_one(bound.planned_acceleration) * (s * s) + bound.radius + growth;
   }

@@ -50,7 +50,7 @@ BodyDefinition Bodies::definition_of(std::uint32_t number) const {
   const Body& body = table_[number];
   const Bound& bound = body.bound;
   BodyDefinition definition{.radius = body.radius,
-                            .acceleration_limit = bound.growth_acceleration,
+                            .acceleration_limit = bound.acceleration_limit,
                             .planned_acceleration = bound.planned_acceleration,
                             .position_error = body.position_error,
                             .velocity_error = bound.growth_speed,

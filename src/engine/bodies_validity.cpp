@@ -26,7 +26,7 @@ std::optional<Vec3> reported_place(const Vec3& position, const Space& space) {
 bool is_valid(const Bound& bound, const Vec3& place, double now, const WorldDefinition& world) {
   BodyDefinition as_body;
   as_body.radius = 0.5 * bound.radius;  // bound.radius is the sum of a radius and an error
-  as_body.acceleration_limit = bound.growth_acceleration;
+  as_body.acceleration_limit = bound.acceleration_limit;
   as_body.planned_acceleration = bound.planned_acceleration;
   as_body.velocity_error = bound.growth_speed;
   as_body.position = place;
@@ -167,7 +167,7 @@ bool Bodies::sleep_is_valid(const Body& body) const {
   if (!record) return true;
   Bound still = body.bound;
   still.velocity = still.planned_acceleration = {};
-  still.growth_speed = still.growth_acceleration = 0.0;
+  still.growth_speed = still.acceleration_limit = 0.0;
   return body.present() && (!body.is_at_rest() || same(still, body.bound)) &&
          record->limits.position_error == body.position_error;
 }

@@ -49,16 +49,16 @@ struct Body {
   /// Returns true if the bound neither moves nor grows.
   bool stands_still() const {
     return bound.velocity == Vec3{} && bound.planned_acceleration == Vec3{} && bound.growth_speed == 0.0 &&
-           bound.growth_acceleration == 0.0;
+           bound.acceleration_limit == 0.0;
   }
   void stand_still() {
     bound.velocity = bound.planned_acceleration = {};
-    bound.growth_speed = bound.growth_acceleration = 0.0;
+    bound.growth_speed = bound.acceleration_limit = 0.0;
   }
   void mark_visited() { dirty = visited = relocated = false; }
   /// Returns true if the state at `time` is known without a probe.
   bool fresh(double time) const { return bound.time == time || is_static() || is_at_rest(); }
-  double largest_acceleration() const { return bound.growth_acceleration + norm(bound.planned_acceleration); }
+  double largest_acceleration() const { return bound.acceleration_limit + norm(bound.planned_acceleration); }
 
   static void serialize(auto& self, auto& archive) {
     auto& [bound, revision, alive, enabled, dirty, visited, relocated, solid, contact_events, sensor_class,

@@ -80,7 +80,7 @@ bool WindowChoice::needs_report(std::uint32_t number) const {
   const Window window = Window::at(time_, rung_for(number, speed_bound));
   const double s = window.end - bound.time;
   const auto growth_after = [&bound](double time) {
-    return (bound.growth_speed + 0.5 * bound.growth_acceleration * time) * time;
+    return (bound.growth_speed + 0.5 * bound.acceleration_limit * time) * time;
   };
   const double saved = growth_after(s) - growth_after(window.end - time_);
   if (state_.window_policy.cost_of_width(2.0 * saved) > price_of_report) return true;

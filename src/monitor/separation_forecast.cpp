@@ -32,7 +32,7 @@ struct View {
   Bound centre() const {
     Bound alone = path;
     alone.growth_speed = 0.0;
-    alone.growth_acceleration = 0.0;
+    alone.acceleration_limit = 0.0;
     return alone;
   }
 };
@@ -85,7 +85,7 @@ class ReachableSetsMeeting {
  private:
   double growth() const { return a_.growth_at(now_) + b_.growth_at(now_); }
   double growth_speed(const View& view) const {
-    return view.path.growth_speed + view.path.growth_acceleration * (now_ - view.path.time);
+    return view.path.growth_speed + view.path.acceleration_limit * (now_ - view.path.time);
   }
 
   View a_, b_;

@@ -100,7 +100,7 @@ double World::Engine::Answers::meeting(const CollisionShape& extent_of_a,
     const double way =
         2.0 * space.period()[axis] - std::abs(motion.offset[axis]) - motion.radii - motion.growth;
     const double speed = std::abs(motion.velocity[axis]) + motion.growth_speed;
-    const double acceleration = std::abs(motion.acceleration[axis]) + motion.growth_acceleration;
+    const double acceleration = std::abs(motion.acceleration[axis]) + motion.acceleration_limit;
     constexpr double margin = rounding::margin;
     const double until = rounding::first_crossing(
         way - margin * (motion.offset_size + 2.0 * space.period()[axis]),

@@ -48,7 +48,7 @@ inline Bound present_bound(const Body& body, const Change* change, double now) {
   if (!change) return last;
   const MotionLimits& limits = change->limits;
   const bool is_unchanged = last.growth_speed == limits.velocity_error &&
-                            last.growth_acceleration == limits.acceleration_limit &&
+                            last.acceleration_limit == limits.acceleration_limit &&
                             last.planned_acceleration == limits.planned_acceleration;
   if (is_unchanged && !change->velocity) return last;
   const CertainSphere sphere = certain_sphere_of(body, now);
@@ -58,12 +58,12 @@ inline Bound present_bound(const Body& body, const Change* change, double now) {
               .planned_acceleration = limits.planned_acceleration,
               .radius = sphere.outer,
               .growth_speed = limits.velocity_error,
-              .growth_acceleration = limits.acceleration_limit};
+              .acceleration_limit = limits.acceleration_limit};
   if (!change->velocity) {
     const double s = now - last.time;
     const double speed =
-        norm_one(last.velocity) + (norm_one(last.planned_acceleration) + last.growth_acceleration) * s;
-    bound.growth_speed = last.growth_speed + last.growth_acceleration * s + rounding::margin * speed;
+        norm_one(last.velocity) + (norm_one(last.planned_acceleration) + last.acceleration_limit) * s;
+    bound.growth_speed = last.growth_speed + last.acceleration_limit * s + rounding::margin * speed;
   }
   return bound;
 }

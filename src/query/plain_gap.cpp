@@ -37,13 +37,13 @@ Point centre(const Bound& bound, double time) {
 Long size_of_way(const Bound& bound, double time) {
   const Long s = Long(time) - bound.time;
   return (norm_one(bound.velocity) + bound.growth_speed +
-          (norm_one(bound.planned_acceleration) + bound.growth_acceleration) * s) *
+          (norm_one(bound.planned_acceleration) + bound.acceleration_limit) * s) *
          s;
 }
 
 Long growth_of(const Bound& bound, double time) {
   const Long s = Long(time) - bound.time;
-  return (bound.growth_speed + bound.growth_acceleration * s / 2) * s;
+  return (bound.growth_speed + bound.acceleration_limit * s / 2) * s;
 }
 
 /// Interval that contains a distance.
@@ -182,7 +182,7 @@ PlainGap::Limits PlainGap::of_bodies(double time) const {
 double PlainGap::largest_speed(double from, double to) const {
   const auto rate = [&](const Bound& bound) {
     return norm(bound.velocity_at(from)) + bound.growth_speed +
-           (norm(bound.planned_acceleration) + bound.growth_acceleration) * (to - bound.time);
+           (norm(bound.planned_acceleration) + bound.acceleration_limit) * (to - bound.time);
   };
   return rate(moving_) + rate(other_);
 }

@@ -64,7 +64,7 @@ std::string to_string(const BodyDefinition& body) {
 std::string to_string(const Bound& bound) {
   return fields("time", bound.time, "position", bound.position, "velocity", bound.velocity,
                 "planned_acceleration", bound.planned_acceleration, "radius", bound.radius, "growth_speed",
-                bound.growth_speed, "growth_acceleration", bound.growth_acceleration);
+                bound.growth_speed, "acceleration_limit", bound.acceleration_limit);
 }
 std::string to_string(const Shape& shape) {
   struct Visitor {

@@ -116,7 +116,7 @@ TEST(EarliestExit, is_infinite_for_a_body_at_rest_and_from_for_one_outside) {
 
 TEST(EarliestExit, asks_nothing_on_axes_without_end) {
   const Box channel{{-infinity, -2, -infinity}, {infinity, 2, infinity}};
-  EXPECT_EQ(earliest_exit({.velocity = {1e100, 0, -1e50}, .radius = 1, .growth_acceleration = 0}, channel, 0,
+  EXPECT_EQ(earliest_exit({.velocity = {1e100, 0, -1e50}, .radius = 1, .acceleration_limit = 0}, channel, 0,
                           infinity),
             infinity);
   const double got = earliest_exit({.velocity = {5, 1, 7}, .radius = 1}, channel, 0, infinity);

@@ -43,7 +43,7 @@ std::vector<double*> numbers_of(Bound& bound) {
   std::vector<double*> numbers{&bound.time};
   for (Vec3* vector : {&bound.position, &bound.velocity, &bound.planned_acceleration})
     for (int axis = 0; axis < 3; ++axis) numbers.push_back(&(*vector)[axis]);
-  numbers.insert(numbers.end(), {&bound.radius, &bound.growth_speed, &bound.growth_acceleration});
+  numbers.insert(numbers.end(), {&bound.radius, &bound.growth_speed, &bound.acceleration_limit});
   return numbers;
 }
 constexpr std::size_t signed_numbers = 10;
@@ -55,7 +55,7 @@ PairCase ordinary_case(const Certificate& certificate) {
                    .planned_acceleration = {0, 0, -0.1},
                    .radius = 1,
                    .growth_speed = 0.25,
-                   .growth_acceleration = 0.5},
+                   .acceleration_limit = 0.5},
              .b = {.time = 0.75, .position = {20, 0, 0}, .velocity = {-1, 0, 1}, .radius = 1},
              .from = 1.0,
              .horizon = 1000.0,
@@ -128,7 +128,7 @@ TEST(ExtremeNumbers, overflow_on_the_way_makes_nothing_late) {
         bound->velocity *= length / time;
         bound->growth_speed *= length / time;
         bound->planned_acceleration *= length / time / time;
-        bound->growth_acceleration *= length / time / time;
+        bound->acceleration_limit *= length / time / time;
       }
       c.distance = length * 20.0 * random.uniform();
       c.horizon = 10.0 * time;
@@ -194,7 +194,7 @@ PairCase of_any_size(Random& random) {
     bound->velocity *= speed;
     bound->growth_speed *= speed;
     bound->planned_acceleration *= acceleration;
-    bound->growth_acceleration *= acceleration;
+    bound->acceleration_limit *= acceleration;
   }
   c.from *= time;
   c.horizon *= time;

@@ -63,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(Families, GapLimitsOf, testing::ValuesIn(all_families),
 
 TEST(GapLimitsOfTwoBounds, are_as_wide_as_both_growths) {
   const Bound a{.radius = 1, .growth_speed = 1};
-  const Bound b{.position = {10, 0, 0}, .velocity = {1, 0, 0}, .radius = 2, .growth_acceleration = 2};
+  const Bound b{.position = {10, 0, 0}, .velocity = {1, 0, 0}, .radius = 2, .acceleration_limit = 2};
   const GapLimits got = gap_limits(a, b, 3.0);
   EXPECT_NEAR(got.lower, 10.0 + 3.0 - 3.0 - (3.0 + 9.0), 1e-12);
   EXPECT_NEAR(got.upper, 10.0 + 3.0 - 3.0 + (3.0 + 9.0), 1e-12);
@@ -76,7 +76,7 @@ TEST(BoundAtATime, is_the_quadratic_of_the_header) {
                     .planned_acceleration = {2, -2, 4},
                     .radius = 7,
                     .growth_speed = 0.5,
-                    .growth_acceleration = 3};
+                    .acceleration_limit = 3};
   EXPECT_EQ(bound.centre_at(2), bound.position);
   EXPECT_EQ(bound.velocity_at(2), bound.velocity);
   EXPECT_EQ(bound.radius_at(2), 7.0);
@@ -98,7 +98,7 @@ TEST(BoundOfABody, holds_what_the_body_promises) {
   EXPECT_EQ(bound.planned_acceleration, (Vec3{0, 0, -9.81}));
   EXPECT_EQ(bound.radius, 2.25);
   EXPECT_EQ(bound.growth_speed, 0.5);
-  EXPECT_EQ(bound.growth_acceleration, 3.0);
+  EXPECT_EQ(bound.acceleration_limit, 3.0);
 }
 
 }  // namespace

@@ -93,8 +93,8 @@ TEST(EarliestMeetingOfTwoBounds, is_exact_for_bodies_on_a_line) {
 
 TEST(EarliestMeetingOfTwoBounds, follows_the_paper_for_bodies_at_rest_that_may_accelerate) {
   // 2 * (1/2) A s^2 = gap, with A = 3 and gap = 12.
-  const Bound a{.radius = 1, .growth_acceleration = 3};
-  const Bound b{.position = {14, 0, 0}, .radius = 1, .growth_acceleration = 3};
+  const Bound a{.radius = 1, .acceleration_limit = 3};
+  const Bound b{.position = {14, 0, 0}, .radius = 1, .acceleration_limit = 3};
   EXPECT_NEAR(earliest_meeting(a, b, 0, 100), 2.0, 1e-12);
 }
 

@@ -46,8 +46,8 @@ Wide gap_now(const PairCase& c) {
 }
 
 bool is_straight(const PairCase& c) {
-  return c.a.planned_acceleration == c.b.planned_acceleration && c.a.growth_acceleration == 0.0 &&
-         c.b.growth_acceleration == 0.0 && c.a.growth_speed == 0.0 && c.b.growth_speed == 0.0;
+  return c.a.planned_acceleration == c.b.planned_acceleration && c.a.acceleration_limit == 0.0 &&
+         c.b.acceleration_limit == 0.0 && c.a.growth_speed == 0.0 && c.b.growth_speed == 0.0;
 }
 
 PairCase far_out(Random& random) {
@@ -60,7 +60,7 @@ PairCase far_out(Random& random) {
 }
 
 PairCase at_rest(Random& random) {
-  return random_pair(random, {.speed = 0.0, .plan = 0.0, .growth_speed = 0.0, .growth_acceleration = 0.0});
+  return random_pair(random, {.speed = 0.0, .plan = 0.0, .growth_speed = 0.0, .acceleration_limit = 0.0});
 }
 
 /// Returns a case that misses or meets by a billionth of the distance of the centres.

@@ -102,7 +102,7 @@ TEST(EarliestSeparationOfTwoBounds, is_from_when_they_are_apart_or_the_slack_is_
   const Bound a{.radius = 1};
   EXPECT_EQ(earliest_separation(a, {.position = {3, 0, 0}, .radius = 1}, 0, 10, 1.0), 0.0);
   EXPECT_EQ(earliest_separation(a, {.position = {3, 0, 0}, .radius = 1}, 5, 10, 0.5), 5.0);
-  const Bound grown{.radius = 1, .growth_acceleration = 4};
+  const Bound grown{.radius = 1, .acceleration_limit = 4};
   EXPECT_EQ(earliest_separation(grown, grown, 5, 10, 0.5), 5.0);
 }
 

@@ -149,11 +149,11 @@ class Playground {
     if (kind_.curved) {
       bound.planned_acceleration = speed * random_.point_in_ball();
       bound.growth_speed = 0.1 * speed * random_.uniform();
-      bound.growth_acceleration = 0.5 * speed * random_.uniform();
+      bound.acceleration_limit = 0.5 * speed * random_.uniform();
     }
     if (chance(random_, kind_.standing)) {
       bound.velocity = bound.planned_acceleration = {};
-      bound.growth_speed = bound.growth_acceleration = 0.0;
+      bound.growth_speed = bound.acceleration_limit = 0.0;
     }
     if (space_.is_flat()) bound.position.z = bound.velocity.z = bound.planned_acceleration.z = 0.0;
     return bound;
@@ -161,7 +161,7 @@ class Playground {
   std::uint32_t any() { return static_cast<std::uint32_t>(random_.bits() % kind_.bodies); }
   InflatedBound roomy(std::uint32_t number) const { return {BoundAt(bounds_[number], now_), room_}; }
   static bool stands(const Bound& bound) {
-    return bound.velocity == Vec3{} && bound.growth_speed + bound.growth_acceleration == 0.0;
+    return bound.velocity == Vec3{} && bound.growth_speed + bound.acceleration_limit == 0.0;
   }
 
   /// The body goes on as before, possibly with a new report, or is elsewhere.

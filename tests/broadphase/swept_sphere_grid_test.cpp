@@ -109,7 +109,7 @@ const std::vector<Crowd> crowds{
                     .velocity = random.point_in_ball(),
                     .planned_acceleration = random.point_in_ball(),
                     .radius = 0.2,
-                    .growth_acceleration = random.uniform()};
+                    .acceleration_limit = random.uniform()};
      }},
     {"some_everywhere",
      [](Random& random) {

@@ -206,7 +206,7 @@ void expect_truth(std::uint64_t stream, double error, double fastest, double rad
     const auto draw_bound = [&] {
       Bound bound = random_bound(random, scales, now);
       bound.position += frame.base;
-      bound.growth_speed = bound.growth_acceleration = 0.0;
+      bound.growth_speed = bound.acceleration_limit = 0.0;
       return bound;
     };
     const auto sphere = [&](const Bound& bound) {

@@ -70,7 +70,7 @@ Case draw(Random& random, const Kind& kind) {
   if (chance(random, 0.5)) {
     c.bound.planned_acceleration = vector(std::ldexp(length / time / time, kind.speed));
     c.bound.growth_speed = part() * std::ldexp(length / time, kind.speed);
-    c.bound.growth_acceleration = part() * std::ldexp(length / time / time, kind.speed);
+    c.bound.acceleration_limit = part() * std::ldexp(length / time / time, kind.speed);
   }
   const double end = chance(random, 0.5) ? window.end : c.now + part() * (window.end - c.now);
   c.duration = end - c.now;

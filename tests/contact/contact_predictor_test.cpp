@@ -19,8 +19,8 @@ struct Pair {
 
   Pair(double gap, double speed, double x) {
     world.contact_tolerance = tolerance;
-    first = {.position = {x, 0, 0}, .velocity = {speed, 0, 0}, .radius = 1.0, .growth_acceleration = 1.0};
-    second = {.position = {x + 2.0 + gap, 0, 0}, .radius = 1.0, .growth_acceleration = 1.0};
+    first = {.position = {x, 0, 0}, .velocity = {speed, 0, 0}, .radius = 1.0, .acceleration_limit = 1.0};
+    second = {.position = {x + 2.0 + gap, 0, 0}, .radius = 1.0, .acceleration_limit = 1.0};
   }
   Event now() const {
     const auto sphere = [](std::uint32_t index, const Bound& bound) {

@@ -44,7 +44,7 @@ struct Kicked {
         Bound bound{.time = time, .velocity = 4.0 * random.point_in_ball()};
         for (int axis = 0; axis < 3; ++axis) bound.position[axis] = edge * random.uniform();
         bound.radius = radius;
-        bound.growth_acceleration = 5.0 * random.uniform();
+        bound.acceleration_limit = 5.0 * random.uniform();
         FirstChange since;
         if (random.uniform() < 0.3) since.changed = time + random.uniform() * 0.2;
         if (random.uniform() < 0.5) since.invalidated = since.changed;
@@ -141,7 +141,7 @@ TEST(Conflicts, AreUnknownOfKicksAtOneInstantAndInEndlessWindows) {
       updates[k] = {.number = k, .revision = 1, .time = k == 0 ? begin : second_time, .window = window};
       const bool ends = window.end < infinity;
       updates[k].bound = {.time = updates[k].time, .position = {(ends ? 5.0 : 1.0) * k, 0, 0}, .radius = 1.0};
-      updates[k].bound.growth_acceleration = ends ? 40.0 : 0.0;
+      updates[k].bound.acceleration_limit = ends ? 40.0 : 0.0;
     }
     const ClusterUpdate of_groups[] = {{0, &updates[0]}, {1, &updates[1]}};
     return find_conflicts(tables, of_groups, 2, begin, alone);

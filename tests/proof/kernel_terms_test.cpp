@@ -35,7 +35,7 @@ kernels::Bound bound(const std::string& name) {
           .planned_acceleration = vector(name, "plan"),
           .radius = field(name, "radius"),
           .growth_speed = field(name, "growth_speed"),
-          .growth_acceleration = field(name, "growth_acceleration")};
+          .acceleration_limit = field(name, "acceleration_limit")};
 }
 
 kernels::SweptSphere capsule(const std::string& name) {
@@ -65,7 +65,7 @@ Double bound_of_report() {
                         {.position = three(""), .velocity = three("v")}, variable("t"));
   const kernels::Vec3 &x = bound.position, &v = bound.velocity, &g = bound.planned_acceleration;
   return call("Build_bound", bound.time, x.x, x.y, x.z, v.x, v.y, v.z, g.x, g.y, g.z, bound.radius,
-              bound.growth_speed, bound.growth_acceleration);
+              bound.growth_speed, bound.acceleration_limit);
 }
 
 /// Returns the slots that a search finds, run by run, in a table of these swept spheres.

@@ -32,7 +32,7 @@ inline std::ostream& operator<<(std::ostream& out, const Bound& bound) {
              << ", .velocity = " << bound.velocity
              << ", .planned_acceleration = " << bound.planned_acceleration << ", .radius = " << bound.radius
              << ", .growth_speed = " << bound.growth_speed
-             << ", .growth_acceleration = " << bound.growth_acceleration << "}" << std::defaultfloat;
+             << ", .acceleration_limit = " << bound.acceleration_limit << "}" << std::defaultfloat;
 }
 
 inline std::ostream& operator<<(std::ostream& out, const PairCase& c) {
@@ -44,7 +44,7 @@ inline std::ostream& operator<<(std::ostream& out, const PairCase& c) {
 inline double length_scale(const Bound& bound, double t) {
   const double s = t - bound.time;
   const double speed = norm_one(bound.velocity) + bound.growth_speed;
-  const double acceleration = norm_one(bound.planned_acceleration) + bound.growth_acceleration;
+  const double acceleration = norm_one(bound.planned_acceleration) + bound.acceleration_limit;
   return norm_one(bound.position) + bound.radius + (speed + acceleration * s) * s;
 }
 
@@ -68,7 +68,7 @@ struct Scales {
   double plan = 2.0;
   double radius = 1.0;
   double growth_speed = 0.1;
-  double growth_acceleration = 3.0;
+  double acceleration_limit = 3.0;
   double age = 0.5;
   double span = 10.0;
 };
@@ -80,7 +80,7 @@ inline Bound random_bound(Random& random, const Scales& scales, double from) {
           .planned_acceleration = scales.plan * random.point_in_ball(),
           .radius = scales.radius * random.uniform(),
           .growth_speed = scales.growth_speed * random.uniform(),
-          .growth_acceleration = scales.growth_acceleration * random.uniform()};
+          .acceleration_limit = scales.acceleration_limit * random.uniform()};
 }
 
 inline PairCase random_pair(Random& random, const Scales& scales, double from = 0.0) {
@@ -122,7 +122,7 @@ namespace families {
 inline PairCase everyday(Random& random) { return random_pair(random, {}, random.uniform(-10.0, 10.0)); }
 
 inline PairCase ballistic(Random& random) {
-  PairCase c = random_pair(random, {.plan = 0.0, .growth_speed = 0.0, .growth_acceleration = 0.0});
+  PairCase c = random_pair(random, {.plan = 0.0, .growth_speed = 0.0, .acceleration_limit = 0.0});
   c.a.planned_acceleration = c.b.planned_acceleration = {0.0, 0.0, -9.81};
   return c;
 }
@@ -130,7 +130,7 @@ inline PairCase ballistic(Random& random) {
 inline PairCase resting(Random& random) { return random_pair(random, {.speed = 0.0, .plan = 0.0}); }
 
 inline PairCase speed_limit_only(Random& random) {
-  return random_pair(random, {.speed = 0.0, .plan = 0.0, .growth_speed = 3.0, .growth_acceleration = 0.0});
+  return random_pair(random, {.speed = 0.0, .plan = 0.0, .growth_speed = 3.0, .acceleration_limit = 0.0});
 }
 
 inline PairCase points(Random& random) { return random_pair(random, {.radius = 0.0}); }
@@ -152,18 +152,18 @@ inline PairCase thin_gap(Random& random) {
 }
 
 inline PairCase nearly_equal_velocities(Random& random) {
-  PairCase c = random_pair(random, {.growth_speed = 0.0, .growth_acceleration = 1e-6});
+  PairCase c = random_pair(random, {.growth_speed = 0.0, .acceleration_limit = 1e-6});
   const Vec3 direction = random.unit_vector();
   c.b.velocity = c.a.velocity + direction * log_uniform(random, -50, -10);
   if (chance(random, 0.5)) c.b.planned_acceleration = c.a.planned_acceleration;
-  if (chance(random, 0.5)) c.a.growth_acceleration = c.b.growth_acceleration = 0.0;
+  if (chance(random, 0.5)) c.a.acceleration_limit = c.b.acceleration_limit = 0.0;
   c.horizon = c.from + log_uniform(random, 0, 30);
   return c;
 }
 
 /// Two fast bounds, with a gap and a closing speed not far above their rounding errors.
 inline PairCase hardly_closing(Random& random) {
-  PairCase c = random_pair(random, {.length = 1.0, .growth_speed = 0.0, .growth_acceleration = 0.0});
+  PairCase c = random_pair(random, {.length = 1.0, .growth_speed = 0.0, .acceleration_limit = 0.0});
   const Vec3 direction = random.unit_vector();
   const Vec3 acceleration = c.a.planned_acceleration;
   c.a.velocity = c.b.velocity = 1e6 * random.unit_vector();
@@ -178,7 +178,7 @@ inline PairCase hardly_closing(Random& random) {
 
 inline PairCase tiny_times(Random& random) {
   return random_pair(random,
-                     {.speed = 1e10, .plan = 1e19, .growth_acceleration = 1e19, .age = 1e-9, .span = 1e-9});
+                     {.speed = 1e10, .plan = 1e19, .acceleration_limit = 1e19, .age = 1e-9, .span = 1e-9});
 }
 
 inline PairCase late_clock(Random& random) { return random_pair(random, {}, 1e9 * random.uniform()); }
@@ -187,7 +187,7 @@ inline PairCase huge_times(Random& random) {
   const Scales slow{.speed = 1e-8,
                     .plan = 1e-17,
                     .growth_speed = 1e-9,
-                    .growth_acceleration = 1e-17,
+                    .acceleration_limit = 1e-17,
                     .age = 1e9,
                     .span = 1e9};
   return random_pair(random, slow, 1e9 * random.uniform());
@@ -255,7 +255,7 @@ inline PairCase any_scale(Random& random) {
 /// Just meets or just misses, by one part in 2^36 to 2^53 of the distance.
 inline PairCase grazing(Random& random) {
   PairCase c = chance(random, 0.5) ? ballistic(random) : everyday(random);
-  if (chance(random, 0.5)) c.a.growth_acceleration = c.b.growth_acceleration = 0.0;
+  if (chance(random, 0.5)) c.a.acceleration_limit = c.b.acceleration_limit = 0.0;
   c.distance = 0.0;
   const double nearest = least_gap(c);
   const double miss = nearest * log_uniform(random, -53, -36);

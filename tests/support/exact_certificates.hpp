@@ -20,7 +20,7 @@ struct Course {
     for (int axis = 0; axis < 3; ++axis)
       centre[static_cast<std::size_t>(axis)] =
           moved(bound.position[axis], bound.velocity[axis], bound.planned_acceleration[axis]);
-    growth = moved(0, bound.growth_speed, bound.growth_acceleration);
+    growth = moved(0, bound.growth_speed, bound.acceleration_limit);
   }
 };
 

@@ -27,7 +27,7 @@ inline WideVec centre_at(const Bound& bound, Wide t) {
 }
 inline Wide growth_at(const Bound& bound, Wide t) {
   const Wide s = t - Wide(bound.time);
-  return bound.growth_speed * s + bound.growth_acceleration * s * s / 2;
+  return bound.growth_speed * s + bound.acceleration_limit * s * s / 2;
 }
 
 /// Signed, like SurfacePoint::distance.

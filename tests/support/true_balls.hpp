@@ -23,7 +23,7 @@ inline TrueBall true_ball(const Bound& bound, Extended time) {
     ball.centre[static_cast<std::size_t>(axis)] =
         static_cast<Extended>(bound.position[axis]) + (velocity + acceleration * s / 2) * s;
   }
-  const Extended speed = bound.growth_speed, growth = bound.growth_acceleration;
+  const Extended speed = bound.growth_speed, growth = bound.acceleration_limit;
   ball.radius = static_cast<Extended>(bound.radius) + (speed + growth * s / 2) * s;
   return ball;
 }
@@ -62,7 +62,7 @@ inline Extended least_true_gap(const Bound& a, const Bound& b, double from, doub
   Extended least = std::min({true_gap(a_first, b_first, shift), gap_after(duration), gap_after(nearest)});
   const bool straight = a.planned_acceleration == Vec3{} && b.planned_acceleration == Vec3{} &&
                         a.growth_speed + b.growth_speed == 0.0 &&
-                        a.growth_acceleration + b.growth_acceleration == 0.0;
+                        a.acceleration_limit + b.acceleration_limit == 0.0;
   constexpr int samples = 8;
   for (int k = 1; !straight && k < samples; ++k) least = std::min(least, gap_after(duration * k / samples));
   return least;

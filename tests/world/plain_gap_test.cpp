@@ -22,7 +22,7 @@ Bound any_bound(Random& random, double size) {
           .planned_acceleration = any_vector(random, 2.0),
           .radius = random.bits() % 4 == 0 ? 0.0 : random.uniform(),
           .growth_speed = random.bits() % 2 == 0 ? 0.0 : random.uniform(),
-          .growth_acceleration = random.uniform()};
+          .acceleration_limit = random.uniform()};
 }
 
 exact::Wide distance_of_centres(const Bound& a, const Bound& b, double time) {

@@ -84,7 +84,7 @@ TEST(VelocityChange, WaitsForTheReportWhileOthersThatWereKickedGo) {
   for (const int k : {0, 2, 3}) {
     const Bound bound = p.world.body(bodies[static_cast<std::size_t>(k)]).value().bound;
     EXPECT_EQ(bound.velocity, (Vec3{0, 1.0 + k, 0}));
-    EXPECT_EQ(bound.growth_acceleration, 0.5 + k);
+    EXPECT_EQ(bound.acceleration_limit, 0.5 + k);
   }
 }
 

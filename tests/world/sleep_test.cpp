@@ -163,13 +163,13 @@ TEST(Sleep, IsSeenInTheViewWithTheLimitsOfTheBody) {
   const BodyView view = p.world.body(id).value();
   EXPECT_TRUE(view.sleeping);
   EXPECT_EQ(view.definition.acceleration_limit, limit);
-  EXPECT_EQ(view.bound.growth_acceleration, 0.0);
+  EXPECT_EQ(view.bound.acceleration_limit, 0.0);
   EXPECT_EQ(view.bound.radius_at(10.0), 1.0);
   p.world.sleep(id).value();
   EXPECT_TRUE(p.run(11.0).empty());
   p.world.wake(id).value();
   EXPECT_FALSE(p.resting(id));
-  EXPECT_EQ(p.world.body(id).value().bound.growth_acceleration, limit);
+  EXPECT_EQ(p.world.body(id).value().bound.acceleration_limit, limit);
   p.world.wake(id).value();
   EXPECT_EQ(p.run(12.0).size(), 1u);
 }

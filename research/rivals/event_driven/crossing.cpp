@@ -39,13 +39,13 @@ MovingSide::MovingSide(const Bound& bound, int axis, bool upper, double from)
   const double s = from - bound.time;
   const double a = sign_ * bound.planned_acceleration[axis];
   const double v = sign_ * bound.velocity[axis];
-  const double acceleration_size = std::abs(a) + bound.growth_acceleration;
+  const double acceleration_size = std::abs(a) + bound.acceleration_limit;
   const double speed_size = std::abs(v) + bound.growth_speed + acceleration_size * s;
   position_size_ = std::abs(bound.position[axis]) + bound.radius + speed_size * s;
-  acceleration_ = (a + bound.growth_acceleration) + margin * acceleration_size;
-  speed_ = (v + a * s) + (bound.growth_speed + bound.growth_acceleration * s) + margin * speed_size;
+  acceleration_ = (a + bound.acceleration_limit) + margin * acceleration_size;
+  speed_ = (v + a * s) + (bound.growth_speed + bound.acceleration_limit * s) + margin * speed_size;
   position_ = sign_ * bound.position[axis] + (v + 0.5 * a * s) * s + bound.radius +
-              (bound.growth_speed + 0.5 * bound.growth_acceleration * s) * s;
+              (bound.growth_speed + 0.5 * bound.acceleration_limit * s) * s;
 }
 
 /// Returns a lower bound of the distance to the plane.
@@ -75,7 +75,7 @@ double outgrowing_time(const Bound& bound, double edge) {
   if (!(margin > 0.0)) return bound.time;
   const double speed = bound.growth_speed;
   const double s =
-      2.0 * margin / (speed + std::sqrt(speed * speed + 2.0 * bound.growth_acceleration * margin));
+      2.0 * margin / (speed + std::sqrt(speed * speed + 2.0 * bound.acceleration_limit * margin));
   return bound.time + s;
 }
 

@@ -81,7 +81,7 @@ double EventDrivenDetector::chosen_cell_edge() const {
   for (std::uint32_t number = 0; number < size(); ++number) {
     if (!body(number).present) continue;
     const Bound& bound = body(number).bound;
-    spheres.push_back({bound.radius, norm(bound.velocity), bound.growth_speed, bound.growth_acceleration});
+    spheres.push_back({bound.radius, norm(bound.velocity), bound.growth_speed, bound.acceleration_limit});
     for (int axis = 0; axis < 3; ++axis) {
       extent.lower[axis] = std::min(extent.lower[axis], bound.position[axis] - bound.radius);
       extent.upper[axis] = std::max(extent.upper[axis], bound.position[axis] + bound.radius);

@@ -16,11 +16,11 @@ constexpr double everywhere = 0x1p1000;
 /// the other side (with p, v and g negated), it returns a line that is at least as high and rises at least as
 /// fast as the negated line of this side, because rounding is monotone: the two faces of a body never cross.
 inline Line line_above(const Bound& bound, double p, double v, double g, double duration, double clearance) {
-  const double curvature = g + bound.growth_acceleration;
+  const double curvature = g + bound.acceleration_limit;
   const double speed = (v + bound.growth_speed) + curvature * (0.5 * duration);
   const double bulge = (std::max(0.0, -curvature) * duration) * (0.125 * duration);
   const double way =
-      (std::abs(v) + bound.growth_speed + (std::abs(g) + bound.growth_acceleration) * duration) * duration;
+      (std::abs(v) + bound.growth_speed + (std::abs(g) + bound.acceleration_limit) * duration) * duration;
   const double size = std::abs(p) + bound.radius + way;
   const double start = (p + bound.radius) + (bulge + (clearance + rounding::margin * size));
   if (!(size + clearance < everywhere)) return {everywhere, 0.0};

@@ -27,7 +27,7 @@ struct Case {
     const long double sign = upper ? 1.0L : -1.0L;
     const long double s = t - static_cast<long double>(bound.time);
     const long double speed = sign * bound.velocity[axis] + bound.growth_speed;
-    const long double acceleration = sign * bound.planned_acceleration[axis] + bound.growth_acceleration;
+    const long double acceleration = sign * bound.planned_acceleration[axis] + bound.acceleration_limit;
     return sign * (static_cast<long double>(plane) - bound.position[axis]) - bound.radius -
            (speed + acceleration / 2 * s) * s;
   }
@@ -54,7 +54,7 @@ Case random_case(std::uint64_t k) {
   c.bound.planned_acceleration[c.axis] = maybe(10.0);
   c.bound.radius = std::abs(maybe(5.0));
   c.bound.growth_speed = std::abs(maybe(0.5));
-  c.bound.growth_acceleration = std::abs(maybe(10.0));
+  c.bound.acceleration_limit = std::abs(maybe(10.0));
   c.from = c.bound.time + std::abs(maybe(2.0));
   const double surface = c.bound.position[c.axis] + (c.upper ? 1.0 : -1.0) * c.bound.radius_at(c.from);
   c.plane = surface + maybe(chance(random, 0.3) ? log_uniform(random, -50, -20) : 40.0);
@@ -128,10 +128,10 @@ TEST(Outgrowing, comes_when_the_diameter_reaches_the_edge) {
     Random random = Random::at(seed, k, 1);
     Bound bound{.time = random.uniform(-5.0, 5.0), .radius = random.uniform()};
     bound.growth_speed = chance(random, 0.5) ? random.uniform() : 0.0;
-    bound.growth_acceleration = chance(random, 0.7) ? log_uniform(random, -10, 10) : 0.0;
+    bound.acceleration_limit = chance(random, 0.7) ? log_uniform(random, -10, 10) : 0.0;
     const double edge = 4.0 * bound.radius * random.uniform(1.0, 3.0);
     const double time = outgrowing_time(bound, edge);
-    if (bound.growth_speed + bound.growth_acceleration == 0.0) {
+    if (bound.growth_speed + bound.acceleration_limit == 0.0) {
       ASSERT_EQ(time, infinity);
       continue;
     }

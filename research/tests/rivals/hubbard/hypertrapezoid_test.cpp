@@ -16,7 +16,7 @@ Bound random_bound(Random& random) {
           .planned_acceleration = random.point_in_ball() * sometimes(30.0),
           .radius = sometimes(random.uniform(0.0, 5.0)),
           .growth_speed = sometimes(random.uniform(0.0, 3.0)),
-          .growth_acceleration = sometimes(random.uniform(0.0, 20.0))};
+          .acceleration_limit = sometimes(random.uniform(0.0, 20.0))};
 }
 
 /// Edges of the horn, with more digits than those of the library.
@@ -26,7 +26,7 @@ struct Edges {
 Edges edges(const Bound& bound, int axis, long double s) {
   const long double centre =
       bound.position[axis] + (bound.velocity[axis] + 0.5L * bound.planned_acceleration[axis] * s) * s;
-  const long double radius = bound.radius + (bound.growth_speed + 0.5L * bound.growth_acceleration * s) * s;
+  const long double radius = bound.radius + (bound.growth_speed + 0.5L * bound.acceleration_limit * s) * s;
   return {centre - radius, centre + radius};
 }
 
@@ -57,7 +57,7 @@ TEST(Hypertrapezoid, touches_a_convex_edge_at_both_ends_and_a_concave_one_in_the
                     .velocity = {2.0, 0.0, 0.0},
                     .planned_acceleration = {6.0, 0.0, 0.0},
                     .radius = 1.0,
-                    .growth_acceleration = 2.0};
+                    .acceleration_limit = 2.0};
   const Hypertrapezoid hypertrapezoid = enclose(bound, 4.0, 0.0);
   EXPECT_NEAR(hypertrapezoid.upper[0].at(0.0), 6.0, 1e-10);
   EXPECT_NEAR(hypertrapezoid.upper[0].at(4.0), 5.0 + 8.0 + 48.0 + 1.0 + 16.0, 1e-10);
@@ -71,7 +71,7 @@ TEST(Hypertrapezoid, faces_of_a_point_never_cross) {
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
     Random random = Random::at(1995, 3, seed);
     Bound bound = random_bound(random);
-    bound.radius = bound.growth_speed = bound.growth_acceleration = 0.0;
+    bound.radius = bound.growth_speed = bound.acceleration_limit = 0.0;
     const Hypertrapezoid hypertrapezoid = enclose(bound, random.uniform(1e-9, 10.0), 0.0);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       EXPECT_LE(hypertrapezoid.lower[axis].start, hypertrapezoid.upper[axis].start) << seed;

@@ -65,7 +65,7 @@ class Crowd {
       const Bound bound{.position = random_.point_in_ball() * 20.0,
                         .velocity = random_.point_in_ball() * 10.0,
                         .radius = random_.uniform(0.0, 3.0),
-                        .growth_acceleration = random_.uniform(0.0, 4.0)};
+                        .acceleration_limit = random_.uniform(0.0, 4.0)};
       bounds_[body] = enclose(bound, duration, 0.0);
       sweep_.set(body, bounds_[body]);
     }
