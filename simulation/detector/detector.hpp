@@ -56,8 +56,8 @@ class Detector {
   // unsupported, and those of World.
   virtual Result<void> start_recording();
   virtual Result<std::vector<std::byte>> stop_recording();
-  // The bodies that cost most probes (World::Inspection::busiest()), for detectors that are a World. Errors: unsupported,
-  // and those of World.
+  // The bodies that cost most probes (World::Inspection::busiest()), for detectors that are a World. Errors:
+  // unsupported, and those of World.
   virtual Result<void> set_profiling(bool on);
   virtual Result<std::vector<BusyBody>> busiest(std::size_t count) const;
 };

@@ -33,7 +33,8 @@ class ProbeProfile {
   /// different bodies.
   void note_report(std::uint32_t number, const Bound& before, const Bound& after);
 
-  /// Returns the live bodies with the most probes, at most `count`, in the order of World::Inspection::busiest().
+  /// Returns the live bodies with the most probes, at most `count`, in the order of
+  /// World::Inspection::busiest().
   std::vector<BusyBody> busiest(const Bodies& bodies, std::size_t count) const;
   std::size_t bytes() const;
 

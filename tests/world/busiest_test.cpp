@@ -1,4 +1,5 @@
-// World::Inspection::busiest: the bodies that cost most probes are named with the true reason, and no probe is lost.
+// World::Inspection::busiest: the bodies that cost most probes are named with the true reason, and no probe
+// is lost.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -222,8 +222,7 @@ TEST(Sensor, RefusesDistancesThatAreNone) {
   expect_error(world.set_sensor(1, {.distances = {1e9}}), ErrorCode::out_of_range, "sensor", "set_sensor");
   EXPECT_TRUE(world.sensor(1).distances.empty());
   const BodyId never{5, 0};
-  expect_error(world.change(never, {.sensor_class = 1}), ErrorCode::unknown_body, "body", "change",
-               never);
+  expect_error(world.change(never, {.sensor_class = 1}), ErrorCode::unknown_body, "body", "change", never);
   expect_error(world.change(never, {.solid = true}), ErrorCode::unknown_body, "body", "change", never);
   expect_error(world.touching(never), ErrorCode::unknown_body, "body", "touching", never);
   expect_error(world.sensor_overlaps(never), ErrorCode::unknown_body, "body", "sensor_overlaps", never);

@@ -50,10 +50,10 @@ TEST(WrongSensor, HasToFitWhereSpaceRepeats) {
                fixed);
   EXPECT_TRUE(world.sensor(1).distances.empty());
   world.set_sensor(3, {.distances = {1.0}}).value();
-  expect_error(world.change(ball, {.sensor_class = 3}), ErrorCode::out_of_range, "sensor_class",
-               "change", ball);
-  expect_error(world.change(fixed, {.sensor_class = 3}), ErrorCode::out_of_range, "sensor_class",
-               "change", fixed);
+  expect_error(world.change(ball, {.sensor_class = 3}), ErrorCode::out_of_range, "sensor_class", "change",
+               ball);
+  expect_error(world.change(fixed, {.sensor_class = 3}), ErrorCode::out_of_range, "sensor_class", "change",
+               fixed);
   expect_error(world.add({.radius = 1, .position = {8, 5, 5}, .sensor_class = 3}), ErrorCode::out_of_range,
                "sensor_class", "add");
   world.disable(ball).value();

@@ -81,8 +81,7 @@ TEST_F(WrongUse, 07_NoBody) {
 }
 
 TEST_F(WrongUse, 08_AnIdOfABodyThatHasGone) {
-  expect_error(world.change(gone, {.radius = 1.0}), ErrorCode::stale_body, "body", "change: body 2",
-               gone);
+  expect_error(world.change(gone, {.radius = 1.0}), ErrorCode::stale_body, "body", "change: body 2", gone);
 }
 
 TEST_F(WrongUse, 09_AnIdOfAnotherWorld) {
