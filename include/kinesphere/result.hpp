@@ -123,8 +123,8 @@ class [[nodiscard]] Result {
   Result(Error error) : content_(std::in_place_index<1>, std::move(error)) {}
 
   /// Returns true for a success.
-  /// Returns true for a success.
   bool has_value() const { return content_.index() == 0; }
+  /// Does the same.
   explicit operator bool() const { return has_value(); }
   /// Returns the error of a failure; throws std::logic_error for a success.
   const Error& error() const& {
@@ -189,8 +189,8 @@ class [[nodiscard]] Result<void> {
   Result(Error error) : error_(std::make_shared<const Error>(std::move(error))) {}
 
   /// Returns true for a success.
-  /// Returns true for a success.
   bool has_value() const { return !error_; }
+  /// Does the same.
   explicit operator bool() const { return has_value(); }
   /// Returns the error of a failure; throws std::logic_error for a success.
   const Error& error() const& {
