@@ -113,7 +113,7 @@ struct Event {
   Vec3 normal{};
   /// Distance between the two surfaces (length); negative when they overlap.
   double gap = 0.0;
-  /// Rate at which the gap shrinks (length / time); negative when it grows.
+  /// Rate at which the gap shrinks (length / time), spin included; negative when it grows.
   double approach_speed = 0.0;
   /// bound_violation: the distance by which the reported position lies outside the bound (length), and the
   /// amount by which the velocity change exceeds the motion limits (length / time). Each is zero when
@@ -128,6 +128,16 @@ struct Event {
   /// BodyDefinition::mass of the two bodies; infinity for a static body and for a wall; 1 for no_body.
   double first_mass = 1.0;
   double second_mass = 1.0;
+  /// Of rigid bodies (World::add_rigid_body), for events of two bodies and of walls: the part at the contact,
+  /// as an index into RigidBody::parts, and the angular velocity (radians / time). 0 for all other bodies.
+  std::uint32_t first_part = 0;
+  std::uint32_t second_part = 0;
+  Vec3 first_angular_velocity{};
+  Vec3 second_angular_velocity{};
+  /// Change of the angular velocity of a rigid body by a unit impulse along the normal at the point (radians
+  /// / (mass length)), from RigidBody::inertia; zero for all other bodies.
+  Vec3 first_spin_gain{};
+  Vec3 second_spin_gain{};
 
   /// Returns true if the body can be given a velocity: there is one, and it is not static.
   constexpr bool first_can_move() const { return first != no_body && !first_traits.is_static; }

@@ -17,12 +17,16 @@ namespace kinesphere {
 struct Bounce {
   Vec3 first_velocity;
   Vec3 second_velocity;  ///< zero for a wall
+  /// Of rigid bodies (radians / time); otherwise zero.
+  Vec3 first_angular_velocity{};
+  Vec3 second_angular_velocity{};
 
   friend constexpr bool operator==(const Bounce&, const Bounce&) = default;
 };
 
-/// Returns the velocities after a frictionless central bounce with restitution in [0, 1], and with the masses
-/// of the event (BodyDefinition::mass). Momentum is conserved. A static body, a sleeping one and a wall keep
+/// Returns the velocities after a frictionless bounce with restitution in [0, 1], and with the masses of the
+/// event (BodyDefinition::mass). Momentum is conserved, and of rigid bodies also the angular momentum; with
+/// restitution 1, energy is. A static body, a sleeping one and a wall keep
 /// their velocity and turn the other body, whatever its mass. A body of infinite mass keeps its velocity in
 /// all other contacts, so two of them do not turn each other. A `repeated` contact loses no energy
 /// (restitution 1), which prevents inelastic collapse from stopping time (Luding and McNamara's TC model).
@@ -48,7 +52,8 @@ struct Bounce {
                             double resting_speed);
 
 /// Returns the response, for World::run(), that gives the bodies of the contact these velocities. It leaves
-/// out walls, static bodies, sleeping ones and those whose mass in the event is infinite.
+/// out walls, static bodies, sleeping ones and those whose mass in the event is infinite. Rigid bodies that
+/// the contact turns get their angular velocities, too.
 [[nodiscard]] Response response_of(const Event& contact, const Bounce& after);
 
 /// Returns sqrt(3 contact_tolerance acceleration): the speed of a body that falls from the outer edge of

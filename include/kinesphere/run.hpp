@@ -61,6 +61,9 @@ class MotionSource {
 struct Response {
   std::optional<Vec3> first_velocity{};
   std::optional<Vec3> second_velocity{};
+  /// Of rigid bodies (radians / time). Only a world without a RotationProbe accepts them.
+  std::optional<Vec3> first_angular_velocity{};
+  std::optional<Vec3> second_angular_velocity{};
 
   friend constexpr bool operator==(const Response&, const Response&) = default;
 };

@@ -46,6 +46,7 @@
 #include "kinesphere/filter.hpp"
 #include "kinesphere/probe.hpp"
 #include "kinesphere/result.hpp"
+#include "kinesphere/rigid_body.hpp"
 #include "kinesphere/run.hpp"
 #include "kinesphere/sensor.hpp"
 #include "kinesphere/shape.hpp"
@@ -80,7 +81,7 @@ struct BodyView {
 /// Properties that World::change() gives a body; those that are not given stay as they are.
 struct BodyChange {
   /// As BodyDefinition::radius. Errors: static_body (set_shape() changes a static body); unsupported for a
-  /// moving shape.
+  /// moving shape and a rigid body.
   std::optional<double> radius{};
   /// Limits within which the body moves from now on. Errors: static_body.
   std::optional<MotionLimits> motion_limits{};
@@ -179,6 +180,31 @@ class World {
   /// neither a Box nor a Triangle, and where an axis is periodic. Cost: as add(), with the radius of the ball
   /// around the position that contains the shape.
   Result<BodyId> add_moving_shape(const MovingShape& body);
+
+  /// Adds a rigid body (RigidBody): balls and capsules that move and turn together. Its parts meet other
+  /// bodies, rigid ones and those with shapes included, and walls. It is one body: it has one id, one filter
+  /// and one state in a probe; events name the parts, the angular velocities and what an impulse does to
+  /// these, so that bounce() turns bodies. While there is one, run() uses one thread. Queries treat a rigid
+  /// body as its parts or as the ball around them, always to the safe side. Errors: as add(), but for the
+  /// ball around the body, which may reach beyond a wall; not_finite or out_of_range for parts, rotation,
+  /// inertia and limits; unsupported while the world is distributed. Cost: as add() with the radius of that
+  /// ball; a check of two bodies that are near costs as many as they have pairs of parts.
+  Result<BodyId> add_rigid_body(const RigidBody& body);
+  /// Returns a rigid body, with the state and rotation of its last report. Errors: unsupported for any other
+  /// body.
+  Result<RigidBody> rigid_body(BodyId body) const;
+  /// Informs the world that a rigid body turns with this angular velocity (radians / time) from the current
+  /// time on, as set_velocity() does for its velocity. Errors: as set_velocity(); unsupported for a body that
+  /// is not rigid; out_of_range for more than its largest_angular_speed.
+  Result<void> set_angular_velocity(BodyId body, const Vec3& angular_velocity);
+  /// Turns a rigid body to another rotation at the current time, as teleport() moves it. Errors: as
+  /// set_angular_velocity().
+  Result<void> set_rotation(BodyId body, const Rotation& rotation);
+  /// Sets the function that gives rotations of rigid bodies; an empty one removes it. Without one, only
+  /// bodies that keep their angular velocity (angular_acceleration_limit 0) can be probed. Snapshots do not
+  /// contain it. Errors: probe_in_progress; unsupported while the world is recorded.
+  Result<void> set_rotation_probe(RotationProbe probe);
+
   /// Gives a static body, a zone or a moving shape another shape from the current time on: it grows, shrinks,
   /// turns or moves. Contacts and sensor overlaps that the new shape certainly ends are reported as ended,
   /// with the states and the shape from before; those that it may end are decided at once from fresh reports.

@@ -10,6 +10,7 @@
 #include "kinesphere/counters.hpp"
 #include "kinesphere/event.hpp"
 #include "kinesphere/motion/trajectory.hpp"
+#include "kinesphere/rigid_body.hpp"
 #include "kinesphere/run.hpp"
 #include "kinesphere/shape.hpp"
 #include "kinesphere/world_definition.hpp"
@@ -103,6 +104,26 @@ void serialize(Some<MovingShape> auto& self, auto& archive) {
   archive(body, shape);
 }
 
+void serialize(Some<Quaternion> auto& self, auto& archive) {
+  auto& [w, x, y, z] = self;
+  archive(w, x, y, z);
+}
+
+void serialize(Some<Rotation> auto& self, auto& archive) {
+  auto& [orientation, angular_velocity] = self;
+  archive(orientation, angular_velocity);
+}
+
+void serialize(Some<RigidPart> auto& self, auto& archive) {
+  auto& [a, b, radius] = self;
+  archive(a, b, radius);
+}
+
+void serialize(Some<RigidBody> auto& self, auto& archive) {
+  auto& [body, parts, rotation, angular_acceleration_limit, largest_angular_speed, inertia] = self;
+  archive(body, parts, rotation, angular_acceleration_limit, largest_angular_speed, inertia);
+}
+
 void serialize(Some<BodyTraits> auto& self, auto& archive) {
   auto& [is_static, is_zone, is_sleeping] = self;
   archive(is_static, is_zone, is_sleeping);
@@ -111,10 +132,13 @@ void serialize(Some<BodyTraits> auto& self, auto& archive) {
 void serialize(Some<Event> auto& self, auto& archive) {
   auto& [kind, time, first, second, wall, repeated, jammed, already_touching, senses, first_traits,
          second_traits, first_state, second_state, point, normal, gap, approach_speed, position_excess,
-         velocity_excess, distance, first_user_data, second_user_data, first_mass, second_mass] = self;
+         velocity_excess, distance, first_user_data, second_user_data, first_mass, second_mass, first_part,
+         second_part, first_angular_velocity, second_angular_velocity, first_spin_gain, second_spin_gain] =
+      self;
   archive(kind, time, first, second, wall, repeated, jammed, already_touching, senses, first_traits,
           second_traits, first_state, second_state, point, normal, gap, approach_speed, position_excess,
-          velocity_excess, distance, first_user_data, second_user_data, first_mass, second_mass);
+          velocity_excess, distance, first_user_data, second_user_data, first_mass, second_mass, first_part,
+          second_part, first_angular_velocity, second_angular_velocity, first_spin_gain, second_spin_gain);
 }
 
 void serialize(Some<Axes> auto& self, auto& archive) {

@@ -20,44 +20,23 @@ struct CarriedShape {
   double radius = 0.0;
 };
 
-/// The motion of a bound relative to a carried shape from a time on.
-struct MotionBesideShape {
-  Bound bound{};
-  double slack = 0.0;  ///< by which the gap may be smaller or larger at that time (length)
-
-  template <class Solid>
-  MotionBesideShape(const Bound& moving, const CarriedShape<Solid>& shape, double time)
-      : MotionBesideShape(RelativeMotion(moving, shape.carrier, time), shape.radius, time) {}
-
- private:
-  MotionBesideShape(const RelativeMotion& motion, double shape_radius, double time)
-      : bound{.time = time,
-              .position = motion.offset,
-              .velocity = motion.velocity,
-              .planned_acceleration = motion.acceleration,
-              .radius = motion.radii - shape_radius,
-              .growth_speed = motion.growth_speed + rounding::margin * motion.velocity_size,
-              .acceleration_limit = motion.acceleration_limit + rounding::margin * motion.acceleration_size},
-        slack(motion.growth + rounding::margin * motion.offset_size) {}
-};
-
 template <class Solid>
 double earliest_meeting(const Bound& bound, const CarriedShape<Solid>& shape, double from, double until,
                         double distance = 0.0) {
-  const MotionBesideShape motion(bound, shape, from);
+  const BoundBesideBound motion(bound, shape.carrier, from, shape.radius);
   return earliest_meeting(motion.bound, shape.solid, from, until, distance + motion.slack);
 }
 
 template <class Solid>
 double earliest_separation(const Bound& bound, const CarriedShape<Solid>& shape, double from, double until,
                            double distance) {
-  const MotionBesideShape motion(bound, shape, from);
+  const BoundBesideBound motion(bound, shape.carrier, from, shape.radius);
   return earliest_separation(motion.bound, shape.solid, from, until, distance - motion.slack);
 }
 
 template <class Solid>
 GapLimits gap_limits(const Bound& bound, const CarriedShape<Solid>& shape, double t) {
-  const MotionBesideShape motion(bound, shape, t);
+  const BoundBesideBound motion(bound, shape.carrier, t, shape.radius);
   const GapLimits gap = gap_limits(motion.bound, shape.solid, t);
   return {gap.lower - motion.slack, gap.upper + motion.slack};
 }

@@ -63,4 +63,28 @@ struct RelativeMotion {
         acceleration_size(rounding::capped(a.acceleration_size + b.acceleration_size)) {}
 };
 
+/// The motion of one bound relative to another from a time on, as a bound.
+struct BoundBesideBound {
+  Bound bound{};
+  double slack = 0.0;  ///< by which their distance may be smaller or larger at that time (length)
+
+  /// The motion relative to something at rest.
+  explicit BoundBesideBound(const Bound& moving) : bound(moving) {}
+  /// `radius` is the part of the other bound's radius that does not count (length).
+  BoundBesideBound(const Bound& moving, const Bound& other, double time, double radius = 0.0)
+      : BoundBesideBound(RelativeMotion(moving, other, time), radius, time) {}
+
+ private:
+  BoundBesideBound(const RelativeMotion& motion, double radius, double time)
+      : bound{.time = time,
+              .position = motion.offset,
+              .velocity = motion.velocity,
+              .planned_acceleration = motion.acceleration,
+              .radius = motion.radii - radius,
+              .growth_speed = motion.growth_speed + rounding::margin * motion.velocity_size,
+              .acceleration_limit =
+                  motion.acceleration_limit + rounding::margin * motion.acceleration_size},
+        slack(motion.growth + rounding::margin * motion.offset_size) {}
+};
+
 }  // namespace kinesphere

@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <tuple>
+#include <utility>
 
+#include "bound/nearest_parts.hpp"
 #include "number/infinity.hpp"
 
 namespace kinesphere {
@@ -40,6 +42,69 @@ void describe_surface(Event& event, const Sphere& sphere, const Sphere& surface)
   event.point = sphere.state.position - nearest.normal * (sphere.radius + 0.5 * event.gap);
 }
 
+Vec3 point_velocity(const State& state, const Vec3& spin, const Vec3& point) {
+  return spin == Vec3{} ? state.velocity : state.velocity + cross(spin, point - state.position);
+}
+State first_at_point(const Event& event) {
+  return {event.first_state.position,
+          point_velocity(event.first_state, event.first_angular_velocity, event.point)};
+}
+State second_at_point(const Event& event) {
+  return {event.second_state.position,
+          point_velocity(event.second_state, event.second_angular_velocity, event.point)};
+}
+
+RigidPose pose_of(const Sphere& body, std::span<const RigidPart> parts) {
+  return {body.state.position, body.rigid ? body.rigid->rotation.orientation : Quaternion{}, parts};
+}
+
+/// Returns the nearest parts of a rigid body and any other body.
+NearestParts nearest_to(const Sphere& rigid, const Sphere& other) {
+  const RigidPose body = pose_of(rigid, rigid.rigid->parts);
+  if (other.rigid) return nearest_parts(body, pose_of(other, other.rigid->parts));
+  const RigidPart ball{.radius = other.radius};
+  const auto to_ball = [&] { return nearest_parts(body, pose_of(other, std::span(&ball, 1))); };
+  if (!other.shape) return to_ball();
+  const Vec3 origin = other.carries_shape ? other.state.position : Vec3{};
+  return std::visit(
+      [&]<class Solid>(const Solid& solid) {
+        if constexpr (std::is_same_v<Solid, Ball>) {
+          return to_ball();
+        } else {
+          NearestParts found = nearest_parts({body.position - origin, body.orientation, body.parts}, solid);
+          found.point += origin;
+          return found;
+        }
+      },
+      *other.shape);
+}
+
+/// Sets what the event says of the turning of its bodies.
+void describe_spins(Event& event, const RigidRecord* first, const RigidRecord* second) {
+  const auto gain = [&](const RigidRecord* body, const State& state) {
+    return body ? body->spin_gain(event.point - state.position, event.normal) : Vec3{};
+  };
+  event.first_angular_velocity = first ? first->rotation.angular_velocity : Vec3{};
+  event.second_angular_velocity = second ? second->rotation.angular_velocity : Vec3{};
+  event.first_spin_gain = gain(first, event.first_state);
+  event.second_spin_gain = gain(second, event.second_state);
+}
+
+/// Sets normal, gap, point and parts of an event between two bodies, at least one of which is rigid.
+void describe_parts(Event& event, const Sphere& first, const Sphere& second) {
+  NearestParts nearest = first.rigid ? nearest_to(first, second) : nearest_to(second, first);
+  if (!first.rigid) {
+    nearest.normal = -nearest.normal;
+    std::swap(nearest.first_part, nearest.second_part);
+  }
+  event.normal = nearest.normal;
+  event.gap = nearest.gap;
+  event.point = nearest.point;
+  event.first_part = nearest.first_part;
+  event.second_part = nearest.second_part;
+  describe_spins(event, first.rigid, second.rigid);
+}
+
 /// Sets what the event says of its first body.
 void describe_first(Event& event, const Sphere& first) {
   event.first_state = first.state;
@@ -55,6 +120,12 @@ void describe_as_seen(Event& event, const Sphere& first, const Sphere& second) {
   event.second_traits = second.traits;
   event.second_user_data = second.user_data;
   event.second_mass = second.mass;
+  if (first.rigid || second.rigid) {
+    describe_parts(event, first, second);
+    event.approach_speed =
+        dot(event.normal, first_at_point(event).velocity - second_at_point(event).velocity);
+    return;
+  }
   if (first.shape || second.shape) {
     describe_surface(event, first.shape ? second : first, first.shape ? first : second);
   } else {
@@ -99,6 +170,15 @@ void describe(Event& event, const Sphere& sphere, const Box& box) {
   describe_first(event, sphere);
   event.second_mass = infinity;
   event.normal = -inside.normal;
+  if (sphere.rigid) {
+    const NearestParts nearest = nearest_parts(pose_of(sphere, sphere.rigid->parts), inside);
+    event.gap = nearest.gap;
+    event.point = nearest.point + event.normal * (0.5 * nearest.gap);
+    event.first_part = nearest.first_part;
+    describe_spins(event, sphere.rigid, nullptr);
+    event.approach_speed = dot(event.normal, first_at_point(event).velocity);
+    return;
+  }
   const double distance = dot(inside.normal, sphere.state.position) - inside.offset;
   event.gap = distance - sphere.radius;
   event.approach_speed = dot(event.normal, sphere.state.velocity);
@@ -118,12 +198,30 @@ double approach_error(const State& first, const State& second, double arm) {
          (turned < most_turned ? turned : most_turned) * norm(velocity_a - velocity_b);
 }
 
-double approach_error(const Event& event, const Sphere& first, const Sphere& second) {
-  const auto with_arm = [&](double arm) {
+double approach_error(const Event& event, double arm) {
+  if (event.first_angular_velocity == Vec3{} && event.second_angular_velocity == Vec3{})
     return approach_error(event.first_state, event.second_state, arm);
+  // What the terms of the velocities at the point lose.
+  const auto lost = [&](const State& state, const Vec3& spin) {
+    return norm_one(state.velocity) + norm(spin) * norm(event.point - state.position);
   };
+  return approach_error(first_at_point(event), second_at_point(event), arm) +
+         0x1p-49 * (lost(event.first_state, event.first_angular_velocity) +
+                    lost(event.second_state, event.second_angular_velocity));
+}
+
+double approach_error(const Event& event, const Sphere& first, const Sphere& second) {
+  const auto with_arm = [&](double arm) { return approach_error(event, arm); };
   if (event.wall != Wall::none) return with_arm(infinity);
   const Shape* shape = first.shape ? first.shape : second.shape;
+  if (first.rigid || second.rigid) {
+    const auto radius = [](const Sphere& body) {
+      return body.rigid ? least_radius(body.rigid->parts) : body.radius;
+    };
+    if (shape == nullptr) return with_arm(event.gap + radius(first) + radius(second));
+    if (std::holds_alternative<HalfSpace>(*shape)) return with_arm(infinity);
+    return with_arm(event.gap + radius(first.rigid ? first : second));
+  }
   if (shape == nullptr) return with_arm(event.gap + first.radius + second.radius);
   if (std::holds_alternative<HalfSpace>(*shape)) return with_arm(infinity);
   return with_arm(event.gap + (first.shape ? second : first).radius);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bound/bound_violation.hpp"
+#include "bound/rigid_record.hpp"
 #include "kinesphere/bound.hpp"
 #include "kinesphere/event.hpp"
 #include "kinesphere/shape.hpp"
@@ -26,6 +27,7 @@ struct Sphere {
   double mass = 1.0;
   BodyTraits traits{};
   ContactEvents wanted = ContactEvents::all;
+  const RigidRecord* rigid = nullptr;  ///< of a rigid body; then `radius` is ignored
 };
 
 /// Returns the contact events that a pair reports; for a wall, `second` is the body again.
@@ -47,7 +49,9 @@ void describe(Event& event, const Sphere& sphere, const Box& box);
 /// point of a shape; +infinity where the normal is that of a wall or a half-space. The bound covers rounding
 /// by the caller in positions and velocities: a few units in the last place each.
 double approach_error(const State& first, const State& second, double arm);
-/// Does the above for an event that describe() has filled in.
+/// Does the above for an event that describe() has filled in. Rigid bodies count with their velocities at the
+/// contact point.
+double approach_error(const Event& event, double arm);
 double approach_error(const Event& event, const Sphere& first, const Sphere& second);
 /// Returns a woke event. The body stands at the centre of the sphere.
 Event woke_event(double time, const Sphere& sphere);

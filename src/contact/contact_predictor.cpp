@@ -10,6 +10,24 @@
 #include "number/infinity.hpp"
 
 namespace kinesphere {
+namespace {
+
+template <class Partner>
+constexpr bool is_rigid_pair = false;
+template <class Other>
+constexpr bool is_rigid_pair<RigidPair<Other>> = true;
+
+/// Returns a lower bound of the distance between the nearest points of the axes.
+template <class Other>
+double arm_of(const RigidPair<Other>& pair, double gap) {
+  const double own = gap + least_radius(pair.body.parts);
+  if constexpr (std::is_same_v<Other, RigidExtent>)
+    return own + least_radius(pair.other.parts);
+  else
+    return std::is_same_v<Other, HalfSpace> ? infinity : own;
+}
+
+}  // namespace
 
 double just_after(double time) {
   if (time == 0.0) return std::numeric_limits<double>::denorm_min();
@@ -59,7 +77,7 @@ template <class Partner>
 ContactDecision ContactPredictor<Partner>::decide(const Event& current, const RelativeLimits& limits) const {
   ContactDecision decision;
   const double beyond = current.gap - threshold_.distance;
-  const double error = approach_error(current.first_state, current.second_state, arm(current.gap));
+  const double error = approach_error(current, arm(current.gap));
   decision.change = rule_.decide(threshold_, beyond, current.approach_speed, error);
   if (decision.is_event()) return decision;
   const bool stays = threshold_.within && decision.change != ContactRule::Change::release;
@@ -113,6 +131,8 @@ template <class Partner>
 double ContactPredictor<Partner>::arm(double gap) const {
   if constexpr (std::is_same_v<Partner, Bound>)
     return gap + bound_.radius + partner_.radius;
+  else if constexpr (is_rigid_pair<Partner>)
+    return arm_of(partner_, gap);
   else
     return std::is_same_v<Partner, HalfSpace> ? infinity : gap + bound_.radius;
 }
@@ -130,6 +150,12 @@ template class ContactPredictor<Box>;
 template class ContactPredictor<Triangle>;
 template class ContactPredictor<CarriedShape<Box>>;
 template class ContactPredictor<CarriedShape<Triangle>>;
+template class ContactPredictor<RigidPair<RigidExtent>>;
+template class ContactPredictor<RigidPair<HalfSpace>>;
+template class ContactPredictor<RigidPair<Box>>;
+template class ContactPredictor<RigidPair<Triangle>>;
+template class ContactPredictor<RigidPair<CarriedShape<Box>>>;
+template class ContactPredictor<RigidPair<CarriedShape<Triangle>>>;
 
 namespace {
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "bound/carried_shape.hpp"
+#include "bound/rigid_certificates.hpp"
 #include "contact/contact_rule.hpp"
 #include "kinesphere/bound.hpp"
 #include "kinesphere/event.hpp"
@@ -49,7 +50,8 @@ struct ContactDecision {
 EventKind kind_of(ContactRule::Change change, bool sensed, Wall wall);
 
 /// Predicts one threshold between a body and a partner from `now` on. A partner is another body's Bound, the
-/// HalfSpace inside a wall, a shape at rest, or a CarriedShape. Holds references to rule, bound and partner.
+/// HalfSpace inside a wall, a shape at rest, a CarriedShape, or the RigidPair of the two. Holds references to
+/// rule, bound and partner.
 template <class Partner>
 class ContactPredictor {
  public:
@@ -105,6 +107,12 @@ extern template class ContactPredictor<Box>;
 extern template class ContactPredictor<Triangle>;
 extern template class ContactPredictor<CarriedShape<Box>>;
 extern template class ContactPredictor<CarriedShape<Triangle>>;
+extern template class ContactPredictor<RigidPair<RigidExtent>>;
+extern template class ContactPredictor<RigidPair<HalfSpace>>;
+extern template class ContactPredictor<RigidPair<Box>>;
+extern template class ContactPredictor<RigidPair<Triangle>>;
+extern template class ContactPredictor<RigidPair<CarriedShape<Box>>>;
+extern template class ContactPredictor<RigidPair<CarriedShape<Triangle>>>;
 
 /// Returns the walls of the box that the body may come within the tolerance of before `until`, as the box
 /// with infinite limits on all other axes. Conservative: may include walls that are not reached. Cost: O(1),

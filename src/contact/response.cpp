@@ -26,8 +26,46 @@ double both_speeds(const Event& contact, double restitution) {
   return (1.0 + (contact.jammed ? 0.0 : restitution)) * contact.approach_speed;
 }
 
+/// Returns a mass that one can divide by: 0 counts as a mass so small that its share is that of its limit.
+double divisible(double mass) { return std::max(mass, 0x1p-900); }
+
+/// Returns the change of a rigid body's normal velocity at the contact by a unit impulse there: the inverse
+/// of its effective mass. `gain` is its spin gain along the normal.
+double inverse_mass(double mass, const Vec3& gain, const Vec3& arm, const Vec3& normal) {
+  return (std::isinf(mass) ? 0.0 : 1.0 / divisible(mass)) + dot(gain, cross(arm, normal));
+}
+
+/// Returns velocities as rebound() does, for a contact that turns a rigid body.
+Bounce rebound_with_spin(const Event& contact, double first_mass, double second_mass, double speed) {
+  const Vec3& normal = contact.normal;
+  const bool is_wall = contact.second == no_body;
+  const double first = stays(contact.first_traits)
+                           ? 0.0
+                           : inverse_mass(first_mass, contact.first_spin_gain,
+                                          contact.point - contact.first_state.position, normal);
+  const double second = is_wall || stays(contact.second_traits)
+                            ? 0.0
+                            : inverse_mass(second_mass, contact.second_spin_gain,
+                                           contact.point - contact.second_state.position, normal);
+  Bounce after{contact.first_state.velocity, contact.second_state.velocity, contact.first_angular_velocity,
+               contact.second_angular_velocity};
+  if (!(first + second > 0.0)) return after;
+  const double impulse = speed / (first + second);
+  if (first > 0.0) {
+    if (!std::isinf(first_mass)) after.first_velocity -= normal * (impulse / divisible(first_mass));
+    after.first_angular_velocity -= contact.first_spin_gain * impulse;
+  }
+  if (second > 0.0) {
+    if (!std::isinf(second_mass)) after.second_velocity += normal * (impulse / divisible(second_mass));
+    after.second_angular_velocity += contact.second_spin_gain * impulse;
+  }
+  return after;
+}
+
 /// Returns velocities that change the relative velocity along the normal by `speed`.
 Bounce rebound(const Event& contact, double first_mass, double second_mass, double speed) {
+  if (contact.first_spin_gain != Vec3{} || contact.second_spin_gain != Vec3{})
+    return rebound_with_spin(contact, first_mass, second_mass, speed);
   const Vec3 change = contact.normal * speed;
   if (contact.second == no_body) return {contact.first_state.velocity - change, {}};
   const bool first_stays = stays(contact.first_traits);
@@ -72,6 +110,8 @@ Response response_of(const Event& contact, const Bounce& after) {
     response.first_velocity = after.first_velocity;
   if (contact.second != no_body && !stays(contact.second_traits) && !std::isinf(contact.second_mass))
     response.second_velocity = after.second_velocity;
+  if (contact.first_spin_gain != Vec3{}) response.first_angular_velocity = after.first_angular_velocity;
+  if (contact.second_spin_gain != Vec3{}) response.second_angular_velocity = after.second_angular_velocity;
   return response;
 }
 

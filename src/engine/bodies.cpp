@@ -39,6 +39,7 @@ void Bodies::give_shape(std::uint32_t number, const Shape& shape, bool carried) 
 
 void Bodies::remove(std::uint32_t number) {
   shapes.remove(table_[number]);
+  rigid.remove(table_[number]);
   forget_change(number);
   filters.keep(number, {});
   masses.keep(number, BodyDefinition{}.mass);

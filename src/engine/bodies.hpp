@@ -1,7 +1,8 @@
 // Bodies holds all bodies of a world: their table, and side tables for changes, sleep records, filters,
 // masses, periodic images, shapes and sensors.
 //
-// A static body has a shape in a side table and is never probed. Another body may carry a shape. A sleeping
+// A static body has a shape in a side table and is never probed. Another body may carry a shape, or be rigid:
+// then it has parts in a side table. A sleeping
 // body has a bound that stands still and is otherwise treated like any other; the motion limits that apply
 // after it wakes are in a side table.
 #pragma once
@@ -18,6 +19,7 @@
 #include "engine/filters.hpp"
 #include "engine/masses.hpp"
 #include "engine/periodic_image.hpp"
+#include "engine/rigid_bodies.hpp"
 #include "engine/shapes.hpp"
 #include "engine/side_table.hpp"
 #include "kinesphere/world_definition.hpp"
@@ -50,7 +52,11 @@ class Bodies {
   void give_shape(std::uint32_t number, const Shape& shape, bool carried);
   /// Gives a body with a shape another one. Its bound must follow.
   void reshape(std::uint32_t number, const Shape& shape) { shapes.replace(table_[number], shape); }
+  /// Gives the body the parts and the rotation of a rigid body.
+  void make_rigid(std::uint32_t number, RigidRecord record) { rigid.add(table_[number], std::move(record)); }
   void remove(std::uint32_t number);
+  /// Returns true if there has never been a body that is not a ball.
+  bool are_balls() const { return shapes.empty() && rigid.empty(); }
 
   /// Returns the definition with the state of the last report and all pending changes.
   BodyDefinition definition_of(std::uint32_t number) const;
@@ -64,6 +70,13 @@ class Bodies {
   bool may_meet(std::uint32_t a, std::uint32_t b) const { return !filters.any() || filters_allow(a, b); }
   bool may_touch(std::uint32_t a, std::uint32_t b) const {
     return table_[a].solid && table_[b].solid && may_meet(a, b);
+  }
+
+  /// Returns the largest acceleration of a point of the body (length / time^2).
+  double largest_acceleration(std::uint32_t number) const {
+    const Body& body = table_[number];
+    const RigidRecord* const turning = rigid.find(body);
+    return body.largest_acceleration() + (turning ? turning->surface_acceleration(body.radius) : 0.0);
   }
 
   /// Returns the contact events that a pair reports; for a body and its walls, `b` is the body again.
@@ -96,12 +109,12 @@ class Bodies {
   /// Bodies that are read get ids with tag 0.
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive) {
-    auto& [changes, sleep_records, filters, masses, images, shapes, sensors, definition, space, enclosure,
-           table] = self;
+    auto& [changes, sleep_records, filters, masses, images, shapes, rigid, sensors, definition, space,
+           enclosure, table] = self;
     auto& [bodies, live_count, free, tag, names] = table;
     auto& [by_number, pair_filter, any] = filters;
-    archive(bodies, live_count, changes, sleep_records, by_number, masses, images, free, shapes, sensors,
-            any);
+    archive(bodies, live_count, changes, sleep_records, by_number, masses, images, free, shapes, rigid,
+            sensors, any);
     if constexpr (!std::is_const_v<Self>) tag = 0;
   }
   /// Returns the name of the part that no sequence of calls could have produced, or nullptr if there is none.
@@ -115,6 +128,7 @@ class Bodies {
   Masses masses;
   std::vector<PeriodicImage> images;  ///< by body number; empty unless space is periodic
   Shapes shapes;
+  RigidBodies rigid;
   SensorTable sensors;
 
  private:
@@ -124,6 +138,7 @@ class Bodies {
   bool is_valid(std::uint32_t number, double now) const;
   bool is_valid_static(std::uint32_t number, double now) const;
   bool carried_shape_is_valid(const Body& body, const BodyDefinition& definition) const;
+  bool rigid_body_is_valid(const Body& body, const BodyDefinition& definition, double now) const;
   bool sleep_is_valid(const Body& body) const;
   bool limits_are_valid(const Body& body, BodyDefinition definition) const;
 

@@ -72,8 +72,23 @@ bool Shapes::is_valid(const BodyTable& bodies) const {
   return carried == carried_ && std::find(is_taken.begin(), is_taken.end(), false) == is_taken.end();
 }
 
+bool RigidBodies::is_valid(const BodyTable& bodies) const {
+  std::vector<bool> is_taken(records_.size(), false);
+  const auto take = [&is_taken](std::uint32_t number) {
+    if (number >= is_taken.size() || is_taken[number]) return false;
+    is_taken[number] = true;
+    return true;
+  };
+  for (const std::uint32_t number : free_)
+    if (!take(number)) return false;
+  for (const Body& body : bodies)
+    if (body.is_rigid && !(body.alive && take(body.shape_number))) return false;
+  return std::find(is_taken.begin(), is_taken.end(), false) == is_taken.end();
+}
+
 const char* Bodies::first_invalid_part(double now, const std::vector<std::uint32_t>& dirty) const {
-  if (!shapes.is_valid(table_) || (shapes.any() && !filters.any())) return "shapes";
+  if (!shapes.is_valid(table_) || (shapes.any() && !filters.any()) || !rigid.is_valid(table_))
+    return "shapes";
   if (!bodies_are_valid(now, dirty)) return "bodies";
   for (int number = 0; number <= std::numeric_limits<SensorClass>::max(); ++number)
     if (!check_sensor(sensors.of(static_cast<SensorClass>(number)), definition_)) return "sensors";
@@ -112,7 +127,9 @@ bool Bodies::is_valid(std::uint32_t number, double now) const {
       !kinesphere::is_valid(body.bound, *place, now, unbounded) ||
       (space_.repeats() && !images[number].is_valid(space_)))
     return false;
-  if (!limits_are_valid(body, definition) || !carried_shape_is_valid(body, definition)) return false;
+  if (!limits_are_valid(body, definition) || !carried_shape_is_valid(body, definition) ||
+      !rigid_body_is_valid(body, definition, now))
+    return false;
   if (!body.enabled) return !body.dirty;
   // The bound's radius includes an error. Only the bound of a disabled body can be out of date.
   if (body.bound.radius < body.radius) return false;
@@ -158,6 +175,24 @@ bool Bodies::carried_shape_is_valid(const Body& body, const BodyDefinition& defi
   return check_carried_shape(shape, definition_, "restore") &&
          same(normalized_carried(shape, definition_), shape) &&
          body.radius == body_of({definition, shape}, definition_).radius;
+}
+
+/// A rigid body has the radius of the ball around its parts, and a rotation that a call or a report gave it.
+bool Bodies::rigid_body_is_valid(const Body& body, const BodyDefinition& definition, double now) const {
+  if (!body.is_rigid) return true;
+  if (body.carries_shape || body.is_sleeping()) return false;
+  const RigidRecord& record = rigid[body];
+  RigidBody made{.body = definition,
+                 .parts = record.parts,
+                 .rotation = record.origin,
+                 .angular_acceleration_limit = record.angular_acceleration_limit,
+                 .largest_angular_speed = record.largest_angular_speed,
+                 .inertia = record.inertia};
+  if (!check_rigid_body(made, definition_, "restore") ||
+      !check_rotation(record.rotation, no_body, definition_, "restore"))
+    return false;
+  return record.origin_time >= -limits::largest_time && record.origin_time <= now &&
+         (record.is_changed || record.origin_time <= body.bound.time) && body.radius == body_of(made).radius;
 }
 
 /// A sleeping body is present and not static; its bound stands still unless a change still waits for a

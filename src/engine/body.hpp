@@ -32,7 +32,8 @@ struct Body {
   ContactEvents contact_events = ContactEvents::all;  ///< 0 for a static body, which asks for nothing
   SensorClass sensor_class = 0;
   bool carries_shape = false;          ///< its shape moves with it; a static body has one at rest
-  std::uint32_t shape_number = none;   ///< index of the shape
+  bool is_rigid = false;               ///< it has parts that turn with it (RigidBodies)
+  std::uint32_t shape_number = none;   ///< index of the shape or of the rigid body; none for a ball
   std::uint32_t change_number = none;  ///< index of the pending change
   std::uint32_t generation = 0;
   std::uint32_t sleep_number = none;  ///< index of the sleep record
@@ -41,7 +42,10 @@ struct Body {
   std::uint64_t user_data = 0;
 
   bool present() const { return alive && enabled; }
-  bool has_shape() const { return shape_number != none; }
+  /// Returns true for a body that is not a ball.
+  bool is_shaped() const { return shape_number != none; }
+  /// Returns true for a body whose surface is that of a Shape, at rest or carried.
+  bool has_shape() const { return is_shaped() && !is_rigid; }
   bool is_static() const { return has_shape() && !carries_shape; }
   bool is_sleeping() const { return sleep_number != none; }
   /// Sleeping, and with a report since it fell asleep. The bound then stands still.
@@ -62,11 +66,11 @@ struct Body {
 
   static void serialize(auto& self, auto& archive) {
     auto& [bound, revision, alive, enabled, dirty, visited, relocated, solid, contact_events, sensor_class,
-           carries_shape, shape_number, change_number, generation, sleep_number, radius, position_error,
-           user_data] = self;
+           carries_shape, is_rigid, shape_number, change_number, generation, sleep_number, radius,
+           position_error, user_data] = self;
     archive(bound, revision, alive, enabled, dirty, visited, relocated, solid, contact_events, sensor_class,
-            carries_shape, shape_number, change_number, generation, sleep_number, radius, position_error,
-            user_data);
+            carries_shape, is_rigid, shape_number, change_number, generation, sleep_number, radius,
+            position_error, user_data);
   }
 };
 static_assert(sizeof(Body) <= 168);

@@ -34,7 +34,7 @@ GapLimits gap_at(const Bodies& bodies, double now, const CollisionShape& a, cons
   if (!space.repeats()) return visit_shapes(a, b, limits);
   Bound nearest = b.bound;
   nearest.position += space.shift_to_nearest(b.bound.centre_at(now), a.bound.centre_at(now));
-  return limits(a.bound, nearest);
+  return visit_shapes(a, {nearest, b.is_static, b.shape, b.carried_radius, b.rigid}, limits);
 }
 
 Sphere sphere_at(const Bodies& bodies, double now, std::uint32_t number) {
@@ -47,7 +47,8 @@ Sphere sphere_at(const Bodies& bodies, double now, std::uint32_t number) {
                 bodies[number].user_data,
                 bodies.masses.of(number),
                 traits_of(bodies[number]),
-                bodies[number].contact_events};
+                bodies[number].contact_events,
+                bodies.rigid.find(bodies[number])};
   const Space& space = bodies.space();
   if (space.repeats()) sphere.state.position = space.wrapped(sphere.state.position).position;
   return sphere;

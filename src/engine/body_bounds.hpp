@@ -28,7 +28,8 @@ Bound bound_with(const Bodies& bodies, std::uint32_t number, const BodyDefinitio
 /// Returns the collision shape of the body with this bound in place of its own.
 inline CollisionShape collision_shape_of(const Bodies& bodies, std::uint32_t number, const Bound& bound) {
   const Body& body = bodies[number];
-  if (!body.has_shape()) return {bound};
+  if (!body.is_shaped()) return {bound};
+  if (body.is_rigid) return {bound, false, nullptr, body.radius, &bodies.rigid[body]};
   const Shape& shape = bodies.shapes.of(body);
   return body.carries_shape ? carried_shape_of(bound, shape, body.radius) : collision_shape_of(bound, shape);
 }
@@ -47,13 +48,27 @@ auto visit_pair(const Bodies& bodies, std::uint32_t a, std::uint32_t b, Visit vi
   if (bodies.space().repeats()) {
     Bound seen = bodies[b].bound;
     seen.position += shift_to_meet(bodies, a, b);
-    return visit(bodies[a].bound, seen);
+    if (bodies.rigid.empty()) return visit(bodies[a].bound, seen);
+    return visit_shapes(collision_shape_of(bodies, a), collision_shape_of(bodies, b, seen), visit);
   }
-  if (bodies.shapes.empty()) return visit(bodies[a].bound, bodies[b].bound);
+  if (bodies.are_balls()) return visit(bodies[a].bound, bodies[b].bound);
   return visit_shapes(collision_shape_of(bodies, a), collision_shape_of(bodies, b), visit);
+}
+/// Calls visit(bound, partner) for a body and the inside of a wall; the partner of a rigid body is their
+/// RigidPair.
+template <class Visit>
+auto visit_wall(const CollisionShape& body, const HalfSpace& inside, Visit visit) {
+  if (body.rigid == nullptr) return visit(body.bound, inside);
+  const RigidExtent extent = body.extent();
+  return visit(body.bound, RigidPair<HalfSpace>{extent, inside});
 }
 /// Returns the limits of the gap (length) between the two now, in the image in which they are nearest.
 GapLimits gap_at(const Bodies& bodies, double now, const CollisionShape& a, const CollisionShape& b);
+inline GapLimits gap_to_wall(const CollisionShape& body, const HalfSpace& inside, double now) {
+  return visit_wall(body, inside, [now](const Bound& bound, const auto& partner) {
+    return gap_limits(bound, partner, now);
+  });
+}
 /// Returns the body in the form that events contain.
 Sphere sphere_at(const Bodies& bodies, double now, std::uint32_t number);
 /// Returns a box around the shape now, limited to existing space and cut off where no body can be.

@@ -46,7 +46,14 @@ double apart_until(const Bodies& bodies, const BoundRef& a, const BoundRef& b, d
 /// callers, since it is the engine's inner loop.
 [[gnu::always_inline]] inline double PairCertifier::apart_until(const BoundRef& a, const BoundRef& b) const {
   const double end = std::min(a.end, b.end);
-  if (bodies()[a.number].has_shape() || bodies()[b.number].has_shape() || end == infinity) {
+  const Body& one = bodies()[a.number];
+  const Body& other = bodies()[b.number];
+  if (one.is_shaped() || other.is_shaped() || end == infinity) {
+    // Rigid bodies are apart for as long as the balls around them are.
+    if (!one.has_shape() && !other.has_shape() && end < infinity) {
+      const double outer = apart_until_in_order(bodies(), a, b, time_);
+      if (outer > time_) return outer;
+    }
     const double until = unchanged_until_by_thresholds(a.number, b.number);
     return until < end ? until : infinity;
   }
@@ -76,8 +83,23 @@ double PairCertifier::unchanged_until_by_thresholds(std::uint32_t a, std::uint32
 
 double PairCertifier::walls_unchanged_until(std::uint32_t number) const {
   if (contacts().walls_of(number) != 0) return time_;
-  return until_reports_of_walls(contacts().rule(), bodies()[number].bound, *bodies().walls(), time_,
-                                window_end_of(number));
+  const Bound& bound = bodies()[number].bound;
+  const double end = window_end_of(number);
+  const double outer = until_reports_of_walls(contacts().rule(), bound, *bodies().walls(), time_, end);
+  if (outer > time_ || !bodies()[number].is_rigid) return outer;
+  // The ball around a rigid body may reach beyond a wall that its parts do not touch.
+  double first = infinity;
+  const Box near = walls_in_reach(contacts().rule(), bound, *bodies().walls(), time_, end);
+  for (const Wall wall : walls) {
+    if (!stands(near, wall)) continue;
+    visit_wall(collision_shape_of(bodies(), number), half_space(near, wall),
+               [&](const Bound& ball, const auto& partner) {
+                 const ContactPredictor predictor(contacts().rule(), {.within = false}, ball, partner, time_,
+                                                  {end, end});
+                 first = std::min(first, predictor.until_reports());
+               });
+  }
+  return first;
 }
 
 /// Returns true if the next event of two near bodies would be an approach, and they recede for good: a
@@ -88,7 +110,7 @@ double PairCertifier::walls_unchanged_until(std::uint32_t number) const {
   Bound other = *bound_ref(b).bound;
   if (bodies().space().repeats())
     other.position += bodies().space().shift_to_nearest(other.centre_at(time_), bound.centre_at(time_));
-  return bodies().shapes.empty() && recede_for_good(bound, other, time_);
+  return bodies().are_balls() && recede_for_good(bound, other, time_);
 }
 
 double PairCertifier::certify(std::uint32_t a, std::uint32_t b, SearchResults& found) const {

@@ -63,10 +63,8 @@ Result<void> EventProcessor::probe_stale_of(std::uint32_t a, std::uint32_t b) {
 std::optional<double> EventProcessor::decide_pair(std::uint32_t a, std::uint32_t b) {
   const PairCertifier certifier = this->certifier();
   const double end = certifier.earliest_window_end(a, b);
-  const Body& one = bodies()[a];
-  const Body& other = bodies()[b];
-  const RelativeLimits sum{one.bound.growth_speed + other.bound.growth_speed,
-                           one.largest_acceleration() + other.largest_acceleration()};
+  const RelativeLimits sum{bodies()[a].bound.growth_speed + bodies()[b].bound.growth_speed,
+                           bodies().largest_acceleration(a) + bodies().largest_acceleration(b)};
   std::optional<double> next = infinity;
   visit_pair(bodies(), a, b, [&](const Bound& bound, const auto& partner) {
     certifier.for_each_threshold(a, b, [&](const Threshold& threshold) {
@@ -151,7 +149,8 @@ Result<void> EventProcessor::recheck_walls(std::uint32_t number) {
 std::optional<double> EventProcessor::decide_walls(std::uint32_t number) {
   const Body& body = bodies()[number];
   const double end = certifier().window_end_of(number);
-  const RelativeLimits limits{body.bound.growth_speed, body.largest_acceleration()};
+  const RelativeLimits limits{body.bound.growth_speed, bodies().largest_acceleration(number)};
+  const CollisionShape shape = collision_shape_of(bodies(), number);
   const Box near = walls_in_reach(contacts().rule(), body.bound, *bodies().walls(), time_, end);
   double first = infinity;
   for (const Wall wall : walls) {
@@ -159,10 +158,11 @@ std::optional<double> EventProcessor::decide_walls(std::uint32_t number) {
     if (!touches && !stands(near, wall)) continue;
     const HalfSpace inside = half_space(*bodies().walls(), wall);
     const Threshold threshold = contacts().wall_threshold(number, wall, body.contact_events);
-    const ContactPredictor<HalfSpace> predictor(contacts().rule(), threshold, body.bound, inside, time_,
-                                                {end, end});
-    const auto next = decide(predictor, threshold, limits,
-                             [&] { return wall_contact(EventKind::zeno_guard, number, wall); });
+    const auto next = visit_wall(shape, inside, [&](const Bound& bound, const auto& partner) {
+      const ContactPredictor predictor(contacts().rule(), threshold, bound, partner, time_, {end, end});
+      return decide(predictor, threshold, limits,
+                    [&] { return wall_contact(EventKind::zeno_guard, number, wall); });
+    });
     if (next) first = std::min(first, *next);
   }
   return first;

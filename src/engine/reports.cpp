@@ -29,6 +29,22 @@ inline void move_to_nearest_image(const Space& space, const Bound& bound, double
   bound.velocity = report.velocity;
 }
 
+std::optional<BoundViolation> sum_of(const std::optional<BoundViolation>& a,
+                                     const std::optional<BoundViolation>& b) {
+  if (!a || !b) return a ? a : b;
+  return BoundViolation{a->position_excess + b->position_excess, a->velocity_excess + b->velocity_excess};
+}
+
+Rotation normalized(const Rotation& rotation) {
+  return {after(rotation.orientation, Quaternion{}), rotation.angular_velocity};
+}
+
+Error no_rotation_probe(BodyId body, std::string_view call) {
+  return {ErrorCode::null_probe, "rotation_probe", body,
+          std::string(call) + ": set_rotation_probe() must have given a function that knows how " +
+              text_of(body) + " turns, since its angular_acceleration_limit is not 0"};
+}
+
 }  // namespace
 
 Result<std::span<const Reports::Violation>> Reports::take(Bodies& bodies, double time,
@@ -40,6 +56,7 @@ Result<std::span<const Reports::Violation>> Reports::take(Bodies& bodies, double
     ask_for(bodies, time, numbers, lease);
   }
   violations_.clear();
+  ask_rotations(bodies, time);
   const std::size_t bad = first_bad(bodies, time, lease);
   if (bad < ids_.size()) return check(bodies, time, bad).error();
   apply_all(bodies, time, lease);
@@ -63,7 +80,7 @@ Result<std::span<const Reports::Violation>> Reports::take(Bodies& bodies, double
   bool are_plain = true;
   for (std::size_t k = 0; k < count && are_plain; ++k) {
     const Body& body = bodies[numbers[k]];
-    are_plain = body.change_number == Body::none && !body.is_sleeping() &&
+    are_plain = body.change_number == Body::none && !body.is_sleeping() && !body.is_rigid &&
                 is_valid_report(states[k], bodies.definition());
     // An invalid report stays as it is, for the error message.
     if (are_plain) move_to_nearest_image(bodies.space(), body.bound, time, states[k]);
@@ -91,6 +108,26 @@ void Reports::ask_for(const Bodies& bodies, double time, std::span<const std::ui
   });
 }
 
+/// Asks for the rotations of the rigid bodies among those that were probed.
+void Reports::ask_rotations(const Bodies& bodies, double time) {
+  rotations_.clear();
+  if (!bodies.rigid.any() || !bodies.rigid.probe) return;
+  std::vector<BodyId> ids;
+  std::vector<std::size_t> places;
+  for (std::size_t k = 0; k < ids_.size(); ++k) {
+    if (!bodies[bodies.table().number_of(ids_[k])].is_rigid) continue;
+    ids.push_back(ids_[k]);
+    places.push_back(k);
+  }
+  if (ids.empty()) return;
+  std::vector<Rotation> answers(ids.size(), no_rotation);
+  asking_ = true;
+  const ScopeGuard answered([&] { asking_ = false; });
+  bodies.rigid.probe(ids, time, answers);
+  rotations_.resize(ids_.size());
+  for (std::size_t k = 0; k < ids.size(); ++k) rotations_[places[k]] = answers[k];
+}
+
 /// Returns the index of the first invalid report, or the number of reports if all are valid.
 std::size_t Reports::first_bad(const Bodies& bodies, double time, PoolLease& lease) const {
   std::size_t first = ids_.size();
@@ -107,7 +144,11 @@ std::size_t Reports::first_bad(const Bodies& bodies, double time, PoolLease& lea
 }
 
 Result<void> Reports::check(const Bodies& bodies, double time, std::size_t k) const {
-  return check_report(states_[k], ids_[k], time, bodies.definition(), call_);
+  auto valid = check_report(states_[k], ids_[k], time, bodies.definition(), call_);
+  const Body& body = bodies[bodies.table().number_of(ids_[k])];
+  if (!valid || !body.is_rigid) return valid;
+  if (rotations_.empty()) return bodies.rigid[body].keeps_spin() ? valid : no_rotation_probe(ids_[k], call_);
+  return check_rotation(rotations_[k], ids_[k], bodies.definition(), call_);
 }
 
 void Reports::apply_all(Bodies& bodies, double time, PoolLease& lease) {
@@ -143,16 +184,41 @@ void Reports::apply(Bodies& bodies, double time, std::size_t from, std::size_t t
       restart(body.bound, time, state);
     }
     std::optional<BoundViolation> violation;
+    if (body.is_rigid) violation = turn(bodies.rigid[body], body, before, k);
     if (new_velocity || before.radius != body.bound.radius ||
         !certainly_keeps(before, time, {body.bound.position, body.bound.velocity}, body.radius))
-      violation = bound_violation(before, body.bound, body.radius, new_velocity,
-                                  bodies.definition().contact_tolerance);
+      violation = sum_of(violation, bound_violation(before, body.bound, body.radius, new_velocity,
+                                                    bodies.definition().contact_tolerance));
     if (profile_ != nullptr && !new_velocity) profile_->note_report(number, before, body.bound);
     if (body.is_sleeping()) body.stand_still();
     if (violation) broken.push_back({k, states_[k].velocity, *violation});
   }
 }
 
-std::size_t Reports::bytes() const { return heap_bytes(ids_, states_, violations_); }
+/// Takes the rotation of a report. Returns by how much it breaks the limits of the body, as far as its
+/// outermost points are concerned.
+std::optional<BoundViolation> Reports::turn(RigidRecord& record, const Body& body, const Bound& before,
+                                            std::size_t k) const {
+  const double time = body.bound.time;
+  const Rotation last = record.rotation;
+  const double spin = record.spin();
+  const bool is_comparable = !rotations_.empty() && !record.is_changed;
+  record.report(rotations_.empty() ? record.at(time) : normalized(rotations_[k]), time);
+  if (!is_comparable) return std::nullopt;
+  // Rounding of the caller's rotations.
+  constexpr double slack = 0x1p-30;
+  const double s = time - before.time;
+  const double angle = angle_between(last.orientation, record.rotation.orientation) - spin * s;
+  const double largest = record.largest_angular_speed;
+  const double change = std::max(
+      norm(record.rotation.angular_velocity - last.angular_velocity) - record.angular_acceleration_limit * s,
+      record.keeps_spin() ? 0.0 : norm(record.rotation.angular_velocity) - largest);
+  const bool left = angle > slack * (1.0 + spin * s);
+  const bool jumped = change > slack * (spin + norm(record.rotation.angular_velocity));
+  if (!left && !jumped) return std::nullopt;
+  return BoundViolation{left ? angle * body.radius : 0.0, jumped ? change * body.radius : 0.0};
+}
+
+std::size_t Reports::bytes() const { return heap_bytes(ids_, states_, rotations_, violations_); }
 
 }  // namespace kinesphere

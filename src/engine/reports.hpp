@@ -49,9 +49,12 @@ class Reports {
   void ask_for(const Bodies& bodies, double time, std::span<const std::uint32_t> numbers, PoolLease& lease);
   std::size_t first_bad(const Bodies& bodies, double time, PoolLease& lease) const;
   Result<void> check(const Bodies& bodies, double time, std::size_t k) const;
+  void ask_rotations(const Bodies& bodies, double time);
   void apply_all(Bodies& bodies, double time, PoolLease& lease);
   void apply(Bodies& bodies, double time, std::size_t from, std::size_t to,
              std::vector<Violation>& broken) const;
+  std::optional<BoundViolation> turn(RigidRecord& record, const Body& body, const Bound& before,
+                                     std::size_t k) const;
 
   // Set during calls that may probe.
   const Probe* probe_ = nullptr;
@@ -61,6 +64,7 @@ class Reports {
   // Members only to reuse their memory.
   std::vector<BodyId> ids_;
   std::vector<State> states_;
+  std::vector<Rotation> rotations_;  ///< by report; empty unless a RotationProbe gave them
   std::vector<Violation> violations_;
 };
 

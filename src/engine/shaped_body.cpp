@@ -49,6 +49,24 @@ BodyDefinition body_of(const MovingShape& definition, const WorldDefinition& wor
   return body;
 }
 
+BodyDefinition body_of(const RigidBody& definition) {
+  BodyDefinition body = definition.body;
+  body.radius = 0.0;
+  for (const RigidPart& part : definition.parts)
+    body.radius = std::max(body.radius, outer_radius(part) * (1.0 + rounding::margin));
+  return body;
+}
+
+RigidRecord record_of(const RigidBody& definition, double time) {
+  RigidRecord record{.parts = definition.parts,
+                     .angular_acceleration_limit = definition.angular_acceleration_limit,
+                     .largest_angular_speed = definition.largest_angular_speed,
+                     .inertia = definition.inertia};
+  const auto& [orientation, spin] = definition.rotation;
+  record.change({after(orientation, Quaternion{}), spin}, time, true);
+  return record;
+}
+
 StaticDefinition static_definition(const Bodies& bodies, BodyId id) {
   const Body& body = bodies[id.index];
   return {bodies.shapes.of(body), bodies.filters.of(id.index), body.solid, body.sensor_class, body.user_data};

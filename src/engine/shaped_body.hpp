@@ -10,6 +10,10 @@ BodyDefinition body_of(const StaticDefinition& definition);
 /// Returns the body with the radius of the ball (in two dimensions the disc) around its position that
 /// contains the shape. Precondition: check_carried_shape().
 BodyDefinition body_of(const MovingShape& definition, const WorldDefinition& world);
+/// Returns the body with the radius of the ball around its position that contains all parts.
+BodyDefinition body_of(const RigidBody& definition);
+/// Returns the record of a rigid body that has its defined rotation at a time.
+RigidRecord record_of(const RigidBody& definition, double time);
 StaticDefinition static_definition(const Bodies& bodies, BodyId id);
 /// Returns the shape in normal form: the normal of a half-space has length 1 to double precision, a ball is
 /// moved into the box in periodic space, a box is unbounded in z in two dimensions. Precondition:

@@ -18,6 +18,10 @@ Result<void> check_body(const BodyDefinition& body, const WorldDefinition& world
 Result<void> check_shape(const Shape& shape, const WorldDefinition& world, std::string_view call);
 /// Does the same for a shape that a body carries: a box or a triangle, where no axis is periodic.
 Result<void> check_carried_shape(const Shape& shape, const WorldDefinition& world, std::string_view call);
+/// Validates what a rigid body adds to its BodyDefinition.
+Result<void> check_rigid_body(const RigidBody& body, const WorldDefinition& world, std::string_view call);
+Result<void> check_rotation(const Rotation& rotation, BodyId body, const WorldDefinition& world,
+                            std::string_view call);
 /// Validates a changed radius or changed motion limits of a body that is in the world already.
 Result<void> check_radius(const BodyDefinition& changed, BodyId body, const WorldDefinition& world,
                           std::string_view call);
@@ -37,6 +41,7 @@ Result<void> check_report(const State& state, BodyId body, double time, const Wo
 /// missing answers.
 inline constexpr double not_said = std::numeric_limits<double>::quiet_NaN();
 inline constexpr State no_answer{{not_said, not_said, not_said}, {not_said, not_said, not_said}};
+inline constexpr Rotation no_rotation{{not_said, not_said, not_said, not_said}, {}};
 Result<void> check_time(double until, double now);
 /// Returns the error of a call on a world that has been moved from.
 Error moved_from_error(std::string_view call);

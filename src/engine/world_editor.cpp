@@ -38,6 +38,43 @@ BodyId World::WorldEditor::add_moving_shape(const MovingShape& definition) {
   return bodies().id_of(number);
 }
 
+BodyId World::WorldEditor::add_rigid_body(const RigidBody& definition) {
+  const BodyDefinition body = body_of(definition);
+  const std::uint32_t number = state_.bodies.add(body);
+  state_.bodies.make_rigid(number, record_of(definition, time()));
+  insert_at(number, bound_now(body, time()));
+  state_.contacts.add(number, bodies().largest_acceleration(number));
+  return bodies().id_of(number);
+}
+
+void World::WorldEditor::set_angular_velocity(BodyId id, const Vec3& angular_velocity) {
+  const std::uint32_t number = id.index;
+  Body& body = state_.bodies[number];
+  RigidRecord& record = state_.bodies.rigid[body];
+  record.change({record.at(time()).orientation, angular_velocity}, time(), body.fresh(time()));
+  if (!body.fresh(time())) state_.bodies.change_of(number);
+  state_.contacts.set_largest_acceleration(number, bodies().largest_acceleration(number));
+  state_.contacts.turn_reported(number);
+  main_.invalidate(number);
+}
+
+void World::WorldEditor::set_rotation(BodyId id, const Rotation& rotation) {
+  const std::uint32_t number = id.index;
+  Body& body = state_.bodies[number];
+  RigidRecord changed = bodies().rigid[body];
+  changed.change({after(rotation.orientation, Quaternion{}), rotation.angular_velocity}, time(),
+                 body.fresh(time()));
+  if (body.fresh(time())) {
+    end_contacts_outside(number, {body.bound, false, nullptr, body.radius, &changed});
+  } else {
+    state_.bodies.change_of(number);
+  }
+  state_.bodies.rigid[body] = std::move(changed);
+  state_.contacts.set_largest_acceleration(number, bodies().largest_acceleration(number));
+  state_.contacts.turn_reported(number);
+  insert_at(number, body.bound);
+}
+
 /// Sets the bound of the body and marks it as relocated. The next advance searches for its neighbours.
 void World::WorldEditor::insert_at(std::uint32_t number, const Bound& bound) {
   Body& body = state_.bodies[number];
@@ -80,7 +117,14 @@ void World::WorldEditor::remove(BodyId id) {
 /// Replaces the bound of the body. Contacts that this certainly ends are ended with the states before the
 /// change.
 void World::WorldEditor::replace(std::uint32_t number, const Bound& bound) {
-  end_contacts_outside(number, {bound});
+  if (const Body& body = bodies()[number]; body.is_rigid) {
+    RigidRecord turned = bodies().rigid[body];
+    if (bound.time == time()) turned.change(turned.at(time()), time(), true);
+    end_contacts_outside(number, {bound, false, nullptr, body.radius, &turned});
+    state_.bodies.rigid[body] = std::move(turned);
+  } else {
+    end_contacts_outside(number, {bound});
+  }
   insert_at(number, bound);
 }
 
@@ -90,10 +134,9 @@ void World::WorldEditor::end_contacts_outside(std::uint32_t number, const Collis
   const auto ends = [&](const Event& end) {
     if (main_.events().pending().contains(end)) return true;
     const std::uint32_t partner = end.first.index == number ? end.second.index : end.first.index;
-    const GapLimits gap =
-        end.wall == Wall::none
-            ? gap_at(bodies(), time(), replacement, collision_shape_of(bodies(), partner))
-            : gap_limits(replacement.bound, half_space(*bodies().walls(), end.wall), time());
+    const GapLimits gap = end.wall == Wall::none
+                              ? gap_at(bodies(), time(), replacement, collision_shape_of(bodies(), partner))
+                              : gap_to_wall(replacement, half_space(*bodies().walls(), end.wall), time());
     return gap.lower >= end.distance + apart;
   };
   end_contacts(number, ends);
@@ -142,8 +185,10 @@ void World::WorldEditor::set_motion_limits(BodyId id, const MotionLimits& limits
   if (body.enabled) replace(id.index, bound_with(bodies(), id.index, changed, time()));
   body.position_error = limits.position_error;
   if (!body.enabled || !body.fresh(time())) state_.bodies.change_of(id.index).limits = limits;
+  const RigidRecord* const turning = bodies().rigid.find(body);
   state_.contacts.set_largest_acceleration(id.index,
-                                           limits.acceleration_limit + norm(limits.planned_acceleration));
+                                           limits.acceleration_limit + norm(limits.planned_acceleration) +
+                                               (turning ? turning->surface_acceleration(body.radius) : 0.0));
 }
 
 void World::WorldEditor::disable(BodyId id) {
@@ -162,6 +207,10 @@ void World::WorldEditor::enable(BodyId id, const State& state) {
   state_.bodies.count_images_anew(id.index);
   const BodyDefinition definition = bodies().definition_of(id.index);
   state_.bodies.forget_change(id.index);
+  if (body.is_rigid) {
+    RigidRecord& record = state_.bodies.rigid[body];
+    record.change(record.at(time()), time(), true);
+  }
   insert_at(id.index, bound_of(definition, state, time()));
 }
 

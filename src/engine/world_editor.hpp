@@ -24,6 +24,10 @@ class World::WorldEditor {
   BodyId add(const BodyDefinition& definition);
   BodyId add_static(const StaticDefinition& definition);
   BodyId add_moving_shape(const MovingShape& definition);
+  BodyId add_rigid_body(const RigidBody& definition);
+  void set_angular_velocity(BodyId id, const Vec3& angular_velocity);
+  void set_rotation(BodyId id, const Rotation& rotation);
+  void set_rotation_probe(RotationProbe probe) { state_.bodies.rigid.probe = std::move(probe); }
   void remove(BodyId id);
   void set_velocity(BodyId id, const Vec3& velocity) { main_.set_velocity(id.index, velocity); }
   void teleport(BodyId id, const State& state);

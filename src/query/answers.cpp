@@ -70,9 +70,20 @@ void World::Engine::Answers::consider_walls(std::uint32_t number, const Certific
   for (const Wall wall : walls) {
     if (!stands(*engine_.bodies().walls(), wall)) continue;
     const HalfSpace inside = half_space(*engine_.bodies().walls(), wall);
-    const double time = std::max(known, earliest_meeting(bound, inside, now_, infinity));
+    const double meets =
+        visit_wall(shape_of(number, bound), inside, [this](const Bound& moving, const auto& partner) {
+          return earliest_meeting(moving, partner, now_, infinity);
+        });
+    const double time = std::max(known, meets);
     if (time < first.time) first = {time, number, std::nullopt, wall, false};
   }
+}
+
+/// Returns the collision shape of a body with another bound. That of a rigid body whose state has changed
+/// since its last report is the ball around it.
+CollisionShape World::Engine::Answers::shape_of(std::uint32_t number, const Bound& bound) const {
+  if (body(number).is_rigid && bound.time != body(number).bound.time) return {bound};
+  return collision_shape_of(engine_.bodies(), number, bound);
 }
 
 /// Returns the earliest_meeting of the two shapes over all periodic images.
@@ -111,7 +122,14 @@ double World::Engine::Answers::meeting(const CollisionShape& extent_of_a,
     for (int y = -most[1]; y <= most[1]; ++y)
       for (int z = -most[2]; z <= most[2]; ++z) {
         image.position = nearest + space.shift_of({double(x), double(y), double(z)});
-        first = std::min(first, earliest_meeting(a, image, now_, std::max(first, now_)));
+        {
+          const CollisionShape moved{image, extent_of_b.is_static, extent_of_b.shape,
+                                     extent_of_b.carried_radius, extent_of_b.rigid};
+          first =
+              std::min(first, visit_shapes(extent_of_a, moved, [&](const Bound& bound, const auto& partner) {
+                         return earliest_meeting(bound, partner, now_, std::max(first, now_));
+                       }));
+        }
       }
   return std::max(first, now_);
 }
@@ -123,8 +141,7 @@ void World::Engine::Answers::consider(std::uint32_t a, std::uint32_t b, const Ce
   if (known >= first.time) return;
   const Bound bound_of_a = guarded(a);
   const Bound bound_of_b = guarded(b);
-  const double time = std::max(known, meeting(collision_shape_of(engine_.bodies(), a, bound_of_a),
-                                              collision_shape_of(engine_.bodies(), b, bound_of_b)));
+  const double time = std::max(known, meeting(shape_of(a, bound_of_a), shape_of(b, bound_of_b)));
   if (time < first.time) first = {time, a, b, Wall::none, false};
 }
 
@@ -214,15 +231,20 @@ DistanceLimits World::Engine::Answers::distance(std::uint32_t a, std::uint32_t b
   const Bound first = present(a);
   Bound second = present(b);
   second.position += engine_.bodies().space().shift_to_nearest(second.centre_at(time), first.centre_at(time));
-  const CollisionShape extent_of_a = collision_shape_of(engine_.bodies(), a, first);
-  const CollisionShape extent_of_b = collision_shape_of(engine_.bodies(), b, second);
+  const CollisionShape extent_of_a = shape_of(a, first);
+  const CollisionShape extent_of_b = shape_of(b, second);
   if (extent_of_a.shape && extent_of_b.shape) return {-infinity, infinity, false};
   const GapLimits gap = visit_shapes(
       extent_of_a, extent_of_b,
       [time](const Bound& bound, const auto& partner) { return gap_limits(bound, partner, time); });
   // The upper limit applies to the bodies as reported. The true bodies may differ by the error parts of the
   // radii.
-  const double excess = (first.radius - body(a).radius) + (second.radius - body(b).radius);
+  // A rigid body that counts as a ball has a point within that ball only.
+  const auto missing = [this](std::uint32_t number, const CollisionShape& extent) {
+    return body(number).is_rigid && !extent.rigid ? body(number).radius : 0.0;
+  };
+  const double excess = (first.radius - body(a).radius) + (second.radius - body(b).radius) +
+                        missing(a, extent_of_a) + missing(b, extent_of_b);
   const double upper = rounding::sum_up(gap.upper, 2.0 * excess);
   if (!std::isfinite(gap.lower) || !std::isfinite(upper)) return {-infinity, infinity, false};
   return {gap.lower, upper, false};
@@ -237,8 +259,8 @@ void World::Engine::Answers::consider_approach(std::uint32_t a, std::uint32_t b,
   // too, is enlarged instead.
   double& radius = body(a).has_shape() ? bound_of_b.radius : bound_of_a.radius;
   radius = rounding::sum_up(radius, distance);
-  const CollisionShape extent_of_a = collision_shape_of(engine_.bodies(), a, bound_of_a);
-  const CollisionShape extent_of_b = collision_shape_of(engine_.bodies(), b, bound_of_b);
+  const CollisionShape extent_of_a = shape_of(a, bound_of_a);
+  const CollisionShape extent_of_b = shape_of(b, bound_of_b);
   const bool known = !extent_of_a.shape || !extent_of_b.shape;
   const double time = known ? meeting(extent_of_a, extent_of_b) : now_;
   const bool within = time <= now_ && known && this->distance(a, b, now_).upper <= distance;
@@ -252,12 +274,16 @@ void World::Engine::Answers::consider_approach_to_walls(std::uint32_t number, do
   for (const Wall wall : walls) {
     if (first.touching || !stands(*engine_.bodies().walls(), wall)) continue;
     const HalfSpace inside = half_space(*engine_.bodies().walls(), wall);
-    const double time = earliest_meeting(bound, inside, now_, infinity, distance);
+    const CollisionShape shape = shape_of(number, bound);
+    const double time = visit_wall(shape, inside, [this, distance](const Bound& moving, const auto& partner) {
+      return earliest_meeting(moving, partner, now_, infinity, distance);
+    });
     // The upper limit applies to the body as reported. The true body may differ by the error part of the
     // radius.
-    const double excess = 2.0 * (bound.radius - body(number).radius);
+    const double missing = body(number).is_rigid && !shape.rigid ? body(number).radius : 0.0;
+    const double excess = 2.0 * (bound.radius - body(number).radius + missing);
     const bool within =
-        time <= now_ && rounding::sum_up(gap_limits(bound, inside, now_).upper, excess) <= distance;
+        time <= now_ && rounding::sum_up(gap_to_wall(shape, inside, now_).upper, excess) <= distance;
     if (time < first.time || within) first = {time, number, std::nullopt, wall, within};
   }
 }

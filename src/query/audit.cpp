@@ -132,7 +132,7 @@ class World::Engine::Audit {
 
   void check_walls(std::uint32_t number) {
     const Body& b = body(number);
-    if (!engine_.bodies().walls() || b.has_shape() || !is_certified(number, number) ||
+    if (!engine_.bodies().walls() || b.is_shaped() || !is_certified(number, number) ||
         engine_.contacts().walls_of(number) != 0 || !exact(b))
       return;
     // Bodies without ends follow the contact rule within the tolerance instead, as in checkable().
@@ -282,7 +282,8 @@ class World::Engine::Audit {
   /// True if the bare distance determines the state of the threshold. Within the tolerance, an approach of
   /// bodies without ends, or in touch, follows the contact rule instead.
   bool checkable(std::uint32_t a, std::uint32_t b, const Threshold& threshold) const {
-    if (!exact(body(a)) || !exact(body(b))) return false;
+    // PlainGap knows no bodies that turn.
+    if (!exact(body(a)) || !exact(body(b)) || body(a).is_rigid || body(b).is_rigid) return false;
     const ContactRule& rule = engine_.contacts().rule();
     return threshold.within || wants_ends(threshold.wanted) ||
            gap_at(engine_.bodies(), now_, collision_shape_of(engine_.bodies(), a),

@@ -7,7 +7,8 @@
 namespace kinesphere {
 
 /// A sphere with radius `outer` around `centre` contains the body. The body contains the sphere with radius
-/// `inner` if that is not negative. Rounding is covered.
+/// `inner` if that is not negative; a point of the body is within -`inner` of the centre if it is. Rounding
+/// is covered.
 struct CertainSphere {
   Vec3 centre;
   double outer;
@@ -21,7 +22,8 @@ inline CertainSphere certain_sphere_of(const Body& body, double now) {
   const double size =
       norm_one(bound.position) + (norm_one(bound.velocity) + norm_one(bound.planned_acceleration) * s) * s;
   const double deviation = outer - body.radius + rounding::margin * (size + outer);
-  return {bound.centre_at(now), body.radius + deviation, body.radius - deviation};
+  const double contained = body.is_rigid ? -body.radius : body.radius;
+  return {bound.centre_at(now), body.radius + deviation, contained - deviation};
 }
 
 /// The shape of a body. Its origin is within `spread` (length) of `origin`; both are zero for a shape at

@@ -41,6 +41,7 @@ struct New {
 using Add = New<BodyDefinition, &World::add>;
 using AddStatic = New<StaticDefinition, &World::add_static>;
 using AddMovingShape = New<MovingShape, &World::add_moving_shape>;
+using AddRigidBody = New<RigidBody, &World::add_rigid_body>;
 
 /// Change of one body without an argument, through the World member `call`.
 template <auto call>
@@ -73,6 +74,8 @@ struct With {
   }
 };
 using SetVelocity = With<BodyId, Vec3, const Vec3&, &World::set_velocity>;
+using SetAngularVelocity = With<BodyId, Vec3, const Vec3&, &World::set_angular_velocity>;
+using SetRotation = With<BodyId, Rotation, const Rotation&, &World::set_rotation>;
 using Teleport = With<BodyId, State, const State&, &World::teleport>;
 using Enable = With<BodyId, State, const State&, &World::enable>;
 using SetSensor = With<SensorClass, Sensor, const Sensor&, &World::set_sensor>;
@@ -156,7 +159,8 @@ using Step = std::variant<step::Asking, step::Add, step::AddStatic, step::Remove
                           step::Teleport, step::SetRadius, step::SetMotionLimits, step::Disable, step::Enable,
                           step::SetFilter, step::SetPairFilter, step::RefreshFilter, step::SetSolid,
                           step::SetSensor, step::SetSensorClass, step::SetUserData, step::End,
-                          step::SleepBody, step::Wake, step::SetShape, step::SetMass, step::AddMovingShape>;
+                          step::SleepBody, step::Wake, step::SetShape, step::SetMass, step::AddMovingShape,
+                          step::AddRigidBody, step::SetAngularVelocity, step::SetRotation>;
 
 /// Running hash over the outcomes of all steps so far: events to the last bit, and all work counters.
 class StepHash {

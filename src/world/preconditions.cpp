@@ -128,6 +128,56 @@ Result<void> World::Preconditions::no_overlap(const MovingShape& added, BodyId i
   return no_overlap(carried_shape_of(bound, added.shape, body.radius), body, id, "shape");
 }
 
+Result<void> World::Preconditions::is_rigid(BodyId body) const {
+  if (engine_->bodies()[body.index].is_rigid) return {};
+  return error_about(ErrorCode::unsupported, body, "body must be rigid, but " + text_of(body) + " is not");
+}
+
+Result<void> World::Preconditions::can_spin(BodyId body, const Vec3& angular_velocity) const {
+  auto valid = can_turn(body);
+  if (valid) valid = is_rigid(body);
+  if (!valid) return valid;
+  const double largest = engine_->bodies().rigid[engine_->bodies()[body.index]].largest_angular_speed;
+  InputCheck check(call_);
+  check.within({"angular_velocity", body}, angular_velocity, limits::largest_speed)
+      .require(!(norm(angular_velocity) > largest), ErrorCode::out_of_range, {"angular_velocity", body},
+               "must not exceed largest_angular_speed", angular_velocity);
+  if (definition().dimensions == 2)
+    check.require(angular_velocity.x == 0.0 && angular_velocity.y == 0.0, ErrorCode::out_of_range,
+                  {"angular_velocity", body}, "must be about z alone in two dimensions", angular_velocity);
+  return check.result();
+}
+
+Result<void> World::Preconditions::new_rigid_body(const RigidBody& added, BodyId id) const {
+  auto valid = check_rigid_body(added, definition(), call_);
+  if (!valid) return valid;
+  const BodyDefinition body = body_of(added);
+  valid = check_body(body, domain_of(true), call_);
+  if (valid) valid = reach(body, no_body, "sensor_class");
+  return valid ? room_for(added, id) : valid;
+}
+
+/// The parts are inside the walls and, if overlaps are forbidden, overlap no other body.
+Result<void> World::Preconditions::room_for(const RigidBody& added, BodyId id) const {
+  const BodyDefinition body = body_of(added);
+  const RigidRecord record = record_of(added, engine_->time());
+  const Bound bound = bound_now(body, engine_->time());
+  const CollisionShape shape{bound, false, nullptr, body.radius, &record};
+  if (const auto wall = engine_->overlaps().of_wall(shape))
+    return Error{ErrorCode::outside_domain, "parts", id,
+                 std::string(call_) + ": parts must lie in the box, but would overlap the wall " +
+                     std::string(name_of(*wall))};
+  return no_overlap(shape, body, id, "position");
+}
+
+Result<void> World::Preconditions::turned(BodyId id, const Rotation& rotation) const {
+  const Body& body = engine_->bodies()[id.index];
+  const RigidRecord& record = engine_->bodies().rigid[body];
+  BodyDefinition definition = engine_->bodies().definition_of(id.index);
+  definition.position = body.bound.centre_at(engine_->time());
+  return room_for({.body = definition, .parts = record.parts, .rotation = rotation}, id);
+}
+
 WorldDefinition World::Preconditions::domain_of(bool has_shape) const {
   WorldDefinition domain = definition();
   if (has_shape) domain.box.reset();
@@ -137,9 +187,13 @@ WorldDefinition World::Preconditions::domain_of(bool has_shape) const {
 Result<void> World::Preconditions::moved(BodyId id, const State& state) const {
   const Body& body = engine_->bodies()[id.index];
   BodyDefinition moved = engine_->bodies().definition_of(id.index);
-  if (auto valid = check_state(state, moved, id, domain_of(body.has_shape()), call_); !valid) return valid;
+  if (auto valid = check_state(state, moved, id, domain_of(body.is_shaped()), call_); !valid) return valid;
   moved.position = state.position;
   moved.velocity = state.velocity;
+  if (body.is_rigid) {
+    const RigidRecord& record = engine_->bodies().rigid[body];
+    return room_for({.body = moved, .parts = record.parts, .rotation = record.at(engine_->time())}, id);
+  }
   return body.carries_shape ? no_overlap(MovingShape{moved, engine_->bodies().shapes.of(body)}, id)
                             : no_overlap(moved, id);
 }
@@ -150,9 +204,8 @@ Result<void> World::Preconditions::changed(BodyId id, const BodyChange& change) 
   if (!valid || !(is_of_moving || change.sensor_class)) return valid;
   BodyDefinition changed = engine_->bodies().definition_of(id.index);
   if (change.radius) {
-    if (engine_->bodies()[id.index].carries_shape)
-      return error_about(ErrorCode::unsupported, id,
-                         "body must be a ball, but " + text_of(id) + " carries a shape");
+    if (engine_->bodies()[id.index].is_shaped())
+      return error_about(ErrorCode::unsupported, id, "body must be a ball, but " + text_of(id) + " is not");
     changed.radius = *change.radius;
     valid = check_radius(changed, id, definition(), call_);
     if (valid) valid = growth(changed, id, "radius");
@@ -177,13 +230,14 @@ Result<void> World::Preconditions::growth(const BodyDefinition& changed, BodyId 
   const Body& body = engine_->bodies().table()[id.index];
   const Bound bound = bound_with(engine_->bodies(), id.index, changed, engine_->time());
   if (definition().allow_overlap || !body.enabled || bound.radius <= body.bound.radius) return {};
-  if (const auto wall = body.has_shape() ? std::nullopt : engine_->overlaps().of_wall(bound)) {
+  const CollisionShape shape = collision_shape_of(engine_->bodies(), id.index, bound);
+  if (const auto wall = body.has_shape() ? std::nullopt : engine_->overlaps().of_wall(shape)) {
     return Error{ErrorCode::outside_domain, std::string(argument), id,
                  std::string(call_) + ": " + std::string(argument) + " of " + text_of(id) +
                      " must keep the whole sphere in the box, but it would overlap the wall " +
                      std::string(name_of(*wall))};
   }
-  return no_overlap(collision_shape_of(engine_->bodies(), id.index, bound), changed, id, argument);
+  return no_overlap(shape, changed, id, argument);
 }
 
 Result<void> World::Preconditions::reach(const BodyDefinition& changed, BodyId id,
@@ -222,7 +276,8 @@ Result<Shape> World::Preconditions::reshaped(BodyId id, const Shape& shape) cons
   const Body& body = engine_->bodies().table()[id.index];
   if (!body.has_shape())
     return error_about(ErrorCode::unsupported, id,
-                       "body must have a shape, but " + text_of(id) + " is a ball; set_radius() changes it");
+                       "body must have a shape, but " + text_of(id) +
+                           (body.is_rigid ? " is rigid" : " is a ball; set_radius() changes it"));
   if (body.carries_shape) {
     BodyDefinition carrier = engine_->bodies().definition_of(id.index);
     carrier.position = body.bound.centre_at(engine_->time());

@@ -55,6 +55,15 @@ class World::Preconditions {
   Result<void> no_overlap(const BodyDefinition& body, BodyId id) const;
   Result<void> no_static_overlap(const StaticDefinition& added, BodyId id) const;
   Result<void> no_overlap(const MovingShape& added, BodyId id) const;
+  /// A rigid body with this definition and rotation may be added, or be there.
+  Result<void> new_rigid_body(const RigidBody& body, BodyId id) const;
+  Result<void> room_for(const RigidBody& body, BodyId id) const;
+  /// The body may be turned to this rotation at the present time.
+  Result<void> turned(BodyId id, const Rotation& rotation) const;
+  /// The body is rigid (ErrorCode::unsupported). Precondition: known().
+  Result<void> is_rigid(BodyId body) const;
+  /// Like can_turn(), for a rigid body and its angular velocity.
+  Result<void> can_spin(BodyId body, const Vec3& angular_velocity) const;
   /// The body may be changed so.
   Result<void> changed(BodyId id, const BodyChange& change) const;
   /// The body may be put into this state at the present time.

@@ -54,6 +54,8 @@ class World::Run final : private ResponseHandler {
   Result<void> check(const Event& event, const Response& answer) const;
   Result<void> check_velocity_change(const Event& event, BodyId body, const std::optional<Vec3>& velocity,
                                      std::string_view argument) const;
+  Result<void> check_spin(const Event& event, BodyId body, const std::optional<Vec3>& spin,
+                          std::string_view argument) const;
 
   World& world_;
   double until_;

@@ -179,6 +179,9 @@ Result<void> World::disable(BodyId body) {
 
 Result<void> World::sleep(BodyId body) {
   auto valid = Preconditions(*this, "sleep").mobile(body);
+  if (valid && engine_->bodies()[body.index].is_rigid)
+    return Error{ErrorCode::unsupported, "body", body,
+                 "sleep: body must not be rigid, but " + text_of(body) + " is"};
   if (valid) changing(step::SleepBody{body}).sleep(body);
   return valid;
 }
@@ -311,6 +314,9 @@ Result<void> World::start_recording() {
   if (recorder_)
     return Error{ErrorCode::recording, "world", no_body,
                  "start_recording: the world is being recorded already"};
+  if (engine_->bodies().rigid.probe)
+    return Error{ErrorCode::unsupported, "world", no_body,
+                 "start_recording: a recording contains no rotations, but the world has a rotation probe"};
   recorder_ = std::make_unique<Recorder>(*this, engine_->bodies().filters.has_pair_filter());
   return {};
 }

@@ -87,7 +87,8 @@ Result<bool> World::Run::work() {
   // Recording and profiling require events to be processed one at a time. Clusters know of no shapes that
   // move.
   const bool alone = lease_.count() == 1 || world_.recorder_ || world_.profiling_ ||
-                     world_.engine_->bodies().shapes.any_carried() || !world_.undelivered_->empty();
+                     world_.engine_->bodies().shapes.any_carried() || world_.engine_->bodies().rigid.any() ||
+                     !world_.undelivered_->empty();
   if (alone || world_.engine_->epoch_end() == one_by_one_) return step();
   return step_batch();
 }
@@ -133,6 +134,11 @@ Result<void> World::Run::answer_one(const Event& event) {
   };
   update(event.first, checked->first_velocity);
   update(event.second, checked->second_velocity);
+  const auto turn = [this](BodyId body, const std::optional<Vec3>& spin) {
+    if (spin) world_.changing(step::SetAngularVelocity{body, *spin}).set_angular_velocity(body, *spin);
+  };
+  turn(event.first, checked->first_angular_velocity);
+  turn(event.second, checked->second_angular_velocity);
   return {};
 }
 
@@ -144,8 +150,22 @@ Result<Response> World::Run::respond(const Event& event) {
 
 Result<void> World::Run::check(const Event& event, const Response& answer) const {
   auto valid = check_velocity_change(event, event.first, answer.first_velocity, "first_velocity");
-  return valid ? check_velocity_change(event, event.second, answer.second_velocity, "second_velocity")
+  if (valid) valid = check_velocity_change(event, event.second, answer.second_velocity, "second_velocity");
+  if (valid) valid = check_spin(event, event.first, answer.first_angular_velocity, "first_angular_velocity");
+  return valid ? check_spin(event, event.second, answer.second_angular_velocity, "second_angular_velocity")
                : valid;
+}
+
+Result<void> World::Run::check_spin(const Event& event, BodyId body, const std::optional<Vec3>& spin,
+                                    std::string_view argument) const {
+  if (!spin) return {};
+  const std::string call =
+      "run: respond: " + std::string(argument) + " at " + std::string(name_of(event.kind));
+  auto valid = Preconditions(world_, call).can_spin(body, *spin);
+  if (valid && world_.engine_->bodies().rigid.probe)
+    valid = Error{ErrorCode::unsupported, std::string(argument), body,
+                  call + ": must be given by the rotation probe of the world"};
+  return valid;
 }
 
 Result<void> World::Run::check_velocity_change(const Event& event, BodyId body,

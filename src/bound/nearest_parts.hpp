@@ -1,0 +1,35 @@
+// Geometry of a contact of rigid bodies: their nearest parts, as events describe them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "kinesphere/rigid_body.hpp"
+#include "kinesphere/shape.hpp"
+
+namespace kinesphere {
+
+/// A rigid body at one time.
+struct RigidPose {
+  Vec3 position;
+  Quaternion orientation;
+  std::span<const RigidPart> parts;
+};
+
+/// The pair of parts with the least gap; of equally near ones the first.
+struct NearestParts {
+  double gap;   ///< between their surfaces (length); not less than minus the sum of their radii
+  Vec3 normal;  ///< unit vector from the first body towards the second
+  Vec3 point;   ///< midpoint of the gap
+  double arm;   ///< distance between the nearest points of their axes (length)
+  std::uint32_t first_part = 0;
+  std::uint32_t second_part = 0;
+};
+
+NearestParts nearest_parts(const RigidPose& first, const RigidPose& second);
+/// Does the above for a shape at rest; the gap to a half-space or a box may be less.
+NearestParts nearest_parts(const RigidPose& first, const HalfSpace& second);
+NearestParts nearest_parts(const RigidPose& first, const Box& second);
+NearestParts nearest_parts(const RigidPose& first, const Triangle& second);
+
+}  // namespace kinesphere

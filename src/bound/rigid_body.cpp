@@ -1,0 +1,53 @@
+// Rotations, and what impulses do to rigid bodies.
+#include "kinesphere/rigid_body.hpp"
+
+#include <cmath>
+
+#include "bound/rigid_record.hpp"
+
+namespace kinesphere {
+namespace {
+
+Vec3 vector_of(const Quaternion& q) { return {q.x, q.y, q.z}; }
+
+}  // namespace
+
+Quaternion rotation_by(const Vec3& turn) {
+  const double angle = norm(turn);
+  if (angle == 0.0) return {};
+  const Vec3 axis = turn * (std::sin(0.5 * angle) / angle);
+  return {std::cos(0.5 * angle), axis.x, axis.y, axis.z};
+}
+
+Quaternion after(const Quaternion& second, const Quaternion& first) {
+  const Vec3 u = vector_of(second);
+  const Vec3 v = vector_of(first);
+  const double w = second.w * first.w - dot(u, v);
+  const Vec3 axis = v * second.w + u * first.w + cross(u, v);
+  const double length = std::sqrt(w * w + norm_squared(axis));
+  return {w / length, axis.x / length, axis.y / length, axis.z / length};
+}
+
+double angle_between(const Quaternion& a, const Quaternion& b) {
+  const Quaternion turn = after(a, {b.w, -b.x, -b.y, -b.z});
+  return 2.0 * std::atan2(norm(vector_of(turn)), std::abs(turn.w));
+}
+
+Vec3 rotated(const Quaternion& rotation, const Vec3& vector) {
+  const Vec3 u = vector_of(rotation);
+  const Vec3 twice = cross(u, vector) * 2.0;
+  return vector + twice * rotation.w + cross(u, twice);
+}
+
+Vec3 rotated_back(const Quaternion& rotation, const Vec3& vector) {
+  return rotated({rotation.w, -rotation.x, -rotation.y, -rotation.z}, vector);
+}
+
+Vec3 RigidRecord::spin_gain(const Vec3& arm, const Vec3& direction) const {
+  Vec3 torque = rotated_back(rotation.orientation, cross(arm, direction));
+  for (int axis = 0; axis < 3; ++axis)
+    torque[axis] = inertia[axis] > 0.0 && std::isfinite(inertia[axis]) ? torque[axis] / inertia[axis] : 0.0;
+  return rotated(rotation.orientation, torque);
+}
+
+}  // namespace kinesphere

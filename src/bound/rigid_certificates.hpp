@@ -1,0 +1,25 @@
+// Certified times and gaps of rigid bodies: those of their parts, as docs/guarantee.md derives them.
+//
+// Two bodies meet when the first two parts do, and separate when the last two parts have. Two balls are a
+// pair of bounds (bound.hpp). Of a capsule and a partner, two facts hold in any direction, however computed.
+// They are apart while a plane that is fixed in space, relative to the partner, has the two ends of the
+// capsule on one side and the partner on the other. Their distance is at most that of any two points, one
+// fixed in each.
+#pragma once
+
+#include "bound/carried_shape.hpp"
+#include "bound/rigid_extent.hpp"
+
+namespace kinesphere {
+
+/// Like the functions of bound.hpp, for the bodies of a pair. `bound` is ignored: the pair contains both.
+template <class Other>
+double earliest_meeting(const Bound& bound, const RigidPair<Other>& pair, double from, double until,
+                        double distance = 0.0);
+template <class Other>
+double earliest_separation(const Bound& bound, const RigidPair<Other>& pair, double from, double until,
+                           double distance);
+template <class Other>
+GapLimits gap_limits(const Bound& bound, const RigidPair<Other>& pair, double t);
+
+}  // namespace kinesphere

@@ -1,0 +1,419 @@
+// Rigid bodies on random courses, compared with brute force: gaps by other formulas, and intervals of time in
+// which these certainly are, or are not, below a limit. Then what single contacts say, and wrong calls.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "kinesphere/motion/ballistic.hpp"
+#include "kinesphere/recording.hpp"
+#include "kinesphere/response.hpp"
+#include "number/infinity.hpp"
+#include "support/expect_error.hpp"
+#include "world/surroundings.hpp"
+
+namespace kinesphere::rigid_bodies_test {
+namespace {
+
+constexpr double eps = 1e-5;
+
+// Gaps by other formulas than the library's.
+
+struct Axis {
+  Vec3 a, b;
+  double radius;
+};
+
+double point_to_segment(const Vec3& point, const Axis& axis) {
+  const Vec3 way = axis.b - axis.a;
+  const double square = norm_squared(way);
+  const double part = square > 0.0 ? std::clamp(dot(point - axis.a, way) / square, 0.0, 1.0) : 0.0;
+  return norm(point - (axis.a + way * part));
+}
+
+/// The squared distance is convex in the two positions, so its least is at an edge of the unit square or
+/// where both derivatives are zero.
+double segment_distance(const Axis& p, const Axis& q) {
+  double least = std::min({point_to_segment(p.a, q), point_to_segment(p.b, q), point_to_segment(q.a, p),
+                           point_to_segment(q.b, p)});
+  const Vec3 u = p.b - p.a;
+  const Vec3 v = q.b - q.a;
+  const Vec3 across = cross(u, v);
+  const double square = norm_squared(across);
+  if (square == 0.0) return least;
+  const Vec3 between = q.a - p.a;
+  const double s = dot(cross(between, v), across) / square;
+  const double t = dot(cross(between, u), across) / square;
+  if (s >= 0.0 && s <= 1.0 && t >= 0.0 && t <= 1.0)
+    least = std::min(least, std::abs(dot(between, across)) / std::sqrt(square));
+  return least;
+}
+
+/// The distance from a convex shape is convex along a segment.
+double segment_distance(const Axis& axis, const Shape& shape, const Vec3& origin) {
+  const auto at = [&](double part) {
+    const Vec3 point = axis.a + (axis.b - axis.a) * part - origin;
+    return std::visit(
+        [&]<class Solid>(const Solid& solid) {
+          if constexpr (std::is_same_v<Solid, Ball>)
+            return norm(point - solid.centre) - solid.radius;
+          else
+            return nearest_point(solid, point).distance;
+        },
+        shape);
+  };
+  if (axis.a == axis.b) return at(0.0);
+  double lower = 0.0;
+  double upper = 1.0;
+  for (int step = 0; step < 60; ++step) {
+    const double left = lower + (upper - lower) / 3.0;
+    const double right = upper - (upper - lower) / 3.0;
+    if (at(left) < at(right))
+      upper = right;
+    else
+      lower = left;
+  }
+  return std::min({at(lower), at(0.0), at(1.0)});
+}
+
+// The scene.
+
+/// The true rotation since a time: about an axis, with a constant angular acceleration.
+struct Spin {
+  double since = 0.0;
+  Quaternion orientation{};
+  Vec3 axis{0, 0, 1};
+  double speed = 0.0;
+  double acceleration = 0.0;
+
+  Rotation at(double time) const {
+    const double s = time - since;
+    return {after(rotation_by(axis * ((speed + 0.5 * acceleration * s) * s)), orientation),
+            axis * (speed + acceleration * s)};
+  }
+};
+
+struct Kind {
+  std::uint64_t seed;
+  double angular_acceleration;
+  bool has_walls;
+  bool is_periodic;
+};
+
+std::ostream& operator<<(std::ostream& out, const Kind& kind) {
+  return out << "angular acceleration " << kind.angular_acceleration << (kind.has_walls ? ", walls" : "")
+             << (kind.is_periodic ? ", periodic" : "") << ", seed " << kind.seed;
+}
+
+class RandomRigidBodies : public testing::TestWithParam<Kind> {
+ protected:
+  RandomRigidBodies() : p(definition()), random(GetParam().seed) {
+    if (spins_change()) p.world.set_rotation_probe(rotation_probe()).value();
+    for (int k = 0; k < 7; ++k) come();
+    for (int k = 0; k < 5; ++k) things[p.add(any_body(0.1 + 0.4 * random.uniform()))] = {};
+    if (!GetParam().is_periodic) add_shapes();
+  }
+
+  static WorldDefinition definition() {
+    const double edge = GetParam().is_periodic ? 0.5 * period : 4.0;
+    WorldDefinition definition{.contact_tolerance = eps};
+    if (GetParam().has_walls || GetParam().is_periodic)
+      definition.box = Box{{-edge, -edge, -edge}, {edge, edge, edge}};
+    if (GetParam().is_periodic) definition.periodic = {true, true, true};
+    return definition;
+  }
+  static bool spins_change() { return GetParam().angular_acceleration > 0.0; }
+
+  /// The middle of the scene: in periodic space a corner of the box.
+  static Vec3 home() {
+    return GetParam().is_periodic ? Vec3{0.5 * period, 0.5 * period, 0.5 * period} : Vec3{};
+  }
+
+  void add_shapes() {
+    const std::array<Shape, 3> shapes{HalfSpace{{0.6, 0, 0.8}, -2.5}, Box{{-1, -1, -3}, {1, 0.5, -2}},
+                                      Triangle{{-2, 1, 0}, {2, 2, 0.5}, {0.5, -1, 2}}};
+    for (const Shape& shape : shapes) things[p.place(shape)] = {.shape = shape};
+    const MovingShape plate{any_body(1.0), Box{{-1, -1, -0.1}, {1, 1, 0.1}}};
+    const BodyId id = p.world.add_moving_shape(plate).value();
+    p.start_course(id, plate.body);
+    things[id] = {.shape = plate.shape, .is_carried = true};
+  }
+
+  BodyDefinition any_body(double radius) {
+    return {.radius = radius,
+            .acceleration_limit = 2,
+            .position = home() + 2.0 * random.point_in_ball(),
+            .velocity = 1.5 * random.point_in_ball()};
+  }
+
+  std::vector<RigidPart> any_parts() {
+    std::vector<RigidPart> parts;
+    const std::size_t count = 1 + random.bits() % 4;
+    for (std::size_t k = 0; k < count; ++k) {
+      const Vec3 a = random.point_in_ball();
+      const bool is_ball = random.bits() % 2 == 0;
+      // Long thin ones, too.
+      const Vec3 b = random.bits() % 5 == 0 ? a + 2.5 * random.unit_vector() : random.point_in_ball();
+      parts.push_back({a, is_ball ? a : b, random.bits() % 6 == 0 ? 0.002 : 0.05 + 0.3 * random.uniform()});
+    }
+    return parts;
+  }
+
+  void come() {
+    const double speed = 6.0 * random.uniform();
+    Spin spin{.since = p.world.time(),
+              .orientation = rotation_by(3.0 * random.point_in_ball()),
+              .axis = random.unit_vector(),
+              .speed = speed};
+    const RigidBody body{.body = any_body(1.0),
+                         .parts = any_parts(),
+                         .rotation = spin.at(p.world.time()),
+                         .angular_acceleration_limit = GetParam().angular_acceleration,
+                         .largest_angular_speed = 10.0};
+    const auto id = p.world.add_rigid_body(body);
+    if (!id && GetParam().has_walls) return come();
+    p.start_course(id.value(), body.body);
+    things[*id] = {.parts = body.parts};
+    spins[*id] = spin;
+    rigid.push_back(*id);
+  }
+
+  RotationProbe rotation_probe() {
+    return [this](std::span<const BodyId> ids, double time, std::span<Rotation> rotations) {
+      for (std::size_t k = 0; k < ids.size(); ++k) rotations[k] = spins.at(ids[k]).at(time);
+    };
+  }
+
+  void change() {
+    const std::size_t k = random.bits() % rigid.size();
+    const BodyId id = rigid[k];
+    const double now = p.world.time();
+    switch (random.bits() % 8) {
+      case 0:
+        p.world.remove(id).value();
+        std::erase_if(touching,
+                      [=](const auto& pair) { return pair.first.first == id || pair.first.second == id; });
+        things.erase(id);
+        spins.erase(id);
+        rigid.erase(rigid.begin() + static_cast<std::ptrdiff_t>(k));
+        return come();
+      case 1: {
+        Spin& spin = spins[id];
+        spin = {now, spin.at(now).orientation, random.unit_vector(), 6.0 * random.uniform()};
+        return p.world.set_angular_velocity(id, spin.axis * spin.speed).value();
+      }
+      case 2: {
+        const Spin turned{now, rotation_by(3.0 * random.point_in_ball()), random.unit_vector(), 3.0};
+        if (!p.world.set_rotation(id, turned.at(now))) return;  // into a wall
+        spins[id] = turned;
+        return;
+      }
+      case 3: {
+        const State to{home() + 2.0 * random.point_in_ball(), random.point_in_ball()};
+        if (!p.world.teleport(id, to)) return;  // into a wall
+        p.set_position(id, to.position);
+        p.set_velocity_unseen(id, to.velocity);
+        // The world knows the rotation of a body that keeps its angular velocity alone.
+        if (spins_change()) p.world.set_rotation(id, spins[id].at(now)).value();
+        return;
+      }
+      case 4:
+        p.world = World::restore(p.world.save().value()).value();
+        if (spins_change()) p.world.set_rotation_probe(rotation_probe()).value();
+        return;
+      default:
+        return;
+    }
+  }
+
+  /// Steers the bodies back towards the middle.
+  void steer() {
+    for (const auto& [id, thing] : things) {
+      if (thing.shape && !thing.is_carried) continue;
+      const Vec3 away = p.state(id).position - home();
+      p.steer(id, -1.0 * away / (norm(away) + 0.1) + 0.9 * random.point_in_ball());
+      if (!spins_change() || thing.parts.empty()) continue;
+      Spin& spin = spins[id];
+      const double now = p.world.time();
+      const double speed = spin.speed + spin.acceleration * (now - spin.since);
+      const double sign = speed > 8.0 ? -1.0 : speed < 0.0 ? 1.0 : random.bits() % 2 == 0 ? 1.0 : -1.0;
+      spin = {now, spin.at(now).orientation, spin.axis, speed,
+              sign * GetParam().angular_acceleration * random.uniform()};
+    }
+  }
+
+  // Brute force.
+
+  struct Thing {
+    std::vector<RigidPart> parts{};  ///< empty for a ball and a shape
+    std::optional<Shape> shape{};
+    bool is_carried = false;
+  };
+
+  std::vector<Axis> axes(BodyId id, const Thing& thing, double time) const {
+    const Vec3 position = p.state(id, time).position;
+    if (thing.parts.empty()) return {{position, position, p.radius(id)}};
+    const Quaternion orientation = spins.at(id).at(time).orientation;
+    std::vector<Axis> found;
+    for (const RigidPart& part : thing.parts)
+      found.push_back(
+          {position + rotated(orientation, part.a), position + rotated(orientation, part.b), part.radius});
+    return found;
+  }
+
+  double gap(BodyId first, BodyId second, double time) const {
+    const Thing& one = things.at(first);
+    const Thing& other = things.at(second);
+    if (one.shape) return gap(second, first, time);
+    double least = infinity;
+    for (const Axis& axis : axes(first, one, time)) {
+      if (other.shape) {
+        const Vec3 origin = other.is_carried ? p.state(second, time).position : Vec3{};
+        least = std::min(least, segment_distance(axis, *other.shape, origin) - axis.radius);
+        continue;
+      }
+      for (Axis far : axes(second, other, time)) {
+        if (GetParam().is_periodic) {
+          Vec3 shift;
+          for (int k = 0; k < 3; ++k)
+            shift[k] =
+                -14.0 *
+                std::round((p.state(second, time).position[k] - p.state(first, time).position[k]) / period);
+          far.a += shift;
+          far.b += shift;
+        }
+        least = std::min(least, segment_distance(axis, far) - axis.radius - far.radius);
+      }
+    }
+    return least;
+  }
+
+  double wall_gap(BodyId id, Wall wall, double time) const {
+    const int number = static_cast<int>(wall) - 1;
+    double least = infinity;
+    for (const Axis& axis : axes(id, things.at(id), time))
+      for (const Vec3& end : {axis.a, axis.b}) {
+        const double x = number % 2 == 0 ? end[number / 2] + 4.0 : 4.0 - end[number / 2];
+        least = std::min(least, x - axis.radius);
+      }
+    return least;
+  }
+
+  /// Largest speed of a point of the body during a step.
+  double largest_speed(BodyId id) const {
+    const Thing& thing = things.at(id);
+    if (thing.shape && !thing.is_carried) return 0.0;
+    double reach = 0.0;
+    for (const RigidPart& part : thing.parts) reach = std::max({reach, norm(part.a), norm(part.b)});
+    return norm(p.state(id).velocity) + 2.0 * longest + (reach > 0.0 ? 10.0 * reach : 0.0);
+  }
+
+  /// Checks that the world says of every moment in [from, to] what the gap is, wherever that is clear.
+  template <class Gap>
+  void check(double from, double to, double speed, bool was_touching,
+             const std::vector<std::pair<double, bool>>& told, Gap gap_at) {
+    const double middle = 0.5 * (from + to);
+    const double gap = gap_at(middle);
+    const double change = speed * 0.5 * (to - from) + 1e-9;
+    const auto says = [&](bool wanted) {
+      bool state = was_touching;
+      for (const auto& [time, begins] : told) {
+        if (time > to) break;
+        if (time > from && state != wanted) return false;
+        state = begins;
+      }
+      return state == wanted;
+    };
+    if (gap - change > 5.0 * eps) {
+      ASSERT_TRUE(says(false)) << "apart by " << gap << " at " << middle;
+    } else if (gap + change < -eps) {
+      ASSERT_TRUE(says(true)) << "unreported, gap " << gap << " at " << middle;
+    } else if (change > 0.25 * eps) {
+      check(from, middle, speed, was_touching, told, gap_at);
+      if (HasFatalFailure()) return;
+      check(middle, to, speed, was_touching, told, gap_at);
+    }
+  }
+
+  static constexpr double longest = 0.2;  ///< of a step (time)
+  static constexpr double period = 22.0;
+
+  Surroundings p;
+  Random random;
+  std::map<BodyId, Thing> things;
+  std::map<BodyId, Spin> spins;
+  std::vector<BodyId> rigid;
+  /// Pairs in touch; for a wall, the number of the wall stands for the second body.
+  std::map<std::pair<BodyId, BodyId>, bool> touching;
+};
+
+TEST_P(RandomRigidBodies, AreReportedWheneverTheirPartsTouch) {
+  std::size_t begins = 0;
+  for (int stop = 1; stop <= 150 && !HasFatalFailure(); ++stop) {
+    change();
+    steer();
+    const double from = p.world.time();
+    const double to = from + longest * random.uniform();
+    const auto wall_id = [](Wall wall) { return BodyId{1000000u + static_cast<std::uint32_t>(wall), 0, 0}; };
+    std::map<std::pair<BodyId, BodyId>, std::vector<std::pair<double, bool>>> told;
+    p.run(to, [&](const Event& event) {
+      ASSERT_NE(event.kind, EventKind::bound_violation) << event;
+      const BodyId second = event.second == no_body ? wall_id(event.wall) : event.second;
+      const bool begin = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
+      const bool end = event.kind == EventKind::contact_end || event.kind == EventKind::wall_end;
+      if (!begin && !end) return;
+      if (!things.contains(event.first) || (event.second != no_body && !things.contains(event.second)))
+        return;
+      begins += begin;
+      told[{event.first, second}].emplace_back(event.time, begin);
+      if (!begin) return;
+      const double gap = event.second == no_body ? wall_gap(event.first, event.wall, event.time)
+                                                 : this->gap(event.first, event.second, event.time);
+      EXPECT_LE(gap, eps + 1e-9) << event;
+      if (gap > -1e-3) {
+        EXPECT_NEAR(event.gap, gap, 1e-9) << event;
+      }
+    });
+    for (auto one = things.begin(); one != things.end() && !HasFatalFailure(); ++one) {
+      for (auto other = std::next(one); other != things.end() && !HasFatalFailure(); ++other) {
+        if (one->second.parts.empty() && other->second.parts.empty()) continue;
+        const auto pair = std::pair(one->first, other->first);
+        check(from, to, largest_speed(pair.first) + largest_speed(pair.second), touching[pair], told[pair],
+              [&](double time) { return gap(pair.first, pair.second, time); });
+        if (HasFatalFailure()) ADD_FAILURE() << pair.first << " and " << pair.second << ", stop " << stop;
+        if (!told[pair].empty()) touching[pair] = told[pair].back().second;
+        const auto limits = p.world.distance_limits(pair.first, pair.second, p.world.time()).value();
+        const double gap = this->gap(pair.first, pair.second, p.world.time());
+        if (gap > 0.0) {
+          ASSERT_LE(limits.lower, gap + 1e-9) << pair.first << " " << pair.second;
+        }
+        ASSERT_GE(limits.upper, gap - 1e-9) << pair.first << " " << pair.second;
+      }
+      if (!GetParam().has_walls || one->second.shape) continue;
+      for (int wall = 1; wall <= wall_count; ++wall) {
+        const auto pair = std::pair(one->first, wall_id(static_cast<Wall>(wall)));
+        check(from, to, largest_speed(pair.first), touching[pair], told[pair],
+              [&](double time) { return wall_gap(pair.first, static_cast<Wall>(wall), time); });
+        if (HasFatalFailure()) ADD_FAILURE() << pair.first << " and wall " << wall << ", stop " << stop;
+        if (!told[pair].empty()) touching[pair] = told[pair].back().second;
+      }
+    }
+    if (stop % 10 == 0) {
+      ASSERT_TRUE(is_clean(p.world)) << "stop " << stop;
+    }
+  }
+  EXPECT_GT(begins, 100u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, RandomRigidBodies,
+                         testing::Values(Kind{1, 0.0, false, false}, Kind{2, 0.0, true, false},
+                                         Kind{3, 8.0, false, false}, Kind{4, 8.0, true, false},
+                                         Kind{5, 0.0, false, true}, Kind{6, 8.0, false, true}));
+
+}  // namespace
+}  // namespace kinesphere::rigid_bodies_test
