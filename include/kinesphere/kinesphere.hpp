@@ -33,6 +33,7 @@
 #include "kinesphere/recording.hpp"
 #include "kinesphere/response.hpp"
 #include "kinesphere/result.hpp"
+#include "kinesphere/rigid_body.hpp"
 #include "kinesphere/run.hpp"
 #include "kinesphere/sensor.hpp"
 #include "kinesphere/shape.hpp"

@@ -66,6 +66,16 @@ Result<BodyId> BodyMap::add_moving_shape(World& world, Motion& motion, std::uint
   return id;
 }
 
+Result<BodyId> BodyMap::add_rigid_body(World& world, Motion& motion, std::uint32_t number,
+                                         RigidBody like) {
+  const auto definition = definition_of("add_rigid_body", motion, number, world.time(), like.body);
+  if (!definition) return definition.error();
+  like.body = *definition;
+  auto id = world.add_rigid_body(like);
+  if (id) note(*id, motion, number);
+  return id;
+}
+
 Result<std::vector<BodyId>> BodyMap::add_all(World& world, Motion& motion, const BodyDefinition& like) {
   return add_all(world, motion, std::vector<double>(motion.size(), like.radius), like);
 }

@@ -164,7 +164,7 @@ Result<void> World::Preconditions::room_for(const RigidBody& added, BodyId id) c
   const Bound bound = bound_now(body, engine_->time());
   const CollisionShape shape{bound, false, nullptr, body.radius, &record};
   if (const auto wall = engine_->overlaps().of_wall(shape))
-    return Error{ErrorCode::outside_domain, "parts", id,
+    return Error{ErrorCode::outside_domain, "parts", is_known(id) ? id : no_body,
                  std::string(call_) + ": parts must lie in the box, but would overlap the wall " +
                      std::string(name_of(*wall))};
   return no_overlap(shape, body, id, "position");

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "kinesphere/body_map.hpp"
 #include "kinesphere/motion/ballistic.hpp"
 #include "kinesphere/recording.hpp"
 #include "kinesphere/response.hpp"
@@ -414,6 +415,230 @@ INSTANTIATE_TEST_SUITE_P(Kinds, RandomRigidBodies,
                          testing::Values(Kind{1, 0.0, false, false}, Kind{2, 0.0, true, false},
                                          Kind{3, 8.0, false, false}, Kind{4, 8.0, true, false},
                                          Kind{5, 0.0, false, true}, Kind{6, 8.0, false, true}));
+
+/// A dumbbell along x: two balls of radius 0.5 and mass 1, each 1 from the position.
+RigidBody dumbbell(const Vec3& position, const Vec3& velocity = {}, const Vec3& spin = {}) {
+  return {.body = {.position = position, .velocity = velocity, .mass = 2},
+          .parts = {{{-1, 0, 0}, {-1, 0, 0}, 0.5}, {{1, 0, 0}, {1, 0, 0}, 0.5}},
+          .rotation = {.angular_velocity = spin},
+          .inertia = {0, 2, 2}};
+}
+
+/// World of bodies that fly freely and bounce without loss; the world turns them.
+class FreeFlight : public testing::Test {
+ protected:
+  BodyId add(const RigidBody& body) {
+    const BodyId id = p.world.add_rigid_body(body).value();
+    p.start_course(id, body.body);
+    return id;
+  }
+  void bounce_at(const Event& event) {
+    const Bounce after = bounce(event, 1.0);
+    p.set_velocity(event.first, after.first_velocity);
+    p.world.set_angular_velocity(event.first, after.first_angular_velocity).value();
+    if (event.second == no_body) return;
+    p.set_velocity(event.second, after.second_velocity);
+    if (p.world.rigid_body(event.second))
+      p.world.set_angular_velocity(event.second, after.second_angular_velocity).value();
+  }
+  double energy(BodyId id) const {
+    const RigidBody body = p.world.rigid_body(id).value();
+    const Vec3 spin = rotated_back(body.rotation.orientation, body.rotation.angular_velocity);
+    return 0.5 * (body.body.mass * norm_squared(p.state(id).velocity) + body.inertia.x * spin.x * spin.x +
+                  body.inertia.y * spin.y * spin.y + body.inertia.z * spin.z * spin.z);
+  }
+  Vec3 angular_momentum(BodyId id) const {
+    const RigidBody body = p.world.rigid_body(id).value();
+    Vec3 spin = rotated_back(body.rotation.orientation, body.rotation.angular_velocity);
+    for (int axis = 0; axis < 3; ++axis) spin[axis] *= body.inertia[axis];
+    const State state = p.state(id);
+    return rotated(body.rotation.orientation, spin) + body.body.mass * cross(state.position, state.velocity);
+  }
+
+  Playground p{WorldDefinition{.contact_tolerance = 1e-9, .contacts = ContactEvents::impacts}};
+};
+
+TEST_F(FreeFlight, BouncesKeepMomentaAndEnergy) {
+  Random random(5);
+  int bounces = 0;
+  for (int run = 0; run < 200; ++run) {
+    p = Playground(WorldDefinition{.contact_tolerance = 1e-9, .contacts = ContactEvents::impacts});
+    RigidBody one = dumbbell(random.point_in_ball(), {}, random.point_in_ball());
+    one.inertia = {0.5, 2, 3};
+    RigidBody other = dumbbell({4, 0, 0}, {-2, 0, 0}, 3.0 * random.point_in_ball());
+    other.rotation.orientation = rotation_by(3.0 * random.point_in_ball());
+    other.parts.push_back({{0, 0.5, 0}, {0, -1, 0.5}, 0.2});
+    other.inertia = {random.uniform(), random.uniform(), random.uniform()};
+    other.body.mass = 0.1 + random.uniform();
+    const BodyId a = add(one);
+    const BodyId b = add(other);
+    const auto event = p.advance(10.0);
+    if (!event) continue;
+    ++bounces;
+    ASSERT_NEAR(event->gap, 0.0, 2e-9);
+    const double energy_before = energy(a) + energy(b);
+    const Vec3 turning_before = angular_momentum(a) + angular_momentum(b);
+    const Vec3 way_before = 2.0 * p.state(a).velocity + other.body.mass * p.state(b).velocity;
+    bounce_at(*event);
+    ASSERT_NEAR(energy(a) + energy(b), energy_before, 1e-12 * energy_before) << *event;
+    ASSERT_LT(norm(angular_momentum(a) + angular_momentum(b) - turning_before), 1e-11) << *event;
+    ASSERT_LT(norm(2.0 * p.state(a).velocity + other.body.mass * p.state(b).velocity - way_before), 1e-12);
+  }
+  EXPECT_GT(bounces, 100);
+}
+
+TEST_F(FreeFlight, ASpinningDumbbellHitsAtTheTimeOfItsRotation) {
+  add(dumbbell({0, 0, 0}, {}, {0, 0, 1}));
+  const BodyId ball = p.add({.radius = 0.5, .position = {0, -1.5, 0}});
+  // The ball of the part at -x comes to (0, -1, 0) after a quarter turn; the two touch when it is within 1 of
+  // the other ball: cos(angle) from there.
+  const auto event = p.advance(10.0);
+  ASSERT_TRUE(event);
+  const double cosine = (1.0 + 1.5 * 1.5 - 1.0) / (2.0 * 1.5);
+  EXPECT_NEAR(event->time, 0.5 * 3.14159265358979323846 - std::acos(cosine), 1e-8);
+  EXPECT_EQ(event->second, ball);
+  EXPECT_EQ(event->first_part, 0u);
+  EXPECT_EQ(event->second_part, 0u);
+  EXPECT_EQ(event->first_angular_velocity, (Vec3{0, 0, 1}));
+  EXPECT_EQ(event->second_spin_gain, Vec3{});
+  EXPECT_GT(event->approach_speed, 0.5);
+}
+
+TEST_F(FreeFlight, ARecordingIsReplayed) {
+  for (int k = 0; k < 5; ++k)
+    add(dumbbell({3.0 * k, 0.1 * k, 0}, {k % 2 == 0 ? 1.0 : -1.0, 0, 0}, {0.3 * k, 0, 1.0}));
+  p.world.start_recording().value();
+  int events = 0;
+  p.run(20.0, [&](const Event& event) {
+    ++events;
+    bounce_at(event);
+  });
+  ASSERT_GT(events, 5);
+  Replay replay = Replay::open(p.world.stop_recording().value()).value();
+  while (!replay.finished()) ASSERT_TRUE(replay.advance());
+  EXPECT_EQ(replay.world().time(), 20.0);
+}
+
+TEST_F(FreeFlight, RunGivesWhatALoopGives) {
+  std::vector<State> start;
+  for (int k = 0; k < 6; ++k) start.push_back({{2.5 * k, 0.2 * (k % 3), 0}, {k % 2 == 0 ? 1.0 : -1.0, 0, 0}});
+  EventHash hashes[2];
+  for (EventHash& hash : hashes) {
+    Ballistic motion = Ballistic::create({.start = start}).value();
+    World world = World::create({.contacts = ContactEvents::impacts}).value();
+    BodyMap bodies;
+    for (std::uint32_t k = 0; k < start.size(); ++k)
+      bodies.add_rigid_body(world, motion, k, dumbbell({}, {}, {0, 0.5, 1.0 * k})).value();
+    if (&hash == hashes) {
+      auto source = bodies.source();
+      Workers workers = Workers::create(2).value();
+      world
+          .run(
+              20, source, [](const Event& event) { return response_of(event, bounce(event, 1.0)); },
+              [&](const Event& event) { hash.add(event); }, &workers)
+          .value();
+      continue;
+    }
+    while (const auto event = world.advance(20, bodies.probe()).value()) {
+      hash.add(*event);
+      const Bounce after = bounce(*event, 1.0);
+      bodies.set_velocity(world, event->first, after.first_velocity).value();
+      bodies.set_velocity(world, event->second, after.second_velocity).value();
+      if (event->first_spin_gain != Vec3{})
+        world.set_angular_velocity(event->first, after.first_angular_velocity).value();
+      if (event->second_spin_gain != Vec3{})
+        world.set_angular_velocity(event->second, after.second_angular_velocity).value();
+    }
+  }
+  EXPECT_EQ(hashes[0].value(), hashes[1].value());
+}
+
+TEST(RigidBodyErrors, NameTheCulprit) {
+  World world = World::create({}).value();
+  const auto refused = [&](RigidBody body, ErrorCode code, const std::string& argument) {
+    expect_error(world.add_rigid_body(body), code, argument, "add_rigid_body");
+    EXPECT_EQ(world.size(), 0u);
+  };
+  const double nan = std::nan("");
+  RigidBody body = dumbbell({});
+  body.parts.clear();
+  refused(body, ErrorCode::out_of_range, "parts");
+  body = dumbbell({});
+  body.parts[1].b.y = nan;
+  refused(body, ErrorCode::not_finite, "parts");
+  body.parts[1] = {.radius = -1};
+  refused(body, ErrorCode::out_of_range, "parts");
+  body = dumbbell({});
+  body.rotation.orientation = {1, 1, 0, 0};
+  refused(body, ErrorCode::out_of_range, "rotation");
+  body.rotation.orientation = {nan, 1, 0, 0};
+  refused(body, ErrorCode::not_finite, "rotation");
+  body = dumbbell({}, {}, {0, 0, 4});
+  body.largest_angular_speed = 3;
+  refused(body, ErrorCode::out_of_range, "rotation");
+  body = dumbbell({});
+  body.angular_acceleration_limit = 1;
+  refused(body, ErrorCode::out_of_range, "largest_angular_speed");
+  body.angular_acceleration_limit = -1;
+  refused(body, ErrorCode::out_of_range, "angular_acceleration_limit");
+  body = dumbbell({});
+  body.inertia.y = -1;
+  refused(body, ErrorCode::out_of_range, "inertia");
+}
+
+TEST(RigidBodyErrors, NeedARotationProbeThatAnswers) {
+  World world = World::create({}).value();
+  RigidBody body = dumbbell({});
+  body.angular_acceleration_limit = 1;
+  body.largest_angular_speed = 5;
+  const BodyId id = world.add_rigid_body(body).value();
+  // So near that reports must tell whether they touch.
+  const BodyId near = world.add({.radius = 1, .position = {0, 1.3, 0}}).value();
+  const Probe probe = [&](std::span<const BodyId> ids, double, std::span<State> states) {
+    for (std::size_t k = 0; k < ids.size(); ++k)
+      states[k] = State{ids[k] == near ? Vec3{0, 1.3, 0} : Vec3{}};
+  };
+  expect_error(world.advance(1000.0, probe), ErrorCode::null_probe, "rotation_probe", "advance", id);
+  world.set_rotation_probe([](auto, double, auto) {}).value();
+  expect_error(world.advance(1000.0, probe), ErrorCode::not_finite, "rotation", "advance", id);
+  bool turns_too_fast = true;
+  world
+      .set_rotation_probe([&](std::span<const BodyId>, double, std::span<Rotation> rotations) {
+        rotations[0] = turns_too_fast ? Rotation{.angular_velocity = {0, 0, 6}} : Rotation{};
+      })
+      .value();
+  const auto event = world.advance(1000.0, probe).value();
+  ASSERT_TRUE(event && event->kind == EventKind::bound_violation);
+  EXPECT_GT(event->velocity_excess, 1.0);
+  expect_error(world.start_recording(), ErrorCode::unsupported, "world", "start_recording");
+  expect_error(world.set_angular_velocity(id, {0, 0, 9}), ErrorCode::out_of_range, "angular_velocity",
+               "set_angular_velocity", id);
+  expect_error(world.set_radius(id, 1.0), ErrorCode::unsupported, "body", "set_radius", id);
+  expect_error(world.sleep(id), ErrorCode::unsupported, "body", "sleep", id);
+  const BodyId ball = world.add({.position = {9, 9, 9}}).value();
+  expect_error(world.set_angular_velocity(ball, {}), ErrorCode::unsupported, "body", "set_angular_velocity",
+               ball);
+  expect_error(world.rigid_body(ball), ErrorCode::unsupported, "body", "rigid_body", ball);
+}
+
+TEST(RigidBodies, LieOnAFloorThoughTheBallAroundThemReachesBelow) {
+  World world = World::create({.box = Box{{-5, -5, 0}, {5, 5, 9}}, .allow_overlap = false}).value();
+  const RigidBody plank{.body = {.position = {0, 0, 0.25}}, .parts = {{{-2, 0, 0}, {2, 0, 0}, 0.25}}};
+  const BodyId id = world.add_rigid_body(plank).value();
+  expect_error(world.set_rotation(id, {rotation_by({0, 1, 0})}), ErrorCode::outside_domain, "parts",
+               "set_rotation", id);
+  world.set_rotation(id, {rotation_by({0, 0, 1})}).value();
+  RigidBody deep = plank;
+  deep.body.position.z = 0.1;
+  expect_error(world.add_rigid_body(deep), ErrorCode::outside_domain, "parts", "add_rigid_body");
+  // Another one beside it: the balls around the two overlap, their parts do not.
+  RigidBody next = plank;
+  next.rotation.orientation = rotation_by({0, 0, 1});
+  next.body.position.y = 1.5;
+  EXPECT_TRUE(world.add_rigid_body(next));
+  next.body.position.y = 0.2;
+  expect_error(world.add_rigid_body(next), ErrorCode::overlapping, "position", "add_rigid_body", id);
+}
 
 }  // namespace
 }  // namespace kinesphere::rigid_bodies_test
