@@ -1,6 +1,6 @@
 #include "bound/nearest_parts.hpp"
 
-#include <limits>
+#include <vector>
 
 #include "bound/segments.hpp"
 #include "number/infinity.hpp"
@@ -11,6 +11,22 @@ namespace {
 Segment axis_of(const RigidPose& body, const RigidPart& part) {
   const Vec3 a = body.position + rotated(body.orientation, part.a);
   return {a, part.a == part.b ? a : body.position + rotated(body.orientation, part.b)};
+}
+
+struct PlacedPart {
+  Segment axis;
+  Vec3 middle;
+  double reach;  ///< radius of the ball around the middle that contains the part
+};
+
+std::vector<PlacedPart> placed(const RigidPose& body) {
+  std::vector<PlacedPart> found;
+  found.reserve(body.parts.size());
+  for (const RigidPart& part : body.parts) {
+    const Segment axis = axis_of(body, part);
+    found.push_back({axis, 0.5 * (axis.a + axis.b), 0.5 * norm(axis.b - axis.a) + part.radius});
+  }
+  return found;
 }
 
 /// Takes `found` if it is nearer than `nearest`.
@@ -50,17 +66,19 @@ NearestParts nearest_to_solid(const RigidPose& body, const Solid& solid) {
 }  // namespace
 
 NearestParts nearest_parts(const RigidPose& first, const RigidPose& second) {
+  const std::vector<PlacedPart> own = placed(first);
+  const std::vector<PlacedPart> other = placed(second);
   NearestParts nearest{.gap = infinity};
-  for (std::uint32_t k = 0; k < first.parts.size(); ++k) {
-    const Segment own = axis_of(first, first.parts[k]);
-    for (std::uint32_t m = 0; m < second.parts.size(); ++m) {
-      NearestParts found =
-          of_two(own, axis_of(second, second.parts[m]), first.parts[k].radius, second.parts[m].radius);
+  for (std::uint32_t k = 0; k < own.size(); ++k)
+    for (std::uint32_t m = 0; m < other.size(); ++m) {
+      // The balls around the two are not nearer than the nearest parts so far.
+      const double enough = nearest.gap + own[k].reach + other[m].reach;
+      if (enough < 0.0 || norm_squared(own[k].middle - other[m].middle) > enough * enough) continue;
+      NearestParts found = of_two(own[k].axis, other[m].axis, first.parts[k].radius, second.parts[m].radius);
       found.first_part = k;
       found.second_part = m;
       keep_nearer(nearest, found);
     }
-  }
   return nearest;
 }
 

@@ -1,6 +1,8 @@
 #include "bound/rigid_certificates.hpp"
 
 #include <algorithm>
+#include <type_traits>
+#include <vector>
 
 #include "bound/reach.hpp"
 #include "bound/safe_steps.hpp"
@@ -13,15 +15,21 @@ namespace {
 class PartBound {
  public:
   PartBound(const RigidExtent& body, const RigidPart& part)
-      : body_(body), part_(part), a_(body.of_point(part.a, part.radius)) {
+      : body_(&body), part_(&part), a_(body.of_point(part.a, part.radius)) {
     if (!is_ball()) b_ = body.of_point(part.b, part.radius);
   }
+  explicit PartBound(const Bound& ball) : a_(ball) {}
 
-  bool is_ball() const { return part_.a == part_.b; }
+  bool is_ball() const { return part_ == nullptr || part_->a == part_->b; }
   const Bound& ball() const { return a_; }
   /// Bound of the point of the axis at this position, from 0 at a to 1 at b.
   Bound at(double position) const {
-    return body_.of_point(part_.a + (part_.b - part_.a) * position, part_.radius);
+    return body_->of_point(part_->a + (part_->b - part_->a) * position, part_->radius);
+  }
+  /// Bound of the ball around the part.
+  Bound around() const {
+    if (is_ball()) return a_;
+    return body_->of_point(0.5 * (part_->a + part_->b), part_->radius + 0.5 * norm(part_->b - part_->a));
   }
   /// The axis where it is at a time, if its ends go straight on.
   Segment axis(double time) const {
@@ -34,13 +42,15 @@ class PartBound {
   }
 
  private:
-  const RigidExtent& body_;
-  const RigidPart& part_;
+  const RigidExtent* body_ = nullptr;
+  const RigidPart* part_ = nullptr;
   Bound a_;
   Bound b_{};
 };
 
-/// Repeats next(time), which returns a later certain time or +infinity, until it gains little.
+/// Repeats next(time), which returns a later certain time or +infinity, until a step gains less than an
+/// eighth of the total. More steps cost more than the rechecks that they save, as these know the rotation
+/// anew.
 template <class Next>
 double repeated(double from, Next next) {
   double time = from;
@@ -49,7 +59,7 @@ double repeated(double from, Next next) {
     if (later == infinity) return infinity;
     const double gain = later - time;
     time = std::max(time, later);
-    if (!(gain > (time - from) * negligible_gain)) break;
+    if (!(gain > (time - from) * 0.125)) break;
   }
   return time;
 }
@@ -209,18 +219,105 @@ GapLimits gap(const PartBound& part, const Shape& shape, double t) {
 
 // Whole bodies.
 
-/// Calls visit(part, partner) for each part of the body, with each part of a partner that is a rigid body, or
-/// else with the partner.
-template <class Other, class Visit>
-void for_each_part(const RigidPair<Other>& pair, Visit visit) {
-  for (const RigidPart& own : pair.body.parts) {
-    const PartBound part(pair.body, own);
-    if constexpr (std::is_same_v<Other, RigidExtent>) {
-      for (const RigidPart& other : pair.other.parts) visit(part, PartBound(pair.other, other));
-    } else {
-      visit(part, pair.other);
-    }
+/// A part and the ball around it at one time.
+struct PartNow {
+  PartBound bound;
+  Vec3 centre;
+  Vec3 velocity;
+  Vec3 plan;
+  double radius;  ///< grown up to now
+  double speed;   ///< at which it grows
+  double acceleration;
+  double size;  ///< sum of the magnitudes of all terms (length)
+
+  PartNow(const RigidExtent& body, const RigidPart& part, double time)
+      : PartNow(PartBound(body, part), time) {}
+  /// The ball around a whole body, as one part.
+  PartNow(const RigidExtent& body, double time) : PartNow(PartBound(body.bound), time) {}
+
+ private:
+  PartNow(const PartBound& part, double time) : bound(part) {
+    const Bound ball = part.around();
+    centre = ball.centre_at(time);
+    velocity = ball.velocity_at(time);
+    plan = ball.planned_acceleration;
+    radius = ball.radius_at(time);
+    speed = ball.growth_speed + ball.growth_acceleration * (time - ball.time);
+    acceleration = ball.growth_acceleration;
+    size = norm_one(ball.position) + norm_one(centre) + radius;
   }
+};
+
+std::vector<PartNow> parts_now(const RigidExtent& body, double time) {
+  std::vector<PartNow> parts;
+  parts.reserve(body.parts.size());
+  for (const RigidPart& part : body.parts) parts.emplace_back(body, part, time);
+  return parts;
+}
+
+/// Returns a lower bound of the gap between two parts.
+double least_gap(const PartNow& a, const PartNow& b) {
+  return norm(a.centre - b.centre) - (a.radius + b.radius) - 0x1p-40 * (a.size + b.size);
+}
+
+/// Returns an upper bound of how much the gap between two parts shrinks in a time.
+double most_closing(const PartNow& a, const PartNow& b, double duration) {
+  const double speed = norm(a.velocity - b.velocity) + a.speed + b.speed;
+  const double acceleration = norm(a.plan - b.plan) + a.acceleration + b.acceleration;
+  return (speed + 0.5 * acceleration * duration) * duration * (1.0 + 0x1p-40);
+}
+
+/// Returns the part with the least gap to a ball.
+const PartNow& nearest_to(const PartNow& ball, const std::vector<PartNow>& parts) {
+  const auto gap = [&](const PartNow& part) { return norm_squared(part.centre - ball.centre); };
+  return *std::min_element(parts.begin(), parts.end(),
+                           [&](const PartNow& a, const PartNow& b) { return gap(a) < gap(b); });
+}
+
+/// Calls visit(part, other) for pairs of parts, a pair that is near first. Leaves out those for which
+/// skips(part, other, gap) is true, where `gap` is a lower bound of theirs at that time.
+template <class Skips, class Visit>
+void for_each_part(const RigidPair<RigidExtent>& pair, double time, Skips skips, Visit visit) {
+  const std::vector<PartNow> own = parts_now(pair.body, time);
+  const std::vector<PartNow> others = parts_now(pair.other, time);
+  const auto is_skipped = [&](const PartNow& a, const PartNow& b) { return skips(a, b, least_gap(a, b)); };
+  const PartNow all_others(pair.other, time);
+  const PartNow& first = nearest_to(all_others, own);
+  const PartNow& second = nearest_to(first, others);
+  if (!is_skipped(first, second)) visit(first.bound, second.bound);
+  for (const PartNow& a : own) {
+    if (others.size() > 1 && is_skipped(a, all_others)) continue;
+    for (const PartNow& b : others)
+      if (!(&a == &first && &b == &second) && !is_skipped(a, b)) visit(a.bound, b.bound);
+  }
+}
+
+/// Calls visit(part, partner) for each part of the body.
+template <class Other, class Skips, class Visit>
+void for_each_part(const RigidPair<Other>& pair, double, Skips, Visit visit) {
+  for (const RigidPart& part : pair.body.parts) visit(PartBound(pair.body, part), pair.other);
+}
+
+/// Earliest meeting from what is known at the time of the reports.
+template <class Other>
+double meeting(const RigidPair<Other>& pair, double from, double until, double distance) {
+  double start = from;
+  // Before the balls around two bodies meet, the parts inside do not.
+  if constexpr (std::is_same_v<Other, RigidExtent>)
+    start = earliest_meeting(pair.body.bound, pair.other.bound, from, until, distance);
+  double first = infinity;
+  if (start == infinity) return first;
+  // Meetings later than the first one so far do not matter.
+  const auto limit = [&] { return std::min(first, until); };
+  for_each_part(
+      pair, start,
+      [&](const PartNow& a, const PartNow& b, double gap) {
+        return start >= limit() || gap - distance > most_closing(a, b, limit() - start);
+      },
+      [&](const PartBound& part, const auto& partner) {
+        first = std::min(first, meeting(part, partner, start, limit(), distance));
+      });
+  return first;
 }
 
 }  // namespace
@@ -228,37 +325,41 @@ void for_each_part(const RigidPair<Other>& pair, Visit visit) {
 template <class Other>
 double earliest_meeting(const Bound&, const RigidPair<Other>& pair, double from, double until,
                         double distance) {
-  double start = from;
-  // Before the balls around two bodies meet, the parts inside do not.
-  if constexpr (std::is_same_v<Other, RigidExtent>)
-    start = earliest_meeting(pair.body.bound, pair.other.bound, from, until, distance);
-  double first = infinity;
-  if (start == infinity) return first;
-  for_each_part(pair, [&](const PartBound& part, const auto& partner) {
-    // Later meetings than the first one so far do not matter.
-    const double limit = std::min(first, until);
-    if (start <= limit) first = std::min(first, meeting(part, partner, start, limit, distance));
-  });
-  return first;
+  double time = meeting(pair, from, until, distance);
+  if (!pair.is_exact()) return time;
+  // Where the two will be is known, so that the next step needs no report.
+  double gain = time - from;
+  for (int round = 1; round < most_rounds && time < infinity; ++round) {
+    if (!(gain > (time - from) * negligible_gain)) break;
+    const double next = meeting(pair.at(time), time, until, distance);
+    gain = next - time;
+    time = next;
+  }
+  return time;
 }
 
 template <class Other>
 double earliest_separation(const Bound&, const RigidPair<Other>& pair, double from, double until,
                            double distance) {
   double last = from;
-  for_each_part(pair, [&](const PartBound& part, const auto& partner) {
-    if (last < infinity) last = std::max(last, separation(part, partner, from, until, distance));
-  });
+  for_each_part(
+      pair, from,
+      [&](const PartNow&, const PartNow&, double gap) { return last == infinity || gap > distance; },
+      [&](const PartBound& part, const auto& partner) {
+        last = std::max(last, separation(part, partner, from, until, distance));
+      });
   return last;
 }
 
 template <class Other>
 GapLimits gap_limits(const Bound&, const RigidPair<Other>& pair, double t) {
   GapLimits limits{infinity, infinity};
-  for_each_part(pair, [&](const PartBound& part, const auto& partner) {
-    const GapLimits own = gap(part, partner, t);
-    limits = {std::min(limits.lower, own.lower), std::min(limits.upper, own.upper)};
-  });
+  for_each_part(
+      pair, t, [&](const PartNow&, const PartNow&, double gap) { return gap > limits.upper; },
+      [&](const PartBound& part, const auto& partner) {
+        const GapLimits own = gap(part, partner, t);
+        limits = {std::min(limits.lower, own.lower), std::min(limits.upper, own.upper)};
+      });
   return limits;
 }
 

@@ -15,14 +15,29 @@ inline double outer_radius(const RigidPart& part) {
   return std::max(norm(part.a), norm(part.b)) + part.radius;
 }
 
-/// A rigid body between two reports. A ball is one with a single part at its position. Holds references.
+/// A rigid body between two reports. A ball is one with a single part at its position. Refers to the parts.
 struct RigidExtent {
-  const Bound& bound;   ///< of the body's position
+  Bound bound;          ///< of the body's position
   double radius = 0.0;  ///< part of the bound's radius that stands for the parts; the rest is its error
   std::span<const RigidPart> parts;
   Rotation rotation{};       ///< at the time of the bound
   double spin = 0.0;         ///< largest angular speed since then (radians / time)
   double spin_growth = 0.0;  ///< largest angular acceleration (radians / time^2)
+
+  /// True if the body flies and turns exactly as the last report says.
+  bool is_exact() const { return spin_growth == 0.0 && bound.is_exact(); }
+  /// Returns the same body with a later report. Precondition: is_exact().
+  RigidExtent at(double time) const {
+    const double s = time - bound.time;
+    RigidExtent later = *this;
+    later.bound.time = time;
+    later.bound.position = bound.centre_at(time);
+    later.bound.velocity = bound.velocity_at(time);
+    const double way = (norm_one(bound.velocity) + norm_one(bound.planned_acceleration) * s) * s;
+    later.bound.radius += rounding::margin * (norm_one(bound.position) + way + spin * s * radius);
+    later.rotation.orientation = after(rotation_by(rotation.angular_velocity * s), rotation.orientation);
+    return later;
+  }
 
   /// Returns the bound of a ball around a point that is fixed in the body: its acceleration differs from the
   /// planned one by at most A + (a + w^2) d (rigid_body.hpp).
@@ -39,11 +54,26 @@ struct RigidExtent {
   }
 };
 
-/// A rigid body and its partner: a RigidExtent, a shape at rest, or a CarriedShape. Holds references.
+/// A rigid body and its partner: a RigidExtent, a shape at rest, or a CarriedShape.
 template <class Other>
 struct RigidPair {
-  const RigidExtent& body;
-  const Other& other;
+  RigidExtent body;
+  Other other;
+
+  /// True if the motion of the two is known exactly.
+  bool is_exact() const {
+    if constexpr (requires { other.is_exact(); })
+      return body.is_exact() && other.is_exact();
+    else
+      return body.is_exact() && !requires { other.carrier; };
+  }
+  /// Returns the two with later reports. Precondition: is_exact().
+  RigidPair at(double time) const {
+    if constexpr (requires { other.is_exact(); })
+      return {body.at(time), other.at(time)};
+    else
+      return {body.at(time), other};
+  }
 };
 
 }  // namespace kinesphere
