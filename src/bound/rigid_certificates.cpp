@@ -15,21 +15,15 @@ namespace {
 class PartBound {
  public:
   PartBound(const RigidExtent& body, const RigidPart& part)
-      : body_(&body), part_(&part), a_(body.of_point(part.a, part.radius)) {
+      : body_(body), part_(part), a_(body.of_point(part.a, part.radius)) {
     if (!is_ball()) b_ = body.of_point(part.b, part.radius);
   }
-  explicit PartBound(const Bound& ball) : a_(ball) {}
 
-  bool is_ball() const { return part_ == nullptr || part_->a == part_->b; }
+  bool is_ball() const { return part_.a == part_.b; }
   const Bound& ball() const { return a_; }
   /// Bound of the point of the axis at this position, from 0 at a to 1 at b.
   Bound at(double position) const {
-    return body_->of_point(part_->a + (part_->b - part_->a) * position, part_->radius);
-  }
-  /// Bound of the ball around the part.
-  Bound around() const {
-    if (is_ball()) return a_;
-    return body_->of_point(0.5 * (part_->a + part_->b), part_->radius + 0.5 * norm(part_->b - part_->a));
+    return body_.of_point(part_.a + (part_.b - part_.a) * position, part_.radius);
   }
   /// The axis where it is at a time, if its ends go straight on.
   Segment axis(double time) const {
@@ -42,8 +36,8 @@ class PartBound {
   }
 
  private:
-  const RigidExtent* body_ = nullptr;
-  const RigidPart* part_ = nullptr;
+  const RigidExtent& body_;
+  const RigidPart& part_;
   Bound a_;
   Bound b_{};
 };
@@ -219,76 +213,92 @@ GapLimits gap(const PartBound& part, const Shape& shape, double t) {
 
 // Whole bodies.
 
-/// A part and the ball around it at one time.
-struct PartNow {
-  PartBound bound;
+/// The ball around a part, or around a whole body, at one time.
+struct BallNow {
+  const RigidPart* part;
   Vec3 centre;
   Vec3 velocity;
-  Vec3 plan;
-  double radius;  ///< grown up to now
-  double speed;   ///< at which it grows
-  double acceleration;
-  double size;  ///< sum of the magnitudes of all terms (length)
-
-  PartNow(const RigidExtent& body, const RigidPart& part, double time)
-      : PartNow(PartBound(body, part), time) {}
-  /// The ball around a whole body, as one part.
-  PartNow(const RigidExtent& body, double time) : PartNow(PartBound(body.bound), time) {}
-
- private:
-  PartNow(const PartBound& part, double time) : bound(part) {
-    const Bound ball = part.around();
-    centre = ball.centre_at(time);
-    velocity = ball.velocity_at(time);
-    plan = ball.planned_acceleration;
-    radius = ball.radius_at(time);
-    speed = ball.growth_speed + ball.growth_acceleration * (time - ball.time);
-    acceleration = ball.growth_acceleration;
-    size = norm_one(ball.position) + norm_one(centre) + radius;
-  }
+  double radius;        ///< grown up to now
+  double speed;         ///< at which it grows
+  double acceleration;  ///< of centre and growth
+  double size;          ///< sum of the magnitudes of all terms (length)
 };
 
-std::vector<PartNow> parts_now(const RigidExtent& body, double time) {
-  std::vector<PartNow> parts;
-  parts.reserve(body.parts.size());
-  for (const RigidPart& part : body.parts) parts.emplace_back(body, part, time);
-  return parts;
+BallNow ball_now(const RigidExtent& body, double time) {
+  const Bound& bound = body.bound;
+  const double s = time - bound.time;
+  return {.part = nullptr,
+          .centre = bound.centre_at(time),
+          .velocity = bound.velocity_at(time),
+          .radius = bound.radius_at(time),
+          .speed = bound.growth_speed + bound.growth_acceleration * s,
+          .acceleration = bound.growth_acceleration + norm(bound.planned_acceleration),
+          .size = norm_one(bound.position) +
+                  (norm_one(bound.velocity) + norm_one(bound.planned_acceleration) * s) * s + bound.radius};
 }
 
-/// Returns a lower bound of the gap between two parts.
-double least_gap(const PartNow& a, const PartNow& b) {
+/// Returns the balls around all parts, as RigidExtent::of_point() gives them for their middles.
+std::vector<BallNow> balls_now(const RigidExtent& body, double time) {
+  const double s = time - body.bound.time;
+  const BallNow whole = ball_now(body, time);
+  const double turning = body.spin_growth + body.spin * body.spin;
+  std::vector<BallNow> balls;
+  balls.reserve(body.parts.size());
+  for (const RigidPart& part : body.parts) {
+    const bool is_ball = part.a == part.b;
+    const Vec3 middle = is_ball ? part.a : 0.5 * (part.a + part.b);
+    const Vec3 arm = rotated(body.rotation.orientation, middle);
+    const Vec3 turn = cross(body.rotation.angular_velocity, arm);
+    const double reach = norm(middle);
+    BallNow ball = whole;
+    ball.part = &part;
+    ball.centre += arm + turn * s;
+    ball.velocity += turn;
+    ball.radius += part.radius + (is_ball ? 0.0 : 0.5 * norm(part.b - part.a)) - body.radius +
+                   0.5 * turning * reach * s * s;
+    ball.speed += turning * reach * s;
+    ball.acceleration += turning * reach;
+    balls.push_back(ball);
+  }
+  return balls;
+}
+
+/// Returns a lower bound of the gap between what is in two balls.
+double least_gap(const BallNow& a, const BallNow& b) {
   return norm(a.centre - b.centre) - (a.radius + b.radius) - 0x1p-40 * (a.size + b.size);
 }
 
-/// Returns an upper bound of how much the gap between two parts shrinks in a time.
-double most_closing(const PartNow& a, const PartNow& b, double duration) {
+/// Returns an upper bound of how much that gap shrinks in a time.
+double most_closing(const BallNow& a, const BallNow& b, double duration) {
   const double speed = norm(a.velocity - b.velocity) + a.speed + b.speed;
-  const double acceleration = norm(a.plan - b.plan) + a.acceleration + b.acceleration;
-  return (speed + 0.5 * acceleration * duration) * duration * (1.0 + 0x1p-40);
+  return (speed + 0.5 * (a.acceleration + b.acceleration) * duration) * duration * (1.0 + 0x1p-40);
 }
 
-/// Returns the part with the least gap to a ball.
-const PartNow& nearest_to(const PartNow& ball, const std::vector<PartNow>& parts) {
-  const auto gap = [&](const PartNow& part) { return norm_squared(part.centre - ball.centre); };
-  return *std::min_element(parts.begin(), parts.end(),
-                           [&](const PartNow& a, const PartNow& b) { return gap(a) < gap(b); });
+/// Returns the ball whose centre is nearest to a point.
+const BallNow& nearest_to(const Vec3& point, const std::vector<BallNow>& balls) {
+  return *std::min_element(balls.begin(), balls.end(), [&](const BallNow& a, const BallNow& b) {
+    return norm_squared(a.centre - point) < norm_squared(b.centre - point);
+  });
 }
 
 /// Calls visit(part, other) for pairs of parts, a pair that is near first. Leaves out those for which
 /// skips(part, other, gap) is true, where `gap` is a lower bound of theirs at that time.
 template <class Skips, class Visit>
 void for_each_part(const RigidPair<RigidExtent>& pair, double time, Skips skips, Visit visit) {
-  const std::vector<PartNow> own = parts_now(pair.body, time);
-  const std::vector<PartNow> others = parts_now(pair.other, time);
-  const auto is_skipped = [&](const PartNow& a, const PartNow& b) { return skips(a, b, least_gap(a, b)); };
-  const PartNow all_others(pair.other, time);
-  const PartNow& first = nearest_to(all_others, own);
-  const PartNow& second = nearest_to(first, others);
-  if (!is_skipped(first, second)) visit(first.bound, second.bound);
-  for (const PartNow& a : own) {
+  const std::vector<BallNow> own = balls_now(pair.body, time);
+  const std::vector<BallNow> others = balls_now(pair.other, time);
+  const BallNow all_others = ball_now(pair.other, time);
+  const auto is_skipped = [&](const BallNow& a, const BallNow& b) { return skips(a, b, least_gap(a, b)); };
+  const auto consider = [&](const BallNow& a, const BallNow& b) {
+    if (!is_skipped(a, b)) visit(PartBound(pair.body, *a.part), PartBound(pair.other, *b.part));
+  };
+  const BallNow& first = nearest_to(all_others.centre, own);
+  const BallNow& second = nearest_to(first.centre, others);
+  consider(first, second);
+  for (const BallNow& a : own) {
     if (others.size() > 1 && is_skipped(a, all_others)) continue;
-    for (const PartNow& b : others)
-      if (!(&a == &first && &b == &second) && !is_skipped(a, b)) visit(a.bound, b.bound);
+    for (const BallNow& b : others)
+      if (&a != &first || &b != &second) consider(a, b);
   }
 }
 
@@ -311,7 +321,7 @@ double meeting(const RigidPair<Other>& pair, double from, double until, double d
   const auto limit = [&] { return std::min(first, until); };
   for_each_part(
       pair, start,
-      [&](const PartNow& a, const PartNow& b, double gap) {
+      [&](const BallNow& a, const BallNow& b, double gap) {
         return start >= limit() || gap - distance > most_closing(a, b, limit() - start);
       },
       [&](const PartBound& part, const auto& partner) {
@@ -344,7 +354,7 @@ double earliest_separation(const Bound&, const RigidPair<Other>& pair, double fr
   double last = from;
   for_each_part(
       pair, from,
-      [&](const PartNow&, const PartNow&, double gap) { return last == infinity || gap > distance; },
+      [&](const BallNow&, const BallNow&, double gap) { return last == infinity || gap > distance; },
       [&](const PartBound& part, const auto& partner) {
         last = std::max(last, separation(part, partner, from, until, distance));
       });
@@ -355,7 +365,7 @@ template <class Other>
 GapLimits gap_limits(const Bound&, const RigidPair<Other>& pair, double t) {
   GapLimits limits{infinity, infinity};
   for_each_part(
-      pair, t, [&](const PartNow&, const PartNow&, double gap) { return gap > limits.upper; },
+      pair, t, [&](const BallNow&, const BallNow&, double gap) { return gap > limits.upper; },
       [&](const PartBound& part, const auto& partner) {
         const GapLimits own = gap(part, partner, t);
         limits = {std::min(limits.lower, own.lower), std::min(limits.upper, own.upper)};
