@@ -355,7 +355,7 @@ class RandomRigidBodies : public testing::TestWithParam<Kind> {
 
 TEST_P(RandomRigidBodies, AreReportedWheneverTheirPartsTouch) {
   std::size_t begins = 0;
-  for (int stop = 1; stop <= 150 && !HasFatalFailure(); ++stop) {
+  for (int stop = 1; stop <= 80 && !HasFatalFailure(); ++stop) {
     change();
     steer();
     const double from = p.world.time();
