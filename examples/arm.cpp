@@ -12,11 +12,10 @@ using namespace kinesphere;
 constexpr int links = 3;
 constexpr double length = 1.0, radius = 0.08, joint_speed = 1.0, joint_acceleration = 2.0;
 
-/// The controller's secret: angle, angular speed and acceleration limits of each joint are kept by its
-/// course.
+/// The controller's secret; it keeps the limits of the joints.
 std::pair<double, double> angle_and_speed(int joint, double t) {
   const double rate = 1.1 + 0.3 * joint;
-  return {0.7 * std::sin(rate * t + joint), 0.7 * rate * std::cos(rate * t + joint)};
+  return {0.58 * std::sin(rate * t + joint), 0.58 * rate * std::cos(rate * t + joint)};
 }
 
 /// State and rotation of the middle of a link: each turns relative to the one before.
