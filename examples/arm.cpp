@@ -69,7 +69,7 @@ int main() {
   };
 
   std::printf("at the start nothing is touched for %.3f s, whatever the joints do\n",
-              world.safe_until()->time);
+              world.certificates().safe_until()->time);
   const auto event = world.advance(20.0, probe).value();
   if (!event) return 1;
   std::printf("%.6f s: link %d touches a post at (%.3f, %.3f), closing at %.3f; %llu probes\n", event->time,

@@ -62,7 +62,7 @@ int main() {
       std::printf("%6.2f s: %s and %s %s at (%.1f, %.1f)\n", event->time, ship_of(event->first).name,
                   ship_of(event->second).name, event->kind == EventKind::contact_begin ? "touch" : "part",
                   event->point.x, event->point.y);
-    least = std::min(least, world.distance_limits(ids[0], ids[1], second, probe)->lower);
+    least = std::min(least, world.certificates(probe).distance_limits(ids[0], ids[1], second)->lower);
   }
   std::printf("tanker and ferry pass each other at %.1f m; circles around them would overlap\n", least);
   std::printf("%llu probes\n", static_cast<unsigned long long>(world.counters().probes));

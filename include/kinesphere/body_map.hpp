@@ -63,8 +63,9 @@ class BodyMap {
   /// Errors: unknown_body or stale_body, and those of World::add_moving_shape(). Throws as add().
   Result<BodyId> add_moving_shape(World& world, Motion& motion, std::uint32_t number, MovingShape like);
 
-  /// Adds a body of a motion as the position of a rigid body. Of `like.body`, state and motion limits come from
-  /// the motion. Errors: unknown_body or stale_body, and those of World::add_rigid_body(). Throws as add().
+  /// Adds a body of a motion as the position of a rigid body. Of `like.body`, state and motion limits come
+  /// from the motion. Errors: unknown_body or stale_body, and those of World::add_rigid_body(). Throws as
+  /// add().
   Result<BodyId> add_rigid_body(World& world, Motion& motion, std::uint32_t number, RigidBody like);
 
   /// Notes that a motion moves a body of a world, as add() does: for a world and motions that were restored

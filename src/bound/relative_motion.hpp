@@ -82,8 +82,7 @@ struct BoundBesideBound {
               .planned_acceleration = motion.acceleration,
               .radius = motion.radii - radius,
               .growth_speed = motion.growth_speed + rounding::margin * motion.velocity_size,
-              .acceleration_limit =
-                  motion.acceleration_limit + rounding::margin * motion.acceleration_size},
+              .acceleration_limit = motion.acceleration_limit + rounding::margin * motion.acceleration_size},
         slack(motion.growth + rounding::margin * motion.offset_size) {}
 };
 

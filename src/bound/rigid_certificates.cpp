@@ -231,8 +231,8 @@ BallNow ball_now(const RigidExtent& body, double time) {
           .centre = bound.centre_at(time),
           .velocity = bound.velocity_at(time),
           .radius = bound.radius_at(time),
-          .speed = bound.growth_speed + bound.growth_acceleration * s,
-          .acceleration = bound.growth_acceleration + norm(bound.planned_acceleration),
+          .speed = bound.growth_speed + bound.acceleration_limit * s,
+          .acceleration = bound.acceleration_limit + norm(bound.planned_acceleration),
           .size = norm_one(bound.position) +
                   (norm_one(bound.velocity) + norm_one(bound.planned_acceleration) * s) * s + bound.radius};
 }

@@ -66,8 +66,7 @@ Result<BodyId> BodyMap::add_moving_shape(World& world, Motion& motion, std::uint
   return id;
 }
 
-Result<BodyId> BodyMap::add_rigid_body(World& world, Motion& motion, std::uint32_t number,
-                                         RigidBody like) {
+Result<BodyId> BodyMap::add_rigid_body(World& world, Motion& motion, std::uint32_t number, RigidBody like) {
   const auto definition = definition_of("add_rigid_body", motion, number, world.time(), like.body);
   if (!definition) return definition.error();
   like.body = *definition;

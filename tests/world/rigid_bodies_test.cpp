@@ -388,7 +388,8 @@ TEST_P(RandomRigidBodies, AreReportedWheneverTheirPartsTouch) {
               [&](double time) { return gap(pair.first, pair.second, time); });
         if (HasFatalFailure()) ADD_FAILURE() << pair.first << " and " << pair.second << ", stop " << stop;
         if (!told[pair].empty()) touching[pair] = told[pair].back().second;
-        const auto limits = p.world.distance_limits(pair.first, pair.second, p.world.time()).value();
+        const auto limits =
+            p.world.certificates().distance_limits(pair.first, pair.second, p.world.time()).value();
         const double gap = this->gap(pair.first, pair.second, p.world.time());
         if (gap > 0.0) {
           ASSERT_LE(limits.lower, gap + 1e-9) << pair.first << " " << pair.second;
@@ -595,8 +596,7 @@ TEST(RigidBodyErrors, NeedARotationProbeThatAnswers) {
   // So near that reports must tell whether they touch.
   const BodyId near = world.add({.radius = 1, .position = {0, 1.3, 0}}).value();
   const Probe probe = [&](std::span<const BodyId> ids, double, std::span<State> states) {
-    for (std::size_t k = 0; k < ids.size(); ++k)
-      states[k] = State{ids[k] == near ? Vec3{0, 1.3, 0} : Vec3{}};
+    for (std::size_t k = 0; k < ids.size(); ++k) states[k] = State{ids[k] == near ? Vec3{0, 1.3, 0} : Vec3{}};
   };
   expect_error(world.advance(1000.0, probe), ErrorCode::null_probe, "rotation_probe", "advance", id);
   world.set_rotation_probe([](auto, double, auto) {}).value();
@@ -613,7 +613,7 @@ TEST(RigidBodyErrors, NeedARotationProbeThatAnswers) {
   expect_error(world.start_recording(), ErrorCode::unsupported, "world", "start_recording");
   expect_error(world.set_angular_velocity(id, {0, 0, 9}), ErrorCode::out_of_range, "angular_velocity",
                "set_angular_velocity", id);
-  expect_error(world.set_radius(id, 1.0), ErrorCode::unsupported, "body", "set_radius", id);
+  expect_error(world.change(id, {.radius = 1.0}), ErrorCode::unsupported, "body", "change", id);
   expect_error(world.sleep(id), ErrorCode::unsupported, "body", "sleep", id);
   const BodyId ball = world.add({.position = {9, 9, 9}}).value();
   expect_error(world.set_angular_velocity(ball, {}), ErrorCode::unsupported, "body", "set_angular_velocity",
