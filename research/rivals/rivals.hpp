@@ -7,7 +7,6 @@
 
 #include <memory>
 
-#include "kinesphere/inspection.hpp"
 #include "kinesphere/motion/motion.hpp"
 #include "kinesphere/result.hpp"
 #include "kinesphere/world_definition.hpp"

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "kinesphere/inspection.hpp"
 #include "simulation/detector/detector.hpp"
 #include "simulation/run/simulate.hpp"
 #include "simulation/scene/scene.hpp"

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "columns/time_text.hpp"
-#include "kinesphere/inspection.hpp"
 #include "kinesphere/vec3.hpp"
 
 namespace kinesphere::program {
