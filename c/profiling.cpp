@@ -38,7 +38,7 @@ ks_status ks_world_set_profiling(ks_world world, int32_t on) {
 ks_status ks_world_timings(ks_world world, ks_timings* timings) {
   return reading(__func__, world, [&, call = __func__](const WorldObject& object) {
     require_pointer(call, timings, "timings");
-    const Timings spent = object.world().timings();
+    const Timings spent = object.world().inspection().timings();
     *timings = {spent.advances, spent.advance, spent.probes};
   });
 }
@@ -46,7 +46,7 @@ ks_status ks_world_timings(ks_world world, ks_timings* timings) {
 ks_status ks_world_busiest(ks_world world, size_t most, ks_busy_body* bodies, size_t capacity,
                            size_t* count) {
   return reading(__func__, world, [&, call = __func__](const WorldObject& object) {
-    write_all(call, object.world().busiest(most).value(), bodies, capacity, count, c_busy);
+    write_all(call, object.world().inspection().busiest(most).value(), bodies, capacity, count, c_busy);
   });
 }
 

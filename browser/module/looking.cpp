@@ -44,21 +44,21 @@ KINESPHERE_EXPORT(world_views) bool world_views(const World* world, std::size_t 
 
 /// Answers the kind of a body's shape and its numbers, as shape_at() of world.cpp takes them.
 KINESPHERE_EXPORT(world_shape_of) bool world_shape_of(const World* world, double body) {
-  const auto shape = world->shape_of(body_of(body));
-  if (!is_good(shape)) return false;
+  const auto view = world->body(body_of(body));
+  if (!is_good(view)) return false;
   auto& numbers = answer();
-  numbers.assign(10, static_cast<double>(shape->index()));
+  numbers.assign(10, static_cast<double>(view->shape.index()));
   double* const at = numbers.data() + 1;
-  if (const auto* ball = std::get_if<Ball>(&*shape)) {
+  if (const auto* ball = std::get_if<Ball>(&view->shape)) {
     put(ball->centre, at);
     at[3] = ball->radius;
-  } else if (const auto* side = std::get_if<HalfSpace>(&*shape)) {
+  } else if (const auto* side = std::get_if<HalfSpace>(&view->shape)) {
     put(side->normal, at);
     at[3] = side->offset;
-  } else if (const auto* box = std::get_if<Box>(&*shape)) {
+  } else if (const auto* box = std::get_if<Box>(&view->shape)) {
     put(box->lower, at);
     put(box->upper, at + 3);
-  } else if (const auto* triangle = std::get_if<Triangle>(&*shape)) {
+  } else if (const auto* triangle = std::get_if<Triangle>(&view->shape)) {
     put(triangle->a, at);
     put(triangle->b, at + 3);
     put(triangle->c, at + 6);
