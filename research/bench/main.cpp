@@ -4,6 +4,7 @@
 #include "command_line.hpp"
 #include "program_error.hpp"
 #include "research/bench/detector_options.hpp"
+#include "research/bench/frames.hpp"
 #include "research/bench/gas.hpp"
 #include "research/bench/monitoring.hpp"
 #include "research/bench/paper.hpp"
@@ -20,6 +21,7 @@ int main(int argc, char** argv) {
   program::BenchOptions paper_options{.output = "bench-paper", .only = {}};
   program::SpeedOptions speed_options{{.output = "bench-speed", .only = {}}, {}};
   program::BenchOptions gas_options{.output = "bench-gas", .only = {}};
+  program::BenchOptions frames_options{.output = "bench-frames", .only = {}};
   program::VesselOptions vessel_options;
   program::MonitoringOptions monitoring_options;
   program::SoakOptions soak_options;
@@ -30,6 +32,7 @@ int main(int argc, char** argv) {
   const CLI::App& paper = *add_bench_paper_command(app, paper_options);
   const CLI::App& speed = *add_bench_speed_command(app, speed_options);
   const CLI::App& gas = *add_bench_gas_command(app, gas_options);
+  const CLI::App& frames = *add_bench_frames_command(app, frames_options);
   const CLI::App& vessels = *add_bench_vessels_command(app, vessel_options);
   const CLI::App& monitoring = *add_bench_monitoring_command(app, monitoring_options);
   const CLI::App& soak = *add_bench_soak_command(app, soak_options);
@@ -41,6 +44,7 @@ int main(int argc, char** argv) {
     if (paper) return bench_paper(paper_options);
     if (speed) return bench_speed(speed_options);
     if (gas) return bench_gas(gas_options);
+    if (frames) return bench_frames(frames_options);
     if (vessels) return bench_vessels(vessel_options);
     if (monitoring) return bench_monitoring(monitoring_options);
     if (soak) return bench_soak(soak_options);
@@ -53,6 +57,7 @@ int main(int argc, char** argv) {
     if (verify) return program::verify(verify_options, detector_options.chosen());
     throw program::ProgramError(
         "expected a command: paper, speed, gas, vessels, monitoring, soak, paths, run or verify (see "
+        "expected a command: paper, speed, gas, frames, vessels, monitoring, soak, run or verify (see "
         "--help)");
   };
   return program::run_program(app, run_command, argc, argv);

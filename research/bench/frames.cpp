@@ -1,0 +1,144 @@
+#include "research/bench/frames.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "program_error.hpp"
+#include "research/bench/measurement.hpp"
+#include "research/measures/game_loop.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+struct FrameSettings {
+  std::vector<std::uint32_t> bodies;
+  std::uint32_t frames;        ///< after those that settle
+  std::uint32_t first_frames;  ///< after the start, which are counted apart
+};
+
+const FrameSettings& frame_settings(Effort effort) {
+  static const FrameSettings quick{{100}, 100, 20};
+  static const FrameSettings usual{{1000, 10000, 50000}, 480, 120};
+  static const FrameSettings full{{1000, 10000, 50000}, 3480, 120};
+  return chosen(effort, quick, usual, full);
+}
+
+struct Play {
+  std::string_view name;
+  double percent;  ///< of the volume that balls fill
+  bool eventful;
+};
+
+constexpr Play plays[] = {
+    {"thin", 0.3, false}, {"steady", 3.0, false}, {"dense", 10.0, false}, {"eventful", 3.0, true}};
+
+std::vector<std::string> play_names() {
+  std::vector<std::string> names;
+  for (const Play& play : plays) names.emplace_back(play.name);
+  return names;
+}
+
+/// What each frame costs: a time, or a count.
+class FrameCosts {
+ public:
+  explicit FrameCosts(std::vector<double> costs, std::size_t first_frames)
+      : first_(costs.begin(), costs.begin() + static_cast<std::ptrdiff_t>(first_frames)),
+        sorted_(costs.begin() + static_cast<std::ptrdiff_t>(first_frames), costs.end()) {
+    std::sort(sorted_.begin(), sorted_.end());
+  }
+  /// Returns the least cost that this part of the frames does not exceed.
+  double percentile(double part) const {
+    const double rank = std::ceil(part * static_cast<double>(sorted_.size()));
+    return sorted_[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+  }
+  double worst_of_first() const { return *std::max_element(first_.begin(), first_.end()); }
+  double mean() const {
+    double sum = 0.0;
+    for (const double cost : sorted_) sum += cost;
+    return sum / static_cast<double>(sorted_.size());
+  }
+
+ private:
+  std::vector<double> first_;
+  std::vector<double> sorted_;
+};
+
+const std::vector<std::string> columns{"play", "n",    "unit",  "median", "mean",           "p90",
+                                       "p99",  "p999", "worst", "first",  "worst_to_median"};
+
+void add_costs(ResultTable& table, const Play& play, std::uint32_t bodies, const char* unit,
+               const FrameCosts& costs) {
+  const double median = costs.percentile(0.5);
+  const double worst = costs.percentile(1.0);
+  table.row({std::string(play.name), std::uint64_t{bodies}, std::string(unit), median, costs.mean(),
+             costs.percentile(0.9), costs.percentile(0.99), costs.percentile(0.999), worst,
+             costs.worst_of_first(), worst / median});
+}
+
+/// Plays the game once and adds a row of its times, and one of its work.
+void add_play(ResultTable& table, ResultTable& every_frame, const Play& play, std::uint32_t bodies,
+              const FrameSettings& settings) {
+  std::vector<double> seconds, work;
+  std::vector<Counters> counted;
+  play_game({.bodies = bodies,
+             .packing = 0.01 * play.percent,
+             .frames = settings.first_frames + settings.frames,
+             .eventful = play.eventful},
+            [&](const Counters& counters) {
+              seconds.push_back(cpu_seconds());
+              counted.push_back(counters);
+            });
+  std::vector<double> milliseconds;
+  for (std::size_t k = 1; k < counted.size(); ++k) {
+    const Counters& now = counted[k];
+    const Counters& before = counted[k - 1];
+    milliseconds.push_back(1e3 * (seconds[k] - seconds[k - 1]));
+    work.push_back(estimated_work(now) - estimated_work(before));
+    every_frame.row({std::string(play.name), std::uint64_t{bodies}, std::uint64_t{k}, milliseconds.back(),
+                     work.back(), now.starts - before.starts, now.restarts - before.restarts,
+                     now.searches - before.searches, now.candidates - before.candidates,
+                     now.hot_pairs - before.hot_pairs, now.pair_checks - before.pair_checks,
+                     now.wall_checks - before.wall_checks, now.probes - before.probes});
+  }
+  add_costs(table, play, bodies, "ms", FrameCosts(milliseconds, settings.first_frames));
+  add_costs(table, play, bodies, "work", FrameCosts(work, settings.first_frames));
+}
+
+}  // namespace
+
+CLI::App* add_bench_frames_command(CLI::App& bench, BenchOptions& options) {
+  CLI::App* frames = bench.add_subcommand(
+      "frames", "What the frames of a game cost: the median, and the worst; takes minutes");
+  add_bench_options(*frames, options, play_names(), "A minute of each game, not ten seconds");
+  return frames;
+}
+
+int bench_frames(const BenchOptions& options) {
+  check_bench_options(options, play_names());
+  const FrameSettings& settings = frame_settings(effort_of(options));
+  const Report report(options.output);
+  describe_machine(report);
+  report.note(
+      fmt::format("Games at 60 frames a second. \"ms\" is CPU time of a frame, with motion and response; "
+                  "\"work\" is about a "
+                  "thousand instructions, computed from the counters of the world, so it is the same "
+                  "everywhere. \"first\" is the worst "
+                  "of the first {} frames, which the other columns leave out.",
+                  settings.first_frames));
+  ResultTable table(columns);
+  ResultTable every_frame({"play", "n", "frame", "ms", "work", "starts", "restarts", "searches", "candidates",
+                           "hot_pairs", "pair_checks", "wall_checks", "probes"});
+  for (const Play& play : plays) {
+    if (!is_chosen(options, play.name)) continue;
+    for (const std::uint32_t bodies : settings.bodies) add_play(table, every_frame, play, bodies, settings);
+  }
+  report.table("frames", table);
+  report.save("every_frame", every_frame);
+  return exit_fine;
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,34 @@
+// A game at 60 frames a second, and what each of its frames costs: in counts, which are equal on all
+// machines.
+//
+// Balls of radius 0.5 fly through a room without gravity and bounce without loss, so play is steady: as much
+// happens in one second as in any other.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "kinesphere/counters.hpp"
+
+namespace kinesphere {
+
+struct GameLoopSettings {
+  std::uint32_t bodies = 1000;  ///< > 0
+  double packing = 0.03;        ///< part of the room's volume that they fill, as PlacementOptions::packing
+  std::uint32_t frames = 600;
+  /// With bullets, which are 20 times as fast as most balls and fly for a second, with balls that come and
+  /// go, and with an explosion amid the frames that blows the 500 balls nearest to the centre away.
+  bool eventful = false;
+  std::uint64_t seed = 1;
+};
+
+/// Runs the game. Calls visit() with the counters of the world so far when all balls are in, before the first
+/// frame, and after each frame. Throws BadResult where balls do not fit into the room, or for what the world
+/// refuses.
+void play_game(const GameLoopSettings& settings, const std::function<void(const Counters&)>& visit);
+
+/// Returns roughly how many thousand instructions the counted work takes. It is linear: the work of a frame
+/// is the difference of two calls.
+double estimated_work(const Counters& work);
+
+}  // namespace kinesphere
