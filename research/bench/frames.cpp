@@ -67,16 +67,13 @@ class FrameCosts {
   std::vector<double> sorted_;
 };
 
-const std::vector<std::string> columns{"play", "n",    "unit",  "median", "mean",           "p90",
-                                       "p99",  "p999", "worst", "first",  "worst_to_median"};
-
 void add_costs(ResultTable& table, const Play& play, std::uint32_t bodies, const char* unit,
                const FrameCosts& costs) {
   const double median = costs.percentile(0.5);
   const double worst = costs.percentile(1.0);
   table.row({std::string(play.name), std::uint64_t{bodies}, std::string(unit), median, costs.mean(),
              costs.percentile(0.9), costs.percentile(0.99), costs.percentile(0.999), worst,
-             costs.worst_of_first(), worst / median});
+             costs.worst_of_first(), median > 0.0 ? Cell(worst / median) : Cell()});
 }
 
 /// Plays the game once and adds a row of its times, and one of its work.
@@ -129,7 +126,8 @@ int bench_frames(const BenchOptions& options) {
                   "everywhere. \"first\" is the worst "
                   "of the first {} frames, which the other columns leave out.",
                   settings.first_frames));
-  ResultTable table(columns);
+  ResultTable table(
+      {"play", "n", "unit", "median", "mean", "p90", "p99", "p999", "worst", "first", "worst_to_median"});
   ResultTable every_frame({"play", "n", "frame", "ms", "work", "starts", "restarts", "searches", "candidates",
                            "hot_pairs", "pair_checks", "wall_checks", "probes"});
   for (const Play& play : plays) {
