@@ -69,6 +69,16 @@ TEST_F(BenchFramesTest, AnExplosionShowsInItsFrame) {
   EXPECT_GE(restarts[60], 100.0);
 }
 
+TEST_F(BenchFramesTest, NoFrameDoesMoreThanOneStartOfAllBodies) {
+  const Table table = bench("--only thin,steady,dense", "frames.csv");
+  for (std::size_t row = 1; row + 1 < table.size(); row += 2) {
+    ASSERT_EQ(csv_cell(table, row, "unit"), "work");
+    const auto number = [&](const char* column) { return std::stod(csv_cell(table, row, column)); };
+    const double start_of_all = 3.2 * number("n");
+    EXPECT_LE(number("worst"), start_of_all + 2.0 * number("p90")) << csv_cell(table, row, "play");
+  }
+}
+
 TEST_F(BenchFramesTest, RefusesWrongOptions) {
   expect_wrong_input("frames --only still", {"--only", "thin, steady", "still"});
   expect_wrong_input("frames --quick --full", {"--full", "--quick"});
