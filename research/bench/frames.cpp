@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "program_error.hpp"
@@ -42,10 +43,10 @@ std::vector<std::string> play_names() {
   return names;
 }
 
-/// What each frame costs: a time, or a count.
+/// Costs of the frames of a game: times, or counts.
 class FrameCosts {
  public:
-  explicit FrameCosts(std::vector<double> costs, std::size_t first_frames)
+  FrameCosts(std::vector<double> costs, std::size_t first_frames)
       : first_(costs.begin(), costs.begin() + static_cast<std::ptrdiff_t>(first_frames)),
         sorted_(costs.begin() + static_cast<std::ptrdiff_t>(first_frames), costs.end()) {
     std::sort(sorted_.begin(), sorted_.end());

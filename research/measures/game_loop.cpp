@@ -60,9 +60,9 @@ class Game {
   void play_frame(std::uint32_t frame) {
     if (settings_.eventful) {
       if (frame % frames_between_bullets == 0)
-        shoot(bullets_, most_bullets, bullet_radius, 8.0, bullet_speed * random_.unit_vector());
+        spawn(bullets_, most_bullets, bullet_radius, 8.0, bullet_speed * random_.unit_vector());
       for (std::uint32_t k = 0; k < spawned_in_a_frame; ++k)
-        shoot(spawned_, most_spawned, ball_radius, 1.0, ball_speed * random_.point_in_ball());
+        spawn(spawned_, most_spawned, ball_radius, 1.0, ball_speed * random_.point_in_ball());
       if (frame == settings_.frames / 2) explode();
     }
     for (const Event& event : simulation_.events((frame + 1) / frames_per_second)) {
@@ -77,7 +77,7 @@ class Game {
 
  private:
   /// Adds a body at a random place, and removes the oldest of its kind if there are more than `most`.
-  void shoot(std::deque<BodyId>& kind, std::size_t most, double radius, double mass, const Vec3& velocity) {
+  void spawn(std::deque<BodyId>& kind, std::size_t most, double radius, double mass, const Vec3& velocity) {
     Vec3 place;
     for (int axis = 0; axis < 3; ++axis) place[axis] = random_.uniform(radius, room_.upper[axis] - radius);
     const std::uint32_t number =
