@@ -56,8 +56,7 @@ int main(int argc, char** argv) {
     }
     if (verify) return program::verify(verify_options, detector_options.chosen());
     throw program::ProgramError(
-        "expected a command: paper, speed, gas, vessels, monitoring, soak, paths, run or verify (see "
-        "expected a command: paper, speed, gas, frames, vessels, monitoring, soak, run or verify (see "
+        "expected a command: paper, speed, gas, frames, vessels, monitoring, soak, paths, run or verify (see "
         "--help)");
   };
   return program::run_program(app, run_command, argc, argv);
