@@ -263,16 +263,26 @@ std::vector<BallNow> balls_now(const RigidExtent& body, double time) {
   return balls;
 }
 
-/// Returns a lower bound of the gap between what is in two balls.
-double least_gap(const BallNow& a, const BallNow& b) {
-  return norm(a.centre - b.centre) - (a.radius + b.radius) - 0x1p-40 * (a.size + b.size);
-}
+/// What is certain of the gap between what is in two balls.
+struct GapNow {
+  double least;    ///< now
+  double opening;  ///< rate at which it grows along the line of centres, at least
+  double closing;  ///< largest acceleration against that
 
-/// Returns an upper bound of how much that gap shrinks in a time.
-double most_closing(const BallNow& a, const BallNow& b, double duration) {
-  const double speed = norm(a.velocity - b.velocity) + a.speed + b.speed;
-  return (speed + 0.5 * (a.acceleration + b.acceleration) * duration) * duration * (1.0 + 0x1p-40);
-}
+  GapNow(const BallNow& a, const BallNow& b) {
+    constexpr double rounding_lost = 0x1p-40;
+    const Vec3 way = a.centre - b.centre;
+    const Vec3 turn = a.velocity - b.velocity;
+    const double distance = norm(way);
+    least = distance - (a.radius + b.radius) - rounding_lost * (a.size + b.size);
+    opening = dot(way, turn) / distance - (a.speed + b.speed) - rounding_lost * norm_one(turn);
+    closing = (a.acceleration + b.acceleration) * (1.0 + rounding_lost);
+  }
+  /// Returns true if the gap is larger than `distance` all the time: a concave function is least at an end.
+  bool exceeds(double distance, double duration) const {
+    return least > distance && least - distance + (opening - 0.5 * closing * duration) * duration > 0.0;
+  }
+};
 
 /// Returns the ball whose centre is nearest to a point.
 const BallNow& nearest_to(const Vec3& point, const std::vector<BallNow>& balls) {
@@ -282,13 +292,13 @@ const BallNow& nearest_to(const Vec3& point, const std::vector<BallNow>& balls) 
 }
 
 /// Calls visit(part, other) for pairs of parts, a pair that is near first. Leaves out those for which
-/// skips(part, other, gap) is true, where `gap` is a lower bound of theirs at that time.
+/// skips(gap) is true of their GapNow.
 template <class Skips, class Visit>
 void for_each_part(const RigidPair<RigidExtent>& pair, double time, Skips skips, Visit visit) {
   const std::vector<BallNow> own = balls_now(pair.body, time);
   const std::vector<BallNow> others = balls_now(pair.other, time);
   const BallNow all_others = ball_now(pair.other, time);
-  const auto is_skipped = [&](const BallNow& a, const BallNow& b) { return skips(a, b, least_gap(a, b)); };
+  const auto is_skipped = [&](const BallNow& a, const BallNow& b) { return skips(GapNow(a, b)); };
   const auto consider = [&](const BallNow& a, const BallNow& b) {
     if (!is_skipped(a, b)) visit(PartBound(pair.body, *a.part), PartBound(pair.other, *b.part));
   };
@@ -321,9 +331,7 @@ double meeting(const RigidPair<Other>& pair, double from, double until, double d
   const auto limit = [&] { return std::min(first, until); };
   for_each_part(
       pair, start,
-      [&](const BallNow& a, const BallNow& b, double gap) {
-        return start >= limit() || gap - distance > most_closing(a, b, limit() - start);
-      },
+      [&](const GapNow& gap) { return start >= limit() || gap.exceeds(distance, limit() - start); },
       [&](const PartBound& part, const auto& partner) {
         first = std::min(first, meeting(part, partner, start, limit(), distance));
       });
@@ -353,8 +361,7 @@ double earliest_separation(const Bound&, const RigidPair<Other>& pair, double fr
                            double distance) {
   double last = from;
   for_each_part(
-      pair, from,
-      [&](const BallNow&, const BallNow&, double gap) { return last == infinity || gap > distance; },
+      pair, from, [&](const GapNow& gap) { return last == infinity || gap.least > distance; },
       [&](const PartBound& part, const auto& partner) {
         last = std::max(last, separation(part, partner, from, until, distance));
       });
@@ -365,7 +372,7 @@ template <class Other>
 GapLimits gap_limits(const Bound&, const RigidPair<Other>& pair, double t) {
   GapLimits limits{infinity, infinity};
   for_each_part(
-      pair, t, [&](const BallNow&, const BallNow&, double gap) { return gap > limits.upper; },
+      pair, t, [&](const GapNow& gap) { return gap.least > limits.upper; },
       [&](const PartBound& part, const auto& partner) {
         const GapLimits own = gap(part, partner, t);
         limits = {std::min(limits.lower, own.lower), std::min(limits.upper, own.upper)};
