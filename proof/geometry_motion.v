@@ -160,6 +160,44 @@ Proof.
   intros (H1 & H2 & H3) (K1 & K2 & K3). unfold has_derivative. coordinates.
   repeat split; apply (derivable_pt_lim_minus (fun s => _ (x s)) (fun s => _ (y s))); assumption.
 Qed.
+Lemma has_derivative_plus (x y : R -> vector) (t : R) (v w : vector) :
+  has_derivative x t v -> has_derivative y t w -> has_derivative (fun s => x s + y s)%vector t (v + w)%vector.
+Proof.
+  intros (H1 & H2 & H3) (K1 & K2 & K3). unfold has_derivative. coordinates.
+  repeat split; apply (derivable_pt_lim_plus (fun s => _ (x s)) (fun s => _ (y s))); assumption.
+Qed.
+Lemma has_derivative_times (k : R) (x : R -> vector) (t : R) (v : vector) :
+  has_derivative x t v -> has_derivative (fun s => k * x s)%vector t (k * v)%vector.
+Proof.
+  intros (H1 & H2 & H3). unfold has_derivative. coordinates.
+  repeat split; apply (derivable_pt_lim_scal (fun s => _ (x s))); assumption.
+Qed.
+Lemma has_derivative_cross (x y : R -> vector) (t : R) (v w : vector) :
+  has_derivative x t v -> has_derivative y t w ->
+  has_derivative (fun s => cross (x s) (y s)) t (cross v (y t) + cross (x t) w)%vector.
+Proof.
+  intros (H1 & H2 & H3) (K1 & K2 & K3).
+  assert (forall p q p' q' a b a' b', derivable_pt_lim p t a -> derivable_pt_lim q t b -> derivable_pt_lim p' t a' ->
+    derivable_pt_lim q' t b' -> derivable_pt_lim (fun s => p s * q s - p' s * q' s) t
+      (a * q t - a' * q' t + (p t * b - p' t * b'))) as D.
+  { intros p q p' q' a b a' b' Dp Dq Dp' Dq'.
+    replace (a * q t - a' * q' t + (p t * b - p' t * b')) with ((a * q t + p t * b) - (a' * q' t + p' t * b')) by ring.
+    apply (derivable_pt_lim_minus (fun s => p s * q s) (fun s => p' s * q' s));
+      apply (derivable_pt_lim_mult _ _ t); assumption. }
+  unfold has_derivative. coordinates.
+  repeat split; apply (D (fun s => _ (x s)) (fun s => _ (y s)) (fun s => _ (x s)) (fun s => _ (y s))); assumption.
+Qed.
+Lemma derivative_of_square_length (x : R -> vector) (t : R) (v : vector) :
+  has_derivative x t v -> derivable_pt_lim (fun s => dot (x s) (x s)) t (2 * dot (x t) v).
+Proof.
+  intros (H1 & H2 & H3).
+  assert (forall p a, derivable_pt_lim p t a -> derivable_pt_lim (fun s => p s * p s) t (2 * (p t * a))) as D.
+  { intros p a Dp. replace (2 * (p t * a)) with (a * p t + p t * a) by ring. apply (derivable_pt_lim_mult p p); exact Dp. }
+  unfold dot. rewrite !Rmult_plus_distr_l.
+  apply (derivable_pt_lim_plus (fun s => x_of (x s) * x_of (x s) + y_of (x s) * y_of (x s)) (fun s => z_of (x s) * z_of (x s)));
+    [apply (derivable_pt_lim_plus (fun s => x_of (x s) * x_of (x s)) (fun s => y_of (x s) * y_of (x s)))|];
+    apply (D (fun s => _ (x s))); assumption.
+Qed.
 (* The way of a body that follows a plan exactly. *)
 Lemma has_derivative_plan (p q g : vector) (t0 t : R) :
   has_derivative (fun s => p + (s - t0) * q + ((s - t0) * (s - t0) / 2) * g)%vector t (q + (t - t0) * g)%vector.
@@ -213,4 +251,46 @@ Proof.
   apply Rle_lt_trans with (1 := norm_plus _ _). rewrite (norm_symmetric (y t)).
   assert (norm (x s - x t) < e / 2) by (apply G1; [lra|lra]).
   assert (norm (y s - y t) < e / 2) by (apply G2; [lra|lra]). lra.
+Qed.
+Lemma continuous_plus (a b : R) (x y : R -> vector) :
+  continuous_during a b x -> continuous_during a b y -> continuous_during a b (fun t => x t + y t)%vector.
+Proof.
+  intros Cx Cy t e Ht He. destruct (Cx t (e / 2)) as (d1 & P1 & G1); [lra|lra|].
+  destruct (Cy t (e / 2)) as (d2 & P2 & G2); [lra|lra|].
+  exists (Rmin d1 d2). split; [apply Rmin_pos; lra|]. intros s Hs Hd.
+  generalize (Rmin_l d1 d2) (Rmin_r d1 d2). intros.
+  replace (x s + y s - (x t + y t))%vector with ((x s - x t) + (y s - y t))%vector by by_coordinates.
+  apply Rle_lt_trans with (1 := norm_plus _ _).
+  assert (norm (x s - x t) < e / 2) by (apply G1; [lra|lra]).
+  assert (norm (y s - y t) < e / 2) by (apply G2; [lra|lra]). lra.
+Qed.
+Lemma continuous_times (k a b : R) (x : R -> vector) :
+  continuous_during a b x -> continuous_during a b (fun t => k * x t)%vector.
+Proof.
+  intros Cx t e Ht He. generalize (Rabs_pos k). intros Pk.
+  destruct (Cx t (e / (Rabs k + 1))) as (d & P & G); [lra|apply Rdiv_lt_0_compat; lra|].
+  exists d. split; [exact P|]. intros s Hs Hd.
+  replace (k * x s - k * x t)%vector with (k * (x s - x t))%vector by by_coordinates. rewrite norm_times.
+  apply Rle_lt_trans with ((Rabs k + 1) * norm (x s - x t)); [generalize (norm_positive (x s - x t)); nra|].
+  apply Rlt_le_trans with ((Rabs k + 1) * (e / (Rabs k + 1))); [|right; field; lra].
+  apply Rmult_lt_compat_l; [lra|]. apply G; assumption.
+Qed.
+Lemma continuous_square_length (a b : R) (x : R -> vector) :
+  continuous_during a b x -> real_continuous_during a b (fun t => dot (x t) (x t)).
+Proof.
+  intros Cx t e Ht He. generalize (norm_positive (x t)). intros P.
+  set (k := Rmin 1 (e / (2 * (norm (x t) + 1)))).
+  assert (0 < k) as Hk by (apply Rmin_pos; [lra|apply Rdiv_lt_0_compat; lra]).
+  destruct (Cx t k Ht Hk) as (d & Hd & G). exists d. split; [exact Hd|]. intros s Hs Hst. specialize (G s Hs Hst).
+  replace (dot (x s) (x s) - dot (x t) (x t)) with (dot (x s - x t) (x s - x t) + 2 * dot (x t) (x s - x t)) by by_coordinates.
+  rewrite <- norm_square. set (l := norm (x s - x t)) in *. assert (0 <= l) as Pl by apply norm_positive.
+  assert (Rabs (dot (x t) (x s - x t)) <= norm (x t) * l) as L.
+  { apply Rabs_le. split; [|apply cauchy_schwarz].
+    generalize (cauchy_schwarz (x t) (x t - x s)). rewrite (norm_symmetric (x t)), !dot_minus. fold l. lra. }
+  apply abs_at_most in L.
+  assert (k <= 1) by apply Rmin_l.
+  assert (k * (2 * (norm (x t) + 1)) <= e) as Ke.
+  { apply Rle_trans with (e / (2 * (norm (x t) + 1)) * (2 * (norm (x t) + 1))); [|right; field; lra].
+    apply Rmult_le_compat_r; [lra|apply Rmin_r]. }
+  apply Rabs_def1; nra.
 Qed.

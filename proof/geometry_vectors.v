@@ -98,3 +98,23 @@ Qed.
 
 Lemma abs_at_most (x k : R) : Rabs x <= k -> - k <= x <= k.
 Proof. intros H. generalize (Rle_abs x) (Rle_abs (- x)). rewrite Rabs_Ropp. lra. Qed.
+
+(* The cross product is no longer than the product of the lengths, and at right angles to both. *)
+Lemma norm_cross u v : norm (cross u v) <= norm u * norm v.
+Proof.
+  generalize (norm_positive u) (norm_positive v). intros Hu Hv. apply norm_at_most; [nra|].
+  generalize (cauchy_schwarz_square u v). rewrite <- (norm_square u), <- (norm_square v). nra.
+Qed.
+Lemma dot_cross u v : dot v (cross u v) = 0.
+Proof. by_coordinates. Qed.
+Lemma at_no_distance u v : norm (u - v) <= 0 -> u = v.
+Proof.
+  intros H. generalize (norm_positive (u - v)) (norm_square (u - v)). intros P Q.
+  assert (dot (u - v) (u - v) = 0) as Z by nra. revert Z. clear. unfold dot.
+  destruct u as [x y z], v as [x' y' z']. coordinates. intros Z.
+  assert (forall k, k * k = 0 -> k = 0) as S by (intros k E; destruct (Rmult_integral _ _ E); assumption).
+  apply (f_equal3 Vector); apply Rminus_diag_uniq, S;
+    generalize (Rle_0_sqr (x - x')) (Rle_0_sqr (y - y')) (Rle_0_sqr (z - z')); unfold Rsqr; lra.
+Qed.
+(* The point a share k of the way from u to v. *)
+Definition mean (k : R) (u v : vector) : vector := ((1 - k) * u + k * v)%vector.
