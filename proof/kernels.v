@@ -392,6 +392,12 @@ Definition meeting_step (a b : bound) (from distance d : double) : double :=
 Definition earliest_meeting (a b : bound) (from until distance : double) : double :=
   advance_by_safe_steps (meeting_step a b from distance) from until.
 
+(* src/bound/rigid_extent.hpp: the growth of RigidExtent::of_point *)
+Definition growth_of_point (limit spin_growth spin x y z : double) : double :=
+  let t1 := (literal 1 0) + (literal 1 (-47)) in
+  let t2 := (root (((x * x) + (y * y)) + (z * z))) * t1 in
+  limit + (((spin_growth + (spin * spin)) * t2) * t1).
+
 (* src/broadphase/swept_sphere_search_plain.cpp: one capsule of a table *)
 Definition left_out (other one : capsule) (from to : single) : bool :=
   let t1 := other.(centre_x) - one.(centre_x) in

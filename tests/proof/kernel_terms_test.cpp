@@ -13,6 +13,11 @@
 
 #include "proof/traced_kernels.hpp"
 
+namespace traced_kinesphere {
+/// The growth of a bound does not depend on how its body is turned.
+Vec3 rotated(const Quaternion&, const Vec3& vector) { return vector; }
+}  // namespace traced_kinesphere
+
 namespace {
 
 namespace kernels = traced_kinesphere;
@@ -66,6 +71,14 @@ Double bound_of_report() {
   const kernels::Vec3 &x = bound.position, &v = bound.velocity, &g = bound.planned_acceleration;
   return call("Build_bound", bound.time, x.x, x.y, x.z, v.x, v.y, v.z, g.x, g.y, g.z, bound.radius,
               bound.growth_speed, bound.acceleration_limit);
+}
+
+/// Returns the growth of the bound of a point p that is fixed in a turning body.
+Double growth_of_point() {
+  const kernels::RigidExtent body{.bound = {.growth_acceleration = variable("limit")},
+                                  .spin = variable("spin"),
+                                  .spin_growth = variable("spin_growth")};
+  return body.of_point({variable("x"), variable("y"), variable("z")}, variable("r")).growth_acceleration;
 }
 
 /// Returns the slots that a search finds, run by run, in a table of these swept spheres.
@@ -135,6 +148,8 @@ std::string kernels_file() {
   add("src/bound/certificates.cpp", "earliest_meeting (a b : bound) (from until distance : double) : double",
       earliest_meeting);
   kernels::name_of_step.clear();
+  add("src/bound/rigid_extent.hpp: the growth of RigidExtent::of_point",
+      "growth_of_point (limit spin_growth spin x y z : double) : double", growth_of_point);
   add("src/broadphase/swept_sphere_search_plain.cpp: one capsule of a table",
       "left_out (other one : capsule) (from to : single) : bool",
       [] { return left_out(capsule("other"), query("one")); });

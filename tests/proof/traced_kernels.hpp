@@ -72,6 +72,7 @@ double advance_by_a_step(double from, double until, SafeStep step) {
 #include "bound/bound.cpp"
 #include "bound/certificates.cpp"
 #include "bound/quick_reject.hpp"
+#include "bound/rigid_extent.hpp"
 #include "broadphase/swept_sphere.hpp"
 #include "broadphase/swept_sphere_search_plain.cpp"
 
