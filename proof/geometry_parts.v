@@ -1,4 +1,5 @@
-(* Certificates of bodies that are made of balls and capsules: in a direction, by a witness, and over all pairs of parts. *)
+(* Certificates of bodies that are made of balls and capsules: in a direction, by a witness, and over all pairs of parts.
+   *)
 From Coq Require Import Reals Lra Psatz List Bool.
 From Flocq Require Import Core BinarySingleNaN.
 From Kinesphere Require Import floats rounding first_crossing safe_steps.
