@@ -21,7 +21,7 @@ case ${1:-} in
   mpi) packages+=("${mpi[@]}") ;;
   browser) packages+=("${browser[@]}") ;;
   python) packages+=("${python[@]}") ;;
-  research) packages+=(gnuplot-nox libbullet-dev libgtest-dev librapidcheck-dev clang clang-format clang-tidy black) ;;
+  research) packages+=(gnuplot-nox libbullet-dev libfcl-dev libgtest-dev librapidcheck-dev clang clang-format clang-tidy black) ;;
   test) packages+=("${testing[@]}") ;;
   all) packages+=("${testing[@]}" "${browser[@]}" chromium "${proving[@]}") ;;
   docs) packages+=("${documenting[@]}" "${python[@]}") ;;

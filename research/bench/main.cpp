@@ -9,6 +9,7 @@
 #include "research/bench/monitoring.hpp"
 #include "research/bench/paper.hpp"
 #include "research/bench/paths.hpp"
+#include "research/bench/shapes/shapes.hpp"
 #include "research/bench/soak.hpp"
 #include "research/bench/speed/speed.hpp"
 #include "research/bench/vessels.hpp"
@@ -22,6 +23,7 @@ int main(int argc, char** argv) {
   program::SpeedOptions speed_options{{.output = "bench-speed", .only = {}}, {}};
   program::BenchOptions gas_options{.output = "bench-gas", .only = {}};
   program::BenchOptions frames_options{.output = "bench-frames", .only = {}};
+  program::BenchOptions shapes_options{.output = "bench-shapes", .only = {}};
   program::VesselOptions vessel_options;
   program::MonitoringOptions monitoring_options;
   program::SoakOptions soak_options;
@@ -33,6 +35,7 @@ int main(int argc, char** argv) {
   const CLI::App& speed = *add_bench_speed_command(app, speed_options);
   const CLI::App& gas = *add_bench_gas_command(app, gas_options);
   const CLI::App& frames = *add_bench_frames_command(app, frames_options);
+  const CLI::App& shapes = *add_bench_shapes_command(app, shapes_options);
   const CLI::App& vessels = *add_bench_vessels_command(app, vessel_options);
   const CLI::App& monitoring = *add_bench_monitoring_command(app, monitoring_options);
   const CLI::App& soak = *add_bench_soak_command(app, soak_options);
@@ -45,6 +48,7 @@ int main(int argc, char** argv) {
     if (speed) return bench_speed(speed_options);
     if (gas) return bench_gas(gas_options);
     if (frames) return bench_frames(frames_options);
+    if (shapes) return bench_shapes(shapes_options);
     if (vessels) return bench_vessels(vessel_options);
     if (monitoring) return bench_monitoring(monitoring_options);
     if (soak) return bench_soak(soak_options);
@@ -56,8 +60,9 @@ int main(int argc, char** argv) {
     }
     if (verify) return program::verify(verify_options, detector_options.chosen());
     throw program::ProgramError(
-        "expected a command: paper, speed, gas, frames, vessels, monitoring, soak, paths, run or verify (see "
-        "--help)");
+        "expected a command: paper, speed, gas, frames, shapes, vessels, monitoring, soak, paths, run or "
+        "verify "
+        "(see --help)");
   };
   return program::run_program(app, run_command, argc, argv);
 }
