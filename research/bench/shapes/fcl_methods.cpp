@@ -12,9 +12,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <iostream>
 #include <memory>
 #include <sstream>
+#include <type_traits>
+#include <utility>
 
 namespace kinesphere::program {
 namespace {
@@ -22,6 +25,8 @@ namespace {
 using FclRequest = fcl::ContinuousCollisionRequest<double>;
 using FclVector = fcl::Vector3<double>;
 using FclMatrix = fcl::Matrix3<double>;
+using FclLinear = fcl::InterpMotion<double>;
+using FclScrew = fcl::ScrewMotion<double>;
 
 FclVector fcl_vector(const Vec3& v) { return {v.x, v.y, v.z}; }
 
@@ -40,16 +45,27 @@ struct FclPose {
   FclVector place;
 };
 
-/// Motion of a shape with its middle at `centre` in a body that flies and turns steadily. Of the constructors
-/// of InterpMotion this is the only one that sets all its members and its velocity.
-fcl::InterpMotion<double> motion_of(const FclPose& from, const FclPose& to, const FclVector& centre,
-                                    const fcl::InterpMotion<double>*) {
-  return {from.turn, from.place + from.turn * centre, to.turn, to.place + to.turn * centre, -centre};
+/// Motion of a shape with its middle at `centre` in a body that flies and turns steadily or, as ScrewMotion,
+/// on a screw from one pose to the other.
+template <class Motion>
+Motion motion_of(const FclPose& from, const FclPose& to, const FclVector& centre) {
+  const FclVector begin = from.place + from.turn * centre;
+  const FclVector end = to.place + to.turn * centre;
+  // Of the constructors of InterpMotion this is the only one that sets all its members and its velocity.
+  if constexpr (std::is_same_v<Motion, FclLinear>)
+    return {from.turn, begin, to.turn, end, -centre};
+  else
+    return {from.turn, begin, to.turn, end};
 }
-/// As above, but on a screw between the two poses.
-fcl::ScrewMotion<double> motion_of(const FclPose& from, const FclPose& to, const FclVector& centre,
-                                   const fcl::ScrewMotion<double>*) {
-  return {from.turn, from.place + from.turn * centre, to.turn, to.place + to.turn * centre};
+
+/// Motion of the middle of a body.
+template <class Motion>
+auto middle_motion_of(const FclPose& from, const FclPose& to) {
+  if constexpr (std::is_same_v<Motion, FclLinear>) {
+    return fcl::TranslationMotion<double>(FclMatrix::Identity(), from.place, to.place);
+  } else {
+    return motion_of<Motion>(from, to, FclVector::Zero());
+  }
 }
 
 /// Shapes of FCL: one capsule along z, or spheres with their centres; and the sphere around all of them.
@@ -58,15 +74,15 @@ struct FclShapes {
     for (const RigidPart& part : body.parts) {
       centres.push_back(fcl_vector(0.5 * (part.a + part.b)));
       if (part.a == part.b)
-        parts.push_back(std::make_unique<fcl::Sphere<double>>(part.radius));
+        parts.push_back(std::make_unique<fcl::Sphered>(part.radius));
       else
-        parts.push_back(std::make_unique<fcl::Capsule<double>>(part.radius, norm(part.b - part.a)));
+        parts.push_back(std::make_unique<fcl::Capsuled>(part.radius, norm(part.b - part.a)));
     }
   }
 
   std::vector<std::unique_ptr<fcl::CollisionGeometry<double>>> parts;
   std::vector<FclVector> centres;
-  fcl::Sphere<double> around;
+  fcl::Sphered around;
 };
 
 /// Returns the time of contact as a part of the motions.
@@ -88,25 +104,17 @@ template <class Motion>
 std::optional<double> contact_in_piece(const FclShapes& first, const FclPose (&first_poses)[2],
                                        const FclShapes& second, const FclPose (&second_poses)[2],
                                        const FclRequest& request) {
-  constexpr const Motion* kind = nullptr;
   const auto motions = [](const FclShapes& shapes, const FclPose(&poses)[2]) {
     std::vector<Motion> found;
     for (const FclVector& centre : shapes.centres)
-      found.push_back(motion_of(poses[0], poses[1], centre, kind));
+      found.push_back(motion_of<Motion>(poses[0], poses[1], centre));
     return found;
   };
-  const bool is_one_pair = first.parts.size() * second.parts.size() == 1;
-  if (!is_one_pair) {
-    // The sphere around a body need not turn.
-    const auto middle = [](const FclPose& pose) {
-      fcl::Transform3<double> place = fcl::Transform3<double>::Identity();
-      place.translation() = pose.place;
-      return place;
-    };
-    const fcl::TranslationMotion<double> one(middle(first_poses[0]), middle(first_poses[1]));
-    const fcl::TranslationMotion<double> other(middle(second_poses[0]), middle(second_poses[1]));
+  if (first.parts.size() * second.parts.size() > 1) {
     FclRequest nearness = request;
     nearness.ccd_solver_type = fcl::CCDC_CONSERVATIVE_ADVANCEMENT;
+    const auto one = middle_motion_of<Motion>(first_poses[0], first_poses[1]);
+    const auto other = middle_motion_of<Motion>(second_poses[0], second_poses[1]);
     if (!contact_of(first.around, one, second.around, other, nearness)) return std::nullopt;
   }
   const std::vector<Motion> first_motions = motions(first, first_poses);
@@ -154,11 +162,10 @@ PairMethod fcl_method(std::string name, fcl::CCDSolverType solver, fcl::CCDMotio
 }  // namespace
 
 std::vector<PairMethod> fcl_methods() {
-  using Linear = fcl::InterpMotion<double>;
-  using Screw = fcl::ScrewMotion<double>;
-  return {fcl_method<Linear>("FCL advancement", fcl::CCDC_CONSERVATIVE_ADVANCEMENT, fcl::CCDM_LINEAR),
-          fcl_method<Screw>("FCL advancement (screws)", fcl::CCDC_CONSERVATIVE_ADVANCEMENT, fcl::CCDM_SCREW),
-          fcl_method<Linear>("FCL naive", fcl::CCDC_NAIVE, fcl::CCDM_LINEAR)};
+  return {
+      fcl_method<FclLinear>("FCL advancement", fcl::CCDC_CONSERVATIVE_ADVANCEMENT, fcl::CCDM_LINEAR),
+      fcl_method<FclScrew>("FCL advancement (screws)", fcl::CCDC_CONSERVATIVE_ADVANCEMENT, fcl::CCDM_SCREW),
+      fcl_method<FclLinear>("FCL naive", fcl::CCDC_NAIVE, fcl::CCDM_LINEAR)};
 }
 
 std::vector<std::string> fcl_refusals() {
@@ -167,11 +174,11 @@ std::vector<std::string> fcl_refusals() {
       {"CCDC_CONSERVATIVE_ADVANCEMENT", fcl::CCDC_CONSERVATIVE_ADVANCEMENT},
       {"CCDC_RAY_SHOOTING", fcl::CCDC_RAY_SHOOTING},
       {"CCDC_POLYNOMIAL_SOLVER", fcl::CCDC_POLYNOMIAL_SOLVER}};
-  const fcl::Capsule<double> capsule(0.1, 1.0);
+  const fcl::Capsuled capsule(0.1, 1.0);
   const FclPose from({.start = {{-1, 0, 0}}}, 0.0);
   const FclPose to({.start = {{1, 0, 0}}}, 0.0);
-  const auto moves = motion_of(from, to, FclVector::Zero(), static_cast<fcl::InterpMotion<double>*>(nullptr));
-  const auto comes = motion_of(to, from, FclVector::Zero(), static_cast<fcl::InterpMotion<double>*>(nullptr));
+  const FclLinear moves = motion_of<FclLinear>(from, to, FclVector::Zero());
+  const FclLinear comes = motion_of<FclLinear>(to, from, FclVector::Zero());
   std::vector<std::string> refused;
   // A refusal is a result of -1 and a line to the standard error.
   std::ostringstream said;

@@ -128,8 +128,8 @@ int bench_shapes(const BenchOptions& options) {
   if (fcl_methods().empty())
     report.note("FCL is left out: it was not installed when this program was built (libfcl-dev).");
   else
-    report.note(
-        fmt::format("Solvers of FCL that refuse capsules which turn: {}.", fmt::join(fcl_refusals(), ", ")));
+    report.note(fmt::format("Solvers of FCL that refuse capsules on such motions: {}.",
+                            fmt::join(fcl_refusals(), ", ")));
   return exit_fine;
 }
 
