@@ -209,7 +209,8 @@ bool let_graze(TurningPair& pair, double wanted) {
 /// Returns a pair, or nothing if the draw is of no use.
 std::optional<TurningPair> draw_pair(const PairKind& kind, bool grazes, Random& random) {
   TurningPair pair{any_body(kind, random), any_body(kind, random)};
-  const Vec3 velocity = random.uniform(2.0, 6.0) * random.unit_vector();
+  const Vec3 direction = random.unit_vector();
+  const Vec3 velocity = random.uniform(2.0, 6.0) * direction;
   const Vec3 offset = 0.8 * (reach(pair.first) + reach(pair.second)) * random.point_in_ball();
   const State& first = pair.first.start;
   pair.second.start = {first.position + offset - random.uniform(0.2, 0.9) * velocity,
