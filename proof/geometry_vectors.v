@@ -99,7 +99,7 @@ Qed.
 Lemma abs_at_most (x k : R) : Rabs x <= k -> - k <= x <= k.
 Proof. intros H. generalize (Rle_abs x) (Rle_abs (- x)). rewrite Rabs_Ropp. lra. Qed.
 
-(* The cross product is no longer than the product of the lengths, and at right angles to both. *)
+(* The cross product is no longer than the product of the lengths, and at right angles to the second factor. *)
 Lemma norm_cross u v : norm (cross u v) <= norm u * norm v.
 Proof.
   generalize (norm_positive u) (norm_positive v). intros Hu Hv. apply norm_at_most; [nra|].

@@ -76,6 +76,7 @@ Double bound_of_report() {
 /// Returns the growth of the bound of a point p that is fixed in a turning body.
 Double growth_of_point() {
   const kernels::RigidExtent body{.bound = {.growth_acceleration = variable("limit")},
+                                  .parts = {},
                                   .spin = variable("spin"),
                                   .spin_growth = variable("spin_growth")};
   return body.of_point({variable("x"), variable("y"), variable("z")}, variable("r")).growth_acceleration;
