@@ -73,7 +73,7 @@ Double bound_of_report() {
               bound.growth_speed, bound.acceleration_limit);
 }
 
-/// Returns the growth of the bound of a point p that is fixed in a turning body.
+/// Returns the growth of the bound of a point that is fixed in a turning body.
 Double growth_of_point() {
   const kernels::RigidExtent body{.bound = {.growth_acceleration = variable("limit")},
                                   .parts = {},
