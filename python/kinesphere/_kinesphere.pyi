@@ -21,6 +21,9 @@ Function = Callable[[Ids, float], tuple[Array, Array]]
 Probe = Union[Motion, BodyMap, MotionSource, Function]
 Response = Union[Bouncing, Scene, Callable[[Event], object]]
 Shape = Union[Ball, Box, HalfSpace, Triangle]
+Parts = Sequence[Union[Ball, Capsule]]
+# Velocity and angular velocity.
+Turned = tuple[Optional[Doubles], Optional[Doubles]]
 BoxLike = Union[Box, Array, Sequence[Array]]
 ContactEvents = Literal["all", "begin_and_end", "impacts"]
 
@@ -77,6 +80,15 @@ class Triangle:
     @property
     def c(self) -> Doubles: ...
 
+class Capsule:
+    def __init__(self, a: Array, b: Array, radius: float) -> None: ...
+    @property
+    def a(self) -> Doubles: ...
+    @property
+    def b(self) -> Doubles: ...
+    @property
+    def radius(self) -> float: ...
+
 class Event:
     @staticmethod
     def _from_record(record: bytes) -> Event: ...
@@ -130,6 +142,18 @@ class Event:
     @property
     def second_mass(self) -> float: ...
     @property
+    def first_part(self) -> int: ...
+    @property
+    def second_part(self) -> int: ...
+    @property
+    def first_angular_velocity(self) -> Doubles: ...
+    @property
+    def second_angular_velocity(self) -> Doubles: ...
+    @property
+    def first_spin_gain(self) -> Doubles: ...
+    @property
+    def second_spin_gain(self) -> Doubles: ...
+    @property
     def first_is_static(self) -> bool: ...
     @property
     def first_is_zone(self) -> bool: ...
@@ -167,6 +191,7 @@ def bounce(
     second_mass: Optional[float] = None,
     restitution: float = ...,
 ) -> tuple[Doubles, Optional[Doubles]]: ...
+def bounce_rigid(contact: Event, restitution: float = 1.0) -> tuple[Turned, Turned]: ...
 def settle(
     contact: Event,
     first_mass: Optional[float],
@@ -317,6 +342,26 @@ class BodyMap:
         number: int,
         shape: Shape,
         *,
+        category: int = 1,
+        mask: int = ...,
+        group: int = 0,
+        solid: bool = True,
+        sensor_class: int = 0,
+        user_data: int = 0,
+        mass: float = 1.0,
+    ) -> BodyId: ...
+    def add_rigid_body(
+        self,
+        world: World,
+        motion: Motion,
+        number: int,
+        parts: Parts,
+        *,
+        orientation: Array = ...,
+        angular_velocity: Optional[Array] = None,
+        angular_acceleration_limit: float = 0.0,
+        largest_angular_speed: float = ...,
+        inertia: Array = ...,
         category: int = 1,
         mask: int = ...,
         group: int = 0,
@@ -638,6 +683,34 @@ class World:
         user_data: int = 0,
         mass: float = 1.0,
     ) -> BodyId: ...
+    def add_rigid_body(
+        self,
+        parts: Parts,
+        position: Array,
+        velocity: Optional[Array] = None,
+        acceleration_limit: float = 0.0,
+        *,
+        orientation: Array = ...,
+        angular_velocity: Optional[Array] = None,
+        angular_acceleration_limit: float = 0.0,
+        largest_angular_speed: float = ...,
+        inertia: Array = ...,
+        planned_acceleration: Optional[Array] = None,
+        position_error: float = 0.0,
+        velocity_error: float = 0.0,
+        category: int = 1,
+        mask: int = ...,
+        group: int = 0,
+        solid: bool = True,
+        sensor_class: int = 0,
+        user_data: int = 0,
+        mass: float = 1.0,
+    ) -> BodyId: ...
+    def rotations(self, bodies: Bodies) -> tuple[Doubles, Doubles]: ...
+    def parts_of(self, body: SupportsIndex) -> list[Union[Ball, Capsule]]: ...
+    def set_angular_velocity(self, bodies: Bodies, angular_velocities: Array) -> None: ...
+    def set_rotation(self, body: SupportsIndex, orientation: Array, angular_velocity: Array) -> None: ...
+    def set_rotation_probe(self, function: Optional[Function]) -> None: ...
     def add_zone(self, shape: Shape, user_data: int = 0) -> BodyId: ...
     def add_mesh(
         self,

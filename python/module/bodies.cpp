@@ -16,20 +16,6 @@ namespace {
 
 constexpr std::uint64_t all_categories = std::numeric_limits<std::uint64_t>::max();
 
-std::int32_t group_of(const py::object& given, const Argument& argument) {
-  const auto group = given.cast<long long>();
-  constexpr long long least = std::numeric_limits<std::int32_t>::min(),
-                      most = std::numeric_limits<std::int32_t>::max();
-  if (group < least || group > most) refuse(argument, "must have 32 bits", "is " + std::to_string(group));
-  return static_cast<std::int32_t>(group);
-}
-
-SensorClass sensor_class_of(std::uint64_t given, const Argument& argument) {
-  if (given > std::numeric_limits<SensorClass>::max())
-    refuse(argument, "must lie in [0, 255]", "is " + std::to_string(given));
-  return static_cast<SensorClass>(given);
-}
-
 /// What add() and add_motion() are told of bodies beside their motion: a value for all, or one of each.
 struct Traits {
   const py::object& radii;

@@ -1,9 +1,11 @@
 // Worlds with bodies that one motion moves, or several.
 #include <algorithm>
+#include <limits>
 
 #include "errors.hpp"
 #include "exchange.hpp"
 #include "motions.hpp"
+#include "rigid_bodies.hpp"
 #include "shapes.hpp"
 #include "world.hpp"
 
@@ -65,6 +67,26 @@ py::object add_moved_shape(BodyMapHandle& map, WorldHandle& world, const py::obj
                       shape_of(shape, {"add_moving_shape", "shape"})};
   carried.body.mass = mass;
   const BodyId id = map.map->add_moving_shape(world.world, *motion.motion, number, carried).value();
+  keep(map, moving);
+  end_call(world);
+  return object_of(id);
+}
+
+py::object add_moved_rigid_body(BodyMapHandle& map, WorldHandle& world, const py::object& moving,
+                                std::uint32_t number, const py::object& parts, const py::object& orientation,
+                                const py::object& angular_velocity, double angular_acceleration_limit,
+                                double largest_angular_speed, const py::object& inertia,
+                                std::uint64_t category, std::uint64_t mask, std::int32_t group, bool solid,
+                                SensorClass sensor_class, std::uint64_t user_data, double mass) {
+  auto& motion = moving.cast<MotionHandle&>();
+  const auto turn = map.in_use.take_alone("add_rigid_body", map_name);
+  const auto turn_of_motion = motion.in_use.take_alone("add_rigid_body", "motion");
+  const auto turn_of_world = world.take("add_rigid_body");
+  BodyDefinition body = like(0.0, category, mask, group, solid, sensor_class, user_data);
+  body.mass = mass;
+  const RigidArguments rigid{
+      parts, orientation, angular_velocity, angular_acceleration_limit, largest_angular_speed, inertia};
+  const BodyId id = map.map->add_rigid_body(world.world, *motion.motion, number, rigid.read(body)).value();
   keep(map, moving);
   end_call(world);
   return object_of(id);
@@ -162,6 +184,15 @@ together, for rollback.)")
            py::arg("group") = 0, py::arg("solid") = true, py::arg("sensor_class") = 0,
            py::arg("user_data") = 0, py::arg("mass") = 1.0,
            "Adds a body of a motion that carries a shape: see World.add_moving_shape(). Returns its BodyId.")
+      .def("add_rigid_body", add_moved_rigid_body, py::arg("world"), py::arg("motion"), py::arg("number"),
+           py::arg("parts"), py::kw_only(), py::arg("orientation") = py::make_tuple(1.0, 0.0, 0.0, 0.0),
+           py::arg("angular_velocity") = py::none(), py::arg("angular_acceleration_limit") = 0.0,
+           py::arg("largest_angular_speed") = std::numeric_limits<double>::infinity(),
+           py::arg("inertia") = py::make_tuple(0.0, 0.0, 0.0), py::arg("category") = 1,
+           py::arg("mask") = all_categories, py::arg("group") = 0, py::arg("solid") = true,
+           py::arg("sensor_class") = 0, py::arg("user_data") = 0, py::arg("mass") = 1.0,
+           "Adds a body of a motion as the position of a rigid body: see World.add_rigid_body(). Returns its "
+           "BodyId.")
       .def(
           "set_velocity",
           [](BodyMapHandle& map, WorldHandle& world, const py::object& body, const py::object& velocity) {

@@ -42,6 +42,12 @@ constexpr Field event_fields[] = {
     {"second_user_data", "u8", offsetof(EventRecord, second_user_data)},
     {"first_mass", "f8", offsetof(EventRecord, first_mass)},
     {"second_mass", "f8", offsetof(EventRecord, second_mass)},
+    {"first_part", "u4", offsetof(EventRecord, first_part)},
+    {"second_part", "u4", offsetof(EventRecord, second_part)},
+    {"first_angular_velocity", "3f8", offsetof(EventRecord, first_angular_velocity)},
+    {"second_angular_velocity", "3f8", offsetof(EventRecord, second_angular_velocity)},
+    {"first_spin_gain", "3f8", offsetof(EventRecord, first_spin_gain)},
+    {"second_spin_gain", "3f8", offsetof(EventRecord, second_spin_gain)},
     {"first_is_static", "?", offsetof(EventRecord, first_is_static)},
     {"first_is_zone", "?", offsetof(EventRecord, first_is_zone)},
     {"first_is_sleeping", "?", offsetof(EventRecord, first_is_sleeping)},
@@ -74,7 +80,13 @@ Event event_of(const EventRecord& record) {
           .first_user_data = record.first_user_data,
           .second_user_data = record.second_user_data,
           .first_mass = record.first_mass,
-          .second_mass = record.second_mass};
+          .second_mass = record.second_mass,
+          .first_part = record.first_part,
+          .second_part = record.second_part,
+          .first_angular_velocity = record.first_angular_velocity,
+          .second_angular_velocity = record.second_angular_velocity,
+          .first_spin_gain = record.first_spin_gain,
+          .second_spin_gain = record.second_spin_gain};
 }
 
 EventRecord record_at(const std::byte* bytes) {
@@ -144,6 +156,12 @@ EventRecord record_of(const Event& event) {
           event.second_user_data,
           event.first_mass,
           event.second_mass,
+          event.first_part,
+          event.second_part,
+          event.first_angular_velocity,
+          event.second_angular_velocity,
+          event.first_spin_gain,
+          event.second_spin_gain,
           event.first_traits.is_static,
           event.first_traits.is_zone,
           event.first_traits.is_sleeping,
@@ -233,6 +251,21 @@ cannot be changed.)")
       .def_readonly("second_user_data", &Event::second_user_data)
       .def_readonly("first_mass", &Event::first_mass, "Of add(); infinite for a static body.")
       .def_readonly("second_mass", &Event::second_mass, "Infinite for a static body and for a wall.")
+      .def_readonly("first_part", &Event::first_part,
+                    "Of a rigid body: the number of the part at the contact; 0 for all others.")
+      .def_readonly("second_part", &Event::second_part)
+      .def_property_readonly(
+          "first_angular_velocity", [](const Event& event) { return array_of(event.first_angular_velocity); },
+          "Of a rigid body (radians / time), shape (3,); zero for all others.")
+      .def_property_readonly("second_angular_velocity",
+                             [](const Event& event) { return array_of(event.second_angular_velocity); })
+      .def_property_readonly(
+          "first_spin_gain", [](const Event& event) { return array_of(event.first_spin_gain); },
+          "Change of the angular velocity of a rigid body by a unit impulse along the normal (radians / "
+          "(mass "
+          "length)), shape (3,).")
+      .def_property_readonly("second_spin_gain",
+                             [](const Event& event) { return array_of(event.second_spin_gain); })
       .def_property_readonly(
           "first_is_static", [](const Event& event) { return event.first_traits.is_static; },
           "The body never moves (add_static, add_zone).")

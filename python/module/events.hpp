@@ -41,6 +41,12 @@ struct EventRecord {
   std::uint64_t second_user_data;
   double first_mass;
   double second_mass;
+  std::uint32_t first_part;
+  std::uint32_t second_part;
+  Vec3 first_angular_velocity;
+  Vec3 second_angular_velocity;
+  Vec3 first_spin_gain;
+  Vec3 second_spin_gain;
   bool first_is_static;
   bool first_is_zone;
   bool first_is_sleeping;

@@ -221,6 +221,20 @@ std::vector<std::uint64_t> each_whole_of(py::handle given, const Argument& argum
   return values;
 }
 
+std::int32_t group_of(py::handle given, const Argument& argument) {
+  const auto group = given.cast<long long>();
+  constexpr long long least = std::numeric_limits<std::int32_t>::min(),
+                      most = std::numeric_limits<std::int32_t>::max();
+  if (group < least || group > most) refuse(argument, "must have 32 bits", "is " + std::to_string(group));
+  return static_cast<std::int32_t>(group);
+}
+
+SensorClass sensor_class_of(std::uint64_t given, const Argument& argument) {
+  if (given > std::numeric_limits<SensorClass>::max())
+    refuse(argument, "must lie in [0, 255]", "is " + std::to_string(given));
+  return static_cast<SensorClass>(given);
+}
+
 std::vector<State> states_of(py::handle positions, py::handle velocities, std::string_view call, bool plane) {
   const std::vector<Vec3> places = vectors_of(positions, {call, "positions"}, plane);
   std::vector<State> states(places.size());

@@ -82,6 +82,10 @@ std::uint64_t whole_number(py::handle given, const Argument& argument);
 /// some.
 std::vector<std::uint64_t> whole_numbers(py::handle given, const Argument& argument,
                                          bool* is_signed = nullptr);
+/// Reads a filter group of 32 bits.
+std::int32_t group_of(py::handle given, const Argument& argument);
+/// Reads a sensor class from 0 to 255.
+SensorClass sensor_class_of(std::uint64_t given, const Argument& argument);
 /// Reads positions and velocities; None for the latter means zero.
 std::vector<State> states_of(py::handle positions, py::handle velocities, std::string_view call, bool plane);
 /// Writes the result of a probe to `states`: two arrays of shape (n, 3) or, in the plane, (n, 2).

@@ -29,6 +29,16 @@ class Interruptible final : public MotionSource {
   Interruptions& interruptions_;
 };
 
+/// Returns true for (velocity, angular velocity), false for a velocity, which has numbers.
+bool has_spin(py::handle given) {
+  if (PyTuple_Check(given.ptr()) == 0 || PyTuple_GET_SIZE(given.ptr()) != 2) return false;
+  const auto is_number = [&](Py_ssize_t k) {
+    const py::handle item = PyTuple_GET_ITEM(given.ptr(), k);
+    return !item.is_none() && !py::hasattr(item, "__len__");
+  };
+  return !is_number(0) && !is_number(1);
+}
+
 template <class Moving>
 std::unique_ptr<MotionSource> interruptible(Moving moving, Interruptions& interruptions) {
   return std::make_unique<Interruptible<Moving>>(std::move(moving), interruptions);
@@ -129,12 +139,22 @@ Response answer_of(const py::object& returned, bool plane) {
   if (!is_pair)
     refuse({"run", "respond"}, "must return None or (first velocity, second velocity)",
            "returned " + py::repr(returned).cast<std::string>());
-  const auto velocity = [&](Py_ssize_t k, const char* name) -> std::optional<Vec3> {
-    const py::handle given = PySequence_Fast_ITEMS(returned.ptr())[k];
-    if (given.is_none()) return std::nullopt;
-    return vector_of(given, {"run: respond", name}, plane);
+  Response response;
+  const auto set = [&](py::handle given, const char* name, bool in_plane, std::optional<Vec3>& value) {
+    if (!given.is_none()) value = vector_of(given, {"run: respond", name}, in_plane);
   };
-  return {velocity(0, "first_velocity"), velocity(1, "second_velocity")};
+  const auto set_body = [&](Py_ssize_t k, const char* name, std::optional<Vec3>& velocity,
+                            const char* spin_name, std::optional<Vec3>& spin) {
+    const py::handle given = PySequence_Fast_ITEMS(returned.ptr())[k];
+    if (!has_spin(given)) return set(given, name, plane, velocity);
+    set(PyTuple_GET_ITEM(given.ptr(), 0), name, plane, velocity);
+    set(PyTuple_GET_ITEM(given.ptr(), 1), spin_name, false, spin);
+  };
+  set_body(0, "first_velocity", response.first_velocity, "first_angular_velocity",
+           response.first_angular_velocity);
+  set_body(1, "second_velocity", response.second_velocity, "second_angular_velocity",
+           response.second_angular_velocity);
+  return response;
 }
 
 void bind_moving(py::module_& module) {

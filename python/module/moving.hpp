@@ -65,8 +65,8 @@ class Bouncing {
   double resting_speed_;
 };
 
-/// Converts the result of a Python function for an event: None, or a velocity or None for each of
-/// the two bodies.
+/// Converts the result of a Python function for an event: None, or for each of the two bodies a velocity, a
+/// tuple (velocity, angular velocity), or None.
 Response answer_of(const py::object& returned, bool plane);
 
 void bind_moving(py::module_& module);

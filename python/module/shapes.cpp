@@ -137,6 +137,20 @@ void bind_shapes(py::module_& module) {
       .def_property_readonly("c", [](const Triangle& of) { return array_of(of.c); });
   triangle.attr("_parts") = py::make_tuple("a", "b", "c");
   bind_equality(triangle, "Triangle");
+
+  py::class_<RigidPart> capsule(
+      module, "Capsule",
+      "All points within `radius` (length, >= 0) of the segment from a to b: a part of a rigid body.");
+  capsule
+      .def(py::init([](const py::object& a, const py::object& b, double radius) {
+             return RigidPart{point_of(a, "Capsule", "a"), point_of(b, "Capsule", "b"), radius};
+           }),
+           py::arg("a"), py::arg("b"), py::arg("radius"))
+      .def_property_readonly("a", [](const RigidPart& of) { return array_of(of.a); })
+      .def_property_readonly("b", [](const RigidPart& of) { return array_of(of.b); })
+      .def_readonly("radius", &RigidPart::radius);
+  capsule.attr("_parts") = py::make_tuple("a", "b", "radius");
+  bind_equality(capsule, "Capsule");
 }
 
 }  // namespace kinesphere::python

@@ -1,9 +1,10 @@
-// Boxes and the other shapes of static bodies.
+// Boxes and other shapes of bodies.
 #pragma once
 
 #include <pybind11/pybind11.h>
 
 #include "exchange.hpp"
+#include "kinesphere/rigid_body.hpp"
 #include "kinesphere/shape.hpp"
 
 namespace kinesphere::python {

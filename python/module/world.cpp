@@ -45,6 +45,7 @@ std::shared_ptr<WorldHandle> clone(WorldHandle& handle) {
   auto copy =
       std::make_shared<WorldHandle>(without_gil(handle, [&] { return handle.world.clone(); }).value());
   copy->filter_trouble = handle.filter_trouble;
+  copy->has_rotation_probe = handle.has_rotation_probe;
   copy->undelivered = handle.undelivered;
   return copy;
 }
@@ -60,6 +61,10 @@ py::tuple pickled(const py::object& self) {
     throw py::type_error(
         "pickle: a world with a pair filter cannot be pickled, as the filter is code; use save() and "
         "World.restore(snapshot, pair_filter)");
+  if (handle.has_rotation_probe)
+    throw py::type_error(
+        "pickle: a world with a rotation probe cannot be pickled, as the probe is code; use save(), "
+        "World.restore(snapshot) and set_rotation_probe()");
   if (!handle.undelivered.empty())
     throw_state_error(
         "run_in_progress", "world",
@@ -102,15 +107,16 @@ py::dict arguments_of(const WorldDefinition& definition) {
   return arguments;
 }
 
+std::shared_ptr<py::object> kept_by_engine(const py::object& function) {
+  return {new py::object(function), [](py::object* held) {
+            const py::gil_scoped_acquire gil;
+            delete held;
+          }};
+}
+
 PairFilter pair_filter_of(const py::object& function, const std::shared_ptr<FilterTrouble>& trouble) {
   if (function.is_none()) return {};
-  // Copies of a world share it, and the last of them may be destroyed without the GIL.
-  const std::shared_ptr<py::object> shared(new py::object(py::reinterpret_borrow<py::object>(function)),
-                                           [](py::object* held) {
-                                             const py::gil_scoped_acquire gil;
-                                             delete held;
-                                           });
-  return [shared, trouble](BodyId first, BodyId second) {
+  return [shared = kept_by_engine(function), trouble](BodyId first, BodyId second) {
     const py::gil_scoped_acquire gil;
     if (trouble->thrown) return true;
     try {
@@ -201,6 +207,7 @@ What moves the bodies, and a pair filter, are the caller's to save.)")
                   "The world that save() wrote. Raises InvalidValue (bad_snapshot) for bytes that are none.")
       .def("__reduce__", pickled);
   bind_bodies(world);
+  bind_rigid_bodies(module, world);
   bind_going_on(module, world);
   bind_answers(module, world);
   bind_inspection(module, world);

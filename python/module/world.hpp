@@ -32,6 +32,7 @@ struct WorldHandle {
   std::vector<EventRecord> undelivered{};
   /// Set while there is a pair filter.
   std::shared_ptr<FilterTrouble> filter_trouble{};
+  bool has_rotation_probe = false;
 
   /// For other threads: a time that the world has reached. The thread that uses the world sets it, and each
   /// thread reads it, under the GIL.
@@ -83,6 +84,7 @@ std::shared_ptr<WorldHandle> restored(const py::object& snapshot, const py::obje
 
 // Each function binds the calls of one subject.
 void bind_bodies(WorldClass& world);
+void bind_rigid_bodies(py::module_& module, WorldClass& world);
 void bind_going_on(py::module_& module, WorldClass& world);
 void bind_answers(py::module_& module, WorldClass& world);
 void bind_inspection(py::module_& module, WorldClass& world);
@@ -94,6 +96,9 @@ void bind_scenes(py::module_& module);
 void bind_tracks(py::module_& module);
 void bind_paths(py::module_& module);
 
+/// Returns a Python function for callbacks that the engine keeps: copies of a world share it, and the last of
+/// them may be destroyed without the GIL.
+std::shared_ptr<py::object> kept_by_engine(const py::object& function);
 /// Returns a filter that calls a Python function; empty for None.
 PairFilter pair_filter_of(const py::object& function, const std::shared_ptr<FilterTrouble>& trouble);
 

@@ -58,7 +58,7 @@ echo "pictures of the docs:"
 "$clean" -B "$source/../docs/pictures/make.py" --check
 
 cd "$work/pictures"
-for example in gas drones certainty side_by_side alerts vicsek packing traffic drone_show; do
+for example in gas drones certainty side_by_side alerts vicsek packing traffic drone_show ships; do
   echo "example $example:"
   "$clean" "$source/examples/$example.py"
 done
