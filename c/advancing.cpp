@@ -48,10 +48,15 @@ Response bounced(const Event& event, double restitution, double resting_speed) {
 }
 
 ks_response c_response(const Response& response) {
+  const auto vector = [](const std::optional<Vec3>& given) { return c_vector(given.value_or(Vec3{})); };
   return {.turns_first = response.first_velocity.has_value(),
           .turns_second = response.second_velocity.has_value(),
-          .first_velocity = c_vector(response.first_velocity.value_or(Vec3{})),
-          .second_velocity = c_vector(response.second_velocity.value_or(Vec3{}))};
+          .first_velocity = vector(response.first_velocity),
+          .second_velocity = vector(response.second_velocity),
+          .spins_first = response.first_angular_velocity.has_value(),
+          .spins_second = response.second_angular_velocity.has_value(),
+          .first_angular_velocity = vector(response.first_angular_velocity),
+          .second_angular_velocity = vector(response.second_angular_velocity)};
 }
 
 Response response_of_caller(const ks_run_definition& definition, const Event& event) {
@@ -61,6 +66,8 @@ Response response_of_caller(const ks_run_definition& definition, const Event& ev
   Response response;
   if (chosen.turns_first) response.first_velocity = vector_of(chosen.first_velocity);
   if (chosen.turns_second) response.second_velocity = vector_of(chosen.second_velocity);
+  if (chosen.spins_first) response.first_angular_velocity = vector_of(chosen.first_angular_velocity);
+  if (chosen.spins_second) response.second_angular_velocity = vector_of(chosen.second_angular_velocity);
   return response;
 }
 

@@ -123,6 +123,37 @@ ks_status ks_world_add_moving_shape(ks_world world, const ks_body_definition* bo
   });
 }
 
+ks_status ks_rigid_definition_init(ks_rigid_definition* definition, uint32_t struct_size) {
+  const RigidBody defaults;
+  return initialise(__func__, definition, struct_size,
+                    ks_rigid_definition{.struct_size = struct_size,
+                                        .part_count = 0,
+                                        .parts = nullptr,
+                                        .rotation = c_rotation(defaults.rotation),
+                                        .angular_acceleration_limit = defaults.angular_acceleration_limit,
+                                        .largest_angular_speed = defaults.largest_angular_speed,
+                                        .inertia = c_vector(defaults.inertia)});
+}
+
+ks_status ks_world_add_rigid_body(ks_world world, const ks_body_definition* body,
+                                  const ks_rigid_definition* rigid, ks_body_id* id) {
+  return changing(__func__, world, [&, call = __func__](WorldObject& object) {
+    require_record(call, body, "body");
+    require_record(call, rigid, "rigid");
+    require_array(call, rigid->parts, rigid->part_count, "rigid.parts");
+    require_pointer(call, id, "id");
+    const auto parts = parts_of(rigid->parts, rigid->part_count);
+    *id = c_id(object.world()
+                   .add_rigid_body({.body = body_of(call, *body),
+                                    .parts = {parts.begin(), parts.end()},
+                                    .rotation = rotation_of(rigid->rotation),
+                                    .angular_acceleration_limit = rigid->angular_acceleration_limit,
+                                    .largest_angular_speed = rigid->largest_angular_speed,
+                                    .inertia = vector_of(rigid->inertia)})
+                   .value());
+  });
+}
+
 ks_status ks_world_add_zone(ks_world world, const ks_shape* shape, uint64_t user_data, ks_body_id* id) {
   return changing(__func__, world, [&, call = __func__](WorldObject& object) {
     require_pointer(call, shape, "shape");
@@ -165,6 +196,31 @@ ks_status ks_world_set_velocities(ks_world world, const ks_body_id* bodies, cons
     const std::span given = vectors_of(velocities, count);
     object.world().set_velocities(ids, given).value();
     for (std::size_t k = 0; k < count; ++k) turn(object, ids[k], given[k]);
+  });
+}
+
+ks_status ks_world_set_angular_velocity(ks_world world, ks_body_id body, ks_vec3 angular_velocity) {
+  return change_body(__func__, world, body, [&](World& of, BodyId id) {
+    return of.set_angular_velocity(id, vector_of(angular_velocity));
+  });
+}
+
+ks_status ks_world_set_rotation(ks_world world, ks_body_id body, const ks_rotation* rotation) {
+  return change_body(__func__, world, body, [&, call = __func__](World& of, BodyId id) {
+    require_pointer(call, rotation, "rotation");
+    return of.set_rotation(id, rotation_of(*rotation));
+  });
+}
+
+ks_status ks_world_set_rotation_probe(ks_world world, ks_rotation_probe probe, void* user) {
+  return changing(__func__, world, [&](WorldObject& object) {
+    RotationProbe asked;
+    if (probe != nullptr) {
+      asked = [probe, user](std::span<const BodyId> ids, double time, std::span<Rotation> rotations) {
+        require_success("rotation probe", probe(c_ids(ids), ids.size(), time, c_rotations(rotations), user));
+      };
+    }
+    object.world().set_rotation_probe(std::move(asked)).value();
   });
 }
 

@@ -114,7 +114,13 @@ ks_event c_event(const Event& event) {
           .first_user_data = event.first_user_data,
           .second_user_data = event.second_user_data,
           .first_mass = event.first_mass,
-          .second_mass = event.second_mass};
+          .second_mass = event.second_mass,
+          .first_part = event.first_part,
+          .second_part = event.second_part,
+          .first_angular_velocity = c_vector(event.first_angular_velocity),
+          .second_angular_velocity = c_vector(event.second_angular_velocity),
+          .first_spin_gain = c_vector(event.first_spin_gain),
+          .second_spin_gain = c_vector(event.second_spin_gain)};
 }
 
 void write_next(const std::optional<Event>& next, double time, ks_event* event) {
@@ -149,7 +155,13 @@ Event event_of(std::string_view call, const ks_event& event) {
           .first_user_data = event.first_user_data,
           .second_user_data = event.second_user_data,
           .first_mass = event.first_mass,
-          .second_mass = event.second_mass};
+          .second_mass = event.second_mass,
+          .first_part = event.first_part,
+          .second_part = event.second_part,
+          .first_angular_velocity = vector_of(event.first_angular_velocity),
+          .second_angular_velocity = vector_of(event.second_angular_velocity),
+          .first_spin_gain = vector_of(event.first_spin_gain),
+          .second_spin_gain = vector_of(event.second_spin_gain)};
 }
 
 PairFilter pair_filter_of(ks_pair_filter filter, void* user) {

@@ -16,6 +16,7 @@
 #include "kinesphere/monitor/report.hpp"
 #include "kinesphere/probe.hpp"
 #include "kinesphere/response.hpp"
+#include "kinesphere/rigid_body.hpp"
 #include "kinesphere/shape.hpp"
 
 namespace kinesphere::c {
@@ -24,6 +25,10 @@ namespace kinesphere::c {
 static_assert(sizeof(ks_body_id) == sizeof(BodyId) && offsetof(ks_body_id, world) == offsetof(BodyId, world));
 static_assert(sizeof(ks_vec3) == sizeof(Vec3) && offsetof(ks_vec3, z) == offsetof(Vec3, z));
 static_assert(sizeof(ks_state) == sizeof(State) && offsetof(ks_state, velocity) == offsetof(State, velocity));
+static_assert(sizeof(ks_rigid_part) == sizeof(RigidPart) &&
+              offsetof(ks_rigid_part, radius) == offsetof(RigidPart, radius));
+static_assert(sizeof(ks_rotation) == sizeof(Rotation) &&
+              offsetof(ks_rotation, angular_velocity) == offsetof(Rotation, angular_velocity));
 
 inline std::span<const BodyId> ids_of(const ks_body_id* ids, std::size_t count) {
   return {reinterpret_cast<const BodyId*>(ids), count};
@@ -33,6 +38,12 @@ inline std::span<const Vec3> vectors_of(const ks_vec3* vectors, std::size_t coun
 }
 inline const ks_body_id* c_ids(std::span<const BodyId> ids) {
   return reinterpret_cast<const ks_body_id*>(ids.data());
+}
+inline std::span<const RigidPart> parts_of(const ks_rigid_part* parts, std::size_t count) {
+  return {reinterpret_cast<const RigidPart*>(parts), count};
+}
+inline ks_rotation* c_rotations(std::span<Rotation> rotations) {
+  return reinterpret_cast<ks_rotation*>(rotations.data());
 }
 inline ks_state* c_states(std::span<State> states) { return reinterpret_cast<ks_state*>(states.data()); }
 
@@ -47,6 +58,14 @@ inline State state_of(const ks_state& state) {
   return {vector_of(state.position), vector_of(state.velocity)};
 }
 inline ks_state c_state(const State& state) { return {c_vector(state.position), c_vector(state.velocity)}; }
+inline Rotation rotation_of(const ks_rotation& rotation) {
+  const auto& [w, x, y, z] = rotation.orientation;
+  return {{w, x, y, z}, vector_of(rotation.angular_velocity)};
+}
+inline ks_rotation c_rotation(const Rotation& rotation) {
+  const auto& [w, x, y, z] = rotation.orientation;
+  return {{w, x, y, z}, c_vector(rotation.angular_velocity)};
+}
 inline Box box_of(const ks_box& box) { return {vector_of(box.lower), vector_of(box.upper)}; }
 inline ks_box c_box(const Box& box) { return {c_vector(box.lower), c_vector(box.upper)}; }
 inline Filter filter_of(const ks_filter& filter) { return {filter.category, filter.mask, filter.group}; }

@@ -123,6 +123,13 @@ ks_status ks_world_body(ks_world world, ks_body_id body, ks_body_view* view) {
   });
 }
 
+ks_status ks_world_rotation(ks_world world, ks_body_id body, ks_rotation* rotation) {
+  return reading(__func__, world, [&, call = __func__](const WorldObject& object) {
+    require_pointer(call, rotation, "rotation");
+    *rotation = c_rotation(object.world().rigid_body(id_of(body)).value().rotation);
+  });
+}
+
 ks_status ks_world_bodies(ks_world world, ks_body_id* bodies, size_t capacity, size_t* count) {
   return reading(__func__, world, [&, call = __func__](const WorldObject& object) {
     write_all(call, object.world().bodies(), bodies, capacity, count, c_id);

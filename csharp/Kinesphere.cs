@@ -8,6 +8,8 @@ namespace Kinesphere
 {
     /// <summary>Sets the states of bodies at a time.</summary>
     public delegate void Probe(BodyId[] bodies, double time, State[] states);
+    /// <summary>Sets the rotations of rigid bodies at a time.</summary>
+    public delegate void RotationProbe(BodyId[] bodies, double time, Rotation[] rotations);
     /// <summary>Chooses velocities after an event: the same for the same event, and in any thread.</summary>
     public delegate Response Respond(Event happened);
 
@@ -31,8 +33,15 @@ namespace Kinesphere
         }
         public void Check(int status)
         {
-            if (status == Native.CallbackFailed && exception != null) exception.Throw();
+            Rethrow(status);
             Native.Check(status);
+        }
+        /// <summary>Throws the exception if there was one, once.</summary>
+        public void Rethrow(int status)
+        {
+            var thrown = exception;
+            exception = null;
+            if (status == Native.CallbackFailed && thrown != null) thrown.Throw();
         }
     }
 
@@ -41,6 +50,9 @@ namespace Kinesphere
     {
         static readonly Native.Probe motions = Native.ks_probe_motions;
         ulong handle;
+        // The library keeps a pointer to the function, also in clones of this world.
+        Native.RotationProbe rotations;
+        Caught turning = new Caught();
 
         public World(WorldDefinition definition) { Native.Check(Native.ks_world_create(ref definition, out handle)); }
         internal World(ulong handle) { this.handle = handle; }
@@ -57,7 +69,7 @@ namespace Kinesphere
         {
             ulong copy;
             Native.Check(Native.ks_world_clone(handle, out copy));
-            return new World(copy);
+            return new World(copy) { rotations = rotations, turning = turning };
         }
         /// <summary>Returns a snapshot, without motions.</summary>
         public byte[] Save()
@@ -95,6 +107,46 @@ namespace Kinesphere
             BodyId id;
             Native.Check(Native.ks_world_add_moving_shape(handle, ref body, ref shape, out id));
             return id;
+        }
+        /// <summary>
+        /// Adds a rigid body: balls and capsules that move and turn together; the radius is ignored. The probe moves it.
+        /// </summary>
+        public BodyId AddRigidBody(BodyDefinition body, RigidDefinition rigid, params RigidPart[] parts)
+        {
+            BodyId id;
+            fixed (RigidPart* first = parts)
+            {
+                rigid.SetParts(first, parts.Length);
+                Native.Check(Native.ks_world_add_rigid_body(handle, ref body, ref rigid, out id));
+            }
+            return id;
+        }
+        /// <summary>Informs the world that a rigid body turns with this angular velocity from now on.</summary>
+        public void SetAngularVelocity(BodyId body, Vector angularVelocity)
+        {
+            Native.Check(Native.ks_world_set_angular_velocity(handle, body, angularVelocity));
+        }
+        /// <summary>Turns a rigid body at once, as Teleport moves it.</summary>
+        public void SetRotation(BodyId body, Rotation rotation)
+        {
+            Native.Check(Native.ks_world_set_rotation(handle, body, ref rotation));
+        }
+        /// <summary>The rotation of a rigid body at its last report.</summary>
+        public Rotation RotationOf(BodyId body)
+        {
+            Rotation rotation;
+            Native.Check(Native.ks_world_rotation(handle, body, out rotation));
+            return rotation;
+        }
+        /// <summary>Sets the function that gives the rotations of rigid bodies, directly after the probe; null removes it.
+        /// Clones share it.</summary>
+        public void SetRotationProbe(RotationProbe probe)
+        {
+            var caught = new Caught();
+            Native.RotationProbe callback = probe == null ? null : RotationCallback(probe, caught);
+            Native.Check(Native.ks_world_set_rotation_probe(handle, callback, IntPtr.Zero));
+            rotations = callback;
+            turning = caught;
         }
         /// <summary>Adds a zone, which reports who enters and leaves it.</summary>
         public BodyId AddZone(Shape shape, ulong userData = 0)
@@ -163,6 +215,7 @@ namespace Kinesphere
             int status = Native.ks_world_advance(handle, until, callback, IntPtr.Zero, ref next);
             GC.KeepAlive(callback);
             GC.KeepAlive(this);
+            turning.Rethrow(status);
             caught.Check(status);
             return next;
         }
@@ -184,6 +237,7 @@ namespace Kinesphere
             GC.KeepAlive(answer);
             GC.KeepAlive(tell);
             GC.KeepAlive(this);
+            turning.Rethrow(status);
             caught.Check(status);
         }
 
@@ -284,6 +338,18 @@ namespace Kinesphere
                 for (int k = 0; k < ids.Length; ++k) ids[k] = bodies[k];
                 probe(ids, time, answers);
                 for (int k = 0; k < ids.Length; ++k) states[k] = answers[k];
+            });
+        }
+
+        static Native.RotationProbe RotationCallback(RotationProbe probe, Caught caught)
+        {
+            return (bodies, count, time, rotations, user) => caught.Call(() =>
+            {
+                var ids = new BodyId[(int)count];
+                var answers = new Rotation[ids.Length];
+                for (int k = 0; k < ids.Length; ++k) ids[k] = bodies[k];
+                probe(ids, time, answers);
+                for (int k = 0; k < ids.Length; ++k) rotations[k] = answers[k];
             });
         }
 

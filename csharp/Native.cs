@@ -122,6 +122,59 @@ namespace Kinesphere
         }
     }
 
+    /// <summary>A rotation as a unit quaternion W + X i + Y j + Z k.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Quaternion
+    {
+        public double W, X, Y, Z;
+        public Quaternion(double w, double x, double y, double z) { W = w; X = x; Y = y; Z = z; }
+    }
+
+    /// <summary>Orientation and angular velocity (radians / time, in the world's axes) of a rigid body.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Rotation
+    {
+        public Quaternion Orientation;
+        public Vector AngularVelocity;
+        public Rotation(Quaternion orientation, Vector angularVelocity)
+        {
+            Orientation = orientation;
+            AngularVelocity = angularVelocity;
+        }
+    }
+
+    /// <summary>All points within a radius of the segment from A to B: a capsule, or a ball if A and B are equal.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct RigidPart
+    {
+        public Vector A, B;
+        public double Radius;
+        public RigidPart(Vector a, Vector b, double radius) { A = a; B = b; Radius = radius; }
+    }
+
+    /// <summary>What a rigid body has beside its BodyDefinition and its parts.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct RigidDefinition
+    {
+        uint structSize;
+        UIntPtr partCount;
+        RigidPart* parts;
+        public Rotation Rotation;
+        /// <summary>At 0 the body keeps its angular velocity; otherwise LargestAngularSpeed must be finite.</summary>
+        public double AngularAccelerationLimit, LargestAngularSpeed;
+        public Vector Inertia;
+        internal void SetParts(RigidPart* first, int count) { parts = first; partCount = (UIntPtr)count; }
+        public static RigidDefinition Default
+        {
+            get
+            {
+                RigidDefinition made;
+                Native.Check(Native.ks_rigid_definition_init(out made, Native.SizeOf<RigidDefinition>()));
+                return made;
+            }
+        }
+    }
+
     [StructLayout(LayoutKind.Sequential)]
     public struct StaticDefinition
     {
@@ -160,6 +213,9 @@ namespace Kinesphere
         public double Gap, ApproachSpeed, PositionExcess, VelocityExcess, Distance;
         public ulong FirstUserData, SecondUserData;
         public double FirstMass, SecondMass;
+        /// <summary>Of rigid bodies: the parts at the contact, and what an impulse along the normal does to them.</summary>
+        public uint FirstPart, SecondPart;
+        public Vector FirstAngularVelocity, SecondAngularVelocity, FirstSpinGain, SecondSpinGain;
         public bool Repeated { get { return repeated != 0; } }
         public bool Jammed { get { return jammed != 0; } }
         public bool AlreadyTouching { get { return alreadyTouching != 0; } }
@@ -179,6 +235,8 @@ namespace Kinesphere
     {
         int turnsFirst, turnsSecond;
         Vector first, second;
+        int spinsFirst, spinsSecond;
+        Vector firstSpin, secondSpin;
         /// <summary>The velocity from now on; null: the body continues as before.</summary>
         public Vector? First
         {
@@ -189,6 +247,17 @@ namespace Kinesphere
         {
             get { return turnsSecond != 0 ? second : (Vector?)null; }
             set { turnsSecond = value.HasValue ? 1 : 0; second = value.GetValueOrDefault(); }
+        }
+        /// <summary>Of rigid bodies (radians / time); null: the body turns as before.</summary>
+        public Vector? FirstAngularVelocity
+        {
+            get { return spinsFirst != 0 ? firstSpin : (Vector?)null; }
+            set { spinsFirst = value.HasValue ? 1 : 0; firstSpin = value.GetValueOrDefault(); }
+        }
+        public Vector? SecondAngularVelocity
+        {
+            get { return spinsSecond != 0 ? secondSpin : (Vector?)null; }
+            set { spinsSecond = value.HasValue ? 1 : 0; secondSpin = value.GetValueOrDefault(); }
         }
     }
 
@@ -383,6 +452,8 @@ namespace Kinesphere
         [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
         public delegate int Probe(BodyId* bodies, UIntPtr count, double time, State* states, IntPtr user);
         [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+        public delegate int RotationProbe(BodyId* bodies, UIntPtr count, double time, Rotation* rotations, IntPtr user);
+        [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
         public delegate int Respond(Event* happened, Response* response, IntPtr user);
         [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
         public delegate int Sink(Event* happened, IntPtr user);
@@ -455,6 +526,7 @@ namespace Kinesphere
         [DllImport(library)] public static extern int ks_world_definition_init(out WorldDefinition made, uint size);
         [DllImport(library)] public static extern int ks_body_definition_init(out BodyDefinition made, uint size);
         [DllImport(library)] public static extern int ks_static_definition_init(out StaticDefinition made, uint size);
+        [DllImport(library)] public static extern int ks_rigid_definition_init(out RigidDefinition made, uint size);
         [DllImport(library)] public static extern int ks_run_definition_init(out RunDefinition made, uint size);
         [DllImport(library)] public static extern int ks_motion_definition_init(out MotionDefinition made, uint size);
         [DllImport(library)] public static extern int ks_monitor_definition_init(out MonitorDefinition made, uint size);
@@ -474,6 +546,15 @@ namespace Kinesphere
         [DllImport(library)]
         public static extern int ks_world_add_moving_shape(
             ulong world, ref BodyDefinition body, ref Shape shape, out BodyId id);
+        [DllImport(library)]
+        public static extern int ks_world_add_rigid_body(
+            ulong world, ref BodyDefinition body, ref RigidDefinition rigid, out BodyId id);
+        [DllImport(library)]
+        public static extern int ks_world_set_angular_velocity(ulong world, BodyId body, Vector angularVelocity);
+        [DllImport(library)] public static extern int ks_world_set_rotation(ulong world, BodyId body, ref Rotation rotation);
+        [DllImport(library)]
+        public static extern int ks_world_set_rotation_probe(ulong world, RotationProbe probe, IntPtr user);
+        [DllImport(library)] public static extern int ks_world_rotation(ulong world, BodyId body, out Rotation rotation);
         [DllImport(library)]
         public static extern int ks_world_add_zone(ulong world, ref Shape shape, ulong userData, out BodyId id);
         [DllImport(library)] public static extern int ks_world_remove(ulong world, BodyId[] bodies, UIntPtr count);

@@ -301,6 +301,47 @@ static inline ks_static_definition ks_default_static_definition(void) {
   return definition;
 }
 
+/// A rotation as a unit quaternion w + x i + y j + z k.
+typedef struct ks_quaternion {
+  double w, x, y, z;
+} ks_quaternion;
+
+/// Orientation and angular velocity of a rigid body at one instant.
+typedef struct ks_rotation {
+  ks_quaternion orientation;  ///< turns a vector of the body into one of the world
+  ks_vec3 angular_velocity;   ///< in the world's axes (radians / time)
+} ks_rotation;
+
+/// A part of a rigid body: all points within `radius` of the segment from a to b, relative to the body's
+/// position. A capsule, or a ball if a and b are equal.
+typedef struct ks_rigid_part {
+  ks_vec3 a;
+  ks_vec3 b;
+  double radius;  ///< >= 0 (length)
+} ks_rigid_part;
+
+/// What a rigid body has beside its ks_body_definition. Fields and ranges: kinesphere/rigid_body.hpp.
+typedef struct ks_rigid_definition {
+  uint32_t struct_size;
+  size_t part_count;  ///< >= 1
+  const ks_rigid_part* parts;
+  ks_rotation rotation;               ///< at the world's current time
+  double angular_acceleration_limit;  ///< >= 0 (radians / time^2); 0: it keeps its angular velocity
+  double largest_angular_speed;       ///< >= 0 (radians / time); finite if the limit above is not 0
+  ks_vec3 inertia;  ///< moments about the axes of the body, its principal ones (mass length^2)
+} ks_rigid_definition;
+KS_API ks_status ks_rigid_definition_init(ks_rigid_definition* definition, uint32_t struct_size);
+static inline ks_rigid_definition ks_default_rigid_definition(void) {
+  ks_rigid_definition definition;
+  ks_rigid_definition_init(&definition, (uint32_t)sizeof definition);
+  return definition;
+}
+
+/// Gives the rotations of rigid bodies at a time: rotations[k] is that of bodies[k]. It is called directly
+/// after the probe. Rules and numbers: as for ks_probe.
+typedef int32_t (*ks_rotation_probe)(const ks_body_id* bodies, size_t count, double time,
+                                     ks_rotation* rotations, void* user);
+
 /// Limits within which a body moves; fields as in ks_body_definition.
 typedef struct ks_motion_limits {
   double acceleration_limit;
@@ -337,6 +378,10 @@ KS_API ks_status ks_world_add_static(ks_world world, const ks_static_definition*
 /// is ignored. The probe of the world moves it. Errors: those of World::add_moving_shape().
 KS_API ks_status ks_world_add_moving_shape(ks_world world, const ks_body_definition* body,
                                            const ks_shape* shape, ks_body_id* id);
+/// Adds a rigid body: balls and capsules that move and turn together; the radius is ignored. The probe of the
+/// world moves it. Errors: those of World::add_rigid_body().
+KS_API ks_status ks_world_add_rigid_body(ks_world world, const ks_body_definition* body,
+                                         const ks_rigid_definition* rigid, ks_body_id* id);
 /// Adds a zone, which reports who enters and leaves it, by KS_EVENT_SENSOR_ENTER and KS_EVENT_SENSOR_LEAVE.
 KS_API ks_status ks_world_add_zone(ks_world world, const ks_shape* shape, uint64_t user_data, ks_body_id* id);
 /// Reserves memory for this number of bodies in total.
@@ -349,6 +394,16 @@ KS_API ks_status ks_world_set_velocity(ks_world world, ks_body_id body, ks_vec3 
 /// The same for many bodies or, on an error of the world, for none.
 KS_API ks_status ks_world_set_velocities(ks_world world, const ks_body_id* bodies, const ks_vec3* velocities,
                                          size_t count);
+/// Informs the world that a rigid body turns with this angular velocity (radians / time) from the current
+/// time on. Errors: KS_ERROR_UNSUPPORTED if it is not rigid; KS_ERROR_OUT_OF_RANGE for more than its largest
+/// speed.
+KS_API ks_status ks_world_set_angular_velocity(ks_world world, ks_body_id body, ks_vec3 angular_velocity);
+/// Turns a rigid body at once, as ks_world_teleport() moves it. Errors: as the call above.
+KS_API ks_status ks_world_set_rotation(ks_world world, ks_body_id body, const ks_rotation* rotation);
+/// Sets the function that gives rotations; NULL removes it. Without one, only rigid bodies that keep their
+/// angular velocity can be probed. Clones call it, too, snapshots do not contain it, and `user` must outlive
+/// the world and its clones. Errors: KS_ERROR_UNSUPPORTED for a world that is being recorded.
+KS_API ks_status ks_world_set_rotation_probe(ks_world world, ks_rotation_probe probe, void* user);
 /// Puts a body elsewhere, in its motion, too.
 KS_API ks_status ks_world_teleport(ks_world world, ks_body_id body, const ks_state* state);
 KS_API ks_status ks_world_set_radius(ks_world world, ks_body_id body, double radius);
@@ -404,6 +459,8 @@ KS_API ks_status ks_world_size(ks_world world, size_t* bodies);
 /// *contains is 1 if the world issued the id and the body has not been removed, else 0.
 KS_API ks_status ks_world_contains(ks_world world, ks_body_id body, int32_t* contains);
 KS_API ks_status ks_world_body(ks_world world, ks_body_id body, ks_body_view* view);
+/// The rotation of a rigid body at its last report. Errors: KS_ERROR_UNSUPPORTED for any other body.
+KS_API ks_status ks_world_rotation(ks_world world, ks_body_id body, ks_rotation* rotation);
 KS_API ks_status ks_world_bodies(ks_world world, ks_body_id* bodies, size_t capacity, size_t* count);
 /// The bodies in contact with a body.
 KS_API ks_status ks_world_touching(ks_world world, ks_body_id body, ks_body_id* partners, size_t capacity,
@@ -522,6 +579,12 @@ typedef struct ks_event {
   uint64_t second_user_data;
   double first_mass;
   double second_mass;
+  uint32_t first_part;  ///< of rigid bodies: the part at the contact
+  uint32_t second_part;
+  ks_vec3 first_angular_velocity;  ///< of rigid bodies (radians / time)
+  ks_vec3 second_angular_velocity;
+  ks_vec3 first_spin_gain;  ///< of rigid bodies, by a unit impulse along the normal
+  ks_vec3 second_spin_gain;
 } ks_event;
 static inline ks_event ks_new_event(void) {
   ks_event event;
@@ -540,12 +603,16 @@ typedef struct ks_response {
   int32_t turns_second;
   ks_vec3 first_velocity;
   ks_vec3 second_velocity;
+  int32_t spins_first;  ///< the first body is rigid and gets this angular velocity (radians / time)
+  int32_t spins_second;
+  ks_vec3 first_angular_velocity;
+  ks_vec3 second_angular_velocity;
 } ks_response;
 
 /// The velocities after a frictionless bounce with the masses of the bodies (kinesphere/response.hpp).
 /// Restitution is in [0, 1]. With a resting_speed > 0 (length / time) bodies can settle in a heap; 0 is a
 /// plain bounce. Walls, static and sleeping bodies are not turned, and events other than begins of contacts
-/// turn nobody.
+/// turn nobody. Rigid bodies with inertia get angular velocities, too.
 KS_API ks_status ks_bounce(const ks_event* event, double restitution, double resting_speed,
                            ks_response* response);
 

@@ -124,6 +124,69 @@ static class SharedScene
         }
     }
 
+    // A ball hits one end of a dumbbell that rests, and a function turns a rod towards a ball.
+    static void RigidBodies()
+    {
+        using (var world = new World(WorldDefinition.Default))
+        {
+            var body = BodyDefinition.Default;
+            body.Mass = 2;
+            var rigid = RigidDefinition.Default;
+            rigid.Inertia = new Vector(0, 2, 2);
+            Vector left = new Vector(-1, 0, 0), right = new Vector(1, 0, 0);
+            RequireStatus("out_of_range", () => world.AddRigidBody(body, rigid));
+            var dumbbell = world.AddRigidBody(body, rigid, new RigidPart(left, left, 0.5), new RigidPart(right, right, 0.5));
+            var ball = BodyDefinition.Default;
+            ball.Position = new Vector(1, 5, 0);
+            ball.Velocity.Y = -1;
+            var falling = world.Add(ball);
+            var met = world.Advance(10, (ids, time, states) =>
+            {
+                for (int k = 0; k < ids.Length; ++k)
+                    if (ids[k].Equals(falling)) states[k] = new State(ball.Position + ball.Velocity * time, ball.Velocity);
+            });
+            Require(met.First.Equals(dumbbell) && met.FirstPart == 1, "a ball meets an end of a dumbbell");
+            var after = met.Bounce(1);
+            double v = after.First.Value.Y, w = after.FirstAngularVelocity.Value.Z, u = after.Second.Value.Y;
+            Require(Math.Abs(2 * v + u + 1) < 1e-12 && Math.Abs(2 * w + u + 1) < 1e-12, "momenta are kept");
+            Require(Math.Abs(2 * v * v + 2 * w * w + u * u - 1) < 1e-12, "energy is kept");
+            world.SetAngularVelocity(dumbbell, after.FirstAngularVelocity.Value);
+            Require(world.RotationOf(dumbbell).AngularVelocity.Z == w, "the dumbbell turns");
+            RequireStatus("unsupported", () => world.RotationOf(falling));
+        }
+        using (var world = new World(WorldDefinition.Default))
+        {
+            var rigid = RigidDefinition.Default;
+            rigid.AngularAccelerationLimit = 1;
+            rigid.LargestAngularSpeed = 2;
+            rigid.Rotation.AngularVelocity.Z = 1;
+            var rod = world.AddRigidBody(BodyDefinition.Default, rigid,
+                new RigidPart(new Vector(0, 0, 0), new Vector(4, 0, 0), 0.1));
+            var ball = BodyDefinition.Default;
+            ball.Position.Y = 2;
+            world.Add(ball);
+            Probe still = (ids, time, states) =>
+            {
+                for (int k = 0; k < ids.Length; ++k) if (!ids[k].Equals(rod)) states[k].Position = ball.Position;
+            };
+            RequireStatus("null_probe", () => world.Advance(10, still));
+            world.SetRotationProbe((ids, time, rotations) => { throw new InvalidOperationException("stuck"); });
+            string said = "";
+            try { world.Advance(10, still); } catch (InvalidOperationException thrown) { said = thrown.Message; }
+            Require(said == "stuck", "the exception of a rotation probe");
+            world.SetRotationProbe((ids, time, rotations) =>
+            {
+                for (int k = 0; k < ids.Length; ++k)
+                    rotations[k] = new Rotation(new Quaternion(Math.Cos(time / 2), 0, 0, Math.Sin(time / 2)), new Vector(0, 0, 1));
+            });
+            using (var copy = world.Clone())
+            {
+                var met = copy.Advance(10, still);
+                Require(Math.Abs(met.Time - (Math.PI / 2 - Math.Asin(1.1 / 2))) < 1e-5, "a rod meets a ball");
+            }
+        }
+    }
+
     static void RecordingAndProfiling()
     {
         using (var world = new World(WorldDefinition.Default))
@@ -195,6 +258,7 @@ static class SharedScene
         AtOnce(NewWorld(start, radii), happened => happened.Bounce(0.9), 2);
         WrongUse();
         MovingShape();
+        RigidBodies();
         RecordingAndProfiling();
         Predictions();
         return 0;

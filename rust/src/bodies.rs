@@ -1,5 +1,5 @@
 //! Definitions of bodies.
-use crate::geometry::{Shape, State, Vec3};
+use crate::geometry::{RigidPart, Rotation, Shape, State, Vec3};
 use crate::sys;
 use std::mem::size_of;
 
@@ -140,6 +140,47 @@ impl StaticDefinition {
             shape: self.shape.raw(),
             filter: self.filter.raw(),
             user_data: self.user_data,
+        }
+    }
+}
+
+/// What a rigid body has beside its [`BodyDefinition`] (`RigidBody` in C++).
+#[derive(Clone, Debug, PartialEq)]
+pub struct RigidDefinition {
+    /// At least one.
+    pub parts: Vec<RigidPart>,
+    /// At the world's current time.
+    pub rotation: Rotation,
+    /// >= 0 (radians / time^2). At 0 the body keeps its angular velocity, and the world knows its rotation.
+    pub angular_acceleration_limit: f64,
+    /// >= 0 (radians / time); finite if the limit above is not 0.
+    pub largest_angular_speed: f64,
+    /// Moments about the axes of the body, its principal ones (mass length^2). Contacts do not turn it about an axis
+    /// with moment 0 or infinity.
+    pub inertia: Vec3,
+}
+
+impl RigidDefinition {
+    /// A body of these parts that does not turn.
+    pub fn new(parts: Vec<RigidPart>) -> RigidDefinition {
+        RigidDefinition {
+            parts,
+            rotation: Rotation::default(),
+            angular_acceleration_limit: 0.0,
+            largest_angular_speed: f64::INFINITY,
+            inertia: Vec3::default(),
+        }
+    }
+    /// The record of C, which points to the parts.
+    pub(crate) fn raw(&self) -> sys::ks_rigid_definition {
+        sys::ks_rigid_definition {
+            struct_size: size_of::<sys::ks_rigid_definition>() as u32,
+            part_count: self.parts.len(),
+            parts: self.parts.as_ptr(),
+            rotation: self.rotation,
+            angular_acceleration_limit: self.angular_acceleration_limit,
+            largest_angular_speed: self.largest_angular_speed,
+            inertia: self.inertia,
         }
     }
 }

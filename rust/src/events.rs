@@ -91,6 +91,12 @@ pub struct Event {
     pub distance: f64,
     pub first_user_data: u64,
     pub second_user_data: u64,
+    /// Of rigid bodies: the part at the contact, as an index of [`crate::RigidDefinition::parts`].
+    pub first_part: u32,
+    pub second_part: u32,
+    /// Of rigid bodies (radians / time).
+    pub first_angular_velocity: Vec3,
+    pub second_angular_velocity: Vec3,
     raw: sys::ks_event,
 }
 
@@ -116,6 +122,10 @@ impl Event {
             distance: raw.distance,
             first_user_data: raw.first_user_data,
             second_user_data: raw.second_user_data,
+            first_part: raw.first_part,
+            second_part: raw.second_part,
+            first_angular_velocity: raw.first_angular_velocity,
+            second_angular_velocity: raw.second_angular_velocity,
             raw,
         })
     }
@@ -137,6 +147,8 @@ impl Event {
         Ok(Response {
             first: if raw.turns_first != 0 { Some(raw.first_velocity) } else { None },
             second: if raw.turns_second != 0 { Some(raw.second_velocity) } else { None },
+            first_angular_velocity: (raw.spins_first != 0).then_some(raw.first_angular_velocity),
+            second_angular_velocity: (raw.spins_second != 0).then_some(raw.second_angular_velocity),
         })
     }
 }
@@ -146,6 +158,9 @@ impl Event {
 pub struct Response {
     pub first: Option<Vec3>,
     pub second: Option<Vec3>,
+    /// Of rigid bodies (radians / time).
+    pub first_angular_velocity: Option<Vec3>,
+    pub second_angular_velocity: Option<Vec3>,
 }
 
 impl Response {
@@ -155,6 +170,10 @@ impl Response {
             turns_second: self.second.is_some() as i32,
             first_velocity: self.first.unwrap_or_default(),
             second_velocity: self.second.unwrap_or_default(),
+            spins_first: self.first_angular_velocity.is_some() as i32,
+            spins_second: self.second_angular_velocity.is_some() as i32,
+            first_angular_velocity: self.first_angular_velocity.unwrap_or_default(),
+            second_angular_velocity: self.second_angular_velocity.unwrap_or_default(),
         }
     }
 }

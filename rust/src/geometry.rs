@@ -91,6 +91,44 @@ impl Shape {
     }
 }
 
+/// A rotation as a unit quaternion w + x i + y j + z k.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quaternion {
+    pub w: f64,
+    pub x: f64,
+    pub y: f64,
+    pub z: f64,
+}
+
+/// No rotation.
+impl Default for Quaternion {
+    fn default() -> Quaternion {
+        Quaternion { w: 1.0, x: 0.0, y: 0.0, z: 0.0 }
+    }
+}
+
+/// Orientation and angular velocity of a rigid body at one instant.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Rotation {
+    /// Turns a vector of the body into one of the world.
+    pub orientation: Quaternion,
+    /// In the world's axes (radians / time).
+    pub angular_velocity: Vec3,
+}
+
+/// A part of a rigid body: all points within `radius` of the segment from a to b, relative to the body's position. A
+/// capsule, or a ball if a and b are equal.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RigidPart {
+    pub a: Vec3,
+    pub b: Vec3,
+    /// >= 0 (length)
+    pub radius: f64,
+}
+
 /// Names a body of a world until it is removed; a later body never has an equal id.
 #[repr(C)]
 #[derive(Clone, Copy)]

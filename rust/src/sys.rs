@@ -2,7 +2,7 @@
 //! differed from that of C would be refused by its size.
 #![allow(non_camel_case_types)]
 
-use crate::geometry::{BodyId, Box3, State, Vec3};
+use crate::geometry::{BodyId, Box3, RigidPart, Rotation, State, Vec3};
 use std::os::raw::{c_char, c_void};
 
 pub type ks_status = i32;
@@ -91,6 +91,18 @@ pub struct ks_static_definition {
 }
 
 #[repr(C)]
+#[derive(Clone, Copy)]
+pub struct ks_rigid_definition {
+    pub struct_size: u32,
+    pub part_count: usize,
+    pub parts: *const RigidPart,
+    pub rotation: Rotation,
+    pub angular_acceleration_limit: f64,
+    pub largest_angular_speed: f64,
+    pub inertia: Vec3,
+}
+
+#[repr(C)]
 #[derive(Clone, Copy, Default)]
 pub struct ks_motion_limits {
     pub acceleration_limit: f64,
@@ -135,6 +147,12 @@ pub struct ks_event {
     pub second_user_data: u64,
     pub first_mass: f64,
     pub second_mass: f64,
+    pub first_part: u32,
+    pub second_part: u32,
+    pub first_angular_velocity: Vec3,
+    pub second_angular_velocity: Vec3,
+    pub first_spin_gain: Vec3,
+    pub second_spin_gain: Vec3,
 }
 
 #[repr(C)]
@@ -144,6 +162,10 @@ pub struct ks_response {
     pub turns_second: i32,
     pub first_velocity: Vec3,
     pub second_velocity: Vec3,
+    pub spins_first: i32,
+    pub spins_second: i32,
+    pub first_angular_velocity: Vec3,
+    pub second_angular_velocity: Vec3,
 }
 
 #[repr(C)]
@@ -154,6 +176,8 @@ pub struct ks_event_hash {
 }
 
 pub type ks_probe = unsafe extern "C" fn(*const BodyId, usize, f64, *mut State, *mut c_void) -> i32;
+pub type ks_rotation_probe =
+    unsafe extern "C" fn(*const BodyId, usize, f64, *mut Rotation, *mut c_void) -> i32;
 pub type ks_pair_filter = unsafe extern "C" fn(BodyId, BodyId, *mut c_void) -> i32;
 pub type ks_respond = unsafe extern "C" fn(*const ks_event, *mut ks_response, *mut c_void) -> i32;
 pub type ks_sink = unsafe extern "C" fn(*const ks_event, *mut c_void) -> i32;
@@ -422,6 +446,11 @@ extern "C" {
     pub fn ks_world_time(world: ks_world, time: *mut f64) -> ks_status;
     pub fn ks_world_size(world: ks_world, bodies: *mut usize) -> ks_status;
     pub fn ks_world_contains(world: ks_world, body: BodyId, contains: *mut i32) -> ks_status;
+    pub fn ks_world_add_rigid_body(world: ks_world, body: *const ks_body_definition, rigid: *const ks_rigid_definition, id: *mut BodyId) -> ks_status;
+    pub fn ks_world_set_angular_velocity(world: ks_world, body: BodyId, angular_velocity: Vec3) -> ks_status;
+    pub fn ks_world_set_rotation(world: ks_world, body: BodyId, rotation: *const Rotation) -> ks_status;
+    pub fn ks_world_set_rotation_probe(world: ks_world, probe: Option<ks_rotation_probe>, user: *mut c_void) -> ks_status;
+    pub fn ks_world_rotation(world: ks_world, body: BodyId, rotation: *mut Rotation) -> ks_status;
     pub fn ks_world_bodies(world: ks_world, bodies: *mut BodyId, capacity: usize, count: *mut usize) -> ks_status;
     pub fn ks_world_touching(world: ks_world, body: BodyId, partners: *mut BodyId, capacity: usize, count: *mut usize) -> ks_status;
     pub fn ks_world_sensor_overlaps(world: ks_world, body: BodyId, overlaps: *mut ks_sensor_overlap, capacity: usize, count: *mut usize) -> ks_status;

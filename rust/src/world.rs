@@ -1,8 +1,8 @@
 //! Worlds.
-use crate::bodies::{BodyDefinition, Contacts, Filter, MotionLimits, StaticDefinition};
+use crate::bodies::{BodyDefinition, Contacts, Filter, MotionLimits, RigidDefinition, StaticDefinition};
 use crate::error::{check, filled, Guarded, Result};
 use crate::events::{Event, Response, Wall};
-use crate::geometry::{BodyId, Box3, Shape, State, Vec3};
+use crate::geometry::{BodyId, Box3, Rotation, Shape, State, Vec3};
 use crate::sys;
 use std::mem::size_of;
 use std::os::raw::c_void;
@@ -167,12 +167,14 @@ pub enum Run<'a> {
 }
 
 type PairFilter = Box<dyn Fn(BodyId, BodyId) -> bool + Send + Sync>;
+type RotationProbe = Box<dyn Fn(&[BodyId], f64, &mut [Rotation]) + Send + Sync>;
 
 /// A world of moving spheres. Methods have the meanings, errors and costs of those of `World` in C++.
 pub struct World {
     pub(crate) handle: sys::ks_world,
     /// Keeps alive what the library has a pointer to.
     filter: Option<Arc<PairFilter>>,
+    rotations: Option<Arc<RotationProbe>>,
 }
 
 impl Drop for World {
@@ -223,9 +225,24 @@ unsafe extern "C" fn pair_filter(first: BodyId, second: BodyId, user: *mut c_voi
     }
 }
 
+unsafe extern "C" fn rotation_probe(
+    bodies: *const BodyId,
+    count: usize,
+    time: f64,
+    rotations: *mut Rotation,
+    user: *mut c_void,
+) -> i32 {
+    let function = &*(user as *const RotationProbe);
+    let answer = || {
+        let bodies = slice::from_raw_parts(bodies, count);
+        function(bodies, time, slice::from_raw_parts_mut(rotations, count))
+    };
+    catch_unwind(AssertUnwindSafe(answer)).is_err() as i32
+}
+
 impl World {
     pub(crate) fn of(handle: sys::ks_world) -> World {
-        World { handle, filter: None }
+        World { handle, filter: None, rotations: None }
     }
 
     pub fn new(definition: &WorldDefinition) -> Result<World> {
@@ -238,7 +255,7 @@ impl World {
     pub fn try_clone(&self) -> Result<World> {
         let mut handle = sys::ks_world { value: 0 };
         check(unsafe { sys::ks_world_clone(self.handle, &mut handle) })?;
-        Ok(World { handle, filter: self.filter.clone() })
+        Ok(World { handle, filter: self.filter.clone(), rotations: self.rotations.clone() })
     }
 
     /// Returns a snapshot, without motions and pair filter.
@@ -283,6 +300,13 @@ impl World {
         Ok(id)
     }
 
+    /// Adds a rigid body: balls and capsules that move and turn together; the radius is ignored. The probe moves it.
+    pub fn add_rigid_body(&mut self, body: &BodyDefinition, rigid: &RigidDefinition) -> Result<BodyId> {
+        let mut id = BodyId::default();
+        check(unsafe { sys::ks_world_add_rigid_body(self.handle, &body.raw(), &rigid.raw(), &mut id) })?;
+        Ok(id)
+    }
+
     /// Adds a zone, which reports who enters and leaves it.
     pub fn add_zone(&mut self, shape: &Shape, user_data: u64) -> Result<BodyId> {
         let mut id = BodyId::default();
@@ -310,13 +334,46 @@ impl World {
         })
     }
 
-    /// Sets the velocities of a response to this event.
+    /// Informs the world that a rigid body turns with this angular velocity (radians / time) from now on.
+    pub fn set_angular_velocity(&mut self, body: BodyId, angular_velocity: Vec3) -> Result<()> {
+        check(unsafe { sys::ks_world_set_angular_velocity(self.handle, body, angular_velocity) })
+    }
+    /// Turns a rigid body at once, as `teleport` moves it.
+    pub fn set_rotation(&mut self, body: BodyId, rotation: Rotation) -> Result<()> {
+        check(unsafe { sys::ks_world_set_rotation(self.handle, body, &rotation) })
+    }
+    /// The rotation of a rigid body at its last report.
+    pub fn rotation(&self, body: BodyId) -> Result<Rotation> {
+        let mut rotation = Rotation::default();
+        check(unsafe { sys::ks_world_rotation(self.handle, body, &mut rotation) })?;
+        Ok(rotation)
+    }
+    /// Sets the function that gives the rotations of rigid bodies, directly after the probe; clones share it. A panic
+    /// in it is the error callback_failed of the call that asked.
+    pub fn set_rotation_probe(
+        &mut self,
+        probe: impl Fn(&[BodyId], f64, &mut [Rotation]) + Send + Sync + 'static,
+    ) -> Result<()> {
+        let probe: Arc<RotationProbe> = Arc::new(Box::new(probe));
+        let user = Arc::as_ptr(&probe) as *mut c_void;
+        check(unsafe { sys::ks_world_set_rotation_probe(self.handle, Some(rotation_probe), user) })?;
+        self.rotations = Some(probe);
+        Ok(())
+    }
+
+    /// Sets the velocities, and of rigid bodies the angular ones, of a response to this event.
     pub fn apply(&mut self, event: &Event, response: Response) -> Result<()> {
         if let Some(velocity) = response.first {
             self.set_velocity(event.first, velocity)?;
         }
         if let (Some(body), Some(velocity)) = (event.second, response.second) {
             self.set_velocity(body, velocity)?;
+        }
+        if let Some(spin) = response.first_angular_velocity {
+            self.set_angular_velocity(event.first, spin)?;
+        }
+        if let (Some(body), Some(spin)) = (event.second, response.second_angular_velocity) {
+            self.set_angular_velocity(body, spin)?;
         }
         Ok(())
     }

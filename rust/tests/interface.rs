@@ -61,6 +61,71 @@ fn a_ball_meets_a_moving_shape() {
 }
 
 #[test]
+fn a_ball_turns_a_dumbbell() {
+    let mut world = World::new(&WorldDefinition::default()).unwrap();
+    let start =
+        [State::default(), State { position: Vec3::new(1.0, 5.0, 0.0), velocity: Vec3::new(0.0, -1.0, 0.0) }];
+    let end = |x| RigidPart { a: Vec3::new(x, 0.0, 0.0), b: Vec3::new(x, 0.0, 0.0), radius: 0.5 };
+    let inertia = Vec3::new(0.0, 2.0, 2.0);
+    let dumbbell = RigidDefinition { inertia, ..RigidDefinition::new(vec![end(-1.0), end(1.0)]) };
+    let heavy = BodyDefinition { mass: 2.0, ..Default::default() };
+    let body = world.add_rigid_body(&heavy, &dumbbell).unwrap();
+    let ball = world.add(&start[1].into()).unwrap();
+    let probe = |ids: &[BodyId], time: f64, states: &mut [State]| {
+        for (id, state) in ids.iter().zip(states) {
+            let from = start[id.index()];
+            *state = State { position: from.position + from.velocity * time, ..from };
+        }
+    };
+    let event = world.advance(10.0, probe).unwrap().unwrap();
+    assert_eq!((event.first, event.second, event.first_part), (body, Some(ball), 1));
+    let after = event.bounce(1.0).unwrap();
+    let (v, w) = (after.first.unwrap().y, after.first_angular_velocity.unwrap().z);
+    let u = after.second.unwrap().y;
+    assert!((2.0 * v + u + 1.0).abs() < 1e-12 && (2.0 * w + u + 1.0).abs() < 1e-12);
+    assert!(
+        (2.0 * v * v + 2.0 * w * w + u * u - 1.0).abs() < 1e-12 && after.second_angular_velocity.is_none()
+    );
+    world.apply(&event, after).unwrap();
+    assert_eq!(world.rotation(body).unwrap().angular_velocity.z, w);
+    assert_eq!(world.rotation(ball).unwrap_err().name, "unsupported");
+    assert_eq!(world.add_rigid_body(&heavy, &RigidDefinition::new(vec![])).unwrap_err().argument, "parts");
+}
+
+#[test]
+fn a_function_turns_a_rod() {
+    let mut world = World::new(&WorldDefinition::default()).unwrap();
+    let rod = RigidPart { a: Vec3::default(), b: Vec3::new(4.0, 0.0, 0.0), radius: 0.1 };
+    let mut rigid = RigidDefinition::new(vec![rod]);
+    rigid.rotation.angular_velocity.z = 1.0;
+    rigid.angular_acceleration_limit = 1.0;
+    rigid.largest_angular_speed = 2.0;
+    world.add_rigid_body(&BodyDefinition::default(), &rigid).unwrap();
+    let place = State { position: Vec3::new(0.0, 2.0, 0.0), velocity: Vec3::default() };
+    world.add(&place.into()).unwrap();
+    let probe = move |ids: &[BodyId], _: f64, states: &mut [State]| {
+        for (id, state) in ids.iter().zip(states) {
+            *state = if id.index() == 0 { State::default() } else { place };
+        }
+    };
+    assert_eq!(world.advance(10.0, probe).unwrap_err().name, "null_probe");
+    world.set_rotation_probe(|_, _, _| panic!("it does not turn")).unwrap();
+    assert_eq!(world.advance(10.0, probe).unwrap_err().name, "callback_failed");
+    world
+        .set_rotation_probe(|_, time, rotations| {
+            for rotation in rotations {
+                let (w, z) = ((time / 2.0).cos(), (time / 2.0).sin());
+                rotation.orientation = Quaternion { w, z, ..Default::default() };
+                rotation.angular_velocity = Vec3::new(0.0, 0.0, 1.0);
+            }
+        })
+        .unwrap();
+    let event = world.try_clone().unwrap().advance(10.0, probe).unwrap().unwrap();
+    assert!((event.time - (std::f64::consts::FRAC_PI_2 - (1.1_f64 / 2.0).asin())).abs() < 1e-5);
+    assert_eq!(event.first_angular_velocity.z, 1.0);
+}
+
+#[test]
 fn wrong_use_is_an_error() {
     let (mut world, [left, _], probe) = two_balls();
     let error = world.set_radius(left, -1.0).unwrap_err();

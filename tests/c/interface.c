@@ -145,6 +145,80 @@ static int32_t only_even(ks_body_id first, ks_body_id second, void* user) {
   return (first.index + second.index) % 2 == 0;
 }
 
+/// A ball hits one end of a dumbbell that rests, without loss: momentum, angular momentum and energy are
+/// kept.
+static void rigid_bodies(void) {
+  flight f;
+  memset(&f, 0, sizeof f);
+  const ks_world world = new_world();
+  const ks_rigid_part ends[2] = {{{-1, 0, 0}, {-1, 0, 0}, 0.5}, {{1, 0, 0}, {1, 0, 0}, 0.5}};
+  ks_rigid_definition dumbbell = ks_default_rigid_definition();
+  dumbbell.parts = ends;
+  dumbbell.part_count = 2;
+  dumbbell.inertia = vec3(0, 2, 2);
+  ks_body_definition heavy = ks_default_body_definition();
+  heavy.mass = 2;
+  ks_body_id body;
+  CHECK_OK(ks_world_add_rigid_body(world, &heavy, &dumbbell, &body));
+  add_ball(world, &f, vec3(1, 5, 0), vec3(0, -1, 0));
+  const ks_event event = next_event(world, 10, &f);
+  CHECK(event.kind == KS_EVENT_CONTACT_BEGIN && fabs(event.time - 3.5) < 1e-5);
+  CHECK(ks_same_body(event.first, body) && event.first_part == 1 && event.second_part == 0);
+  CHECK(fabs(event.first_spin_gain.z - 0.5) < 1e-12 && event.second_spin_gain.z == 0);
+  ks_response after;
+  CHECK_OK(ks_bounce(&event, 1.0, 0.0, &after));
+  CHECK(after.turns_first && after.turns_second && after.spins_first && !after.spins_second);
+  const double v = after.first_velocity.y, w = after.first_angular_velocity.z, u = after.second_velocity.y;
+  CHECK(fabs(2 * v + u + 1) < 1e-12 && fabs(2 * w + u + 1) < 1e-12);
+  CHECK(fabs(2 * v * v + 2 * w * w + u * u - 1) < 1e-12 && w < 0);
+  CHECK_OK(ks_world_set_angular_velocity(world, body, after.first_angular_velocity));
+  ks_rotation rotation;
+  CHECK_OK(ks_world_rotation(world, body, &rotation));
+  CHECK(rotation.orientation.w == 1 && rotation.angular_velocity.z == w);
+  CHECK_OK(ks_world_destroy(world));
+}
+
+/// Turns a body about z at one radian a unit of time, and counts the calls.
+static int32_t turning(const ks_body_id* bodies, size_t count, double time, ks_rotation* rotations,
+                       void* user) {
+  ++*(int*)user;
+  for (size_t k = 0; k < count; ++k) {
+    const ks_rotation now = {{cos(time / 2), 0, 0, sin(time / 2)}, {0, 0, 1}};
+    CHECK(bodies[k].index == 0);
+    rotations[k] = now;
+  }
+  return 0;
+}
+
+/// A rod that turns about one of its ends meets a ball after a quarter of a turn.
+static void rotation_probes(void) {
+  flight f;
+  memset(&f, 0, sizeof f);
+  const ks_world world = new_world();
+  const ks_rigid_part rod = {{0, 0, 0}, {4, 0, 0}, 0.1};
+  ks_rigid_definition rigid = ks_default_rigid_definition();
+  rigid.parts = &rod;
+  rigid.part_count = 1;
+  rigid.rotation.angular_velocity.z = 1;
+  rigid.angular_acceleration_limit = 1;
+  rigid.largest_angular_speed = 2;
+  const ks_body_definition hinge = ks_default_body_definition();
+  ks_body_id body;
+  CHECK_OK(ks_world_add_rigid_body(world, &hinge, &rigid, &body));
+  add_ball(world, &f, vec3(0, 2, 0), vec3(0, 0, 0));
+  int calls = 0;
+  CHECK_OK(ks_world_set_rotation_probe(world, turning, &calls));
+  const ks_event event = next_event(world, 10, &f);
+  const double expected = 2 * atan(1.0) - asin(1.1 / 2);
+  CHECK(event.kind == KS_EVENT_CONTACT_BEGIN && fabs(event.time - expected) < 1e-5 && calls > 0);
+  CHECK(event.first_part == 0 && event.first_angular_velocity.z == 1);
+  ks_rotation back = {{1, 0, 0, 0}, {0, 0, 0.5}}, now;
+  CHECK_OK(ks_world_set_rotation(world, body, &back));
+  CHECK_OK(ks_world_rotation(world, body, &now));
+  CHECK(now.orientation.w == 1 && now.angular_velocity.z == 0.5);
+  CHECK_OK(ks_world_destroy(world));
+}
+
 static void pair_filters(void) {
   flight f;
   memset(&f, 0, sizeof f);
@@ -676,6 +750,8 @@ int main(void) {
   contacts_and_velocities();
   zones_sensors_and_filters();
   moving_shapes();
+  rigid_bodies();
+  rotation_probes();
   pair_filters();
   answers();
   changes_of_bodies();

@@ -230,6 +230,58 @@ static void wrong_shapes(ks_world world) {
   REFUSED(ks_world_add_moving_shape(world, &lift, &plate, &id), BAD_STRUCT);
 }
 
+static int32_t refuse_to_turn(const ks_body_id* bodies, size_t count, double time, ks_rotation* rotations,
+                              void* user) {
+  (void)bodies, (void)count, (void)time, (void)rotations, (void)user;
+  return 5;
+}
+
+static void wrong_rigid_bodies(void) {
+  ks_world_definition definition = ks_default_world_definition();
+  ks_world world;
+  CHECK_OK(ks_world_create(&definition, &world));
+  ks_body_definition body = ks_default_body_definition();
+  ks_rigid_definition rigid = ks_default_rigid_definition();
+  ks_rigid_part rod = {{0, 0, 0}, {4, 0, 0}, -1};
+  ks_body_id id, ball;
+  REFUSED(ks_world_add_rigid_body(world, &body, &rigid, &id), OUT_OF_RANGE);
+  CHECK(strcmp(ks_last_error_argument(), "parts") == 0);
+  rigid.part_count = 1;
+  REFUSED(ks_world_add_rigid_body(world, &body, &rigid, &id), NULL_ARGUMENT);
+  rigid.parts = &rod;
+  REFUSED(ks_world_add_rigid_body(world, &body, &rigid, &id), OUT_OF_RANGE);
+  rod.radius = 0.1;
+  REFUSED(ks_world_add_rigid_body(world, &body, NULL, &id), NULL_ARGUMENT);
+  REFUSED(ks_world_add_rigid_body(world, &body, &rigid, NULL), NULL_ARGUMENT);
+  rigid.rotation.orientation.x = 1;
+  REFUSED(ks_world_add_rigid_body(world, &body, &rigid, &id), OUT_OF_RANGE);
+  rigid.rotation.orientation.x = 0;
+  rigid.angular_acceleration_limit = 1;
+  REFUSED(ks_world_add_rigid_body(world, &body, &rigid, &id), OUT_OF_RANGE);
+  rigid.largest_angular_speed = 2;
+  ++rigid.struct_size;
+  REFUSED(ks_world_add_rigid_body(world, &body, &rigid, &id), BAD_STRUCT);
+  --rigid.struct_size;
+  CHECK_OK(ks_world_add_rigid_body(world, &body, &rigid, &id));
+  body.position.x = 10;
+  body.acceleration_limit = 1;
+  CHECK_OK(ks_world_add(world, &body, 1, &ball));
+  ks_rotation rotation = rigid.rotation;
+  REFUSED(ks_world_rotation(world, ball, &rotation), UNSUPPORTED);
+  REFUSED(ks_world_rotation(world, id, NULL), NULL_ARGUMENT);
+  REFUSED(ks_world_set_angular_velocity(world, ball, vec3(0, 0, 1)), UNSUPPORTED);
+  REFUSED(ks_world_set_angular_velocity(world, id, vec3(0, 0, 3)), OUT_OF_RANGE);
+  REFUSED(ks_world_set_rotation(world, id, NULL), NULL_ARGUMENT);
+  rotation.angular_velocity.z = NAN;
+  REFUSED(ks_world_set_rotation(world, id, &rotation), NOT_FINITE);
+  ks_event event = ks_new_event();
+  REFUSED(ks_world_advance(world, 100.0, stand_still, NULL, &event), NULL_PROBE);
+  CHECK_OK(ks_world_set_rotation_probe(world, refuse_to_turn, NULL));
+  REFUSED(ks_world_advance(world, 100.0, stand_still, NULL, &event), CALLBACK_FAILED);
+  CHECK(ks_last_error_callback() == 5);
+  CHECK_OK(ks_world_destroy(world));
+}
+
 static void wrong_time(ks_world world) {
   ks_event event = ks_new_event();
   REFUSED(ks_world_advance(world, NAN, stand_still, NULL, &event), NOT_FINITE);
@@ -426,6 +478,7 @@ int main(void) {
   wrong_records(world);
   wrong_bodies(world);
   wrong_shapes(world);
+  wrong_rigid_bodies();
   wrong_time(world);
   wrong_motions();
   wrong_snapshots(world);
