@@ -46,19 +46,20 @@ KINESPHERE_EXPORT(world_views) bool world_views(const World* world, std::size_t 
 KINESPHERE_EXPORT(world_shape_of) bool world_shape_of(const World* world, double body) {
   const auto view = world->body(body_of(body));
   if (!is_good(view)) return false;
+  const Shape& shape = view->shape;
   auto& numbers = answer();
-  numbers.assign(10, static_cast<double>(view->shape.index()));
+  numbers.assign(10, static_cast<double>(shape.index()));
   double* const at = numbers.data() + 1;
-  if (const auto* ball = std::get_if<Ball>(&view->shape)) {
+  if (const auto* ball = std::get_if<Ball>(&shape)) {
     put(ball->centre, at);
     at[3] = ball->radius;
-  } else if (const auto* side = std::get_if<HalfSpace>(&view->shape)) {
+  } else if (const auto* side = std::get_if<HalfSpace>(&shape)) {
     put(side->normal, at);
     at[3] = side->offset;
-  } else if (const auto* box = std::get_if<Box>(&view->shape)) {
+  } else if (const auto* box = std::get_if<Box>(&shape)) {
     put(box->lower, at);
     put(box->upper, at + 3);
-  } else if (const auto* triangle = std::get_if<Triangle>(&view->shape)) {
+  } else if (const auto* triangle = std::get_if<Triangle>(&shape)) {
     put(triangle->a, at);
     put(triangle->b, at + 3);
     put(triangle->c, at + 6);

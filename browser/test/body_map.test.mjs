@@ -184,7 +184,7 @@ test("filters say which bodies, fixed ones and zones meet, and may change", () =
   assert.throws(() => world.addZone({ ball: { centre: [0, 0, 0], radius: 1 } }, 7), /addZone: options must be an object with the keys filter, userData, but is 7/);
   assert.throws(() => world.setFilter(ball, { masks: 1 }), /setFilter: filter has no key masks; the nearest is mask/);
   assert.throws(() => world.setFilter(ball, { category: -1 }), /setFilter: filter.category must be a whole number/);
-  refuses(() => world.setFilter(99, {}), "unknown_body", /setFilter|set_filter/);
+  refuses(() => world.setFilter(99, {}), "unknown_body", /body 99/);
 });
 
 test("a sphere is cast, and a box finds what it overlaps", () => {
