@@ -89,6 +89,7 @@ class MotionOfBodies final : public MotionSource {
   std::optional<Error> refused_;
 };
 
+/// Reads a vector, and whether there is one.
 std::optional<Vec3> velocity_at(const double* numbers) {
   if (numbers[3] == 0.0) return std::nullopt;
   return vector_at(numbers);
@@ -97,11 +98,12 @@ std::optional<Vec3> velocity_at(const double* numbers) {
 Response ask_javascript(const Event& event) {
   double numbers[event_numbers];
   put(event, numbers);
-  // A velocity for each of the two bodies, and whether there is one.
-  double velocities[8] = {};
+  // For each of the two bodies a velocity, and then an angular velocity.
+  double velocities[16] = {};
   // A function that throws leaves NaN, too.
   if (!javascript_respond(numbers, velocities)) return {Vec3{nan, nan, nan}, std::nullopt};
-  return {velocity_at(velocities), velocity_at(velocities + 4)};
+  return {velocity_at(velocities), velocity_at(velocities + 4), velocity_at(velocities + 8),
+          velocity_at(velocities + 12)};
 }
 
 /// Given masses are by index; bodies beyond them, or all if there are none, have their own.
@@ -173,8 +175,8 @@ bool world_run(World* world, double until, const MotionHandle* motion, const Bod
   return is_good(done);
 }
 
-/// Returns the velocities of two bodies of these masses after a contact; with a resting speed > 0 those of
-/// settle().
+/// Returns velocities and angular velocities of two bodies of these masses after a contact; with a resting
+/// speed > 0 those of settle().
 KINESPHERE_EXPORT(event_bounce)
 void event_bounce(const double* event, double first_mass, double second_mass, double restitution,
                   double resting_speed, double* velocities) {
@@ -184,6 +186,8 @@ void event_bounce(const double* event, double first_mass, double second_mass, do
                            : bounce(contact, first_mass, second_mass, restitution);
   put(after.first_velocity, velocities);
   put(after.second_velocity, velocities + 3);
+  put(after.first_angular_velocity, velocities + 6);
+  put(after.second_angular_velocity, velocities + 9);
 }
 
 }  // namespace kinesphere::browser

@@ -6,6 +6,7 @@
 #include "body.hpp"
 #include "exchange.hpp"
 #include "kinesphere/motion/frame_motion.hpp"
+#include "rigid_bodies.hpp"
 
 namespace kinesphere::browser {
 namespace {
@@ -47,6 +48,18 @@ double map_add_moving_shape(BodyMapHandle* handle, World* world, const MotionHan
   if (auto reason = why_unknown(*moving->motion, number, world->time())) return fail(*reason), no_id;
   const auto id = handle->map->add_moving_shape(*world, *moving->motion, static_cast<std::uint32_t>(number),
                                                 {body_at(like), shape_at(kind, shape)});
+  if (!is_good(id)) return no_id;
+  keep(*handle, moving->motion);
+  return number_of(*id);
+}
+
+/// Adds a body as the position of a rigid one. Returns its id.
+KINESPHERE_EXPORT(map_add_rigid_body)
+double map_add_rigid_body(BodyMapHandle* handle, World* world, const MotionHandle* moving, double number,
+                          const double* like, const double* rigid, std::size_t count, const double* parts) {
+  if (auto reason = why_unknown(*moving->motion, number, world->time())) return fail(*reason), no_id;
+  const auto id = handle->map->add_rigid_body(*world, *moving->motion, static_cast<std::uint32_t>(number),
+                                              rigid_body_at({like, rigid, count, parts}));
   if (!is_good(id)) return no_id;
   keep(*handle, moving->motion);
   return number_of(*id);

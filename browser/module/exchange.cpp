@@ -92,6 +92,12 @@ void put(const Event& event, double* numbers) {
   numbers[35] = bits_of(event.first_traits);
   numbers[36] = bits_of(event.second_traits);
   numbers[37] = event.already_touching ? 1.0 : 0.0;
+  numbers[38] = event.first_part;
+  numbers[39] = event.second_part;
+  put(event.first_angular_velocity, numbers + 40);
+  put(event.second_angular_velocity, numbers + 43);
+  put(event.first_spin_gain, numbers + 46);
+  put(event.second_spin_gain, numbers + 49);
 }
 
 void answer_ids(std::span<const BodyId> ids) {
@@ -133,6 +139,12 @@ Event event_at(const double* numbers) {
   event.second_mass = numbers[34];
   event.first_traits = traits_at(numbers[35]);
   event.second_traits = traits_at(numbers[36]);
+  event.first_part = static_cast<std::uint32_t>(numbers[38]);
+  event.second_part = static_cast<std::uint32_t>(numbers[39]);
+  event.first_angular_velocity = vector_at(numbers + 40);
+  event.second_angular_velocity = vector_at(numbers + 43);
+  event.first_spin_gain = vector_at(numbers + 46);
+  event.second_spin_gain = vector_at(numbers + 49);
   return event;
 }
 

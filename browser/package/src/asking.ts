@@ -4,6 +4,7 @@ import { Event, eventNumbers, type Vec3 } from "./event.js";
 import type { Module } from "./module.js";
 import { Motion, vector } from "./motion.js";
 import { checkKeys, type Keys } from "./options.js";
+import { type RotationProbeFunction, rotationNumbers } from "./rigid_body.js";
 import { Scene } from "./scene.js";
 
 /**
@@ -18,6 +19,9 @@ export type Probe = ProbeFunction | Motion | BodyMap;
 export interface Answer {
   first?: Vec3;
   second?: Vec3;
+  /** Of rigid bodies (radians / time), in a world without a rotation probe. */
+  firstAngularVelocity?: Vec3;
+  secondAngularVelocity?: Vec3;
 }
 /** Precondition: equal events get equal answers. */
 export type RespondFunction = (event: Event) => Answer | undefined;
@@ -42,7 +46,9 @@ export interface RunOptions {
 
 export const runKeys: Keys<RunOptions> = { motion: true, respond: true };
 const bounceKeys: Keys<Bounces> = { masses: true, restitution: true, restingSpeed: true };
-const answerKeys: Keys<Answer> = { first: true, second: true };
+const answerKeys: Keys<Answer> = {
+  first: true, second: true, firstAngularVelocity: true, secondAngularVelocity: true,
+};
 
 /** Returns the addresses of the motion and of the map, of which at most one is not 0. */
 export function moving(probe: Probe): [motion: number, map: number] {
@@ -61,8 +67,15 @@ export function responded(respond: RunOptions["respond"]): [number, Bounces, num
 }
 
 /** Callbacks of the module, which pass tables of numbers to these functions. */
-export function asking(module: Module, probe: ProbeFunction | null, respond: RespondFunction | null) {
+export function asking(
+  module: Module, probe: ProbeFunction | null, respond: RespondFunction | null, rotate: RotationProbeFunction | null,
+) {
   return {
+    rotate(count: number, ids: number, time: number, rotations: number): void {
+      const answer = new Float64Array(rotationNumbers * count).fill(NaN);
+      rotate!(module.numbersAt(ids, count).slice(), time, answer);
+      module.numbersAt(rotations, answer.length).set(answer);
+    },
     probe(count: number, ids: number, time: number, states: number): void {
       // The function may call the module, so its memory may grow.
       const answer = new Float64Array(6 * count).fill(NaN);
@@ -72,13 +85,15 @@ export function asking(module: Module, probe: ProbeFunction | null, respond: Res
     respond(event: number, velocities: number): void {
       const answer = respond!(new Event(module.numbersAt(event, eventNumbers).slice()));
       if (answer !== undefined) checkKeys(answer, answerKeys, "answer", "respond");
-      const numbers = new Float64Array(8);
-      for (const [velocity, at] of [[answer?.first, 0], [answer?.second, 4]] as const) {
+      const numbers = new Float64Array(16);
+      for (const [velocity, at] of [
+        [answer?.first, 0], [answer?.second, 4], [answer?.firstAngularVelocity, 8], [answer?.secondAngularVelocity, 12],
+      ] as const) {
         if (velocity === undefined) continue;
         numbers.set(vector(velocity, "velocity", "respond"), at);
         numbers[at + 3] = 1;
       }
-      module.numbersAt(velocities, 8).set(numbers);
+      module.numbersAt(velocities, numbers.length).set(numbers);
     },
   };
 }

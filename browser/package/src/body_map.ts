@@ -6,6 +6,7 @@ import {
 import { Owned, theModule } from "./module.js";
 import { countOf, each, type FrameMotion, type Motion, type PerBody, sixOf, vector } from "./motion.js";
 import { checkKeys } from "./options.js";
+import { type MovedRigidBodyDefinition, movedRigidArguments, type RigidPart } from "./rigid_body.js";
 import type { World } from "./world.js";
 
 const existing = Symbol("existing");
@@ -54,6 +55,18 @@ export class BodyMap extends Owned {
     const id = module.with((scratch) => module.call(
       "map_add_moving_shape", this.address, world.address, motion.address, number, kind, scratch.numbers(parts),
       scratch.numbers(like(options, call))));
+    if (id < 0) throw module.error();
+    this.keep(motion);
+    return id;
+  }
+  /** Adds a body of a motion as the position of a rigid body: see World.addRigidBody(). Returns its id. */
+  addRigidBody(
+    world: World, motion: Motion, number: number, parts: readonly RigidPart[], body: MovedRigidBodyDefinition = {},
+  ): BodyId {
+    const module = theModule();
+    const id = module.with((scratch) => module.call(
+      "map_add_rigid_body", this.address, world.address, motion.address, number,
+      ...movedRigidArguments(scratch, parts, body, "BodyMap.addRigidBody")));
     if (id < 0) throw module.error();
     this.keep(motion);
     return id;

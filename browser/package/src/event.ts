@@ -44,7 +44,7 @@ function traitsOf(bits: number): BodyTraits {
 }
 
 /** Size of an event in numbers; see `put` in browser/module/exchange.cpp. */
-export const eventNumbers = 38;
+export const eventNumbers = 52;
 
 /** An event. It reads from numbers that never change. */
 export class Event {
@@ -93,6 +93,16 @@ export class Event {
   get firstTraits(): BodyTraits { return traitsOf(this.numbers[35]!); }
   /** All false for a wall. */
   get secondTraits(): BodyTraits { return traitsOf(this.numbers[36]!); }
+
+  /** Of rigid bodies: the number of the part at the contact; 0 for all others. */
+  get firstPart(): number { return this.numbers[38]!; }
+  get secondPart(): number { return this.numbers[39]!; }
+  /** Of rigid bodies (radians / time); zero for all others. */
+  get firstAngularVelocity(): Float64Array { return this.numbers.subarray(40, 43); }
+  get secondAngularVelocity(): Float64Array { return this.numbers.subarray(43, 46); }
+  /** Change of the angular velocity of a rigid body by a unit impulse along the normal; zero for all others. */
+  get firstSpinGain(): Float64Array { return this.numbers.subarray(46, 49); }
+  get secondSpinGain(): Float64Array { return this.numbers.subarray(49, 52); }
 
   /** Returns the other body of the pair; null if there is none, or `body` has no part in the event. */
   partnerOf(body: BodyId): BodyId | null {

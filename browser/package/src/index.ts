@@ -12,6 +12,9 @@ export type {
   BodyBatch, BodyDefinition, BodyOptions, Filter, MotionLimits, MovedBodyDefinition, MovedOptions, Shape, ShapeCarrier, StaticOptions,
   ZoneOptions,
 } from "./body.js";
+export type {
+  MovedRigidBodyDefinition, Quaternion, RigidBodyDefinition, RigidPart, Rotation, RotationProbeFunction, Turning,
+} from "./rigid_body.js";
 export { BodyMap } from "./body_map.js";
 export {
   type BodyView, type BusyBody, type Certain, type Counters, type Earliest, type Located, type ProbeReason, World, WorldView,

@@ -32,6 +32,7 @@ type Exports = { memory: WebAssembly.Memory } & Record<string, (...values: numbe
 interface Callbacks {
   probe(count: number, ids: number, time: number, states: number): void;
   respond(event: number, velocities: number): void;
+  rotate(count: number, ids: number, time: number, rotations: number): void;
   poll(count: number, tracks: number, time: number, reports: number): void;
 }
 
@@ -88,7 +89,7 @@ export class Module {
       }
     };
     const instance = new WebAssembly.Instance(compiled, {
-      kinesphere: { probe: asked("probe"), respond: asked("respond"), poll: asked("poll") },
+      kinesphere: { probe: asked("probe"), respond: asked("respond"), rotate: asked("rotate"), poll: asked("poll") },
       env: { emscripten_notify_memory_growth: () => {} },
       wasi_snapshot_preview1: {
         clock_time_get: () => 0,

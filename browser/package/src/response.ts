@@ -7,6 +7,9 @@ import { checkKeys, type Keys } from "./options.js";
 export interface Bounce {
   first: Vec3;
   second: Vec3;
+  /** Of rigid bodies that the contact turns (radians / time). */
+  firstAngularVelocity?: Vec3;
+  secondAngularVelocity?: Vec3;
 }
 
 /** Arguments of `bounce` and `settle` besides the contact. */
@@ -23,7 +26,8 @@ export interface BounceOptions {
 const bounceKeys: Keys<BounceOptions> = { firstMass: true, secondMass: true, restitution: true, restingSpeed: true };
 
 /**
- * Returns the response of smooth spheres to a begin, as `bounce` and `settle` of the C++ library do. Momentum is kept.
+ * Returns the response of smooth bodies to a begin, as `bounce` and `settle` of the C++ library do. Momentum is kept, and
+ * of rigid bodies angular momentum, too.
  */
 export function bounce(contact: Event, options: BounceOptions = {}): Bounce {
   checkKeys(options, bounceKeys, "options", "bounce");
@@ -31,9 +35,15 @@ export function bounce(contact: Event, options: BounceOptions = {}): Bounce {
   const module = theModule();
   return module.with((scratch) => {
     const event = scratch.numbers(contact.numbers);
-    const room = scratch.room(6);
+    const room = scratch.room(12);
     module.call("event_bounce", event, firstMass, secondMass, restitution, restingSpeed, room);
-    const velocities = module.numbersAt(room, 6).slice();
-    return { first: velocities.subarray(0, 3), second: velocities.subarray(3, 6) };
+    const velocities = module.numbersAt(room, 12).slice();
+    const turns = (gain: Float64Array) => gain.some((part) => part !== 0);
+    return {
+      first: velocities.subarray(0, 3),
+      second: velocities.subarray(3, 6),
+      ...(turns(contact.firstSpinGain) ? { firstAngularVelocity: velocities.subarray(6, 9) } : {}),
+      ...(turns(contact.secondSpinGain) ? { secondAngularVelocity: velocities.subarray(9, 12) } : {}),
+    };
   });
 }

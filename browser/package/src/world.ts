@@ -11,6 +11,10 @@ import { type Box, boxKeys, type Definition, definitionAt, definitionNumbers, ty
 import { type BodyId, Event, type EventKind, Events, eventKinds, type State, type Vec3, type Wall, wallOf } from "./event.js";
 import { Owned, type Scratch, theModule } from "./module.js";
 import { checkKeys } from "./options.js";
+import {
+  numbersOfRotation, partsFrom, rigidArguments, type RigidBodyDefinition, type RigidPart, type Rotation, rotationFrom,
+  type RotationProbeFunction,
+} from "./rigid_body.js";
 import { countOf, each, Motion, type MotionDefinition, type PerBody, sixOf, vector } from "./motion.js";
 
 /** What the world knows of a body now. */
@@ -171,6 +175,18 @@ export class WorldView extends Owned {
     const module = theModule();
     module.require(module.call("world_shape_of", this.address, body));
     return shapeFrom(Array.from(module.answer()));
+  }
+  /** Returns the rotation of a rigid body at its last report. */
+  rotation(body: BodyId): Rotation {
+    const module = theModule();
+    module.require(module.call("world_rotation", this.address, body));
+    return rotationFrom(module.answer());
+  }
+  /** Returns the parts of a rigid body, as it was added. */
+  partsOf(body: BodyId): RigidPart[] {
+    const module = theModule();
+    module.require(module.call("world_parts_of", this.address, body));
+    return partsFrom(module.answer());
   }
   /** Returns the bodies that the body touches, in order of their begins. */
   touching(body: BodyId): Float64Array {
@@ -346,6 +362,8 @@ export class WorldView extends Owned {
 const existing = Symbol("existing");
 
 export class World extends WorldView {
+  #rotationProbe: RotationProbeFunction | null = null;
+
   /** Throws KinesphereError for an invalid definition. */
   constructor(definition?: WorldDefinition);
   /** @internal */
@@ -434,6 +452,17 @@ export class World extends WorldView {
     if (id < 0) throw module.error();
     return id;
   }
+  /**
+   * Adds a rigid body: balls and capsules that move and turn together, about its position. It is one body, with one state
+   * in a probe; events name its parts. Its limits are those of the motion of its position.
+   */
+  addRigidBody(parts: readonly RigidPart[], body: RigidBodyDefinition): BodyId {
+    const module = theModule();
+    const id = module.with((scratch) =>
+      module.call("world_add_rigid_body", this.address, ...rigidArguments(scratch, parts, body, "addRigidBody")));
+    if (id < 0) throw module.error();
+    return id;
+  }
   /** Adds a static body. */
   addStatic(shape: Shape, options: StaticOptions = {}): BodyId {
     const call = "addStatic";
@@ -467,6 +496,31 @@ export class World extends WorldView {
     module.with((scratch) =>
       module.require(module.call("world_set_velocity_all", this.address, bodies.length, scratch.numbers(bodies),
                                  scratch.numbers(velocities))));
+  }
+  /** Sets the angular velocity (radians / time) of a rigid body from now on; a rotation probe must agree with it. */
+  setAngularVelocity(body: BodyId, angularVelocity: Vec3): void {
+    this.change("world_set_angular_velocity", body, vector(angularVelocity, "angularVelocity", "setAngularVelocity"));
+  }
+  /** Turns a rigid body at once, as teleport() moves it. */
+  setRotation(body: BodyId, rotation: Rotation): void {
+    this.change("world_set_rotation", body, numbersOfRotation(rotation, "setRotation"));
+  }
+  /**
+   * Sets the function that gives the rotations of rigid bodies, directly after the probe; null removes it. Without one,
+   * only bodies that keep their angular velocity can be probed. Clones have it, too, but not snapshots. What it throws
+   * comes out of the call that asked.
+   */
+  setRotationProbe(probe: RotationProbeFunction | null): void {
+    if (probe !== null && typeof probe !== "function")
+      throw new TypeError("setRotationProbe: probe must be a function or null");
+    const module = theModule();
+    module.require(module.call("world_set_rotation_probe", this.address, probe === null ? 0 : 1));
+    this.#rotationProbe = probe;
+  }
+  override clone(): World {
+    const copy = super.clone();
+    copy.#rotationProbe = this.#rotationProbe;
+    return copy;
   }
   /** Puts a body elsewhere. */
   teleport(body: BodyId, state: State): void {
@@ -556,8 +610,8 @@ export class World extends WorldView {
       throw new TypeError("advance: probe must be a function, a Motion or a BodyMap");
     const asked = typeof probe === "function" ? probe : null;
     const addresses = moving(probe);
-    const result = module.callWith(asking(module, asked, null), [this.address, ...addresses], "world_advance",
-                                   this.address, until, ...addresses);
+    const result = module.callWith(asking(module, asked, null, this.#rotationProbe), [this.address, ...addresses],
+                                   "world_advance", this.address, until, ...addresses);
     if (result < 0) throw module.error();
     return result === 0 ? null : new Event(module.answer());
   }
@@ -585,8 +639,8 @@ export class World extends WorldView {
                       bounces.restitution ?? 1, bounces.restingSpeed ?? 0, scene];
       let failure: { value: unknown } | null = null;
       try {
-        if (module.callWith(asking(module, null, asked), [this.address, ...addresses], "world_run", this.address,
-                            ...values) === 0)
+        if (module.callWith(asking(module, null, asked, this.#rotationProbe), [this.address, ...addresses], "world_run",
+                            this.address, ...values) === 0)
           failure = { value: module.error() };
       } catch (value) {
         failure = { value };
