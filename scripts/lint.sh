@@ -46,7 +46,7 @@ fi
 
 # Names that the glossary has replaced. The CHANGELOG and docs/migration.md may use them.
 retired='Islands|KickComparison|LatePairs|PartSize|BodyKick|KeptContacts|Answerer|Agenda|HotPair|Unsettled|FoundPairs|Outlook'
-retired+='|Judgement|Horizons|ContactBook|RecentContacts|WhileTrue|StillDue|WindowLayer|Capsule|CapsuleTable|RoomyBound|Tempo|Pacing'
+retired+='|Judgement|Horizons|ContactBook|RecentContacts|WhileTrue|StillDue|WindowLayer|CapsuleTable|RoomyBound|Tempo|Pacing'
 retired+='|MovedBound|SizeLevels|KnownSpace|Parcel|Outbox|LocalWorld|PhasePart|DanglingLinks|PairShare|ReportNeed'
 retired+='|ScopedFlag|UntoldEvents|OpenRecord|FixedDefinition|add_fixed|tell_violations|report_violations|refuse_violations|refilter|set_timing|FramesDefinition|SteeredDefinition'
 retired+='|growth_acceleration|set_velocity_all|WithoutProbe'

@@ -41,6 +41,7 @@ export interface Turning {
    */
   inertia?: Vec3;
 }
+/** A rigid body; state and limits are those of its position. */
 export interface RigidBodyDefinition extends ShapeCarrier, Turning {}
 /** A rigid body whose position is a body of a motion. */
 export interface MovedRigidBodyDefinition extends MovedOptions, Turning {}
