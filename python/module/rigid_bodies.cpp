@@ -2,9 +2,12 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "errors.hpp"
 #include "kinesphere/response.hpp"
 #include "shapes.hpp"
 #include "world.hpp"
