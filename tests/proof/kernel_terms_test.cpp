@@ -75,11 +75,11 @@ Double bound_of_report() {
 
 /// Returns the growth of the bound of a point that is fixed in a turning body.
 Double growth_of_point() {
-  const kernels::RigidExtent body{.bound = {.growth_acceleration = variable("limit")},
+  const kernels::RigidExtent body{.bound = {.acceleration_limit = variable("limit")},
                                   .parts = {},
                                   .spin = variable("spin"),
                                   .spin_growth = variable("spin_growth")};
-  return body.of_point({variable("x"), variable("y"), variable("z")}, variable("r")).growth_acceleration;
+  return body.of_point({variable("x"), variable("y"), variable("z")}, variable("r")).acceleration_limit;
 }
 
 /// Returns the slots that a search finds, run by run, in a table of these swept spheres.
