@@ -417,6 +417,7 @@ KS_API ks_status ks_world_wake(ks_world world, ks_body_id body);
 KS_API ks_status ks_world_set_user_data(ks_world world, ks_body_id body, uint64_t data);
 
 // Filters, zones and sensors.
+/// Selects the bodies that a body may touch from now on.
 KS_API ks_status ks_world_set_filter(ks_world world, ks_body_id body, const ks_filter* filter);
 /// A NULL filter lets all pairs touch. `user` must outlive the world and its clones.
 KS_API ks_status ks_world_set_pair_filter(ks_world world, ks_pair_filter filter, void* user);
