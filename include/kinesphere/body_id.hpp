@@ -53,6 +53,7 @@ inline constexpr BodyId no_body{};
 /// takes. It refers to them, so it is valid within the call's expression.
 class BodyIds : public std::span<const BodyId> {
  public:
+  /// Refers to these bodies.
   BodyIds(const BodyId& body) : span(&body, 1) {}
   BodyIds(std::initializer_list<BodyId> bodies) : span(bodies.begin(), bodies.size()) {}
   template <class Bodies>

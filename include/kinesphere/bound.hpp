@@ -117,6 +117,7 @@ struct GapLimits {
 
   friend constexpr bool operator==(const GapLimits&, const GapLimits&) = default;
 };
+/// Returns these limits.
 GapLimits gap_limits(const Bound& a, const Bound& b, double t);
 GapLimits gap_limits(const Bound& bound, const HalfSpace& wall, double t);
 

@@ -126,6 +126,7 @@ class [[nodiscard]] World::Certificates {
   /// not_finite or time_backwards for `time`. Cost: O(1); with a probe, at most two states.
   Result<DistanceLimits> distance_limits(BodyId first, BodyId second, double time) const;
 
+  /// World::certificates() makes it.
   explicit Certificates(Facet facet) : facet_(std::move(facet)) {}
 
  private:

@@ -34,7 +34,9 @@ constexpr bool passes(const Filter& a, const Filter& b) {
 /// named or not. World::set_pair_filter() gives its preconditions and the calls that it may make.
 class PairFilter : public Callback<bool(BodyId, BodyId)> {
  public:
+  /// Makes an empty one.
   PairFilter() = default;
+  /// Keeps the callable.
   template <class Callable>
   requires(!std::is_same_v<Callable, PairFilter> && std::is_constructible_v<Callback, Callable>)
       PairFilter(Callable callable)

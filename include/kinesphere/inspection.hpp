@@ -153,6 +153,7 @@ class [[nodiscard]] World::Inspection {
   /// world, it only returns a finding that says so. Cost: O(n^2).
   std::optional<AuditFinding> audit() const;
 
+  /// World::inspection() makes it.
   explicit Inspection(const World& world) : world_(&world) {}
 
  private:

@@ -119,6 +119,7 @@ class [[nodiscard]] World::Queries {
   /// Returns true if there were any. Errors: those of a call that names a body; without a probe, null_probe.
   Result<bool> refresh(BodyIds bodies) const;
 
+  /// World::queries() makes it.
   explicit Queries(Facet facet) : facet_(std::move(facet)) {}
 
  private:

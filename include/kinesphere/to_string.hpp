@@ -23,6 +23,7 @@ namespace kinesphere {
 /// Returns "possibly" or "certainly".
 std::string_view name_of(Certainty certainty);
 
+/// Return the values of bodies and their definitions, in one line.
 std::string to_string(const Vec3& vector);
 std::string to_string(const Box& box);
 std::string to_string(const State& state);
@@ -33,6 +34,7 @@ std::string to_string(const Bound& bound);
 std::string to_string(const Shape& shape);
 std::string to_string(const BodyView& body);
 
+/// Return what happened, in one line.
 std::string to_string(const Event& event);
 std::string to_string(const Response& response);
 std::string to_string(const ProbedState& report);
@@ -40,17 +42,20 @@ std::string to_string(const MonitorEvent& event);
 std::string to_string(const PairAnswer& answer);
 std::string to_string(const Error& error);
 
+/// Return a certified prediction, in one line.
 std::string to_string(const SafeTime& safe);
 std::string to_string(const EarliestContact& first);
 std::string to_string(const EarliestApproach& first);
 std::string to_string(const SafeSeparation& safe);
 std::string to_string(const DistanceLimits& limits);
 
+/// Return a result of a query, in one line.
 std::string to_string(const OverlapHit& hit);
 std::string to_string(const NearestHit& hit);
 std::string to_string(const CastHit& hit);
 std::string to_string(const SensorOverlap& overlap);
 
+/// Return what there is to see of the internal state, in one line.
 std::string to_string(const Counters& counters);
 std::string to_string(const Memory& memory);
 std::string to_string(const Certificate& certificate);
