@@ -1,16 +1,23 @@
 #include "kinesphere/to_string.hpp"
 
 #include <array>
-#include <charconv>
 #include <concepts>
+#include <cstdio>
+#include <cstdlib>
 #include <type_traits>
 
 namespace kinesphere {
 namespace {
 
+/// Returns the number in the fewest digits, of 15 or more, that give it back. WebAssembly's standard library
+/// has no std::to_chars for it.
 std::string value_text(double number) {
   std::array<char, 32> digits;
-  return {digits.data(), std::to_chars(digits.begin(), digits.end(), number).ptr};
+  for (int precision = 15; precision <= 17; ++precision) {
+    std::snprintf(digits.data(), digits.size(), "%.*g", precision, number);
+    if (std::strtod(digits.data(), nullptr) == number) break;
+  }
+  return digits.data();
 }
 std::string value_text(std::integral auto number) {
   if constexpr (std::same_as<decltype(number), bool>) return number ? "true" : "false";
