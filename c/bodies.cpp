@@ -201,14 +201,14 @@ ks_status ks_world_set_velocities(ks_world world, const ks_body_id* bodies, cons
 
 ks_status ks_world_set_angular_velocity(ks_world world, ks_body_id body, ks_vec3 angular_velocity) {
   return change_body(__func__, world, body, [&](World& of, BodyId id) {
-    return of.set_angular_velocity(id, vector_of(angular_velocity));
+    return of.change(id, {.angular_velocity = vector_of(angular_velocity)});
   });
 }
 
 ks_status ks_world_set_rotation(ks_world world, ks_body_id body, const ks_rotation* rotation) {
   return change_body(__func__, world, body, [&, call = __func__](World& of, BodyId id) {
     require_pointer(call, rotation, "rotation");
-    return of.set_rotation(id, rotation_of(*rotation));
+    return of.change(id, {.rotation = rotation_of(*rotation)});
   });
 }
 

@@ -126,7 +126,11 @@ ks_status ks_world_body(ks_world world, ks_body_id body, ks_body_view* view) {
 ks_status ks_world_rotation(ks_world world, ks_body_id body, ks_rotation* rotation) {
   return reading(__func__, world, [&, call = __func__](const WorldObject& object) {
     require_pointer(call, rotation, "rotation");
-    *rotation = c_rotation(object.world().rigid_body(id_of(body)).value().rotation);
+    const BodyView view = object.world().body(id_of(body)).value();
+    if (!view.rigid)
+      throw BadResult(
+          {ErrorCode::unsupported, "body", id_of(body), std::string(call) + ": body must be rigid"});
+    *rotation = c_rotation(view.rigid->rotation);
   });
 }
 

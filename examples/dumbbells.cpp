@@ -40,7 +40,7 @@ int main(int count, char** arguments) {
     flight = rotation = 0;
     for (const BodyId id : world.bodies()) {
       flight += 0.5 * norm_squared(bodies.state(id, world.time()).velocity);
-      rotation += 0.5 * half * half * norm_squared(world.rigid_body(id)->rotation.angular_velocity);
+      rotation += 0.5 * half * half * norm_squared(world.body(id)->rigid->rotation.angular_velocity);
     }
   };
   measure();

@@ -60,9 +60,17 @@ double world_add_rigid_body(World* world, const double* body, const double* rigi
   return is_good(id) ? number_of(*id) : no_id;
 }
 
+static Result<RigidBody> rigid_of(const World* world, double body) {
+  const auto view = world->body(body_of(body));
+  if (!view) return view.error();
+  if (view->rigid) return *view->rigid;
+  return Error{ErrorCode::unsupported, "body", body_of(body),
+               "body must be rigid, but body " + to_string(body_of(body)) + " is not"};
+}
+
 /// Answers the rotation at the last report.
 KINESPHERE_EXPORT(world_rotation) bool world_rotation(const World* world, double body) {
-  const auto rigid = world->rigid_body(body_of(body));
+  const auto rigid = rigid_of(world, body);
   if (!is_good(rigid)) return false;
   answer().resize(rotation_numbers);
   put_rotation(rigid->rotation, answer().data());
@@ -71,7 +79,7 @@ KINESPHERE_EXPORT(world_rotation) bool world_rotation(const World* world, double
 
 /// Answers seven numbers for each part.
 KINESPHERE_EXPORT(world_parts_of) bool world_parts_of(const World* world, double body) {
-  const auto rigid = world->rigid_body(body_of(body));
+  const auto rigid = rigid_of(world, body);
   if (!is_good(rigid)) return false;
   answer().clear();
   for (const auto& [a, b, radius] : rigid->parts)
@@ -81,11 +89,11 @@ KINESPHERE_EXPORT(world_parts_of) bool world_parts_of(const World* world, double
 
 KINESPHERE_EXPORT(world_set_angular_velocity)
 bool world_set_angular_velocity(World* world, double body, const double* angular_velocity) {
-  return is_good(world->set_angular_velocity(body_of(body), vector_at(angular_velocity)));
+  return is_good(world->change(body_of(body), {.angular_velocity = vector_at(angular_velocity)}));
 }
 KINESPHERE_EXPORT(world_set_rotation)
 bool world_set_rotation(World* world, double body, const double* rotation) {
-  return is_good(world->set_rotation(body_of(body), rotation_at(rotation)));
+  return is_good(world->change(body_of(body), {.rotation = rotation_at(rotation)}));
 }
 /// Whether the package has a function for this world.
 KINESPHERE_EXPORT(world_set_rotation_probe) bool world_set_rotation_probe(World* world, bool exists) {

@@ -89,6 +89,8 @@ struct RigidBody {
   /// Contacts do not turn the body about an axis with moment 0 or infinity. The world only passes them on, to
   /// Event::first_spin_gain.
   Vec3 inertia{};
+
+  friend bool operator==(const RigidBody&, const RigidBody&) = default;
 };
 
 }  // namespace kinesphere

@@ -74,6 +74,8 @@ struct BodyView {
   /// The shape of a static body as the world stores it, that of a moving shape relative to its position, or,
   /// for any other body, a ball at the position of its last report.
   Shape shape{};
+  /// A rigid body, with the state and the rotation of its last report; nothing for any other body.
+  std::optional<RigidBody> rigid{};
 
   friend bool operator==(const BodyView&, const BodyView&) = default;
 };
@@ -94,6 +96,13 @@ struct BodyChange {
   /// The mass that events have from now on (BodyDefinition::mass). Errors: static_body; not_finite for NaN.
   std::optional<double> mass{};
   std::optional<std::uint64_t> user_data{};
+  /// Angular velocity (radians / time) of a rigid body from the current time on, as World::set_velocity()
+  /// gives its velocity. Errors: disabled_body; unsupported for a body that is not rigid; not_finite;
+  /// out_of_range for more than its largest_angular_speed.
+  std::optional<Vec3> angular_velocity{};
+  /// Turns a rigid body at once, as World::teleport() moves it. Errors: as for angular_velocity; out_of_range
+  /// for an orientation that has not length 1; outside_domain and overlapping as for teleport().
+  std::optional<Rotation> rotation{};
 
   friend constexpr bool operator==(const BodyChange&, const BodyChange&) = default;
 };
@@ -190,16 +199,6 @@ class World {
   /// inertia and limits; unsupported while the world is distributed. Cost: as add() with the radius of that
   /// ball; a check of two bodies that are near costs as many as they have pairs of parts.
   Result<BodyId> add_rigid_body(const RigidBody& body);
-  /// Returns a rigid body, with the state and rotation of its last report. Errors: unsupported for any other
-  /// body.
-  Result<RigidBody> rigid_body(BodyId body) const;
-  /// Informs the world that a rigid body turns with this angular velocity (radians / time) from the current
-  /// time on, as set_velocity() does for its velocity. Errors: as set_velocity(); unsupported for a body that
-  /// is not rigid; out_of_range for more than its largest_angular_speed.
-  Result<void> set_angular_velocity(BodyId body, const Vec3& angular_velocity);
-  /// Turns a rigid body to another rotation at the current time, as teleport() moves it. Errors: as
-  /// set_angular_velocity().
-  Result<void> set_rotation(BodyId body, const Rotation& rotation);
   /// Sets the function that gives rotations of rigid bodies; an empty one removes it. Without one, only
   /// bodies that keep their angular velocity (angular_acceleration_limit 0) can be probed. Snapshots do not
   /// contain it. Errors: probe_in_progress; unsupported while the world is recorded.

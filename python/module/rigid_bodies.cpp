@@ -67,6 +67,13 @@ py::object add_rigid_body(WorldHandle& handle, const py::object& parts, const py
 }
 
 /// Returns orientations of shape (n, 4) and angular velocities of shape (n, 3), without n for a single id.
+RigidBody rigid_of(const World& world, BodyId body, std::string_view call) {
+  const BodyView view = world.body(body).value();
+  if (view.rigid) return *view.rigid;
+  throw BadResult({ErrorCode::unsupported, "body", body,
+                   std::string(call) + ": body must be rigid, but body " + to_string(body) + " is not"});
+}
+
 py::tuple rotations(WorldHandle& handle, const py::object& bodies) {
   const auto turn = handle.take("rotations");
   const Ids named = ids_of(bodies, {"rotations", "bodies"});
@@ -76,7 +83,7 @@ py::tuple rotations(WorldHandle& handle, const py::object& bodies) {
   double* orientation = orientations.data<double>();
   double* spin = spins.data<double>();
   for (const BodyId id : named.ids) {
-    const auto [q, w] = handle.world.rigid_body(id).value().rotation;
+    const auto [q, w] = rigid_of(handle.world, id, "rotations").rotation;
     for (const double number : {q.w, q.x, q.y, q.z}) *orientation++ = number;
     for (const double number : {w.x, w.y, w.z}) *spin++ = number;
   }
@@ -86,7 +93,7 @@ py::tuple rotations(WorldHandle& handle, const py::object& bodies) {
 py::list parts_of(WorldHandle& handle, const py::object& body) {
   const auto turn = handle.take("parts_of");
   py::list parts;
-  for (const RigidPart& part : handle.world.rigid_body(id_of(body, {"parts_of", "body"})).value().parts)
+  for (const RigidPart& part : rigid_of(handle.world, id_of(body, {"parts_of", "body"}), "parts_of").parts)
     parts.append(part_object(part));
   return parts;
 }
@@ -98,7 +105,7 @@ void set_angular_velocity(WorldHandle& handle, const py::object& bodies, const p
   const std::vector<Vec3> each = named.is_single ? std::vector{vector_of(given, argument, in_space)}
                                                  : vectors_of(given, argument, in_space, named.ids.size());
   for (std::size_t k = 0; k < each.size(); ++k)
-    require(handle.world.set_angular_velocity(named.ids[k], each[k]));
+    require(handle.world.change(named.ids[k], {.angular_velocity = each[k]}));
   end_call(handle);
 }
 
@@ -106,9 +113,9 @@ void set_rotation(WorldHandle& handle, const py::object& body, const py::object&
                   const py::object& angular_velocity) {
   const std::string_view call = "set_rotation";
   const auto turn = handle.take(call);
-  require(handle.world.set_rotation(id_of(body, {call, "body"}),
-                                    {quaternion_of(orientation, {call, "orientation"}),
-                                     vector_of(angular_velocity, {call, "angular_velocity"}, in_space)}));
+  const Rotation rotation{quaternion_of(orientation, {call, "orientation"}),
+                          vector_of(angular_velocity, {call, "angular_velocity"}, in_space)};
+  require(handle.world.change(id_of(body, {call, "body"}), {.rotation = rotation}));
   end_call(handle);
 }
 

@@ -183,7 +183,7 @@ def test_wrong_use_is_refused() -> None:
         world.rotations(ball)
     with pytest.raises(ks.StateError, match="body must be rigid"):
         world.parts_of(ball)
-    with pytest.raises(ks.StateError, match="set_angular_velocity: body must be rigid"):
+    with pytest.raises(ks.StateError, match="change: body must be rigid"):
         world.set_angular_velocity(ball, (0, 0, 1))
     with pytest.raises(ks.InvalidValue, match="must not exceed largest_angular_speed"):
         world.set_angular_velocity([body], [(0, 0, 3)])

@@ -67,6 +67,16 @@ RigidRecord record_of(const RigidBody& definition, double time) {
   return record;
 }
 
+RigidBody rigid_body(const Bodies& bodies, std::uint32_t number) {
+  const RigidRecord& record = bodies.rigid[bodies[number]];
+  return {.body = bodies.definition_of(number),
+          .parts = record.parts,
+          .rotation = record.is_changed ? record.origin : record.rotation,
+          .angular_acceleration_limit = record.angular_acceleration_limit,
+          .largest_angular_speed = record.largest_angular_speed,
+          .inertia = record.inertia};
+}
+
 StaticDefinition static_definition(const Bodies& bodies, BodyId id) {
   const Body& body = bodies[id.index];
   return {bodies.shapes.of(body), bodies.filters.of(id.index), body.solid, body.sensor_class, body.user_data};

@@ -14,6 +14,8 @@ BodyDefinition body_of(const MovingShape& definition, const WorldDefinition& wor
 BodyDefinition body_of(const RigidBody& definition);
 /// Returns the record of a rigid body that has its defined rotation at a time.
 RigidRecord record_of(const RigidBody& definition, double time);
+/// Returns a rigid body with the state and the rotation of its last report, or those that were set since.
+RigidBody rigid_body(const Bodies& bodies, std::uint32_t number);
 StaticDefinition static_definition(const Bodies& bodies, BodyId id);
 /// Returns the shape in normal form: the normal of a half-space has length 1 to double precision, a ball is
 /// moved into the box in periodic space, a box is unbounded in z in two dimensions. Precondition:

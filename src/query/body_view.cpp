@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/shaped_body.hpp"
+
 namespace kinesphere {
 
 BodyView body_view(const Bodies& bodies, const BroadPhase& windows, std::uint32_t number, double now) {
@@ -16,6 +18,7 @@ BodyView body_view(const Bodies& bodies, const BroadPhase& windows, std::uint32_
                 body.is_static(),
                 body.is_sleeping(),
                 body.has_shape() ? bodies.shapes.of(body) : Ball{body.bound.position, body.radius}};
+  if (body.is_rigid) view.rigid = rigid_body(bodies, number);
   if (windows.contains(number)) {
     view.box = windows.box_of(number, now);
     view.box_end = windows.end_of(number);
@@ -25,6 +28,7 @@ BodyView body_view(const Bodies& bodies, const BroadPhase& windows, std::uint32_
   const Vec3 shift = space.shift_of(images);
   view.definition.position = view.bound.position = position;
   if (!body.has_shape()) view.shape = Ball{position, body.radius};
+  if (view.rigid) view.rigid->body.position = position;
   view.box = {view.box.lower - shift, view.box.upper - shift};
   for (int axis = 0; axis < 3; ++axis) {
     constexpr double limit = 0x1p62;

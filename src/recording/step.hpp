@@ -74,8 +74,6 @@ struct With {
   }
 };
 using SetVelocity = With<BodyId, Vec3, const Vec3&, &World::set_velocity>;
-using SetAngularVelocity = With<BodyId, Vec3, const Vec3&, &World::set_angular_velocity>;
-using SetRotation = With<BodyId, Rotation, const Rotation&, &World::set_rotation>;
 using Teleport = With<BodyId, State, const State&, &World::teleport>;
 using Enable = With<BodyId, State, const State&, &World::enable>;
 using SetSensor = With<SensorClass, Sensor, const Sensor&, &World::set_sensor>;
@@ -104,6 +102,8 @@ using SetSolid = Set<bool, &BodyChange::solid>;
 using SetSensorClass = Set<SensorClass, &BodyChange::sensor_class>;
 using SetMass = Set<double, &BodyChange::mass>;
 using SetUserData = Set<std::uint64_t, &BodyChange::user_data>;
+using SetAngularVelocity = Set<Vec3, &BodyChange::angular_velocity>;
+using SetRotation = Set<Rotation, &BodyChange::rotation>;
 
 /// Change of the pair filter. A predicate is code and cannot be recorded, so this holds only whether there is
 /// one.

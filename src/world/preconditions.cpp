@@ -171,6 +171,9 @@ Result<void> World::Preconditions::room_for(const RigidBody& added, BodyId id) c
 }
 
 Result<void> World::Preconditions::turned(BodyId id, const Rotation& rotation) const {
+  auto valid = can_spin(id, rotation.angular_velocity);
+  if (valid) valid = check_rotation(rotation, id, definition(), call_);
+  if (!valid) return valid;
   const Body& body = engine_->bodies()[id.index];
   const RigidRecord& record = engine_->bodies().rigid[body];
   BodyDefinition definition = engine_->bodies().definition_of(id.index);
@@ -201,6 +204,8 @@ Result<void> World::Preconditions::moved(BodyId id, const State& state) const {
 Result<void> World::Preconditions::changed(BodyId id, const BodyChange& change) const {
   const bool is_of_moving = change.radius || change.motion_limits || change.mass;
   auto valid = is_of_moving ? moving(id) : changeable(id);
+  if (valid && change.rotation) valid = turned(id, *change.rotation);
+  if (valid && change.angular_velocity) valid = can_spin(id, *change.angular_velocity);
   if (!valid || !(is_of_moving || change.sensor_class)) return valid;
   BodyDefinition changed = engine_->bodies().definition_of(id.index);
   if (change.radius) {

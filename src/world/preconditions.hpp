@@ -58,7 +58,7 @@ class World::Preconditions {
   /// A rigid body with this definition and rotation may be added, or be there.
   Result<void> new_rigid_body(const RigidBody& body, BodyId id) const;
   Result<void> room_for(const RigidBody& body, BodyId id) const;
-  /// The body may be turned to this rotation at the present time.
+  /// The body is rigid, and may be turned to this rotation at the present time.
   Result<void> turned(BodyId id, const Rotation& rotation) const;
   /// The body is rigid (ErrorCode::unsupported). Precondition: known().
   Result<void> is_rigid(BodyId body) const;

@@ -207,6 +207,12 @@ Result<void> World::change(BodyId body, const BodyChange& change) {
   if (change.mass) changing(step::SetMass{body, *change.mass}).set_mass(body, *change.mass);
   if (change.user_data)
     changing(step::SetUserData{body, *change.user_data}).set_user_data(body, *change.user_data);
+  if (change.rotation)
+    changing(step::SetRotation{body, *change.rotation}).set_rotation(body, *change.rotation);
+  if (change.angular_velocity) {
+    changing(step::SetAngularVelocity{body, *change.angular_velocity})
+        .set_angular_velocity(body, *change.angular_velocity);
+  }
   return {};
 }
 

@@ -206,11 +206,11 @@ class RandomRigidBodies : public testing::TestWithParam<Kind> {
       case 1: {
         Spin& spin = spins[id];
         spin = {now, spin.at(now).orientation, random.unit_vector(), 6.0 * random.uniform()};
-        return p.world.set_angular_velocity(id, spin.axis * spin.speed).value();
+        return p.world.change(id, {.angular_velocity = spin.axis * spin.speed}).value();
       }
       case 2: {
         const Spin turned{now, rotation_by(3.0 * random.point_in_ball()), random.unit_vector(), 3.0};
-        if (!p.world.set_rotation(id, turned.at(now))) return;  // into a wall
+        if (!p.world.change(id, {.rotation = turned.at(now)})) return;  // into a wall
         spins[id] = turned;
         return;
       }
@@ -220,7 +220,7 @@ class RandomRigidBodies : public testing::TestWithParam<Kind> {
         p.set_position(id, to.position);
         p.set_velocity_unseen(id, to.velocity);
         // The world knows the rotation of a body that keeps its angular velocity alone.
-        if (spins_change()) p.world.set_rotation(id, spins[id].at(now)).value();
+        if (spins_change()) p.world.change(id, {.rotation = spins[id].at(now)}).value();
         return;
       }
       case 4:
@@ -436,20 +436,20 @@ class FreeFlight : public testing::Test {
   void bounce_at(const Event& event) {
     const Bounce after = bounce(event, 1.0);
     p.set_velocity(event.first, after.first_velocity);
-    p.world.set_angular_velocity(event.first, after.first_angular_velocity).value();
+    p.world.change(event.first, {.angular_velocity = after.first_angular_velocity}).value();
     if (event.second == no_body) return;
     p.set_velocity(event.second, after.second_velocity);
-    if (p.world.rigid_body(event.second))
-      p.world.set_angular_velocity(event.second, after.second_angular_velocity).value();
+    if (p.world.body(event.second)->rigid)
+      p.world.change(event.second, {.angular_velocity = after.second_angular_velocity}).value();
   }
   double energy(BodyId id) const {
-    const RigidBody body = p.world.rigid_body(id).value();
+    const RigidBody body = p.world.body(id)->rigid.value();
     const Vec3 spin = rotated_back(body.rotation.orientation, body.rotation.angular_velocity);
     return 0.5 * (body.body.mass * norm_squared(p.state(id).velocity) + body.inertia.x * spin.x * spin.x +
                   body.inertia.y * spin.y * spin.y + body.inertia.z * spin.z * spin.z);
   }
   Vec3 angular_momentum(BodyId id) const {
-    const RigidBody body = p.world.rigid_body(id).value();
+    const RigidBody body = p.world.body(id)->rigid.value();
     Vec3 spin = rotated_back(body.rotation.orientation, body.rotation.angular_velocity);
     for (int axis = 0; axis < 3; ++axis) spin[axis] *= body.inertia[axis];
     const State state = p.state(id);
@@ -546,9 +546,9 @@ TEST_F(FreeFlight, RunGivesWhatALoopGives) {
       bodies.set_velocity(world, event->first, after.first_velocity).value();
       bodies.set_velocity(world, event->second, after.second_velocity).value();
       if (event->first_spin_gain != Vec3{})
-        world.set_angular_velocity(event->first, after.first_angular_velocity).value();
+        world.change(event->first, {.angular_velocity = after.first_angular_velocity}).value();
       if (event->second_spin_gain != Vec3{})
-        world.set_angular_velocity(event->second, after.second_angular_velocity).value();
+        world.change(event->second, {.angular_velocity = after.second_angular_velocity}).value();
     }
   }
   EXPECT_EQ(hashes[0].value(), hashes[1].value());
@@ -611,23 +611,23 @@ TEST(RigidBodyErrors, NeedARotationProbeThatAnswers) {
   ASSERT_TRUE(event && event->kind == EventKind::bound_violation);
   EXPECT_GT(event->velocity_excess, 1.0);
   expect_error(world.start_recording(), ErrorCode::unsupported, "world", "start_recording");
-  expect_error(world.set_angular_velocity(id, {0, 0, 9}), ErrorCode::out_of_range, "angular_velocity",
-               "set_angular_velocity", id);
+  expect_error(world.change(id, {.angular_velocity = Vec3{0, 0, 9}}), ErrorCode::out_of_range,
+               "angular_velocity", "change", id);
   expect_error(world.change(id, {.radius = 1.0}), ErrorCode::unsupported, "body", "change", id);
   expect_error(world.sleep(id), ErrorCode::unsupported, "body", "sleep", id);
   const BodyId ball = world.add({.position = {9, 9, 9}}).value();
-  expect_error(world.set_angular_velocity(ball, {}), ErrorCode::unsupported, "body", "set_angular_velocity",
+  expect_error(world.change(ball, {.angular_velocity = Vec3{}}), ErrorCode::unsupported, "body", "change",
                ball);
-  expect_error(world.rigid_body(ball), ErrorCode::unsupported, "body", "rigid_body", ball);
+  EXPECT_FALSE(world.body(ball)->rigid);
 }
 
 TEST(RigidBodies, LieOnAFloorThoughTheBallAroundThemReachesBelow) {
   World world = World::create({.box = Box{{-5, -5, 0}, {5, 5, 9}}, .allow_overlap = false}).value();
   const RigidBody plank{.body = {.position = {0, 0, 0.25}}, .parts = {{{-2, 0, 0}, {2, 0, 0}, 0.25}}};
   const BodyId id = world.add_rigid_body(plank).value();
-  expect_error(world.set_rotation(id, {rotation_by({0, 1, 0})}), ErrorCode::outside_domain, "parts",
-               "set_rotation", id);
-  world.set_rotation(id, {rotation_by({0, 0, 1})}).value();
+  expect_error(world.change(id, {.rotation = Rotation{rotation_by({0, 1, 0})}}), ErrorCode::outside_domain,
+               "parts", "change", id);
+  world.change(id, {.rotation = Rotation{rotation_by({0, 0, 1})}}).value();
   RigidBody deep = plank;
   deep.body.position.z = 0.1;
   expect_error(world.add_rigid_body(deep), ErrorCode::outside_domain, "parts", "add_rigid_body");
