@@ -36,8 +36,9 @@ def text_class(class_):
 
 
 class Drawing:
-    def __init__(self, width, height, title, about):
-        self.width, self.height, self.title, self.about = width, height, title, about
+    def __init__(self, width, height, title, about, size=20):
+        """Text is `size` high. A picture 640 wide is about half as large on a phone."""
+        self.width, self.height, self.title, self.about, self.size = width, height, title, about, size
         self.parts = []
 
     def add(self, tag, inner=None, **attributes):
@@ -111,7 +112,7 @@ class Drawing:
             for side in (0, 1)
         ]
         style = (
-            "text{font:500 20px system-ui,-apple-system,'Segoe UI',Roboto,'DejaVu Sans',sans-serif}"
+            f"text{{font:500 {self.size}px system-ui,-apple-system,'Segoe UI',Roboto,'DejaVu Sans',sans-serif}}"
             "[class$=line]{fill:none;stroke-width:2;stroke-linecap:round;stroke-linejoin:round}"
             f".small{{font-size:18px}}.bold{{font-weight:700}}{sides[0]}"
             f"@media(prefers-color-scheme:dark){{{sides[1]}}}"

@@ -44,16 +44,17 @@ def run():
 
 def draw():
     bands, verdicts = run()
-    x = lambda time: 40.0 + 36.0 * time
-    y = lambda place: 446.0 - 14.2 * place
+    x = lambda time: 40.0 + 35.0 * time
+    y = lambda place: 444.0 - 12.4 * place
     picture = Drawing(
         640,
-        734,
+        698,
         "A report that comes late",
         "Two tracks over time. The places that each can be at grow until a report of it arrives. One report comes four "
         "seconds after its timestamp; it makes the places fewer, and the verdict is apart again.",
+        size=22,
     )
-    picture.text(20, 36, "Where two tracks can be", "ink bold")
+    picture.text(20, 36, "Where two tracks can be, over time", "ink bold")
     for time in range(0, 17, 4):
         picture.line(x(time), 56, x(time), y(-2), "faint-line")
         picture.text(x(time), y(-2) + 24, f"{time} s", "quiet", "middle")
@@ -77,11 +78,14 @@ def draw():
     place = y(PATHS[0](9.0)[0])
     picture.arrow(x(9.0), place + 12, x(13.0), place + 12, "probe")
     picture.text(x(9.0) - 6, place + 110, "timestamp 9 s,", "probe")
-    picture.text(x(9.0) - 6, place + 135, "arrival 13 s", "probe")
+    picture.text(x(9.0) - 6, place + 137, "arrival 13 s", "probe")
+    picture.text(x(2.6), y(0.5), "track 1", "body")
+    picture.text(x(0.2), y(26.0) - 22, "track 2", "other")
+    picture.text(x(0.2), y(20.6), "separation around track 2", "open")
     for (begin, verdict), (finish, _) in zip(verdicts, [*verdicts[1:], (END, None)]):
         class_ = "sure" if verdict == Verdict.apart else "open"
         picture.rect(x(begin) + 1, 522, x(finish) - x(begin) - 2, 34, f"{class_}-area", rx=6)
-        picture.text((x(begin) + x(finish)) / 2, 546, verdict.name, "paper bold", "middle")
+        picture.text((x(begin) + x(finish)) / 2, 546, verdict.name, "paper", "middle")
     legend(picture)
     return picture
 
@@ -91,7 +95,5 @@ def legend(picture):
     picture.text(72, 597, "report, at its timestamp")
     picture.rect(26, 618, 28, 20, "body-area", opacity="0.25")
     picture.text(72, 635, "reachable set: all places that it leaves open")
-    picture.line(24, 666, 56, 666, "open-line", stroke_dasharray="6 5")
-    picture.text(72, 673, "separation, from the other's reachable set")
-    picture.rect(26, 692, 28, 24, "sure-area", rx=6)
-    picture.text(72, 711, "verdict of the monitor")
+    picture.rect(26, 656, 28, 24, "sure-area", rx=6)
+    picture.text(72, 675, "verdict of the monitor: do they keep apart?")
