@@ -46,15 +46,19 @@ def draw():
     found = max(begin for begin, _ in windows)  # the start of the window whose search finds the pair
     picture = Drawing(
         640,
-        734,
+        758,
         "The life of a pair, from search to contact",
         "The gap of two bodies falls to zero. What is certain of it falls faster, and each probe of one of the two lifts "
         "it. The failure times follow each other ever closer, until both report at the contact.",
+        size=22,
     )
 
-    x = lambda time: 40.0 + 145.0 * time
+    x = lambda time: 56.0 + 140.0 * time
     y = lambda gap: 440.0 - 34.0 * gap
-    picture.text(40, 38, "Gap of the two bodies", "ink bold")
+    picture.text(20, 38, "Gap of the two bodies", "ink bold")
+    for gap in (0, 5, 10):
+        picture.line(x(0) - 6, y(gap), x(0), y(gap), "quiet-line")
+        picture.text(x(0) - 12, y(gap) + 8, str(gap), "quiet", "end")
     picture.line(x(0), y(0), 620, y(0), "quiet-line")
     panel(picture, course, samples, contact, x, y)
     for second in range(5):
@@ -62,31 +66,34 @@ def draw():
     for begin, finish in windows:
         class_ = "open-area" if begin == found else "quiet-area"
         picture.rect(x(begin) + 1.5, y(0) + 42, x(min(finish, 4.0)) - x(begin) - 3, 12, class_, rx=6)
-    picture.text(x(1.0), y(0) + 82, "no certificate", "quiet", "middle")
-    picture.text(x(3.0), y(0) + 82, "a search, a certificate", "open", "middle")
+    picture.text(x(1.0), y(0) + 82, "windows: no certificate", "quiet", "middle")
+    picture.text(x(3.0), y(0) + 82, "window: a certificate", "open", "middle")
 
     zoomed = 3.54
-    wide = lambda time: 372.0 + 236.0 * (time - zoomed) / (contact.time - zoomed)
+    wide = lambda time: 414.0 + 194.0 * (time - zoomed) / (contact.time - zoomed)
     high = lambda gap: 248.0 - 450.0 * gap
     picture.rect(354, 16, 270, 254, "paper-area", rx=10)
     picture.rect(354, 16, 270, 254, "frame-line", rx=10)
     picture.text(608, 44, "the last 0.15 s", "ink bold", "end")
     panel(picture, course, samples, contact, wide, high, zoomed)
     picture.line(wide(zoomed), high(0), wide(contact.time), high(0), "quiet-line")
+    for gap in (0.0, 0.2, 0.4):
+        picture.line(wide(zoomed) - 6, high(gap), wide(zoomed), high(gap), "quiet-line")
+        picture.text(wide(zoomed) - 12, high(gap) + 8, f"{gap:g}", "quiet", "end")
     picture.line(x(3.6), y(0.8), 550, 274, "frame-line", stroke_dasharray="2 6")
-    legend(picture)
-    words = f"at {contact.time:.6f} s, gap {contact.gap:.0e}, {len(course.probes)} probes"
-    picture.text(72, 711, words, "quiet")
+    legend(picture, [time for _, time in course.probes], contact)
     return picture
 
 
-def legend(picture):
+def legend(picture, probes, contact):
+    rechecks = [time for time in probes if time < contact.time]
+    hidden = sum(time > contact.time - 0.002 for time in rechecks)
     picture.line(26, 564, 54, 564, "body-line", style="stroke-width:3.5")
     picture.text(72, 571, "true gap, known to nobody")
     for row, class_, words in (
         (602, "sure", "certain: the gap is at least this"),
-        (640, "probe", "its certificate fails: a recheck probes one"),
-        (678, "contact", "two fresh reports: contact_begin"),
+        (640, "probe", "certificate fails: a recheck probes one,"),
+        (704, "contact", "contact_begin: both probed, at one time"),
     ):
         if class_ == "sure":
             picture.rect(26, row - 9, 28, 18, "sure-area", opacity="0.2")
@@ -94,3 +101,7 @@ def legend(picture):
         else:
             picture.circle(40, row, 8, f"{class_}-area")
         picture.text(72, row + 7, words)
+    picture.text(72, 674, f"{len(rechecks)} times; {hidden} hide behind the contact", "quiet")
+    picture.text(
+        72, 738, f"at {contact.time:.6f} s, gap {contact.gap:.0e}; {len(probes)} probes in all", "quiet"
+    )
