@@ -6,11 +6,12 @@ from drawing import Drawing
 
 
 END = 8.0
-START, SPEED, RADIUS = -9.0, 2.2, 0.5
+START, SPEED, RADIUS, LIMIT = -9.0, 2.2, 0.5, 0.92
 
 
 def run():
-    """Returns the course, and samples of the first body's bound: time, centre, radius and time of its report."""
+    """Returns the course, samples of the first body's bound (time, centre, radius, time of its report), and its probes:
+    time, and the body that it came near, or None where a window ended."""
     course = Course(
         [
             weaving(START, SPEED, 1.0, 0.95),
@@ -20,30 +21,52 @@ def run():
             still(6.6, 2.8),
         ],
         [RADIUS, 0.7, 0.7, 0.7, 0.7],
-        [0.92, 0.0, 0.0, 0.0, 0.0],
+        [LIMIT, 0.0, 0.0, 0.0, 0.0],
     )
+    course.world.set_profiling(True)
     samples = []
     for time in np.linspace(0.0, END, 321):
         course.advance(time)
         (centre,), (radius,) = course.world.bounds([course.ids[0]])
         samples.append((time, *centre[:2], radius, course.world.body(course.ids[0]).report_time))
-    return course, samples
+    others = {time: body for body, time in course.probes if body != 0}
+    probes = [(time, others.get(time)) for body, time in course.probes if body == 0]
+    (busy,) = [busy for busy in course.world.busiest() if busy.body == course.ids[0]]
+    assert busy.near == sum(other is not None for _, other in probes)
+    assert busy.windows == sum(other is None for _, other in probes)
+    return course, samples, probes
+
+
+def bound_at(course, time, report):
+    """Returns the centre and radius of the first body's bound at a time, from its report."""
+    place, velocity = map(np.array, course.paths[0](report))
+    return place + velocity * (time - report), RADIUS + 0.5 * LIMIT * (time - report) ** 2
+
+
+def cause_mark(picture, x, y, near):
+    """A disc where the ring came near another body, a square where a window ended."""
+    if near:
+        picture.circle(x, y, 7.5, "probe-area")
+    else:
+        picture.rect(x - 7, y - 7, 14, 14, "open-area")
 
 
 def draw():
     """The bound in the plane, and below it its radius over time: x is place in the one and time in the other."""
-    course, samples = run()
+    course, samples, probes = run()
     reports = sorted({sample[4] for sample in samples})
     since = {report: [sample for sample in samples if sample[4] == report] for report in reports}
-    scale, middle, floor, rise = 31.5, 195.0, 520.0, 46.0
+    scale, middle, floor, rise = 30.5, 202.0, 500.0, 44.0
     x = lambda place: 36.0 + scale * (place - START)
     at = lambda place: (x(place[0]), middle - scale * place[1])
     picture = Drawing(
         640,
-        590,
+        722,
         "A bound that grows and is reset",
         "A body weaves through four others. Rings around where it would be if it went straight on grow, until a probe "
-        "shrinks them to the body. Below, the radius of the rings over time.",
+        "shrinks them to the body: where a ring touches another body, or where a window ends. Below, the radius of the "
+        "rings over time.",
+        size=22,
     )
     picture.text(20, 34, "In the plane", "ink bold")
     for body in range(1, 5):
@@ -57,23 +80,41 @@ def draw():
                 *at(sample[1:3]), scale * sample[3], "body-line", opacity="0.6", stroke_width="1.2"
             )
     picture.curve([at(course.paths[0](time)[0]) for time, *_ in samples], "body-line", stroke_width="3")
+    for report, (time, other) in zip(reports, probes):
+        centre, radius = bound_at(course, time, report)
+        class_ = "open" if other is None else "probe"
+        picture.circle(*at(centre), scale * radius, f"{class_}-line", style="stroke-width:2.5")
+        if other is not None:
+            place = np.array(course.paths[other](0.0)[0])
+            toward = (place - centre) / np.linalg.norm(place - centre)
+            cause_mark(picture, *at(centre + radius * toward), True)
+    causes = {0.0: "body", **{time: "open" if other is None else "probe" for time, other in probes}}
     for report in reports:
         place = at(course.paths[0](report)[0])
         picture.circle(*place, scale * RADIUS, "body-area")
         picture.line(
-            place[0], place[1], place[0], floor - rise * RADIUS, "probe-line", stroke_dasharray="3 6"
+            *place, place[0], floor - rise * RADIUS, f"{causes[report]}-line", stroke_dasharray="3 6"
         )
-    picture.text(50, floor - 152, "Radius of", "ink bold")
-    picture.text(50, floor - 127, "the bound", "ink bold")
+    picture.text(x(-0.6) + 32, at((0, 2.9))[1] + 8, "another body", "quiet")
+    picture.text(50, floor - 142, "Radius of", "ink bold")
+    picture.text(50, floor - 115, "the ring", "ink bold")
     picture.line(20, floor, 620, floor, "frame-line")
     for report in reports:
         edge = [(x(START + SPEED * time), floor - rise * radius) for time, _, _, radius, _ in since[report]]
         picture.area([(edge[0][0], floor), *edge, (edge[-1][0], floor)], "body-area", opacity="0.16")
         picture.curve(edge, "body-line", stroke_width="3")
-    for report in reports:
-        picture.circle(x(START + SPEED * report), floor - rise * RADIUS, 6.5, "probe-area")
+    for time, other in probes:
+        cause_mark(picture, x(START + SPEED * time), floor - rise * RADIUS, other is not None)
     for time in range(0, 9, 2):
-        picture.text(x(START + SPEED * time), floor + 26, f"{time} s", "quiet", "middle")
-    picture.circle(34, 570, 7, "probe-area")
-    picture.text(50, 577, "probe: the bound is the body again, until it grows", "ink")
+        picture.text(x(START + SPEED * time), floor + 28, f"{time} s", "quiet", "middle")
+    legend(picture)
     return picture
+
+
+def legend(picture):
+    picture.text(20, 568, "The ring holds all places where the body can be.")
+    picture.text(20, 598, "It grows by half the acceleration limit × time².")
+    picture.text(20, 634, "A probe shrinks it to the body again:")
+    for row, near, words in ((667, True, "the ring touched another body"), (699, False, "a window ended")):
+        cause_mark(picture, 34.0, row - 7.5, near)
+        picture.text(54, row, words)
