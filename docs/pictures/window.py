@@ -8,7 +8,7 @@ from drawing import Drawing
 
 from kinesphere import place_spheres
 
-COUNT = 22
+COUNT = 20
 START, END = 1.0, 2.0
 
 
@@ -34,7 +34,7 @@ def run():
     those whose swept spheres meet without one."""
     random = np.random.default_rng(5)
     radii = random.uniform(0.35, 0.6, COUNT)
-    places = place_spheres(radii, ((0, 0, -1), (18, 11, 1)), gap=0.9, seed=3, dimensions=2)
+    places = place_spheres(radii, ((0, 0, -1), (18, 11, 1)), gap=1.2, seed=2, dimensions=2)
     turns, speeds = random.uniform(0, 2 * math.pi, COUNT), random.uniform(0.4, 1.9, COUNT)
     velocities = speeds[:, None] * np.column_stack((np.cos(turns), np.sin(turns)))
     course = Course(
@@ -68,13 +68,14 @@ def run():
 def draw():
     places, radii, swept, watched, near = run()
     scale = 31.0
-    at = lambda place: (40.0 + scale * place[0], 402.0 - scale * place[1])
+    at = lambda place: (40.0 + scale * place[0], 424.0 - scale * place[1])
     picture = Drawing(
         640,
-        640,
+        778,
         "A window with its swept spheres, and who is near whom",
         "Discs in the plane, each with the way of its swept sphere until the window ends. Lines join the pairs whose "
         "swept spheres meet; some are rejected quickly, and the others have a certificate.",
+        size=22,
     )
     for class_, opacity in (("area", 0.13), ("line", 0.75)):
         for centre, velocity, radius in swept:
@@ -86,14 +87,6 @@ def draw():
                 opacity=opacity,
                 style="stroke-width:1.5",
             )
-    for centre, velocity, radius in swept:
-        picture.circle(
-            *at(centre + velocity * (END - START)),
-            scale * radius,
-            "body-line",
-            style="stroke-width:1.2",
-            stroke_dasharray="2 5",
-        )
     places = list(map(at, places))
     for place, radius in zip(places, radii):
         picture.circle(*place, scale * radius, "body-area")
@@ -112,17 +105,29 @@ def draw():
 
 
 def legend(picture, near, watched):
-    rows = iter(range(486, 700, 42))
-    row = next(rows)
-    picture.circle(41, row, 11, "body-area")
-    picture.text(76, row + 7, "body, as the window starts")
-    row = next(rows)
-    picture.capsule((30, row), (52, row), 12, "body-area", opacity="0.13")
-    picture.capsule((30, row), (52, row), 12, "body-line", style="stroke-width:1.5")
-    picture.text(76, row + 7, "way of its swept sphere until the window ends")
-    row = next(rows)
-    picture.line(24, row, 58, row, "ink-line", stroke_dasharray="1 7", style="stroke-width:3.5")
-    picture.text(76, row + 7, f"swept spheres meet, quick rejection: {near} pairs")
-    row = next(rows)
-    picture.line(24, row, 58, row, "probe-line", style="stroke-width:4")
-    picture.text(76, row + 7, f"certificate in the queue: {watched} of {COUNT * (COUNT - 1) // 2} pairs")
+    """Rows of a sign, what it is, and in a quieter line what follows from it."""
+    apart = COUNT * (COUNT - 1) // 2 - near - watched
+    rows = (
+        ("a body, as a window of 1 s starts", None),
+        ("its swept sphere on its way: holds all that", "the body may do until the window ends"),
+        (
+            f"no line: {apart} pairs that never meet at one time,",
+            "not looked at again before the window ends",
+        ),
+        (f"quick rejection: {near} pairs, whose swept spheres", "meet, but surely not the bodies"),
+        (f"line: {watched} pairs near, each with a certificate", "and checked again when that fails"),
+    )
+    y, middles = 494, []
+    for words, more in rows:
+        picture.text(76, y, words)
+        if more:
+            picture.text(76, y + 27, more, "quiet")
+        middles.append(y - 7)
+        y += 66 if more else 38
+    picture.circle(41, middles[0], 11, "body-area")
+    picture.capsule((30, middles[1]), (52, middles[1]), 12, "body-area", opacity="0.13")
+    picture.capsule((30, middles[1]), (52, middles[1]), 12, "body-line", style="stroke-width:1.5")
+    picture.circle(30, middles[2], 6, "body-area")
+    picture.circle(53, middles[2], 6, "body-area")
+    picture.line(24, middles[3], 58, middles[3], "ink-line", stroke_dasharray="1 7", style="stroke-width:3.5")
+    picture.line(24, middles[4], 58, middles[4], "probe-line", style="stroke-width:4")
