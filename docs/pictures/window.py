@@ -62,7 +62,9 @@ def run():
         for b in range(a)
         if meet(swept[a], swept[b], END - START) and frozenset((a, b)) not in named
     ]
-    return [path(START)[0] for path in course.paths], radii, swept, [pair[:2] for pair in watched], near
+    now = [path(START)[0] for path in course.paths]
+    assert all(math.dist(now[a], now[b]) > radii[a] + radii[b] for a in range(COUNT) for b in range(a))
+    return now, radii, swept, [pair[:2] for pair in watched], near
 
 
 def draw():
