@@ -1,7 +1,7 @@
 """Ships in a harbour, 30 to 400 m long: capsules that turn slowly, and of which only limits are known.
 
-Two pass each other at 120 m, which circles around them would call a collision; a third runs into the long one's
-side.
+Two pass each other with 77 m between the hulls, which circles around them would call a collision; a third runs into
+the long one's side.
 """
 
 import numpy as np
