@@ -1,4 +1,4 @@
-// Ships in a harbour, 30 to 400 m long: capsules that turn slowly. Two pass each other at 120 m, which
+// Ships in a harbour, 30 to 400 m long: capsules that turn slowly. Two pass each other at 77 m, which
 // circles around them would call a collision; a third runs into the long one's side.
 #include <kinesphere/kinesphere.hpp>
 
