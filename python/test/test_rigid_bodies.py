@@ -45,10 +45,11 @@ def answer(event: ks.Event) -> Any:
 
 
 def test_a_gas_of_dumbbells_keeps_its_energy_and_shares_it() -> None:
-    world, motion, bodies = gas_of(3)
+    world, motion, bodies = gas_of(4)
     before = sum(energies(world, motion))
     shares = []
-    while world.time < 60:
+    # The mean of so many samples deviates by 0.004: rounding of the start alone makes another course.
+    while world.time < 600:
         world.run(world.time + 1, bodies, ks.Bouncing())
         flight, rotation = energies(world, motion)
         assert flight + rotation == pytest.approx(before, rel=1e-12)
