@@ -214,17 +214,12 @@ double approach_error(const Event& event, const Sphere& first, const Sphere& sec
   const auto with_arm = [&](double arm) { return approach_error(event, arm); };
   if (event.wall != Wall::none) return with_arm(infinity);
   const Shape* shape = first.shape ? first.shape : second.shape;
-  if (first.rigid || second.rigid) {
-    const auto radius = [](const Sphere& body) {
-      return body.rigid ? least_radius(body.rigid->parts) : body.radius;
-    };
-    if (shape == nullptr) return with_arm(event.gap + radius(first) + radius(second));
-    if (std::holds_alternative<HalfSpace>(*shape)) return with_arm(infinity);
-    return with_arm(event.gap + radius(first.rigid ? first : second));
-  }
-  if (shape == nullptr) return with_arm(event.gap + first.radius + second.radius);
+  const auto radius = [](const Sphere& body) {
+    return body.rigid ? least_radius(body.rigid->parts) : body.radius;
+  };
+  if (shape == nullptr) return with_arm(event.gap + radius(first) + radius(second));
   if (std::holds_alternative<HalfSpace>(*shape)) return with_arm(infinity);
-  return with_arm(event.gap + (first.shape ? second : first).radius);
+  return with_arm(event.gap + radius(first.shape ? second : first));
 }
 
 Event woke_event(double time, const Sphere& sphere) {
