@@ -138,7 +138,7 @@ class Bodies {
   bool is_valid(std::uint32_t number, double now) const;
   bool is_valid_static(std::uint32_t number, double now) const;
   bool carried_shape_is_valid(const Body& body, const BodyDefinition& definition) const;
-  bool rigid_body_is_valid(const Body& body, const BodyDefinition& definition, double now) const;
+  bool rigid_body_is_valid(std::uint32_t number, double now) const;
   bool sleep_is_valid(const Body& body) const;
   bool limits_are_valid(const Body& body, BodyDefinition definition) const;
 

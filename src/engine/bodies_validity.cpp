@@ -131,7 +131,7 @@ bool Bodies::is_valid(std::uint32_t number, double now) const {
       (space_.repeats() && !images[number].is_valid(space_)))
     return false;
   if (!limits_are_valid(body, definition) || !carried_shape_is_valid(body, definition) ||
-      !rigid_body_is_valid(body, definition, now))
+      !rigid_body_is_valid(number, now))
     return false;
   if (!body.enabled) return !body.dirty;
   // The bound's radius includes an error. Only the bound of a disabled body can be out of date.
@@ -181,18 +181,17 @@ bool Bodies::carried_shape_is_valid(const Body& body, const BodyDefinition& defi
 }
 
 /// A rigid body has the radius of the ball around its parts, and a rotation that a call or a report gave it.
-bool Bodies::rigid_body_is_valid(const Body& body, const BodyDefinition& definition, double now) const {
+bool Bodies::rigid_body_is_valid(std::uint32_t number, double now) const {
+  const Body& body = table_[number];
   if (!body.is_rigid) return true;
   if (body.carries_shape || body.is_sleeping()) return false;
   const RigidRecord& record = rigid[body];
-  RigidBody made{.body = definition,
-                 .parts = record.parts,
-                 .rotation = record.origin,
-                 .angular_acceleration_limit = record.angular_acceleration_limit,
-                 .largest_angular_speed = record.largest_angular_speed,
-                 .inertia = record.inertia};
+  RigidBody made = rigid_body(*this, number);
+  // A report may have broken the promise of the largest angular speed.
+  made.rotation = {};
   if (!check_rigid_body(made, definition_, "restore") ||
-      !check_rotation(record.rotation, no_body, definition_, "restore"))
+      !check_rotation(record.rotation, no_body, definition_, "restore") ||
+      !check_rotation(record.origin, no_body, definition_, "restore"))
     return false;
   return record.origin_time >= -limits::largest_time && record.origin_time <= now &&
          (record.is_changed || record.origin_time <= body.bound.time) && body.radius == body_of(made).radius;

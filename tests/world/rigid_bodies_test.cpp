@@ -610,6 +610,8 @@ TEST(RigidBodyErrors, NeedARotationProbeThatAnswers) {
   const auto event = world.advance(1000.0, probe).value();
   ASSERT_TRUE(event && event->kind == EventKind::bound_violation);
   EXPECT_GT(event->velocity_excess, 1.0);
+  // A world goes on after a broken promise, and so does a copy of it.
+  EXPECT_TRUE(World::restore(world.save().value()));
   expect_error(world.start_recording(), ErrorCode::unsupported, "world", "start_recording");
   expect_error(world.change(id, {.angular_velocity = Vec3{0, 0, 9}}), ErrorCode::out_of_range,
                "angular_velocity", "change", id);
