@@ -196,8 +196,8 @@ class World {
   /// these, so that bounce() turns bodies. While there is one, run() uses one thread. Queries treat a rigid
   /// body as its parts or as the ball around them, always to the safe side. Errors: as add(), but for the
   /// ball around the body, which may reach beyond a wall; not_finite or out_of_range for parts, rotation,
-  /// inertia and limits; unsupported while the world is distributed. Cost: as add() with the radius of that
-  /// ball; a check of two bodies that are near costs as many as they have pairs of parts.
+  /// inertia and limits. Cost: as add() with the radius of that ball; a check of two bodies that are near
+  /// costs as many as they have pairs of parts.
   Result<BodyId> add_rigid_body(const RigidBody& body);
   /// Sets the function that gives rotations of rigid bodies; an empty one removes it. Without one, only
   /// bodies that keep their angular velocity (angular_acceleration_limit 0) can be probed. Snapshots do not
