@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "columns/units.hpp"
+#include "formats/units.hpp"
 #include "program_error.hpp"
 
 namespace kinesphere::program {

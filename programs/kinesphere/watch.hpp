@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "watch/report_format.hpp"
+#include "formats/report_format.hpp"
 
 namespace kinesphere::program {
 

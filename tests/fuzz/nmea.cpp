@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "program/watch/ais/any_sentences.hpp"
+#include "program/formats/ais/any_sentences.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 

@@ -8,7 +8,7 @@
 #include <set>
 #include <string_view>
 
-#include "columns/time_text.hpp"
+#include "formats/time_text.hpp"
 #include "program_error.hpp"
 #include "validators.hpp"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "columns/units.hpp"
+#include "formats/units.hpp"
 #include "number_text.hpp"
 #include "program_error.hpp"
 #include "separations.hpp"

@@ -10,9 +10,9 @@
 #include <numeric>
 #include <utility>
 
-#include "columns/converted_table.hpp"
-#include "columns/row_reader.hpp"
-#include "columns/text_table.hpp"
+#include "formats/converted_table.hpp"
+#include "formats/row_reader.hpp"
+#include "formats/text_table.hpp"
 #include "program_error.hpp"
 
 namespace kinesphere::program {

@@ -8,8 +8,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "columns/table_head.hpp"
-#include "columns/time_text.hpp"
+#include "formats/table_head.hpp"
+#include "formats/time_text.hpp"
 #include "kinesphere/vec3.hpp"
 #include "tracks/reading_policy.hpp"
 #include "tracks/recording.hpp"

@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <map>
 
-#include "columns/presets.hpp"
+#include "formats/presets.hpp"
 #include "validators.hpp"
 
 namespace kinesphere::program {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "columns/table_columns.hpp"
+#include "formats/table_columns.hpp"
 #include "simulation/tracks/scene_of_tracks.hpp"
 #include "tracks/projection.hpp"
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "columns/row_filter.hpp"
+#include "formats/row_filter.hpp"
 #include "program_error.hpp"
 
 namespace kinesphere::program {

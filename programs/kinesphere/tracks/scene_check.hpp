@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "columns/time_text.hpp"
+#include "formats/time_text.hpp"
 
 namespace kinesphere::program {
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <utility>
 
-#include "columns/degree_check.hpp"
+#include "formats/degree_check.hpp"
 #include "input_file.hpp"
 #include "program_error.hpp"
 #include "tracks/cleaning.hpp"

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "ascii_text.hpp"
+#include "formats/row_reader.hpp"
 #include "input_file.hpp"
 #include "program_error.hpp"
 
@@ -56,10 +57,40 @@ TableHead report_head() {
   return {.file = {}, .comments = {}, .names = names, .units = {}, .first = names, .separator = ','};
 }
 
+/// Rules over the columns of a table, or over the fields of reports.
+class ClassRules {
+ public:
+  /// Throws ProgramError naming --class and what was expected.
+  ClassRules(const std::vector<ClassRule>& rules, const TableHead& head, const TableColumns& columns) {
+    rules_.reserve(rules.size());
+    for (const ClassRule& rule : rules)
+      rules_.push_back({rule.motion_class, rule.ids,
+                        rule.ids ? RowFilter() : RowFilter(rule.expression, head, columns, "--class")});
+  }
+
+  /// Returns the class of the first rule that holds; 0: none.
+  std::size_t class_of(std::string_view id, const std::vector<std::string_view>& fields) const {
+    for (const Rule& rule : rules_)
+      if (rule.ids ? rule.ids->contains(in_lower_case(id)) : rule.filter.takes(fields))
+        return rule.motion_class;
+    return 0;
+  }
+
+ private:
+  struct Rule {
+    std::size_t motion_class = 0;
+    std::shared_ptr<const Ids> ids;  ///< null: the expression counts
+    RowFilter filter;
+  };
+  std::vector<Rule> rules_;
+};
+
 class RuledFormat final : public ReportFormat, private ReportSink {
  public:
-  RuledFormat(std::unique_ptr<ReportFormat> format, const std::vector<ClassRule>& rules)
-      : format_(std::move(format)), rules_(rules, report_head(), {}) {}
+  RuledFormat(std::unique_ptr<ReportFormat> format, std::vector<ClassRule> rules, bool is_table)
+      : format_(std::move(format)), rules_(std::move(rules)) {
+    if (!is_table) filters_.emplace(rules_, report_head(), TableColumns());
+  }
 
   void read(const Record& record, ReportSink& sink) override {
     sink_ = &sink;
@@ -75,9 +106,15 @@ class RuledFormat final : public ReportFormat, private ReportSink {
  private:
   void take(const SourceReport& report) override {
     SourceReport ruled = report;
-    speed_ = report.ground_speed ? fmt::format("{}", *report.ground_speed) : "";
-    fields_ = {report.id, report.category, report.craft_type, report.status, speed_};
-    ruled.ruled_class = rules_.class_of(report.id, fields_);
+    if (report.row != nullptr) {
+      // The columns are known with the first row.
+      if (!filters_) filters_.emplace(rules_, report.row->head(), report.row->columns());
+      ruled.ruled_class = filters_->class_of(report.id, report.row->fields());
+    } else {
+      speed_ = report.ground_speed ? fmt::format("{}", *report.ground_speed) : "";
+      fields_ = {report.id, report.category, report.craft_type, report.status, speed_};
+      ruled.ruled_class = filters_->class_of(report.id, fields_);
+    }
     sink_->take(ruled);
   }
   void time_is(const FileTime& arrival, TimeKind kind) override { sink_->time_is(arrival, kind); }
@@ -85,7 +122,8 @@ class RuledFormat final : public ReportFormat, private ReportSink {
   void refuse(std::size_t line, const std::string& reason) override { sink_->refuse(line, reason); }
 
   std::unique_ptr<ReportFormat> format_;
-  ClassRules rules_;
+  std::vector<ClassRule> rules_;
+  std::optional<ClassRules> filters_;
   ReportSink* sink_ = nullptr;
   std::string speed_;
   std::vector<std::string_view> fields_;
@@ -100,24 +138,10 @@ std::vector<ClassRule> parse_class_rules(const std::vector<std::string>& texts, 
   return rules;
 }
 
-ClassRules::ClassRules(const std::vector<ClassRule>& rules, const TableHead& head,
-                       const TableColumns& columns) {
-  rules_.reserve(rules.size());
-  for (const ClassRule& rule : rules)
-    rules_.push_back({rule.motion_class, rule.ids,
-                      rule.ids ? RowFilter() : RowFilter(rule.expression, head, columns, "--class")});
-}
-
-std::size_t ClassRules::class_of(std::string_view id, const std::vector<std::string_view>& fields) const {
-  for (const Rule& rule : rules_)
-    if (rule.ids ? rule.ids->contains(in_lower_case(id)) : rule.filter.takes(fields))
-      return rule.motion_class;
-  return 0;
-}
-
 std::unique_ptr<ReportFormat> make_ruled_format(std::unique_ptr<ReportFormat> format,
-                                                const std::vector<ClassRule>& rules) {
-  return std::make_unique<RuledFormat>(std::move(format), rules);
+                                                const std::vector<ClassRule>& rules, bool is_table) {
+  if (rules.empty()) return format;
+  return std::make_unique<RuledFormat>(std::move(format), rules, is_table);
 }
 
 }  // namespace kinesphere::program

@@ -1,13 +1,7 @@
 // The present time of a stream, protected from wrong clocks.
 #include "watch/stream_clock.hpp"
 
-#include <cmath>
-
 namespace kinesphere::program {
-
-double seconds_between(const FileTime& earlier, const FileTime& later) {
-  return static_cast<double>(later.whole - earlier.whole) + (later.fraction - earlier.fraction);
-}
 
 void StreamClock::go_on(const FileTime& time) {
   if (!has_begun() || seconds_between(now(), time) > 0.0) memory_.now = time;

@@ -5,13 +5,10 @@
 #include <string>
 #include <utility>
 
-#include "columns/time_text.hpp"
+#include "formats/time_text.hpp"
 #include "kinesphere/vec3.hpp"
 
 namespace kinesphere::program {
-
-/// Returns later - earlier, in seconds.
-double seconds_between(const FileTime& earlier, const FileTime& later);
 
 /// Follows the latest reported time. A time that leaps ahead by more than a limit, and the first time, counts
 /// only after others confirm it, so that one wrong clock does not make all other reports old.

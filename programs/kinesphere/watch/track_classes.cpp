@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "watch/stream_clock.hpp"
-
 namespace kinesphere::program {
 namespace {
 

@@ -9,8 +9,8 @@
 #include <unordered_set>
 #include <vector>
 
+#include "formats/source_report.hpp"
 #include "watch/motion_classes.hpp"
-#include "watch/source_report.hpp"
 #include "watch/track_names.hpp"
 
 namespace kinesphere::program {

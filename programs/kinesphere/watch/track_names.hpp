@@ -8,19 +8,16 @@
 #include <string_view>
 #include <utility>
 
+#include "formats/known_names.hpp"
+#include "formats/source_report.hpp"
 #include "kinesphere/monitor/monitor_event.hpp"
 #include "number/id_index.hpp"
-#include "watch/source_report.hpp"
 
 namespace kinesphere::program {
 
 /// Returns a number for an id, equal in every process. Two different ids have equal numbers once in 2^64
 /// pairs; TrackNames detects it.
 TrackId track_id_of(std::string_view text);
-
-/// Returns a callsign or name of a stream without blanks at its ends, cut to at most 40 bytes between
-/// characters of UTF-8. It is still text of a stranger: whoever writes it has to escape it.
-std::string_view shown_name(std::string_view name);
 
 /// State of a track that the monitor does not hold.
 struct NamedTrack {

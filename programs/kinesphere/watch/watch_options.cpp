@@ -9,8 +9,8 @@
 #include "number_text.hpp"
 #include "program_error.hpp"
 #include "watch/class_rules.hpp"
+#include "watch/format_defaults.hpp"
 #include "watch/local_frame.hpp"
-#include "watch/measures.hpp"
 
 namespace kinesphere::program {
 namespace {

@@ -7,9 +7,10 @@
 #include <random>
 #include <utility>
 
-#include "columns/file_kind.hpp"
+#include "formats/file_kind.hpp"
 #include "program_error.hpp"
 #include "standard_output.hpp"
+#include "watch/class_rules.hpp"
 #include "watch/file_source.hpp"
 #include "watch/nats/nats_streams.hpp"
 #include "watch/udp_source.hpp"
@@ -107,10 +108,10 @@ std::optional<StreamFormat> format_of(const WatchOptions& options,
                                  stream_format_names));
 }
 
-FormatChoices choices_of(const WatchOptions& options, StreamFormat format, const ReportSource& source,
-                         const std::vector<ClassRule>& class_rules) {
+std::unique_ptr<ReportFormat> reader_of(const WatchOptions& options, StreamFormat format,
+                                        const ReportSource& source,
+                                        const std::vector<ClassRule>& class_rules) {
   FormatChoices choices = options.choices;
-  choices.class_rules = class_rules;
   const bool is_table = format == StreamFormat::csv || format == StreamFormat::ais;
   for (const auto& [option, given] :
        {std::pair("--where", choices.hints.where), std::pair("--positions", choices.hints.positions)})
@@ -118,7 +119,7 @@ FormatChoices choices_of(const WatchOptions& options, StreamFormat format, const
       throw ProgramError(fmt::format("{}: expected a table, but {} has no columns", option, source.name()));
   choices.source = source.name();
   choices.position_error_is_said = !options.position_error.empty();
-  return choices;
+  return make_ruled_format(make_format(format, choices), class_rules, is_table);
 }
 
 }  // namespace
@@ -132,7 +133,7 @@ WatchRun::WatchRun(const WatchOptions& options)
       format_(known_format_.value_or(StreamFormat::readsb)),
       watcher_(settings_of(options, format_, source_->name()),
                [this](std::uint64_t share, std::string_view line) { alerts_->write(share, line); }),
-      reader_(make_format(format_, choices_of(options, format_, *source_, watcher_.settings().class_rules))),
+      reader_(reader_of(options, format_, *source_, watcher_.settings().class_rules)),
       snapshot_interval_(snapshot_interval(options)) {
   cutter_.set_kind(records_of(format_));
   if (begun_from_) go_on_from(*begun_from_);

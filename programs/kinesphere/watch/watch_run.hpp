@@ -7,9 +7,9 @@
 #include <optional>
 #include <string_view>
 
+#include "formats/record_cutter.hpp"
 #include "watch.hpp"
 #include "watch/alert_output.hpp"
-#include "watch/record_cutter.hpp"
 #include "watch/report_source.hpp"
 #include "watch/state_server.hpp"
 #include "watch/stop_signals.hpp"

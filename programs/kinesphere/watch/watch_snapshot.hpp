@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "formats/record_cutter.hpp"
 #include "watch/alert_output.hpp"
-#include "watch/record_cutter.hpp"
 #include "watch/report_source.hpp"
 
 namespace kinesphere::program {

@@ -10,11 +10,11 @@
 #include <string_view>
 #include <vector>
 
+#include "formats/source_report.hpp"
 #include "kinesphere/monitor/monitor.hpp"
 #include "watch/alert_policy.hpp"
 #include "watch/alerts.hpp"
 #include "watch/local_frame.hpp"
-#include "watch/source_report.hpp"
 #include "watch/stream_clock.hpp"
 #include "watch/track_groups.hpp"
 #include "watch/track_names.hpp"

@@ -11,11 +11,11 @@
 #include <tuple>
 #include <utility>
 
-#include "columns/presets.hpp"
 #include "contact/contact_rule.hpp"
+#include "formats/presets.hpp"
 #include "kinesphere/random.hpp"
+#include "program/formats/preset_shapes.hpp"
 #include "program/support.hpp"
-#include "program/tracks/preset_shapes.hpp"
 #include "program/tracks/simulated_events.hpp"
 #include "simulation/oracle/comparison.hpp"
 #include "tracks/projection.hpp"

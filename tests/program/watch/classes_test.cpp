@@ -7,12 +7,12 @@
 #include <queue>
 #include <sstream>
 
+#include "formats/json_reading.hpp"
 #include "kinesphere/random.hpp"
+#include "program/formats/ais/ais_encoder.hpp"
 #include "program/support.hpp"
-#include "program/watch/ais/ais_encoder.hpp"
 #include "watch.hpp"
 #include "watch/class_rules.hpp"
-#include "watch/json_reading.hpp"
 #include "watch/watch_options.hpp"
 #include "watch/watcher.hpp"
 
@@ -26,8 +26,9 @@ struct ClassWatch {
   explicit ClassWatch(StreamFormat format, WatchOptions options = {})
       : watcher(settings_of(with_separation(options), format, "test"),
                 [this](std::uint64_t, std::string_view line) { alerts.push_back(Json::parse(line)); }) {
-    options.choices.class_rules = watcher.settings().class_rules;
-    reader = make_format(format, options.choices);
+    const bool is_table = format == StreamFormat::csv || format == StreamFormat::ais;
+    reader =
+        make_ruled_format(make_format(format, options.choices), watcher.settings().class_rules, is_table);
   }
   static WatchOptions with_separation(WatchOptions options) {
     if (options.separations.empty()) options.separations = {"sphere:500m"};

@@ -1,5 +1,5 @@
 // Numbers with units, and separations made of them.
-#include "watch/measures.hpp"
+#include "watch/motion_classes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "program/watch/ais/ais_encoder.hpp"
+#include "formats/ais/ais_message.hpp"
+#include "formats/known_names.hpp"
+#include "formats/report_format.hpp"
+#include "program/formats/ais/ais_encoder.hpp"
 #include "separations.hpp"
-#include "watch/ais/ais_message.hpp"
-#include "watch/known_names.hpp"
-#include "watch/report_format.hpp"
 #include "watch/watch_report.hpp"
 #include "watch/watcher.hpp"
 

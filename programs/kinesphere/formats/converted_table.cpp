@@ -1,0 +1,66 @@
+// Files of other formats, turned into tables that are read as all others are.
+#include "formats/converted_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "ascii_text.hpp"
+#include "number_text.hpp"
+
+namespace kinesphere::program {
+
+std::optional<ConvertedTable> convert_to_table(std::string_view text, const std::string& file) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  for (auto* const convert : {&convert_gpx, &convert_lammps, &convert_xyz})
+    if (auto table = convert(text, file)) return table;
+  return std::nullopt;
+}
+
+std::optional<std::string_view> LineCutter::next() {
+  if (rest_.empty()) return std::nullopt;
+  const std::size_t end = rest_.find('\n');
+  has_end_ = end != std::string_view::npos;
+  const std::string_view line = rest_.substr(0, end);
+  rest_.remove_prefix(std::min(line.size() + 1, rest_.size()));
+  ++line_;
+  return trimmed(line);
+}
+
+std::string Unwrapper::position(const std::string& id, std::size_t axis, std::string_view text) {
+  const double size = sizes_[axis];
+  if (!(size > 0.0)) return std::string(text);
+  const auto number = parse_number(text);
+  if (!number) return std::string(text);
+  auto& last = last_[id][axis];
+  const double jumps = last ? std::round((*number - *last) / size) : 0.0;
+  last = *number - jumps * size;
+  return jumps == 0.0 ? std::string(text) : fmt::format("{}", *last);
+}
+
+std::string Unwrapper::warning(const std::string& file) {
+  return fmt::format(
+      "{}: its box is periodic: tracks go on through its faces, but distances through them are not seen",
+      file);
+}
+
+std::vector<std::string_view> words_of(std::string_view line) {
+  std::vector<std::string_view> words;
+  for (;;) {
+    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+    if (line.empty()) return words;
+    words.push_back(line.substr(0, line.find_first_of(blanks)));
+    line.remove_prefix(words.back().size());
+  }
+}
+
+std::optional<std::size_t> count_in(std::string_view text) {
+  std::size_t count = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return count;
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,73 @@
+// Reads JSON with simdjson: values of an expected type.
+#pragma once
+
+#include <simdjson.h>
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "formats/ground_speed.hpp"
+#include "formats/report_format.hpp"
+#include "formats/time_text.hpp"
+#include "kinesphere/vec3.hpp"
+
+namespace kinesphere::program {
+
+namespace ondemand = simdjson::ondemand;
+
+/// Keeps the text of a document, with the padding that simdjson requires.
+class JsonDocumentReader {
+ public:
+  /// Returns the document, valid until the next call. Throws MalformedRecord.
+  ondemand::document open(std::string_view text) {
+    text_.assign(text);
+    text_.reserve(text.size() + simdjson::SIMDJSON_PADDING);
+    ondemand::document document;
+    if (const auto error = parser_.iterate(text_.data(), text_.size(), text_.capacity()).get(document))
+      throw MalformedRecord(std::string("expected JSON: ") + simdjson::error_message(error));
+    return document;
+  }
+
+ private:
+  ondemand::parser parser_;
+  std::string text_;
+};
+
+/// Returns a number; nothing for null. Sets `wrong` to `name` for any other value.
+inline std::optional<double> number_in(ondemand::value value, const char* name, const char*& wrong) {
+  const ondemand::json_type type = value.type();
+  if (type == ondemand::json_type::number) return double(value.get_double());
+  if (type != ondemand::json_type::null) wrong = name;
+  return std::nullopt;
+}
+
+/// Returns a text, valid as long as the document; nothing for null. Sets `wrong` to `name` for any other
+/// value.
+inline std::optional<std::string_view> text_in(ondemand::value value, const char* name, const char*& wrong) {
+  const ondemand::json_type type = value.type();
+  if (type == ondemand::json_type::string) return std::string_view(value.get_string());
+  if (type != ondemand::json_type::null) wrong = name;
+  return std::nullopt;
+}
+
+/// Range: up to 2^61 seconds.
+inline FileTime time_of(double seconds) {
+  const double whole = std::floor(seconds);
+  return {static_cast<std::int64_t>(whole), seconds - whole};
+}
+
+inline FileTime later_by(FileTime time, double seconds) {
+  const double fraction = time.fraction + seconds;
+  const double whole = std::floor(fraction);
+  return {time.whole + static_cast<std::int64_t>(whole), fraction - whole};
+}
+
+inline bool is_time(double seconds) { return std::abs(seconds) < 0x1p61; }
+
+inline bool is_place(double longitude, double latitude) {
+  return std::abs(latitude) <= 90.0 && std::abs(longitude) <= 360.0;
+}
+
+}  // namespace kinesphere::program

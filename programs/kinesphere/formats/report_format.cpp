@@ -1,0 +1,119 @@
+// The formats of recordings and streams: names and recognition.
+#include "formats/report_format.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "ascii_text.hpp"
+#include "formats/ais/nmea_line.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+struct FormatRow {
+  std::string_view name;
+  StreamFormat format;
+  RecordCutter::Kind records;
+  std::unique_ptr<ReportFormat> (*make)(const FormatChoices& choices);
+};
+
+/// In the order of StreamFormat.
+constexpr FormatRow format_rows[] = {
+    {"readsb", StreamFormat::readsb, RecordCutter::Kind::documents, make_readsb_format},
+    {"sbs", StreamFormat::sbs, RecordCutter::Kind::lines, make_sbs_format},
+    {"opensky", StreamFormat::opensky, RecordCutter::Kind::documents, make_opensky_format},
+    {"ais", StreamFormat::ais, RecordCutter::Kind::lines, make_ais_format},
+    {"nmea", StreamFormat::nmea, RecordCutter::Kind::lines, make_nmea_format},
+    {"csv", StreamFormat::csv, RecordCutter::Kind::lines, make_csv_format},
+    {"jsonl", StreamFormat::jsonl, RecordCutter::Kind::lines, make_json_lines_format}};
+
+const FormatRow& row_of(StreamFormat format) { return format_rows[static_cast<std::size_t>(format)]; }
+
+/// Returns true if the outermost object that begins with `line` has this key.
+bool has_key(std::string_view line, std::string_view key) {
+  int depth = 0;
+  for (std::size_t at = 0; at < line.size(); ++at) {
+    const char c = line[at];
+    if (c == '{' || c == '[') ++depth;
+    if (c == '}' || c == ']') --depth;
+    if (c != '"') continue;
+    const std::size_t begin = at + 1;
+    for (at = begin; at < line.size() && line[at] != '"'; ++at)
+      if (line[at] == '\\') ++at;
+    if (at >= line.size()) return false;
+    if (depth == 1 && line.substr(begin, at - begin) == key) {
+      const std::size_t next = line.find_first_not_of(" \t", at + 1);
+      if (next != std::string_view::npos && line[next] == ':') return true;
+    }
+  }
+  return false;
+}
+
+bool has_column(std::string_view header, std::string_view name) {
+  while (!header.empty()) {
+    std::string_view field = header.substr(0, header.find(','));
+    header.remove_prefix(std::min(field.size() + 1, header.size()));
+    if (same_name(field, name)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+nlohmann::json ReportFormat::save() const { return nullptr; }
+void ReportFormat::restore(const nlohmann::json&) {}
+void ReportFormat::finish(ReportSink&) {}
+
+std::string_view name_of(StreamFormat format) { return row_of(format).name; }
+
+std::optional<StreamFormat> stream_format_named(std::string_view name) {
+  for (const FormatRow& row : format_rows)
+    if (row.name == name) return row.format;
+  return std::nullopt;
+}
+
+RecordCutter::Kind records_of(StreamFormat format) { return row_of(format).records; }
+
+std::unique_ptr<ReportFormat> make_format(StreamFormat format, const FormatChoices& choices) {
+  return row_of(format).make(choices);
+}
+
+std::string_view first_line(std::string_view beginning) {
+  beginning.remove_prefix(std::min(beginning.find_first_not_of(" \t\r\n"), beginning.size()));
+  std::size_t begin = 0;
+  if (beginning.starts_with('{')) begin = beginning.find('"');
+  const std::size_t end = begin < beginning.size() ? beginning.find('\n', begin) : std::string_view::npos;
+  return end == std::string_view::npos ? std::string_view() : beginning.substr(0, end);
+}
+
+std::optional<StreamFormat> recognised_format(std::string_view beginning) {
+  if (beginning.starts_with("\xEF\xBB\xBF")) beginning.remove_prefix(3);
+  const std::size_t first = beginning.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos) return std::nullopt;
+  std::string_view line = first_line(beginning);
+  if (line.empty()) line = beginning.substr(first);
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  if (looks_like_nmea(line) || (!line.starts_with('{') && has_ais_sentence(beginning.substr(0, 4096))))
+    return StreamFormat::nmea;
+  for (const std::string_view type : {"MSG,", "SEL,", "ID,", "AIR,", "STA,", "CLK,"})
+    if (line.starts_with(type)) return StreamFormat::sbs;
+  if (line.starts_with('{')) {
+    if (has_key(line, "aircraft") || has_key(line, "ac") || has_key(line, "now")) return StreamFormat::readsb;
+    if (has_key(line, "states") || (has_key(line, "time") && !has_key(line, "id")))
+      return StreamFormat::opensky;
+    if (has_key(line, "stamp")) return StreamFormat::jsonl;
+    return std::nullopt;
+  }
+  if (has_column(line, "MMSI") && (has_column(line, "BaseDateTime") || has_column(line, "base_date_time") ||
+                                   has_column(line, "Type of mobile")))
+    return StreamFormat::ais;
+  // A header consists of names.
+  const bool has_letters =
+      std::any_of(line.begin(), line.end(), [](char c) { return ('a' <= (c | 32) && (c | 32) <= 'z'); });
+  if (has_letters && line.find_first_of(",;\t") != std::string_view::npos && !line.starts_with('!') &&
+      !line.starts_with('[') && !line.starts_with('$') && !line.starts_with('\\'))
+    return StreamFormat::csv;
+  return std::nullopt;
+}
+
+}  // namespace kinesphere::program

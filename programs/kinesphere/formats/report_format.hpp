@@ -1,0 +1,87 @@
+// The formats of recordings and streams, which turn records into reports.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "formats/record_cutter.hpp"
+#include "formats/row_splitter.hpp"
+#include "formats/source_report.hpp"
+#include "formats/table_columns.hpp"
+
+namespace kinesphere::program {
+
+/// A record does not match its format; the message says what was expected.
+class MalformedRecord : public WrongInput {
+ public:
+  using WrongInput::WrongInput;
+};
+
+/// A stream has nothing that can be used; the message says what was expected, without the stream's name.
+class UnusableStream : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+class ReportFormat {
+ public:
+  virtual ~ReportFormat() = default;
+  /// Passes the reports of a record to `sink`. Throws WrongInput, such as MalformedRecord; reports passed
+  /// before that stay valid. Throws UnusableStream.
+  virtual void read(const Record& record, ReportSink& sink) = 0;
+  /// Call it at the end of the stream. Throws UnusableStream.
+  virtual void finish(ReportSink& sink);
+  /// Returns the state from earlier records, for a run that continues behind them.
+  virtual nlohmann::json save() const;
+  /// Restores the state of save(). Throws ProgramError like read(), or an exception of nlohmann::json.
+  virtual void restore(const nlohmann::json& state);
+};
+
+enum class StreamFormat { readsb, sbs, opensky, ais, nmea, csv, jsonl };
+
+/// Returns "readsb" and so on; the version without arguments returns all names, separated by |.
+std::string_view name_of(StreamFormat format);
+std::optional<StreamFormat> stream_format_named(std::string_view name);
+inline constexpr const char* stream_format_names = "readsb|sbs|opensky|ais|nmea|csv|jsonl";
+
+struct FormatChoices {
+  ColumnHints hints;   ///< for csv and ais
+  std::string source;  ///< the stream's name, for messages
+  enum class Altitude { barometric, geometric } altitude = Altitude::barometric;
+  enum class PositionBound {
+    containment_radius,
+    accuracy
+  } position_bound = PositionBound::containment_radius;
+  /// Multiple of a 95 % accuracy that is declared to contain all errors.
+  double containment = 2.5;
+  /// True if an option gave the position error; otherwise positions from radar or receivers on the ground
+  /// have no bound.
+  bool position_error_is_said = false;
+  double velocity_age = 5.0;  ///< sbs: an older velocity is not used (seconds)
+};
+
+/// Throws ProgramError naming a wrong option. `first_line` is that of the stream.
+std::unique_ptr<ReportFormat> make_format(StreamFormat format, const FormatChoices& choices);
+RecordCutter::Kind records_of(StreamFormat format);
+
+/// Returns the first line that says something: of JSON over several lines, the lines up to the first with a
+/// key. Empty if it has not ended yet.
+std::string_view first_line(std::string_view beginning);
+/// Returns the format of a stream that begins with this text, its first line or a part of it; nothing if it
+/// is ambiguous.
+std::optional<StreamFormat> recognised_format(std::string_view beginning);
+
+// One file each.
+std::unique_ptr<ReportFormat> make_readsb_format(const FormatChoices& choices);
+std::unique_ptr<ReportFormat> make_sbs_format(const FormatChoices& choices);
+std::unique_ptr<ReportFormat> make_opensky_format(const FormatChoices& choices);
+std::unique_ptr<ReportFormat> make_nmea_format(const FormatChoices& choices);
+std::unique_ptr<ReportFormat> make_csv_format(const FormatChoices& choices);
+std::unique_ptr<ReportFormat> make_ais_format(const FormatChoices& choices);
+std::unique_ptr<ReportFormat> make_json_lines_format(const FormatChoices& choices);
+
+}  // namespace kinesphere::program

@@ -1,0 +1,223 @@
+// Reads the rows of a table as ids, times, positions and numbers, as their columns say.
+#include "formats/row_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "ascii_text.hpp"
+#include "formats/field_text.hpp"
+#include "number_text.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+/// Larger numbers are not Unix times in seconds.
+constexpr std::int64_t last_likely_second = 100'000'000'000;
+
+bool is_one_of(std::string_view value, std::string_view words) {
+  while (!words.empty()) {
+    const std::string_view word = words.substr(0, words.find(' '));
+    if (same_name(word, value)) return true;
+    words.remove_prefix(std::min(word.size() + 1, words.size()));
+  }
+  return false;
+}
+
+/// True for YYYYMMDDhhmmss of the years 1900 to 2199.
+bool is_packed_date(std::int64_t number) {
+  const std::int64_t clock = number % 1'000'000, date = number / 1'000'000;
+  return clock < 240'000 && clock / 100 % 100 < 60 && clock % 100 < 60 && date / 10'000 >= 1900 &&
+         date / 10'000 < 2200 && date / 100 % 100 >= 1 && date / 100 % 100 <= 12 && date % 100 >= 1 &&
+         date % 100 <= 31;
+}
+
+}  // namespace
+
+RowReader::RowReader(const TableHead& head, TableColumns columns)
+    : head_(head), columns_(std::move(columns)), filter_(columns_.where, head, columns_) {
+  // a.csv.gz is the body a.
+  file_id_ = std::filesystem::path(head.file).filename().string();
+  file_id_.resize(std::min(file_id_.find('.', 1), file_id_.size()));
+  for (const std::size_t place : columns_.unused) {
+    if (place >= head.names.size() || filter_.mentions(place)) continue;
+    const std::string_view values = void_values_of(head.names[place]);
+    if (!values.empty()) void_columns_.push_back({place, values});
+  }
+}
+
+void RowReader::set_row(const std::vector<std::string_view>& fields) {
+  fields_ = &fields;
+  missing_.reset();
+  has_height_ = false;
+  check_void_columns();
+}
+
+/// Asks about rows that their file marks as void.
+void RowReader::check_void_columns() const {
+  for (const auto& [place, values] : void_columns_) {
+    if (place >= fields_->size() || !is_one_of(field(place), values)) continue;
+    const std::string name = name_in_filter(head_.names[place]);
+    throw OpenQuestion(
+        fmt::format("'{}' as {} may mean that there is no such position: leave such rows out with --where "
+                    "'{} != {}', or keep "
+                    "them with --where '{} != none'",
+                    field(place), head_.names[place], name, field(place), name));
+  }
+}
+
+std::string RowReader::wrong_text(std::size_t column, std::string_view expected) const {
+  return fmt::format("expected {} (column {}), but got {}", expected, column + 1, shown_field(field(column)));
+}
+
+std::string_view RowReader::name_of(Quantity quantity) const {
+  switch (quantity) {
+    case Quantity::longitude:
+      return "longitude";
+    case Quantity::latitude:
+      return "latitude";
+    default:
+      return key_of(quantity);
+  }
+}
+
+void RowReader::set_body(std::size_t body) {
+  body_ = body;
+  missing_.reset();
+  if (columns_.bodies.empty()) return;
+  columns_[Quantity::x]->place = columns_.bodies[body].x;
+  columns_[Quantity::y]->place = columns_.bodies[body].y;
+  if (const auto& z = columns_.bodies[body].z) columns_[Quantity::z]->place = *z;
+}
+
+std::string_view RowReader::id() {
+  if (!columns_.bodies.empty()) return columns_.bodies[body_].id;
+  if (columns_.id_is_file) return file_id_;
+  const std::size_t column = columns_[Quantity::id]->place;
+  const std::string_view text = field(column);
+  const auto number = text.find('.') != std::string_view::npos ? parse_number(text) : std::nullopt;
+  const bool whole = number && std::floor(*number) == *number && std::abs(*number) < 1e15;
+  if (whole) id_ = fmt::format("{}", static_cast<long long>(*number));
+  const std::string_view id = whole ? std::string_view(id_) : text;
+  if (text.empty())
+    throw WrongInput(fmt::format("{} (--where '{} != \"\"' leaves such rows out)",
+                                 wrong_text(column, "an id"), where_name(Quantity::id)));
+  if (is_nobody(head_.names.empty() ? "" : head_.names[column], id) && !filter_.mentions(column)) {
+    const std::string name = where_name(Quantity::id);
+    throw OpenQuestion(fmt::format(
+        "the id {0} is that of nobody in most files: leave its rows out with --where '{1} != {2}', or keep "
+        "them with --where '{1} != \"\"'",
+        id, name, name_in_filter(std::string(id))));
+  }
+  return id;
+}
+
+/// Returns the column's name as --where takes it.
+std::string RowReader::where_name(Quantity quantity) const {
+  return head_.names.empty() ? std::string(key_of(quantity))
+                             : name_in_filter(head_.names[columns_[quantity]->place]);
+}
+
+/// Asks about numbers that stand for no position: 0 and 0 as degrees, and -999, 9999 and the like.
+void RowReader::check_place(double x, double y) const {
+  if (x != y) return;
+  constexpr double none[] = {-999.0, -9999.0, -99999.0, -999999.0, 9999.0, 99999.0, 999999.0};
+  const bool is_none =
+      columns_.geographic ? x == 0.0 : std::find(std::begin(none), std::end(none), x) != std::end(none);
+  const Quantity along = columns_.geographic ? Quantity::longitude : Quantity::x;
+  const Quantity across = columns_.geographic ? Quantity::latitude : Quantity::y;
+  if (!is_none || filter_.mentions(columns_[along]->place)) return;
+  throw OpenQuestion(
+      fmt::format("{0} as {1} and {2} is no position in most files: leave such rows out with --where '{3} != "
+                  "{0} or {4} != {0}', or keep them with --where '{3} != none'",
+                  x, name_of(along), name_of(across), where_name(along), where_name(across)));
+}
+
+std::optional<TimeField> RowReader::time(Quantity quantity) {
+  const auto& column = columns_[quantity];
+  if (!column) return std::nullopt;
+  const std::string_view text = field(column->place);
+  auto time = time_field(text, columns_.dates);
+  if (!time && is_missing(text)) {
+    if (!missing_) missing_ = {column->place, "time"};
+    return std::nullopt;
+  }
+  if (!time && columns_.decimal_comma) time = time_field(with_decimal_point(text, buffer_), columns_.dates);
+  if (!time) {
+    if (parse_date_time(text, DateOrder::any))
+      throw OpenQuestion(
+          fmt::format("{}: say --dates day-first or --dates month-first",
+                      wrong_text(column->place, "a date whose order of day and month is known")));
+    if (text.find_first_of("-/:") == std::string_view::npos)
+      throw WrongInput(wrong_text(column->place, "a number as time"));
+    throw WrongInput(wrong_text(column->place, "a time") + " (dates are read as in 2024-01-31T12:30:00Z)");
+  }
+  if (time->kind != TimeKind::number) return time;
+  time->kind = columns_.time_kind;
+  if (quantity != Quantity::time) return time;
+  if (!columns_.time_problem.empty()) throw OpenQuestion(columns_.time_problem, false);
+  if (!columns_.time_unit_said) check_size(time->time);
+  has_time_ = true;
+  return time;
+}
+
+/// Asks about numbers that are no likely seconds. Receivers on the earth know the date, so that what is one
+/// of our time as milliseconds since 1970 is that.
+void RowReader::check_size(const FileTime& time) {
+  if (std::abs(time.whole) <= last_likely_second) return;
+  if (is_packed_date(time.whole))
+    throw OpenQuestion(wrong_text(columns_[Quantity::time]->place, "a time") +
+                       ", which may be a date without separators: these are read as 20240131T123015");
+  constexpr std::int64_t year_1990 = 631'152'000'000, year_2100 = 4'102'444'800'000;
+  if (!columns_.geographic || has_time_ || time.whole < year_1990 || time.whole > year_2100)
+    throw OpenQuestion(wrong_text(columns_[Quantity::time]->place, "seconds as time") + ": say " +
+                       columns_.time_advice);
+  columns_.time_unit = {1.0, 1e3};
+  columns_.time_unit_said = true;
+  columns_.format += ", times in ms since 1970";
+}
+
+std::optional<double> RowReader::number(Quantity quantity) {
+  const auto& column = columns_[quantity];
+  if (!column) return std::nullopt;
+  const std::string_view text = field(column->place);
+  if (const auto number = number_field(text, columns_.decimal_comma)) return number;
+  if (!is_missing(text))
+    throw WrongInput(wrong_text(column->place, fmt::format("a number as {}", name_of(quantity))));
+  if (!missing_) missing_ = {column->place, name_of(quantity)};
+  return std::nullopt;
+}
+
+std::optional<Vec3> RowReader::position() {
+  const bool geographic = columns_.geographic;
+  const Quantity along = geographic ? Quantity::longitude : Quantity::x;
+  const Quantity across = geographic ? Quantity::latitude : Quantity::y;
+  const auto x = number(along), y = number(across), z = number(Quantity::z);
+  has_height_ = z.has_value();
+  if (!x || !y) return std::nullopt;
+  check_place(*x, *y);
+  if (geographic) {
+    const double longitude = *x * columns_.x().unit, latitude = *y * columns_.y().unit;
+    if (longitude == 181.0 || latitude == 91.0) {
+      const bool first = longitude == 181.0;
+      missing_ = {(first ? columns_.x() : columns_.y()).place, name_of(first ? along : across)};
+      return std::nullopt;
+    }
+    if (!(std::abs(longitude) <= 360.0))
+      throw WrongInput(wrong_text(columns_.x().place, "a longitude from -360 to 360 degrees"));
+    if (!(std::abs(latitude) <= 90.0))
+      throw WrongInput(wrong_text(columns_.y().place, "a latitude from -90 to 90 degrees"));
+    // No aircraft or balloon flies as high; in feet they do.
+    constexpr double highest = 20e3;
+    if (z && !columns_.z()->has_unit && std::abs(*z) > highest)
+      throw OpenQuestion(fmt::format("{}: say its unit, {}",
+                                     wrong_text(columns_.z()->place, "a height in metres up to 20000"),
+                                     columns_.height_advice));
+  }
+  return Vec3{*x, *y, z.value_or(0.0)};
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,98 @@
+// Reads the rows of a table as ids, times, positions and numbers, as their columns say.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "formats/row_filter.hpp"
+#include "formats/row_splitter.hpp"
+#include "formats/table_columns.hpp"
+#include "kinesphere/vec3.hpp"
+
+namespace kinesphere::program {
+
+/// A row shows that an option has to be given; the message says which. The caller adds file and line.
+class OpenQuestion : public std::runtime_error {
+ public:
+  explicit OpenQuestion(const std::string& text, bool is_about_row = true)
+      : std::runtime_error(text), is_about_row_(is_about_row) {}
+  /// False if the question is about the whole file.
+  bool is_about_row() const { return is_about_row_; }
+
+ private:
+  bool is_about_row_;
+};
+
+/// Numbers have the units of the file; the columns say how large these are. All functions throw WrongInput if
+/// a field is not what its column has to be, and OpenQuestion.
+class RowReader {
+ public:
+  /// `head` must outlive it. Throws ProgramError naming --where.
+  RowReader(const TableHead& head, TableColumns columns);
+
+  const TableHead& head() const { return head_; }
+  const TableColumns& columns() const { return columns_; }
+  const RowFilter& filter() const { return filter_; }
+  /// True if --where leaves the row out.
+  bool leaves_out(const std::vector<std::string_view>& fields) const { return !filter_.takes(fields); }
+
+  /// Sets the row for the functions below. Its fields must live until the next call.
+  void set_row(const std::vector<std::string_view>& fields);
+  /// The fields of the row.
+  const std::vector<std::string_view>& fields() const { return *fields_; }
+
+  /// Number of bodies in a row, and the choice of one, 0 at first, for the functions below.
+  std::size_t bodies() const { return std::max<std::size_t>(columns_.bodies.size(), 1); }
+  void set_body(std::size_t body);
+
+  /// Returns the id as spelled, but 3 for 3.0 and 3.000000e+00; valid until the next call.
+  std::string_view id();
+  /// Returns nothing for a missing time, or if there is no such column.
+  std::optional<TimeField> time(Quantity quantity = Quantity::time);
+  /// Returns nothing for a missing number, or if there is no such column.
+  std::optional<double> number(Quantity quantity);
+  /// Returns x, y, z, or degrees east and north and z; z is 0 if it is missing or there is no such column.
+  /// Nothing if x or y is missing; so are 181 and 91 as longitude and latitude, with which AIS says that it
+  /// knows none.
+  std::optional<Vec3> position();
+  /// The first missing value of the row: its column and what it would be; nothing if there is none.
+  struct Missing {
+    std::size_t column;
+    std::string_view what;
+  };
+  const std::optional<Missing>& missing() const { return missing_; }
+  /// True if the row has a height.
+  bool has_height() const { return has_height_; }
+  /// Returns "expected a number as x (column 3), but got nothing".
+  std::string wrong_text(std::size_t column, std::string_view expected) const;
+
+ private:
+  struct VoidColumn {
+    std::size_t place;
+    std::string_view values;
+  };
+
+  void check_void_columns() const;
+  std::string_view field(std::size_t column) const { return (*fields_)[column]; }
+  std::string_view name_of(Quantity quantity) const;
+  void check_size(const FileTime& time);
+  void check_place(double x, double y) const;
+  std::string where_name(Quantity quantity) const;
+
+  const TableHead& head_;
+  TableColumns columns_;
+  RowFilter filter_;
+  std::vector<VoidColumn> void_columns_;
+  const std::vector<std::string_view>* fields_ = nullptr;
+  std::optional<Missing> missing_;
+  bool has_height_ = false;
+  bool has_time_ = false;  ///< a row had a time
+  std::size_t body_ = 0;
+  std::string file_id_, id_, buffer_;
+};
+
+}  // namespace kinesphere::program

@@ -1,0 +1,670 @@
+// Finds the columns of a recording or stream in a table, and the units of their numbers.
+#include "formats/table_columns.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "ascii_text.hpp"
+#include "formats/field_text.hpp"
+#include "formats/presets.hpp"
+#include "number_text.hpp"
+#include "program_error.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+using Film = TableColumns::Film;
+
+/// Returns the only column of that name, or the only one if case is ignored.
+std::optional<std::size_t> column_named(const TableHead& head, std::string_view name) {
+  const auto& names = head.names;
+  for (const bool exact : {true, false}) {
+    const auto matches = [&](const std::string& each) {
+      return exact ? each == name : same_name(each, name);
+    };
+    const auto found = std::find_if(names.begin(), names.end(), matches);
+    if (found == names.end()) continue;
+    if (std::count_if(names.begin(), names.end(), matches) > 1)
+      throw ProgramError(
+          fmt::format("{}: expected one column '{}', but it has {}", head.file, name, head.text()));
+    return static_cast<std::size_t>(found - names.begin());
+  }
+  return std::nullopt;
+}
+
+std::string column_text(const TableHead& head, std::size_t place) {
+  return head.names.empty() ? fmt::format("column {}", place + 1)
+                            : fmt::format("column '{}'", head.names[place]);
+}
+
+/// Returns the column's name as --columns takes it: its number where a comma would end it.
+std::string column_word(const TableHead& head, std::size_t place) {
+  const bool by_name = !head.names.empty() && head.names[place].find_first_of(",\"'") == std::string::npos;
+  return by_name ? head.names[place] : fmt::format("{}", place + 1);
+}
+
+/// Returns "id=mmsi,time=t,lon=lon,lat=lat" of the columns found, with a unit behind that of `quantity`.
+std::string columns_text(const TableHead& head, const TableColumns& columns,
+                         std::optional<Quantity> quantity = {}, std::string_view unit = {}) {
+  std::string text;
+  for (std::size_t k = 0; k < quantity_count; ++k) {
+    if (!columns.of[k]) continue;
+    const auto each = static_cast<Quantity>(k);
+    text += fmt::format("{}{}={}{}", text.empty() ? "" : ",", key_of(each),
+                        column_word(head, columns.of[k]->place), each == quantity ? unit : "");
+  }
+  return text;
+}
+
+// Units.
+
+/// Sets the unit of a column; returns false if the measure has none of this name.
+bool set_unit(Column& column, std::string_view unit, Quantity quantity) {
+  const Measure measure = measure_of(quantity);
+  // Lengths that are degrees turn out to be so below.
+  auto size = unit_named(unit, measure);
+  if (!size && measure == Measure::length && !is_pixel(unit)) size = unit_named(unit, Measure::angle);
+  if (!size) return measure == Measure::length && is_pixel(unit);
+  column.unit = *size;
+  column.has_unit = true;
+  return true;
+}
+
+/// Returns the unit of a column in its name or in the row of units; empty if there is none.
+std::string unit_of_column(const TableHead& head, std::size_t place, Quantity quantity) {
+  if (!head.names.empty()) {
+    if (const auto meaning = meaning_of(head.names[place]); meaning && meaning->quantity == quantity) {
+      if (!meaning->unit.empty()) return meaning->unit;
+    } else if (const auto unit = unit_in_name(head.names[place], measure_of(quantity)); !unit.empty()) {
+      return std::string(unit);
+    }
+  }
+  if (head.units.empty() || measure_of(quantity) == Measure::none) return {};
+  const std::string_view text = head.units[place];
+  const std::string_view unit = without_brackets(text);
+  Column ignored;
+  if (unit.empty() || unit == "-" || set_unit(ignored, unit, quantity))
+    return std::string(unit == "-" ? "" : unit);
+  // A label without brackets says nothing.
+  if (unit.size() == trimmed(text).size()) return {};
+  // A time in a unit of length is a mistake that some programs make in all files.
+  if (quantity == Quantity::time || is_unit(unit)) return {};
+  throw ProgramError(
+      fmt::format("{}: {} is in '{}', which is no known unit: say its unit with --columns, as {}={}:m",
+                  head.file, column_text(head, place), unit, key_of(quantity), column_word(head, place)));
+}
+
+void take_unit_of_column(const TableHead& head, Quantity quantity, Column& column) {
+  const std::string unit = unit_of_column(head, column.place, quantity);
+  if (!unit.empty()) set_unit(column, unit, quantity);
+}
+
+// Columns that are said: by --columns, or by a preset.
+
+/// Returns a column by its name in the header or its number from 1; nothing if there is none.
+std::optional<std::size_t> place_of(const TableHead& head, std::string_view name) {
+  if (const auto place = column_named(head, name)) return place;
+  const double number = parse_number(name).value_or(0.0);
+  for (std::size_t place = 0; place < head.columns(); ++place)
+    if (number == static_cast<double>(place + 1)) return place;
+  return std::nullopt;
+}
+
+/// Reads the entries KEY=COLUMN[:UNIT] of a list.
+class SaidColumns {
+ public:
+  SaidColumns(const TableHead& head, std::string_view list, const Preset* preset)
+      : head_(head), list_(list), preset_(preset) {}
+
+  TableColumns read() {
+    for (std::string_view rest = list_; !rest.empty();) {
+      const std::string_view entry = rest.substr(0, rest.find(','));
+      rest.remove_prefix(std::min(entry.size() + 1, rest.size()));
+      read_entry(entry);
+    }
+    return std::move(columns_);
+  }
+
+ private:
+  void read_entry(std::string_view entry) {
+    const std::size_t equals = std::min(entry.find('='), entry.size());
+    std::string_view key = entry.substr(0, equals);
+    const bool is_optional = key.ends_with('?');
+    if (is_optional) key.remove_suffix(1);
+    const auto quantity = quantity_of_key(key);
+    if (equals == entry.size() || !quantity)
+      throw ProgramError(fmt::format("--columns: expected KEY=COLUMN with one of the keys {}, but got '{}'",
+                                     key_list(), entry));
+    if (columns_[*quantity]) throw ProgramError(fmt::format("--columns: expected '{}' once", key));
+    std::string_view names = entry.substr(equals + 1), unit;
+    if (const std::size_t colon = names.rfind(':');
+        colon != std::string_view::npos && !column_named(head_, names)) {
+      unit = names.substr(colon + 1);
+      names = names.substr(0, colon);
+    }
+    if (preset_ != nullptr && names == "@file") {
+      columns_.id_is_file = true;
+      return;
+    }
+    const auto place = place_of_any(names);
+    if (!place && is_optional) return;
+    if (!place) fail(key, names);
+    Column column{.place = *place};
+    take_unit_of_column(head_, *quantity, column);
+    if (!unit.empty() && !set_unit(column, unit, *quantity))
+      throw ProgramError(fmt::format("--columns: expected a unit ({}) behind the colon, but got '{}'",
+                                     unit_list(measure_of(*quantity)), entry));
+    columns_[*quantity] = column;
+  }
+
+  std::optional<std::size_t> place_of_any(std::string_view names) const {
+    if (preset_ == nullptr) return place_of(head_, names);
+    while (!names.empty()) {
+      const std::string_view name = names.substr(0, names.find('|'));
+      names.remove_prefix(std::min(name.size() + 1, names.size()));
+      if (const auto place = preset_column(head_, name)) return place;
+      if (const auto place = place_of(head_, name)) return place;
+    }
+    return std::nullopt;
+  }
+
+  [[noreturn]] void fail(std::string_view key, std::string_view name) const {
+    if (preset_ != nullptr)
+      throw ProgramError(fmt::format("{}: expected {} with --format {}, but it has {}", head_.file,
+                                     preset_->header.empty()
+                                         ? fmt::format("{} columns or more", preset_->least_columns)
+                                         : fmt::format("the columns {}", preset_->header),
+                                     preset_->name, head_.text()));
+    throw ProgramError(fmt::format(
+        "--columns: expected '{}' to be a column's name or number from 1 to {}, but got '{}': {} has {}", key,
+        head_.columns(), name, head_.file, head_.text()));
+  }
+
+  const TableHead& head_;
+  std::string_view list_;
+  const Preset* preset_;
+  TableColumns columns_;
+};
+
+bool is_position(Quantity quantity) {
+  constexpr Quantity positions[] = {Quantity::id, Quantity::time, Quantity::frame,     Quantity::x,
+                                    Quantity::y,  Quantity::z,    Quantity::longitude, Quantity::latitude};
+  return std::find(std::begin(positions), std::end(positions), quantity) != std::end(positions);
+}
+
+bool is_size(Quantity quantity) { return quantity == Quantity::length || quantity == Quantity::width; }
+
+bool is_used(Quantity quantity, const ColumnHints& hints, ColumnUse use) {
+  if (is_size(quantity)) return hints.sizes;
+  return use == ColumnUse::reports || is_position(quantity);
+}
+
+/// Leaves out what is not read.
+void keep_used(const ColumnHints& hints, ColumnUse use, TableColumns& columns) {
+  for (std::size_t k = 0; k < quantity_count; ++k)
+    if (!is_used(static_cast<Quantity>(k), hints, use)) columns.of[k].reset();
+}
+
+void require_sizes(const TableHead& head, const TableColumns& columns) {
+  if (!columns[Quantity::length] || !columns[Quantity::width])
+    throw ProgramError(
+        fmt::format("{}: expected columns of length and width for --sizes, by their names or --columns "
+                    "length=...,width=...; it has {}",
+                    head.file, head.text()));
+  if (columns.is_ais)
+    throw ProgramError(
+        fmt::format("{}: expected positions of the middle for --sizes, but those of AIS are of the "
+                    "antenna, anywhere on the ship",
+                    head.file));
+}
+
+TableColumns preset_columns(const TableHead& head, const Preset& preset) {
+  if (head.columns() < preset.least_columns)
+    throw ProgramError(fmt::format("{}: expected {} columns or more with --format {}, but it has {}",
+                                   head.file, preset.least_columns, preset.name, head.text()));
+  TableColumns columns = SaidColumns(head, preset.columns, &preset).read();
+  columns.format = preset.title;
+  columns.has_own_heights = preset.has_own_heights;
+  columns.film = preset.film;
+  columns.dates = preset.dates;
+  columns.where = preset.where;
+  if (preset.frame_rate > 0.0) {
+    columns.time_unit.rate = preset.frame_rate;
+    columns.time_unit_said = true;
+  }
+  return columns;
+}
+
+// Columns by their usual names.
+
+class UsualColumns {
+ public:
+  UsualColumns(const TableHead& head, const ColumnHints& hints, ColumnUse use) : head_(head) {
+    for (std::size_t place = 0; place < head.names.size(); ++place) {
+      const auto meaning = meaning_of(head.names[place]);
+      if (!meaning || !is_used(meaning->quantity, hints, use)) continue;
+      places_[static_cast<std::size_t>(meaning->quantity)].push_back(place);
+    }
+    // If the file has both kinds of columns, an option must choose one.
+    const bool has_degrees = !places(Quantity::longitude).empty() && !places(Quantity::latitude).empty();
+    if (has_degrees && (hints.positions == "lonlat" || hints.unit == "deg"))
+      forget({Quantity::x, Quantity::y});
+    if (hints.positions == "plane" || hints.positions.starts_with("utm"))
+      forget({Quantity::longitude, Quantity::latitude});
+    // Frame numbers are not needed if there are times.
+    if (!places(Quantity::time).empty() || use == ColumnUse::reports) forget({Quantity::frame});
+  }
+
+  TableColumns found() const {
+    if (!places(Quantity::x).empty() && !places(Quantity::longitude).empty())
+      ask(places(Quantity::x).front(), places(Quantity::longitude).front());
+    TableColumns columns;
+    columns.format = "table";
+    for (std::size_t k = 0; k < quantity_count; ++k) {
+      if (places_[k].size() > 1) ask(places_[k][0], places_[k][1]);
+      if (places_[k].empty()) continue;
+      const auto quantity = static_cast<Quantity>(k);
+      Column column{.place = places_[k].front()};
+      take_unit_of_column(head_, quantity, column);
+      columns[quantity] = column;
+    }
+    return columns;
+  }
+
+ private:
+  const std::vector<std::size_t>& places(Quantity quantity) const {
+    return places_[static_cast<std::size_t>(quantity)];
+  }
+  void forget(std::initializer_list<Quantity> forgotten) {
+    for (Quantity quantity : forgotten) places_[static_cast<std::size_t>(quantity)].clear();
+  }
+  [[noreturn]] void ask(std::size_t one, std::size_t other) const {
+    throw ProgramError(fmt::format("{}: columns '{}' and '{}' may both be meant: say which with --columns",
+                                   head_.file, head_.names[one], head_.names[other]));
+  }
+
+  const TableHead& head_;
+  std::array<std::vector<std::size_t>, quantity_count> places_;
+};
+
+/// Finds a pair of columns for each body: x1, y1, x2, y2, as idtracker.ai writes them; or three, with z.
+void find_pairs(const TableHead& head, const ColumnHints& hints, TableColumns& columns) {
+  if (columns[Quantity::id] || columns[Quantity::x] || columns[Quantity::longitude]) return;
+  const auto place_of_plain = [&](const std::string& name) -> std::optional<std::size_t> {
+    for (std::size_t place = 0; place < head.names.size(); ++place)
+      if (plain_name(head.names[place]) == name) return place;
+    return std::nullopt;
+  };
+  std::size_t heights = 0;
+  for (std::size_t number = 0; number <= head.names.size(); ++number) {
+    const auto x = place_of_plain(fmt::format("x{}", number)), y = place_of_plain(fmt::format("y{}", number));
+    if (!x || !y) continue;
+    const auto z = place_of_plain(fmt::format("z{}", number));
+    heights += z ? 1 : 0;
+    columns.bodies.push_back({fmt::format("{}", number), *x, *y, z});
+  }
+  auto& bodies = columns.bodies;
+  if (bodies.empty()) return;
+  if (heights != 0 && heights != bodies.size())
+    throw ProgramError(fmt::format("{}: expected a z for each pair of x and y or for none; it has {}",
+                                   head.file, head.text()));
+  // Of the bodies, as x1 is, or the time.
+  const auto is_usual = [&](const std::string& name) {
+    const auto meaning = meaning_of(name);
+    return name.ends_with('1') || name.ends_with('2') ||
+           (meaning && (meaning->quantity == Quantity::time || meaning->quantity == Quantity::frame));
+  };
+  if (bodies.size() == 2 && heights == 0 && hints.format != "table" &&
+      !std::all_of(head.names.begin(), head.names.end(), is_usual))
+    throw ProgramError(fmt::format(
+        "{}: {}, {}, {} and {} may be two bodies or the corners of boxes: say --format table if they are two "
+        "bodies, else say the columns with --columns",
+        head.file, head.names[bodies[0].x], head.names[bodies[0].y], head.names[bodies[1].x],
+        head.names[bodies[1].y]));
+  columns.format = fmt::format("{} {} of columns", bodies.size(), heights == 0 ? "pairs" : "triples");
+  columns[Quantity::x] = Column{.place = bodies.front().x};
+  columns[Quantity::y] = Column{.place = bodies.front().y};
+  if (bodies.front().z) columns[Quantity::z] = Column{.place = *bodies.front().z};
+}
+
+/// Asks about a second column of the time, as ROS has them.
+void ask_for_fractions(const TableHead& head, const TableColumns& columns) {
+  const auto& time = columns[Quantity::time];
+  if (!time) return;
+  for (std::size_t place = 0; place < head.names.size(); ++place)
+    if (place != time->place && is_fraction_of_time(head.names[place]))
+      throw ProgramError(fmt::format(
+          "{}: {} may have the fractions of {}: write both as one column of times, or say --columns {} to "
+          "use "
+          "whole seconds",
+          head.file, column_text(head, place), column_text(head, time->place), columns_text(head, columns)));
+}
+
+/// True where a column of widths has the same name: height and width, bb_h and bb_w.
+bool is_height_of_box(const TableHead& head, std::string_view name) {
+  const std::string plain = plain_name(name);
+  return std::any_of(head.names.begin(), head.names.end(), [&](const std::string& other) {
+    std::string width = plain_name(other);
+    if (const std::size_t at = width.find("width"); at != std::string::npos) {
+      width.replace(at, 5, "height");
+    } else if (width.ends_with('w')) {
+      width.back() = 'h';
+    }
+    return width == plain && plain_name(other) != plain;
+  });
+}
+
+/// Asks about a column that may be a height, where no column is known to be one.
+void ask_for_heights(const TableHead& head, const TableColumns& columns) {
+  if (columns.z()) return;
+  std::vector<std::string> heights;
+  std::size_t first = 0;
+  for (std::size_t place = 0; place < head.names.size(); ++place) {
+    const std::string& name = head.names[place];
+    const bool is_known = std::any_of(columns.of.begin(), columns.of.end(),
+                                      [&](const auto& column) { return column && column->place == place; });
+    if (is_known || is_height_of_box(head, name) || !looks_like_height(name)) continue;
+    if (heights.empty()) first = place;
+    heights.push_back(fmt::format("'{}'", name));
+  }
+  if (heights.empty()) return;
+  const std::string others = columns_text(head, columns);
+  throw ProgramError(fmt::format(
+      "{}: {} may be {}: say --columns {},z={} to use {}, or --columns {} to leave heights out", head.file,
+      heights.size() == 1 ? "column " + heights.front() : fmt::format("columns {}", fmt::join(heights, ", ")),
+      heights.size() == 1 ? "a height" : "heights", others, column_word(head, first),
+      heights.size() == 1 ? "it" : "one", others));
+}
+
+/// True for rows of person and frame: frame id x z(=0) y vx vz(=0) vy, without a header.
+bool looks_like_obsmat(const TableHead& head) {
+  const auto& fields = head.first;
+  return head.names.empty() && fields.size() == 8 && parse_number(fields[3]) == 0.0 &&
+         parse_number(fields[6]) == 0.0;
+}
+
+TableColumns unlabelled_obsmat(const TableHead& head) {
+  TableColumns columns = preset_columns(head, *preset_named("ucy"));
+  columns.format = "obsmat";
+  columns.film = Film::none;
+  columns.time_problem =
+      "it looks like an obsmat, which does not say its frame rate: expected --format ucy, --format eth or "
+      "--frame-rate";
+  return columns;
+}
+
+TableColumns recognised(const TableHead& head, const ColumnHints& hints, ColumnUse use) {
+  if (!hints.columns.empty()) {
+    TableColumns columns = SaidColumns(head, hints.columns, nullptr).read();
+    columns.format = "columns as given";
+    return columns;
+  }
+  if (!hints.format.empty() && hints.format != "table") {
+    if (const Preset* const preset = preset_named(hints.format)) return preset_columns(head, *preset);
+    throw ProgramError(
+        fmt::format("--format: expected one of {}, but got '{}'", preset_names(), hints.format));
+  }
+  if (hints.format.empty()) {
+    if (const Preset* const preset = recognised_preset(head)) return preset_columns(head, *preset);
+    if (use == ColumnUse::positions && looks_like_obsmat(head)) return unlabelled_obsmat(head);
+  }
+  TableColumns columns = UsualColumns(head, hints, use).found();
+  find_pairs(head, hints, columns);
+  return columns;
+}
+
+// Places.
+
+/// Makes x and y longitude and latitude if their names, their units or the hints say so.
+void understand_places(const TableHead& head, const ColumnHints& hints, TableColumns& columns) {
+  auto &x = columns[Quantity::x], &y = columns[Quantity::y];
+  auto &lon = columns[Quantity::longitude], &lat = columns[Quantity::latitude];
+  const auto is_angle = [&](const std::optional<Column>& column, Quantity angle) {
+    if (!column || head.names.empty()) return false;
+    const std::string& name = head.names[column->place];
+    if (looks_like_angle(name, angle)) return true;
+    const auto meaning = meaning_of(name);
+    return meaning && (meaning->quantity == angle || unit_named(meaning->unit, Measure::angle).has_value());
+  };
+  const bool said = hints.positions == "lonlat" || hints.unit == "deg";
+  const bool by_name = is_angle(x, Quantity::longitude) && is_angle(y, Quantity::latitude);
+  const bool swapped = is_angle(x, Quantity::latitude) && is_angle(y, Quantity::longitude) && !by_name;
+  if (swapped && hints.positions.empty())
+    throw ProgramError(fmt::format(
+        "--columns: expected a longitude as x and a latitude as y, but got '{}' and '{}': say lon={},lat={}",
+        head.names[x->place], head.names[y->place], column_word(head, y->place),
+        column_word(head, x->place)));
+  const bool one_alone = is_angle(x, Quantity::longitude) != is_angle(y, Quantity::latitude);
+  if (x && y && one_alone && !swapped && !said && hints.positions != "plane")
+    throw ProgramError(
+        fmt::format("{}: {} are degrees, but {} are not said to be: say --positions lonlat or plane",
+                    head.file, column_text(head, is_angle(x, Quantity::longitude) ? x->place : y->place),
+                    column_text(head, is_angle(x, Quantity::longitude) ? y->place : x->place)));
+  if (x && y && !lon && !lat && hints.positions != "plane" && (said || by_name)) {
+    lon = std::exchange(x, std::nullopt);
+    lat = std::exchange(y, std::nullopt);
+    take_unit_of_column(head, Quantity::longitude, *lon);
+    take_unit_of_column(head, Quantity::latitude, *lat);
+  }
+  if (lon && lat && !x && !y) {
+    if (hints.positions == "plane") {
+      x = Column{.place = std::exchange(lon, std::nullopt)->place};
+      y = Column{.place = std::exchange(lat, std::nullopt)->place};
+    }
+    columns.positions_said = true;
+  }
+  if (!hints.positions.empty() || !hints.unit.empty()) columns.positions_said = true;
+  columns.geographic = lon.has_value();
+}
+
+void require_columns(const TableHead& head, const ColumnHints& hints, const TableColumns& columns) {
+  const auto has = [&](Quantity quantity) { return columns[quantity].has_value(); };
+  const bool plane = has(Quantity::x) && has(Quantity::y);
+  const bool earth = has(Quantity::longitude) && has(Quantity::latitude);
+  const bool half =
+      has(Quantity::x) != has(Quantity::y) || has(Quantity::longitude) != has(Quantity::latitude);
+  const bool has_id = has(Quantity::id) || columns.id_is_file || !columns.bodies.empty();
+  if (!has_id || has(Quantity::time) == has(Quantity::frame) || plane == earth || half) {
+    if (!hints.columns.empty())
+      throw ProgramError(fmt::format(
+          "--columns: expected id=..., time=... (or frame=...), x=...,y=... (or lon=...,lat=...) and "
+          "perhaps z=..., but got '{}'",
+          hints.columns));
+    throw ProgramError(fmt::format(
+        "{}: expected columns for id, time, x and y (or lon and lat) by their usual names, --columns or "
+        "--format; it has {}",
+        head.file, head.text()));
+  }
+  if (has(Quantity::vx) != has(Quantity::vy) || (has(Quantity::course) && !has(Quantity::speed)) ||
+      (has(Quantity::vx) && has(Quantity::speed)))
+    throw ProgramError(
+        fmt::format("{}: expected either vx and vy or speed and course, or neither: say which with --columns",
+                    head.file));
+}
+
+// Lengths.
+
+/// Returns the columns that are lengths or speeds.
+std::vector<Quantity> measured(const TableColumns& columns) {
+  std::vector<Quantity> all;
+  for (std::size_t k = 0; k < quantity_count; ++k) {
+    const Measure measure = measure_of(static_cast<Quantity>(k));
+    if (columns.of[k] && (measure == Measure::length || measure == Measure::speed))
+      all.push_back(static_cast<Quantity>(k));
+  }
+  return all;
+}
+
+/// Gives a unit to lengths and speeds without one. Asks where only some have one.
+void understand_lengths(const TableHead& head, const ColumnHints& hints, ColumnUse use,
+                        TableColumns& columns) {
+  const bool unit_is_said = !hints.unit.empty() && hints.unit != "deg";
+  const double said =
+      unit_is_said && hints.unit != "nm" ? unit_named(hints.unit, Measure::length).value_or(0.0) : 0.0;
+  if (unit_is_said && said == 0.0)
+    throw ProgramError(
+        fmt::format("--unit: expected {} or deg, but got '{}'", unit_list(Measure::length), hints.unit));
+  const std::vector<Quantity> lengths = measured(columns);
+  std::optional<Quantity> with, without;
+  for (const Quantity quantity : lengths) {
+    Column& column = *columns[quantity];
+    if (unit_is_said && column.has_unit && column.unit != said && measure_of(quantity) == Measure::length)
+      throw ProgramError(
+          fmt::format("--unit: expected none, or that of {} of {}, but got {}: --columns {}={}:{} says it of "
+                      "one column",
+                      column_text(head, column.place), head.file, hints.unit, key_of(quantity),
+                      column_word(head, column.place), hints.unit));
+    if (unit_is_said && !column.has_unit && measure_of(quantity) == Measure::length) {
+      column.unit = said;
+      column.has_unit = true;
+    }
+    const auto meaning = head.names.empty() ? std::nullopt : meaning_of(head.names[column.place]);
+    if (!column.has_unit && meaning && meaning->needs_unit)
+      throw ProgramError(fmt::format("{}: {} does not say its unit: say --columns {}, or another unit ({})",
+                                     head.file, column_text(head, column.place),
+                                     columns_text(head, columns, quantity, ":kt"),
+                                     unit_list(Measure::speed)));
+    (column.has_unit ? with : without) = (column.has_unit ? with : without).value_or(quantity);
+  }
+  // Heights and speeds of places on the earth are metres and seconds.
+  const bool zone = hints.positions.starts_with("utm");
+  columns.in_metres = columns.geographic || zone || with.has_value();
+  if (columns.geographic || !with || !without) return;
+  throw ProgramError(fmt::format(
+      "{}: {} does not say its unit, but {} does: say {}={}:UNIT with --columns{}", head.file,
+      column_text(head, columns[*without]->place), column_text(head, columns[*with]->place), key_of(*without),
+      column_word(head, columns[*without]->place),
+      use == ColumnUse::positions && measure_of(*without) == Measure::length ? ", or --unit" : ""));
+}
+
+// Times.
+
+/// Reads a rate from a comment such as "framerate: 25 fps".
+std::optional<double> frame_rate_in(const TableHead& head) {
+  constexpr std::string_view label = "framerate:";
+  for (std::string_view comment : head.comments) {
+    if (!comment.starts_with(label)) continue;
+    comment.remove_prefix(std::min(comment.find_first_not_of(' ', label.size()), comment.size()));
+    const auto rate = parse_number(comment.substr(0, comment.find(' ')));
+    if (rate && *rate > 0) return rate;
+  }
+  return std::nullopt;
+}
+
+/// Derives the unit of times from the time column's name, or from its absence.
+void understand_time(const TableHead& head, ColumnUse use, TableColumns& columns) {
+  auto &time = columns[Quantity::time], &frame = columns[Quantity::frame];
+  const auto meaning = time && !head.names.empty() ? meaning_of(head.names[time->place]) : std::nullopt;
+  const bool is_frame = frame || (meaning && meaning->quantity == Quantity::frame);
+  if (is_frame) {
+    if (use == ColumnUse::reports && !columns.time_unit_said)
+      throw ProgramError(fmt::format("{}: expected a column of times, because {} counts frames", head.file,
+                                     column_text(head, (frame ? frame : time)->place)));
+    if (frame) time = std::exchange(frame, std::nullopt);
+    columns.time_kind = TimeKind::frames;
+    if (columns.time_unit_said || !columns.time_problem.empty()) return;
+    if (const auto rate = frame_rate_in(head)) {
+      columns.time_unit.rate = *rate;
+      columns.time_unit_said = true;
+    } else {
+      columns.time_problem =
+          fmt::format("expected --frame-rate, because {} counts frames", column_text(head, time->place));
+    }
+    return;
+  }
+  if (time->has_unit) {
+    // The quotient keeps 1/1000 exact.
+    columns.time_unit =
+        time->unit < 1.0 ? TimeUnit{1.0, std::round(1.0 / time->unit)} : TimeUnit{time->unit, 1.0};
+    columns.time_unit_said = true;
+  } else if (use == ColumnUse::positions && !(meaning && meaning->quantity == Quantity::time)) {
+    columns.time_problem = fmt::format(
+        "expected --time-unit or --frame-rate, because column {} does not say whether its numbers are "
+        "seconds",
+        time->place + 1);
+  }
+}
+
+void apply_time_hints(const ColumnHints& hints, TableColumns& columns) {
+  const std::string& unit = hints.time_unit;
+  const bool frames = unit == "frames";
+  const auto known = time_unit_named(unit);
+  if (!unit.empty() && !frames && !known)
+    throw ProgramError(
+        fmt::format("--time-unit: expected s, ms, us, ns, min, h, d or frames, but got '{}'", unit));
+  if (known && hints.frame_rate)
+    throw ProgramError(
+        fmt::format("--frame-rate: expected only where frames are counted, not with --time-unit {}", unit));
+  if (hints.frame_rate) {
+    if (!(*hints.frame_rate > 0))
+      throw ProgramError(fmt::format("--frame-rate: expected a number > 0, but got {}", *hints.frame_rate));
+    columns.time_kind = TimeKind::frames;
+    columns.time_unit = {1.0, *hints.frame_rate};
+    columns.film = Film::none;
+  } else if (known) {
+    columns.time_kind = TimeKind::number;
+    columns.time_unit = *known;
+    columns.film = Film::none;
+  } else if (frames && (columns.time_kind != TimeKind::frames || !columns.time_problem.empty())) {
+    columns.time_problem = "expected --frame-rate with --time-unit frames";
+    return;
+  } else {
+    return;
+  }
+  columns.time_unit_said = true;
+  columns.time_problem.clear();
+}
+
+void list_unused(const TableHead& head, TableColumns& columns) {
+  for (std::size_t place = 0; place < head.columns(); ++place) {
+    const bool is_used = std::any_of(columns.of.begin(), columns.of.end(),
+                                     [&](const auto& column) { return column && column->place == place; }) ||
+                         std::any_of(columns.bodies.begin(), columns.bodies.end(), [&](const auto& body) {
+                           return body.x == place || body.y == place || body.z == place;
+                         });
+    if (!is_used) columns.unused.push_back(place);
+  }
+}
+
+}  // namespace
+
+TableColumns find_columns(const TableHead& head, const ColumnHints& hints, ColumnUse use) {
+  const bool may_be_zone = use == ColumnUse::positions;
+  if (!(hints.positions.empty() || hints.positions == "lonlat" || hints.positions == "plane" ||
+        (may_be_zone && hints.positions.starts_with("utm:"))))
+    throw ProgramError(fmt::format("--positions: expected lonlat{}, but got '{}'",
+                                   may_be_zone ? ", plane or a UTM zone such as utm:33N" : " or plane",
+                                   hints.positions));
+  TableColumns columns = recognised(head, hints, use);
+  keep_used(hints, use, columns);
+  columns.decimal_comma = has_decimal_commas(head.separator);
+  understand_places(head, hints, columns);
+  require_columns(head, hints, columns);
+  if (hints.columns.empty() && !columns.has_own_heights) ask_for_heights(head, columns);
+  if (columns.format == "table") ask_for_fractions(head, columns);
+  understand_lengths(head, hints, use, columns);
+  understand_time(head, use, columns);
+  apply_time_hints(hints, columns);
+  if (hints.dates != DateOrder::unknown) columns.dates = hints.dates;
+  columns.time_advice =
+      use == ColumnUse::positions
+          ? "--time-unit ms, us or ns, or s if these are seconds"
+          : fmt::format("--columns {}, or :us, :ns, :s", columns_text(head, columns, Quantity::time, ":ms"));
+  columns.height_advice =
+      fmt::format("--columns {} (or :m)", columns_text(head, columns, Quantity::z, ":ft"));
+  if (columns.geographic && columns.z() && !columns.z()->has_unit) columns.format += ", heights in m";
+  if (!hints.where.empty())
+    columns.where =
+        columns.where.empty() ? hints.where : fmt::format("({}) and ({})", columns.where, hints.where);
+  list_unused(head, columns);
+  columns.is_ais = columns[Quantity::id] && !head.names.empty() &&
+                   same_name(head.names[columns[Quantity::id]->place], "MMSI");
+  if (hints.sizes) require_sizes(head, columns);
+  return columns;
+}
+
+}  // namespace kinesphere::program

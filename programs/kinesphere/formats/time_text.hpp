@@ -1,0 +1,64 @@
+// Parses times in files: dates or numbers.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace kinesphere::program {
+
+/// A time of a file: whole + fraction + rest, 0 <= fraction < 1. Unit: that of the file; for dates seconds
+/// since 1970-01-01T00:00:00Z.
+struct FileTime {
+  std::int64_t whole = 0;
+  double fraction = 0.0;
+  double rest = 0.0;  ///< what rounding took from the fraction, so that sums are rounded once
+};
+
+/// The kind of a file's times.
+enum class TimeKind {
+  number,  ///< numbers of a unit
+  frames,  ///< frame numbers
+  date,    ///< dates in an unknown zone
+  utc,     ///< dates with Z or an offset
+};
+
+/// What the parts of a date such as 03/04/2025 are.
+enum class DateOrder {
+  unknown,  ///< such dates are not read
+  day_first,
+  month_first,
+  any,  ///< whichever exists, to find out whether a text is a date
+};
+
+/// Parses a decimal number of absolute value below 2^61. The decimals are rounded on their own, so that
+/// 1700000000.123 loses nothing to its whole part.
+std::optional<FileTime> parse_decimal_time(std::string_view text);
+
+constexpr bool is_earlier(const FileTime& a, const FileTime& b) {
+  return a.whole != b.whole ? a.whole < b.whole : a.fraction < b.fraction;
+}
+/// Returns later - earlier, in their unit.
+constexpr double seconds_between(const FileTime& earlier, const FileTime& later) {
+  return static_cast<double>(later.whole - earlier.whole) + (later.fraction - earlier.fraction);
+}
+
+struct DateTime {
+  FileTime time;
+  bool has_offset = false;  ///< it ended in Z or an offset such as +02:00; otherwise it is taken as UTC
+};
+
+/// ISO 8601: a date YYYY-MM-DD, T or one blank, hh:mm[:ss[.fraction]] and perhaps Z, +hh, +hhmm or +hh:mm;
+/// also without - and : (YYYYMMDDThhmmss). A date YYYY-MM-DD alone is its midnight. A second 60 is the first
+/// of the next minute. Days must exist. So is YYYY/MM/DD; and D/M/YYYY or M/D/YYYY, also with . or - between
+/// them and perhaps AM or PM behind the clock, where `order` says which of the two.
+std::optional<DateTime> parse_date_time(std::string_view text, DateOrder order = DateOrder::unknown);
+
+struct TimeField {
+  FileTime time{};
+  TimeKind kind = TimeKind::number;
+};
+/// Parses a number or a date; returns nothing for other text.
+std::optional<TimeField> time_field(std::string_view text, DateOrder order = DateOrder::unknown);
+
+}  // namespace kinesphere::program

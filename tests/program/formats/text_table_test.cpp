@@ -1,0 +1,104 @@
+// Tables in text files.
+#include "formats/text_table.hpp"
+
+#include "number_text.hpp"
+#include "program/support.hpp"
+
+namespace kinesphere::program::text_table_test {
+namespace {
+
+using Fields = std::vector<std::string>;
+
+struct Row {
+  int line;
+  Fields fields;
+};
+
+struct Table {
+  Fields comments, header;
+  std::vector<Row> rows;
+};
+
+Table parse(const std::string& text) {
+  TextTable table(text, "t.txt");
+  Table result{table.head().comments, table.header(), {}};
+  for (TableRow row; table.next(row);)
+    result.rows.push_back({row.line, {row.fields.begin(), row.fields.end()}});
+  return result;
+}
+
+std::string error_in(const std::string& text) {
+  return error_of([&] { parse(text); });
+}
+
+TEST(TextTable, FindsTheSeparator) {
+  for (const char* text : {"1;2.5;x\n3;4;y\n", "1,2.5,x\n3,4,y\n", "1\t2.5\tx\n3\t4\ty\n",
+                           "  1 2.5   x\r\n 3\t4 y", "\n1 ; 2.5 ; x\n\n3;4;y"}) {
+    SCOPED_TRACE(text);
+    const Table table = parse(text);
+    ASSERT_EQ(table.rows.size(), 2u);
+    EXPECT_EQ(table.rows[0].fields, (Fields{"1", "2.5", "x"}));
+    EXPECT_EQ(table.rows[1].fields, (Fields{"3", "4", "y"}));
+    EXPECT_TRUE(table.header.empty());
+  }
+}
+
+TEST(TextTable, KeepsEmptyFields) {
+  EXPECT_EQ(parse("1;;3;\n").rows[0].fields, (Fields{"1", "", "3", ""}));
+  EXPECT_EQ(parse("1\t\t3\t\n").rows[0].fields, (Fields{"1", "", "3", ""}));
+}
+
+TEST(TextTable, ReadsQuotedFields) {
+  const Table table = parse(
+      "\"id\", \"x, m\" ,name\r\n\"1\",\"2\",\"a \"\"b\"\"\"\r\n3,4,\"two\r\nlines, and a #\n# "
+      "more\"\r\n5,6,\"\"\r\n");
+  EXPECT_EQ(table.header, (Fields{"id", "x, m", "name"}));
+  ASSERT_EQ(table.rows.size(), 3u);
+  EXPECT_EQ(table.rows[0].fields, (Fields{"1", "2", "a \"b\""}));
+  EXPECT_EQ(table.rows[1].fields, (Fields{"3", "4", "two\r\nlines, and a #\n# more"}));
+  EXPECT_EQ(table.rows[2].fields, (Fields{"5", "6", ""}));
+  EXPECT_EQ(table.rows[2].line, 6);
+  // A separator in quotes does not count in the search for the separator, nor does one in the quoted first
+  // line.
+  EXPECT_EQ(parse("\"a;b\nc\",2\n").rows[0].fields, (Fields{"a;b\nc", "2"}));
+}
+
+TEST(TextTable, NamesTheQuoteThatIsWrong) {
+  EXPECT_EQ(error_in("a,b\n1,\"2\n3,4\n"), "t.txt:2: expected a quote that ends the quoted field (column 2)");
+  EXPECT_EQ(error_in("a,b\n1,2\"3\"\n"), "t.txt:2: expected quotes only around a whole field (column 2)");
+  EXPECT_EQ(error_in("a,b\n\"1\"2,3\n"), "t.txt:2: expected a separator after the quoted field (column 1)");
+}
+
+TEST(TextTable, FindsTheHeader) {
+  const Table plain = parse("\xEF\xBB\xBFid,x\n1,2\n");
+  EXPECT_EQ(plain.header, (Fields{"id", "x"}));
+  ASSERT_EQ(plain.rows.size(), 1u);
+  EXPECT_EQ(plain.rows[0].line, 2);
+  const Table comment = parse("# made by hand\n# id x/m\n1\t2\n");
+  EXPECT_EQ(comment.header, (Fields{"id", "x/m"}));
+  EXPECT_EQ(comment.comments, (Fields{"made by hand", "id x/m"}));
+  EXPECT_EQ(parse("# Ship Id,Base Date\n1,2\n").header, (Fields{"Ship Id", "Base Date"}));
+  EXPECT_TRUE(parse("# made by my hand\n1 2\n").header.empty());
+}
+
+TEST(TextTable, NamesTheLineOfARowOfOtherLength) {
+  EXPECT_EQ(error_in("# c\n1 2 3\n\n1 2\n"), "t.txt:4: expected 3 columns, but got 2");
+  EXPECT_EQ(error_in("a;b\n1;2;3\n"), "t.txt:2: expected 2 columns, but got 3");
+}
+
+TEST(TextTable, WantsARow) {
+  EXPECT_EQ(error_in(""), "t.txt: expected rows of numbers, but found none");
+  EXPECT_EQ(error_in("# c\nid,x\n"), "t.txt: expected rows of numbers, but found none");
+  EXPECT_EQ(error_in(std::string("1,2\n\0,3\n", 8)), "t.txt: expected a text file, but it has zero bytes");
+}
+
+TEST(TextTable, NumbersAreWholeFieldsAndFinite) {
+  EXPECT_EQ(parse_number("-1.5e3"), -1500.0);
+  EXPECT_EQ(parse_number("+2"), 2.0);
+  for (const char* wrong : {"", "x", "1x", "1 2", "nan", "inf", "1e999", "--1", "+-1"}) {
+    EXPECT_FALSE(parse_number(wrong)) << wrong;
+  }
+}
+
+}  // namespace
+}  // namespace kinesphere::program::text_table_test
