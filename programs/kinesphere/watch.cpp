@@ -6,11 +6,11 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 
+#include "formats/input_options.hpp"
 #include "output_file.hpp"
 #include "output_paths.hpp"
 #include "program_error.hpp"
 #include "standard_output.hpp"
-#include "tracks/reading_options.hpp"
 #include "validators.hpp"
 #include "watch/nats/nats_address.hpp"
 #include "watch/udp_source.hpp"
@@ -71,25 +71,7 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
           "--most-alerts", options.most_alerts,
           "At most so many alerts in a second, and one that counts the others; any number when not given")
       ->check(whole_number(std::uint64_t{1} << 53, 1));
-  command
-      ->add_option("--format", options.format, "The format, where the stream's first line does not show it")
-      ->check(CLI::Validator(
-          [](const std::string& text) {
-            return stream_format_named(text)
-                       ? std::string()
-                       : fmt::format("expected one of {}, but got '{}'", stream_format_names, text);
-          },
-          "", "format"))
-      ->type_name(stream_format_names);
-  command
-      ->add_option("--columns", options.choices.hints.columns,
-                   "Of csv: where what is, by name or number from 1, and its unit: "
-                   "id=...,time=...,lat=...,alt=NAME:ft")
-      ->type_name("LIST");
-  add_row_options(*command, options.choices.hints, "Reading");
-  command->add_option("--positions", options.choices.hints.positions, "Of csv: what x and y are")
-      ->type_name("plane|lonlat")
-      ->group("Reading");
+  add_input_options(*command, options.choices, "plane|lonlat");
   command->add_option("--dimensions", options.dimensions, "2 or 3; else as the format has heights or not")
       ->check(CLI::Range(2, 3));
   const auto measure = [command](const std::string& name, std::string& value, const std::string& description,
@@ -132,29 +114,11 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
   measure("--velocity-error", options.velocity_error,
           "Where the stream has none: one number, or horizontal:vertical", "NUMBER[:NUMBER]", errors);
   measure("--stamp-error", options.stamp_error, "Where the stream has none", "TIME", errors);
-  command
-      ->add_option_function<std::string>(
-          "--position-bound",
-          [&options](const std::string& text) {
-            options.choices.position_bound = text == "nac_p"
-                                                 ? FormatChoices::PositionBound::accuracy
-                                                 : FormatChoices::PositionBound::containment_radius;
-          },
-          "Of readsb: which of the two bounds positions, where there are both")
-      ->check(CLI::IsMember({"rc", "nac_p"}))
-      ->default_str("rc")
-      ->group(errors);
-  command
-      ->add_option_function<std::string>(
-          "--altitude",
-          [&options](const std::string& text) {
-            options.choices.altitude = text == "geometric" ? FormatChoices::Altitude::geometric
-                                                           : FormatChoices::Altitude::barometric;
-          },
-          "Of aircraft: which altitude is their height")
-      ->check(CLI::IsMember({"barometric", "geometric"}))
-      ->default_str("barometric")
-      ->group(errors);
+  using PositionBound = FormatChoices::PositionBound;
+  add_choice<PositionBound>(*command, "--position-bound", options.choices.position_bound,
+                            {{"rc", PositionBound::containment_radius}, {"nac_p", PositionBound::accuracy}},
+                            "rc", "Of readsb: which of the two bounds positions, where there are both",
+                            errors);
   const char* const map = "Latitudes and longitudes";
   measure("--origin", options.origin, "The middle of the map; the first position when not given", "LAT,LON",
           map);
@@ -179,7 +143,7 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
                    "Watch this part of all pairs, where others watch the rest: 2/4, or 1-8/16")
       ->type_name("PART/OF")
       ->group(keeping);
-  const char* const reading = "Reading";
+  const char* const reading = input_group;
   command
       ->add_option("--clock", options.clock,
                    "What time it is: as the stream tells, its stamps, or this machine's clock")

@@ -14,7 +14,6 @@ namespace kinesphere::program {
 
 struct WatchOptions {
   std::string file = "-";
-  std::string format;  ///< empty: as the stream's beginning shows
   FormatChoices choices;
   std::vector<std::string> separations;
   std::string look_ahead, confirm, hold;

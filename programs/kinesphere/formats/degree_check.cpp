@@ -24,8 +24,10 @@ std::string DegreeCheck::suspicion() const {
   const bool in_range = std::abs(least_x_) <= 180.0 && std::abs(largest_x_) <= 180.0 &&
                         std::abs(least_y_) <= 90.0 && std::abs(largest_y_) <= 90.0;
   if (all_whole_ || !in_range || offset < std::max(least_ratio * spread, least_offset)) return {};
-  return fmt::format("x ({:.9g} to {:.9g}) and y ({:.9g} to {:.9g}) may be degrees", least_x_, largest_x_,
-                     least_y_, largest_y_);
+  return fmt::format(
+      "x ({:.9g} to {:.9g}) and y ({:.9g} to {:.9g}) may be degrees: say --positions lonlat if they are "
+      "longitude and latitude, or --positions plane if they are lengths",
+      least_x_, largest_x_, least_y_, largest_y_);
 }
 
 }  // namespace kinesphere::program

@@ -10,9 +10,9 @@ namespace kinesphere::program {
 class DegreeCheck {
  public:
   void add(double x, double y);
-  /// Returns "x (8 to 9) and y (47 to 48) may be degrees" if they have the range of degrees, are not all
-  /// whole, and are farther from zero than 8 times their width. Where the origin lies among the positions or
-  /// beside them, they are lengths: empty.
+  /// Returns "x (8 to 9) and y (47 to 48) may be degrees: say ..." if they have the range of degrees, are not
+  /// all whole, and are farther from zero than 8 times their width. Where the origin lies among the positions
+  /// or beside them, they are lengths: empty.
   std::string suspicion() const;
 
  private:

@@ -44,8 +44,6 @@ constexpr FileKind kinds_by_bytes[] = {
     {"ULog\x01\x12\x35"sv, "a PX4 log: write it as CSV, with ulog2csv"},
     {"%PDF"sv, "a PDF file"},
     {"{\\rtf"sv, "a document of RTF: save it as text"},
-    {"!AIVDM"sv, "AIVDM sentences of AIS: kinesphere watch reads streams"},
-    {"!AIVDO"sv, "AIVDM sentences of AIS: kinesphere watch reads streams"},
     {"$GP"sv, "NMEA 0183: write it as CSV or GPX, with gpsbabel"},
     {"$GN"sv, "NMEA 0183: write it as CSV or GPX, with gpsbabel"},
 };
@@ -79,10 +77,9 @@ std::string other_file_kind(std::string_view beginning) {
   if (has_begin(beginning, "\xEF\xBB\xBF")) beginning.remove_prefix(3);
   beginning.remove_prefix(std::min(beginning.find_first_not_of(" \t\r\n"), beginning.size()));
   if (has_begin(beginning, "{") || has_begin(beginning, "["))
-    return fmt::format(
-        "JSON: write it as CSV, for example with jq -r '[.id,.time,.x,.y]|@csv'; kinesphere watch reads some "
-        "streams of "
-        "JSON");
+    return "JSON of none of the formats that are read (docs/tables.md): write it as CSV, for example with jq "
+           "-r "
+           "'[.id,.time,.x,.y]|@csv'";
   if (!has_begin(beginning, "<")) return {};
   const std::string_view head = beginning.substr(0, 4000);
   for (const FileKind& kind : kinds_of_xml)

@@ -1,7 +1,10 @@
-// Cuts the text of a stream into records: lines, or JSON documents that may go over several lines.
+// Cuts text into records.
 #include "formats/record_cutter.hpp"
 
 #include <algorithm>
+
+#include "ascii_text.hpp"
+#include "formats/row_splitter.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -20,7 +23,9 @@ void RecordCutter::feed(std::string_view text) {
   text_.append(text);
 }
 
-std::optional<Record> RecordCutter::next() { return kind_ == Kind::lines ? next_line() : next_document(); }
+std::optional<Record> RecordCutter::next() {
+  return kind_ == Kind::lines ? next_line() : kind_ == Kind::rows ? next_row() : next_document();
+}
 
 Record RecordCutter::cut(std::size_t end, std::size_t next, bool is_whole) {
   const Record record{std::string_view(text_).substr(begin_, end - begin_), line_, is_whole,
@@ -55,6 +60,27 @@ std::optional<Record> RecordCutter::next_line() {
     std::string_view text = std::string_view(text_).substr(begin, end - begin);
     if (text.ends_with('\r')) text.remove_suffix(1);
     return Record{text, line, text.size() <= longest_line, text_.size() - begin};
+  }
+}
+
+std::optional<Record> RecordCutter::next_row() {
+  for (;;) {
+    const std::size_t end = text_.find('\n', at_);
+    if (end == std::string::npos) return std::nullopt;
+    const std::string_view line = std::string_view(text_).substr(at_, end - at_);
+    const std::string_view content = trimmed(line);
+    if (at_ > begin_ || !(content.empty() || content.starts_with('#'))) {
+      if (has_quotes_.value_or(true) && std::count(line.begin(), line.end(), '"') % 2 == 1)
+        in_text_ = !in_text_;
+      // The first row shows the separator.
+      if (!in_text_ && !has_quotes_)
+        has_quotes_ = separator_of(std::string_view(text_).substr(begin_, end - begin_)) != ' ';
+    }
+    at_ = end + 1;
+    if (in_text_) continue;
+    Record record = cut(end, end + 1);
+    if (record.text.ends_with('\r')) record.text.remove_suffix(1);
+    return record;
   }
 }
 
@@ -127,7 +153,7 @@ std::optional<Record> RecordCutter::next_document() {
 
 std::optional<Record> RecordCutter::rest() {
   if (skips_line_ || begin_ == text_.size()) return std::nullopt;
-  const bool is_whole = kind_ == Kind::lines;
+  const bool is_whole = kind_ != Kind::documents;
   Record record = cut(text_.size(), text_.size(), is_whole);
   if (record.text.ends_with('\r')) record.text.remove_suffix(1);
   depth_ = 0;

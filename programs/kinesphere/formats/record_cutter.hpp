@@ -1,4 +1,4 @@
-// Cuts the text of a stream into records: lines, or JSON documents that may go over several lines.
+// Cuts text into records: lines, rows of a table or JSON documents, both of which may go over several lines.
 #pragma once
 
 #include <cstddef>
@@ -22,11 +22,12 @@ struct Record {
 
 /// Cuts records. In JSON each outermost object is a record; a line end or nothing may separate two. A
 /// truncated document does not swallow the next: no text continues after a line end, and a line that begins
-/// with {"now" or {"time" begins a document.
+/// with {"now" or {"time" begins a document. Rows go on behind line ends in quotes, which a stream, where one
+/// damaged quote would take all later lines along, does not allow.
 class RecordCutter {
  public:
-  enum class Kind { lines, documents };
-  /// Bytes. Longer lines are dropped.
+  enum class Kind { lines, rows, documents };
+  /// Bytes. Longer lines are dropped, but not longer rows.
   static constexpr std::size_t longest_line = std::size_t{1} << 20;
   static constexpr std::size_t longest_document = std::size_t{1} << 26;
 
@@ -56,6 +57,7 @@ class RecordCutter {
 
  private:
   std::optional<Record> next_line();
+  std::optional<Record> next_row();
   std::optional<Record> next_document();
   /// Returns the record from begin_ to `end`; the next one begins at `next`.
   Record cut(std::size_t end, std::size_t next, bool is_whole = true);
@@ -69,8 +71,9 @@ class RecordCutter {
   bool skips_line_ = false;
   // Depth of nested braces in a document.
   int depth_ = 0;
-  bool in_text_ = false;
+  bool in_text_ = false;  ///< in quotes
   bool escaped_ = false;
+  std::optional<bool> has_quotes_;  ///< of rows: fields may be quoted, as those between blanks may not
 };
 
 }  // namespace kinesphere::program

@@ -1,11 +1,18 @@
 // The formats of recordings and streams: names and recognition.
 #include "formats/report_format.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "ascii_text.hpp"
 #include "formats/ais/nmea_line.hpp"
+#include "formats/presets.hpp"
+#include "number_text.hpp"
+#include "program_error.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -49,6 +56,29 @@ bool has_key(std::string_view line, std::string_view key) {
   return false;
 }
 
+/// Messages have no columns.
+void refuse_table_options(const FormatChoices& choices) {
+  const ColumnHints& hints = choices.hints;
+  for (const auto& [option, is_given] :
+       {std::pair("--columns", !hints.columns.empty()), std::pair("--where", !hints.where.empty()),
+        std::pair("--positions", !hints.positions.empty()), std::pair("--unit", !hints.unit.empty()),
+        std::pair("--time-unit", !hints.time_unit.empty()),
+        std::pair("--frame-rate", hints.frame_rate.has_value()),
+        std::pair("--dates", hints.dates != DateOrder::unknown), std::pair("--sizes", hints.sizes)})
+    if (is_given)
+      throw ProgramError(fmt::format("{}: expected a table, but {} has no columns", option, choices.source));
+}
+
+/// True for a message of BaseStation. The third field is the number of a session, which no header has.
+bool is_sbs(std::string_view line) {
+  if (line.starts_with("MSG,")) return true;
+  constexpr std::string_view types[] = {"SEL,", "ID,", "AIR,", "STA,", "CLK,"};
+  if (std::none_of(std::begin(types), std::end(types), [line](auto type) { return line.starts_with(type); }))
+    return false;
+  for (int field = 0; field < 2; ++field) line.remove_prefix(std::min(line.find(',') + 1, line.size()));
+  return line.empty() || parse_number(line.substr(0, line.find(','))) || line.starts_with(',');
+}
+
 bool has_column(std::string_view header, std::string_view name) {
   while (!header.empty()) {
     std::string_view field = header.substr(0, header.find(','));
@@ -66,15 +96,26 @@ void ReportFormat::finish(ReportSink&) {}
 
 std::string_view name_of(StreamFormat format) { return row_of(format).name; }
 
-std::optional<StreamFormat> stream_format_named(std::string_view name) {
+std::optional<StreamFormat> format_named(std::string_view name, std::string_view beginning) {
+  if (name == "opensky" && !beginning.empty() && !trimmed(beginning).starts_with('{'))
+    return StreamFormat::csv;
   for (const FormatRow& row : format_rows)
     if (row.name == name) return row.format;
-  return std::nullopt;
+  if (name == "dma") return StreamFormat::ais;
+  return name == "table" || preset_named(name) != nullptr ? std::optional(StreamFormat::csv) : std::nullopt;
+}
+
+std::string format_names() {
+  std::string names = preset_names();
+  for (const FormatRow& row : format_rows)
+    if (preset_named(row.name) == nullptr) names += fmt::format("|{}", row.name);
+  return names;
 }
 
 RecordCutter::Kind records_of(StreamFormat format) { return row_of(format).records; }
 
 std::unique_ptr<ReportFormat> make_format(StreamFormat format, const FormatChoices& choices) {
+  if (!is_table(format)) refuse_table_options(choices);
   return row_of(format).make(choices);
 }
 
@@ -95,8 +136,7 @@ std::optional<StreamFormat> recognised_format(std::string_view beginning) {
   if (line.ends_with('\r')) line.remove_suffix(1);
   if (looks_like_nmea(line) || (!line.starts_with('{') && has_ais_sentence(beginning.substr(0, 4096))))
     return StreamFormat::nmea;
-  for (const std::string_view type : {"MSG,", "SEL,", "ID,", "AIR,", "STA,", "CLK,"})
-    if (line.starts_with(type)) return StreamFormat::sbs;
+  if (is_sbs(line)) return StreamFormat::sbs;
   if (line.starts_with('{')) {
     if (has_key(line, "aircraft") || has_key(line, "ac") || has_key(line, "now")) return StreamFormat::readsb;
     if (has_key(line, "states") || (has_key(line, "time") && !has_key(line, "id")))

@@ -33,6 +33,8 @@ class ReportFormat {
   /// Passes the reports of a record to `sink`. Throws WrongInput, such as MalformedRecord; reports passed
   /// before that stay valid. Throws UnusableStream.
   virtual void read(const Record& record, ReportSink& sink) = 0;
+  /// Of a table, the reader of its rows; null before the first of them, and for other formats.
+  virtual const RowReader* rows() const { return nullptr; }
   /// Call it at the end of the stream. Throws UnusableStream.
   virtual void finish(ReportSink& sink);
   /// Returns the state from earlier records, for a run that continues behind them.
@@ -41,15 +43,23 @@ class ReportFormat {
   virtual void restore(const nlohmann::json& state);
 };
 
+/// Tables are `csv`, and `ais` where their tracks are ships; the others are messages.
 enum class StreamFormat { readsb, sbs, opensky, ais, nmea, csv, jsonl };
+constexpr bool is_table(StreamFormat format) {
+  return format == StreamFormat::csv || format == StreamFormat::ais;
+}
 
-/// Returns "readsb" and so on; the version without arguments returns all names, separated by |.
+/// Returns "readsb" and so on.
 std::string_view name_of(StreamFormat format);
-std::optional<StreamFormat> stream_format_named(std::string_view name);
-inline constexpr const char* stream_format_names = "readsb|sbs|opensky|ais|nmea|csv|jsonl";
+/// Returns the format that --format says of a text with this beginning; nothing for an unknown name. Messages
+/// and tables of OpenSky have one name: without a beginning they are messages.
+std::optional<StreamFormat> format_named(std::string_view name, std::string_view beginning = {});
+/// Returns the names of all formats of messages and of all presets of tables, separated by |.
+std::string format_names();
 
+/// The command line's choices about a file or stream.
 struct FormatChoices {
-  ColumnHints hints;   ///< for csv and ais
+  ColumnHints hints;   ///< for tables, but for --format
   std::string source;  ///< the stream's name, for messages
   enum class Altitude { barometric, geometric } altitude = Altitude::barometric;
   enum class PositionBound {
@@ -62,9 +72,13 @@ struct FormatChoices {
   /// have no bound.
   bool position_error_is_said = false;
   double velocity_age = 5.0;  ///< sbs: an older velocity is not used (seconds)
+  /// The whole file is read: each row of a table has as many fields as the first, and what is asked about is
+  /// never only a damaged line.
+  bool is_recording = false;
+  std::string title;  ///< of a converted table: its format
 };
 
-/// Throws ProgramError naming a wrong option. `first_line` is that of the stream.
+/// Throws ProgramError naming a wrong option, also for an option about tables that is given with messages.
 std::unique_ptr<ReportFormat> make_format(StreamFormat format, const FormatChoices& choices);
 RecordCutter::Kind records_of(StreamFormat format);
 

@@ -173,8 +173,8 @@ void RowReader::check_size(const FileTime& time) {
                        ", which may be a date without separators: these are read as 20240131T123015");
   constexpr std::int64_t year_1990 = 631'152'000'000, year_2100 = 4'102'444'800'000;
   if (!columns_.geographic || has_time_ || time.whole < year_1990 || time.whole > year_2100)
-    throw OpenQuestion(wrong_text(columns_[Quantity::time]->place, "seconds as time") + ": say " +
-                       columns_.time_advice);
+    throw OpenQuestion(wrong_text(columns_[Quantity::time]->place, "seconds as time") +
+                       ": say --time-unit ms, us or ns, or s if these are seconds");
   columns_.time_unit = {1.0, 1e3};
   columns_.time_unit_said = true;
   columns_.format += ", times in ms since 1970";

@@ -30,15 +30,9 @@ char separator_of(std::string_view text) {
   return ' ';
 }
 
-void RowSplitter::begin(std::string_view text, int line) {
+void RowSplitter::begin(std::string_view text) {
   rest_ = text;
-  line_ = line;
   unquoted_.clear();
-}
-
-void RowSplitter::skip_line() {
-  rest_.remove_prefix(std::min(line_ahead().size() + 1, rest_.size()));
-  ++line_;
 }
 
 /// A row ends at a line end outside quotes.
@@ -53,7 +47,6 @@ void RowSplitter::read(std::vector<std::string_view>& fields) {
       line.remove_prefix(end + 1);
     }
     fields.push_back(trimmed(line));
-    skip_line();
     return;
   }
   for (;;) {
@@ -63,7 +56,6 @@ void RowSplitter::read(std::vector<std::string_view>& fields) {
     if (!more) break;
     if (separator_ != ' ') rest_.remove_prefix(1);
   }
-  skip_line();
 }
 
 /// Reads up to the separator or the end of the line.
@@ -104,7 +96,6 @@ std::string_view RowSplitter::read_quoted(std::size_t column) {
   }
   std::string_view field = begin.substr(0, at);
   if (doubled != nullptr) field = doubled->append(begin.substr(copied, at - copied));
-  line_ += static_cast<int>(std::count(begin.begin(), begin.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
   rest_.remove_prefix(at + 1);
   const std::string_view after = line_ahead();
   const std::size_t end = std::min(after.find(separator_), after.size());

@@ -24,30 +24,22 @@ char separator_of(std::string_view text);
 class RowSplitter {
  public:
   /// Begins with this text, which must outlive the fields.
-  void begin(std::string_view text, int line = 1);
+  void begin(std::string_view text);
   void set_separator(char separator) { separator_ = separator; }
   char separator() const { return separator_; }
-
-  /// Text that has not been read.
-  std::string_view rest() const { return rest_; }
-  int line() const { return line_; }  ///< line of rest(), from 1
-  /// Returns the next line without its end; empty at the end of the text.
-  std::string_view line_ahead() const { return rest_.substr(0, rest_.find('\n')); }
-  void skip_line();
   /// Reads a row. Its fields are valid until the next call of read() or begin(). Throws WrongInput for wrong
   /// quotes: unclosed, inside an unquoted field, or followed by text.
   void read(std::vector<std::string_view>& fields);
-  /// Returns the texts of fields that had doubled quotes; they stay valid as long as the result.
-  std::deque<std::string> take_unquoted() { return std::move(unquoted_); }
 
  private:
+  /// Returns the next line without its end; empty at the end of the text.
+  std::string_view line_ahead() const { return rest_.substr(0, rest_.find('\n')); }
   std::string_view read_field(std::size_t column);
   std::string_view read_quoted(std::size_t column);
 
   std::string_view rest_;
-  int line_ = 1;
   char separator_ = ' ';
-  std::deque<std::string> unquoted_;
+  std::deque<std::string> unquoted_;  ///< fields that had doubled quotes
 };
 
 }  // namespace kinesphere::program

@@ -21,6 +21,12 @@ struct DeclaredError {
   std::string_view declaration{};
 };
 
+/// The time and position of a row in its own numbers, whose units the columns say.
+struct WrittenSample {
+  std::optional<TimeField> time{};
+  Vec3 position{};
+};
+
 /// Lengths and times are in the units of the stream: metres and seconds if it has units.
 struct SourceReport {
   std::string_view id{};              ///< the stream's spelling; valid during the call
@@ -63,6 +69,7 @@ struct SourceReport {
   std::size_t ruled_class = 0;  ///< index of the class of the first --class that holds; 0: none
   /// Of a table, the row that has the report; valid during the call. Null for other formats.
   const RowReader* row = nullptr;
+  WrittenSample written{};  ///< of a table
   // Texts for expressions of --class, valid during the call.
   std::string_view category{}, craft_type{}, status{};
   /// Two reports of one place with timestamps this close are one report. Unit: seconds.
@@ -81,6 +88,8 @@ class ReportSink {
  public:
   virtual ~ReportSink() = default;
   virtual void take(const SourceReport& report) = 0;
+  /// Receives a row of a table that lacks its time or position.
+  virtual void take_incomplete(const SourceReport&) { pass_over(Passed::no_position); }
   /// Receives the present time of the stream.
   virtual void time_is(const FileTime& arrival, TimeKind kind) = 0;
   virtual void pass_over(Passed reason) = 0;

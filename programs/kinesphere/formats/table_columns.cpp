@@ -256,7 +256,7 @@ class UsualColumns {
     if (hints.positions == "plane" || hints.positions.starts_with("utm"))
       forget({Quantity::longitude, Quantity::latitude});
     // Frame numbers are not needed if there are times.
-    if (!places(Quantity::time).empty() || use == ColumnUse::reports) forget({Quantity::frame});
+    if (!places(Quantity::time).empty()) forget({Quantity::frame});
   }
 
   TableColumns found() const {
@@ -500,8 +500,7 @@ std::vector<Quantity> measured(const TableColumns& columns) {
 }
 
 /// Gives a unit to lengths and speeds without one. Asks where only some have one.
-void understand_lengths(const TableHead& head, const ColumnHints& hints, ColumnUse use,
-                        TableColumns& columns) {
+void understand_lengths(const TableHead& head, const ColumnHints& hints, TableColumns& columns) {
   const bool unit_is_said = !hints.unit.empty() && hints.unit != "deg";
   const double said =
       unit_is_said && hints.unit != "nm" ? unit_named(hints.unit, Measure::length).value_or(0.0) : 0.0;
@@ -534,11 +533,11 @@ void understand_lengths(const TableHead& head, const ColumnHints& hints, ColumnU
   const bool zone = hints.positions.starts_with("utm");
   columns.in_metres = columns.geographic || zone || with.has_value();
   if (columns.geographic || !with || !without) return;
-  throw ProgramError(fmt::format(
-      "{}: {} does not say its unit, but {} does: say {}={}:UNIT with --columns{}", head.file,
-      column_text(head, columns[*without]->place), column_text(head, columns[*with]->place), key_of(*without),
-      column_word(head, columns[*without]->place),
-      use == ColumnUse::positions && measure_of(*without) == Measure::length ? ", or --unit" : ""));
+  throw ProgramError(fmt::format("{}: {} does not say its unit, but {} does: say {}={}:UNIT with --columns{}",
+                                 head.file, column_text(head, columns[*without]->place),
+                                 column_text(head, columns[*with]->place), key_of(*without),
+                                 column_word(head, columns[*without]->place),
+                                 measure_of(*without) == Measure::length ? ", or --unit" : ""));
 }
 
 // Times.
@@ -561,11 +560,10 @@ void understand_time(const TableHead& head, ColumnUse use, TableColumns& columns
   const auto meaning = time && !head.names.empty() ? meaning_of(head.names[time->place]) : std::nullopt;
   const bool is_frame = frame || (meaning && meaning->quantity == Quantity::frame);
   if (is_frame) {
-    if (use == ColumnUse::reports && !columns.time_unit_said)
-      throw ProgramError(fmt::format("{}: expected a column of times, because {} counts frames", head.file,
-                                     column_text(head, (frame ? frame : time)->place)));
     if (frame) time = std::exchange(frame, std::nullopt);
     columns.time_kind = TimeKind::frames;
+    // The rate of these films turns out with their last row.
+    if (columns.film != Film::none && use == ColumnUse::reports) columns.time_unit_said = false;
     if (columns.time_unit_said || !columns.time_problem.empty()) return;
     if (const auto rate = frame_rate_in(head)) {
       columns.time_unit.rate = *rate;
@@ -646,14 +644,10 @@ TableColumns find_columns(const TableHead& head, const ColumnHints& hints, Colum
   require_columns(head, hints, columns);
   if (hints.columns.empty() && !columns.has_own_heights) ask_for_heights(head, columns);
   if (columns.format == "table") ask_for_fractions(head, columns);
-  understand_lengths(head, hints, use, columns);
+  understand_lengths(head, hints, columns);
   understand_time(head, use, columns);
   apply_time_hints(hints, columns);
   if (hints.dates != DateOrder::unknown) columns.dates = hints.dates;
-  columns.time_advice =
-      use == ColumnUse::positions
-          ? "--time-unit ms, us or ns, or s if these are seconds"
-          : fmt::format("--columns {}, or :us, :ns, :s", columns_text(head, columns, Quantity::time, ":ms"));
   columns.height_advice =
       fmt::format("--columns {} (or :m)", columns_text(head, columns, Quantity::z, ":ft"));
   if (columns.geographic && columns.z() && !columns.z()->has_unit) columns.format += ", heights in m";

@@ -47,7 +47,6 @@ struct TableColumns {
   TimeUnit time_unit{};                   ///< unit of numbers; its rate is that of frames
   bool time_unit_said = false;            ///< not only taken for seconds because the column is called time
   std::string time_problem;               ///< not empty: why numbers cannot be taken as times
-  std::string time_advice;                ///< how to say the unit of times
   std::string height_advice;              ///< how to say the unit of heights
   DateOrder dates = DateOrder::unknown;
   /// Frames are numbers of a film that was sampled 2.5 times a second: every tenth at 25 frames/s (UCY), or

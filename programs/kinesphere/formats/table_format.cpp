@@ -14,6 +14,7 @@
 #include "formats/presets.hpp"
 #include "formats/report_format.hpp"
 #include "formats/row_reader.hpp"
+#include "formats/text_table.hpp"
 #include "number_text.hpp"
 #include "program_error.hpp"
 
@@ -25,75 +26,62 @@ class CsvFormat final : public ReportFormat {
   CsvFormat(FormatChoices choices, bool is_ais)
       : choices_(std::move(choices)),
         is_ais_(is_ais),
-        head_(choices_.source.empty() ? "the stream" : choices_.source) {}
+        table_(choices_.source.empty() ? "the stream" : choices_.source, choices_.is_recording) {}
 
   void read(const Record& record, ReportSink& sink) override try {
-    if (!record.is_whole) throw MalformedRecord("expected a line, but it is too long");
-    std::string_view text = record.text;
-    if (record.line == 1 && text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-    if (text.find_first_not_of(" \t\r") == std::string_view::npos) return;
-    if (reader_ ? text.starts_with('#') : !is_first_row(text)) return;
-    if (reader_->leaves_out(split(text))) return sink.pass_over(Passed::filtered);
-    // A file that is appended to another repeats the header.
-    const auto& names = head_.head().names;
-    if (std::equal(fields_.begin(), fields_.end(), names.begin(), names.end())) return;
-    if (fields_.size() < columns_needed_)
+    fields_ = table_.read(record);
+    if (fields_ == nullptr) return;
+    if (!reader_) begin();
+    if (reader_->leaves_out(*fields_)) return sink.pass_over(Passed::filtered);
+    if (fields_->size() < columns_needed_)
       throw MalformedRecord(
-          fmt::format("expected {} columns or more, but got {}", columns_needed_, fields_.size()));
-    reader_->set_row(fields_);
+          fmt::format("expected {} columns or more, but got {}", columns_needed_, fields_->size()));
+    reader_->set_row(*fields_);
     for (std::size_t body = 0; body < reader_->bodies(); ++body) {
       reader_->set_body(body);
       hand_over(sink);
     }
   } catch (const OpenQuestion& question) {
     // A damaged line must not end a stream that has been understood.
-    if (has_handed_over_) throw MalformedRecord(question.what());
-    throw ProgramError(fmt::format("{}:{}: {}", head_.head().file, record.line, question.what()));
+    if (has_handed_over_ && !choices_.is_recording) throw MalformedRecord(question.what());
+    const std::string line = question.is_about_row() ? fmt::format(":{}", record.line) : "";
+    throw ProgramError(fmt::format("{}{}: {}", table_.head().file, line, question.what()));
   }
 
   /// A short stream is asked about at its end.
-  void finish(ReportSink& /*sink*/) override { ask(); }
+  void finish(ReportSink& /*sink*/) override {
+    if (choices_.is_recording && !reader_) throw UnusableStream("expected rows of numbers, but found none");
+    ask();
+  }
+  const RowReader* rows() const override { return reader_ ? &*reader_ : nullptr; }
 
-  nlohmann::json save() const override { return lines_; }
+  nlohmann::json save() const override { return table_.beginning(); }
   void restore(const nlohmann::json& state) override {
-    for (const std::string line : state) is_first_row(line);
+    for (const std::string line : state)
+      if (table_.read({.text = line}) != nullptr) begin();
     has_handed_over_ = reader_.has_value();
     // The earlier run has asked.
     if (reader_) checked_ = most_checked;
   }
 
  private:
-  const std::vector<std::string_view>& split(std::string_view line) {
-    row_.begin(line);
-    row_.read(fields_);
-    return fields_;
-  }
-
-  /// Takes a line up to the first row of values; returns true with this.
-  bool is_first_row(std::string_view line) {
-    if (line.starts_with('#')) {
-      head_.comment(line.substr(1));
-      lines_.emplace_back(line);
-      return false;
-    }
-    if (head_.head().names.empty()) {
-      row_.set_separator(separator_of(line));
-      head_.set_separator(row_.separator());
-    }
-    const bool is_complete = head_.row(split(line));
-    lines_.emplace_back(line);
-    if (!is_complete) return false;
-    const TableHead& head = head_.head();
+  /// Finds the columns. Precondition: the head of the table is complete.
+  void begin() {
+    const TableHead& head = table_.head();
     ColumnHints hints = choices_.hints;
-    if (is_ais_ && hints.columns.empty() && recognised_preset(head) == nullptr) hints.format = "ais";
-    reader_.emplace(head, find_columns(head, hints, ColumnUse::reports));
+    if (hints.format == "csv" || (is_ais_ && hints.format == "ais")) hints.format.clear();
+    if (is_ais_ && hints.columns.empty() && hints.format.empty() && recognised_preset(head) == nullptr)
+      hints.format = "ais";
+    TableColumns columns =
+        find_columns(head, hints, choices_.is_recording ? ColumnUse::positions : ColumnUse::reports);
+    if (!choices_.title.empty()) columns.format = choices_.title;
+    reader_.emplace(head, std::move(columns));
     for (const TableColumns::Body& body : reader_->columns().bodies)
       columns_needed_ = std::max({columns_needed_, body.x + 1, body.y + 1, body.z.value_or(0) + 1});
     for (const auto& column : reader_->columns().of)
       if (column) columns_needed_ = std::max(columns_needed_, column->place + 1);
     name_column_ = column_of_names(head);
     find_class_columns(head);
-    return true;
   }
 
   /// Returns the column with callsigns or ships' names. Such names may be ids elsewhere, so one that is read
@@ -113,16 +101,11 @@ class CsvFormat final : public ReportFormat {
     const auto number = reader_->number(quantity);
     return number ? std::optional(*number * reader_->columns()[quantity]->unit) : std::nullopt;
   }
-  std::optional<TimeField> time(Quantity quantity) {
-    auto time = reader_->time(quantity);
-    if (!time || time->kind == TimeKind::date || time->kind == TimeKind::utc) return time;
-    const TableColumns& columns = reader_->columns();
-    const double unit = quantity == Quantity::time ? columns.time_unit.seconds / columns.time_unit.rate
-                                                   : columns[quantity]->unit;
-    if (unit != 1.0)
-      time->time = time_of((static_cast<double>(time->time.whole) + time->time.fraction) * unit);
-    time->kind = TimeKind::number;
-    return time;
+  /// Makes a number one of this unit in seconds.
+  static void scale(TimeField& time, double unit) {
+    if (time.kind == TimeKind::date || time.kind == TimeKind::utc) return;
+    if (unit != 1.0) time.time = time_of((static_cast<double>(time.time.whole) + time.time.fraction) * unit);
+    time.kind = TimeKind::number;
   }
   std::optional<DeclaredError> error(Quantity quantity) {
     const auto error = number(quantity);
@@ -135,11 +118,18 @@ class CsvFormat final : public ReportFormat {
   void hand_over(ReportSink& sink) {
     const TableColumns& columns = reader_->columns();
     SourceReport report{.id = reader_->id()};
-    if (name_column_ && *name_column_ < fields_.size()) report.name = fields_[*name_column_];
-    const auto stamp = time(Quantity::time);
-    if (const auto arrival = time(Quantity::arrival)) report.arrival = arrival->time;
+    report.row = &*reader_;
+    if (name_column_ && *name_column_ < fields_->size()) report.name = (*fields_)[*name_column_];
+    auto stamp = reader_->time();
+    report.written.time = stamp;
+    if (auto arrival = reader_->time(Quantity::arrival)) {
+      scale(*arrival, columns[Quantity::arrival]->unit);
+      report.arrival = arrival->time;
+    }
     const auto position = reader_->position();
-    if (!stamp || !position) return sink.pass_over(Passed::no_position);
+    if (!stamp || !position) return sink.take_incomplete(report);
+    report.written.position = *position;
+    scale(*stamp, columns.time_unit.seconds / columns.time_unit.rate);
     report.stamp = stamp->time;
     report.time_kind = stamp->kind;
     report.geographic = columns.geographic;
@@ -153,10 +143,17 @@ class CsvFormat final : public ReportFormat {
     report.velocity_error = error(Quantity::velocity_error);
     report.climb_error = error(Quantity::climb_error);
     report.stamp_error = number(Quantity::stamp_error);
+    report.extent = radius();
     add_class(report);
     has_handed_over_ = true;
-    if (checked_ < most_checked) check_first(*position, report);
+    if (checked_ < most_checked && !choices_.is_recording) check_first(*position, report);
     sink.take(report);
+  }
+
+  /// Returns half the diagonal of length and width; 0 if one of them is not known, which is also said by 0.
+  double radius() {
+    const auto length = number(Quantity::length), width = number(Quantity::width);
+    return length && width && *length > 0.0 && *width > 0.0 ? std::hypot(*length, *width) / 2 : 0.0;
   }
 
   /// Gathers the first reports, and asks before the last of them is taken.
@@ -171,7 +168,7 @@ class CsvFormat final : public ReportFormat {
     if (checked_ == most_checked) ask();
   }
   void ask() const {
-    if (!reader_) return;
+    if (!reader_ || choices_.is_recording) return;
     ask_about_row_numbers();
     ask_about_degrees();
   }
@@ -189,10 +186,7 @@ class CsvFormat final : public ReportFormat {
     const TableColumns& columns = reader_->columns();
     const std::string suspicion = degree_check_.suspicion();
     if (columns.positions_said || columns.x().has_unit || suspicion.empty()) return;
-    throw UnusableStream(
-        fmt::format("{}: say --positions lonlat if they are longitude and latitude, or --positions plane if "
-                    "they are lengths",
-                    suspicion));
+    throw UnusableStream(suspicion);
   }
 
   void read_velocity(SourceReport& report) {
@@ -228,9 +222,8 @@ class CsvFormat final : public ReportFormat {
   }
   void add_class(SourceReport& report) const {
     const auto text = [&](const std::optional<std::size_t>& place) {
-      return place && *place < fields_.size() ? fields_[*place] : std::string_view();
+      return place && *place < fields_->size() ? (*fields_)[*place] : std::string_view();
     };
-    report.row = &*reader_;
     report.said_status = preset_of_status(text(status_));
     report.said_kind = preset_of_mobile(text(mobile_));
     if (!report.said_kind) report.said_kind = preset_of_ship_type(text(type_));
@@ -239,9 +232,7 @@ class CsvFormat final : public ReportFormat {
 
   FormatChoices choices_;
   bool is_ais_;
-  /// Lines up to the first row of values.
-  std::vector<std::string> lines_;
-  TableHeadReader head_;
+  TextTable table_;
   std::optional<RowReader> reader_;  ///< empty before the first row of values
   bool has_handed_over_ = false;
   std::size_t columns_needed_ = 0;
@@ -257,8 +248,7 @@ class CsvFormat final : public ReportFormat {
   bool has_later_ = false;   ///< a report is later than the first
   std::optional<double> last_number_;
   std::optional<FileTime> first_stamp_;
-  RowSplitter row_;
-  std::vector<std::string_view> fields_;
+  const std::vector<std::string_view>* fields_ = nullptr;  ///< of the row
 };
 
 }  // namespace

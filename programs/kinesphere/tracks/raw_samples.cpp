@@ -4,15 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <filesystem>
+#include <limits>
+#include <memory>
 #include <numeric>
 #include <utility>
 
 #include "formats/converted_table.hpp"
+#include "formats/file_kind.hpp"
 #include "formats/row_reader.hpp"
-#include "formats/text_table.hpp"
 #include "program_error.hpp"
 
 namespace kinesphere::program {
@@ -20,99 +20,210 @@ namespace {
 
 bool is_date(TimeKind kind) { return kind == TimeKind::date || kind == TimeKind::utc; }
 
+constexpr std::string_view time_text_of(TimeKind kind) {
+  switch (kind) {
+    case TimeKind::date:
+      return "a date without a zone as time";
+    case TimeKind::utc:
+      return "a date with a zone as time";
+    default:
+      return "a number as time";
+  }
+}
+
+/// Returns the columns that a table of these messages would have.
+TableColumns columns_of_messages(StreamFormat format, bool geographic, bool has_heights) {
+  TableColumns columns;
+  columns.format = name_of(format);
+  columns.geographic = columns.in_metres = geographic;
+  columns.positions_said = columns.time_unit_said = true;
+  const Column said{.has_unit = true};
+  columns[geographic ? Quantity::longitude : Quantity::x] = said;
+  columns[geographic ? Quantity::latitude : Quantity::y] = said;
+  if (has_heights) columns[Quantity::z] = said;
+  return columns;
+}
+
 }  // namespace
 
-/// Reads the rows of one file.
-class RawRecording::FileReader {
+/// Takes the reports of one file.
+class RawRecording::FileReader final : public ReportSink {
  public:
-  FileReader(RawRecording& recording, const TextTable& table, TableColumns columns)
-      : recording_(recording), table_(table), reader_(table.head(), std::move(columns)) {
-    const auto& names = table.head().names;
-    for (const std::size_t place : reader_.columns().unused)
-      if (place < names.size() && is_scene(names[place]) && !reader_.filter().mentions(place))
-        scene_columns_.push_back(place);
-  }
+  FileReader(RawRecording& recording, StreamFormat format, const FormatChoices& choices)
+      : recording_(recording), format_(format), reader_(make_format(format, choices)) {}
 
-  const TableColumns& columns() const { return reader_.columns(); }
-
-  void read(const TableRow& row) try {
-    const Place place{static_cast<std::uint32_t>(recording_.files_.size() - 1), row.line};
-    if (reader_.leaves_out(row.fields)) return recording_.count(recording_.filtered_, place);
-    reader_.set_row(row.fields);
-    for (std::size_t body = 0; body < reader_.bodies(); ++body) {
-      reader_.set_body(body);
-      add_sample(place, row);
+  void read(std::string_view text) {
+    RecordCutter cutter(is_table(format_) ? RecordCutter::Kind::rows : records_of(format_));
+    constexpr std::size_t block = std::size_t{1} << 20;
+    for (; !text.empty(); text.remove_prefix(std::min(block, text.size()))) {
+      cutter.feed(text.substr(0, block));
+      while (const auto record = cutter.next()) read(*record);
     }
-  } catch (const WrongInput& error) {
-    throw ProgramError(fmt::format("{}:{}: {}", table_.file(), row.line, error.what()));
-  } catch (const OpenQuestion& question) {
-    const std::string line = question.is_about_row() ? fmt::format(":{}", row.line) : "";
-    throw ProgramError(fmt::format("{}{}: {}", table_.file(), line, question.what()));
+    if (const auto record = cutter.rest()) read(*record);
+    guarded([&] { reader_->finish(*this); });
+    if (is_table(format_)) return recording_.add_columns(reader_->rows()->columns(), file());
+    settle_heights();
+    recording_.add_columns(columns_of_messages(format_, geographic_.value_or(false), has_heights_), file());
+    if (!first_malformed_.empty())
+      recording_.warnings_.push_back(
+          fmt::format("{}: {} ({} such lines are left out)", file(), first_malformed_, malformed_));
   }
+  /// Null for messages.
+  const RowReader* rows() const { return reader_->rows(); }
 
  private:
-  void add_sample(const Place& place, const TableRow& row) {
-    RawTrack& track = track_named(reader_.id());
-    const auto time = reader_.time();
-    if (time) agree_on(time->kind, place);
-    const auto position = reader_.position();
-    if (time && position && (reader_.has_height() || !columns().z())) {
-      track.samples.push_back({time->time, *position, place});
-      track.radius = std::max(track.radius, radius());
-      for (const std::size_t column : scene_columns_)
-        recording_.scenes_.add(table_.head().names[column], row.fields[column], time->time);
-      return;
+  void take(const SourceReport& report) override {
+    if (report.may_have_height && !report.has_height) return take_incomplete(report);
+    count_row();
+    RawTrack& track = track_of(report);
+    const TimeField time = report.written.time.value_or(TimeField{report.stamp, report.time_kind});
+    agree_on(time.kind, report.row);
+    Vec3 position = report.row != nullptr ? report.written.position : report.position;
+    if (report.row == nullptr) {
+      agree_on_places(report);
+      if (is_repeated(track, report)) return recording_.count(recording_.repeated_, place_);
+      if (!report.has_height) position.z = std::numeric_limits<double>::quiet_NaN();
+      has_heights_ = has_heights_ || report.has_height;
+    } else {
+      track.radius = std::max(track.radius, report.extent);
+      add_scenes(*report.row, time.time);
     }
-    const auto& missing = *reader_.missing();
-    if (recording_.options_.missing == MissingPolicy::fail)
-      throw WrongInput(reader_.wrong_text(missing.column, fmt::format("a number as {}", missing.what)) +
+    track.samples.push_back({time.time, position, place_});
+  }
+  void take_incomplete(const SourceReport& report) override {
+    count_row();
+    RawTrack& track = track_of(report);
+    const auto& time = report.written.time;
+    if (time) agree_on(time->kind, report.row);
+    const auto& missing = *report.row->missing();
+    const MissingPolicy policy = recording_.options_.missing;
+    if (policy == MissingPolicy::fail)
+      throw WrongInput(report.row->wrong_text(missing.column, fmt::format("a number as {}", missing.what)) +
                        " (see --missing)");
-    recording_.count(recording_.missing_, place);
-    if (time && recording_.options_.missing == MissingPolicy::split) track.breaks.push_back(time->time);
+    recording_.count(recording_.missing_, place_);
+    if (time && policy == MissingPolicy::split) track.breaks.push_back(time->time);
+  }
+  void time_is(const FileTime&, TimeKind) override {}
+  void pass_over(Passed reason) override {
+    count_row();
+    recording_.count(reason == Passed::filtered ? recording_.filtered_ : recording_.missing_, place_);
+  }
+  void refuse(std::size_t line, const std::string& reason) override {
+    count_row();
+    place_.line = static_cast<int>(line);
+    recording_.count(recording_.malformed_, place_);
+    if (malformed_++ == 0) first_malformed_ = fmt::format("line {}: {}", line, reason);
   }
 
-  /// Returns half the diagonal of length and width; 0 if one of them is not known, which is also said by 0.
-  double radius() {
-    const auto length = reader_.number(Quantity::length), width = reader_.number(Quantity::width);
-    if (!length || !width || !(*length > 0.0) || !(*width > 0.0)) return 0.0;
-    return std::hypot(*length * columns()[Quantity::length]->unit,
-                      *width * columns()[Quantity::width]->unit) /
-           2;
+  const std::string& file() const { return recording_.files_.back(); }
+
+  void read(const Record& record) {
+    place_ = {static_cast<std::uint32_t>(recording_.files_.size() - 1), static_cast<int>(record.line)};
+    is_counted_ = false;
+    guarded([&] {
+      try {
+        reader_->read(record, *this);
+      } catch (const WrongInput& error) {
+        if (is_table(format_))
+          throw ProgramError(fmt::format("{}:{}: {}", file(), record.line, error.what()));
+        refuse(record.line, error.what());
+      }
+    });
+  }
+  template <class Action>
+  void guarded(Action action) const {
+    try {
+      action();
+    } catch (const UnusableStream& error) {
+      throw ProgramError(fmt::format("{}: {}", file(), error.what()));
+    }
+  }
+
+  /// Counts a row of a table once, however many bodies it has, and each message.
+  void count_row() {
+    if (!is_table(format_) || !std::exchange(is_counted_, true)) ++recording_.rows_;
+  }
+
+  RawTrack& track_of(const SourceReport& report) const {
+    auto& tracks = recording_.tracks_;
+    const auto [place, is_new] = recording_.track_of_.emplace(report.id, tracks.size());
+    if (is_new) tracks.push_back({place->first, {}, 0.0, {}});
+    return tracks[place->second];
   }
 
   /// Checks that all times are of one kind.
-  void agree_on(TimeKind kind, const Place& place) {
+  void agree_on(TimeKind kind, const RowReader* row) {
     auto& known = recording_.time_kind_;
     if (!known) {
       known = kind;
-      recording_.first_time_ = place;
+      recording_.first_time_ = place_;
     }
     if (*known == kind) return;
-    constexpr auto name = [](TimeKind each) -> std::string_view {
-      switch (each) {
-        case TimeKind::date:
-          return "a date without a zone as time";
-        case TimeKind::utc:
-          return "a date with a zone as time";
-        default:
-          return "a number as time";
-      }
-    };
-    throw WrongInput(reader_.wrong_text(columns()[Quantity::time]->place, name(*known)) +
-                     fmt::format(", unlike {}", recording_.name(recording_.first_time_)));
+    const std::string expected =
+        row != nullptr ? row->wrong_text(row->columns()[Quantity::time]->place, time_text_of(*known))
+                       : fmt::format("expected {}, but got {}", time_text_of(*known), time_text_of(kind));
+    throw WrongInput(fmt::format("{}, unlike {}", expected, recording_.name(recording_.first_time_)));
+  }
+  void agree_on_places(const SourceReport& report) {
+    if (geographic_.value_or(report.geographic) != report.geographic)
+      throw WrongInput(fmt::format("expected the position of {} in the same words as the first: {}",
+                                   report.id, *geographic_ ? "latitude and longitude" : "x and y"));
+    geographic_ = report.geographic;
+  }
+  static bool is_repeated(const RawTrack& track, const SourceReport& report) {
+    if (track.samples.empty()) return false;
+    const auto& [time, position, place] = track.samples.back();
+    return position.x == report.position.x && position.y == report.position.y &&
+           std::abs(seconds_between(time, report.stamp)) <= report.same_within;
+  }
+  void add_scenes(const RowReader& row, const FileTime& time) {
+    const auto& names = row.head().names;
+    if (!scene_columns_) {
+      scene_columns_.emplace();
+      for (const std::size_t place : row.columns().unused)
+        if (place < names.size() && is_scene(names[place]) && !row.filter().mentions(place))
+          scene_columns_->push_back(place);
+    }
+    for (const std::size_t column : *scene_columns_)
+      recording_.scenes_.add(names[column], row.fields()[column], time);
   }
 
-  RawTrack& track_named(std::string_view id) const {
-    const auto [place, is_new] = recording_.track_of_.emplace(id, recording_.tracks_.size());
-    if (is_new) recording_.tracks_.push_back({place->first, {}, 0.0, {}});
-    return recording_.tracks_[place->second];
+  /// Leaves out messages without a height where others have one.
+  void settle_heights() {
+    for (RawTrack& track : recording_.tracks_) {
+      for (RawSample& sample : track.samples) {
+        if (!std::isnan(sample.position.z)) continue;
+        if (has_heights_)
+          recording_.count(recording_.missing_, sample.place);
+        else
+          sample.position.z = 0.0;
+      }
+      std::erase_if(track.samples, [](const RawSample& sample) { return std::isnan(sample.position.z); });
+    }
   }
 
   RawRecording& recording_;
-  const TextTable& table_;
-  RowReader reader_;
-  std::vector<std::size_t> scene_columns_;
+  StreamFormat format_;
+  std::unique_ptr<ReportFormat> reader_;
+  Place place_;              ///< of the record
+  bool is_counted_ = false;  ///< the row was counted
+  std::optional<std::vector<std::size_t>> scene_columns_;
+  std::optional<bool> geographic_;
+  bool has_heights_ = false;
+  std::size_t malformed_ = 0;
+  std::string first_malformed_;
 };
+
+/// Tables are those that look like no messages.
+StreamFormat RawRecording::format_of(std::string_view text) const {
+  const std::string& said = options_.hints.format;
+  constexpr std::size_t enough = 4096;
+  const auto format = said.empty() && options_.hints.columns.empty()
+                          ? recognised_format(text.substr(0, enough))
+                          : format_named(said, text.substr(0, enough));
+  return format.value_or(StreamFormat::csv) == StreamFormat::ais ? StreamFormat::csv
+                                                                 : format.value_or(StreamFormat::csv);
+}
 
 void RawRecording::read(std::string text, const std::string& file) {
   auto converted = convert_to_table(text, file);
@@ -120,39 +231,44 @@ void RawRecording::read(std::string text, const std::string& file) {
     text = std::move(converted->text);
     warnings_.insert(warnings_.end(), converted->warnings.begin(), converted->warnings.end());
   }
-  TextTable table(std::move(text), file);
   files_.push_back(file);
-  TableColumns columns = find_columns(table.head(), options_.hints, ColumnUse::positions);
-  if (converted) columns.format = converted->format;
-  FileReader reader(*this, table, std::move(columns));
-  const bool is_first = files_.size() == 1;
-  if (is_first) head_ = table.head();
-  if (!is_first) agree_on_positions(reader.columns(), file);
-  for (TableRow row; table.next(row); ++rows_) reader.read(row);
-  // The unit of times may turn out with the first row.
-  if (is_first) columns_ = reader.columns();
-  agree_on_times(reader.columns(), file);
+  FormatChoices choices = options_;
+  choices.source = file;
+  choices.is_recording = true;
+  // The errors of positions do not count.
+  choices.position_error_is_said = true;
+  if (converted) choices.title = converted->format;
+  const StreamFormat format = converted ? StreamFormat::csv : format_of(text);
+  if (is_table(format)) {
+    if (const std::string other = other_file_kind(text); !other.empty())
+      throw ProgramError(fmt::format("{}: expected a table in a text file, but it is {}", file, other));
+    if (text.find('\0') != std::string::npos)
+      throw ProgramError(fmt::format("{}: expected a text file, but it has zero bytes", file));
+  }
+  FileReader reader(*this, format, choices);
+  reader.read(text);
+  if (files_.size() == 1) head_ = reader.rows() != nullptr ? reader.rows()->head() : TableHead{.file = file};
 }
 
-void RawRecording::agree(bool is_same, std::string_view what, const std::string& file) const {
-  if (!is_same) throw ProgramError(fmt::format("{}: expected {} as in {}", file, what, files_.front()));
-}
-
-void RawRecording::agree_on_positions(const TableColumns& columns, const std::string& file) const {
+void RawRecording::add_columns(const TableColumns& columns, const std::string& file) {
+  if (files_.size() == 1) {
+    columns_ = columns;
+    return;
+  }
+  const auto agree = [&](bool is_same, std::string_view what) {
+    if (!is_same) throw ProgramError(fmt::format("{}: expected {} as in {}", file, what, files_.front()));
+  };
   const auto is_same_unit = [](const Column& a, const Column& b) {
     return a.unit == b.unit && a.has_unit == b.has_unit;
   };
-  agree(columns.geographic == columns_.geographic, "positions of the same kind", file);
-  agree(columns.z().has_value() == columns_.z().has_value(), "the same number of dimensions", file);
+  agree(columns.geographic == columns_.geographic, "positions of the same kind");
+  agree(columns.z().has_value() == columns_.z().has_value(), "the same number of dimensions");
   agree(is_same_unit(columns.x(), columns_.x()) && is_same_unit(columns.y(), columns_.y()) &&
             (!columns.z() || is_same_unit(*columns.z(), *columns_.z())),
-        "lengths of the same unit", file);
-}
-
-void RawRecording::agree_on_times(const TableColumns& columns, const std::string& file) const {
+        "lengths of the same unit");
   agree(columns.time_kind == columns_.time_kind && columns.time_unit.seconds == columns_.time_unit.seconds &&
             columns.time_unit.rate == columns_.time_unit.rate && columns.film == columns_.film,
-        "times of the same unit", file);
+        "times of the same unit");
 }
 
 TimeScale RawRecording::time_scale() const {

@@ -1,4 +1,4 @@
-// Reads the rows of text files as samples: ids, times and positions in the files' own numbers.
+// Reads files of any format as samples: ids, times and positions in the files' own numbers.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "formats/report_format.hpp"
 #include "formats/table_head.hpp"
 #include "formats/time_text.hpp"
 #include "kinesphere/vec3.hpp"
@@ -17,7 +18,7 @@
 
 namespace kinesphere::program {
 
-/// A row of one of the files, for messages.
+/// A row or message of one of the files, for messages.
 struct Place {
   std::uint32_t file = 0;
   int line = 0;  ///< from 1
@@ -25,11 +26,11 @@ struct Place {
 
 struct RawSample {
   FileTime time;
-  Vec3 position;  ///< in the units of the file
+  Vec3 position;  ///< in the units of the file; z is NaN where only others have a height
   Place place;
 };
 
-/// The rows of one id.
+/// The samples of one id.
 struct RawTrack {
   std::string id;
   std::vector<RawSample> samples;  ///< in the order of the rows
@@ -43,19 +44,23 @@ class RawRecording {
   RawRecording(const TrackOptions& options, bool several_files)
       : options_(options), several_files_(several_files) {}
 
-  /// Adds a file's rows. Throws ProgramError naming file, line and column of an error.
+  /// Adds a file: a table, a file that is converted to one, or messages. Throws ProgramError naming file,
+  /// line and column of an error. Damaged messages, and those without a position, are counted.
   void read(std::string text, const std::string& file);
   /// Returns the scale of the times. Precondition: all files have been read. Throws ProgramError if the frame
   /// numbers do not fit the format.
   TimeScale time_scale() const;
 
+  /// Of messages, columns that say what these have.
   const TableColumns& columns() const { return columns_; }
-  /// The head of the first file.
+  /// The head of the first file; of messages its name alone.
   const TableHead& head() const { return head_; }
   const std::vector<RawTrack>& tracks() const { return tracks_; }
   std::size_t rows() const { return rows_; }
   const Tally& missing() const { return missing_; }
   const Tally& filtered() const { return filtered_; }
+  const Tally& malformed() const { return malformed_; }
+  const Tally& repeated() const { return repeated_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// Returns "file:line".
   std::string name(const Place& place) const;
@@ -67,10 +72,10 @@ class RawRecording {
  private:
   class FileReader;
 
-  // All files have the units and the kind of times of the first. These throw ProgramError naming the file.
-  void agree(bool is_same, std::string_view what, const std::string& file) const;
-  void agree_on_positions(const TableColumns& columns, const std::string& file) const;
-  void agree_on_times(const TableColumns& columns, const std::string& file) const;
+  StreamFormat format_of(std::string_view text) const;
+  /// Takes the columns of a file; all files have the units and the kind of times of the first. Throws
+  /// ProgramError naming the file.
+  void add_columns(const TableColumns& columns, const std::string& file);
 
   const TrackOptions& options_;
   bool several_files_;
@@ -83,7 +88,7 @@ class RawRecording {
   std::vector<RawTrack> tracks_;
   std::unordered_map<std::string, std::size_t> track_of_;
   std::size_t rows_ = 0;
-  Tally missing_, filtered_;
+  Tally missing_, filtered_, malformed_, repeated_;
   std::vector<std::string> warnings_;
   SceneCheck scenes_;
 };

@@ -4,32 +4,12 @@
 #include <CLI/CLI.hpp>
 #include <map>
 
-#include "formats/presets.hpp"
 #include "validators.hpp"
 
 namespace kinesphere::program {
 namespace {
 
-constexpr const char* group = "Reading";
-
-/// Adds an option that takes one of a few names.
-template <class Value>
-void add_choice(CLI::App& command, const std::string& name, Value& value,
-                const std::map<std::string, Value>& choices, const std::string& default_name,
-                const std::string& description, const std::string& group_name = group) {
-  std::string names;
-  for (const auto& [each, ignored] : choices) names += (names.empty() ? "" : "|") + each;
-  const auto problem = [name, names, choices](const std::string& text) {
-    return choices.contains(text) ? std::string() : "expected one of " + names + ", but got '" + text + "'";
-  };
-  command
-      .add_option_function<std::string>(
-          name, [&value, choices](const std::string& text) { value = choices.at(text); }, description)
-      ->check(CLI::Validator(problem, "", "choice"))
-      ->type_name(names)
-      ->default_str(default_name)
-      ->group(group_name);
-}
+constexpr const char* group = input_group;
 
 }  // namespace
 
@@ -45,35 +25,7 @@ CLI::Option* add_reading_options(CLI::App& command, std::vector<std::string>& fi
               "Text tables of positions, plain or gzipped; - for standard input. An id goes on from one "
               "file to the next")
           ->required();
-  command.add_option("--format", options.hints.format, "A format that does not say what it is")
-      ->type_name(preset_names())
-      ->group(group);
-  command
-      .add_option("--columns", options.hints.columns,
-                  "Where what is, by name or number from 1, and its unit: "
-                  "id=...,time=...:ms,x=...,y=...[,z=...:ft], or "
-                  "lon=...,lat=... in place of x and y")
-      ->type_name("LIST")
-      ->group(group);
-  add_row_options(command, options.hints, group);
-  command
-      .add_option("--frame-rate", options.hints.frame_rate,
-                  "Frames per second, when the time column counts frames")
-      ->check(finite_number())
-      ->group(group);
-  command.add_option("--time-unit", options.hints.time_unit, "Unit of times that are numbers")
-      ->type_name("s|ms|us|ns|min|h|d|frames")
-      ->group(group);
-  command
-      .add_option("--unit", options.hints.unit,
-                  "Unit of the file's lengths; all other lengths are then in metres")
-      ->type_name("m|km|cm|mm|um|ft|nmi|yd|mi|deg")
-      ->group(group);
-  command
-      .add_option("--positions", options.hints.positions,
-                  "What the positions are: longitude and latitude, or UTM")
-      ->type_name("plane|lonlat|utm:ZONE")
-      ->group(group);
+  add_input_options(command, options, "plane|lonlat|utm:ZONE");
   add_choice(command, "--projection", options.projection,
              {{"auto", ProjectionChoice::automatic},
               {"plane", ProjectionChoice::plane},
@@ -98,19 +50,6 @@ CLI::Option* add_reading_options(CLI::App& command, std::vector<std::string>& fi
       ->check(finite_number())
       ->group(group);
   return file_option;
-}
-
-void add_row_options(CLI::App& command, ColumnHints& hints, const std::string& group_name) {
-  command
-      .add_option("--where", hints.where,
-                  "Only rows for which this holds: comparisons of columns (= != < <= > >=) joined by and, "
-                  "or, not, ()")
-      ->type_name("EXPRESSION")
-      ->group(group_name);
-  const std::map<std::string, DateOrder> orders{{"day-first", DateOrder::day_first},
-                                                {"month-first", DateOrder::month_first}};
-  add_choice(command, "--dates", hints.dates, orders, "", "What dates such as 03/04/2025 begin with",
-             group_name);
 }
 
 void add_interpolation_option(CLI::App& command, TrackOptions& options) {

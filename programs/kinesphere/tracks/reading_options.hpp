@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/input_options.hpp"
 #include "tracks/reading_policy.hpp"
 
 namespace kinesphere::program {
@@ -12,8 +13,6 @@ namespace kinesphere::program {
 /// Adds the options. `files` and `options` must live until the command line has been parsed. Returns the
 /// option of the files; at least one file is required unless the caller changes that.
 CLI::Option* add_reading_options(CLI::App& command, std::vector<std::string>& files, TrackOptions& options);
-/// Adds --where and --dates, which all tables have. `hints` must live until the command line has been parsed.
-void add_row_options(CLI::App& command, ColumnHints& hints, const std::string& group_name);
 /// `options` must live until the command line has been parsed.
 void add_interpolation_option(CLI::App& command, TrackOptions& options);
 /// Returns the name of a reading option that was given, other than the files; empty if there was none.

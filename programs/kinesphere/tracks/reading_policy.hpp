@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "formats/table_columns.hpp"
+#include "formats/report_format.hpp"
 #include "simulation/tracks/scene_of_tracks.hpp"
 #include "tracks/projection.hpp"
 
@@ -24,8 +24,7 @@ enum class DuplicatePolicy {
   mean,   ///< the mean of their positions
 };
 
-struct TrackOptions {
-  ColumnHints hints;
+struct TrackOptions : FormatChoices {
   ProjectionChoice projection = ProjectionChoice::automatic;
   MissingPolicy missing = MissingPolicy::fail;
   DuplicatePolicy duplicates = DuplicatePolicy::fail;

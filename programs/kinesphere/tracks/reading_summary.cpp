@@ -82,6 +82,8 @@ void add_recording(Summary& summary, const std::vector<std::string>& files, cons
     summary.row("left out", grouped(recording.filtered.count),
                 fmt::format("rows for which not: {}", recording.filter));
   add_tally(summary, "missing values", recording.missing);
+  add_tally(summary, "malformed", recording.malformed);
+  add_tally(summary, "repeated", recording.repeated);
   add_tally(summary, "duplicates", recording.duplicates);
   add_tally(summary, "too fast", recording.too_fast);
   if (recording.left_out > 0) {
@@ -105,6 +107,9 @@ std::vector<std::string> warnings_of(const Recording& recording) {
   if (is_much(recording.missing.count, recording)) {
     warnings.push_back(
         fmt::format("{} have no time or no position", part_text(recording.missing.count, recording)));
+  }
+  if (is_much(recording.malformed.count, recording)) {
+    warnings.push_back(fmt::format("{} are malformed", part_text(recording.malformed.count, recording)));
   }
   if (is_much(recording.duplicates.count, recording)) {
     warnings.push_back(

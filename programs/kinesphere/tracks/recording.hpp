@@ -46,6 +46,8 @@ struct Recording {
   std::size_t samples = 0;            ///< in all tracks
   std::size_t left_out = 0;           ///< samples that were alone between two gaps
   Tally missing;                      ///< rows without a time or a position
+  Tally malformed;                    ///< damaged messages
+  Tally repeated;                     ///< messages with a sample that their id has sent before
   Tally duplicates;                   ///< samples of an id that already has one at that time
   Tally too_fast;                     ///< samples that --max-speed left out
   double sample_interval = 0;         ///< the median, over all ids

@@ -51,10 +51,7 @@ void ask_about_degrees(const RawRecording& raw) {
   DegreeCheck check;
   for_each_sample(raw, [&](const RawSample& sample) { check.add(sample.position.x, sample.position.y); });
   if (const std::string suspicion = check.suspicion(); !suspicion.empty())
-    throw ProgramError(
-        fmt::format("{}: {}: say --positions lonlat if they are longitude and latitude, or --positions plane "
-                    "if they are lengths",
-                    raw.head().file, suspicion));
+    throw ProgramError(fmt::format("{}: {}", raw.head().file, suspicion));
 }
 
 Coordinates coordinates_of(const RawRecording& raw, const TrackOptions& options) {
@@ -149,6 +146,8 @@ class Reading {
     recording_.ids = raw.tracks().size();
     recording_.rows = raw.rows();
     recording_.missing = raw.missing();
+    recording_.malformed = raw.malformed();
+    recording_.repeated = raw.repeated();
     recording_.warnings = raw.warnings();
     recording_.filter = raw.columns().where;
     recording_.filtered = raw.filtered();

@@ -178,12 +178,20 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
 GivenOptions given_options(const WatchOptions& options) {
   const FormatChoices& choices = options.choices;
   GivenOptions given;
+  // The name of a format alone changes nothing: the snapshot has it.
+  const std::string& said = choices.hints.format;
+  const auto format = format_named(said);
+  const bool is_preset = format && is_table(*format) && name_of(*format) != said;
   for (const std::string& separation : options.separations) given.emplace_back("--separation", separation);
   given.insert(
       given.end(),
       {{"--columns", choices.hints.columns},
+       {"--format", is_preset ? said : ""},
        {"--where", choices.hints.where},
        {"--positions", choices.hints.positions},
+       {"--frame-rate", choices.hints.frame_rate ? fmt::to_string(*choices.hints.frame_rate) : ""},
+       {"--time-unit", choices.hints.time_unit},
+       {"--unit", choices.hints.unit},
        {"--dates", fmt::to_string(static_cast<int>(choices.hints.dates))},
        {"--dimensions", options.dimensions ? fmt::to_string(*options.dimensions) : ""},
        {"--acceleration", options.acceleration},

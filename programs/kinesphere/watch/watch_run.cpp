@@ -32,9 +32,10 @@ std::optional<WatchSnapshot> snapshot_of(const WatchOptions& options) {
   auto snapshot = read_snapshot(options.snapshot);
   if (!snapshot) return std::nullopt;
   check_options(options.snapshot, snapshot->options, given_options(options));
-  if (!options.format.empty() && options.format != snapshot->format)
+  const std::string& said = options.choices.hints.format;
+  if (!said.empty() && format_named(said) != format_named(snapshot->format))
     throw ProgramError(fmt::format("--format: expected it as it was for the snapshot {}, {}, but got {}",
-                                   options.snapshot, snapshot->format, options.format));
+                                   options.snapshot, snapshot->format, said));
   return snapshot;
 }
 
@@ -77,8 +78,8 @@ std::string alerts_origin(const WatchOptions& options, const WatchSettings& sett
 std::optional<StreamFormat> format_of(const WatchOptions& options,
                                       const std::optional<WatchSnapshot>& snapshot, ReportSource& source,
                                       RecordCutter& cutter, const StopSignals& stop) {
-  const std::string& said = snapshot ? snapshot->format : options.format;
-  if (!said.empty()) return stream_format_named(said).value();
+  const std::string& said = snapshot ? snapshot->format : options.choices.hints.format;
+  if (!said.empty()) return format_named(said).value();
   bool has_ended = false;
   std::string_view text;
   // The first line may be one long document; its beginning is sufficient.
@@ -105,21 +106,16 @@ std::optional<StreamFormat> format_of(const WatchOptions& options,
     throw ProgramError(fmt::format("{}: expected reports, but it is empty", source.name()));
   if (!kind.empty()) refuse_kind();
   throw ProgramError(fmt::format("{}: expected one of the formats {}: say which with --format", source.name(),
-                                 stream_format_names));
+                                 format_names()));
 }
 
 std::unique_ptr<ReportFormat> reader_of(const WatchOptions& options, StreamFormat format,
                                         const ReportSource& source,
                                         const std::vector<ClassRule>& class_rules) {
   FormatChoices choices = options.choices;
-  const bool is_table = format == StreamFormat::csv || format == StreamFormat::ais;
-  for (const auto& [option, given] :
-       {std::pair("--where", choices.hints.where), std::pair("--positions", choices.hints.positions)})
-    if (!given.empty() && !is_table)
-      throw ProgramError(fmt::format("{}: expected a table, but {} has no columns", option, source.name()));
   choices.source = source.name();
   choices.position_error_is_said = !options.position_error.empty();
-  return make_ruled_format(make_format(format, choices), class_rules, is_table);
+  return make_ruled_format(make_format(format, choices), class_rules, is_table(format));
 }
 
 }  // namespace

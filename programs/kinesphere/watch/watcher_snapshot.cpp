@@ -63,7 +63,7 @@ Json saved(const SourceReport& report) {
   const auto& [id, name, stamp, arrival, time_kind, geographic, position, has_height, may_have_height,
                on_ground, velocity, has_climb, position_error, height_error, velocity_error, climb_error,
                stamp_error, velocity_age, velocity_spread, extent, ground_speed, said_status, said_kind,
-               sayable, ruled_class, row, category, craft_type, status, same_within] = report;
+               sayable, ruled_class, row, written, category, craft_type, status, same_within] = report;
   return {{"stamp", stamp},
           {"arrival", arrival},
           {"time_kind", time_kind},

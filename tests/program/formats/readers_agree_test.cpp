@@ -29,7 +29,7 @@ class AnyTable {
  public:
   explicit AnyTable(Random& random) : random_(random) {
     is_geographic_ = chance(0.4);
-    add(one_of({"id", "MMSI", "Track_ID", "agent", "icao24", "hex", "who"}),
+    add(one_of({"id", "ID", "MMSI", "Track_ID", "agent", "icao24", "hex", "who"}),
         [](int body, int) { return fmt::format("b{}", body); });
     add_time();
     if (is_geographic_) {

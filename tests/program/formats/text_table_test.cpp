@@ -1,8 +1,11 @@
 // Tables in text files.
 #include "formats/text_table.hpp"
 
+#include <fmt/format.h>
+
 #include "number_text.hpp"
 #include "program/support.hpp"
+#include "tracks/track_file.hpp"
 
 namespace kinesphere::program::text_table_test {
 namespace {
@@ -10,7 +13,7 @@ namespace {
 using Fields = std::vector<std::string>;
 
 struct Row {
-  int line;
+  std::size_t line;
   Fields fields;
 };
 
@@ -20,10 +23,25 @@ struct Table {
 };
 
 Table parse(const std::string& text) {
-  TextTable table(text, "t.txt");
-  Table result{table.head().comments, table.header(), {}};
-  for (TableRow row; table.next(row);)
-    result.rows.push_back({row.line, {row.fields.begin(), row.fields.end()}});
+  RecordCutter cutter(RecordCutter::Kind::rows);
+  TextTable table("t.txt", true);
+  Table result;
+  const auto read = [&](const Record& record) {
+    try {
+      if (const auto* const fields = table.read(record))
+        result.rows.push_back({record.line, {fields->begin(), fields->end()}});
+    } catch (const WrongInput& error) {
+      throw ProgramError(fmt::format("t.txt:{}: {}", record.line, error.what()));
+    }
+  };
+  // Rows may come in any pieces.
+  for (const char c : text) {
+    cutter.feed({&c, 1});
+    while (const auto record = cutter.next()) read(*record);
+  }
+  if (const auto record = cutter.rest()) read(*record);
+  result.comments = table.head().comments;
+  result.header = table.head().names;
   return result;
 }
 
@@ -57,7 +75,7 @@ TEST(TextTable, ReadsQuotedFields) {
   EXPECT_EQ(table.rows[0].fields, (Fields{"1", "2", "a \"b\""}));
   EXPECT_EQ(table.rows[1].fields, (Fields{"3", "4", "two\r\nlines, and a #\n# more"}));
   EXPECT_EQ(table.rows[2].fields, (Fields{"5", "6", ""}));
-  EXPECT_EQ(table.rows[2].line, 6);
+  EXPECT_EQ(table.rows[2].line, 6u);
   // A separator in quotes does not count in the search for the separator, nor does one in the quoted first
   // line.
   EXPECT_EQ(parse("\"a;b\nc\",2\n").rows[0].fields, (Fields{"a;b\nc", "2"}));
@@ -73,7 +91,7 @@ TEST(TextTable, FindsTheHeader) {
   const Table plain = parse("\xEF\xBB\xBFid,x\n1,2\n");
   EXPECT_EQ(plain.header, (Fields{"id", "x"}));
   ASSERT_EQ(plain.rows.size(), 1u);
-  EXPECT_EQ(plain.rows[0].line, 2);
+  EXPECT_EQ(plain.rows[0].line, 2u);
   const Table comment = parse("# made by hand\n# id x/m\n1\t2\n");
   EXPECT_EQ(comment.header, (Fields{"id", "x/m"}));
   EXPECT_EQ(comment.comments, (Fields{"made by hand", "id x/m"}));
@@ -87,9 +105,13 @@ TEST(TextTable, NamesTheLineOfARowOfOtherLength) {
 }
 
 TEST(TextTable, WantsARow) {
-  EXPECT_EQ(error_in(""), "t.txt: expected rows of numbers, but found none");
-  EXPECT_EQ(error_in("# c\nid,x\n"), "t.txt: expected rows of numbers, but found none");
-  EXPECT_EQ(error_in(std::string("1,2\n\0,3\n", 8)), "t.txt: expected a text file, but it has zero bytes");
+  const auto error_of_file = [](const std::string& text) {
+    return error_of([&] { parse_tracks({{"t.txt", text}}, {}); });
+  };
+  EXPECT_EQ(error_of_file(""), "t.txt: expected rows of numbers, but found none");
+  EXPECT_EQ(error_of_file("# c\nid,x\n"), "t.txt: expected rows of numbers, but found none");
+  EXPECT_EQ(error_of_file(std::string("1,2\n\0,3\n", 8)),
+            "t.txt: expected a text file, but it has zero bytes");
 }
 
 TEST(TextTable, NumbersAreWholeFieldsAndFinite) {

@@ -170,7 +170,7 @@ TEST_F(StreamsOfTheField, TablesMeanWhatTheySay) {
   expect_refused("id,time,lat,lon,sog,cog\nu,0,50,8,10,90\n", promises,
                  {"column 'sog' does not say its unit", "speed=sog:kt"});
   expect_refused("id,time,x,y\nu,1700000000000,0,0\n", promises,
-                 {":2: expected seconds as time", "time=time:ms"});
+                 {":2: expected seconds as time", "--time-unit ms"});
   expect_refused(head_on("aircraft", 0.0, R"("gs":450)", R"("gs":450)"), cylinder + " --where 'speed > 1'",
                  {"--where: expected a table"});
   expect_refused("id,time,x,y,valid\nu,0,0,0,false\n", promises, {":2:", "--where 'valid != false'"});
