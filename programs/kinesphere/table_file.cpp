@@ -50,8 +50,15 @@ TableFormat table_format_of(const std::string& path) {
 TableFile::TableFile(const std::string& path, std::vector<std::string> columns)
     : TableFile(table_format_of(path), {path}, std::move(columns)) {}
 
+TableFile::TableFile(const std::string& path) : format_(table_format_of(path)), file_(path) {}
+
 TableFile::TableFile(TableFormat format, OutputPlace place, std::vector<std::string> columns)
-    : format_(format), columns_(std::move(columns)), file_(std::move(place)) {
+    : format_(format), file_(std::move(place)) {
+  begin(std::move(columns));
+}
+
+void TableFile::begin(std::vector<std::string> columns) {
+  columns_ = std::move(columns);
   if (format_ == TableFormat::csv && file_.length() == 0)
     file_.write(fmt::format("{}\n", fmt::join(columns_, ",")));
 }

@@ -29,9 +29,14 @@ TableFormat table_format_of(const std::string& path);
 class TableFile {
  public:
   TableFile(const std::string& path, std::vector<std::string> columns);
+  /// For a table whose columns are not known yet, so that a wrong path fails before a long run: call begin()
+  /// before write().
+  explicit TableFile(const std::string& path);
   /// For names with other endings, and for tables that an earlier run began.
   TableFile(TableFormat format, OutputPlace place, std::vector<std::string> columns);
 
+  /// Writes the names of the columns, but not to a table that an earlier run began.
+  void begin(std::vector<std::string> columns);
   /// Writes a row. Precondition: one cell for each column.
   void write(std::span<const Cell> cells);
   /// Calls OutputFile::sync().

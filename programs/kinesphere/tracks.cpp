@@ -115,8 +115,8 @@ class TracksFiles {
       throw ProgramError(fmt::format("{}: expected a name that ends in .svg", options.plot));
     if (!options.contacts.empty())
       contacts_.emplace(options.contacts, options.separation.starts_with("cylinder"));
-    if (!options.minima.empty()) minima_.emplace(options.minima, minima_columns());
-    if (!options.pairs.empty()) pairs_.emplace(options.pairs, pair_columns(options.reading.hints.sizes));
+    if (!options.minima.empty()) minima_.emplace(options.minima);
+    if (!options.pairs.empty()) pairs_.emplace(options.pairs);
     if (!options.plot.empty()) plot_.emplace(options.plot);
   }
 

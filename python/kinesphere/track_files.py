@@ -30,6 +30,7 @@ def tracks_in(
     unit: Optional[Literal["m", "km", "cm", "mm", "um", "ft", "nmi", "yd", "mi", "deg"]] = None,
     positions: Optional[str] = None,
     projection: Literal["auto", "plane", "earth"] = "auto",
+    altitude: Literal["barometric", "geometric"] = "barometric",
     missing: Literal["fail", "skip", "split"] = "fail",
     duplicates: Literal["fail", "first", "mean"] = "fail",
     max_speed: Optional[float] = None,
@@ -46,7 +47,8 @@ def tracks_in(
     """Finds every time that two bodies recorded in text files were closer to each other than `distance`.
 
     It starts the program `kinesphere tracks`, so that files mean what they mean to it (docs/tables.md): columns
-    and units by their names, files of known tools, GPX, XYZ and dumps of LAMMPS.
+    and units by their names, files of known tools, GPX, XYZ and dumps of LAMMPS, sentences of AIS, and messages
+    of receivers of ADS-B.
 
     files: one or several; an id goes on from one to the next. distance: in metres, or in the file's lengths
     where their unit is not known; a text may have a unit, as "5NM". separation: instead of a distance, as
@@ -56,7 +58,8 @@ def tracks_in(
     format: a known tool, such as "movebank", where the header does not tell it. columns: which column is what,
     as "id=who,time=3:ms,x=east,y=north,z=up:ft". where: the rows that count, as "id != -1 and speed < 40".
     dates: what 03/04/2025 begins with. frame_rate: frames per second. time_unit, unit: of numbers whose column
-    does not say it. positions: what x and y are: "plane", "lonlat", or a zone as "utm:33N".
+    does not say it. positions: what x and y are: "plane", "lonlat", or a zone as "utm:33N". altitude: which one
+    is the height of aircraft in messages.
     All others are the options of the program of that name (docs/tracks.md).
     program: where it is, if not in PATH.
 
@@ -72,10 +75,11 @@ def tracks_in(
     ids = only if only is None or isinstance(only, (str, int)) else ",".join(map(str, only))
     options: dict[str, Any] = {
         "format": format, "columns": columns, "where": where, "dates": dates, "frame_rate": frame_rate,
-        "time_unit": time_unit, "unit": unit, "positions": positions, "projection": projection, "missing": missing,
-        "duplicates": duplicates, "max_speed": max_speed, "max_gap": max_gap, "interpolate": interpolate,
-        "tolerance": tolerance, "sizes": sizes, "from": from_, "until": until, "only": ids,
-        "min_duration": min_duration, "distance": distance, "separation": separation,
+        "time_unit": time_unit, "unit": unit, "positions": positions, "projection": projection,
+        "altitude": altitude, "missing": missing, "duplicates": duplicates, "max_speed": max_speed,
+        "max_gap": max_gap, "interpolate": interpolate, "tolerance": tolerance, "sizes": sizes,
+        "from": from_, "until": until, "only": ids, "min_duration": min_duration,
+        "distance": distance, "separation": separation,
     }  # fmt: skip
     with tempfile.TemporaryDirectory() as folder:
         table = Path(folder) / "approaches.csv"
@@ -92,7 +96,10 @@ def _array_of(rows: list[dict[str, str]]) -> npt.NDArray[np.void]:
         return [row[name] for row in rows]
 
     def numbers(name: str) -> npt.NDArray[np.float64]:
-        return np.array([float(value) if value else np.nan for value in text(name)])
+        """Of a column whose name may have a unit behind it."""
+        return np.array(
+            [float(row.get(name) or row.get(f"{name}_m") or row.get(f"{name}_mps") or "nan") for row in rows]
+        )
 
     def place(of: str) -> npt.NDArray[np.float64]:
         return np.stack([numbers(f"{of}_{axis}") for axis in "xyz"], axis=1)
@@ -112,7 +119,7 @@ def _array_of(rows: list[dict[str, str]]) -> npt.NDArray[np.void]:
         "relative_speed": numbers("relative_speed"),
     }
     for name in ("horizontal_distance", "vertical_distance"):
-        if rows and name in rows[0]:
+        if rows and {name, f"{name}_m"} & rows[0].keys():
             columns[name] = numbers(name)
     kinds: list[Any] = [(name, column.dtype, column.shape[1:]) for name, column in columns.items()]
     array: npt.NDArray[np.void] = np.zeros(len(rows), dtype=kinds)

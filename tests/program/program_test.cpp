@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "formats/column_names.hpp"
 #include "kinesphere/version.hpp"
 #include "scene_file.hpp"
 #include "support.hpp"
@@ -271,6 +272,30 @@ TEST_F(ProgramTest, TellsWhereTracksCameClosest) {
   expect_near(numbers(3), {10, 1, 0, 0, -1, 0, 1, -1, 1});
 }
 
+TEST_F(ProgramTest, SaysUnitsInNamesOfColumnsWhereTheyAreKnown) {
+  const auto header_of = [this](const std::string& text, const std::string& option) {
+    const ProgramRun result =
+        run("tracks " + write("t.csv", text) + " --distance 2 --quiet " + option + " " + path("o.csv"));
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return rows_of(read_text(path("o.csv"))).at(0);
+  };
+  const std::string in_feet = "id,time,x_ft,y_ft\na,0,0,0\na,5,1,0\nb,0,2,0\nb,5,2,0\n";
+  // The program itself reads these units.
+  int lengths = 0, speeds = 0;
+  for (const char* option : {"--contacts", "--minima"}) {
+    for (const std::string& name : header_of(in_feet, option)) {
+      lengths += unit_in_name(name, Measure::length) == "m" ? 1 : 0;
+      speeds += unit_in_name(name, Measure::speed) == "mps" ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(lengths, 2 + 3 + 6);
+  EXPECT_EQ(speeds, 2 + 3 + 6);
+  EXPECT_EQ(header_of(in_feet, "--pairs"),
+            (std::vector<std::string>{"first", "second", "approaches", "duration_s", "least_distance_m",
+                                      "closest_time"}));
+  EXPECT_EQ(header_of(std::string(meeting), "--pairs").at(4), "least_distance");
+}
+
 TEST_F(ProgramTest, SumsUpPairsOfTracks) {
   const std::string twice =
       "id,time,x,y\na,0,0,0\na,10,0,0\na,20,0,0\nb,0,-5,1\nb,10,5,1\nb,20,-5,1\nc,0,0,1.5\nc,20,0,1.5\n";
@@ -280,8 +305,8 @@ TEST_F(ProgramTest, SumsUpPairsOfTracks) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto rows = rows_of(read_text(path("p.csv")));
   ASSERT_EQ(rows.size(), 3u) << read_text(path("p.csv"));
-  EXPECT_EQ(rows[0], (std::vector<std::string>{"first", "second", "approaches", "duration", "least_distance",
-                                               "closest_time"}));
+  EXPECT_EQ(rows[0], (std::vector<std::string>{"first", "second", "approaches", "duration_s",
+                                               "least_distance", "closest_time"}));
   EXPECT_EQ(rows[1][0] + rows[1][1], "bc");  // the closest first
   EXPECT_NEAR(std::stod(rows[1][4]), 0.5, 1e-9);
   EXPECT_EQ(rows[2][0] + rows[2][1], "ab");
@@ -308,7 +333,7 @@ TEST_F(ProgramTest, WritesApproachesOnAMap) {
   EXPECT_NEAR(feature["geometry"]["coordinates"][1][1].get<double>(), 54.0001 + 4.16e-7, 1e-8);
   EXPECT_EQ(feature["properties"]["first"], "a");
   EXPECT_NEAR(feature["properties"]["closest_time"].get<double>(), 300.0, 1e-3);
-  EXPECT_NEAR(feature["properties"]["distance"].get<double>(), 11.13, 0.02);
+  EXPECT_NEAR(feature["properties"]["distance_m"].get<double>(), 11.13, 0.02);
   expect_wrong_input("tracks " + write("t.csv", meeting) + " --distance 2 --contacts " + path("b.geojson"),
                      {"b.geojson", "--positions lonlat"});
 }

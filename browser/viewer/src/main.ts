@@ -143,6 +143,9 @@ const back = () => {
   hud.update(shown, times, settings.overlays.busiest);
 };
 
+/** The first bytes of each recording of a world. */
+const recordingMark = "Kinerc\r\n";
+
 function openRecording(name: string, bytes: ArrayBuffer): void {
   try {
     show(new Recording(name, new Uint8Array(bytes)));
@@ -150,7 +153,10 @@ function openRecording(name: string, bytes: ArrayBuffer): void {
     setPlaying(true);
   } catch (error) {
     const message = error instanceof Error ? error.message : String(error);
-    hud.say(error instanceof KinesphereError ? `${name} cannot be shown. ${message}` : message);
+    const begin = String.fromCharCode(...new Uint8Array(bytes.slice(0, recordingMark.length)));
+    const reason = begin === recordingMark ? message
+      : `This page opens recordings of worlds; kinesphere view ${name} shows tables and messages of positions.`;
+    hud.say(error instanceof KinesphereError ? `${name} cannot be shown. ${reason}` : message);
   }
 }
 

@@ -134,16 +134,20 @@ test("nothing overlaps after that", async () => {
   assert.ok(least > -1e-5, `two bodies overlap by ${-least}`);
 });
 
-test("a broken file is refused with a message, and the scene goes on", async () => {
+test("a broken file and a table are refused with a message, and the scene goes on", async () => {
   await page.keyboard.press("Space");
-  await page.evaluate(() => {
-    const files = new DataTransfer();
-    files.items.add(new File([new Uint8Array([1, 2, 3, 4, 5])], "broken.rec"));
-    window.dispatchEvent(new DragEvent("drop", { dataTransfer: files, cancelable: true }));
-  });
-  await page.waitForSelector("#message:not([hidden])");
-  const text = await page.textContent("#message-text");
-  assert.match(text, /broken\.rec cannot be shown\. .+/);
+  for (const [name, content, expected] of [
+    ["broken.rec", "Kinerc\r\n12345", /^broken\.rec cannot be shown\. .+/],
+    ["walk.csv", "id,time,x,y\n1,0,0,0\n", /^walk\.csv cannot be shown\. .+ kinesphere view walk\.csv shows tables/],
+  ]) {
+    await page.evaluate(([name, content]) => {
+      const files = new DataTransfer();
+      files.items.add(new File([content], name));
+      window.dispatchEvent(new DragEvent("drop", { dataTransfer: files, cancelable: true }));
+    }, [name, content]);
+    await page.waitForFunction((name) => document.querySelector("#message:not([hidden]) #message-text")?.textContent.startsWith(name), name);
+    assert.match(await page.textContent("#message-text"), expected);
+  }
   const { time, playing } = await state();
   assert.equal(playing, true);
   await page.waitForFunction((time) => window.kinesphereViewer.simulation.time > time, time, { timeout: 60_000 });

@@ -93,7 +93,7 @@ bool RecordCutter::begins_document(std::size_t at, bool& unknown) const {
   ++at;
   skip_blanks();
   const std::string_view ahead = std::string_view(text_).substr(std::min(at, text_.size()));
-  for (const std::string_view key : {"\"now\"", "\"time\""}) {
+  for (const std::string_view key : {"\"now\"", "\"time\"", "\"ac\"", "\"aircraft\""}) {
     if (ahead.starts_with(key)) return true;
     if (key.starts_with(ahead)) unknown = true;
   }

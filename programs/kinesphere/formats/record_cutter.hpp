@@ -22,8 +22,8 @@ struct Record {
 
 /// Cuts records. In JSON each outermost object is a record; a line end or nothing may separate two. A
 /// truncated document does not swallow the next: no text continues after a line end, and a line that begins
-/// with {"now" or {"time" begins a document. Rows go on behind line ends in quotes, which a stream, where one
-/// damaged quote would take all later lines along, does not allow.
+/// with {"now", {"time", {"ac" or {"aircraft" begins a document. Rows go on behind line ends in quotes, which
+/// a stream, where one damaged quote would take all later lines along, does not allow.
 class RecordCutter {
  public:
   enum class Kind { lines, rows, documents };

@@ -166,6 +166,20 @@ std::optional<int> read_offset(Reader& reader) {
 
 }  // namespace
 
+std::string_view name_of(TimeKind kind) {
+  switch (kind) {
+    case TimeKind::number:
+      return "a number";
+    case TimeKind::frames:
+      return "a number of a frame";
+    case TimeKind::date:
+      return "a date without a zone";
+    case TimeKind::utc:
+      return "a date with a zone";
+  }
+  return "";
+}
+
 std::optional<FileTime> parse_decimal_time(std::string_view text) {
   const auto number = parse_number(text);
   if (!number || std::abs(*number) >= too_large) return std::nullopt;

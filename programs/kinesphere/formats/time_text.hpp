@@ -23,6 +23,9 @@ enum class TimeKind {
   utc,     ///< dates with Z or an offset
 };
 
+/// Returns "a number", "a date with a zone" and so on.
+std::string_view name_of(TimeKind kind);
+
 /// What the parts of a date such as 03/04/2025 are.
 enum class DateOrder {
   unknown,  ///< such dates are not read

@@ -15,28 +15,15 @@
 namespace kinesphere::program {
 namespace {
 
-std::string_view kind_text(TimeKind kind) {
-  switch (kind) {
-    case TimeKind::number:
-      return "a number";
-    case TimeKind::frames:
-      return "a number of a frame";
-    case TimeKind::date:
-      return "a date without a zone";
-    case TimeKind::utc:
-      return "a date with a zone, such as 2024-05-01T08:00:00Z";
-  }
-  return "";
-}
-
 /// Returns seconds of the recording.
 double window_time(const std::string& text, std::string_view option, const Recording& recording) {
   const auto time = time_field(text, recording.dates);
   const bool counts_frames = recording.times.kind() == TimeKind::frames;
   const TimeKind kind = counts_frames ? TimeKind::number : recording.times.kind();
   if (time && time->kind == kind) return recording.times.seconds(time->time);
-  throw ProgramError(fmt::format("{}: expected a time as in the file, {}, but got '{}'", option,
-                                 kind_text(recording.times.kind()), text));
+  throw ProgramError(fmt::format("{}: expected a time as in the file, {}{}, but got '{}'", option,
+                                 name_of(recording.times.kind()),
+                                 kind == TimeKind::utc ? ", such as 2024-05-01T08:00:00Z" : "", text));
 }
 
 TimeWindow span_of(const Recording& recording) {

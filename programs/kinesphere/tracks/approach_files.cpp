@@ -26,32 +26,48 @@ double vertical_distance(const ClosestApproach& closest) {
 
 namespace {
 
-std::vector<std::string> approach_columns(bool by_cylinder) {
-  std::vector<std::string> columns{
-      "begin",           "end",          "first",    "second",   "begins_with_track",
-      "ends_with_track", "closest_time", "distance", "first_x",  "first_y",
-      "first_z",         "second_x",     "second_y", "second_z", "relative_speed"};
-  if (by_cylinder) columns.insert(columns.end(), {"horizontal_distance", "vertical_distance"});
+/// The columns of the table with the positions, which maps have as points.
+constexpr std::size_t first_of_positions = 8, behind_positions = 14;
+
+std::vector<std::string> approach_columns(const Recording& recording, bool by_cylinder) {
+  const auto with_unit = [&](std::string_view name, Measure measure = Measure::length) {
+    return name_with_unit(name, measure, recording);
+  };
+  std::vector<std::string> columns{"begin",
+                                   "end",
+                                   "first",
+                                   "second",
+                                   "begins_with_track",
+                                   "ends_with_track",
+                                   "closest_time",
+                                   with_unit("distance"),
+                                   "first_x",
+                                   "first_y",
+                                   "first_z",
+                                   "second_x",
+                                   "second_y",
+                                   "second_z",
+                                   with_unit("relative_speed", Measure::speed)};
+  if (by_cylinder)
+    columns.insert(columns.end(), {with_unit("horizontal_distance"), with_unit("vertical_distance")});
   return columns;
 }
 
-/// Returns the values of an approach besides the positions, in the order of maps.
-MapProperties map_properties(const Approach& approach, const Recording& recording, bool by_cylinder) {
+std::vector<Cell> approach_cells(const Approach& approach, const Recording& recording, bool by_cylinder) {
   const ClosestApproach& closest = approach.closest;
-  MapProperties properties{{"first", recording.tracks[approach.first].id},
-                           {"second", recording.tracks[approach.second].id},
-                           {"begin", time_cell(recording.times, approach.begin)},
-                           {"end", time_cell(recording.times, approach.end)},
-                           {"begins_with_track", approach.begins_with_track},
-                           {"ends_with_track", approach.ends_with_track},
-                           {"closest_time", time_cell(recording.times, closest.time)},
-                           {"distance", closest.distance},
-                           {"relative_speed", closest.relative_speed}};
-  if (by_cylinder) {
-    properties.emplace_back("horizontal_distance", horizontal_distance(closest));
-    properties.emplace_back("vertical_distance", vertical_distance(closest));
-  }
-  return properties;
+  std::vector<Cell> cells{time_cell(recording.times, approach.begin),
+                          time_cell(recording.times, approach.end),
+                          recording.tracks[approach.first].id,
+                          recording.tracks[approach.second].id,
+                          approach.begins_with_track,
+                          approach.ends_with_track,
+                          time_cell(recording.times, closest.time),
+                          closest.distance};
+  add_position(cells, closest.first, recording);
+  add_position(cells, closest.second, recording);
+  cells.emplace_back(closest.relative_speed);
+  if (by_cylinder) cells.insert(cells.end(), {horizontal_distance(closest), vertical_distance(closest)});
+  return cells;
 }
 
 }  // namespace
@@ -66,7 +82,7 @@ ApproachFile::ApproachFile(const std::string& path, bool by_cylinder)
   if (ending != ".csv" && ending != ".jsonl")
     throw ProgramError(
         fmt::format("{}: expected a name that ends in .csv, .jsonl, .geojson, .gpx or .kml", path));
-  table_.emplace(path, approach_columns(by_cylinder));
+  table_.emplace(path);
 }
 
 void ApproachFile::check(const Recording& recording) const {
@@ -80,32 +96,23 @@ void ApproachFile::check(const Recording& recording) const {
 }
 
 void ApproachFile::write(const std::vector<Approach>& approaches, const Recording& recording) {
-  if (map_) return write_map(approaches, recording);
-  for (const Approach& approach : approaches) {
-    const ClosestApproach& closest = approach.closest;
-    std::vector<Cell> cells{time_cell(recording.times, approach.begin),
-                            time_cell(recording.times, approach.end),
-                            recording.tracks[approach.first].id,
-                            recording.tracks[approach.second].id,
-                            approach.begins_with_track,
-                            approach.ends_with_track,
-                            time_cell(recording.times, closest.time),
-                            closest.distance};
-    add_position(cells, closest.first, recording);
-    add_position(cells, closest.second, recording);
-    cells.emplace_back(closest.relative_speed);
-    if (by_cylinder_) cells.insert(cells.end(), {horizontal_distance(closest), vertical_distance(closest)});
-    table_->write(cells);
+  const std::vector<std::string> columns = approach_columns(recording, by_cylinder_);
+  if (table_) {
+    table_->begin(columns);
+    for (const Approach& approach : approaches)
+      table_->write(approach_cells(approach, recording, by_cylinder_));
+    return;
   }
-}
-
-void ApproachFile::write_map(const std::vector<Approach>& approaches, const Recording& recording) {
   map_->write(map_begin(*map_format_));
   bool is_first = true;
   for (const Approach& approach : approaches) {
-    map_->write(map_feature(*map_format_, approach, map_properties(approach, recording, by_cylinder_),
-                            recording, is_first));
-    is_first = false;
+    const std::vector<Cell> cells = approach_cells(approach, recording, by_cylinder_);
+    MapProperties properties;
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      if (k < first_of_positions || k >= behind_positions) properties.emplace_back(columns[k], cells[k]);
+    // The ids come first.
+    std::rotate(properties.begin(), properties.begin() + 2, properties.begin() + 4);
+    map_->write(map_feature(*map_format_, approach, properties, recording, std::exchange(is_first, false)));
   }
   map_->write(map_end(*map_format_));
 }
@@ -146,16 +153,20 @@ std::vector<PairSummary> pairs_in(const std::vector<Approach>& approaches, const
   return pairs;
 }
 
-std::vector<std::string> pair_columns(bool with_sizes) {
-  std::vector<std::string> columns{"first",    "second",         "approaches",
-                                   "duration", "least_distance", "closest_time"};
-  if (with_sizes)
-    columns.insert(columns.end(),
-                   {"least_time_to_collision", "time_of_that", "post_encroachment_time", "time_of_entry"});
-  return columns;
-}
-
 void write_pairs(TableFile& table, const std::vector<PairSummary>& pairs, const Recording& recording) {
+  const auto with_unit = [&](std::string_view name, Measure measure) {
+    return name_with_unit(name, measure, recording);
+  };
+  std::vector<std::string> columns{"first",
+                                   "second",
+                                   "approaches",
+                                   with_unit("duration", Measure::time),
+                                   with_unit("least_distance", Measure::length),
+                                   "closest_time"};
+  if (recording.has_sizes)
+    columns.insert(columns.end(), {with_unit("least_time_to_collision", Measure::time), "time_of_that",
+                                   with_unit("post_encroachment_time", Measure::time), "time_of_entry"});
+  table.begin(std::move(columns));
   for (const PairSummary& pair : pairs) {
     std::vector<Cell> cells{
         pair.first,    pair.second,           pair.approaches,

@@ -34,8 +34,6 @@ class ApproachFile {
   void commit();
 
  private:
-  void write_map(const std::vector<Approach>& approaches, const Recording& recording);
-
   bool by_cylinder_;
   std::optional<TableFile> table_;
   std::optional<MapFormat> map_format_;
@@ -57,9 +55,7 @@ struct PairSummary {
 std::vector<PairSummary> pairs_in(const std::vector<Approach>& approaches, const Recording& recording,
                                   const Motion& motion);
 
-/// Returns the columns of a table of pairs; with sizes also those of the time to collision and the
-/// post-encroachment time.
-std::vector<std::string> pair_columns(bool with_sizes);
+/// Writes a table of pairs; with sizes also the times to collision and the post-encroachment times.
 void write_pairs(TableFile& table, const std::vector<PairSummary>& pairs, const Recording& recording);
 
 }  // namespace kinesphere::program

@@ -53,7 +53,7 @@ std::string geojson_feature(const Approach& approach, const MapProperties& prope
                                     {geojson_point(recording, approach.closest.first),
                                      geojson_point(recording, approach.closest.second)}}}},
                                  {"properties", nlohmann::ordered_json::object()}};
-  for (const auto& [name, value] : properties) feature["properties"][std::string(name)] = json_value(value);
+  for (const auto& [name, value] : properties) feature["properties"][name] = json_value(value);
   return (is_first ? "\n" : ",\n") + feature.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
@@ -112,55 +112,38 @@ std::string kml_feature(const Approach& approach, const MapProperties& propertie
   return text + "</MultiGeometry></Placemark>\n";
 }
 
+struct MapText {
+  std::string_view ending, begin, end;
+};
+
+/// In the order of MapFormat.
+constexpr MapText map_texts[] = {{".geojson", R"({"type": "FeatureCollection", "features": [)", "\n]}\n"},
+                                 {".gpx", R"(<?xml version="1.0" encoding="UTF-8"?>
+<gpx version="1.1" creator="kinesphere" xmlns="http://www.topografix.com/GPX/1/1">
+)",
+                                  "</gpx>\n"},
+                                 {".kml", R"(<?xml version="1.0" encoding="UTF-8"?>
+<kml xmlns="http://www.opengis.net/kml/2.2"><Document>
+)",
+                                  "</Document></kml>\n"}};
+
 }  // namespace
 
 std::optional<MapFormat> map_format_of(const std::string& path) {
-  const std::string ending = std::filesystem::path(path).extension().string();
-  if (ending == ".geojson") return MapFormat::geojson;
-  if (ending == ".gpx") return MapFormat::gpx;
-  if (ending == ".kml") return MapFormat::kml;
+  for (const MapFormat format : {MapFormat::geojson, MapFormat::gpx, MapFormat::kml})
+    if (std::filesystem::path(path).extension() == map_texts[static_cast<std::size_t>(format)].ending)
+      return format;
   return std::nullopt;
 }
 
-std::string_view map_begin(MapFormat format) {
-  switch (format) {
-    case MapFormat::geojson:
-      return R"({"type": "FeatureCollection", "features": [)";
-    case MapFormat::gpx:
-      return R"(<?xml version="1.0" encoding="UTF-8"?>
-<gpx version="1.1" creator="kinesphere" xmlns="http://www.topografix.com/GPX/1/1">
-)";
-    case MapFormat::kml:
-      return R"(<?xml version="1.0" encoding="UTF-8"?>
-<kml xmlns="http://www.opengis.net/kml/2.2"><Document>
-)";
-  }
-  return "";
-}
-
-std::string_view map_end(MapFormat format) {
-  switch (format) {
-    case MapFormat::geojson:
-      return "\n]}\n";
-    case MapFormat::gpx:
-      return "</gpx>\n";
-    case MapFormat::kml:
-      return "</Document></kml>\n";
-  }
-  return "";
-}
+std::string_view map_begin(MapFormat format) { return map_texts[static_cast<std::size_t>(format)].begin; }
+std::string_view map_end(MapFormat format) { return map_texts[static_cast<std::size_t>(format)].end; }
 
 std::string map_feature(MapFormat format, const Approach& approach, const MapProperties& properties,
                         const Recording& recording, bool is_first) {
-  switch (format) {
-    case MapFormat::geojson:
-      return geojson_feature(approach, properties, recording, is_first);
-    case MapFormat::gpx:
-      return gpx_feature(approach, properties, recording);
-    case MapFormat::kml:
-      return kml_feature(approach, properties, recording);
-  }
-  return "";
+  if (format == MapFormat::geojson) return geojson_feature(approach, properties, recording, is_first);
+  return format == MapFormat::gpx ? gpx_feature(approach, properties, recording)
+                                  : kml_feature(approach, properties, recording);
 }
 
 }  // namespace kinesphere::program

@@ -18,7 +18,7 @@ enum class MapFormat { geojson, gpx, kml };
 std::optional<MapFormat> map_format_of(const std::string& path);
 
 /// What a feature tells of an approach besides its two places, by name.
-using MapProperties = std::vector<std::pair<std::string_view, Cell>>;
+using MapProperties = std::vector<std::pair<std::string, Cell>>;
 
 std::string_view map_begin(MapFormat format);
 std::string_view map_end(MapFormat format);

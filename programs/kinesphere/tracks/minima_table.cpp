@@ -1,6 +1,10 @@
 // A table of all local minima of distance.
 #include "tracks/minima_table.hpp"
 
+#include <fmt/format.h>
+
+#include <initializer_list>
+
 #include "tracks/own_frame.hpp"
 #include "tracks/recording_cells.hpp"
 
@@ -50,25 +54,33 @@ std::vector<Cell> minimum_row(const DistanceMinimum& minimum, const Approach& ap
   return cells;
 }
 
-}  // namespace
-
-std::vector<std::string> minima_columns() {
-  std::vector<std::string> columns{"approach", "time",           "first",  "second",
-                                   "distance", "relative_speed", "cut_off"};
-  const auto add = [&](const std::string& prefix, const std::vector<std::string>& names) {
-    for (const std::string& name : names) columns.push_back(prefix + name);
+std::vector<std::string> minima_columns(const Recording& recording) {
+  const std::string distance = name_with_unit("distance", Measure::length, recording);
+  const std::string speed = name_with_unit("relative_speed", Measure::speed, recording);
+  std::vector<std::string> columns{"approach", "time", "first", "second", distance, speed, "cut_off"};
+  const auto add = [&](std::string_view prefix, std::initializer_list<std::string_view> names,
+                       Measure measure = Measure::none) {
+    for (const std::string_view name : names) {
+      const std::string whole = fmt::format("{}{}", prefix, name);
+      columns.push_back(measure == Measure::none ? whole : name_with_unit(whole, measure, recording));
+    }
   };
   add("first_", {"x", "y", "z"});
   add("second_", {"x", "y", "z"});
-  add("relative_", {"x", "y", "z", "vx", "vy", "vz"});
-  const std::vector<std::string> view{"along", "right", "up", "v_along", "v_right", "v_up"};
-  add("from_first_", view);
-  add("from_second_", view);
+  add("relative_", {"x", "y", "z"}, Measure::length);
+  add("relative_", {"vx", "vy", "vz"}, Measure::speed);
+  for (const std::string_view prefix : {"from_first_", "from_second_"}) {
+    add(prefix, {"along", "right", "up"}, Measure::length);
+    add(prefix, {"v_along", "v_right", "v_up"}, Measure::speed);
+  }
   return columns;
 }
 
+}  // namespace
+
 void write_minima(TableFile& table, const std::vector<DistanceMinimum>& minima,
                   const std::vector<Approach>& approaches, const Recording& recording) {
+  table.begin(minima_columns(recording));
   for (const DistanceMinimum& minimum : minima)
     table.write(minimum_row(minimum, approaches[minimum.approach], recording));
 }

@@ -10,9 +10,8 @@
 
 namespace kinesphere::program {
 
-/// Returns the columns: when, who, how far, where, relative position and velocity, and both as each of the
-/// two sees them (own_frame.hpp).
-std::vector<std::string> minima_columns();
+/// Writes when, who, how far, where, relative position and velocity, and both as each of the two sees them
+/// (own_frame.hpp).
 void write_minima(TableFile& table, const std::vector<DistanceMinimum>& minima,
                   const std::vector<Approach>& approaches, const Recording& recording);
 

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <charconv>
 
+#include "azimuthal_map.hpp"
 #include "program_error.hpp"
 
 #ifdef KINESPHERE_WITH_GEOGRAPHICLIB
-#include <GeographicLib/AzimuthalEquidistant.hpp>
 #include <GeographicLib/Geocentric.hpp>
 #include <GeographicLib/LocalCartesian.hpp>
 #include <GeographicLib/UTMUPS.hpp>
@@ -75,40 +75,28 @@ std::string place_text(const LongitudeLatitude& place) {
 
 class Plane final : public Projection {
  public:
-  explicit Plane(std::span<const Vec3> points) : middle_(middle_of(points)) {
-    const GeographicLib::AzimuthalEquidistant projection;
+  explicit Plane(std::span<const Vec3> points) : map_(map_around(middle_of(points))) {
     double smallest = 1.0;
-    for (const Vec3& point : points) {
-      double x = 0, y = 0, azimuth = 0, reciprocal_scale = 0;
-      projection.Forward(middle_.latitude, middle_.longitude, point.y, point.x, x, y, azimuth,
-                         reciprocal_scale);
-      smallest = std::min(smallest, reciprocal_scale);
-    }
+    for (const Vec3& point : points) smallest = std::min(smallest, map_.point(point).reciprocal_scale);
     distortion_ = smallest > 0 ? 1.0 / smallest - 1.0 : std::numeric_limits<double>::infinity();
   }
 
   double distortion() const { return distortion_; }
 
-  Vec3 local(const Vec3& geographic) const override {
-    Vec3 result{0, 0, geographic.z};
-    GeographicLib::AzimuthalEquidistant().Forward(middle_.latitude, middle_.longitude, geographic.y,
-                                                  geographic.x, result.x, result.y);
-    return result;
-  }
-  Vec3 geographic(const Vec3& local) const override {
-    Vec3 result{0, 0, local.z};
-    GeographicLib::AzimuthalEquidistant().Reverse(middle_.latitude, middle_.longitude, local.x, local.y,
-                                                  result.y, result.x);
-    return result;
-  }
+  Vec3 local(const Vec3& geographic) const override { return map_.point(geographic).position; }
+  Vec3 geographic(const Vec3& local) const override { return map_.geographic(local); }
   bool is_plane() const override { return true; }
   std::string description() const override {
-    return fmt::format("plane around {}; lengths are at most {:.2g} % too long", place_text(middle_),
-                       100 * distortion_);
+    return fmt::format("plane around {}; lengths are at most {:.2g} % too long",
+                       place_text({map_.longitude(), map_.latitude()}), 100 * distortion_);
   }
 
  private:
-  LongitudeLatitude middle_;
+  static AzimuthalMap map_around(const LongitudeLatitude& middle) {
+    return {middle.latitude, middle.longitude};
+  }
+
+  AzimuthalMap map_;
   double distortion_ = 0;
 };
 

@@ -20,17 +20,6 @@ namespace {
 
 bool is_date(TimeKind kind) { return kind == TimeKind::date || kind == TimeKind::utc; }
 
-constexpr std::string_view time_text_of(TimeKind kind) {
-  switch (kind) {
-    case TimeKind::date:
-      return "a date without a zone as time";
-    case TimeKind::utc:
-      return "a date with a zone as time";
-    default:
-      return "a number as time";
-  }
-}
-
 /// Returns the columns that a table of these messages would have.
 TableColumns columns_of_messages(StreamFormat format, bool geographic, bool has_heights) {
   TableColumns columns;
@@ -64,9 +53,9 @@ class RawRecording::FileReader final : public ReportSink {
     if (is_table(format_)) return recording_.add_columns(reader_->rows()->columns(), file());
     settle_heights();
     recording_.add_columns(columns_of_messages(format_, geographic_.value_or(false), has_heights_), file());
-    if (!first_malformed_.empty())
-      recording_.warnings_.push_back(
-          fmt::format("{}: {} ({} such lines are left out)", file(), first_malformed_, malformed_));
+    if (malformed_ > 0)
+      recording_.counts_.warnings.push_back(fmt::format("{}:{} (so many damaged messages are left out: {})",
+                                                        file(), first_malformed_, malformed_));
   }
   /// Null for messages.
   const RowReader* rows() const { return reader_->rows(); }
@@ -81,7 +70,7 @@ class RawRecording::FileReader final : public ReportSink {
     Vec3 position = report.row != nullptr ? report.written.position : report.position;
     if (report.row == nullptr) {
       agree_on_places(report);
-      if (is_repeated(track, report)) return recording_.count(recording_.repeated_, place_);
+      if (is_repeated(track, report)) return recording_.count(recording_.counts_.repeated, place_);
       if (!report.has_height) position.z = std::numeric_limits<double>::quiet_NaN();
       has_heights_ = has_heights_ || report.has_height;
     } else {
@@ -100,19 +89,20 @@ class RawRecording::FileReader final : public ReportSink {
     if (policy == MissingPolicy::fail)
       throw WrongInput(report.row->wrong_text(missing.column, fmt::format("a number as {}", missing.what)) +
                        " (see --missing)");
-    recording_.count(recording_.missing_, place_);
+    recording_.count(recording_.counts_.missing, place_);
     if (time && policy == MissingPolicy::split) track.breaks.push_back(time->time);
   }
   void time_is(const FileTime&, TimeKind) override {}
   void pass_over(Passed reason) override {
     count_row();
-    recording_.count(reason == Passed::filtered ? recording_.filtered_ : recording_.missing_, place_);
+    recording_.count(reason == Passed::filtered ? recording_.counts_.filtered : recording_.counts_.missing,
+                     place_);
   }
   void refuse(std::size_t line, const std::string& reason) override {
     count_row();
     place_.line = static_cast<int>(line);
-    recording_.count(recording_.malformed_, place_);
-    if (malformed_++ == 0) first_malformed_ = fmt::format("line {}: {}", line, reason);
+    recording_.count(recording_.counts_.malformed, place_);
+    if (malformed_++ == 0) first_malformed_ = fmt::format("{}: {}", line, reason);
   }
 
   const std::string& file() const { return recording_.files_.back(); }
@@ -141,7 +131,7 @@ class RawRecording::FileReader final : public ReportSink {
 
   /// Counts a row of a table once, however many bodies it has, and each message.
   void count_row() {
-    if (!is_table(format_) || !std::exchange(is_counted_, true)) ++recording_.rows_;
+    if (!is_table(format_) || !std::exchange(is_counted_, true)) ++recording_.counts_.rows;
   }
 
   RawTrack& track_of(const SourceReport& report) const {
@@ -159,9 +149,10 @@ class RawRecording::FileReader final : public ReportSink {
       recording_.first_time_ = place_;
     }
     if (*known == kind) return;
-    const std::string expected =
-        row != nullptr ? row->wrong_text(row->columns()[Quantity::time]->place, time_text_of(*known))
-                       : fmt::format("expected {}, but got {}", time_text_of(*known), time_text_of(kind));
+    const std::string as_before = fmt::format("{} as time", name_of(*known));
+    const std::string expected = row != nullptr
+                                     ? row->wrong_text(row->columns()[Quantity::time]->place, as_before)
+                                     : fmt::format("expected {}, but got {}", as_before, name_of(kind));
     throw WrongInput(fmt::format("{}, unlike {}", expected, recording_.name(recording_.first_time_)));
   }
   void agree_on_places(const SourceReport& report) {
@@ -194,7 +185,7 @@ class RawRecording::FileReader final : public ReportSink {
       for (RawSample& sample : track.samples) {
         if (!std::isnan(sample.position.z)) continue;
         if (has_heights_)
-          recording_.count(recording_.missing_, sample.place);
+          recording_.count(recording_.counts_.missing, sample.place);
         else
           sample.position.z = 0.0;
       }
@@ -211,7 +202,7 @@ class RawRecording::FileReader final : public ReportSink {
   std::optional<bool> geographic_;
   bool has_heights_ = false;
   std::size_t malformed_ = 0;
-  std::string first_malformed_;
+  std::string first_malformed_;  ///< its line and what was expected
 };
 
 /// Tables are those that look like no messages.
@@ -229,7 +220,7 @@ void RawRecording::read(std::string text, const std::string& file) {
   auto converted = convert_to_table(text, file);
   if (converted) {
     text = std::move(converted->text);
-    warnings_.insert(warnings_.end(), converted->warnings.begin(), converted->warnings.end());
+    counts_.warnings.insert(counts_.warnings.end(), converted->warnings.begin(), converted->warnings.end());
   }
   files_.push_back(file);
   FormatChoices choices = options_;

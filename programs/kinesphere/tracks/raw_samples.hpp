@@ -56,12 +56,7 @@ class RawRecording {
   /// The head of the first file; of messages its name alone.
   const TableHead& head() const { return head_; }
   const std::vector<RawTrack>& tracks() const { return tracks_; }
-  std::size_t rows() const { return rows_; }
-  const Tally& missing() const { return missing_; }
-  const Tally& filtered() const { return filtered_; }
-  const Tally& malformed() const { return malformed_; }
-  const Tally& repeated() const { return repeated_; }
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  const ReadCounts& counts() const { return counts_; }
   /// Returns "file:line".
   std::string name(const Place& place) const;
   /// Throws ProgramError if the files have scenes that may not belong together.
@@ -87,9 +82,7 @@ class RawRecording {
   Place first_time_;
   std::vector<RawTrack> tracks_;
   std::unordered_map<std::string, std::size_t> track_of_;
-  std::size_t rows_ = 0;
-  Tally missing_, filtered_, malformed_, repeated_;
-  std::vector<std::string> warnings_;
+  ReadCounts counts_;
   SceneCheck scenes_;
 };
 

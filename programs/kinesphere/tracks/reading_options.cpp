@@ -1,28 +1,22 @@
 // The command-line options for reading recordings.
 #include "tracks/reading_options.hpp"
 
-#include <CLI/CLI.hpp>
-#include <map>
-
 #include "validators.hpp"
 
 namespace kinesphere::program {
-namespace {
-
-constexpr const char* group = input_group;
-
-}  // namespace
 
 CLI::Option* add_reading_options(CLI::App& command, std::vector<std::string>& files, TrackOptions& options) {
   command.footer(
       "Tables with separators ; , tab or blanks, quoted or not, with the usual column names: id (mmsi,\n"
-      "track_id, agent, ...), time (t, timestamp, datetime, ...) or frame, x y z or lon lat. docs/tracks.md\n"
-      "explains every option, with an example of each kind of file.");
+      "track_id, agent, ...), time (t, timestamp, datetime, ...) or frame, x y z or lon lat; GPX, XYZ, "
+      "dumps\n"
+      "of LAMMPS, sentences of AIS, and messages of ADS-B. docs/tracks.md explains every option, with an\n"
+      "example of each kind of file.");
   CLI::Option* const file_option =
       command
           .add_option(
               "FILE", files,
-              "Text tables of positions, plain or gzipped; - for standard input. An id goes on from one "
+              "Text files of positions, plain or gzipped; - for standard input. An id goes on from one "
               "file to the next")
           ->required();
   add_input_options(command, options, "plane|lonlat|utm:ZONE");
@@ -42,13 +36,13 @@ CLI::Option* add_reading_options(CLI::App& command, std::vector<std::string>& fi
       .add_option("--max-speed", options.max_speed,
                   "Leave out samples that cannot be reached at this speed (lengths per second)")
       ->check(finite_number())
-      ->group(group);
+      ->group(input_group);
   command
       .add_option("--max-gap", options.max_gap,
                   "A longer time (seconds) between samples of an id ends its track; 2.5 times the median "
                   "interval of that id when not given")
       ->check(finite_number())
-      ->group(group);
+      ->group(input_group);
   return file_option;
 }
 
@@ -60,7 +54,7 @@ void add_interpolation_option(CLI::App& command, TrackOptions& options) {
 
 std::string given_reading_option(const CLI::App& command) {
   for (const CLI::Option* const option : command.get_options()) {
-    if (option->get_group() == group && option->count() > 0) return option->get_name();
+    if (option->get_group() == input_group && option->count() > 0) return option->get_name();
   }
   return {};
 }

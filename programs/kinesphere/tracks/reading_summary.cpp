@@ -46,15 +46,6 @@ void add_tally(Summary& summary, const std::string& label, const Tally& tally) {
   if (tally.count > 0) summary.row(label, grouped(tally.count), first_places(tally));
 }
 
-bool is_much(std::size_t part, const Recording& recording) {
-  return static_cast<double>(part) > many * static_cast<double>(recording.rows);
-}
-
-std::string part_text(std::size_t part, const Recording& recording) {
-  return fmt::format("{} of {} rows ({})", grouped(part), grouped(recording.rows),
-                     percent(static_cast<double>(part), static_cast<double>(recording.rows)));
-}
-
 }  // namespace
 
 void add_recording(Summary& summary, const std::vector<std::string>& files, const Recording& recording,
@@ -100,25 +91,17 @@ void add_recording(Summary& summary, const std::vector<std::string>& files, cons
 
 std::vector<std::string> warnings_of(const Recording& recording) {
   std::vector<std::string> warnings = recording.warnings;
-  if (is_much(recording.left_out, recording)) {
-    warnings.push_back(fmt::format("{} were left out, alone between two gaps: a longer --max-gap keeps them",
-                                   part_text(recording.left_out, recording)));
-  }
-  if (is_much(recording.missing.count, recording)) {
-    warnings.push_back(
-        fmt::format("{} have no time or no position", part_text(recording.missing.count, recording)));
-  }
-  if (is_much(recording.malformed.count, recording)) {
-    warnings.push_back(fmt::format("{} are malformed", part_text(recording.malformed.count, recording)));
-  }
-  if (is_much(recording.duplicates.count, recording)) {
-    warnings.push_back(
-        fmt::format("{} repeat a time of their id", part_text(recording.duplicates.count, recording)));
-  }
-  if (is_much(recording.too_fast.count, recording)) {
-    warnings.push_back(
-        fmt::format("{} were left out by --max-speed", part_text(recording.too_fast.count, recording)));
-  }
+  const auto add = [&](std::size_t part, std::string_view what) {
+    const auto rows = static_cast<double>(recording.rows);
+    if (static_cast<double>(part) > many * rows)
+      warnings.push_back(fmt::format("{} of {} rows ({}) {}", grouped(part), grouped(recording.rows),
+                                     percent(static_cast<double>(part), rows), what));
+  };
+  add(recording.left_out, "were left out, alone between two gaps: a longer --max-gap keeps them");
+  add(recording.missing.count, "have no time or no position");
+  add(recording.malformed.count, "are malformed");
+  add(recording.duplicates.count, "repeat a time of their id");
+  add(recording.too_fast.count, "were left out by --max-speed");
   return warnings;
 }
 

@@ -1,8 +1,18 @@
 #include "tracks/recording_cells.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace kinesphere::program {
+
+std::string name_with_unit(std::string_view name, Measure measure, const Recording& recording) {
+  const std::string_view unit = measure == Measure::time     ? "_s"
+                                : !recording.in_metres       ? ""
+                                : measure == Measure::length ? "_m"
+                                                             : "_mps";
+  return fmt::format("{}{}", name, unit);
+}
 
 Cell time_cell(const TimeScale& times, double time) {
   std::string text = times.text(time);

@@ -1,13 +1,19 @@
 // Values of a recording as cells of a table, in the file's own times and coordinates.
 #pragma once
 
+#include <string>
+#include <string_view>
 #include <vector>
 
+#include "formats/units.hpp"
 #include "table_file.hpp"
 #include "tracks/recording.hpp"
 
 namespace kinesphere::program {
 
+/// Returns the name of a column with the unit of a length, speed or duration behind it: distance_m,
+/// relative_speed_mps, duration_s. Lengths of unknown unit, and speeds in these, have none.
+std::string name_with_unit(std::string_view name, Measure measure, const Recording& recording);
 /// A number where the file has numbers, else a date.
 Cell time_cell(const TimeScale& times, double time);
 /// Adds x, y and z in the file's coordinates; z is empty if the file has none.

@@ -134,6 +134,7 @@ struct Body {
 class Reading {
  public:
   Reading(const RawRecording& raw, const TrackOptions& options) : raw_(raw), options_(options) {
+    static_cast<ReadCounts&>(recording_) = raw.counts();
     recording_.times = time_scale_of(raw);
     recording_.dates = raw.columns().dates;
     recording_.coordinates = coordinates_of(raw, options);
@@ -144,13 +145,7 @@ class Reading {
     recording_.is_plane = !raw.columns().z() && recording_.coordinates.are_plane();
     if (recording_.times.kind() == TimeKind::frames) recording_.frame_rate = recording_.times.rate();
     recording_.ids = raw.tracks().size();
-    recording_.rows = raw.rows();
-    recording_.missing = raw.missing();
-    recording_.malformed = raw.malformed();
-    recording_.repeated = raw.repeated();
-    recording_.warnings = raw.warnings();
     recording_.filter = raw.columns().where;
-    recording_.filtered = raw.filtered();
     for (const std::size_t column : raw.columns().unused)
       recording_.unused.push_back(raw.head().names.empty() ? fmt::format("{}", column + 1)
                                                            : raw.head().names[column]);
@@ -246,6 +241,8 @@ Recording parse_tracks(std::vector<NamedText> texts, const TrackOptions& options
     if (recording.rows > 0 && recording.filtered.count == recording.rows)
       throw ProgramError(fmt::format("{}: expected rows for which this holds: {}; but there are none",
                                      fmt::join(files, ", "), recording.filter));
+    if (recording.malformed.count > 0 && recording.malformed.count == recording.rows)
+      throw ProgramError(recording.warnings.front());
     if (const auto time = only_time(raw))
       throw ProgramError(fmt::format("{}: expected samples at two times or more, but all are at {}",
                                      fmt::join(files, ", "),

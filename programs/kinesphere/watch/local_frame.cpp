@@ -5,12 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "program_error.hpp"
-
-#ifdef KINESPHERE_WITH_GEOGRAPHICLIB
-#include <GeographicLib/AzimuthalEquidistant.hpp>
-#endif
-
 namespace kinesphere::program {
 namespace {
 
@@ -21,63 +15,12 @@ constexpr double degree_of_arc = 3.14159265358979323846 / 180.0;
 
 }  // namespace
 
-#ifdef KINESPHERE_WITH_GEOGRAPHICLIB
-
-class LocalFrame::Projector {
- public:
-  struct Point {
-    double x = 0, y = 0;
-    double azimuth = 0;           ///< azimuth of the way from the origin at its end
-    double reciprocal_scale = 0;  ///< m / r
-  };
-  Point forward(double latitude, double longitude, const Vec3& geographic) const {
-    Point point;
-    map_.Forward(latitude, longitude, geographic.y, geographic.x, point.x, point.y, point.azimuth,
-                 point.reciprocal_scale);
-    return point;
-  }
-  Vec3 reverse(double latitude, double longitude, const Vec3& position) const {
-    Vec3 result{0, 0, position.z};
-    map_.Reverse(latitude, longitude, position.x, position.y, result.y, result.x);
-    return result;
-  }
-
- private:
-  GeographicLib::AzimuthalEquidistant map_;
-};
-
-#else
-
-class LocalFrame::Projector {
- public:
-  struct Point {
-    double x = 0, y = 0, azimuth = 0, reciprocal_scale = 1;
-  };
-  Projector() {
-    throw ProgramError(
-        "watch: latitudes and longitudes need GeographicLib, and this program was built without it "
-        "(libgeographiclib-dev)");
-  }
-  Point forward(double, double, const Vec3&) const { return {}; }
-  Vec3 reverse(double, double, const Vec3&) const { return {}; }
-};
-
-#endif
-
 LocalFrame::LocalFrame(double latitude, double longitude, double radius, double margin)
-    : latitude_(latitude),
-      longitude_(longitude),
-      radius_(radius),
-      outer_radius_(radius + margin),
-      projector_(std::make_unique<Projector>()) {
+    : map_(latitude, longitude), radius_(radius), outer_radius_(radius + margin) {
   // The disc must stay convex.
   const double angle = std::min(outer_radius_ / polar_radius, 1.5);
   stretch_ = angle / std::sin(angle) * (1.0 + 1e-12);
 }
-
-LocalFrame::~LocalFrame() = default;
-LocalFrame::LocalFrame(LocalFrame&&) noexcept = default;
-LocalFrame& LocalFrame::operator=(LocalFrame&&) noexcept = default;
 
 double LocalFrame::curving() const {
   return 1.2 * stretch_ * stretch_ * outer_radius_ / (polar_radius * polar_radius);
@@ -85,8 +28,9 @@ double LocalFrame::curving() const {
 
 std::optional<LocalFrame::Placed> LocalFrame::place(const Vec3& geographic, bool has_height,
                                                     const Vec3& velocity, double away) const {
-  const auto point = projector_->forward(latitude_, longitude_, geographic);
-  const double distance = std::hypot(point.x, point.y);
+  const AzimuthalMap::Point point = map_.point(geographic);
+  const Vec3& at = point.position;
+  const double distance = std::hypot(at.x, at.y);
   if (!(distance <= radius_) || std::abs(geographic.z) > largest_height) return std::nullopt;
   const double height = has_height ? geographic.z : 0.0;
   const double on_ground = mean_radius / (mean_radius + height);
@@ -96,10 +40,10 @@ std::optional<LocalFrame::Placed> LocalFrame::place(const Vec3& geographic, bool
   const double speed_along = dot(velocity, along) * on_ground;
   const double speed_across = dot(velocity, across) * on_ground / point.reciprocal_scale;
   // At the origin, where no direction exists, GeographicLib returns an azimuth of 0.
-  const Vec3 outward = distance > 0.0 ? Vec3{point.x / distance, point.y / distance, 0.0} : along;
+  const Vec3 outward = distance > 0.0 ? Vec3{at.x / distance, at.y / distance, 0.0} : along;
   const Vec3 sideward{outward.y, -outward.x, 0.0};
   Placed placed;
-  placed.state.position = {point.x, point.y, geographic.z};
+  placed.state.position = at;
   placed.state.velocity = outward * speed_along + sideward * speed_across;
   placed.state.velocity.z = velocity.z;
   const double uncertain_height = has_height ? 1500.0 + 0.01 * std::abs(height) : largest_height;
@@ -112,10 +56,6 @@ std::optional<LocalFrame::Placed> LocalFrame::place(const Vec3& geographic, bool
     placed.velocity_error += speed * std::min(2.0, away * (north_turns + curving()));
   }
   return placed;
-}
-
-Vec3 LocalFrame::geographic(const Vec3& position) const {
-  return projector_->reverse(latitude_, longitude_, position);
 }
 
 TrackClass LocalFrame::promise(const ErrorBound& acceleration, const ErrorBound& largest_speed) const {

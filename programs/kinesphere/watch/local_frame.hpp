@@ -1,9 +1,9 @@
 // A plane map of a part of the earth, with the bound of its error.
 #pragma once
 
-#include <memory>
 #include <optional>
 
+#include "azimuthal_map.hpp"
 #include "kinesphere/body.hpp"
 #include "kinesphere/monitor/report.hpp"
 #include "kinesphere/monitor/separation.hpp"
@@ -51,17 +51,14 @@ class LocalFrame {
   /// Reports are accepted within `radius` < largest_radius; tracks may move up to `margin` beyond it before
   /// they are forgotten. Unit: metres. Throws ProgramError without GeographicLib.
   LocalFrame(double latitude, double longitude, double radius, double margin);
-  ~LocalFrame();
-  LocalFrame(LocalFrame&&) noexcept;
-  LocalFrame& operator=(LocalFrame&&) noexcept;
 
   /// Metres.
   static constexpr double largest_radius = 5e6;
   /// Largest height and depth of a track. Unit: metres.
   static constexpr double largest_height = 30e3;
 
-  double latitude() const { return latitude_; }
-  double longitude() const { return longitude_; }
+  double latitude() const { return map_.latitude(); }
+  double longitude() const { return map_.longitude(); }
   double radius() const { return radius_; }
   /// The largest factor by which distances on the map are too long: kappa.
   double stretch() const { return stretch_; }
@@ -75,7 +72,7 @@ class LocalFrame {
   std::optional<Placed> place(const Vec3& geographic, bool has_height, const Vec3& velocity,
                               double away = 0.0) const;
   /// Returns degrees east and north, and metres.
-  Vec3 geographic(const Vec3& position) const;
+  Vec3 geographic(const Vec3& position) const { return map_.geographic(position); }
 
   /// Returns the bound of a horizontal position error on the map.
   double position_error(double metres) const { return stretch_ * metres + rounding; }
@@ -94,11 +91,9 @@ class LocalFrame {
   /// Returns the largest curvature of a straight way on the map. Unit: 1 / metre.
   double curving() const;
 
-  class Projector;
-  double latitude_, longitude_, radius_;
-  double outer_radius_;
+  AzimuthalMap map_;
+  double radius_, outer_radius_;
   double stretch_;
-  std::unique_ptr<const Projector> projector_;
 };
 
 }  // namespace kinesphere::program

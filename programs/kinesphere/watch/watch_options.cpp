@@ -37,28 +37,37 @@ WatchSettings::Clock clock_named(const std::string& name) {
   throw ProgramError(fmt::format("--clock: expected stream, stamps or arrival, but got '{}'", name));
 }
 
+/// Returns the parts between commas.
+std::vector<std::string> comma_parts(std::string_view text) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == ',')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
 /// Parses LAT,LON.
 WatchSettings::Origin parse_origin(const std::string& text) {
-  const std::size_t comma = std::min(text.find(','), text.size());
-  const auto latitude = parse_number(std::string_view(text).substr(0, comma));
-  const auto longitude = parse_number(std::string_view(text).substr(std::min(comma + 1, text.size())));
-  if (!latitude || !longitude || std::abs(*latitude) > 90.0 || std::abs(*longitude) > 360.0)
+  const auto parts = comma_parts(text);
+  const auto latitude = parse_number(parts.front()), longitude = parse_number(parts.back());
+  if (parts.size() != 2 || !latitude || !longitude || std::abs(*latitude) > 90.0 ||
+      std::abs(*longitude) > 360.0)
     throw ProgramError(fmt::format("--origin: expected LATITUDE,LONGITUDE in degrees, but got '{}'", text));
   return {*latitude, *longitude};
 }
 
 /// Parses LAT,LON,LENGTH or X,Y,LENGTH.
 WatchedArea parse_area(const std::string& text) {
-  const std::size_t one = std::min(text.find(','), text.size());
-  const std::size_t two = std::min(text.find(',', std::min(one + 1, text.size())), text.size());
-  const auto first = parse_number(std::string_view(text).substr(0, one));
-  const auto second =
-      parse_number(std::string_view(text).substr(std::min(one + 1, text.size()), two - one - 1));
-  const std::string length = text.substr(std::min(two + 1, text.size()));
-  if (!first || !second || length.empty())
+  const auto parts = comma_parts(text);
+  const auto first = parse_number(parts.front());
+  const auto second = parts.size() == 3 ? parse_number(parts[1]) : std::nullopt;
+  if (!first || !second || parts[2].empty())
     throw ProgramError(
         fmt::format("--area: expected LATITUDE,LONGITUDE,RADIUS or X,Y,RADIUS, but got '{}'", text));
-  const double radius = parse_measure(length, Measure::length, "--area");
+  const double radius = parse_measure(parts[2], Measure::length, "--area");
   if (radius > 0.0) return {*first, *second, radius};
   throw ProgramError(fmt::format("--area: expected a radius > 0, but got '{}'", text));
 }

@@ -19,6 +19,7 @@ struct WatchCount {
   const char* label;
   const char* note;
   std::uint64_t count;
+  bool is_reason = false;  ///< for which reports were not taken
 };
 
 std::vector<WatchCount> counts_of(const Watcher& watcher) {
@@ -29,19 +30,20 @@ std::vector<WatchCount> counts_of(const Watcher& watcher) {
   return {
       {"reports", "reports", "taken", monitor.reports},
       {"late", "", "of them late: older than one before of the same track", monitor.late},
-      {"repeated", "", "repeated", counts.repeated + monitor.repeated},
-      {"stale", "", "too old: from before their track would have been forgotten (--forget)", counts.stale},
-      {"ahead", "", "stamped ahead, and not confirmed by others (--leap)", counts.ahead},
-      {"outside", "", "beyond the radius of the map (--radius, --origin)", counts.outside},
-      {"no_position", "", "without a position or its time", counts.no_position},
-      {"on_ground", "", "on the ground, without a height", counts.on_ground},
-      {"no_bound", "", "of unknown accuracy", counts.no_bound},
-      {"no_velocity", "", "without a velocity, where --largest-speed is not given", counts.no_velocity},
-      {"filtered", "", "left out by --where", counts.filtered},
-      {"superseded", "", "from before their track had its present class", counts.superseded},
+      {"repeated", "", "repeated", counts.repeated + monitor.repeated, true},
+      {"stale", "", "too old: from before their track would have been forgotten (--forget)", counts.stale,
+       true},
+      {"ahead", "", "stamped ahead, and not confirmed by others (--leap)", counts.ahead, true},
+      {"outside", "", "beyond the radius of the map (--radius, --origin)", counts.outside, true},
+      {"no_position", "", "without a position or its time", counts.no_position, true},
+      {"on_ground", "", "on the ground, without a height", counts.on_ground, true},
+      {"no_bound", "", "of unknown accuracy", counts.no_bound, true},
+      {"no_velocity", "", "without a velocity, where --largest-speed is not given", counts.no_velocity, true},
+      {"filtered", "", "left out by --where", counts.filtered, true},
+      {"superseded", "", "from before their track had its present class", counts.superseded, true},
       {"crowded", "", "of new tracks when there was no room for more (--most-tracks, --most-pairs)",
-       counts.crowded},
-      {"malformed", "", "malformed", counts.malformed},
+       counts.crowded, true},
+      {"malformed", "", "malformed", counts.malformed, true},
       {"no_height", "", "of those taken without a height: it may be any", counts.no_height},
       {"grouped", "", "of tracks that stand at one place and are watched as a group", counts.grouped},
       {"alerts", "alerts", "", counts.alerts},
@@ -68,18 +70,30 @@ std::vector<WatchCount> counts_of(const Watcher& watcher) {
   };
 }
 
-/// Reasons for which reports were not taken; the counts above without those of tracks and alerts.
-bool is_reason(const WatchCount& count) {
-  constexpr std::string_view reasons[] = {"repeated",    "stale",      "ahead",    "outside",
-                                          "no_position", "on_ground",  "no_bound", "no_velocity",
-                                          "filtered",    "superseded", "crowded",  "malformed"};
-  return count.count > 0 &&
-         std::find(std::begin(reasons), std::end(reasons), count.name) != std::end(reasons);
-}
-
 std::string without_quotes(std::string text) {
   std::erase(text, '"');
   return text;
+}
+
+/// Returns the texts of all elements, with `between` between them.
+template <class Range, class TextOf>
+std::string joined(const Range& range, std::string_view between, const TextOf& text_of) {
+  std::string all;
+  for (const auto& each : range) {
+    if (!all.empty()) all += between;
+    all += text_of(each);
+  }
+  return all;
+}
+/// Returns them as a JSON array, each on a line of its own.
+template <class Range, class TextOf>
+std::string array_of(const Range& range, const TextOf& text_of) {
+  const std::string lines = joined(range, ",\n", text_of);
+  return fmt::format("[{}{}]", lines.empty() ? "" : "\n", lines);
+}
+
+std::string count_text(const WatchCount& count) {
+  return fmt::format(R"("{}": {})", count.name, count.count);
 }
 
 bool is_always_shown(const WatchCount& count) { return *count.label != '\0'; }
@@ -97,29 +111,21 @@ std::string setting_fields(const Watcher& watcher) {
   text += frame ? fmt::format(R"({{"lon": {}, "lat": {}, "radius": {}}})", json_number(frame->longitude()),
                               json_number(frame->latitude()), json_number(frame->radius()))
                 : "null";
-  text += fmt::format(R"(, "silence": {}, "forget": {}, "separations": [)", json_number(settings.silence),
-                      json_number(settings.forget));
-  const char* separator = "";
-  for (const NamedSeparation& named : settings.separations) {
-    const Separation::Shape shape = named.separation.shape;
-    text += fmt::format(R"({}{{"name": {}, "shape": "{}", "horizontal": {}, "vertical": {})", separator,
-                        json_text(named.name),
-                        shape == Separation::Shape::cylinder     ? "cylinder"
-                        : shape == Separation::Shape::well_clear ? "well_clear"
-                                                                 : "ellipsoid",
-                        json_number(named.separation.horizontal), json_number(named.separation.vertical));
-    if (shape == Separation::Shape::well_clear)
-      text += fmt::format(R"(, "modified_tau": {})", json_number(named.separation.modified_tau));
-    text += "}";
-    separator = ", ";
-  }
-  text += R"(], "counts": {)";
-  separator = "";
-  for (const WatchCount& count : counts_of(watcher)) {
-    text += fmt::format(R"({}"{}": {})", separator, count.name, count.count);
-    separator = ", ";
-  }
-  return text + "}";
+  const auto separation_text = [](const NamedSeparation& named) {
+    const Separation& separation = named.separation;
+    const bool is_well_clear = separation.shape == Separation::Shape::well_clear;
+    return fmt::format(
+        R"({{"name": {}, "shape": "{}", "horizontal": {}, "vertical": {}{}}})", json_text(named.name),
+        separation.shape == Separation::Shape::cylinder ? "cylinder"
+        : is_well_clear                                 ? "well_clear"
+                                                        : "ellipsoid",
+        json_number(separation.horizontal), json_number(separation.vertical),
+        is_well_clear ? fmt::format(R"(, "modified_tau": {})", json_number(separation.modified_tau)) : "");
+  };
+  return text + fmt::format(R"(, "silence": {}, "forget": {}, "separations": [{}], "counts": {{{}}})",
+                            json_number(settings.silence), json_number(settings.forget),
+                            joined(settings.separations, ", ", separation_text),
+                            joined(counts_of(watcher), ", ", count_text));
 }
 
 std::string place_fields(const Watcher& watcher, const TrackView::Place& place) {
@@ -143,52 +149,32 @@ std::string class_text(const AlertContext& context, TrackId id) {
   return json_text(context.settings.classes[track->motion_class].name);
 }
 
-void add_tracks(std::string& text, const Watcher& watcher) {
-  const AlertContext context = watcher.context();
-  const char* separator = "\n";
-  for (const TrackId id : context.monitor.tracks()) {
-    const TrackView view = context.monitor.track(id).value();
-    const NamedTrack* const named = context.names.find(id);
-    text += fmt::format(R"({}{{"id": {}, "name": {}, "stamp": {}, "silent": {}, "class": {}, "places": [)",
-                        separator, json_text(context.names.text(id)),
-                        named != nullptr && !named->name.empty() ? json_text(named->name) : "null",
-                        json_time(context.times, view.timestamp), view.stale, class_text(context, id));
-    const char* between = "";
-    for (const TrackView::Place& place : view.places) {
-      text += between + place_fields(watcher, place);
-      between = ", ";
-    }
-    text += "]}";
-    separator = ",\n";
-  }
+std::string state_of_track(const Watcher& watcher, const AlertContext& context, TrackId id) {
+  const TrackView view = context.monitor.track(id).value();
+  const NamedTrack* const named = context.names.find(id);
+  return fmt::format(
+      R"({{"id": {}, "name": {}, "stamp": {}, "silent": {}, "class": {}, "places": [{}]}})",
+      json_text(context.names.text(id)),
+      named != nullptr && !named->name.empty() ? json_text(named->name) : "null",
+      json_time(context.times, view.timestamp), view.stale, class_text(context, id),
+      joined(view.places, ", ", [&](const auto& place) { return place_fields(watcher, place); }));
 }
 
-/// Adds open pairs or predicted ones.
+/// `pair` is an open pair or a predicted one.
 template <class Pair>
-void add_pairs(std::string& text, const Watcher& watcher, const std::vector<Pair>& pairs) {
-  const AlertContext context = watcher.context();
-  const char* separator = "\n";
-  for (const Pair& pair : pairs) {
-    const auto [first, second] = in_text_order(context.names, pair.first, pair.second);
-    const PairAnswer answer = context.monitor.answer(pair.first, pair.second, pair.level).value();
-    text += fmt::format(
-        R"({}{{"first": {}, "second": {}, "separation": {}, "level": {}, "verdict": "{}", "since": {}, {}}})",
-        separator, json_text(context.names.text(first)), json_text(context.names.text(second)),
-        json_text(context.settings.separations[pair.level].name), pair.level, name_of(answer.verdict),
-        json_time(context.times, pair.since), answer_fields(context, answer));
-    separator = ",\n";
-  }
+std::string state_of_pair(const AlertContext& context, const Pair& pair) {
+  const auto [first, second] = in_text_order(context.names, pair.first, pair.second);
+  const PairAnswer answer = context.monitor.answer(pair.first, pair.second, pair.level).value();
+  return fmt::format(
+      R"({{"first": {}, "second": {}, "separation": {}, "level": {}, "verdict": "{}", "since": {}, {}}})",
+      json_text(context.names.text(first)), json_text(context.names.text(second)),
+      json_text(context.settings.separations[pair.level].name), pair.level, name_of(answer.verdict),
+      json_time(context.times, pair.since), answer_fields(context, answer));
 }
 
-void add_needs(std::string& text, const Watcher& watcher) {
-  const AlertContext context = watcher.context();
-  const char* separator = "\n";
-  for (const ReportRequest& need : context.monitor.needed(context.monitor.time() + context.settings.window)) {
-    text += fmt::format(R"({}{{"track": {}, "by": {}, "other": {}}})", separator,
-                        json_text(context.names.text(need.track)), json_time(context.times, need.by),
-                        json_text(context.names.text(need.other)));
-    separator = ",\n";
-  }
+std::string state_of_need(const AlertContext& context, const ReportRequest& need) {
+  return fmt::format(R"({{"track": {}, "by": {}, "other": {}}})", json_text(context.names.text(need.track)),
+                     json_time(context.times, need.by), json_text(context.names.text(need.other)));
 }
 
 }  // namespace
@@ -196,7 +182,7 @@ void add_needs(std::string& text, const Watcher& watcher) {
 std::string reasons_text(const Watcher& watcher) {
   std::string text;
   for (const WatchCount& count : counts_of(watcher))
-    if (is_reason(count))
+    if (count.is_reason && count.count > 0)
       text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(count.count), count.note);
   return text;
 }
@@ -233,38 +219,37 @@ std::string watch_summary_json(const Watcher& watcher, std::string_view format, 
   std::string text = fmt::format(R"({{"stream": {}, "format": "{}", "from": {}, "to": {}, "seconds": {})",
                                  json_text(settings.source), format, watcher.first_time(),
                                  watcher.last_time(), json_number(watcher.time_covered()));
-  for (const WatchCount& count : counts_of(watcher))
-    text += fmt::format(R"(, "{}": {})", count.name, count.count);
-  text += fmt::format(R"(, "tracks": {}, "separations": [)", watcher.names().size());
-  const char* separator = "";
-  for (std::size_t level = 0; level < settings.separations.size(); ++level) {
-    const auto& turns = watcher.counts().turns[level];
-    text +=
-        fmt::format(R"({}{{"separation": {}, "undecided": {}, "within": {}, "apart": {}}})", separator,
-                    json_text(settings.separations[level].name), turns.undecided, turns.within, turns.apart);
-    separator = ", ";
-  }
-  text += R"(], "first_malformed": [)";
-  separator = "";
-  for (const MalformedLine& line : watcher.counts().first_malformed) {
-    text += fmt::format(R"({}{{"line": {}, "reason": {}}})", separator, line.line, json_text(line.reason));
-    separator = ", ";
-  }
-  return text + fmt::format("], \"real_seconds\": {}}}\n", json_number(real_seconds));
+  text += ", " + joined(counts_of(watcher), ", ", count_text);
+  std::size_t level = 0;
+  const auto turns_text = [&](const NamedSeparation& named) {
+    const auto& turns = watcher.counts().turns[level++];
+    return fmt::format(R"({{"separation": {}, "undecided": {}, "within": {}, "apart": {}}})",
+                       json_text(named.name), turns.undecided, turns.within, turns.apart);
+  };
+  const auto line_text = [](const MalformedLine& line) {
+    return fmt::format(R"({{"line": {}, "reason": {}}})", line.line, json_text(line.reason));
+  };
+  return text +
+         fmt::format(R"(, "tracks": {}, "separations": [{}], "first_malformed": [{}], "real_seconds": {}}})"
+                     "\n",
+                     watcher.names().size(), joined(settings.separations, ", ", turns_text),
+                     joined(watcher.counts().first_malformed, ", ", line_text), json_number(real_seconds));
 }
 
 std::string watch_state_json(const Watcher& watcher) {
-  std::string text = "{\"time\": ";
-  text += watcher.monitor() ? json_time(watcher.context().times, watcher.monitor()->time()) : "null";
-  text += ", " + setting_fields(watcher) + ",\n\"tracks\": [";
-  if (watcher.monitor()) add_tracks(text, watcher);
-  text += "],\n\"pairs\": [";
-  if (watcher.monitor()) add_pairs(text, watcher, watcher.monitor()->open_pairs());
-  text += "],\n\"predictions\": [";
-  if (watcher.monitor()) add_pairs(text, watcher, watcher.monitor()->predicted_pairs());
-  text += "],\n\"needed\": [";
-  if (watcher.monitor()) add_needs(text, watcher);
-  return text + "]}\n";
+  if (!watcher.monitor())
+    return fmt::format("{{\"time\": null, {},\n{}}}\n", setting_fields(watcher),
+                       "\"tracks\": [],\n\"pairs\": [],\n\"predictions\": [],\n\"needed\": []");
+  const AlertContext context = watcher.context();
+  const Monitor& monitor = context.monitor;
+  const auto text_of_pair = [&](const auto& pair) { return state_of_pair(context, pair); };
+  return fmt::format(
+      "{{\"time\": {}, {},\n\"tracks\": {},\n\"pairs\": {},\n\"predictions\": {},\n\"needed\": {}}}\n",
+      json_time(context.times, monitor.time()), setting_fields(watcher),
+      array_of(monitor.tracks(), [&](TrackId id) { return state_of_track(watcher, context, id); }),
+      array_of(monitor.open_pairs(), text_of_pair), array_of(monitor.predicted_pairs(), text_of_pair),
+      array_of(monitor.needed(monitor.time() + context.settings.window),
+               [&](const ReportRequest& need) { return state_of_need(context, need); }));
 }
 
 std::string watch_metrics(const Watcher& watcher) {

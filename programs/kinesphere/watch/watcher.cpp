@@ -51,7 +51,7 @@ void Watcher::take(const SourceReport& report) {
   const bool by_arrival = clock_.source() == StreamClock::Source::arrivals;
   if (by_arrival && !report.arrival)
     return refuse(fmt::format("expected a time of arrival of {}, as reports before had one", report.id));
-  const FileTime& time = by_arrival ? *report.arrival : report.stamp;
+  const FileTime& time = clock_time(report);
   if (!clock_.believes(time)) {
     const bool confirmed = clock_.confirms(time, std::string(report.id), names_.size() > 1);
     hold(report);
@@ -92,17 +92,9 @@ void Watcher::machine_time_is(const FileTime& now) {
 }
 
 void Watcher::pass_over(Passed reason) {
-  switch (reason) {
-    case Passed::no_position:
-      ++counts_.no_position;
-      break;
-    case Passed::no_bound:
-      ++counts_.no_bound;
-      break;
-    case Passed::filtered:
-      ++counts_.filtered;
-      break;
-  }
+  ++(reason == Passed::no_position ? counts_.no_position
+     : reason == Passed::no_bound  ? counts_.no_bound
+                                   : counts_.filtered);
 }
 
 void Watcher::refuse(std::size_t line, const std::string& reason) {
@@ -126,7 +118,7 @@ void Watcher::finish() {
   // A stream may be too short for its times to confirm each other.
   if (!clock_.has_begun() && !held_.empty()) {
     const SourceReport& first = held_.front().report;
-    start(clock_.source() == StreamClock::Source::arrivals ? *first.arrival : first.stamp, first.time_kind);
+    start(clock_time(first), first.time_kind);
     deliver_held();
   }
   drop_held();
@@ -159,8 +151,7 @@ void Watcher::deliver_held() {
   for (HeldReport& held : reports) {
     held.report.id = held.id;
     held.report.name = held.name;
-    const bool by_arrival = clock_.source() == StreamClock::Source::arrivals;
-    go_on(by_arrival ? *held.report.arrival : held.report.stamp);
+    go_on(clock_time(held.report));
     deliver(held.report);
   }
 }
@@ -170,21 +161,12 @@ void Watcher::deliver_held() {
 void Watcher::start(const FileTime& time, TimeKind kind) {
   if (!clock_.has_begun()) {
     FileTime first = time;
-    for (const HeldReport& held : held_) {
-      const bool by_arrival = clock_.source() == StreamClock::Source::arrivals;
-      const FileTime& each = by_arrival && held.report.arrival ? *held.report.arrival : held.report.stamp;
-      if (seconds_between(each, first) > 0.0) first = each;
-    }
+    for (const HeldReport& held : held_) first = std::min(first, clock_time(held.report), is_earlier);
     begin_times(first, kind);
     clock_.go_on(first);
     return;
   }
-  FileTime first = time;
-  if (!held_.empty()) {
-    const SourceReport& held = held_.front().report;
-    first = clock_.source() == StreamClock::Source::arrivals ? *held.arrival : held.stamp;
-  }
-  go_on(first);
+  go_on(held_.empty() ? time : clock_time(held_.front().report));
 }
 
 void Watcher::begin_times(const FileTime& first, TimeKind kind) {

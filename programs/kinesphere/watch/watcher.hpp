@@ -5,7 +5,6 @@
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -75,9 +74,11 @@ class Watcher final : public ReportSink {
     SourceReport report;
   };
 
-  /// Returns true if the clock accepts the time, at once or by this report; then held reports have been
-  /// delivered.
-  bool admit(const FileTime& time, const std::string& id, TimeKind kind);
+  /// Returns the time of a report by which the clock goes.
+  const FileTime& clock_time(const SourceReport& report) const {
+    return clock_.source() == StreamClock::Source::arrivals && report.arrival ? *report.arrival
+                                                                              : report.stamp;
+  }
   void hold(const SourceReport& report);
   void drop_held();
   void deliver_held();
@@ -147,7 +148,6 @@ class Watcher final : public ReportSink {
   std::map<TrackId, TrackGroups::Cell> group_tracks_;  ///< the tracks that stand for groups
   WatchCounts counts_;
   std::size_t line_ = 0;
-  std::set<std::string, std::less<>> declarations_;  ///< texts restored from a snapshot
 };
 
 }  // namespace kinesphere::program

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
 
 #include "program_error.hpp"
@@ -32,12 +33,25 @@ namespace program {
 namespace {
 
 using Json = nlohmann::json;
-/// Returns the text with a lifetime longer than the watch.
-using KeepText = std::function<std::string_view(const std::string&)>;
+
+/// Returns a text of a declaration that lives as long as the program; there are few.
+std::string_view kept(const std::string& text) {
+  static std::set<std::string> texts;
+  return *texts.insert(text).first;
+}
 
 }  // namespace
 
+inline void to_json(Json& to, const DeclaredError& error) { to = {error.bound, error.declaration}; }
+inline void from_json(const Json& from, DeclaredError& error) { error = {from.at(0), kept(from.at(1))}; }
+
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FileTime, whole, fraction, rest)
+// Without what is valid during a call alone, and what a format adds for recordings.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SourceReport, stamp, arrival, time_kind, geographic, position, has_height,
+                                   may_have_height, on_ground, velocity, has_climb, position_error,
+                                   height_error, velocity_error, climb_error, stamp_error, velocity_age,
+                                   velocity_spread, extent, ground_speed, said_status, said_kind, ruled_class,
+                                   same_within)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StreamClock::Memory, source, has_begun, now, in_a_row, first_ahead,
                                    latest_ahead, first_id, several_ids)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MalformedLine, line, reason)
@@ -48,72 +62,6 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WatchCounts, repeated, stale, ahead, outside,
                                    events, fates, turns)
 
 namespace {
-
-Json saved(const std::optional<DeclaredError>& error) {
-  if (!error) return nullptr;
-  return {error->bound, error->declaration};
-}
-
-std::optional<DeclaredError> restored_error(const Json& saved, const KeepText& keep) {
-  if (saved.is_null()) return std::nullopt;
-  return DeclaredError{saved.at(0), keep(saved.at(1))};
-}
-
-Json saved(const SourceReport& report) {
-  const auto& [id, name, stamp, arrival, time_kind, geographic, position, has_height, may_have_height,
-               on_ground, velocity, has_climb, position_error, height_error, velocity_error, climb_error,
-               stamp_error, velocity_age, velocity_spread, extent, ground_speed, said_status, said_kind,
-               sayable, ruled_class, row, written, category, craft_type, status, same_within] = report;
-  return {{"stamp", stamp},
-          {"arrival", arrival},
-          {"time_kind", time_kind},
-          {"geographic", geographic},
-          {"position", position},
-          {"has_height", has_height},
-          {"may_have_height", may_have_height},
-          {"on_ground", on_ground},
-          {"velocity", velocity},
-          {"has_climb", has_climb},
-          {"position_error", saved(position_error)},
-          {"height_error", saved(height_error)},
-          {"velocity_error", saved(velocity_error)},
-          {"climb_error", saved(climb_error)},
-          {"stamp_error", stamp_error},
-          {"velocity_age", velocity_age},
-          {"velocity_spread", velocity_spread},
-          {"extent", extent},
-          {"ground_speed", ground_speed},
-          {"said_status", said_status},
-          {"said_kind", said_kind},
-          {"ruled_class", ruled_class},
-          {"same_within", same_within}};
-}
-
-SourceReport restored_report(const Json& saved, const KeepText& keep) {
-  return {.stamp = saved.at("stamp"),
-          .arrival = saved.at("arrival").get<std::optional<FileTime>>(),
-          .time_kind = saved.at("time_kind"),
-          .geographic = saved.at("geographic"),
-          .position = saved.at("position"),
-          .has_height = saved.at("has_height"),
-          .may_have_height = saved.at("may_have_height"),
-          .on_ground = saved.at("on_ground"),
-          .velocity = saved.at("velocity").get<std::optional<Vec3>>(),
-          .has_climb = saved.at("has_climb"),
-          .position_error = restored_error(saved.at("position_error"), keep),
-          .height_error = restored_error(saved.at("height_error"), keep),
-          .velocity_error = restored_error(saved.at("velocity_error"), keep),
-          .climb_error = restored_error(saved.at("climb_error"), keep),
-          .stamp_error = saved.at("stamp_error").get<std::optional<double>>(),
-          .velocity_age = saved.at("velocity_age"),
-          .velocity_spread = saved.at("velocity_spread"),
-          .extent = saved.at("extent"),
-          .ground_speed = saved.at("ground_speed").get<std::optional<double>>(),
-          .said_status = saved.at("said_status").get<std::optional<MotionPreset>>(),
-          .said_kind = saved.at("said_kind").get<std::optional<MotionPreset>>(),
-          .ruled_class = saved.at("ruled_class"),
-          .same_within = saved.at("same_within")};
-}
 
 Json saved(const NamedTrack& track) {
   const auto& [text, name, stamp, position, extent, motion_class, class_since, contradicted_rest, position_by,
@@ -162,7 +110,7 @@ Json Watcher::save() const {
              {"policy", policy_.save()},
              {"groups", nullptr},
              {"next_forgetting", next_forgetting_}};
-  for (const HeldReport& held : held_) state["held"].push_back({held.id, held.name, saved(held.report)});
+  for (const HeldReport& held : held_) state["held"].push_back({held.id, held.name, held.report});
   if (monitor_) {
     state["monitor"] = saved(*monitor_);
     state["groups"] = {groups_->save(), group_tracks_};
@@ -173,13 +121,10 @@ Json Watcher::save() const {
 }
 
 void Watcher::restore(const Json& state) {
-  const KeepText keep = [this](const std::string& text) -> std::string_view {
-    return *declarations_.insert(text).first;
-  };
   clock_.recall(state.at("clock"));
   clock_is_chosen_ = state.at("clock_is_chosen");
   for (const Json& held : state.at("held"))
-    held_.push_back({held.at(0), held.at(1), restored_report(held.at(2), keep)});
+    held_.push_back({held.at(0), held.at(1), held.at(2).get<SourceReport>()});
   if (clock_.has_begun()) begin_times(state.at("first"), state.at("time_kind"));
   is_geographic_ = state.at("geographic");
   dimensions_ = state.at("dimensions");
@@ -190,10 +135,10 @@ void Watcher::restore(const Json& state) {
       NamedTrack& track = names_.add(track_id_of(text), text);
       track.stamp = saved.at(1);
       track.position = saved.at(2);
-      track.position_by = keep(saved.at(3));
-      track.height_by = keep(saved.at(4));
-      track.velocity_by = keep(saved.at(5));
-      track.climb_by = keep(saved.at(6));
+      track.position_by = kept(saved.at(3));
+      track.height_by = kept(saved.at(4));
+      track.velocity_by = kept(saved.at(5));
+      track.climb_by = kept(saved.at(6));
       track.extent = saved.at(7);
       track.motion_class = saved.at(8);
       track.class_since = saved.at(9).get<std::optional<FileTime>>();

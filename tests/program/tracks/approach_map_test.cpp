@@ -69,7 +69,7 @@ TEST_F(ApproachMapOf, KmlHasAPlacemark) {
   expect_well_formed(dated);
   expect_parts(dated,
                {"<Placemark><name>&lt;A&amp;B&gt; by c</name>", "<TimeSpan><begin>2024-05-01T08:0", "<end>",
-                "<Data name=\"distance\"><value>49.99", "<altitudeMode>absolute</altitudeMode>", ",54.0000",
+                "<Data name=\"distance_m\"><value>49.99", "<altitudeMode>absolute</altitudeMode>", ",54.0000",
                 ",99.9", "<LineString>", "</kml>\n"});
   const std::string numbers = map_in("b.kml", false, false);
   expect_well_formed(numbers);

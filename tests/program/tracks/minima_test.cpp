@@ -92,11 +92,11 @@ TEST_F(MinimaOf, PlacesOnTheEarthAreEastNorthAndUp) {
     const auto rows =
         minima(file, "--distance 3km --interpolate linear --projection " + std::string(projection));
     ASSERT_EQ(rows.size(), 1u) << projection;
-    EXPECT_NEAR(rows[0]["relative_x"].get<double>(), 558, 2) << projection;
-    EXPECT_NEAR(rows[0]["relative_y"].get<double>(), 0, 2) << projection;
-    EXPECT_NEAR(rows[0]["relative_z"].get<double>(), 100, 1) << projection;
-    EXPECT_NEAR(rows[0]["from_first_right"].get<double>(), 558, 2) << projection;
-    EXPECT_NEAR(rows[0]["from_first_up"].get<double>(), 100, 1) << projection;
+    EXPECT_NEAR(rows[0]["relative_x_m"].get<double>(), 558, 2) << projection;
+    EXPECT_NEAR(rows[0]["relative_y_m"].get<double>(), 0, 2) << projection;
+    EXPECT_NEAR(rows[0]["relative_z_m"].get<double>(), 100, 1) << projection;
+    EXPECT_NEAR(rows[0]["from_first_right_m"].get<double>(), 558, 2) << projection;
+    EXPECT_NEAR(rows[0]["from_first_up_m"].get<double>(), 100, 1) << projection;
   }
 }
 

@@ -40,8 +40,8 @@ TEST_F(SeparationOf, CylindersNeedBothLimitsAtOnce) {
                                 " --quiet --separation cylinder:5NM:1000ft --contacts " + path("c.jsonl"));
   ASSERT_EQ(run_of.exit_code, 0) << run_of.err;
   const auto row = nlohmann::json::parse(read_text(path("c.jsonl")));
-  EXPECT_NEAR(row["horizontal_distance"].get<double>(), 556, 1);
-  EXPECT_NEAR(row["vertical_distance"].get<double>(), 900 * 0.3048, 1e-6);
+  EXPECT_NEAR(row["horizontal_distance_m"].get<double>(), 556, 1);
+  EXPECT_NEAR(row["vertical_distance_m"].get<double>(), 900 * 0.3048, 1e-6);
   // Horizontally within 9260 m: 2 sqrt(9260^2 - 556^2) / 400 m/s.
   EXPECT_NEAR(row["end"].get<double>() - row["begin"].get<double>(), 46.1, 0.2);
 }

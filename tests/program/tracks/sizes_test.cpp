@@ -21,17 +21,17 @@ TEST_F(SizesOf, DistancesAreBetweenSurfaces) {
   const std::string options = " --distance 100 --interpolate linear --verify --pairs " + path("p.jsonl");
   ASSERT_EQ(run("tracks " + file + options).exit_code, 0);
   auto pair = nlohmann::json::parse(read_text(path("p.jsonl")));
-  EXPECT_NEAR(pair["least_distance"].get<double>(), 20.0, 1e-9);
-  EXPECT_FALSE(pair.contains("least_time_to_collision"));
+  EXPECT_NEAR(pair["least_distance_m"].get<double>(), 20.0, 1e-9);
+  EXPECT_FALSE(pair.contains("least_time_to_collision_s"));
   const ProgramRun sized = run("tracks " + file + options + " --sizes --minima " + path("m.jsonl"));
   ASSERT_EQ(sized.exit_code, 0) << sized.err << sized.out;
   EXPECT_NE(sized.out.find("\nsizes             2 "), std::string::npos) << sized.out;
   EXPECT_NE(sized.out.find("  of the tracks, the largest of radius 5;"), std::string::npos) << sized.out;
   pair = nlohmann::json::parse(read_text(path("p.jsonl")));
-  EXPECT_NEAR(pair["least_distance"].get<double>(), 12.5, 1e-9);
-  EXPECT_NEAR(nlohmann::json::parse(read_text(path("m.jsonl")))["distance"].get<double>(), 12.5, 1e-9);
+  EXPECT_NEAR(pair["least_distance_m"].get<double>(), 12.5, 1e-9);
+  EXPECT_NEAR(nlohmann::json::parse(read_text(path("m.jsonl")))["distance_m"].get<double>(), 12.5, 1e-9);
   // Just before it brakes at 2 s, 22.5 m are left at 10 m/s; later 12.5 m at 5 m/s.
-  EXPECT_NEAR(pair["least_time_to_collision"].get<double>(), 2.25, 1e-9);
+  EXPECT_NEAR(pair["least_time_to_collision_s"].get<double>(), 2.25, 1e-9);
   EXPECT_NEAR(pair["time_of_that"].get<double>(), 2.0, 1e-9);
 }
 
@@ -52,7 +52,7 @@ TEST_F(SizesOf, PostEncroachmentTimeIsThatOfTheDiscs) {
   const std::string options = " --sizes --distance 100 --interpolate linear --pairs " + path("p.jsonl");
   ASSERT_EQ(run("tracks " + file + options).exit_code, 0);
   const auto pair = nlohmann::json::parse(read_text(path("p.jsonl")));
-  EXPECT_NEAR(pair["post_encroachment_time"].get<double>(), 3.0 - std::sqrt(5.0), 1e-5);
+  EXPECT_NEAR(pair["post_encroachment_time_s"].get<double>(), 3.0 - std::sqrt(5.0), 1e-5);
   EXPECT_NEAR(pair["time_of_entry"].get<double>(), 8.0 - 4.0 / std::sqrt(5.0), 1e-2);
 }
 

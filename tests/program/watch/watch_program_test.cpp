@@ -290,7 +290,7 @@ TEST_F(WatchProgram, RefusesWrongOptions) {
   expect_wrong_input("watch " + file + " --separation sphere:3 --acceleration 1kt",
                      {"--acceleration", "1kt", "m/s2"});
   expect_wrong_input("watch " + file + " --separation sphere:3 --format xml" + promises,
-                     {"--format", "readsb|sbs|opensky|ais|nmea|csv|jsonl", "xml"});
+                     {"--format", "table|readsb|sbs|nmea|csv|jsonl", "xml"});
   expect_wrong_input("watch " + file + " --separation sphere:3 --clock mine" + promises, {"--clock", "mine"});
   expect_wrong_input("watch " + file + " --separation sphere:3 --silence 0" + promises, {"--silence", "0"});
   expect_wrong_input("watch " + file + " --separation sphere:3 --origin north" + promises,
