@@ -73,7 +73,7 @@ struct FormatChoices {
   bool position_error_is_said = false;
   double velocity_age = 5.0;  ///< sbs: an older velocity is not used (seconds)
   /// The whole file is read: each row of a table has as many fields as the first, and what is asked about is
-  /// never only a damaged line.
+  /// never only a damaged line. Reports of tables then have no velocity, errors and kind.
   bool is_recording = false;
   std::string title;  ///< of a converted table: its format
 };

@@ -137,16 +137,17 @@ class CsvFormat final : public ReportFormat {
                        columns.z() ? position->z * columns.z()->unit : 0.0};
     report.has_height = reader_->has_height();
     report.may_have_height = columns.z().has_value();
+    report.extent = radius();
+    if (choices_.is_recording) return sink.take(report);
     read_velocity(report);
     report.position_error = error(Quantity::position_error);
     report.height_error = error(Quantity::height_error);
     report.velocity_error = error(Quantity::velocity_error);
     report.climb_error = error(Quantity::climb_error);
     report.stamp_error = number(Quantity::stamp_error);
-    report.extent = radius();
     add_class(report);
     has_handed_over_ = true;
-    if (checked_ < most_checked && !choices_.is_recording) check_first(*position, report);
+    if (checked_ < most_checked) check_first(*position, report);
     sink.take(report);
   }
 

@@ -212,8 +212,7 @@ StreamFormat RawRecording::format_of(std::string_view text) const {
   const auto format = said.empty() && options_.hints.columns.empty()
                           ? recognised_format(text.substr(0, enough))
                           : format_named(said, text.substr(0, enough));
-  return format.value_or(StreamFormat::csv) == StreamFormat::ais ? StreamFormat::csv
-                                                                 : format.value_or(StreamFormat::csv);
+  return format && !is_table(*format) ? *format : StreamFormat::csv;
 }
 
 void RawRecording::read(std::string text, const std::string& file) {
