@@ -10,12 +10,15 @@
 //   world.run(60.0, source, respond, sink).value();
 //
 // A loop over World::advance() gives the same result. The loop may do anything at an event, whereas run()
-// knows in advance what an event can do: change the velocities of its bodies, as a function of the event
-// alone.
+// knows in advance what an event can do, as a function of the event alone: change the velocities of its
+// bodies, remove them, disable them or put them to sleep. Where more is to be done, as adding bodies, the
+// response asks for a stop (Response::stop), at which the sink may do what the loop may.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "kinesphere/body.hpp"
 #include "kinesphere/callback.hpp"
@@ -56,14 +59,39 @@ class MotionSource {
   virtual void set_origin(BodyId body, const MotionOrigin& origin) = 0;
 };
 
-/// The effect of an event on its bodies: their velocities (length / time) from the event on. A body without
-/// a velocity here continues unchanged.
+/// What a response does to a body, after the body has got its velocity.
+enum class BodyAction : std::uint8_t {
+  none,
+  remove,   ///< World::remove()
+  disable,  ///< World::disable()
+  sleep,    ///< World::sleep(), with velocity 0, which the motion source gets as well
+};
+/// Returns "none", "remove", "disable" or "sleep".
+std::string_view name_of(BodyAction action);
+
+/// The effect of an event on its bodies: their velocities (length / time) from the event on, and what else is
+/// done to them. A body without both continues unchanged. A response cannot know what earlier responses did at
+/// the same time, so it has no effect on a body that was removed, and none but BodyAction::remove on one that
+/// was disabled.
 struct Response {
   std::optional<Vec3> first_velocity{};
   std::optional<Vec3> second_velocity{};
   /// Of rigid bodies (radians / time). Only a world without a RotationProbe accepts them.
   std::optional<Vec3> first_angular_velocity{};
   std::optional<Vec3> second_angular_velocity{};
+  /// Done to the first body, then to the second. The motion source is not told of a removal; the sink may
+  /// remove the body there (BodyMap::remove).
+  BodyAction first_action = BodyAction::none;
+  BodyAction second_action = BodyAction::none;
+  /// The world stops at this event, so that the sink can change it: when the sink receives the event,
+  /// World::time() is the time of the event, and every call is allowed that a loop over World::advance() may
+  /// make at a stop, but for advance(), events() and run(). So the sink adds bodies, to the world and to its
+  /// motion, or teleports them.
+  ///
+  /// Cost: with several workers a stop ends a batch. Clusters that were executed beyond it are executed
+  /// again, and the events of its instant one by one. BodyAction::sleep costs the same, and so does any
+  /// action on a static body.
+  bool stop = false;
 
   friend constexpr bool operator==(const Response&, const Response&) = default;
 };
@@ -75,8 +103,8 @@ struct Response {
 using ResponseFn = Callback<Response(const Event& event)>;
 
 /// Any callable `void(const Event&)`. It receives each event once, in the order of events, in the thread
-/// that called World::run(). It may do anything except change the world. It may throw. Lifetimes: as for
-/// Probe.
+/// that called World::run(). It may do anything except change the world, and may do that at an event whose
+/// response has Response::stop. It may throw. Lifetimes: as for Probe.
 using EventFn = Callback<void(const Event& event)>;
 
 }  // namespace kinesphere

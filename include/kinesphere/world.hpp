@@ -314,15 +314,16 @@ class World {
   [[nodiscard]] Result<std::optional<Event>> advance(double until, Probe probe);
 
   /// Advances to time `until`. For each event, run() calls `respond`, passes the velocities of the response
-  /// to the motion source and to the world, and calls `sink`. The events, the probed states and a recording
-  /// equal, bit for bit, those of a loop over advance() that responds in the same way. Counters of internal
-  /// work may differ with several workers.
+  /// to the motion source and to the world, removes, disables or puts to sleep the bodies for which the
+  /// response says so, and calls `sink`. The events, the ids of bodies that the sink adds (Response::stop), the
+  /// probed states and a recording equal, bit for bit, those of a loop over advance() that does the same.
+  /// Counters of internal work may differ with several workers.
   ///
   /// The sink may call body(), touching(), sensor_overlaps(), time() and every other member that is allowed
   /// inside a pair filter. These show the world at a moment that is not before the event and may be after
   /// it; anything that must depend on the event alone has to be taken from the event. The motion source and
   /// `respond` must not call this world. Calls that list probe_in_progress fail with run_in_progress inside
-  /// all three.
+  /// all three, unless the sink receives an event whose response has Response::stop.
   ///
   /// Interruptions. After an error, or after an exception of the motion source, `respond` or the sink
   /// (which passes through run()), the world is at a stop and can continue. No event is lost and none is
@@ -340,8 +341,9 @@ class World {
   /// delivered in batches. Events are processed one at a time while bodies sleep, a pair filter is set, or
   /// the world is recorded or profiled.
   ///
-  /// Errors: as advance(); run_in_progress; null_callback; workers_busy; for a velocity in a response,
-  /// those of set_velocity() and, for the second body of an event without one, unknown_body.
+  /// Errors: as advance(); run_in_progress; null_callback; workers_busy; for a velocity or an action in a
+  /// response, those of set_velocity() or sleep() and, for the second body of an event without one,
+  /// unknown_body.
   Result<void> run(double until, MotionSource& source, const ResponseFn& respond, const EventFn& sink,
                    Workers* workers = nullptr);
   /// Advances to time `until` and calls `sink` for each event, without responses: the state of every body
@@ -449,6 +451,7 @@ class World {
   std::unique_ptr<Recorder> recorder_;              ///< null unless the world is recorded
   std::unique_ptr<UndeliveredEvents> undelivered_;  ///< null until the first run()
   bool running_ = false;                            ///< true inside run()
+  bool open_ = false;  ///< true while run() lets its sink change the world (Response::stop)
   std::unique_ptr<Timings> timings_;                ///< null before profiling
   bool profiling_ = false;
 };

@@ -38,6 +38,8 @@ class PendingEvents {
              !holds(event);
     });
   }
+  /// Returns true if ends that the caller has caused wait for delivery: pop() returns the first of them.
+  bool has_ends() const { return !ended_.empty(); }
   /// True if no event waits for delivery.
   bool is_quiet() const { return ended_.empty() && pending_.empty(); }
 

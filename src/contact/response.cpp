@@ -1,6 +1,7 @@
 #include "kinesphere/response.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace kinesphere {
@@ -113,6 +114,11 @@ Response response_of(const Event& contact, const Bounce& after) {
   if (contact.first_spin_gain != Vec3{}) response.first_angular_velocity = after.first_angular_velocity;
   if (contact.second_spin_gain != Vec3{}) response.second_angular_velocity = after.second_angular_velocity;
   return response;
+}
+
+std::string_view name_of(BodyAction action) {
+  constexpr std::array<std::string_view, 4> names{"none", "remove", "disable", "sleep"};
+  return names[static_cast<std::size_t>(action)];
 }
 
 double least_resting_speed(double contact_tolerance, double acceleration) {

@@ -28,7 +28,7 @@ class RankSource final : public MotionSource {
 };
 
 /// Calls `respond` and validates the response. Errors: unknown_body for a velocity of a body that is not part
-/// of the event; those of check_velocity().
+/// of the event; those of check_velocity(); unsupported for an action or a stop.
 class RankResponder final : public ResponseHandler {
  public:
   RankResponder(const ResponseFn& respond, MotionSource& source, const WorldDefinition& definition)

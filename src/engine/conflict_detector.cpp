@@ -14,7 +14,7 @@ std::size_t ConflictDetector::take(Clusters& clusters, const RunPool& pool,
                                    std::vector<ClusterUpdate>& updates) {
   const auto add = [&](const Cluster& cluster) {
     for (const SweptSphereUpdate& update : pool.updates_of(cluster))
-      updates.push_back({cluster.index, &update});
+      if (!update.is_departure()) updates.push_back({cluster.index, &update});
   };
   const auto add_foreign = [&](std::size_t from, std::size_t to) {
     for (std::size_t k = from; k < to; ++k) updates.push_back({BatchState::unassigned, &foreign_[k]});

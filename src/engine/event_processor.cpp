@@ -117,6 +117,24 @@ void EventProcessor::set_velocity(std::uint32_t number, const Vec3& velocity) {
   invalidate(number);
 }
 
+void EventProcessor::detach(std::uint32_t number) {
+  if (log_) {
+    note_linked_conflicts(number);
+    if (!log_->conflicts.empty()) return;
+  }
+  events_.end_contacts(
+      contacts(), number, time_, [this](std::uint32_t other) { return sphere(other); }, bodies().walls(),
+      [](const Event&) { return true; });
+  Body& body = bodies()[number];
+  ++body.revision;
+  body.dirty = body.relocated = false;
+  if (log_) {
+    log_->add(SweptSphereUpdate::departure(number, body.revision, time_));
+  } else if (state_->broad_phase.contains(number)) {
+    state_->broad_phase.leave(number);
+  }
+}
+
 void EventProcessor::note_response() {
   events_.note_response(
       contacts(), [this](std::uint32_t number) { return sphere(number); }, bodies().walls());

@@ -119,6 +119,9 @@ class alignas(128) EventProcessor {
     set_velocity(bodies().table().number_of(body), velocity);
   }
   void set_velocity(std::uint32_t number, const Vec3& velocity);
+  /// Ends the contacts of the body, makes all its certificates stale and takes it out of the broad phase:
+  /// the body is about to be removed or disabled.
+  void detach(std::uint32_t number);
 
   /// Returns a certifier at the current time.
   PairCertifier certifier() const { return {*state_, time_, log_}; }

@@ -6,7 +6,7 @@ namespace kinesphere {
 
 RunPool::RunPool(WorldState& state, const EventProcessor& main, std::size_t workers, const Probe& probe,
                  ResponseHandler* handler)
-    : handler_(handler) {
+    : state_(state), handler_(handler) {
   for (std::size_t worker = 0; worker < workers; ++worker) {
     EventProcessor& processor = workers_.emplace_back(Worker{EventProcessor(state, main.time())}).processor;
     processor.queue().order_by(main.queue().order());
@@ -43,7 +43,7 @@ void RunPool::run(Cluster& cluster, std::span<const PairCertificate> due, BatchS
 RunRecord RunPool::end(Worker& worker, std::uint32_t number) {
   worker.processor.certifier().for_each_certificate(
       worker.processor.queue(), [&](const PairCertificate& pair) { worker.log.late_pairs.add(pair); });
-  return worker.log.end(number, worker.processor.work());
+  return worker.log.end(number, worker.processor.work(), worker.processor.time());
 }
 
 /// Advances the cluster as World::Engine::advance() does, except that no windows start. Only recertifies
@@ -56,12 +56,15 @@ Result<void> RunPool::advance(Worker& worker) {
     if (processor.is_gathering()) {
       if (auto gathered = processor.gather(processor.time()); !gathered) return gathered;
     }
-    while (const std::optional<Event> event = processor.pop()) {
-      log.events.add({round, *event});
+    for (;;) {
+      const bool has_cause = processor.events().has_ends();
+      const std::optional<Event> event = processor.pop();
+      if (!event) break;
+      log.events.add({round, *event, has_cause ? log.events.all().back().after_cause + 1 : 0});
       if (handler_ != nullptr) {
         if (auto answered = respond(worker, *event); !answered) return answered;
       }
-      if (!log.conflicts.empty()) return {};
+      if (!log.conflicts.empty() || log.stop < infinity) return {};
     }
     if (auto recertified = processor.recertify(); !recertified) return recertified;
     if (!log.conflicts.empty() || log.is_full()) return {};
@@ -77,6 +80,10 @@ Result<void> RunPool::advance(Worker& worker) {
 Result<void> RunPool::respond(Worker& worker, const Event& event) {
   const auto answer = handler_->respond(event);
   if (!answer) return answer.error();
+  if (changes_more_than_clusters(event, *answer)) {
+    worker.log.stop = event.time;
+    return {};
+  }
   const auto note = [&](BodyId body, const std::optional<Vec3>& velocity) {
     if (velocity) worker.log.undo_log.add({body, handler_->origin(body)});
   };
@@ -85,7 +92,35 @@ Result<void> RunPool::respond(Worker& worker, const Event& event) {
   if (auto applied = handler_->apply(event, *answer); !applied) return applied;
   if (answer->first_velocity) worker.processor.set_velocity(event.first, *answer->first_velocity);
   if (answer->second_velocity) worker.processor.set_velocity(event.second, *answer->second_velocity);
+  EventInRound& delivered = worker.log.events.all().back();
+  delivered.removes_first = act(worker, event.first, answer->first_action);
+  delivered.removes_second = act(worker, event.second, answer->second_action);
   return {};
+}
+
+/// Returns true if the response concerns more than the bodies of a cluster and what is theirs alone: the
+/// whole world, a static body, or the table of changes, in which the new velocity of a body waits that has
+/// no fresh report.
+bool RunPool::changes_more_than_clusters(const Event& event, const Response& answer) const {
+  const auto is_more = [&](BodyId id, const std::optional<Vec3>& velocity, BodyAction action) {
+    if (!velocity && action == BodyAction::none) return false;
+    const Body& body = state_.bodies[state_.bodies.table().number_of(id)];
+    return action == BodyAction::sleep || body.is_static() || (velocity && !body.fresh(event.time));
+  };
+  return answer.stop || is_more(event.first, answer.first_velocity, answer.first_action) ||
+         is_more(event.second, answer.second_velocity, answer.second_action);
+}
+
+/// Removes or disables the body in its cluster. What all clusters share is left to the commit: its number in
+/// the table, and its place in the broad phase. Returns true if the body is removed.
+bool RunPool::act(Worker& worker, BodyId id, BodyAction action) {
+  if (action == BodyAction::none) return false;
+  const std::uint32_t number = state_.bodies.table().number_of(id);
+  worker.processor.detach(number);
+  if (!worker.log.conflicts.empty()) return false;
+  const bool is_removed = action == BodyAction::remove;
+  (is_removed ? state_.bodies[number].alive : state_.bodies[number].enabled) = false;
+  return is_removed;
 }
 
 void RunPool::drop_rolled_back(Clusters& clusters, BatchState& batch) {

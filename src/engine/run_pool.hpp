@@ -23,8 +23,8 @@ class RunPool {
 
   /// Clears all logs; call at the start of a batch.
   void clear();
-  /// Executes the cluster from the start of the batch until its end, or until it conflicts with a body
-  /// outside the cluster. Thread-safe for different clusters and different workers. Throws what a callback
+  /// Executes the cluster from the start of the batch until its end, until it conflicts with a body outside
+  /// the cluster, or until a response that the main processor has to process. Thread-safe for different clusters and different workers. Throws what a callback
   /// throws.
   void run(Cluster& cluster, std::span<const PairCertificate> due, BatchState& batch, std::uint32_t worker);
   /// Returns the error of a cluster whose last run failed; nullopt if it exceeded BatchState::most_updates.
@@ -68,6 +68,8 @@ class RunPool {
   static RunRecord end(Worker& worker, std::uint32_t number);
   Result<void> advance(Worker& worker);
   Result<void> respond(Worker& worker, const Event& event);
+  bool changes_more_than_clusters(const Event& event, const Response& answer) const;
+  bool act(Worker& worker, BodyId id, BodyAction action);
   const SpeculationLog& log_of(const Cluster& cluster) const { return workers_[cluster.record.worker].log; }
   template <class T>
   std::span<const T> of(const Cluster& cluster, SegmentedList<T> SpeculationLog::*list,
@@ -76,6 +78,7 @@ class RunPool {
     return (cluster.record.*range).of((log_of(cluster).*list).all());
   }
 
+  WorldState& state_;
   ResponseHandler* handler_;
   std::vector<Worker> workers_;   ///< by worker
   std::size_t updates_left_ = 0;  ///< updates that remained when the logs were last examined

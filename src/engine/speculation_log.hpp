@@ -27,17 +27,24 @@
 #include "kinesphere/event.hpp"
 #include "kinesphere/result.hpp"
 #include "kinesphere/run.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 
-/// A swept sphere that a body has from `time` on, in its new window.
+/// A swept sphere that a body has from `time` on, in its new window. A body that is removed or disabled has
+/// none from then on: a departure.
 struct SweptSphereUpdate {
+  static SweptSphereUpdate departure(std::uint32_t number, std::uint32_t revision, double time) {
+    return {.number = number, .revision = revision, .time = time, .window = {.end = -infinity}};
+  }
+  bool is_departure() const { return window.end == -infinity; }
+
   std::uint32_t number;
   std::uint32_t revision;
   double time;
-  Window window;
-  Bound bound;
-  Vec3 middle;  ///< centre of the path; used in periodic space only
+  Window window{};
+  Bound bound{};
+  Vec3 middle{};  ///< centre of the path; used in periodic space only
   FirstChange first_change{};
 };
 
@@ -45,6 +52,14 @@ struct SweptSphereUpdate {
 struct EventInRound {
   std::uint32_t round;
   Event event;
+  /// Ends of contacts that a response caused follow the event of that response at once, before events of
+  /// other clusters: the number of events from that one to this one in the list of the cluster; otherwise 0.
+  std::uint32_t after_cause = 0;
+  // Bodies that the response has removed.
+  bool removes_first = false;
+  bool removes_second = false;
+
+  const EventInRound& cause() const { return *(this - after_cause); }
 };
 
 /// A body outside the cluster, and the time up to which it must be unchanged since the start of the batch.
@@ -115,6 +130,9 @@ struct RunRecord {
   IndexRange conflicts{};
   IndexRange read_set{};
   IndexRange undo_log{};
+  double time = 0.0;  ///< last instant that the run has processed
+  /// Instant at which the main processor has to process a response; +infinity if there is none.
+  double stop = infinity;
 };
 
 /// The log of one run, with the lists of runs that the same worker executed before in this batch.
@@ -128,6 +146,7 @@ struct SpeculationLog {
   SegmentedList<ReadEntry> read_set;  ///< bodies outside the cluster with certificates due after the batch
   SegmentedList<UndoEntry> undo_log;
   std::vector<WorkCounters> work;
+  double stop = infinity;  ///< RunRecord::stop
   /// Error of the first of these runs that failed.
   std::optional<Error> failure;
 
@@ -151,8 +170,9 @@ struct SpeculationLog {
     conflicts.start();
     read_set.start();
     undo_log.start();
+    stop = infinity;
   }
-  RunRecord end(std::uint32_t worker, const WorkCounters& counters) {
+  RunRecord end(std::uint32_t worker, const WorkCounters& counters, double time) {
     work.push_back(counters);
     return {worker,
             static_cast<std::uint32_t>(work.size() - 1),
@@ -161,7 +181,9 @@ struct SpeculationLog {
             late_pairs.range(),
             conflicts.range(),
             read_set.range(),
-            undo_log.range()};
+            undo_log.range(),
+            time,
+            stop};
   }
   /// Returns true if the cluster has too many updates; the run then fails, and events are processed one by
   /// one.
@@ -185,13 +207,13 @@ struct SpeculationLog {
     const std::uint32_t owner = batch->slots[number].cluster;
     return owner == index || owner == BatchState::unassigned ? nullptr : batch->checkpoint_of(number);
   }
-  /// Calls visit(number) for each body that has been updated in this run.
+  /// Calls visit(number) for each body that has been updated in this run and has not departed.
   template <class Visit>
   void for_each_updated(Visit visit) const {
     const auto [first, last] = updates.range();
     for (std::uint32_t k = first; k < last; ++k) {
       const std::uint32_t number = updates.all()[k].number;
-      if (batch->slots[number].update == k) visit(number);
+      if (batch->slots[number].update == k && !updates.all()[k].is_departure()) visit(number);
     }
   }
   const SweptSphereUpdate* last_update(std::uint32_t number) const {

@@ -55,6 +55,7 @@ double SpeculativeRunner::take_due(double until, double latest) {
 
 void SpeculativeRunner::begin_batch(double stop) {
   batch_.stop = stop;
+  exclusive_.reset();
   // Certificates due after `stop` were taken for a longer batch.
   const auto later = std::partition_point(
       due_.begin(), due_.end(), [=](const PairCertificate& pair) { return pair.failure_time < stop; });
@@ -166,6 +167,7 @@ bool SpeculativeRunner::execute_found() {
     return false;
   }
   conflicts_.note_runs(to_run_);
+  end_before_exclusive();
   for (const std::uint32_t own : to_run_) {
     if (!clusters_[own].failed) continue;
     // No error exists if the run exceeded the maximum number of updates. Otherwise this is the first error of
@@ -174,6 +176,18 @@ bool SpeculativeRunner::execute_found() {
     return false;
   }
   return true;
+}
+
+/// Ends the batch before the first instant at which a cluster needs the main processor. Clusters that have
+/// done anything at that instant or later are executed again.
+void SpeculativeRunner::end_before_exclusive() {
+  double first = batch_.stop;
+  for (const std::uint32_t own : to_run_) first = std::min(first, clusters_[own].record.stop);
+  if (first == batch_.stop) return;
+  batch_.stop = first;
+  exclusive_ = first;
+  for (const Cluster& cluster : clusters_.all())
+    if (!cluster.is_merged() && cluster.executed && cluster.record.time >= first) run_again(cluster.index);
 }
 
 /// Saves the state of the cluster's bodies at the start of the batch. Other clusters may read it during the
@@ -361,13 +375,20 @@ void SpeculativeRunner::commit(std::vector<const EventInRound*>& committed) {
   main_.queue().add_all(deferred_);
   std::sort(committed.begin(), committed.end(), [](const EventInRound* a, const EventInRound* b) {
     if (a->event.time != b->event.time) return a->event.time < b->event.time;
-    return a->round != b->round ? a->round < b->round : delivered_before(a->event, b->event);
+    if (a->round != b->round) return a->round < b->round;
+    // Events of one cause are neighbours in one list.
+    return &a->cause() == &b->cause() ? a < b : delivered_before(a->cause().event, b->cause().event);
   });
+  // The table hands out freed numbers again, last freed first, so the order counts.
+  for (const EventInRound* one : committed) {
+    if (one->removes_first) state_.bodies.remove(state_.bodies.table().number_of(one->event.first));
+    if (one->removes_second) state_.bodies.remove(state_.bodies.table().number_of(one->event.second));
+  }
   main_.advance_clock(std::min(batch_.until, batch_.stop));
   sizer_.adapt(state_.bodies.table().live_count());
 }
 
-/// Registers the new swept spheres in the broad phase. Bodies whose windows end with the batch are included,
+/// Registers the new swept spheres in the broad phase, and takes out departed bodies. Bodies whose windows end with the batch are included,
 /// since queries may come before the next window start if the run is interrupted.
 void SpeculativeRunner::register_updates() {
   std::vector<BroadPhase::Arrival> arrivals;
@@ -377,6 +398,10 @@ void SpeculativeRunner::register_updates() {
     std::uint32_t slot = cluster.record.updates.begin;
     for (const SweptSphereUpdate& update : updates_of(cluster)) {
       if (batch_.slots[update.number].update != slot++) continue;
+      if (update.is_departure()) {
+        if (state_.broad_phase.contains(update.number)) state_.broad_phase.leave(update.number);
+        continue;
+      }
       arrivals.push_back({update.number, update.time, update.window});
       updates.push_back(&update);
     }

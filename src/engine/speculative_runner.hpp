@@ -9,6 +9,8 @@
 //   cluster, and is executed again from the start of the batch.
 // - A cluster whose read set contains a body that another cluster changed too early is merged with that
 //   cluster.
+// - A response that concerns more than its cluster (RunPool) ends the batch before its instant, which the main
+//   processor then processes alone.
 // - When there are no such conflicts, the updated swept spheres of all clusters are compared. Clusters of two
 //   bodies that may meet in the batch are merged and executed again. Two bodies that may meet later get a
 //   certificate, as if a search had found the pair.
@@ -59,6 +61,9 @@ class SpeculativeRunner {
   /// processor. Throws the exception of a motion source that failed to restore an origin, after all other
   /// origins were restored.
   bool run(double until, std::deque<Event>& events);
+  /// Returns the time of an instant that the main processor has to process alone, if the last batch ended
+  /// before it for that reason.
+  const std::optional<double>& exclusive() const { return exclusive_; }
 
   // Single steps of run(), for a process that owns some of the bodies and learns from other processes between
   // the steps which clusters to merge. The batch begins with the dirty bodies and pending events of the main
@@ -145,6 +150,7 @@ class SpeculativeRunner {
   template <class FindAgain>
   bool run_rounds(FindAgain find_again);
   bool execute_found();
+  void end_before_exclusive();
   void checkpoint(const Cluster& cluster);
   void rollback(Cluster& cluster);
   void restore_origin(const UndoEntry& entry);
@@ -173,6 +179,7 @@ class SpeculativeRunner {
   std::vector<PairCertificate> due_;
   std::vector<PairCertificate> deferred_;  ///< certificates that return to the queue of the main processor
   std::vector<std::uint32_t> to_run_;      ///< clusters to execute next
+  std::optional<double> exclusive_;
   std::optional<Error> failure_;
   std::exception_ptr exception_;  ///< thrown by a motion source while an origin was restored
 };

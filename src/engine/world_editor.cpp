@@ -91,15 +91,6 @@ void World::WorldEditor::insert_at(std::uint32_t number, const Bound& bound) {
   windows.tidy();
 }
 
-/// Ends the body's contacts and removes it from the broad phase.
-void World::WorldEditor::detach(std::uint32_t number) {
-  end_contacts(number, [](const Event&) { return true; });
-  if (state_.broad_phase.contains(number)) state_.broad_phase.leave(number);
-  Body& body = state_.bodies[number];
-  ++body.revision;
-  body.dirty = body.relocated = false;
-}
-
 void World::WorldEditor::end_contacts(std::uint32_t number, const std::function<bool(const Event&)>& ends) {
   main_.events().end_contacts(
       state_.contacts, number, time(),
@@ -110,7 +101,7 @@ void World::WorldEditor::remove(BodyId id) {
   const std::uint32_t number = id.index;
   if (bodies()[number].is_sleeping()) sleeping().resume(number);
   sleeping().wake(number);
-  detach(number);
+  main_.detach(number);
   state_.bodies.remove(number);
 }
 
@@ -196,7 +187,7 @@ void World::WorldEditor::disable(BodyId id) {
   // An enabled body is awake.
   if (body.is_sleeping()) sleeping().resume(id.index);
   sleeping().wake(id.index);
-  detach(id.index);
+  main_.detach(id.index);
   body.enabled = false;
 }
 

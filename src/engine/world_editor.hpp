@@ -55,7 +55,6 @@ class World::WorldEditor {
   double time() const { return main_.time(); }
   Sleeping sleeping() { return {state_, main_}; }
   void insert_at(std::uint32_t number, const Bound& bound);
-  void detach(std::uint32_t number);
   void replace(std::uint32_t number, const Bound& bound);
   void end_contacts_outside(std::uint32_t number, const CollisionShape& replacement);
   void end_contacts(std::uint32_t number, const std::function<bool(const Event&)>& ends);

@@ -23,6 +23,11 @@ Result<void> World::Preconditions::idle() const {
   return valid ? check_idle(world_.activity(), call_) : valid;
 }
 
+Result<void> World::Preconditions::may_advance() const {
+  auto valid = idle();
+  return valid && world_.running_ ? busy_error(CallState::running, call_) : valid;
+}
+
 Result<void> World::Preconditions::all_delivered() const {
   auto valid = idle();
   if (!valid || !world_.undelivered_ || world_.undelivered_->empty()) return valid;
@@ -81,6 +86,12 @@ Result<void> World::Preconditions::can_turn(BodyId body) const {
   auto valid = known(body);
   if (valid) valid = is_moving(body);
   return valid ? is_enabled(body, true) : valid;
+}
+
+Result<void> World::Preconditions::can_sleep(BodyId body) const {
+  auto valid = can_turn(body);
+  if (!valid || !engine_->bodies()[body.index].is_rigid) return valid;
+  return error_about(ErrorCode::unsupported, body, "body must not be rigid, but " + text_of(body) + " is");
 }
 
 Result<void> World::Preconditions::is_enabled(BodyId body, bool enabled) const {

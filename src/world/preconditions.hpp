@@ -24,6 +24,9 @@ class World::Preconditions {
   /// The world is idle, and every event of an interrupted run() has been delivered
   /// (ErrorCode::run_in_progress).
   Result<void> all_delivered() const;
+  /// The world is idle, and the call does not come from the sink of its own run() either, to which a stop
+  /// (Response::stop) opens the world.
+  Result<void> may_advance() const;
   /// The world is idle, and `probe` is not empty (ErrorCode::null_probe).
   Result<void> may_ask(const Probe& probe) const;
   /// The world is idle, and the facet's probe, if it has one, is not empty.
@@ -46,6 +49,8 @@ class World::Preconditions {
   Result<void> mobile(BodyId body) const;
   /// Like mobile(), but without idle(): for responses during run().
   Result<void> can_turn(BodyId body) const;
+  /// Like can_turn(), for a body that is not rigid (ErrorCode::unsupported).
+  Result<void> can_sleep(BodyId body) const;
   /// The two bodies are different, and each is changeable.
   Result<void> pair(BodyId first, BodyId second) const;
 

@@ -40,18 +40,23 @@ class World::Run final : private ResponseHandler {
   /// delivered to the sink.
   Result<bool> work();
   Result<bool> step_batch();
-  Result<bool> step();
+  Result<bool> step(double until);
   void deliver();
 
-  Result<std::optional<Event>> next();
+  Result<std::optional<Event>> next(double until);
   Result<void> answer_one(const Event& event);
+  void act(BodyId body, BodyAction action);
   Result<Response> respond(const Event& event) override;
   Result<void> apply(const Event& event, const Response& answer) override {
     return apply_response(*source_, world_.definition(), event, answer);
   }
   MotionOrigin origin(BodyId body) override { return source_->origin(body); }
   void set_origin(BodyId body, const MotionOrigin& origin) override { source_->set_origin(body, origin); }
+  void reduce(BodyId body, std::optional<Vec3>& velocity, std::optional<Vec3>& spin,
+              BodyAction& action) const;
   Result<void> check(const Event& event, const Response& answer) const;
+  Result<void> check_action(const Event& event, BodyId body, BodyAction action,
+                            std::string_view argument) const;
   Result<void> check_velocity_change(const Event& event, BodyId body, const std::optional<Vec3>& velocity,
                                      std::string_view argument) const;
   Result<void> check_spin(const Event& event, BodyId body, const std::optional<Vec3>& spin,
@@ -66,6 +71,9 @@ class World::Run final : private ResponseHandler {
   /// End of the epoch in which speculative execution does not pay off: until then, events are processed one
   /// by one.
   std::optional<double> one_by_one_{};
+  /// Time of an instant whose events are processed one by one (SpeculativeRunner::exclusive).
+  std::optional<double> exclusive_{};
+  bool stops_ = false;  ///< the response to the last event has Response::stop, and the sink is still to come
   MotionSource* source_ = nullptr;
   const ResponseFn* respond_ = nullptr;
 };

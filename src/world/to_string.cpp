@@ -102,7 +102,9 @@ std::string to_string(const Event& event) {
   return words + " at time " + value_text(event.time);
 }
 std::string to_string(const Response& response) {
-  return fields("first_velocity", response.first_velocity, "second_velocity", response.second_velocity);
+  return fields("first_velocity", response.first_velocity, "second_velocity", response.second_velocity,
+                "first_action", response.first_action, "second_action", response.second_action, "stop",
+                response.stop);
 }
 std::string to_string(const ProbedState& report) {
   return "body " + to_string(report.body) + " at time " + value_text(report.time) + ": " +

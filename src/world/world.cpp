@@ -38,17 +38,17 @@ World::~World() { require_idle("destroyed"); }
 
 CallState World::activity() const {
   const CallState activity = engine_->activity();
-  return running_ && activity != CallState::filtering ? CallState::running : activity;
+  return running_ && !open_ && activity != CallState::filtering ? CallState::running : activity;
 }
 
 /// Aborts the program if the world is destroyed, moved or assigned to from inside a callback, since the
 /// running call would return into a destroyed world.
 void World::require_idle(const char* done) const noexcept {
-  if (!engine_ || activity() == CallState::idle) return;
+  if (!engine_ || (activity() == CallState::idle && !running_)) return;
   std::fprintf(stderr, "kinesphere: a World was %s inside its own %s\n", done,
-               activity() == CallState::probing   ? "probe"
-               : activity() == CallState::running ? "run"
-                                                  : "pair filter");
+               activity() == CallState::probing     ? "probe"
+               : activity() == CallState::filtering ? "pair filter"
+                                                    : "run");
   std::abort();
 }
 
@@ -178,10 +178,8 @@ Result<void> World::disable(BodyId body) {
 }
 
 Result<void> World::sleep(BodyId body) {
-  auto valid = Preconditions(*this, "sleep").mobile(body);
-  if (valid && engine_->bodies()[body.index].is_rigid)
-    return Error{ErrorCode::unsupported, "body", body,
-                 "sleep: body must not be rigid, but " + text_of(body) + " is"};
+  auto valid = Preconditions(*this, "sleep").idle();
+  if (valid) valid = Preconditions(*this, "sleep").can_sleep(body);
   if (valid) changing(step::SleepBody{body}).sleep(body);
   return valid;
 }
@@ -253,7 +251,8 @@ Result<std::uint64_t> World::user_data(BodyId body) const {
 }
 
 Result<std::optional<Event>> World::advance(double until, Probe probe) {
-  auto valid = Preconditions(*this, "advance").may_ask(probe);
+  auto valid = Preconditions(*this, "advance").may_advance();
+  if (valid) valid = Preconditions(*this, "advance").may_ask(probe);
   if (valid) valid = check_time(until, engine_->time());
   if (!valid) return valid.error();
   if (undelivered_ && !undelivered_->empty()) return undelivered_->take();

@@ -26,6 +26,17 @@ Result<void> check_given(bool given, std::string_view argument) {
                "run: " + std::string(argument) + " must be a function, but is empty"};
 }
 
+/// Returns the result of check(call) for a part of a response; an error names the part and the event.
+/// Composing these for the message is the expensive part, so it is done only on failure.
+template <class Check>
+Result<void> check_argument(const Event& event, std::string_view argument, Check check) {
+  if (check("run")) return {};
+  Error error =
+      check("run: respond: " + std::string(argument) + " at " + std::string(name_of(event.kind))).error();
+  error.argument = argument;
+  return error;
+}
+
 }  // namespace
 
 std::optional<Event> World::UndeliveredEvents::take() {
@@ -40,7 +51,7 @@ Result<void> World::run(double until, MotionSource& source, const ResponseFn& re
   const Probe probe = [&source](std::span<const BodyId> ids, double time, std::span<State> states) {
     source.states(ids, time, states);
   };
-  auto valid = Preconditions(*this, "run").idle();
+  auto valid = Preconditions(*this, "run").may_advance();
   if (valid) valid = check_given(static_cast<bool>(respond), "respond");
   if (valid) valid = check_given(static_cast<bool>(sink), "sink");
   if (!valid) return valid;
@@ -50,7 +61,8 @@ Result<void> World::run(double until, MotionSource& source, const ResponseFn& re
 }
 
 Result<void> World::run(double until, const Probe& probe, const EventFn& sink, Workers* workers) {
-  auto valid = Preconditions(*this, "run").may_ask(probe);
+  auto valid = Preconditions(*this, "run").may_advance();
+  if (valid) valid = Preconditions(*this, "run").may_ask(probe);
   if (valid) valid = check_given(static_cast<bool>(sink), "sink");
   if (!valid) return valid;
   return Run(*this, until, probe, sink, workers).go();
@@ -79,6 +91,8 @@ void World::Run::deliver() {
   while (!events.empty()) {
     const Event event = events.front();
     events.pop_front();
+    world_.open_ = std::exchange(stops_, false);
+    const ScopeGuard close([this] { world_.open_ = false; });
     on_event_(event);
   }
 }
@@ -89,7 +103,8 @@ Result<bool> World::Run::work() {
   const bool alone = lease_.count() == 1 || world_.recorder_ || world_.profiling_ ||
                      world_.engine_->bodies().shapes.any_carried() || world_.engine_->bodies().rigid.any() ||
                      !world_.undelivered_->empty();
-  if (alone || world_.engine_->epoch_end() == one_by_one_) return step();
+  if (exclusive_) return step(*exclusive_);
+  if (alone || world_.engine_->epoch_end() == one_by_one_) return step(until_);
   return step_batch();
 }
 
@@ -99,17 +114,23 @@ Result<bool> World::Run::step_batch() {
   if (!runner_) runner_.emplace(engine.runner(lease_, probe_, respond_ != nullptr ? this : nullptr));
   const auto done = engine.run_epoch(until_, probe_, lease_, *runner_, world_.undelivered_->events);
   if (!done) return renamed(done.error());
-  if (*done) return engine.time() == until_ && !engine.is_due();
+  if (*done) {
+    exclusive_ = runner_->exclusive();
+    return engine.time() == until_ && !engine.is_due();
+  }
   one_by_one_ = engine.epoch_end();
-  return step();
+  return step(until_);
 }
 
-/// Processes one event.
-Result<bool> World::Run::step() {
+/// Processes one event, or advances to `until` if there is none before.
+Result<bool> World::Run::step(double until) {
   UndeliveredEvents& undelivered = *world_.undelivered_;
-  const auto event = next();
+  const auto event = next(until);
   if (!event) return renamed(event.error());
-  if (!*event) return true;
+  if (!*event) {
+    exclusive_.reset();
+    return until == until_;
+  }
   if (respond_ != nullptr) {
     // Keeps the event unless its response is applied, also if the callback throws.
     ScopeGuard keep([&] { undelivered.unanswered = *event; });
@@ -120,9 +141,9 @@ Result<bool> World::Run::step() {
   return false;
 }
 
-Result<std::optional<Event>> World::Run::next() {
+Result<std::optional<Event>> World::Run::next(double until) {
   if (auto event = world_.undelivered_->take()) return event;
-  return world_.engine_advance(until_, probe_);
+  return world_.engine_advance(until, probe_);
 }
 
 Result<void> World::Run::answer_one(const Event& event) {
@@ -139,21 +160,66 @@ Result<void> World::Run::answer_one(const Event& event) {
   };
   turn(event.first, checked->first_angular_velocity);
   turn(event.second, checked->second_angular_velocity);
+  act(event.first, checked->first_action);
+  act(event.second, checked->second_action);
+  stops_ = checked->stop;
   return {};
 }
 
+void World::Run::act(BodyId body, BodyAction action) {
+  switch (action) {
+    case BodyAction::none:
+      return;
+    case BodyAction::remove:
+      return world_.changing(step::Remove{body}).remove(body);
+    case BodyAction::disable:
+      return world_.changing(step::Disable{body}).disable(body);
+    case BodyAction::sleep:
+      return world_.changing(step::SleepBody{body}).sleep(body);
+  }
+}
+
 Result<Response> World::Run::respond(const Event& event) {
-  const Response answer = (*respond_)(event);
+  Response answer = (*respond_)(event);
+  reduce(event.first, answer.first_velocity, answer.first_angular_velocity, answer.first_action);
+  reduce(event.second, answer.second_velocity, answer.second_angular_velocity, answer.second_action);
   if (auto valid = check(event, answer); !valid) return valid.error();
   return answer;
 }
 
+/// Reduces what a response says of a body to what has an effect: a response cannot know which bodies earlier
+/// responses have removed, disabled or put to sleep.
+void World::Run::reduce(BodyId body, std::optional<Vec3>& velocity, std::optional<Vec3>& spin,
+                        BodyAction& action) const {
+  if (body == no_body || (!velocity && !spin && action == BodyAction::none)) return;
+  const bool is_there = Preconditions(world_, "run").is_known(body);
+  const Body& now = world_.engine_->bodies()[body.index];
+  if (!is_there || !now.enabled) {
+    velocity = spin = std::nullopt;
+    if (!is_there || action != BodyAction::remove) action = BodyAction::none;
+  } else if (action == BodyAction::sleep) {
+    velocity = now.is_sleeping() ? std::optional<Vec3>() : Vec3{};
+    if (now.is_sleeping()) action = BodyAction::none;
+  }
+}
+
 Result<void> World::Run::check(const Event& event, const Response& answer) const {
-  auto valid = check_velocity_change(event, event.first, answer.first_velocity, "first_velocity");
+  auto valid = check_action(event, event.first, answer.first_action, "first_action");
+  if (valid) valid = check_action(event, event.second, answer.second_action, "second_action");
+  if (valid) valid = check_velocity_change(event, event.first, answer.first_velocity, "first_velocity");
   if (valid) valid = check_velocity_change(event, event.second, answer.second_velocity, "second_velocity");
   if (valid) valid = check_spin(event, event.first, answer.first_angular_velocity, "first_angular_velocity");
   return valid ? check_spin(event, event.second, answer.second_angular_velocity, "second_angular_velocity")
                : valid;
+}
+
+Result<void> World::Run::check_action(const Event& event, BodyId body, BodyAction action,
+                                      std::string_view argument) const {
+  if (action == BodyAction::none) return {};
+  return check_argument(event, argument, [&](std::string_view call) {
+    const Preconditions check(world_, call);
+    return action == BodyAction::sleep ? check.can_sleep(body) : check.known(body);
+  });
 }
 
 Result<void> World::Run::check_spin(const Event& event, BodyId body, const std::optional<Vec3>& spin,
@@ -172,16 +238,10 @@ Result<void> World::Run::check_velocity_change(const Event& event, BodyId body,
                                                const std::optional<Vec3>& velocity,
                                                std::string_view argument) const {
   if (!velocity) return {};
-  const auto check_for = [&](std::string_view call) {
+  return check_argument(event, argument, [&](std::string_view call) {
     auto valid = Preconditions(world_, call).can_turn(body);
     return valid ? check_velocity(*velocity, body, world_.definition(), call) : valid;
-  };
-  if (check_for("run")) return {};
-  // Composing the call name for the message is the expensive part, so it is done only on failure.
-  Error error =
-      check_for("run: respond: " + std::string(argument) + " at " + std::string(name_of(event.kind))).error();
-  error.argument = argument;
-  return error;
+  });
 }
 
 }  // namespace kinesphere

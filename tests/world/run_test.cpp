@@ -407,18 +407,19 @@ TEST(WrongRun, NamesWhatCannotBeGivenAVelocity) {
   expect_refused(EventKind::wall_begin, wall, ErrorCode::unknown_body, "second_velocity", true);
 }
 
-TEST(WrongRun, CannotKickABodyThatHasGone) {
+TEST(Run, GivesNoVelocityToABodyThatHasGone) {
   Ballistic motion = Ballistic::create({.start = {{{0, 0, 0}, {}}, {{1.5, 0, 0}, {}}}}).value();
   World world = World::create({}).value();
   for (std::uint32_t k = 0; k < 2; ++k) world.add(motion.definition(k, 0.0)).value();
   ASSERT_TRUE(world.advance(1.0, motion.probe()).value());
   world.remove(BodyId{1, 0}).value();
   SingleMotionSource source(motion);
-  const auto respond = [](const Event&) { return Response{.second_velocity = Vec3{}}; };
-  expect_error(world.run(1.0, source, respond, silent), ErrorCode::stale_body, "second_velocity",
-               "run:", BodyId{1, 0});
-  EXPECT_EQ(world.advance(1.0, motion.probe()).value()->kind, EventKind::contact_end) << "passes over it";
-  EXPECT_TRUE(world.run(1.0, source, respond, silent));
+  const auto respond = [](const Event&) { return Response{Vec3{0, 1, 0}, Vec3{0, 2, 0}}; };
+  std::vector<EventKind> kinds;
+  world.run(1.0, source, respond, [&](const Event& event) { kinds.push_back(event.kind); }).value();
+  EXPECT_EQ(kinds, std::vector{EventKind::contact_end});
+  EXPECT_EQ(motion.state(0, 1.0).velocity, (Vec3{0, 1, 0}));
+  EXPECT_EQ(motion.state(1, 1.0).velocity, Vec3{});
 }
 
 /// Expects that calls forbidden inside a run are refused by name.

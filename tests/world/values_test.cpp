@@ -38,8 +38,9 @@ TEST(Text, SaysWhatAValueIs) {
   EXPECT_EQ(to_string(SafeTime{std::numeric_limits<double>::infinity(), false, true}),
             "time inf, touching false, probed true");
   EXPECT_EQ(to_string(Shape(Ball{{1, 2, 3}, 4})), "ball: centre (1, 2, 3), radius 4");
-  EXPECT_EQ(to_string(Response{.first_velocity = Vec3{1, 0, 0}}),
-            "first_velocity (1, 0, 0), second_velocity none");
+  EXPECT_EQ(to_string(Response{.first_velocity = Vec3{1, 0, 0}, .second_action = BodyAction::remove}),
+            "first_velocity (1, 0, 0), second_velocity none, first_action none, second_action remove, "
+            "stop false");
   EXPECT_EQ(to_string(MonitorEvent{.time = 2, .first = 5, .second = 6, .verdict = Verdict::within}),
             "verdict of 5 and 6 at level 0: within at time 2");
 }
