@@ -79,7 +79,8 @@ class BodyMap {
 
   Result<void> set_velocity(World& world, BodyId body, const Vec3& velocity);
   Result<void> teleport(World& world, BodyId body, const State& state);
-  /// Removes the body. A motion that does not support removal keeps it, but is no longer queried for it.
+  /// Removes the body. A motion that does not support removal keeps it, but is no longer queried for it. A
+  /// body that the world has removed already, as by a response of World::run(), is removed from the rest.
   Result<void> remove(World& world, BodyId body);
 
   /// Appends the next frame to the frames (FrameMotion::push) and informs the world of the new velocities,

@@ -70,9 +70,9 @@ enum class BodyAction : std::uint8_t {
 std::string_view name_of(BodyAction action);
 
 /// The effect of an event on its bodies: their velocities (length / time) from the event on, and what else is
-/// done to them. A body without both continues unchanged. A response cannot know what earlier responses did at
-/// the same time, so it has no effect on a body that was removed, and none but BodyAction::remove on one that
-/// was disabled.
+/// done to them. A body without both continues unchanged. A response cannot know what earlier responses did
+/// at the same time, so it has no effect on a body that was removed, and none but BodyAction::remove on one
+/// that was disabled.
 struct Response {
   std::optional<Vec3> first_velocity{};
   std::optional<Vec3> second_velocity{};

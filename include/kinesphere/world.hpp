@@ -315,8 +315,8 @@ class World {
 
   /// Advances to time `until`. For each event, run() calls `respond`, passes the velocities of the response
   /// to the motion source and to the world, removes, disables or puts to sleep the bodies for which the
-  /// response says so, and calls `sink`. The events, the ids of bodies that the sink adds (Response::stop), the
-  /// probed states and a recording equal, bit for bit, those of a loop over advance() that does the same.
+  /// response says so, and calls `sink`. The events, the ids of bodies that the sink adds (Response::stop),
+  /// the probed states and a recording equal, bit for bit, those of a loop over advance() that does the same.
   /// Counters of internal work may differ with several workers.
   ///
   /// The sink may call body(), touching(), sensor_overlaps(), time() and every other member that is allowed
@@ -451,8 +451,8 @@ class World {
   std::unique_ptr<Recorder> recorder_;              ///< null unless the world is recorded
   std::unique_ptr<UndeliveredEvents> undelivered_;  ///< null until the first run()
   bool running_ = false;                            ///< true inside run()
-  bool open_ = false;  ///< true while run() lets its sink change the world (Response::stop)
-  std::unique_ptr<Timings> timings_;                ///< null before profiling
+  bool open_ = false;                 ///< true while run() lets its sink change the world (Response::stop)
+  std::unique_ptr<Timings> timings_;  ///< null before profiling
   bool profiling_ = false;
 };
 

@@ -388,8 +388,9 @@ void SpeculativeRunner::commit(std::vector<const EventInRound*>& committed) {
   sizer_.adapt(state_.bodies.table().live_count());
 }
 
-/// Registers the new swept spheres in the broad phase, and takes out departed bodies. Bodies whose windows end with the batch are included,
-/// since queries may come before the next window start if the run is interrupted.
+/// Registers the new swept spheres in the broad phase, and takes out departed bodies. Bodies whose windows
+/// end with the batch are included, since queries may come before the next window start if the run is
+/// interrupted.
 void SpeculativeRunner::register_updates() {
   std::vector<BroadPhase::Arrival> arrivals;
   std::vector<const SweptSphereUpdate*> updates;

@@ -122,7 +122,7 @@ Result<void> BodyMap::remove(World& world, BodyId body) {
   auto removed = found->motion->remove(found->number);
   if (!removed && removed.error().code != ErrorCode::unsupported) return removed;
   entries_[body.index] = {};
-  return world.remove(body);
+  return world.contains(body) ? world.remove(body) : Result<void>();
 }
 
 Result<void> BodyMap::push(World& world, FrameMotion& frames, std::span<const Vec3> positions) const {

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <map>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kinesphere/kinesphere.hpp"
@@ -129,14 +132,15 @@ struct Shooting : Game {
     if (!kind.fixed) return;
     for (int k = 0; k < 27; ++k) {
       const Vec3 place = Vec3{double(k % 3), double(k / 3 % 3), double(k / 9)} * 4.0 * spacing;
-      statics.push_back(world.add_static({.shape = Ball{place + Vec3{spacing, spacing, spacing}, 0.3}}).value());
+      statics.push_back(
+          world.add_static({.shape = Ball{place + Vec3{spacing, spacing, spacing}, 0.3}}).value());
     }
     statics.push_back(world.add_zone(Box{{5, 5, 5}, {12, 12, 12}}).value());
   }
 
   Response respond(const Event& event) const override {
-    Random random(std::bit_cast<std::uint64_t>(event.time) ^ (event.first.pack() * 31) ^
-                  event.second.pack() ^ static_cast<std::uint64_t>(event.kind));
+    Random random(std::bit_cast<std::uint64_t>(event.time) ^ (event.first.pack() * 31) ^ event.second.pack() ^
+                  static_cast<std::uint64_t>(event.kind));
     (void)random.bits();
     Response given;
     const bool touches = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
@@ -235,8 +239,207 @@ INSTANTIATE_TEST_SUITE_P(
                       Kind{.name = "fixed", .sensors = true, .fixed = true},
                       Kind{.name = "spawns", .faster = 10.0, .sensors = true, .stop = 64},
                       Kind{.name = "spawns_alone", .removes = false, .stop = 16, .end = 1.0},
-                      Kind{.name = "sleeping", .sensors = true, .stop = 256, .sleep = 64}),
+                      Kind{.name = "sleeping", .sensors = true, .stop = 64, .sleep = 256}),
     [](const auto& kind) { return kind.param.name; });
+
+// Many things at one instant.
+
+/// Many groups far from each other: a ball flies, with a companion that it touches, at two targets, and hits
+/// both at one instant. This is the same in four groups each, which mirror each other.
+struct Volley : Game {
+  static constexpr std::uint32_t groups = 64;
+  static constexpr std::uint32_t in_group = 4;  ///< two targets, the ball, its companion
+
+  Volley() : Game(World::create({}).value(), motion()) {
+    for (std::uint32_t number = 0; number < in_group * groups; ++number) {
+      BodyDefinition like{.radius = number % in_group == 3 ? 0.3 : 0.5};
+      like.sensor_class = number % in_group == 2 ? 1 : 0;
+      bodies.add(world, *crowd, number, like).value();
+    }
+    world.set_sensor(1, {.distances = {0.25}}).value();
+  }
+
+  Response respond(const Event& event) const override {
+    if (event.kind != EventKind::contact_begin || event.time == 0.0) return {};
+    switch (event.first.index / in_group % 5) {
+      case 0:  // the ball vanishes at the first target
+        return {.second_action = BodyAction::remove};
+      case 1:
+        return {.first_action = BodyAction::remove, .second_action = BodyAction::disable};
+      case 2:  // both targets vanish
+        return {.first_action = BodyAction::remove};
+      case 3: {
+        Response bounced = response_of(event, bounce(event, 1.0));
+        bounced.first_action = BodyAction::disable;
+        return bounced;
+      }
+      default:
+        return response_of(event, bounce(event, 1.0));
+    }
+  }
+
+ private:
+  static std::unique_ptr<Motion> motion() {
+    std::vector<State> states;
+    for (std::uint32_t k = 0; k < groups; ++k) {
+      const auto sign = [k](unsigned bit) { return (k >> bit & 1u) != 0 ? 1.0 : -1.0; };
+      const Vec3 place = Vec3{sign(0), 0.0, sign(1)} * (16.0 * (1 + k / 4));
+      for (const double y : {0.75, -0.75}) states.push_back({place + Vec3{5.0 * sign(0), y, 0.0}, {}});
+      for (const double x : {0.0, -0.5})
+        states.push_back({place + Vec3{x * sign(0), 0.0, 0.0}, {8.0 * sign(0), 0.0, 0.0}});
+    }
+    return std::make_unique<Ballistic>(Ballistic::create({.start = states}).value());
+  }
+};
+
+TEST(ResponsesAtOneInstant, AreThoseOfALoop) {
+  Volley looped;
+  looped.loop(0.1);
+  std::map<double, int> begins;
+  World passing = looped.world.clone().value();
+  while (const auto event = passing.advance(1.0, looped.bodies.probe()).value())
+    if (event->kind == EventKind::contact_begin) ++begins[event->time];
+  for (const auto& [time, count] : begins) EXPECT_EQ(count % 8, 0) << "all balls hit both targets at once";
+  looped.loop(2.0);
+  for (const int threads : {1, 2, 3}) {
+    SCOPED_TRACE(threads);
+    Workers workers = Workers::create(threads).value();
+    Volley run;
+    run.run(0.1, &workers).value();
+    run.run(2.0, &workers).value();
+    expect_same_course(run, looped);
+  }
+  for (std::uint32_t k = 0; k < Volley::groups; k += 5) {
+    EXPECT_TRUE(looped.world.contains({4 * k, 0}) && looped.world.contains({4 * k + 1, 0}));
+    EXPECT_FALSE(looped.world.contains({4 * k + 2, 0}));
+  }
+}
+
+// What an interrupted or recorded run leaves.
+
+TEST(ResponseActions, AreRecordedAndReplayed) {
+  const Kind kind{.name = "recorded", .sensors = true, .fixed = true, .stop = 64};
+  Shooting looped(kind), run(kind);
+  Workers workers = Workers::create(2).value();
+  run.world.start_recording().value();
+  looped.loop(1.0);
+  run.run(1.0, &workers).value();
+  EXPECT_EQ(run.course, looped.course);
+  Replay replay = Replay::open(run.world.stop_recording().value()).value();
+  EventHash replayed;
+  std::size_t told = 0;
+  while (!replay.finished()) {
+    if (const auto event = replay.advance().value()) replayed.add(*event), ++told;
+  }
+  EXPECT_EQ(told, looped.told);
+}
+
+TEST(ResponseActions, LeaveAWorldThatCanBeSaved) {
+  Shooting run({.name = "saved", .sensors = true, .fixed = true, .stop = 64});
+  Workers workers = Workers::create(2).value();
+  run.run(1.0, &workers).value();
+  World restored = World::restore(run.world.save().value()).value();
+  const auto on = [&](World& world) {
+    EventHash hash;
+    while (const auto event = world.advance(1.5, run.bodies.probe()).value()) hash.add(*event);
+    return hash.value();
+  };
+  EXPECT_EQ(on(restored), on(run.world));
+  EXPECT_EQ(restored.counters().probes, run.world.counters().probes);
+  EXPECT_EQ(restored.bodies(), run.world.bodies());
+}
+
+/// Two balls that meet, one of which then meets a wall and a static ball.
+struct Few {
+  Ballistic motion = Ballistic::create({.start = {{{2, 5, 5}, {1, 0, 0}}, {{4, 5, 5}, {}}}}).value();
+  World world = World::create({.box = Box{{0, 0, 0}, {10, 10, 10}}}).value();
+  BodyMap bodies;
+  std::vector<std::string> told;
+
+  Few() {
+    bodies.add_all(world, motion, {.radius = 0.5}).value();
+    world.add_static({.shape = Ball{{8, 5, 5}, 0.5}}).value();
+  }
+  Result<void> run(const ResponseFn& respond, const EventFn& sink) {
+    auto source = bodies.source();
+    return world.run(20.0, source, respond, [&](const Event& event) {
+      told.push_back(to_string(event));
+      sink(event);
+    });
+  }
+};
+
+TEST(ResponseStop, LetsTheSinkChangeTheWorld) {
+  Few few;
+  std::optional<BodyId> added;
+  const auto respond = [](const Event& event) {
+    return Response{.stop = event.kind == EventKind::contact_begin && event.second.index == 1};
+  };
+  const auto sink = [&](const Event& event) {
+    const auto busy = ErrorCode::run_in_progress;
+    expect_error(few.world.advance(20.0, few.bodies.probe()), busy, "world", "advance:");
+    expect_error(few.world.run(20.0, few.bodies.probe(), [](const Event&) {}), busy, "world", "run:");
+    if (!respond(event).stop) return expect_error(few.world.add({}), busy, "world", "add:");
+    EXPECT_EQ(few.world.time(), event.time);
+    EXPECT_TRUE(few.world.save());
+    const auto number = few.motion.add(event.time, {{5, 1, 5}, {0, -1, 0}}).value();
+    added = few.bodies.add(few.world, few.motion, number, {.radius = 0.5}).value();
+    few.bodies.remove(few.world, {1, 0}).value();
+    throw std::runtime_error("interrupted");
+  };
+  EXPECT_THROW((void)few.run(respond, sink), std::runtime_error);
+  few.run(respond, [](const Event&) {}).value();
+  ASSERT_EQ(added, (BodyId{3, 0}));
+  ASSERT_GE(few.told.size(), 3u);
+  EXPECT_EQ(few.told[0].rfind("contact_begin of 0 and 1", 0), 0u);
+  EXPECT_EQ(few.told[1].rfind("contact_end of 0 and 1", 0), 0u) << "not told again, and the change counts";
+  EXPECT_EQ(few.told[2].rfind("wall_begin of 3 at y_lower", 0), 0u) << few.told[2];
+}
+
+TEST(ResponseStop, KeepsTheWorldFromGoing) {
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  EXPECT_DEATH(
+      {
+        auto few = std::make_unique<Few>();
+        (void)few->run([](const Event&) { return Response{.stop = true}; },
+                       [&](const Event&) { const World taken = std::move(few->world); });
+      },
+      "a World was moved from inside its own run");
+}
+
+TEST(WrongResponseAction, IsRefusedByBody) {
+  const auto nothing = [](const Event&) {};
+  Few few;
+  const auto sleeps = [](const Event& event) {
+    return Response{.second_action = event.second.index == 2 ? BodyAction::sleep : BodyAction::none};
+  };
+  const auto asleep = few.run(sleeps, nothing);
+  expect_error(asleep, ErrorCode::static_body, "second_action",
+               "run: respond: second_action at contact_begin", {2, 0});
+  const auto at_wall = [](const Event& event) {
+    const bool is_wall = event.kind == EventKind::wall_begin;
+    return Response{.second_action = is_wall ? BodyAction::remove : BodyAction::none};
+  };
+  expect_error(few.run(at_wall, nothing), ErrorCode::unknown_body, "second_action",
+               "run: respond: second_action at wall_begin", no_body);
+}
+
+TEST(ResponseActions, LeaveTheRestToTheMap) {
+  Few few;
+  const auto respond = [](const Event& event) {
+    return Response{.second_action =
+                        event.kind == EventKind::contact_begin ? BodyAction::remove : BodyAction::none};
+  };
+  few.run(respond,
+          [&](const Event& event) {
+            if (event.second == BodyId{1, 0} && few.bodies.find(event.second))
+              few.bodies.remove(few.world, event.second).value();
+          })
+      .value();
+  EXPECT_FALSE(few.bodies.find({1, 0}));
+  EXPECT_FALSE(few.motion.contains(1));
+  EXPECT_EQ(few.world.bodies(), (std::vector{BodyId{0, 0}})) << "the static ball as well";
+}
 
 }  // namespace
 }  // namespace kinesphere::response_actions_test
