@@ -2,6 +2,8 @@
 // they changed are recertified before time advances.
 #include "engine/event_processor.hpp"
 
+#include <cassert>
+
 #include "archive/heap_counter.hpp"
 #include "engine/sleeping.hpp"
 
@@ -107,6 +109,7 @@ void EventProcessor::set_velocity(std::uint32_t number, const Vec3& velocity) {
   if (body.fresh(time_)) {
     body.bound.velocity = velocity;
   } else {
+    assert(log_ == nullptr && "clusters share the table of changes");
     bodies().change_of(number).velocity = velocity;
   }
   if (log_) {
