@@ -1,5 +1,5 @@
-// Bullets that vanish where they hit, rocks that burst, and things to pick up, in a game that the world runs by
-// itself on two threads. The outcome is that of one thread, to the last bit.
+// Bullets that vanish where they hit, rocks that burst, and things to pick up, in a game that the world runs
+// by itself on two threads. The outcome is that of one thread, to the last bit.
 #include <kinesphere/kinesphere.hpp>
 
 #include <cstdio>
@@ -50,9 +50,9 @@ std::uint64_t play(int threads) {
     bodies.add(world, motion, number, like).value();
   };
   world.set_sensor(1, {.distances = {0.0}}).value();
-  for (int k = 0; k < 40; ++k) add({anywhere(), 10.0 * random.point_in_ball()}, 0.5, ship);
+  for (int k = 0; k < 40; ++k) add({anywhere(), 20.0 * random.point_in_ball()}, 0.5, ship);
   for (int k = 0; k < 2000; ++k) add({anywhere(), 2.0 * random.point_in_ball()}, 0.5, rock);
-  for (int k = 0; k < 300; ++k) add({anywhere(), {}}, 0.5, pick_up);
+  for (int k = 0; k < 300; ++k) add({anywhere(), {}}, 1.5, pick_up);
 
   EventHash hash;
   int picked = 0, burst = 0;

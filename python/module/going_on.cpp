@@ -228,8 +228,9 @@ motion: a Motion or BodyMap, and then no Python is called for states; a MotionSo
 probe.
 respond: what gives bodies new velocities at an event: a Bouncing, a Scene, or a function of the Event that
 returns None or (first velocity or None, second velocity or None); for a rigid body a tuple (velocity or None,
-angular velocity or None), as bounce_rigid() makes it, may take the place of its velocity. It must depend on the
-event alone, and may not call the world.
+angular velocity or None), as bounce_rigid() makes it, may take the place of its velocity; for any body so may
+'remove', 'disable' or 'sleep', which do to it what the methods of the world do. It must depend on the event
+alone, and may not call the world.
 sink: a function that is told each Event, in order; then no Events are returned.
 threads: how many share the work, or Workers; the outcome is the same.
 progress: a function that is told the time that the run has reached, at most 20 times a second and at the end; or

@@ -132,6 +132,19 @@ double Bouncing::mass(BodyId body, double own) const {
                        std::to_string(masses_->size()) + ", and none for body " + to_string(body)});
 }
 
+namespace {
+
+/// Converts the name of an action that a response has in place of the velocity of a body.
+BodyAction action_of(py::handle given, const char* body) {
+  const auto name = given.cast<std::string>();
+  for (const BodyAction action : {BodyAction::remove, BodyAction::disable, BodyAction::sleep})
+    if (name == name_of(action)) return action;
+  refuse({"run: respond", body}, "must be a velocity, None, 'remove', 'disable' or 'sleep'",
+         "is " + py::repr(given).cast<std::string>());
+}
+
+}  // namespace
+
 Response answer_of(const py::object& returned, bool plane) {
   if (returned.is_none()) return {};
   const bool is_pair = (PyTuple_Check(returned.ptr()) != 0 || PyList_Check(returned.ptr()) != 0) &&
@@ -144,16 +157,20 @@ Response answer_of(const py::object& returned, bool plane) {
     if (!given.is_none()) value = vector_of(given, {"run: respond", name}, in_plane);
   };
   const auto set_body = [&](Py_ssize_t k, const char* name, std::optional<Vec3>& velocity,
-                            const char* spin_name, std::optional<Vec3>& spin) {
+                            const char* spin_name, std::optional<Vec3>& spin, BodyAction& action) {
     const py::handle given = PySequence_Fast_ITEMS(returned.ptr())[k];
+    if (PyUnicode_Check(given.ptr()) != 0) {
+      action = action_of(given, name);
+      return;
+    }
     if (!has_spin(given)) return set(given, name, plane, velocity);
     set(PyTuple_GET_ITEM(given.ptr(), 0), name, plane, velocity);
     set(PyTuple_GET_ITEM(given.ptr(), 1), spin_name, false, spin);
   };
   set_body(0, "first_velocity", response.first_velocity, "first_angular_velocity",
-           response.first_angular_velocity);
+           response.first_angular_velocity, response.first_action);
   set_body(1, "second_velocity", response.second_velocity, "second_angular_velocity",
-           response.second_angular_velocity);
+           response.second_angular_velocity, response.second_action);
   return response;
 }
 

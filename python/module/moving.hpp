@@ -66,7 +66,7 @@ class Bouncing {
 };
 
 /// Converts the result of a Python function for an event: None, or for each of the two bodies a velocity, a
-/// tuple (velocity, angular velocity), or None.
+/// tuple (velocity, angular velocity), the name of a BodyAction, or None.
 Response answer_of(const py::object& returned, bool plane);
 
 void bind_moving(py::module_& module);

@@ -56,6 +56,22 @@ def test_a_loop_and_advance_and_run_tell_the_same() -> None:
     assert len(hashes) == 1
 
 
+@pytest.mark.parametrize("threads", [1, 2])
+def test_a_response_removes_disables_and_puts_to_sleep(threads: int) -> None:
+    world, motion = pair()
+    kinds = [
+        str(event.kind) for event in world.run(10.0, motion, lambda event: (None, "remove"), threads=threads)
+    ]
+    assert kinds == ["contact_begin", "contact_end"]
+    assert len(world) == 1
+
+    for name in ("disable", "sleep"):
+        world, motion = pair()
+        world.run(10.0, motion, lambda event: (name if event.kind == EventKind.contact_begin else None, None))
+        assert len(world) == 2
+        assert world.body(0).enabled == (name == "sleep") and world.body(0).sleeping == (name == "sleep")
+
+
 def test_an_event_says_what_happened() -> None:
     world, motion = pair()
     event = world.advance(10.0, motion)

@@ -206,7 +206,11 @@ respond_answers: list[tuple[Any, type[Exception], str]] = [
     (5, ks.InvalidValue, r"respond must return None or \(first velocity, second velocity\), but returned 5"),
     (((1, 2), None), ks.InvalidValue, r"first_velocity must have shape \(3,\)"),
     (((nan, 0, 0), None), ks.InvalidValue, "first_velocity"),
-    (("up", None), TypeError, "first_velocity must be real numbers"),
+    (
+        ("up", None),
+        ks.InvalidValue,
+        "first_velocity must be a velocity, None, 'remove', 'disable' or 'sleep'",
+    ),
     ((None, None, None), ks.InvalidValue, "respond must return"),
 ]
 

@@ -39,8 +39,8 @@ Result<Response> RankResponder::respond(const Event& event) {
   };
   auto valid = check(event.first, answer.first_velocity, "first_velocity");
   if (valid) valid = check(event.second, answer.second_velocity, "second_velocity");
-  if (valid && (answer.first_action != BodyAction::none || answer.second_action != BodyAction::none ||
-                answer.stop)) {
+  if (valid &&
+      (answer.first_action != BodyAction::none || answer.second_action != BodyAction::none || answer.stop)) {
     valid = Error{ErrorCode::unsupported, "respond", event.first,
                   "run: respond: a distributed world accepts velocities, but no actions and no stops"};
   }

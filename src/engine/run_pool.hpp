@@ -24,8 +24,8 @@ class RunPool {
   /// Clears all logs; call at the start of a batch.
   void clear();
   /// Executes the cluster from the start of the batch until its end, until it conflicts with a body outside
-  /// the cluster, or until a response that the main processor has to process. Thread-safe for different clusters and different workers. Throws what a callback
-  /// throws.
+  /// the cluster, or until a response that the main processor has to process. Thread-safe for different
+  /// clusters and different workers. Throws what a callback throws.
   void run(Cluster& cluster, std::span<const PairCertificate> due, BatchState& batch, std::uint32_t worker);
   /// Returns the error of a cluster whose last run failed; nullopt if it exceeded BatchState::most_updates.
   const std::optional<Error>& failure_of(const Cluster& cluster) const { return log_of(cluster).failure; }
