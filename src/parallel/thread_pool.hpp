@@ -7,8 +7,10 @@
 #include <memory>
 #include <mutex>
 #include <type_traits>
+#include <utility>
 
 #include "kinesphere/workers.hpp"
+#include "parallel/thread_gain.hpp"
 
 namespace kinesphere {
 
@@ -66,6 +68,9 @@ class Workers::Pool {
   /// than count(). Returns when all have stopped.
   virtual void run(SharedRange& items) = 0;
 
+  /// Makes the threads work however little they gain: for tests.
+  void never_stand_back() { stands_back_ = false; }
+
   /// Returns the pool of `workers`. Precondition: they have not been moved from.
   static Pool& of(Workers& workers) { return *workers.pool_; }
   static Workers made(std::unique_ptr<Pool> pool) { return Workers(std::move(pool)); }
@@ -73,6 +78,9 @@ class Workers::Pool {
  private:
   friend class PoolLease;
   std::atomic<bool> busy_ = false;
+  bool stands_back_ = true;
+  ThreadGain gain_;  ///< in runs of gain_in_
+  const void* gain_in_ = nullptr;
 };
 
 using ThreadPool = Workers::Pool;
@@ -92,6 +100,14 @@ class PoolLease {
   explicit operator bool() const { return free_; }
   /// Returns the maximum number of concurrent workers.
   std::size_t count() const { return pool_ ? static_cast<std::size_t>(pool_->count()) : 1; }
+
+  /// Returns what the threads have gained in runs of the world at this address, and nothing if another world
+  /// ran since; nullptr if there is one thread alone, or if the threads never stand back.
+  ThreadGain* gain_in(const void* world) {
+    if (count() == 1 || !pool_->stands_back_) return nullptr;
+    if (std::exchange(pool_->gain_in_, world) != world) pool_->gain_ = {};
+    return &pool_->gain_;
+  }
 
   /// Calls f(begin, end, worker) for disjoint ranges that cover all items, on up to count() threads
   /// concurrently; each thread has its own number `worker` less than count(). Ranges have at least

@@ -78,10 +78,17 @@ Result<void> World::Run::go() {
   world_.running_ = true;
   const ScopeGuard stop([&] { world_.running_ = false; });
   deliver();
+  gain_ = lease_.gain_in(&world_);
+  measured_at_ = Clock::now();
+  measured_work_ = work_so_far();
   for (;;) {
+    const double epoch_end = world_.engine_->epoch_end();
     const auto done = work();
     if (!done) return done.error();
     deliver();
+    const bool is_new_epoch = world_.engine_->epoch_end() != epoch_end;
+    if (gain_ != nullptr && (is_new_epoch || *done)) measure();
+    if (gain_ != nullptr && is_new_epoch) gain_->decide();
     if (*done) return {};
   }
 }
@@ -104,8 +111,19 @@ Result<bool> World::Run::work() {
                      world_.engine_->bodies().shapes.any_carried() || world_.engine_->bodies().rigid.any() ||
                      !world_.undelivered_->empty();
   if (exclusive_) return step(*exclusive_);
-  if (alone || world_.engine_->epoch_end() == one_by_one_) return step(until_);
+  if (alone || (gain_ != nullptr && !gain_->uses_threads()) || world_.engine_->epoch_end() == one_by_one_)
+    return step(until_);
   return step_batch();
+}
+
+/// Notes how long the work took since the last call, and how much it was.
+void World::Run::measure() {
+  const auto now = Clock::now();
+  const std::uint64_t done = work_so_far();
+  gain_->note(std::chrono::duration<double>(now - measured_at_).count(),
+              static_cast<double>(done - measured_work_));
+  measured_at_ = now;
+  measured_work_ = done;
 }
 
 /// Processes many events at once if possible, otherwise one.

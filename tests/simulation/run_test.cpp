@@ -17,6 +17,7 @@
 #include "simulation/run/recorded_simulation.hpp"
 #include "simulation/run/simulate.hpp"
 #include "simulation/scene/make_scene.hpp"
+#include "support/eager_workers.hpp"
 #include "support/expect_error.hpp"
 
 namespace kinesphere::run_test {
@@ -102,7 +103,7 @@ void expect_runs_as_loops(const std::vector<Scene>& scenes) {
     const SimulationResult looped = simulate(scene, make_world_detector).value();
     EXPECT_GT(looped.counters.probes, 500u) << scene.name;
     for (const int threads : thread_counts) {
-      Workers workers = Workers::create(threads).value();
+      Workers workers = eager_workers(threads).value();
       EXPECT_EQ(outcome_of(simulate(scene, make_world_detector, {}, &workers).value()), outcome_of(looped))
           << scene.name << " with " << threads << " threads";
     }
@@ -115,7 +116,7 @@ TEST(RunScenes, EndsAsALoopDoesWhereManyAreKicked) { expect_runs_as_loops(dense_
 
 TEST(RunScenes, CanBeRecorded) {
   for (const int threads : thread_counts) {
-    Workers workers = Workers::create(threads).value();
+    Workers workers = eager_workers(threads).value();
     const Scene scene = coming_and_going();
     std::vector<std::byte> recording;
     SimulationObserver observer;
@@ -130,7 +131,7 @@ TEST(RunScenes, CanBeRecorded) {
 }
 
 TEST(RunScenesWithoutAWay, AreRefused) {
-  Workers workers = Workers::create(1).value();
+  Workers workers = eager_workers(1).value();
   Scene scene = coming_and_going();
   expect_error(simulate(scene, make_oracle, {}, &workers), ErrorCode::unsupported, "detector", "run:");
   std::vector<Track> tracks;

@@ -12,6 +12,7 @@
 #include "kinesphere/response.hpp"
 #include "stream/on_world.hpp"
 #include "stream/player.hpp"
+#include "support/eager_workers.hpp"
 
 namespace kinesphere::stream {
 namespace {
@@ -249,7 +250,7 @@ class Run {
 
 Workers& Player::workers(int threads) {
   auto& place = workers_[static_cast<std::size_t>(threads - 1)];
-  if (!place) place = Workers::create(threads).value();
+  if (!place) place = eager_workers(threads).value();
   return *place;
 }
 

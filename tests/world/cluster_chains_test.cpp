@@ -10,6 +10,7 @@
 
 #include "kinesphere/kinesphere.hpp"
 #include "kinesphere/workers.hpp"
+#include "support/eager_workers.hpp"
 #include "support/playground.hpp"
 #include "world/bouncing_world.hpp"
 
@@ -37,7 +38,7 @@ struct Rows : BouncingWorld<Ballistic> {
 
   /// Counts the responses to events.
   std::size_t run_by(int threads, double until) {
-    Workers workers = Workers::create(threads).value();
+    Workers workers = eager_workers(threads).value();
     SingleMotionSource source(motion);
     std::atomic<std::size_t> asked = 0;
     const auto respond = [&](const Event& event) {
@@ -119,7 +120,7 @@ class ThrowsGoingBack final : public MotionSource {
 TEST(ClustersOfRows, GoOnAfterAMoverThrewAsItWentBack) {
   Rows looped(32, 40, 400), run(32, 40, 400);
   looped.loop(2.0);
-  Workers workers = Workers::create(2).value();
+  Workers workers = eager_workers(2).value();
   ThrowsGoingBack source(run.motion);
   int thrown = 0;
   for (;;) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kinesphere/kinesphere.hpp"
+#include "support/eager_workers.hpp"
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
 #include "world/bouncing_world.hpp"
@@ -149,7 +150,7 @@ TEST(GlitchingSource, ChangesNothingThatIsTold) {
     for (const std::uint64_t period : {61u, 1009u}) {
       Bouncing found;
       Glitching source(found.motion, period);
-      Workers workers = Workers::create(threads).value();
+      Workers workers = eager_workers(threads).value();
       int errors = 0;
       for (;;) {
         const auto run = found.world.run(

@@ -14,6 +14,7 @@
 
 #include "kinesphere/kinesphere.hpp"
 #include "kinesphere/workers.hpp"
+#include "support/eager_workers.hpp"
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
 
@@ -222,7 +223,7 @@ TEST_P(ResponseActions, AreThoseOfALoop) {
   EXPECT_EQ(looped.kind.removes, looped.world.size() < looped.crowd->size() - 100);
   for (const int threads : {1, 2, 3}) {
     SCOPED_TRACE(threads);
-    Workers workers = Workers::create(threads).value();
+    Workers workers = eager_workers(threads).value();
     Shooting run(GetParam());
     for (const double part : {0.01, 0.3, 0.3, 1.0}) run.run(part * run.kind.end, &workers).value();
     expect_same_course(run, looped);
@@ -303,7 +304,7 @@ TEST(ResponsesAtOneInstant, AreThoseOfALoop) {
   looped.loop(2.0);
   for (const int threads : {1, 2, 3}) {
     SCOPED_TRACE(threads);
-    Workers workers = Workers::create(threads).value();
+    Workers workers = eager_workers(threads).value();
     Volley run;
     run.run(0.1, &workers).value();
     run.run(2.0, &workers).value();
@@ -320,7 +321,7 @@ TEST(ResponsesAtOneInstant, AreThoseOfALoop) {
 TEST(ResponseActions, AreRecordedAndReplayed) {
   const Kind kind{.name = "recorded", .sensors = true, .fixed = true, .stop = 64};
   Shooting looped(kind), run(kind);
-  Workers workers = Workers::create(2).value();
+  Workers workers = eager_workers(2).value();
   run.world.start_recording().value();
   looped.loop(1.0);
   run.run(1.0, &workers).value();
@@ -336,7 +337,7 @@ TEST(ResponseActions, AreRecordedAndReplayed) {
 
 TEST(ResponseActions, LeaveAWorldThatCanBeSaved) {
   Shooting run({.name = "saved", .sensors = true, .fixed = true, .stop = 64});
-  Workers workers = Workers::create(2).value();
+  Workers workers = eager_workers(2).value();
   run.run(1.0, &workers).value();
   World restored = World::restore(run.world.save().value()).value();
   const auto on = [&](World& world) {

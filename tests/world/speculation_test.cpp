@@ -10,6 +10,7 @@
 
 #include "kinesphere/kinesphere.hpp"
 #include "kinesphere/workers.hpp"
+#include "support/eager_workers.hpp"
 #include "support/playground.hpp"
 #include "world/bouncing_world.hpp"
 
@@ -81,7 +82,7 @@ TEST_P(SpeculativeRunner, AreAsOneLoop) {
   EXPECT_GT(looped.reported, 300u);
   for (const int threads : {1, 2, 3, 8}) {
     SCOPED_TRACE(threads);
-    Workers workers = Workers::create(threads).value();
+    Workers workers = eager_workers(threads).value();
     Hall run(GetParam());
     for (const double part : {0.01, 0.3, 0.3, 1.0}) run.run(part * run.kind.end, &workers).value();
     expect_same_course(run, looped);
@@ -133,7 +134,7 @@ TEST(ClustersThatReadABody, AreJoinedToTheOneThatHasIt) {
   LargeBalls looped, run;
   looped.loop(6.0);
   EXPECT_EQ(looped.world.counters().count(EventKind::contact_begin), 3u * 27u);
-  Workers workers = Workers::create(2).value();
+  Workers workers = eager_workers(2).value();
   for (const double until : {1e-9, 1.6, 6.0}) run.run(until, &workers).value();
   expect_same_course(run, looped);
 }
@@ -143,7 +144,7 @@ TEST(ClustersThatFail, LeaveAWorldThatGoesOnAsIfNothingHadHappened) {
   const Kind kind{.name = "failing", .sensors = true, .fixed = true};
   Hall looped(kind);
   looped.loop(kind.end);
-  Workers workers = Workers::create(3).value();
+  Workers workers = eager_workers(3).value();
   Hall run(kind);
   SingleMotionSource source(run.motion);
   std::atomic<double> fails_from = 1.0;
@@ -168,7 +169,7 @@ TEST(ClustersThatFail, GoOnWhenTheyFailNoMore) {
   const Kind kind{.name = "failing once"};
   Hall looped(kind);
   looped.loop(kind.end);
-  Workers workers = Workers::create(2).value();
+  Workers workers = eager_workers(2).value();
   Hall run(kind);
   SingleMotionSource source(run.motion);
   std::atomic<int> asked = 0;
@@ -199,7 +200,7 @@ bool windows_end(const World& world) {
 /// If the sink throws, the world may stand at the end of an epoch: queries must find bodies at their places,
 /// also bodies with velocity changes since their windows started.
 TEST(ClustersThatWereInterrupted, LeaveBodiesWhereQueriesFindThem) {
-  Workers workers = Workers::create(2).value();
+  Workers workers = eager_workers(2).value();
   Hall run({.name = "interrupted"});
   SingleMotionSource source(run.motion);
   const auto respond = [&](const Event& event) { return run.answer(event); };

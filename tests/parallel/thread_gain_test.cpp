@@ -1,0 +1,51 @@
+// When threads stand back, from times that are told.
+#include "parallel/thread_gain.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace kinesphere::thread_gain_test {
+namespace {
+
+/// Does as much work as takes one thread `seconds`, in parts of 1 ms; with several threads each takes `cost`
+/// times as long. Returns the time that it took.
+double work(ThreadGain& gain, double seconds, double cost) {
+  constexpr double part = 0.001;
+  double taken = 0.0;
+  for (double done = 0.0; done < seconds; done += part) {
+    const double time = gain.uses_threads() ? cost * part : part;
+    gain.note(time, 100.0);
+    gain.decide();
+    taken += time;
+  }
+  return taken;
+}
+
+TEST(ThreadGain, LosesLittleWhereThreadsLose) {
+  for (const double cost : {1.0, 1.1, 1.6}) {
+    ThreadGain gain;
+    EXPECT_LT(work(gain, 3.0, cost), 1.03 * 3.0) << cost;
+    EXPECT_LT(work(gain, 20.0, cost), 1.01 * 20.0) << cost;
+  }
+}
+
+TEST(ThreadGain, KeepsThreadsThatGain) {
+  for (const double cost : {0.5, 0.6, 0.9}) {
+    ThreadGain gain;
+    EXPECT_LT(work(gain, 3.0, cost), (cost + 0.03) * 3.0) << cost;
+    EXPECT_LT(work(gain, 20.0, cost), (cost + 0.01) * 20.0) << cost;
+  }
+}
+
+TEST(ThreadGain, NoticesThatProcessorsBecomeFreeAndBusy) {
+  ThreadGain gain;
+  for (const double cost : {1.5, 0.6, 1.5}) {
+    work(gain, 3.0, cost);
+    EXPECT_EQ(gain.uses_threads(), cost < 1.0);
+    EXPECT_LT(work(gain, 3.0, cost), 1.05 * 3.0 * std::min(cost, 1.0));
+  }
+}
+
+}  // namespace
+}  // namespace kinesphere::thread_gain_test
