@@ -158,12 +158,12 @@ void set_rotation_probe(WorldHandle& handle, const py::object& function) {
 }
 
 py::tuple bounce_rigid(const Event& contact, double restitution) {
-  const auto [first, second, first_spin, second_spin] = response_of(contact, bounce(contact, restitution));
+  const Response after = response_of(contact, bounce(contact, restitution));
   const auto vector = [](const std::optional<Vec3>& given) {
     return given ? array_of(*given) : py::object(py::none());
   };
-  return py::make_tuple(py::make_tuple(vector(first), vector(first_spin)),
-                        py::make_tuple(vector(second), vector(second_spin)));
+  return py::make_tuple(py::make_tuple(vector(after.first_velocity), vector(after.first_angular_velocity)),
+                        py::make_tuple(vector(after.second_velocity), vector(after.second_angular_velocity)));
 }
 
 }  // namespace

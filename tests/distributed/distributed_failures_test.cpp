@@ -169,6 +169,18 @@ TEST(DistributedFailures, OfAnAnswerEndAllRanks) {
   fixture.expect_over();
 }
 
+TEST(DistributedFailures, OfAnActionEndAllRanks) {
+  for (const Response& given : {Response{.first_action = BodyAction::remove}, Response{.stop = true}}) {
+    Fixture fixture;
+    const ResponseFn respond = [&](const Event& event) {
+      return event.time > 0.4 ? given : fixture.setting.answer(event);
+    };
+    expect_everywhere(fixture.run(respond, [](const OrderedEvent&) {}), ErrorCode::unsupported,
+                      "run: respond: a distributed world accepts velocities");
+    fixture.expect_over();
+  }
+}
+
 TEST(DistributedFailures, OfTheSinkEndAllRanks) {
   Fixture fixture;
   const ResponseFn respond = [&](const Event& event) { return fixture.setting.answer(event); };

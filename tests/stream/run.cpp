@@ -60,6 +60,7 @@ class Answering {
     if (event.second != no_body && moves(event.second)) answer.second_velocity = after->second_velocity;
     return answer;
   }
+  bool is_there(BodyId id) const { return truth_.is_present(id); }
   bool moves(BodyId id) const { return truth_.is_present(id) && !truth_.at(id).fixed; }
 
  private:
@@ -148,6 +149,8 @@ class Run {
   /// Fails at the first event that equals this one of the expected events.
   void fail_at(std::size_t place, Fault fault) {
     const Event& event = expected_[place];
+    // An answer has no effect on a body that has gone, whatever it says.
+    if (fault == Fault::refused_answer && !answer_.is_there(event.first)) fault = Fault::respond;
     const auto same = [&](const Event& other) { return same_in_all(other, event); };
     place_ =
         static_cast<std::size_t>(std::find_if(expected_.begin(), expected_.end(), same) - expected_.begin());
