@@ -9,9 +9,8 @@
 //   cluster, and is executed again from the start of the batch.
 // - A cluster whose read set contains a body that another cluster changed too early is merged with that
 //   cluster.
-// - A response that concerns more than its cluster (RunPool) ends the batch before its instant, which the
-// main
-//   processor then processes alone.
+// - A response that concerns more than its cluster (RunPool) ends the batch before its instant, which
+//   the main processor then processes alone.
 // - When there are no such conflicts, the updated swept spheres of all clusters are compared. Clusters of two
 //   bodies that may meet in the batch are merged and executed again. Two bodies that may meet later get a
 //   certificate, as if a search had found the pair.
