@@ -132,7 +132,9 @@ ks_status ks_rigid_definition_init(ks_rigid_definition* definition, uint32_t str
                                         .rotation = c_rotation(defaults.rotation),
                                         .angular_acceleration_limit = defaults.angular_acceleration_limit,
                                         .largest_angular_speed = defaults.largest_angular_speed,
-                                        .inertia = c_vector(defaults.inertia)});
+                                        .inertia = c_vector(defaults.inertia),
+                                        .hull_count = 0,
+                                        .hulls = nullptr});
 }
 
 ks_status ks_world_add_rigid_body(ks_world world, const ks_body_definition* body,
@@ -140,12 +142,10 @@ ks_status ks_world_add_rigid_body(ks_world world, const ks_body_definition* body
   return changing(__func__, world, [&, call = __func__](WorldObject& object) {
     require_record(call, body, "body");
     require_record(call, rigid, "rigid");
-    require_array(call, rigid->parts, rigid->part_count, "rigid.parts");
     require_pointer(call, id, "id");
-    const auto parts = parts_of(rigid->parts, rigid->part_count);
     *id = c_id(object.world()
                    .add_rigid_body({.body = body_of(call, *body),
-                                    .parts = {parts.begin(), parts.end()},
+                                    .parts = parts_of(call, *rigid),
                                     .rotation = rotation_of(rigid->rotation),
                                     .angular_acceleration_limit = rigid->angular_acceleration_limit,
                                     .largest_angular_speed = rigid->largest_angular_speed,

@@ -60,6 +60,20 @@ BodyDefinition body_of(std::string_view call, const ks_body_definition& body) {
   return definition;
 }
 
+std::vector<RigidPart> parts_of(std::string_view call, const ks_rigid_definition& rigid) {
+  require_array(call, rigid.parts, rigid.part_count, "rigid.parts");
+  require_array(call, rigid.hulls, rigid.hull_count, "rigid.hulls");
+  std::vector<RigidPart> parts;
+  for (std::size_t k = 0; k < rigid.part_count; ++k)
+    parts.push_back({vector_of(rigid.parts[k].a), vector_of(rigid.parts[k].b), rigid.parts[k].radius});
+  for (std::size_t k = 0; k < rigid.hull_count; ++k) {
+    const ks_rigid_hull& hull = rigid.hulls[k];
+    require_pointer(call, hull.point_count > 0 ? hull.points : nullptr, "rigid.hulls.points");
+    parts.push_back(hull_part(vectors_of(hull.points, hull.point_count), hull.radius));
+  }
+  return parts;
+}
+
 ks_body_definition c_body(const BodyDefinition& body) {
   return {.struct_size = sizeof(ks_body_definition),
           .solid = body.solid,

@@ -25,8 +25,6 @@ namespace kinesphere::c {
 static_assert(sizeof(ks_body_id) == sizeof(BodyId) && offsetof(ks_body_id, world) == offsetof(BodyId, world));
 static_assert(sizeof(ks_vec3) == sizeof(Vec3) && offsetof(ks_vec3, z) == offsetof(Vec3, z));
 static_assert(sizeof(ks_state) == sizeof(State) && offsetof(ks_state, velocity) == offsetof(State, velocity));
-static_assert(sizeof(ks_rigid_part) == sizeof(RigidPart) &&
-              offsetof(ks_rigid_part, radius) == offsetof(RigidPart, radius));
 static_assert(sizeof(ks_rotation) == sizeof(Rotation) &&
               offsetof(ks_rotation, angular_velocity) == offsetof(Rotation, angular_velocity));
 
@@ -38,9 +36,6 @@ inline std::span<const Vec3> vectors_of(const ks_vec3* vectors, std::size_t coun
 }
 inline const ks_body_id* c_ids(std::span<const BodyId> ids) {
   return reinterpret_cast<const ks_body_id*>(ids.data());
-}
-inline std::span<const RigidPart> parts_of(const ks_rigid_part* parts, std::size_t count) {
-  return {reinterpret_cast<const RigidPart*>(parts), count};
 }
 inline ks_rotation* c_rotations(std::span<Rotation> rotations) {
   return reinterpret_cast<ks_rotation*>(rotations.data());
@@ -88,6 +83,9 @@ ks_event c_event(const Event& event);
 void write_next(const std::optional<Event>& next, double time, ks_event* event);
 /// Throws BadResult unless the event is one that c_event() can have made.
 Event event_of(std::string_view call, const ks_event& event);
+
+/// Throws BadResult if an array or a hull is missing.
+std::vector<RigidPart> parts_of(std::string_view call, const ks_rigid_definition& rigid);
 
 /// Empty if `filter` is null.
 PairFilter pair_filter_of(ks_pair_filter filter, void* user);

@@ -163,6 +163,8 @@ namespace Kinesphere
         /// <summary>At 0 the body keeps its angular velocity; otherwise LargestAngularSpeed must be finite.</summary>
         public double AngularAccelerationLimit, LargestAngularSpeed;
         public Vector Inertia;
+        UIntPtr hullCount;
+        void* hulls;
         internal void SetParts(RigidPart* first, int count) { parts = first; partCount = (UIntPtr)count; }
         public static RigidDefinition Default
         {

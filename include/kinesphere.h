@@ -320,15 +320,25 @@ typedef struct ks_rigid_part {
   double radius;  ///< >= 0 (length)
 } ks_rigid_part;
 
+/// A part of a rigid body: all points within `radius` of the convex hull of 1 to 64 points, relative to the
+/// body's position.
+typedef struct ks_rigid_hull {
+  size_t point_count;
+  const ks_vec3* points;
+  double radius;  ///< >= 0 (length)
+} ks_rigid_hull;
+
 /// What a rigid body has beside its ks_body_definition. Fields and ranges: kinesphere/rigid_body.hpp.
 typedef struct ks_rigid_definition {
   uint32_t struct_size;
-  size_t part_count;  ///< >= 1
+  size_t part_count;  ///< with hull_count >= 1
   const ks_rigid_part* parts;
   ks_rotation rotation;               ///< at the world's current time
   double angular_acceleration_limit;  ///< >= 0 (radians / time^2); 0: it keeps its angular velocity
   double largest_angular_speed;       ///< >= 0 (radians / time); finite if the limit above is not 0
   ks_vec3 inertia;  ///< moments about the axes of the body, its principal ones (mass length^2)
+  size_t hull_count;
+  const ks_rigid_hull* hulls;  ///< parts whose numbers follow those of `parts`
 } ks_rigid_definition;
 KS_API ks_status ks_rigid_definition_init(ks_rigid_definition* definition, uint32_t struct_size);
 static inline ks_rigid_definition ks_default_rigid_definition(void) {
@@ -378,8 +388,8 @@ KS_API ks_status ks_world_add_static(ks_world world, const ks_static_definition*
 /// is ignored. The probe of the world moves it. Errors: those of World::add_moving_shape().
 KS_API ks_status ks_world_add_moving_shape(ks_world world, const ks_body_definition* body,
                                            const ks_shape* shape, ks_body_id* id);
-/// Adds a rigid body: balls and capsules that move and turn together; the radius is ignored. The probe of the
-/// world moves it. Errors: those of World::add_rigid_body().
+/// Adds a rigid body: balls, capsules and hulls that move and turn together; the radius is ignored. The probe
+/// of the world moves it. Errors: those of World::add_rigid_body().
 KS_API ks_status ks_world_add_rigid_body(ks_world world, const ks_body_definition* body,
                                          const ks_rigid_definition* rigid, ks_body_id* id);
 /// Adds a zone, which reports who enters and leaves it, by KS_EVENT_SENSOR_ENTER and KS_EVENT_SENSOR_LEAVE.

@@ -82,7 +82,8 @@ KINESPHERE_EXPORT(world_parts_of) bool world_parts_of(const World* world, double
   const auto rigid = rigid_of(world, body);
   if (!is_good(rigid)) return false;
   answer().clear();
-  for (const auto& [a, b, radius] : rigid->parts)
+  // JavaScript has no hulls; of one that came in a snapshot it gets the first two points.
+  for (const auto& [a, b, radius, more] : rigid->parts)
     answer().insert(answer().end(), {a.x, a.y, a.z, b.x, b.y, b.z, radius});
   return true;
 }

@@ -6,6 +6,8 @@
 // added to its margins. docs/guarantee.md ("Numbers of all sizes") gives the reasons.
 #pragma once
 
+#include <cstddef>
+
 namespace kinesphere::limits {
 
 // Limits of a world's input.
@@ -18,6 +20,9 @@ inline constexpr double largest_contact_tolerance = 1e20;
 /// position, a box or a shape, radii, position errors, sensor distances and the separation distance. It
 /// keeps the rounding of a certificate well within one tolerance.
 inline constexpr double largest_length = 0x1p41;
+
+/// Largest number of points of a part of a rigid body.
+inline constexpr std::size_t most_hull_points = 64;
 
 /// Largest component of a velocity, and largest velocity error (length / time).
 inline constexpr double largest_speed = 1e100;

@@ -1,4 +1,4 @@
-// Rigid bodies: balls and capsules that move and turn together.
+// Rigid bodies: balls, capsules, boxes and convex hulls that move and turn together.
 //
 //   const BodyId dumbbell = world.add_rigid_body({
 //       .body = {.position = {5, 5, 5}, .mass = 2},
@@ -53,15 +53,25 @@ struct Rotation {
   friend constexpr bool operator==(const Rotation&, const Rotation&) = default;
 };
 
-/// A part of a rigid body: all points within `radius` of the segment from a to b, which are relative to the
-/// body's position, before it is turned. A capsule, or a ball if a == b.
+/// A part of a rigid body: all points within `radius` of the convex hull of a, b and the points of `more`,
+/// which are relative to the body's position, before it is turned. Without `more` it is a capsule, or a ball
+/// if a == b. A body that bounces should have no `radius` of less than two contact tolerances: two hulls do
+/// not know how deep they overlap beyond their radii.
 struct RigidPart {
   Vec3 a{};
   Vec3 b{};
-  double radius = 1.0;  ///< >= 0 (length)
+  double radius = 1.0;       ///< >= 0 (length)
+  std::vector<Vec3> more{};  ///< at most limits::most_hull_points - 2
 
-  friend constexpr bool operator==(const RigidPart&, const RigidPart&) = default;
+  friend bool operator==(const RigidPart&, const RigidPart&) = default;
 };
+
+/// Returns all that is within `radius` of the convex hull of some points, at least one. Three points make a
+/// plate.
+RigidPart hull_part(std::span<const Vec3> points, double radius);
+/// Returns all that is within `radius` of a box. A box without height, lower.z == upper.z, is a rectangle, as
+/// worlds of two dimensions need it.
+RigidPart box_part(const Box& box, double radius);
 
 /// Any callable. It must set rotations[k] to the rotation of ids[k] at `time`. It is called directly after
 /// the Probe, for the same time and those of its bodies that are rigid. Rules and errors: as for Probe.

@@ -29,8 +29,9 @@ Quaternion quaternion_of(const py::object& given, const Argument& argument) {
   return {numbers.at(0), numbers.at(1), numbers.at(2), numbers.at(3)};
 }
 
-/// Returns a Ball for a part without length.
+/// Returns a Ball for a part without length, and a Hull for one of more than two points.
 py::object part_object(const RigidPart& part) {
+  if (!part.more.empty()) return py::cast(Hull{part});
   return part.a == part.b ? py::cast(Ball{part.a, part.radius}) : py::cast(part);
 }
 
@@ -183,8 +184,10 @@ RigidBody RigidArguments::read(const BodyDefinition& body) const {
     } else if (py::isinstance<Ball>(part)) {
       const auto ball = part.cast<Ball>();
       rigid.parts.push_back({ball.centre, ball.centre, ball.radius});
+    } else if (py::isinstance<Hull>(part)) {
+      rigid.parts.push_back(part.cast<Hull>().part);
     } else {
-      throw py::type_error("add_rigid_body: parts must be Balls and Capsules, but one is " +
+      throw py::type_error("add_rigid_body: parts must be Balls, Capsules and Hulls, but one is " +
                            py::repr(part).cast<std::string>());
     }
   }
@@ -203,7 +206,7 @@ void bind_rigid_bodies(py::module_& module, WorldClass& world) {
            py::arg("mask") = std::numeric_limits<std::uint64_t>::max(), py::arg("group") = 0,
            py::arg("solid") = true, py::arg("sensor_class") = 0, py::arg("user_data") = 0,
            py::arg("mass") = 1.0,
-           R"(Adds a rigid body: Balls and Capsules that move and turn together. Returns its BodyId.
+           R"(Adds a rigid body: Balls, Capsules and Hulls that move and turn together. Returns its BodyId.
 
 parts: at least one, relative to the position, about which the body turns, and before it is turned.
 orientation: a quaternion (w, x, y, z) of length 1, which turns a vector of the body into one of the world.
@@ -223,7 +226,7 @@ that names the argument.)")
 
 Shapes (n, 4) and (n, 3), or (4,) and (3,) for a single id. Raises StateError for a body that is not rigid.)")
       .def("parts_of", parts_of, py::arg("body"),
-           "The Balls and Capsules of a rigid body, as it was added. Raises StateError for any other.")
+           "The Balls, Capsules and Hulls of a rigid body, as it was added. Raises StateError for any other.")
       .def(
           "set_angular_velocity", set_angular_velocity, py::arg("bodies"), py::arg("angular_velocities"),
           R"(Tells the world that rigid bodies turn with these angular velocities (radians / time) from now on.

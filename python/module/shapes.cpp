@@ -34,6 +34,31 @@ Box box_of_corners(const py::object& lower, const py::object& upper) {
   return box_between(corners[0], corners[1], has_z);
 }
 
+Hull hull_of(const py::object& points, double radius) {
+  const Argument argument{"Hull", "points"};
+  const Numbers numbers(points, argument);
+  if (numbers.dimensions() != 2 || numbers.length(0) == 0 ||
+      (numbers.length(1) != 2 && numbers.length(1) != 3))
+    refuse(argument, "must have shape (n, 3) or (n, 2), with n >= 1", "has shape " + numbers.shape());
+  std::vector<Vec3> found;
+  for (std::size_t k = 0; k < numbers.length(0); ++k)
+    found.push_back({numbers.at(k, 0), numbers.at(k, 1), numbers.length(1) == 3 ? numbers.at(k, 2) : 0.0});
+  return {hull_part(found, radius)};
+}
+
+/// Returns an array of shape (n, 3).
+py::object points_of(const Hull& hull) {
+  const auto& [a, b, radius, more] = hull.part;
+  std::vector<Vec3> points{a};
+  if (a != b || !more.empty()) points.push_back(b);
+  points.insert(points.end(), more.begin(), more.end());
+  NewArray array = new_doubles({points.size(), 3});
+  double* number = array.data<double>();
+  for (const Vec3& point : points)
+    for (int axis = 0; axis < 3; ++axis) *number++ = point[axis];
+  return array.take();
+}
+
 template <class Class>
 void bind_equality(Class& shape, const char* name) {
   using Kind = typename Class::type;
@@ -151,6 +176,26 @@ void bind_shapes(py::module_& module) {
       .def_readonly("radius", &RigidPart::radius);
   capsule.attr("_parts") = py::make_tuple("a", "b", "radius");
   bind_equality(capsule, "Capsule");
+
+  py::class_<Hull> hull(
+      module, "Hull",
+      "All points within `radius` (length, >= 0) of the convex hull of 1 to 64 points, of "
+      "shape (n, 3) or (n, 2): a part of a rigid body. One that bounces should have a radius "
+      "of more than two contact tolerances.");
+  hull.def(py::init([](const py::object& points, double radius) { return hull_of(points, radius); }),
+           py::arg("points"), py::arg("radius") = 0.0)
+      .def_static(
+          "box",
+          [](const py::object& lower, const py::object& upper, double radius) {
+            return Hull{box_part({point_of(lower, "Hull.box", "lower"), point_of(upper, "Hull.box", "upper")},
+                                 radius)};
+          },
+          py::arg("lower"), py::arg("upper"), py::arg("radius") = 0.0,
+          "A box between two corners; a rectangle if they have two numbers.")
+      .def_property_readonly("points", [](const Hull& of) { return points_of(of); })
+      .def_property_readonly("radius", [](const Hull& of) { return of.part.radius; });
+  hull.attr("_parts") = py::make_tuple("points", "radius");
+  bind_equality(hull, "Hull");
 }
 
 }  // namespace kinesphere::python

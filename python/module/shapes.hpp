@@ -15,6 +15,13 @@ std::optional<Box> box_of(const py::object& given, const Argument& argument, boo
 Shape shape_of(const py::object& given, const Argument& argument);
 py::object object_of(const Shape& shape);
 
+/// A part of a rigid body that Python has as a Hull, and not as a Ball or Capsule.
+struct Hull {
+  RigidPart part;
+
+  friend bool operator==(const Hull&, const Hull&) = default;
+};
+
 void bind_shapes(py::module_& module);
 
 }  // namespace kinesphere::python

@@ -164,7 +164,7 @@ def test_wrong_use_is_refused() -> None:
     world = ks.World()
     wrong: list[tuple[dict[str, Any], type[Exception], str]] = [
         (dict(parts=[]), ks.InvalidValue, "add_rigid_body: parts must have at least one"),
-        (dict(parts=[ks.Box((0, 0, 0), (1, 1, 1))]), TypeError, "parts must be Balls and Capsules, but one is Box"),
+        (dict(parts=[ks.Box((0, 0, 0), (1, 1, 1))]), TypeError, "parts must be Balls, Capsules and Hulls, but one is Box"),
         (dict(parts=[ks.Capsule((0, 0, 0), (1, 0, 0), -1)]), ks.InvalidValue, "radius"),
         (dict(orientation=(1, 0, 0)), ks.InvalidValue, r"orientation must be a quaternion .* has shape \(3,\)"),
         (dict(orientation=(1, 1, 0, 0)), ks.InvalidValue, "orientation,? must have length 1"),
@@ -192,6 +192,24 @@ def test_wrong_use_is_refused() -> None:
         world.set_rotation_probe(3)  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="shape must be a Ball, Box, HalfSpace or Triangle, but is Capsule"):
         world.add_static(ks.Capsule((0, 0, 0), (1, 0, 0), 1))  # type: ignore[arg-type]
+
+
+def test_a_turning_box_meets_another() -> None:
+    world = ks.World(contact_tolerance=1e-9)
+    cube = ks.Hull.box((-0.5, -0.5, -0.5), (0.5, 0.5, 0.5))
+    world.add_rigid_body([cube], (0, 0, 0), angular_velocity=(0, 0, 1))
+    world.add_rigid_body([ks.Ball((0, 0, 0), 0.25), cube], (1.1, 0, 0))
+    positions = np.array([[0, 0, 0], [1.1, 0, 0]], float)
+    event = world.advance(2.0, lambda ids, t: (positions[ids], np.zeros((len(ids), 3))))
+    assert event is not None and event.second_part == 1
+    assert event.time == pytest.approx(np.pi / 4 - np.arccos(0.6 / np.sqrt(0.5)), abs=1e-8)
+    assert world.parts_of(0) == [cube] and cube.points.shape == (8, 3) and cube.radius == 0
+    assert pickle.loads(pickle.dumps(cube)) == cube != ks.Hull.box((0, 0), (1, 1))
+    assert ks.Hull.box((0, 0), (1, 1)).points.shape == (4, 3)
+    with pytest.raises(ks.InvalidValue, match="Hull: points must have shape"):
+        ks.Hull([(1, 2, 3, 4)])
+    with pytest.raises(ks.InvalidValue, match="number of points of at most 64, but is 65"):
+        world.add_rigid_body([ks.Hull(np.ones((65, 3)) * np.arange(65)[:, None])], (0, 0, 0))
 
 
 def test_a_capsule_is_a_value() -> None:

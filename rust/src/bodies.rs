@@ -181,6 +181,8 @@ impl RigidDefinition {
             angular_acceleration_limit: self.angular_acceleration_limit,
             largest_angular_speed: self.largest_angular_speed,
             inertia: self.inertia,
+            hull_count: 0,
+            hulls: std::ptr::null(),
         }
     }
 }

@@ -100,6 +100,17 @@ pub struct ks_rigid_definition {
     pub angular_acceleration_limit: f64,
     pub largest_angular_speed: f64,
     pub inertia: Vec3,
+    pub hull_count: usize,
+    pub hulls: *const ks_rigid_hull,
+}
+
+/// Not used: the crate has no hulls yet.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct ks_rigid_hull {
+    pub point_count: usize,
+    pub points: *const Vec3,
+    pub radius: f64,
 }
 
 #[repr(C)]

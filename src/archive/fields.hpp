@@ -115,8 +115,8 @@ void serialize(Some<Rotation> auto& self, auto& archive) {
 }
 
 void serialize(Some<RigidPart> auto& self, auto& archive) {
-  auto& [a, b, radius] = self;
-  archive(a, b, radius);
+  auto& [a, b, radius, more] = self;
+  archive(a, b, radius, more);
 }
 
 void serialize(Some<RigidBody> auto& self, auto& archive) {

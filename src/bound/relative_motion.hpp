@@ -18,7 +18,7 @@ struct RelativeMotion {
   double growth, growth_speed, acceleration_limit;
   double offset_size, velocity_size, acceleration_size;
 
-  RelativeMotion(const Bound& a, const Bound& b, double from)
+  [[gnu::always_inline]] RelativeMotion(const Bound& a, const Bound& b, double from)
       : RelativeMotion(Part(a, from), Part(b, from)) {}
 
   Vec3 centre_at(double d) const { return offset + (velocity + acceleration * (0.5 * d)) * d; }
@@ -30,7 +30,7 @@ struct RelativeMotion {
  private:
   /// One bound, advanced to `from`.
   struct Part {
-    Part(const Bound& bound, double from)
+    [[gnu::always_inline]] Part(const Bound& bound, double from)
         : s(from - bound.time),
           centre(bound.position + (bound.velocity + bound.planned_acceleration * (0.5 * s)) * s),
           velocity(bound.velocity + bound.planned_acceleration * s),
@@ -71,7 +71,8 @@ struct BoundBesideBound {
   /// The motion relative to something at rest.
   explicit BoundBesideBound(const Bound& moving) : bound(moving) {}
   /// `radius` is the part of the other bound's radius that does not count (length).
-  BoundBesideBound(const Bound& moving, const Bound& other, double time, double radius = 0.0)
+  [[gnu::noinline]] BoundBesideBound(const Bound& moving, const Bound& other, double time,
+                                     double radius = 0.0)
       : BoundBesideBound(RelativeMotion(moving, other, time), radius, time) {}
 
  private:

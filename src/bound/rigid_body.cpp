@@ -43,6 +43,25 @@ Vec3 rotated_back(const Quaternion& rotation, const Vec3& vector) {
   return rotated({rotation.w, -rotation.x, -rotation.y, -rotation.z}, vector);
 }
 
+RigidPart hull_part(std::span<const Vec3> points, double radius) {
+  RigidPart part{points.front(), points[points.size() > 1 ? 1 : 0], radius};
+  if (points.size() > 2) part.more.assign(points.begin() + 2, points.end());
+  return part;
+}
+
+RigidPart box_part(const Box& box, double radius) {
+  std::vector<Vec3> corners{box.lower};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (box.lower[axis] == box.upper[axis]) continue;
+    const std::size_t count = corners.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      corners.push_back(corners[k]);
+      corners.back()[axis] = box.upper[axis];
+    }
+  }
+  return hull_part(corners, radius);
+}
+
 Vec3 RigidRecord::spin_gain(const Vec3& arm, const Vec3& direction) const {
   Vec3 torque = rotated_back(rotation.orientation, cross(arm, direction));
   for (int axis = 0; axis < 3; ++axis)

@@ -4,51 +4,76 @@
 #include <type_traits>
 #include <vector>
 
+#include "bound/hull_distance.hpp"
 #include "bound/reach.hpp"
+#include "bound/rigid_part.hpp"
 #include "bound/safe_steps.hpp"
 #include "bound/segments.hpp"
+#include "bound/witness.hpp"
 
 namespace kinesphere {
 namespace {
 
-/// One part of a rigid body: the bounds of its two ends, which are one if it is a ball.
+/// One part of a rigid body: the bounds of its points, which are one if it is a ball.
 class PartBound {
  public:
-  PartBound(const RigidExtent& body, const RigidPart& part)
-      : body_(body), part_(part), a_(body.of_point(part.a, part.radius)) {
-    if (!is_ball()) b_ = body.of_point(part.b, part.radius);
+  PartBound(const RigidExtent& body, const RigidPart& part) : body_(body), part_(part), a_(of_point(part.a)) {
+    if (!is_ball()) b_ = of_point(part.b);
+    if (is_hull()) add_more();
   }
 
-  bool is_ball() const { return part_.a == part_.b; }
+  /// True if the body flies and turns exactly as reported.
+  bool is_exact() const { return body_.is_exact(); }
+  bool is_foreseen() const { return body_.is_foreseen; }
+  bool is_ball() const { return kinesphere::is_ball(part_); }
+  bool is_hull() const { return kinesphere::is_hull(part_); }
+  const RigidPart& part() const { return part_; }
   const Bound& ball() const { return a_; }
-  /// Bound of the point of the axis at this position, from 0 at a to 1 at b.
-  Bound at(double position) const {
-    return body_.of_point(part_.a + (part_.b - part_.a) * position, part_.radius);
+  /// Bound of one of the points of the part.
+  const Bound& point(std::size_t number) const {
+    return number == 0 ? a_ : number == 1 ? b_ : more_[number - 2];
   }
-  /// The axis where it is at a time, if its ends go straight on.
-  Segment axis(double time) const {
-    return {a_.centre_at(time), is_ball() ? a_.centre_at(time) : b_.centre_at(time)};
+  /// Bound of a point that is fixed in the part.
+  Bound of_point(const Vec3& point) const { return body_.of_point(point, part_.radius); }
+  /// The axis of a ball or capsule, or the points of a hull, where they are at a time if they go straight on,
+  /// relative to an origin.
+  Segment axis(double time, const Vec3& origin = {}) const {
+    const Vec3 a = a_.centre_at(time) - origin;
+    return {a, is_ball() ? a : b_.centre_at(time) - origin};
+  }
+  std::vector<Vec3> points(double time, const Vec3& origin = {}) const {
+    std::vector<Vec3> found;
+    found.reserve(point_count(part_));
+    for_each_point([&](const Bound& point) { found.push_back(point.centre_at(time) - origin); });
+    return found;
   }
   template <class Visit>
-  void for_each_end(Visit visit) const {
+  void for_each_point(Visit visit) const {
     visit(a_);
     if (!is_ball()) visit(b_);
+    for (const Bound& point : more_) visit(point);
   }
 
  private:
+  [[gnu::noinline]] void add_more() {
+    more_.reserve(part_.more.size());
+    for (const Vec3& point : part_.more) more_.push_back(of_point(point));
+  }
+
   const RigidExtent& body_;
   const RigidPart& part_;
   Bound a_;
   Bound b_{};
+  std::vector<Bound> more_;
 };
 
 /// Repeats next(time), which returns a later certain time or +infinity, until a step gains less than an
 /// eighth of the total. More steps cost more than the rechecks that they save, as these know the rotation
 /// anew.
 template <class Next>
-double repeated(double from, Next next) {
+double repeated(double from, Next next, int rounds = most_rounds) {
   double time = from;
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     const double later = next(time);
     if (later == infinity) return infinity;
     const double gain = later - time;
@@ -60,63 +85,188 @@ double repeated(double from, Next next) {
 
 // Two parts.
 
+/// Returns the point of a capsule's axis at a position, from 0 at a to 1 at b.
+Vec3 on_axis(const PartBound& part, double position) {
+  return part.part().a + (part.part().b - part.part().a) * position;
+}
+
 /// Nearest points of two axes, if their ends go straight on.
 struct NearestPoints {
-  NearestOnSegments at;
-  Vec3 normal;  ///< unit vector from the second towards the first
+  Vec3 first, second;  ///< fixed in the bodies
+  Vec3 normal;         ///< unit vector from the second towards the first
 
   NearestPoints(const PartBound& a, const PartBound& b, double time) {
     const Segment p = a.axis(time);
     const Segment q = b.axis(time);
-    at = nearest_on_segments(p, q);
+    const NearestOnSegments at = nearest_on_segments(p, q);
+    first = on_axis(a, at.first);
+    second = on_axis(b, at.second);
     const Vec3 way = p.at(at.first) - q.at(at.second);
     const double length = norm(way);
     normal = length > 0.0 ? way / length : Vec3{1.0, 0.0, 0.0};
   }
 };
 
-/// Calls visit(motion, plane) for each end of one part relative to each end of another, where the plane has
-/// the second end on its far side.
-template <class Visit>
-void for_each_pair_of_ends(const PartBound& a, const PartBound& b, const Vec3& normal, double time,
-                           Visit visit) {
-  a.for_each_end([&](const Bound& end) {
-    b.for_each_end([&](const Bound& other) {
-      visit(BoundBesideBound(end, other, time), HalfSpace{normal, 0.0});
+bool is_hull(const PartBound& a, const PartBound& b) { return a.is_hull() || b.is_hull(); }
+
+NearestInHulls nearest_of(const PartBound& a, const PartBound& b, double time) {
+  return nearest_in_hulls(a.points(time), b.points(time));
+}
+
+Witness witness_of(const PartBound& a, const PartBound& b, const NearestInHulls& nearest, double time) {
+  Witness witness(time);
+  for (std::size_t k = 0; k < nearest.count; ++k) {
+    const auto& [first, second, weight] = nearest.pairs[k];
+    witness.add(a.point(first), b.point(second), 0.0, weight);
+  }
+  return witness;
+}
+
+/// How far along a direction the points of a part reach back at two times, less what they may have grown.
+class PointsAlong {
+ public:
+  PointsAlong(const PartBound& part, const Vec3& direction, double time) : direction_(direction) {
+    part.for_each_point([&](const Bound& point) {
+      points_.push_back({&point, along(point, time), infinity});
+      if (!least_.bound || points_.back().from < least_.from) least_ = points_.back();
+      straightest_ = std::min(straightest_, point.acceleration_limit);
     });
+  }
+
+  const Bound& foremost() const { return *least_.bound; }
+  double least() const { return least_.from; }
+  /// Adds a later time.
+  void look_at(double time) {
+    for (Point& point : points_) {
+      point.until = along(*point.bound, time);
+      least_.until = std::min(least_.until, point.until);
+      size_ = std::max(size_, size_at(*point.bound, time));
+    }
+  }
+  /// Rate at which the speed of any point along the direction may grow, at most.
+  double bend() const { return dot(direction_, points_.front().bound->planned_acceleration) - straightest_; }
+  double size() const { return size_; }
+  /// Returns the points that may be within `distance` of the others at any time between the two. The sum of
+  /// two points is a concave function, which is least at an end, up to what `distance` has for its bend.
+  std::vector<const Bound*> within(double distance, const PointsAlong& others) const {
+    std::vector<const Bound*> found;
+    for (const Point& point : points_)
+      if (!(point.from + others.least_.from > distance && point.until + others.least_.until > distance))
+        found.push_back(point.bound);
+    return found;
+  }
+
+ private:
+  struct Point {
+    const Bound* bound = nullptr;
+    double from = infinity, until = infinity;
+  };
+
+  double along(const Bound& point, double time) const {
+    return dot(direction_, point.centre_at(time)) - point.radius_at(time);
+  }
+  static double size_at(const Bound& point, double time) {
+    const double s = time - point.time;
+    return norm_one(point.position) +
+           (norm_one(point.velocity) + norm_one(point.planned_acceleration) * s) * s + point.radius_at(time);
+  }
+
+  Vec3 direction_;
+  std::vector<Point> points_;
+  Point least_;
+  double straightest_ = infinity;
+  double size_ = 0.0;
+};
+
+/// Calls visit(point, other) for pairs of points of two parts that may be the first to be within `distance`
+/// along a direction, or are the nearest now. `visit` returns up to when a pair would be the first.
+template <class Visit>
+void for_each_pair_of_points(const PartBound& a, const PartBound& b, const Vec3& normal, double time,
+                             double distance, Visit visit) {
+  if (!is_hull(a, b)) {
+    a.for_each_point([&](const Bound& p) { b.for_each_point([&](const Bound& q) { visit(p, q); }); });
+    return;
+  }
+  PointsAlong own(a, normal, time);
+  PointsAlong others(b, -normal, time);
+  const double until = visit(own.foremost(), others.foremost());
+  own.look_at(until);
+  others.look_at(until);
+  const double bend = std::max(own.bend() + others.bend(), 0.0) * (until - time) * (until - time) / 8.0;
+  const double limit =
+      std::max(distance, own.least() + others.least()) + bend + 0x1p-40 * (own.size() + others.size());
+  const auto near = own.within(limit, others);
+  for (const Bound* q : others.within(limit, own))
+    for (const Bound* p : near) visit(*p, *q);
+}
+
+/// Returns the time before which no points of two parts come within `distance` along a direction.
+double meeting_along(const PartBound& a, const PartBound& b, const Vec3& normal, double time, double until,
+                     double distance) {
+  const HalfSpace plane{normal, 0.0};
+  double first = infinity;
+  for_each_pair_of_points(a, b, normal, time, distance, [&](const Bound& p, const Bound& q) {
+    const BoundBesideBound motion(p, q, time);
+    const double limit = std::min(first, until);
+    first = std::min(first, earliest_meeting(motion.bound, plane, time, limit, distance + motion.slack));
+    return std::min(first, until);
   });
+  return first;
+}
+
+/// Hulls do not know how deep they overlap: a smaller distance than minus their radii is met when they begin
+/// to overlap and, by those that do so already, never.
+double meeting_of_hulls(const PartBound& a, const PartBound& b, double from, double until, double distance) {
+  // The exact rotation after one step is worth more than further steps.
+  const int rounds = a.is_exact() && b.is_exact() ? 1 : most_rounds;
+  const double deepest = -(a.part().radius + b.part().radius);
+  const auto next = [&](double time) {
+    const NearestInHulls nearest = nearest_of(a, b, time);
+    if (distance < deepest && time == from && !a.is_foreseen() && nearest.overlap()) return infinity;
+    return meeting_along(a, b, nearest.normal, time, until, std::max(distance, deepest));
+  };
+  return repeated(from, next, rounds);
 }
 
 double meeting(const PartBound& a, const PartBound& b, double from, double until, double distance) {
   if (a.is_ball() && b.is_ball()) return earliest_meeting(a.ball(), b.ball(), from, until, distance);
+  if (is_hull(a, b)) return meeting_of_hulls(a, b, from, until, distance);
   return repeated(from, [&](double time) {
-    double first = infinity;
-    for_each_pair_of_ends(a, b, NearestPoints(a, b, time).normal, time,
-                          [&](const BoundBesideBound& motion, const HalfSpace& plane) {
-                            first = std::min(first, earliest_meeting(motion.bound, plane, time, until,
-                                                                     distance + motion.slack));
-                          });
-    return first;
+    return meeting_along(a, b, NearestPoints(a, b, time).normal, time, until, distance);
   });
 }
 
 double separation(const PartBound& a, const PartBound& b, double from, double until, double distance) {
   if (a.is_ball() && b.is_ball()) return earliest_separation(a.ball(), b.ball(), from, until, distance);
   return repeated(from, [&](double time) {
-    const NearestOnSegments at = NearestPoints(a, b, time).at;
-    return earliest_separation(a.at(at.first), b.at(at.second), time, until, distance);
+    if (is_hull(a, b)) return witness_of(a, b, nearest_of(a, b, time), time).separation(until, distance);
+    const NearestPoints nearest(a, b, time);
+    return earliest_separation(a.of_point(nearest.first), b.of_point(nearest.second), time, until, distance);
   });
+}
+
+/// Lower limit of the gap of two parts, from their points along a direction.
+double least_gap(const PartBound& a, const PartBound& b, const Vec3& normal, double t) {
+  double least = infinity;
+  for_each_pair_of_points(a, b, normal, t, -infinity, [&](const Bound& p, const Bound& q) {
+    const BoundBesideBound motion(p, q, t);
+    least = std::min(least, gap_limits(motion.bound, HalfSpace{normal, 0.0}, t).lower - motion.slack);
+    return t;
+  });
+  return least;
 }
 
 GapLimits gap(const PartBound& a, const PartBound& b, double t) {
   if (a.is_ball() && b.is_ball()) return gap_limits(a.ball(), b.ball(), t);
+  if (is_hull(a, b)) {
+    const NearestInHulls nearest = nearest_of(a, b, t);
+    const double upper = witness_of(a, b, nearest, t).largest_gap();
+    const double lower = std::max(least_gap(a, b, nearest.normal, t), -(a.part().radius + b.part().radius));
+    return {std::min(lower, upper), upper};
+  }
   const NearestPoints nearest(a, b, t);
-  GapLimits limits = gap_limits(a.at(nearest.at.first), b.at(nearest.at.second), t);
-  double lower = infinity;
-  for_each_pair_of_ends(a, b, nearest.normal, t, [&](const BoundBesideBound& motion, const HalfSpace& plane) {
-    lower = std::min(lower, gap_limits(motion.bound, plane, t).lower - motion.slack);
-  });
-  limits.lower = std::min(limits.lower, lower);
+  GapLimits limits = gap_limits(a.of_point(nearest.first), b.of_point(nearest.second), t);
+  limits.lower = std::min(limits.lower, least_gap(a, b, nearest.normal, t));
   return limits;
 }
 
@@ -124,14 +274,14 @@ GapLimits gap(const PartBound& a, const PartBound& b, double t) {
 
 double meeting(const PartBound& a, const HalfSpace& wall, double from, double until, double distance) {
   double first = infinity;
-  a.for_each_end(
+  a.for_each_point(
       [&](const Bound& end) { first = std::min(first, earliest_meeting(end, wall, from, until, distance)); });
   return first;
 }
 
 double separation(const PartBound& a, const HalfSpace& wall, double from, double until, double distance) {
   double last = from;
-  a.for_each_end([&](const Bound& end) {
+  a.for_each_point([&](const Bound& end) {
     last = std::max(last, earliest_separation(end, wall, from, until, distance));
   });
   return last;
@@ -139,7 +289,7 @@ double separation(const PartBound& a, const HalfSpace& wall, double from, double
 
 GapLimits gap(const PartBound& a, const HalfSpace& wall, double t) {
   GapLimits limits{infinity, infinity};
-  a.for_each_end([&](const Bound& end) {
+  a.for_each_point([&](const Bound& end) {
     const GapLimits own = gap_limits(end, wall, t);
     limits = {std::min(limits.lower, own.lower), std::min(limits.upper, own.upper)};
   });
@@ -166,30 +316,99 @@ const Solid& solid_of(const CarriedShape<Solid>& shape) {
   return shape.solid;
 }
 
-/// A part relative to a solid at a time, and the plane between them.
-template <class Shape>
-struct BesideSolid {
-  BoundBesideBound a, b;
-  double nearest = 0.0;  ///< position on the axis of its point nearest to the solid
-  HalfSpace plane;       ///< has the solid on its far side
+/// The bound of a point of a solid.
+template <class Solid>
+Bound bound_of_point(const Solid&, const Vec3& point, double time) {
+  return {.time = time, .position = point};
+}
+template <class Solid>
+Bound bound_of_point(const CarriedShape<Solid>& shape, const Vec3& point, double) {
+  Bound bound = shape.carrier;
+  bound.position += point;
+  return bound;
+}
+/// Part of that bound's radius that does not count.
+template <class Solid>
+double radius_of(const Solid&) {
+  return 0.0;
+}
+template <class Solid>
+double radius_of(const CarriedShape<Solid>& shape) {
+  return shape.radius;
+}
 
-  BesideSolid(const PartBound& part, const Shape& shape, double time)
-      : a(beside(part.at(0.0), shape, time)), b(beside(part.at(1.0), shape, time)) {
-    const auto& solid = solid_of(shape);
-    const Segment axis{a.bound.centre_at(time), b.bound.centre_at(time)};
-    nearest = nearest_on_segment(axis, solid);
-    plane.normal = nearest_point(solid, axis.at(nearest)).normal;
-    plane.offset = reach(solid, plane.normal) + rounding::margin * size_of(solid);
+/// A hull and a solid at a time: nearest points and the direction between them.
+template <class Shape>
+struct HullBesideSolid {
+  const PartBound& part;
+  const Shape& shape;
+  double time;
+  Corners corners;
+  NearestInHulls nearest;
+
+  HullBesideSolid(const PartBound& given, const Shape& partner, double at)
+      : part(given), shape(partner), time(at) {
+    const auto points = part.points(time, bound_of_point(shape, {}, time).centre_at(time));
+    corners = corners_near(points, solid_of(shape));
+    nearest = nearest_in_hulls(points, corners.all());
+  }
+  Witness witness() const {
+    Witness found(time);
+    for (std::size_t k = 0; k < nearest.count; ++k) {
+      const auto& [first, second, weight] = nearest.pairs[k];
+      found.add(part.point(first), bound_of_point(shape, corners.all()[second], time), radius_of(shape),
+                weight);
+    }
+    return found;
   }
 };
+
+/// The nearest point of a capsule's axis to a solid, fixed in the body, and the direction there.
+struct AxisBesideSolid {
+  Vec3 nearest;
+  Vec3 normal;
+
+  template <class Shape>
+  AxisBesideSolid(const PartBound& part, const Shape& shape, double time) {
+    const auto& solid = solid_of(shape);
+    const Segment axis = part.axis(time, bound_of_point(shape, {}, time).centre_at(time));
+    const double position = nearest_on_segment(axis, solid);
+    nearest = on_axis(part, position);
+    normal = nearest_point(solid, axis.at(position)).normal;
+  }
+};
+
+/// Returns a plane along a direction that has the solid on its far side.
+template <class Shape>
+HalfSpace plane_along(const Vec3& normal, const Shape& shape) {
+  const auto& solid = solid_of(shape);
+  return {normal, reach(solid, normal) + rounding::margin * size_of(solid)};
+}
+
+/// Returns the time before which no points of a part come within `distance` of a plane that has the solid on
+/// its far side.
+template <class Shape>
+double meeting_along(const PartBound& part, const Vec3& normal, const Shape& shape, double time, double until,
+                     double distance) {
+  const HalfSpace plane = plane_along(normal, shape);
+  double first = infinity;
+  part.for_each_point([&](const Bound& point) {
+    const BoundBesideBound motion = beside(point, shape, time);
+    first = std::min(first, earliest_meeting(motion.bound, plane, time, until, distance + motion.slack));
+  });
+  return first;
+}
 
 template <class Shape>
 double meeting(const PartBound& part, const Shape& shape, double from, double until, double distance) {
   if (part.is_ball()) return earliest_meeting(part.ball(), shape, from, until, distance);
+  const double deepest = -part.part().radius;
   return repeated(from, [&](double time) {
-    const BesideSolid now(part, shape, time);
-    return std::min(earliest_meeting(now.a.bound, now.plane, time, until, distance + now.a.slack),
-                    earliest_meeting(now.b.bound, now.plane, time, until, distance + now.b.slack));
+    if (!part.is_hull())
+      return meeting_along(part, AxisBesideSolid(part, shape, time).normal, shape, time, until, distance);
+    const NearestInHulls nearest = HullBesideSolid(part, shape, time).nearest;
+    if (distance < deepest && time == from && !part.is_foreseen() && nearest.overlap()) return infinity;
+    return meeting_along(part, nearest.normal, shape, time, until, std::max(distance, deepest));
   });
 }
 
@@ -197,17 +416,32 @@ template <class Shape>
 double separation(const PartBound& part, const Shape& shape, double from, double until, double distance) {
   if (part.is_ball()) return earliest_separation(part.ball(), shape, from, until, distance);
   return repeated(from, [&](double time) {
-    return earliest_separation(part.at(BesideSolid(part, shape, time).nearest), shape, time, until, distance);
+    if (part.is_hull()) return HullBesideSolid(part, shape, time).witness().separation(until, distance);
+    const Bound nearest = part.of_point(AxisBesideSolid(part, shape, time).nearest);
+    return earliest_separation(nearest, shape, time, until, distance);
   });
 }
 
 template <class Shape>
 GapLimits gap(const PartBound& part, const Shape& shape, double t) {
   if (part.is_ball()) return gap_limits(part.ball(), shape, t);
-  const BesideSolid now(part, shape, t);
-  GapLimits limits = gap_limits(part.at(now.nearest), shape, t);
-  for (const BoundBesideBound* end : {&now.a, &now.b})
-    limits.lower = std::min(limits.lower, gap_limits(end->bound, now.plane, t).lower - end->slack);
+  const auto least = [&](const Vec3& normal) {
+    const HalfSpace plane = plane_along(normal, shape);
+    double lower = infinity;
+    part.for_each_point([&](const Bound& point) {
+      const BoundBesideBound motion = beside(point, shape, t);
+      lower = std::min(lower, gap_limits(motion.bound, plane, t).lower - motion.slack);
+    });
+    return lower;
+  };
+  if (part.is_hull()) {
+    const HullBesideSolid now(part, shape, t);
+    const double upper = now.witness().largest_gap();
+    return {std::min(std::max(least(now.nearest.normal), -part.part().radius), upper), upper};
+  }
+  const AxisBesideSolid now(part, shape, t);
+  GapLimits limits = gap_limits(part.of_point(now.nearest), shape, t);
+  limits.lower = std::min(limits.lower, least(now.normal));
   return limits;
 }
 
@@ -245,17 +479,15 @@ std::vector<BallNow> balls_now(const RigidExtent& body, double time) {
   std::vector<BallNow> balls;
   balls.reserve(body.parts.size());
   for (const RigidPart& part : body.parts) {
-    const bool is_ball = part.a == part.b;
-    const Vec3 middle = is_ball ? part.a : 0.5 * (part.a + part.b);
-    const Vec3 arm = rotated(body.rotation.orientation, middle);
+    const BallAroundPoints points(part);
+    const Vec3 arm = rotated(body.rotation.orientation, points.middle);
     const Vec3 turn = cross(body.rotation.angular_velocity, arm);
-    const double reach = norm(middle);
+    const double reach = norm(points.middle);
     BallNow ball = whole;
     ball.part = &part;
     ball.centre += arm + turn * s;
     ball.velocity += turn;
-    ball.radius += part.radius + (is_ball ? 0.0 : 0.5 * norm(part.b - part.a)) - body.radius +
-                   0.5 * turning * reach * s * s;
+    ball.radius += part.radius + points.reach - body.radius + 0.5 * turning * reach * s * s;
     ball.speed += turning * reach * s;
     ball.acceleration += turning * reach;
     balls.push_back(ball);
@@ -269,7 +501,7 @@ struct GapNow {
   double opening;  ///< rate at which it grows along the line of centres, at least
   double closing;  ///< largest acceleration against that
 
-  GapNow(const BallNow& a, const BallNow& b) {
+  [[gnu::always_inline]] GapNow(const BallNow& a, const BallNow& b) {
     constexpr double rounding_lost = 0x1p-40;
     const Vec3 way = a.centre - b.centre;
     const Vec3 turn = a.velocity - b.velocity;

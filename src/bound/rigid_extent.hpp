@@ -1,7 +1,6 @@
 // The volume of a rigid body as certificates see it: bounds of points that are fixed in a turning body.
 #pragma once
 
-#include <algorithm>
 #include <span>
 
 #include "bound/rounding.hpp"
@@ -9,11 +8,6 @@
 #include "kinesphere/rigid_body.hpp"
 
 namespace kinesphere {
-
-/// Returns the largest distance of a point of the part from the origin, without rounding margin.
-inline double outer_radius(const RigidPart& part) {
-  return std::max(norm(part.a), norm(part.b)) + part.radius;
-}
 
 /// A rigid body between two reports. A ball is one with a single part at its position. Refers to the parts.
 struct RigidExtent {
@@ -23,6 +17,7 @@ struct RigidExtent {
   Rotation rotation{};       ///< at the time of the bound
   double spin = 0.0;         ///< largest angular speed since then (radians / time)
   double spin_growth = 0.0;  ///< largest angular acceleration (radians / time^2)
+  bool is_foreseen = false;  ///< at a time later than that of its report
 
   /// True if the body flies and turns exactly as the last report says.
   bool is_exact() const { return spin_growth == 0.0 && bound.is_exact(); }
@@ -30,6 +25,7 @@ struct RigidExtent {
   RigidExtent at(double time) const {
     const double s = time - bound.time;
     RigidExtent later = *this;
+    later.is_foreseen = true;
     later.bound.time = time;
     later.bound.position = bound.centre_at(time);
     later.bound.velocity = bound.velocity_at(time);
@@ -41,7 +37,7 @@ struct RigidExtent {
 
   /// Returns the bound of a ball around a point that is fixed in the body: its acceleration differs from the
   /// planned one by at most A + (a + w^2) d (rigid_body.hpp).
-  Bound of_point(const Vec3& point, double ball_radius) const {
+  [[gnu::always_inline]] Bound of_point(const Vec3& point, double ball_radius) const {
     const Vec3 arm = rotated(rotation.orientation, point);
     const double reach = norm(point) * (1.0 + rounding::margin);
     Bound ball = bound;

@@ -3,20 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <vector>
 
 #include "bound/rounding.hpp"
 #include "kinesphere/rigid_body.hpp"
 
 namespace kinesphere {
-
-/// Returns the least radius of the parts (length).
-inline double least_radius(std::span<const RigidPart> parts) {
-  double least = parts.front().radius;
-  for (const RigidPart& part : parts) least = std::min(least, part.radius);
-  return least;
-}
 
 /// A rigid body, but for its position.
 struct RigidRecord {

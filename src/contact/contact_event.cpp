@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bound/nearest_parts.hpp"
+#include "bound/rigid_part.hpp"
 #include "number/infinity.hpp"
 
 namespace kinesphere {

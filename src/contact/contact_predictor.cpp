@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "bound/rigid_part.hpp"
 #include "bound/sides_in_reach.hpp"
 #include "contact/contact_event.hpp"
 #include "number/bit_cast.hpp"

@@ -1,6 +1,7 @@
 // Validation of rigid bodies and their rotations.
 #include <algorithm>
 
+#include "bound/rigid_part.hpp"
 #include "engine/validation.hpp"
 
 namespace kinesphere {
@@ -32,6 +33,14 @@ void require_part(InputCheck& check, const RigidPart& part, std::size_t number,
   check.within(subject("a"), part.a, coordinate_limit(world))
       .within(subject("b"), part.b, coordinate_limit(world))
       .not_negative(subject("radius"), part.radius);
+  check.require(point_count(part) <= limits::most_hull_points, ErrorCode::out_of_range, subject("more"),
+                "must leave the part with a number of points of at most", limits::most_hull_points,
+                point_count(part));
+  if (check.error()) return;
+  for (const Vec3& point : part.more) {
+    check.within(subject("more"), point, coordinate_limit(world));
+    require_plane(check, subject("more"), point, world);
+  }
   require_plane(check, subject("a"), part.a, world);
   require_plane(check, subject("b"), part.b, world);
 }

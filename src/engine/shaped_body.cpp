@@ -5,6 +5,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "bound/rigid_part.hpp"
 #include "bound/rounding.hpp"
 #include "engine/validation.hpp"
 #include "number/infinity.hpp"

@@ -219,6 +219,28 @@ static void rotation_probes(void) {
   CHECK_OK(ks_world_destroy(world));
 }
 
+/// A square that turns meets a ball with a side, and a body may have hulls alone.
+static void hulls(void) {
+  flight f;
+  memset(&f, 0, sizeof f);
+  const ks_world world = new_world();
+  const ks_vec3 corners[4] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  const ks_rigid_hull square = {4, corners, 0};
+  ks_rigid_definition rigid = ks_default_rigid_definition();
+  rigid.hulls = &square;
+  rigid.hull_count = 1;
+  rigid.rotation.angular_velocity.z = 1;
+  const ks_body_definition body = ks_default_body_definition();
+  ks_body_id id;
+  CHECK_OK(ks_world_add_rigid_body(world, &body, &rigid, &id));
+  add_ball(world, &f, vec3(2.2, 0, 0), vec3(0, 0, 0));
+  const ks_event event = next_event(world, 10, &f);
+  CHECK(event.kind == KS_EVENT_CONTACT_BEGIN && event.first_part == 0);
+  // The ball has the radius 1, and the side is 1 from the middle of the square.
+  CHECK(fabs(event.time - acos(2 / 2.2)) < 1e-5);
+  CHECK_OK(ks_world_destroy(world));
+}
+
 static void pair_filters(void) {
   flight f;
   memset(&f, 0, sizeof f);
@@ -752,6 +774,7 @@ int main(void) {
   moving_shapes();
   rigid_bodies();
   rotation_probes();
+  hulls();
   pair_filters();
   answers();
   changes_of_bodies();

@@ -253,6 +253,14 @@ static void wrong_rigid_bodies(void) {
   rod.radius = 0.1;
   REFUSED(ks_world_add_rigid_body(world, &body, NULL, &id), NULL_ARGUMENT);
   REFUSED(ks_world_add_rigid_body(world, &body, &rigid, NULL), NULL_ARGUMENT);
+  ks_rigid_hull hull = {2, NULL, 0};
+  rigid.hulls = &hull;
+  rigid.hull_count = 1;
+  REFUSED(ks_world_add_rigid_body(world, &body, &rigid, &id), NULL_ARGUMENT);
+  hull.point_count = 0;
+  hull.points = &rod.a;
+  REFUSED(ks_world_add_rigid_body(world, &body, &rigid, &id), NULL_ARGUMENT);
+  rigid.hull_count = 0;
   rigid.rotation.orientation.x = 1;
   REFUSED(ks_world_add_rigid_body(world, &body, &rigid, &id), OUT_OF_RANGE);
   rigid.rotation.orientation.x = 0;

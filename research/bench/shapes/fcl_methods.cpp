@@ -3,6 +3,7 @@
 
 #ifdef KINESPHERE_WITH_FCL
 
+#include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/math/motion/interp_motion.h>
@@ -68,10 +69,16 @@ auto middle_motion_of(const FclPose& from, const FclPose& to) {
   }
 }
 
-/// Shapes of FCL: one capsule along z, or spheres with their centres; and the sphere around all of them.
+/// Shapes of FCL: one capsule along z, one box, or spheres with their centres; and the sphere around all of
+/// them.
 struct FclShapes {
   explicit FclShapes(const TurningBody& body) : around(reach(body)) {
     for (const RigidPart& part : body.parts) {
+      if (!part.more.empty()) {
+        centres.push_back(FclVector::Zero());
+        parts.push_back(std::make_unique<fcl::Boxd>(fcl_vector(2.0 * half_edges(part))));
+        continue;
+      }
       centres.push_back(fcl_vector(0.5 * (part.a + part.b)));
       if (part.a == part.b)
         parts.push_back(std::make_unique<fcl::Sphered>(part.radius));

@@ -102,7 +102,8 @@ void add_rows(ResultTable& table, const PairKind& kind, const ShapesSettings& se
 
 CLI::App* add_bench_shapes_command(CLI::App& bench, BenchOptions& options) {
   CLI::App* shapes = bench.add_subcommand(
-      "shapes", "First contacts of capsules and clusters of balls that turn, beside FCL; takes minutes");
+      "shapes",
+      "First contacts of capsules, clusters of balls and boxes that turn, beside FCL; takes minutes");
   add_bench_options(*shapes, options, kind_names(), "Ten times as many pairs");
   return shapes;
 }

@@ -1,4 +1,4 @@
-// `kinesphere-bench shapes`: first contacts of capsules and of clusters of balls that turn, beside FCL.
+// `kinesphere-bench shapes`: first contacts of capsules, clusters of balls and boxes that turn, beside FCL.
 #pragma once
 
 #include <CLI/App.hpp>

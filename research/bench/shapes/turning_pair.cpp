@@ -1,8 +1,10 @@
 #include "research/bench/shapes/turning_pair.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "kinesphere/random.hpp"
 
@@ -56,12 +58,84 @@ Vec3 between_segments(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d
   return norm_squared(straight) < norm_squared(best) ? straight : best;
 }
 
+/// A box where it is.
+struct PlacedBox {
+  Vec3 centre;
+  std::array<Vec3, 3> axes;
+  Vec3 half;
+
+  Vec3 corner(int number) const {
+    Vec3 corner = centre;
+    for (int axis = 0; axis < 3; ++axis)
+      corner += axes[static_cast<std::size_t>(axis)] * ((number >> axis & 1) == 1 ? half[axis] : -half[axis]);
+    return corner;
+  }
+  Vec3 nearest(const Vec3& point) const {
+    Vec3 nearest = centre;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vec3& along = axes[static_cast<std::size_t>(axis)];
+      nearest += along * std::clamp(dot(point - centre, along), -half[axis], half[axis]);
+    }
+    return nearest;
+  }
+  double reach(const Vec3& direction) const {
+    double reach = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+      reach += half[axis] * std::abs(dot(direction, axes[static_cast<std::size_t>(axis)]));
+    return reach;
+  }
+  template <class Visit>
+  void for_each_edge(Visit visit) const {
+    for (int number = 0; number < 8; ++number)
+      for (int axis = 0; axis < 3; ++axis)
+        if ((number >> axis & 1) == 0) visit(corner(number), corner(number | 1 << axis));
+  }
+};
+
+/// The signed gap of two boxes, and the way from the first to the second: of overlapping ones from the 15
+/// directions that may separate two boxes, else from all corners and edges.
+std::pair<double, Vec3> between_boxes(const PlacedBox& first, const PlacedBox& second) {
+  double widest = -std::numeric_limits<double>::infinity();
+  Vec3 best;
+  const auto try_direction = [&](const Vec3& direction) {
+    const double size = norm(direction);
+    if (!(size > 1e-9)) return;
+    const Vec3 normal = direction / size;
+    const double way = dot(second.centre - first.centre, normal);
+    const double gap = std::abs(way) - first.reach(normal) - second.reach(normal);
+    if (!(gap > widest)) return;
+    widest = gap;
+    best = way < 0.0 ? -normal : normal;
+  };
+  for (const Vec3& a : first.axes) try_direction(a);
+  for (const Vec3& b : second.axes) try_direction(b);
+  for (const Vec3& a : first.axes)
+    for (const Vec3& b : second.axes) try_direction(cross(a, b));
+  if (widest < 0.0) return {widest, best};
+  Vec3 least = second.centre - first.centre;
+  const auto keep = [&](const Vec3& way) {
+    if (norm_squared(way) < norm_squared(least)) least = way;
+  };
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 own = first.corner(corner);
+    const Vec3 other = second.corner(corner);
+    keep(second.nearest(own) - own);
+    keep(other - first.nearest(other));
+  }
+  first.for_each_edge([&](const Vec3& a, const Vec3& b) {
+    second.for_each_edge([&](const Vec3& c, const Vec3& d) { keep(between_segments(a, b, c, d)); });
+  });
+  return {norm(least), least};
+}
+
 /// The gap of a pair over time, and how fast it can change.
 class PairGap {
  public:
   explicit PairGap(const TurningPair& pair)
       : first_(parts_of(pair.first)),
         second_(parts_of(pair.second)),
+        first_box_(box_of(pair.first)),
+        second_box_(box_of(pair.second)),
         largest_rate_(norm(pair.second.start.velocity - pair.first.start.velocity) +
                       turning_speed(pair.first) + turning_speed(pair.second)) {}
 
@@ -70,6 +144,10 @@ class PairGap {
     Vec3 way{};  ///< from an axis of the first body to one of the second
   };
   Value at(double time) const {
+    if (first_box_) {
+      const auto [gap, way] = between_boxes(first_box_->at(time), second_box_->at(time));
+      return {gap, way};
+    }
     ends_.clear();
     for (const Part& part : second_) ends_.push_back(part.at(time));
     Value least;
@@ -134,6 +212,18 @@ class PairGap {
       return {end, is_ball ? end : b.at(time)};
     }
   };
+  /// A box, its middle and the ends of its unit axes.
+  struct BoxCourse {
+    std::array<CoursePoint, 4> points;
+    Vec3 half;
+
+    PlacedBox at(double time) const {
+      const Vec3 centre = points[0].at(time);
+      return {centre,
+              {points[1].at(time) - centre, points[2].at(time) - centre, points[3].at(time) - centre},
+              half};
+    }
+  };
   struct Search {
     std::optional<double> open{};     ///< start of the first interval that may have a contact
     std::optional<double> contact{};  ///< a time at which the two certainly touch
@@ -147,6 +237,12 @@ class PairGap {
     for (const RigidPart& part : body.parts)
       parts.push_back({{body, part.a}, {body, part.b}, part.radius, part.a == part.b});
     return parts;
+  }
+  static std::optional<BoxCourse> box_of(const TurningBody& body) {
+    if (body.parts[0].more.empty()) return std::nullopt;
+    return BoxCourse{{CoursePoint(body, {}), CoursePoint(body, {1, 0, 0}), CoursePoint(body, {0, 1, 0}),
+                      CoursePoint(body, {0, 0, 1})},
+                     half_edges(body.parts[0])};
   }
   static double turning_speed(const TurningBody& body) {
     return reach(body) * norm(body.rotation.angular_velocity);
@@ -172,6 +268,7 @@ class PairGap {
   }
 
   std::vector<Part> first_, second_;
+  std::optional<BoxCourse> first_box_, second_box_;
   double largest_rate_;
   mutable std::vector<Ends> ends_;
 };
@@ -180,11 +277,18 @@ TurningBody any_body(const PairKind& kind, Random& random) {
   TurningBody body{.start = {random.point_in_ball(), random.point_in_ball()}};
   const double turn = kind.turns_fast ? random.uniform(4.0 * pi, 16.0 * pi) : random.uniform(0.0, 0.5 * pi);
   body.rotation = {rotation_by(pi * random.point_in_ball()), turn * random.unit_vector()};
-  if (kind.is_cluster) {
+  if (kind.shape == PairShape::cluster) {
     for (int k = 0; k < cluster_balls; ++k) {
       const Vec3 centre = random.point_in_ball();
       body.parts.push_back({centre, centre, random.uniform(0.1, 0.3)});
     }
+    return body;
+  }
+  if (kind.shape == PairShape::box) {
+    Vec3 half;
+    for (int axis = 0; axis < 3; ++axis) half[axis] = random.uniform(0.1, 0.7);
+    if (random.bits() % 4 == 0) half = {0.001 * half.z, 0.001 * half.z, half.z};
+    body.parts.push_back(box_part({-half, half}, 0.0));
     return body;
   }
   const double half = random.uniform(0.3, 1.0);
@@ -226,10 +330,13 @@ std::optional<TurningPair> draw_pair(const PairKind& kind, bool grazes, Random& 
 
 }  // namespace
 
+Vec3 half_edges(const RigidPart& box) { return -box.a; }
+
 double reach(const TurningBody& body) {
   double farthest = 0.0;
   for (const RigidPart& part : body.parts)
     farthest = std::max({farthest, norm(part.a) + part.radius, norm(part.b) + part.radius});
+  // All corners of a box are as far away as its first one.
   return farthest;
 }
 

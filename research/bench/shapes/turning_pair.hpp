@@ -19,6 +19,9 @@ struct TurningBody {
   Rotation rotation{};
 };
 
+/// Returns half of the edges of a box_part() around the position.
+Vec3 half_edges(const RigidPart& box);
+
 /// Returns the radius of the ball around the position that contains all parts.
 double reach(const TurningBody& body);
 
@@ -40,18 +43,20 @@ std::optional<FirstContact> true_contact(const TurningPair& pair);
 /// Returns the least gap in [0, 1], as far as a thousand samples find it.
 double least_gap(const TurningPair& pair);
 
+/// A cluster has 8 balls. A capsule, along z, and a sharp box have their middle at the position.
+enum class PairShape { capsule, cluster, box };
 struct PairKind {
   std::string_view name;
-  bool is_cluster;  ///< of 8 balls; else one capsule with its middle at the position, along z
+  PairShape shape;
   bool turns_fast;  ///< by 2 to 8 turns; else by at most a quarter
 };
-inline constexpr PairKind pair_kinds[] = {{"capsules", false, false},
-                                          {"capsules-fast", false, true},
-                                          {"clusters", true, false},
-                                          {"clusters-fast", true, true}};
+inline constexpr PairKind pair_kinds[] = {
+    {"capsules", PairShape::capsule, false}, {"capsules-fast", PairShape::capsule, true},
+    {"clusters", PairShape::cluster, false}, {"clusters-fast", PairShape::cluster, true},
+    {"boxes", PairShape::box, false},        {"boxes-fast", PairShape::box, true}};
 
 /// Returns `count` random pairs that are apart at time 0. Every third one comes as near as 1e-6 to 1e-3 to a
-/// grazing contact, from either side. Of the capsules a quarter are 1000 times as long as wide.
+/// grazing contact, from either side. Of the capsules and boxes a quarter are 1000 times as long as wide.
 std::vector<TurningPair> draw_pairs(const PairKind& kind, std::size_t count, std::uint64_t seed);
 
 }  // namespace kinesphere::program

@@ -17,7 +17,7 @@ TEST_F(BenchShapesTest, TheWorldFindsEveryContactAtItsTime) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto table = csv_rows(read_text(path("out-bench/shapes.csv")));
   const bool has_fcl = result.out.find("FCL is left out") == std::string::npos;
-  ASSERT_EQ(table.size(), 1u + 4u * (has_fcl ? 6u : 3u)) << result.out;
+  ASSERT_EQ(table.size(), 1u + 6u * (has_fcl ? 6u : 3u)) << result.out;
   for (std::size_t row = 0; row + 1 < table.size(); ++row) {
     const auto number = [&](const char* column) { return std::stod(csv_cell(table, row, column)); };
     SCOPED_TRACE(csv_cell(table, row, "kind") + ", " + table[row + 1][1]);
