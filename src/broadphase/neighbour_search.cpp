@@ -144,25 +144,27 @@ void NeighbourSearch::search_other_levels(const BroadPhase& windows, const Start
         (is_own && !windows.space().repeats()))
       continue;
     const SweptSphereTable& table = other.spheres.table();
-    const auto note = [&](const ImageSearch& image, std::uint32_t slot) {
-      if (is_own && (!image.shifted || slot <= some.slot + image.k)) return;
+    const auto note = [&](std::uint32_t k, std::uint32_t slot) {
+      if (is_own && slot <= some.slot + k) return;
       const std::uint32_t number = table.number_at(slot);
       if (number != SweptSphereTable::free_slot)
-        pairs_.push_back({some.own.spheres.table().number_at(some.slot + image.k), number});
+        pairs_.push_back({some.own.spheres.table().number_at(some.slot + k), number});
     };
     searches_.clear();
-    images_.clear();
+    searching_.clear();
     for (std::uint32_t k = 0; k < some.count; ++k) {
       const double end = some.own.window.end;
       const auto add = [&](const InflatedBound& image, bool shifted) {
+        // search_behind() finds the neighbours in the body's own place.
+        if (is_own && !shifted) return;
         other.spheres.add_search(other.query(image, now, end), searches_);
-        images_.push_back({k, shifted});
+        searching_.push_back(k);
       };
       if (for_each_image(windows.space(), other, bounds_[k], now, end, add)) continue;
-      for (std::uint32_t slot = 0; slot < table.slots(); ++slot) note({k, true}, slot);
+      for (std::uint32_t slot = 0; slot < table.slots(); ++slot) note(k, slot);
     }
     other.spheres.make(searches_);
-    searches_.for_each_found([&](std::uint32_t query, std::uint32_t slot) { note(images_[query], slot); });
+    searches_.for_each_found([&](std::uint32_t query, std::uint32_t slot) { note(searching_[query], slot); });
   }
 }
 

@@ -67,11 +67,6 @@ class NeighbourSearch {
     std::uint32_t slot;
     std::uint32_t count;
   };
-  /// A search for the k-th body of a batch, in its own place or shifted to another image.
-  struct ImageSearch {
-    std::uint32_t k;
-    bool shifted;
-  };
 
   static bool has_several_images(const BroadPhase& windows);
   static Started started_at(std::span<const GridLevel> layers, std::size_t k, std::size_t most);
@@ -80,8 +75,8 @@ class NeighbourSearch {
   void search_level(const Space& space, const GridLevel& layer, std::uint32_t number,
                     const InflatedBound& bound, double now, double end, const SweptSphere* entered);
 
-  SweptSphereSearches searches_;     ///< queries for one grid level
-  std::vector<ImageSearch> images_;  ///< body and image of each query of search_other_levels()
+  SweptSphereSearches searches_;          ///< queries for one grid level
+  std::vector<std::uint32_t> searching_;  ///< index in its batch of the body of each query
   std::vector<InflatedBound> bounds_;
   std::vector<std::uint32_t> numbers_;
   std::vector<BodyPair> pairs_;
