@@ -36,13 +36,8 @@ Box box_of_corners(const py::object& lower, const py::object& upper) {
 
 Hull hull_of(const py::object& points, double radius) {
   const Argument argument{"Hull", "points"};
-  const Numbers numbers(points, argument);
-  if (numbers.dimensions() != 2 || numbers.length(0) == 0 ||
-      (numbers.length(1) != 2 && numbers.length(1) != 3))
-    refuse(argument, "must have shape (n, 3) or (n, 2), with n >= 1", "has shape " + numbers.shape());
-  std::vector<Vec3> found;
-  for (std::size_t k = 0; k < numbers.length(0); ++k)
-    found.push_back({numbers.at(k, 0), numbers.at(k, 1), numbers.length(1) == 3 ? numbers.at(k, 2) : 0.0});
+  const std::vector<Vec3> found = vectors_of(points, argument, true);
+  if (found.empty()) refuse(argument, "must have at least one row", "has none");
   return {hull_part(found, radius)};
 }
 

@@ -56,10 +56,10 @@ class PendingEvents {
           event.second == no_body ? first.wanted : wanted_of(first, sphere(graph.number_of(event.second))));
     }
   }
-  /// Ends all contacts and overlaps of a body that is about to be removed.
+  /// Ends all contacts and overlaps of a body that is about to be removed or disabled.
   template <class SphereNow>
-  void remove_body(ContactGraph& graph, std::uint32_t body, double time, SphereNow sphere,
-                   const std::optional<Box>& box) {
+  void end_all_contacts(ContactGraph& graph, std::uint32_t body, double time, SphereNow sphere,
+                        const std::optional<Box>& box) {
     end_contacts(graph, body, time, sphere, box, [](const Event&) { return true; });
   }
 

@@ -125,9 +125,8 @@ void EventProcessor::detach(std::uint32_t number) {
     note_linked_conflicts(number);
     if (!log_->conflicts.empty()) return;
   }
-  events_.end_contacts(
-      contacts(), number, time_, [this](std::uint32_t other) { return sphere(other); }, bodies().walls(),
-      [](const Event&) { return true; });
+  events_.end_all_contacts(
+      contacts(), number, time_, [this](std::uint32_t other) { return sphere(other); }, bodies().walls());
   Body& body = bodies()[number];
   ++body.revision;
   body.dirty = body.relocated = false;

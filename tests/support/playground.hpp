@@ -53,6 +53,13 @@ class Playground {
     return id;
   }
 
+  /// Adds a rigid body whose position moves with its plan.
+  BodyId add_rigid_body(const RigidBody& rigid) {
+    const BodyId id = world.add_rigid_body(rigid).value();
+    start_course(id, rigid.body);
+    return id;
+  }
+
   /// Starts the true motion of a body that has been added to the world already.
   void start_course(BodyId id, const BodyDefinition& body, std::optional<Vec3> acceleration = std::nullopt) {
     if (id.index >= courses_.size()) courses_.resize(id.index + 1);

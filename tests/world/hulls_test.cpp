@@ -17,11 +17,6 @@ constexpr double tolerance = 1e-9;
 
 class Hulls : public testing::Test {
  protected:
-  BodyId add(const RigidBody& body) {
-    const BodyId id = p.world.add_rigid_body(body).value();
-    p.start_course(id, body.body);
-    return id;
-  }
   /// A cube with edges of length 1.
   static RigidBody cube(const Vec3& position, const Vec3& velocity = {}, const Vec3& spin = {}) {
     return {.body = {.position = position, .velocity = velocity},
@@ -34,8 +29,8 @@ class Hulls : public testing::Test {
 };
 
 TEST_F(Hulls, ACubeRestsOnAnotherAndSlidesOff) {
-  add(cube({0, 0, 0}));
-  const BodyId upper = add(cube({0.2, 0.1, 1.0}));
+  p.add_rigid_body(cube({0, 0, 0}));
+  const BodyId upper = p.add_rigid_body(cube({0.2, 0.1, 1.0}));
   const auto begin = p.advance(1.0);
   ASSERT_TRUE(begin && begin->kind == EventKind::contact_begin);
   EXPECT_NEAR(std::abs(begin->normal.z), 1.0, 1e-12);
@@ -55,8 +50,8 @@ TEST_F(Hulls, EdgesGrazeAtAHundredRadiansPerTime) {
   const double reach = 0.5 * std::numbers::sqrt2;
   for (const double beyond : {1e-3, 1e-6, 5e-9, -5e-9, -1e-6, -1e-3}) {
     p = Playground(WorldDefinition{.contact_tolerance = tolerance});
-    add(cube({0, 0, 0}, {}, {0, 0, 100}));
-    add(cube({reach + 0.5 + beyond, 0, 0.3}));
+    p.add_rigid_body(cube({0, 0, 0}, {}, {0, 0, 100}));
+    p.add_rigid_body(cube({reach + 0.5 + beyond, 0, 0.3}));
     const auto event = p.advance(0.05);
     ASSERT_EQ(event.has_value(), beyond < 0.0) << beyond;
     if (!event) continue;
@@ -76,11 +71,11 @@ TEST_F(Hulls, NeedlesCrossWhereTheirEdgesMeet) {
     p = Playground(WorldDefinition{.contact_tolerance = tolerance});
     RigidBody needle = cube({});
     needle.parts = {box_part({{-0.5, -0.0005, -0.0005}, {0.5, 0.0005, 0.0005}}, 0.0)};
-    add(needle);
+    p.add_rigid_body(needle);
     needle.body.position = {0.6, 0.0, 0.001 + above};
     needle.rotation.orientation = rotation_by({0, 0, std::numbers::pi / 2});
     needle.body.velocity = {-0.5, 0, 0};
-    add(needle);
+    p.add_rigid_body(needle);
     const auto event = p.advance(1.0);
     ASSERT_EQ(event.has_value(), above < 0.0);
     if (event) {
@@ -99,7 +94,7 @@ TEST_F(Hulls, BoxesThatBounceKeepTheirEnergy) {
     const auto side = [k](int bit) { return k >> bit & 1 ? 1.5 : -1.5; };
     RigidBody body = cube({side(0), side(1), side(2)}, random.point_in_ball(), 3.0 * random.point_in_ball());
     body.parts[0].radius = 1e-6;
-    ids.push_back(add(body));
+    ids.push_back(p.add_rigid_body(body));
   }
   const auto energy = [&] {
     double sum = 0.0;
@@ -127,10 +122,10 @@ TEST_F(Hulls, BoxesThatBounceKeepTheirEnergy) {
 /// A cube hops within the tolerance: not the gap but the turn of its velocity is the event.
 TEST_F(Hulls, ASharpCubeThatComesBackWithinTheToleranceIsAnImpact) {
   p = Playground(WorldDefinition{.contact_tolerance = 0.01, .contacts = ContactEvents::impacts});
-  add(cube({}));
+  p.add_rigid_body(cube({}));
   RigidBody upper = cube({0.1, 0.2, 1.005}, {0, 0, 0.01});
   upper.body.planned_acceleration.z = -1;
-  add(upper);
+  p.add_rigid_body(upper);
   const auto event = p.advance(1.0);
   ASSERT_TRUE(event);
   EXPECT_GT(event->approach_speed, 0.0);
@@ -142,7 +137,7 @@ TEST_F(Hulls, ASquareInThePlaneTurnsIntoABox) {
   RigidBody square = cube({}, {}, {0, 0, 2});
   square.parts = {box_part({{-0.5, -0.5, 0}, {0.5, 0.5, 0}}, 0.0)};
   EXPECT_EQ(square.parts[0].more.size(), 2u);
-  add(square);
+  p.add_rigid_body(square);
   ASSERT_TRUE(p.world.add_static({.shape = Box{{0.6, -9, 0}, {2, 9, 0}}}));
   const auto event = p.advance(1.0);
   ASSERT_TRUE(event);

@@ -530,11 +530,6 @@ RigidBody dumbbell(const Vec3& position, const Vec3& velocity = {}, const Vec3& 
 /// World of bodies that fly freely and bounce without loss; the world turns them.
 class FreeFlight : public testing::Test {
  protected:
-  BodyId add(const RigidBody& body) {
-    const BodyId id = p.world.add_rigid_body(body).value();
-    p.start_course(id, body.body);
-    return id;
-  }
   void bounce_at(const Event& event) {
     const Bounce after = bounce(event, 1.0);
     p.set_velocity(event.first, after.first_velocity);
@@ -573,8 +568,8 @@ TEST_F(FreeFlight, BouncesKeepMomentaAndEnergy) {
     other.parts.push_back({{0, 0.5, 0}, {0, -1, 0.5}, 0.2});
     other.inertia = {random.uniform(), random.uniform(), random.uniform()};
     other.body.mass = 0.1 + random.uniform();
-    const BodyId a = add(one);
-    const BodyId b = add(other);
+    const BodyId a = p.add_rigid_body(one);
+    const BodyId b = p.add_rigid_body(other);
     const auto event = p.advance(10.0);
     if (!event) continue;
     ++bounces;
@@ -591,7 +586,7 @@ TEST_F(FreeFlight, BouncesKeepMomentaAndEnergy) {
 }
 
 TEST_F(FreeFlight, ASpinningDumbbellHitsAtTheTimeOfItsRotation) {
-  add(dumbbell({0, 0, 0}, {}, {0, 0, 1}));
+  p.add_rigid_body(dumbbell({0, 0, 0}, {}, {0, 0, 1}));
   const BodyId ball = p.add({.radius = 0.5, .position = {0, -1.5, 0}});
   // The ball of the part at -x comes to (0, -1, 0) after a quarter turn; the two touch when it is within 1 of
   // the other ball: cos(angle) from there.
@@ -609,7 +604,7 @@ TEST_F(FreeFlight, ASpinningDumbbellHitsAtTheTimeOfItsRotation) {
 
 TEST_F(FreeFlight, ARecordingIsReplayed) {
   for (int k = 0; k < 5; ++k)
-    add(dumbbell({3.0 * k, 0.1 * k, 0}, {k % 2 == 0 ? 1.0 : -1.0, 0, 0}, {0.3 * k, 0, 1.0}));
+    p.add_rigid_body(dumbbell({3.0 * k, 0.1 * k, 0}, {k % 2 == 0 ? 1.0 : -1.0, 0, 0}, {0.3 * k, 0, 1.0}));
   p.world.start_recording().value();
   int events = 0;
   p.run(20.0, [&](const Event& event) {
