@@ -30,10 +30,14 @@ function(kinesphere_relocatable target)
   target_compile_options(${target} PRIVATE -fno-semantic-interposition)
 endfunction()
 
-# The sources of a folder are compiled together, as if they were one, which reads headers once. With the argument `target`
-# those of all folders are, which is fastest for a small target. KINESPHERE_BATCH overrides the choice for all targets:
-# `target`, or each file alone. Precondition: no name stands for two things in a target.
-set(KINESPHERE_BATCH folder CACHE STRING "What is compiled together: each folder, target or file")
+# The sources of a target are compiled together, as if they were one, which reads headers once: a third less work than
+# each folder together. KINESPHERE_BATCH chooses what is compiled together: the `target`, each `folder`, which takes
+# less time after a change and less memory, or each `file` alone. Precondition: no name stands for two things in a target.
+if(CMAKE_BUILD_TYPE STREQUAL "Debug")
+  set(KINESPHERE_BATCH folder CACHE STRING "What is compiled together: target, folder or file")
+else()
+  set(KINESPHERE_BATCH target CACHE STRING "What is compiled together: target, folder or file")
+endif()
 mark_as_advanced(KINESPHERE_BATCH)
 function(kinesphere_batches target)
   if(KINESPHERE_BATCH STREQUAL "file")
@@ -47,7 +51,7 @@ function(kinesphere_batches target)
       cmake_path(GET source PARENT_PATH folder)
       cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE group)
       string(MAKE_C_IDENTIFIER "${group}" group)
-      if(KINESPHERE_BATCH STREQUAL "target" OR "${ARGV1}" STREQUAL "target")
+      if(KINESPHERE_BATCH STREQUAL "target")
         set(group all)
       endif()
       set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})

@@ -48,7 +48,7 @@ for configuration in "${configurations[@]}"; do
   shared=OFF
   if [[ $name == *shared ]]; then shared=ON; fi
   if ! { cmake -S . -B "$build" -G Ninja -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="$flags" \
-           -DCMAKE_BUILD_TYPE=None -DKINESPHERE_BUILD_TESTS=ON -DKINESPHERE_BATCH=target \
+           -DCMAKE_BUILD_TYPE=None -DKINESPHERE_BUILD_TESTS=ON \
            -DBUILD_SHARED_LIBS="$shared" &&
          cmake --build "$build" --target scene_hash "${jobs[@]}"; } >"$build/build.log" 2>&1; then
     cat "$build/build.log"

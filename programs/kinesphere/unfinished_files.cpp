@@ -11,7 +11,7 @@ namespace {
 constexpr std::array stopping{SIGHUP, SIGINT, SIGQUIT, SIGPIPE, SIGTERM, SIGXCPU, SIGXFSZ};
 
 /// Changed only while the stop signals are blocked.
-UnfinishedFile* first = nullptr;
+UnfinishedFile* newest = nullptr;
 
 sigset_t stopping_signals() {
   sigset_t signals;
@@ -39,7 +39,7 @@ class SignalsWait {
 
 /// Calls only async-signal-safe functions.
 void remove_unfinished_files(int signal) {
-  for (const UnfinishedFile* file = first; file != nullptr; file = file->next_) ::unlink(file->path_);
+  for (const UnfinishedFile* file = newest; file != nullptr; file = file->next_) ::unlink(file->path_);
   // The handler is reset (SA_RESETHAND): this stops the program once the handler returns.
   ::raise(signal);
 }
@@ -61,14 +61,14 @@ void watch_for_signals() {
 
 UnfinishedFile::UnfinishedFile(const char* path) : path_(path) {
   const SignalsWait wait;
-  next_ = first;
-  first = this;
+  next_ = newest;
+  newest = this;
   watch_for_signals();
 }
 
 UnfinishedFile::~UnfinishedFile() {
   const SignalsWait wait;
-  UnfinishedFile** place = &first;
+  UnfinishedFile** place = &newest;
   while (*place != this) place = &(*place)->next_;
   *place = next_;
 }

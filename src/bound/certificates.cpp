@@ -9,8 +9,6 @@
 namespace kinesphere {
 namespace {
 
-using rounding::margin;
-
 /// Solves certificates that are one quadratic: the claim holds while c + b d + 1/2 a d^2 > 0, with d the time
 /// after `from`.
 double time_of_crossing(double from, double until, double c, double b, double a) {
@@ -69,11 +67,11 @@ double earliest_meeting(const Bound& a, const Bound& b, double from, double unti
     const double length = measured > 0x1p-500 ? measured : 0.0;
     const Vec3 n = length > 0.0 ? centre / length : Vec3{};
     const double c =
-        (length - reach) - motion.growth_at(d) - margin * (motion.size_at(d) + std::abs(distance));
+        (length - reach) - motion.growth_at(d) - rounding::margin * (motion.size_at(d) + std::abs(distance));
     const double speed = dot(n, motion.velocity_at(d)) - motion.growth_speed_at(d) -
-                         margin * (motion.velocity_size + motion.acceleration_size * d);
+                         rounding::margin * (motion.velocity_size + motion.acceleration_size * d);
     const double acceleration =
-        dot(n, motion.acceleration) - motion.acceleration_limit - margin * motion.acceleration_size;
+        dot(n, motion.acceleration) - motion.acceleration_limit - rounding::margin * motion.acceleration_size;
     return rounding::first_crossing(c, speed, acceleration);
   });
 }
@@ -88,14 +86,14 @@ double earliest_separation(const Bound& a, const Bound& b, double from, double u
     const double size = motion.size_at(d) + std::abs(distance);
     const double velocity_size = motion.velocity_size + motion.acceleration_size * d;
     const double slack = reach - motion.growth_at(d);  // S(d)
-    if (!(slack > margin * size)) return 0.0;
+    if (!(slack > rounding::margin * size)) return 0.0;
     const double shrinking = motion.growth_speed_at(d);  // -S'(d)
     const double alpha = motion.acceleration_limit;
-    const double length = norm(centre) + margin * size;
+    const double length = norm(centre) + rounding::margin * size;
 
     // p(d + e) = q0 + q1 e + q2 e^2 + q3 e^3 + q4 e^4, each coefficient lowered by its possible rounding
     // error.
-    const double wrong = 4.0 * margin;
+    const double wrong = 4.0 * rounding::margin;
     const double q0 = (slack - length) * (slack + length) - wrong * (slack + length) * size;
     const double q1 =
         -2.0 * (slack * shrinking + dot(centre, velocity)) - wrong * (slack + length + size) * velocity_size;
@@ -135,20 +133,20 @@ double earliest_meeting(const Bound& bound, const HalfSpace& wall, double from, 
                         double distance) {
   const Projection p(bound, wall.normal, from);
   const double size = p.position_size + std::abs(wall.offset) + std::abs(distance);
-  return time_of_crossing(from, until,
-                          (p.position - wall.offset) - bound.radius - p.growth - distance - margin * size,
-                          p.velocity - p.growth_speed - margin * p.velocity_size,
-                          p.acceleration - bound.acceleration_limit - margin * p.acceleration_size);
+  return time_of_crossing(
+      from, until, (p.position - wall.offset) - bound.radius - p.growth - distance - rounding::margin * size,
+      p.velocity - p.growth_speed - rounding::margin * p.velocity_size,
+      p.acceleration - bound.acceleration_limit - rounding::margin * p.acceleration_size);
 }
 
 double earliest_separation(const Bound& bound, const HalfSpace& wall, double from, double until,
                            double distance) {
   const Projection p(bound, wall.normal, from);
   const double size = p.position_size + std::abs(wall.offset) + std::abs(distance);
-  return time_of_crossing(from, until,
-                          (wall.offset - p.position) + bound.radius - p.growth + distance - margin * size,
-                          -p.velocity - p.growth_speed - margin * p.velocity_size,
-                          -p.acceleration - bound.acceleration_limit - margin * p.acceleration_size);
+  return time_of_crossing(
+      from, until, (wall.offset - p.position) + bound.radius - p.growth + distance - rounding::margin * size,
+      -p.velocity - p.growth_speed - rounding::margin * p.velocity_size,
+      -p.acceleration - bound.acceleration_limit - rounding::margin * p.acceleration_size);
 }
 
 double earliest_exit(const Bound& bound, const Box& box, double from, double until) {
@@ -157,15 +155,17 @@ double earliest_exit(const Bound& bound, const Box& box, double from, double unt
   for (int axis = 0; axis < 3; ++axis) {
     if (box.upper[axis] == infinity) continue;
     const Projection p(bound, axis, from);
-    const double speed_margin = p.growth_speed + margin * p.velocity_size;
-    const double acceleration_margin = bound.acceleration_limit + margin * p.acceleration_size;
+    const double speed_margin = p.growth_speed + rounding::margin * p.velocity_size;
+    const double acceleration_margin = bound.acceleration_limit + rounding::margin * p.acceleration_size;
     const auto crossing = [&](double distance, double wall, double velocity, double acceleration) {
-      const double c = distance - bound.radius - p.growth - margin * (p.position_size + std::abs(wall));
+      const double c =
+          distance - bound.radius - p.growth - rounding::margin * (p.position_size + std::abs(wall));
       const double b = velocity - speed_margin;
       const double a = acceleration - acceleration_margin;
       // A concave function has its minimum at an end of the interval.
       const double left = c + (b + 0.5 * a * span) * span;
-      if (a <= 0.0 && c > 0.0 && left > margin * (c + (std::abs(b) - a * span) * span)) return infinity;
+      if (a <= 0.0 && c > 0.0 && left > rounding::margin * (c + (std::abs(b) - a * span) * span))
+        return infinity;
       return rounding::first_crossing(c, b, a);
     };
     first = std::min(first,

@@ -30,7 +30,7 @@ class PlacedPart {
 
   bool is_hull() const { return count_ > 2; }
   double radius() const { return radius_; }
-  Segment axis() const { return {ends_[0], ends_[1]}; }
+  LineSegment axis() const { return {ends_[0], ends_[1]}; }
   std::span<const Vec3> points() const {
     return is_hull() ? std::span<const Vec3>(hull_) : std::span(ends_).first(count_);
   }
@@ -72,8 +72,8 @@ NearestParts of_hulls(const NearestInHulls& nearest, const PlacedPart& first, do
 NearestParts of_two(const PlacedPart& first, const PlacedPart& second) {
   if (first.is_hull() || second.is_hull())
     return of_hulls(nearest_in_hulls(first.points(), second.points()), first, second.radius());
-  const Segment p = first.axis();
-  const Segment q = second.axis();
+  const LineSegment p = first.axis();
+  const LineSegment q = second.axis();
   const NearestOnSegments at = nearest_on_segments(p, q);
   const Vec3 from = p.at(at.first);
   const Vec3 way = q.at(at.second) - from;

@@ -37,7 +37,7 @@ class PartBound {
   Bound of_point(const Vec3& point) const { return body_.of_point(point, part_.radius); }
   /// The axis of a ball or capsule, or the points of a hull, where they are at a time if they go straight on,
   /// relative to an origin.
-  Segment axis(double time, const Vec3& origin = {}) const {
+  LineSegment axis(double time, const Vec3& origin = {}) const {
     const Vec3 a = a_.centre_at(time) - origin;
     return {a, is_ball() ? a : b_.centre_at(time) - origin};
   }
@@ -96,8 +96,8 @@ struct NearestPoints {
   Vec3 normal;         ///< unit vector from the second towards the first
 
   NearestPoints(const PartBound& a, const PartBound& b, double time) {
-    const Segment p = a.axis(time);
-    const Segment q = b.axis(time);
+    const LineSegment p = a.axis(time);
+    const LineSegment q = b.axis(time);
     const NearestOnSegments at = nearest_on_segments(p, q);
     first = on_axis(a, at.first);
     second = on_axis(b, at.second);
@@ -371,7 +371,7 @@ struct AxisBesideSolid {
   template <class Shape>
   AxisBesideSolid(const PartBound& part, const Shape& shape, double time) {
     const auto& solid = solid_of(shape);
-    const Segment axis = part.axis(time, bound_of_point(shape, {}, time).centre_at(time));
+    const LineSegment axis = part.axis(time, bound_of_point(shape, {}, time).centre_at(time));
     const double position = nearest_on_segment(axis, solid);
     nearest = on_axis(part, position);
     normal = nearest_point(solid, axis.at(position)).normal;

@@ -10,7 +10,7 @@
 
 namespace kinesphere {
 
-struct Segment {
+struct LineSegment {
   Vec3 a, b;
 
   Vec3 at(double part) const { return a + (b - a) * part; }
@@ -23,7 +23,7 @@ struct NearestOnSegments {
 };
 
 /// Ericson, Real-Time Collision Detection, 5.1.9.
-inline NearestOnSegments nearest_on_segments(const Segment& p, const Segment& q) {
+inline NearestOnSegments nearest_on_segments(const LineSegment& p, const LineSegment& q) {
   const Vec3 along_p = p.b - p.a;
   const Vec3 along_q = q.b - q.a;
   const Vec3 between = p.a - q.a;
@@ -51,16 +51,16 @@ inline NearestOnSegments nearest_on_segments(const Segment& p, const Segment& q)
 /// Calls visit(edge) for each edge of the solid.
 template <class Visit>
 void for_each_edge(const Triangle& t, Visit visit) {
-  visit(Segment{t.a, t.b});
-  visit(Segment{t.b, t.c});
-  visit(Segment{t.c, t.a});
+  visit(LineSegment{t.a, t.b});
+  visit(LineSegment{t.b, t.c});
+  visit(LineSegment{t.c, t.a});
 }
 
 template <class Visit>
 void for_each_edge(const Box& box, Visit visit) {
   for (int axis = 0; axis < 3; ++axis)
     for (int corner = 0; corner < 4; ++corner) {
-      Segment edge{box.lower, box.lower};
+      LineSegment edge{box.lower, box.lower};
       const int next = (axis + 1) % 3;
       const int last = (axis + 2) % 3;
       edge.b[axis] = box.upper[axis];
@@ -71,7 +71,7 @@ void for_each_edge(const Box& box, Visit visit) {
 }
 
 /// Returns the middle of the part of the segment that is inside the box, or nullopt if there is none.
-inline std::optional<double> crossing(const Segment& segment, const Box& box) {
+inline std::optional<double> crossing(const LineSegment& segment, const Box& box) {
   double from = 0.0;
   double to = 1.0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -88,7 +88,7 @@ inline std::optional<double> crossing(const Segment& segment, const Box& box) {
 }
 
 /// Returns where the segment crosses the triangle, or nullopt if it does not.
-inline std::optional<double> crossing(const Segment& segment, const Triangle& t) {
+inline std::optional<double> crossing(const LineSegment& segment, const Triangle& t) {
   const Vec3 normal = cross(t.b - t.a, t.c - t.a);
   const double start = dot(normal, segment.a - t.a);
   const double end = dot(normal, segment.b - t.a);
@@ -105,13 +105,13 @@ inline std::optional<double> crossing(const Segment& segment, const Triangle& t)
 /// Returns the position on the segment, from 0 at a to 1 at b, of its point nearest to the solid. Unless the
 /// two intersect, that point is an end, or the nearest one to an edge of the solid.
 template <class Solid>
-double nearest_on_segment(const Segment& segment, const Solid& solid) {
+double nearest_on_segment(const LineSegment& segment, const Solid& solid) {
   if (const auto inside = crossing(segment, solid)) return *inside;
   const double from_a = nearest_point(solid, segment.a).distance;
   const double from_b = nearest_point(solid, segment.b).distance;
   double nearest = from_a <= from_b ? 0.0 : 1.0;
   double least = std::min(from_a, from_b);
-  for_each_edge(solid, [&](const Segment& edge) {
+  for_each_edge(solid, [&](const LineSegment& edge) {
     const NearestOnSegments at = nearest_on_segments(segment, edge);
     const double distance = norm(segment.at(at.first) - edge.at(at.second));
     if (!(distance < least)) return;
@@ -121,7 +121,7 @@ double nearest_on_segment(const Segment& segment, const Solid& solid) {
   return nearest;
 }
 
-inline double nearest_on_segment(const Segment& segment, const HalfSpace& space) {
+inline double nearest_on_segment(const LineSegment& segment, const HalfSpace& space) {
   return dot(space.normal, segment.a) <= dot(space.normal, segment.b) ? 0.0 : 1.0;
 }
 

@@ -10,13 +10,11 @@
 namespace kinesphere {
 namespace {
 
-using rounding::margin;
-
 /// Returns a plane, for any normal, with the shape on its far side (n.x <= offset): it is raised by the
 /// possible rounding error.
 template <class Solid>
 HalfSpace supporting_plane(const Solid& solid, const Vec3& normal) {
-  return {normal, reach(solid, normal) + margin * size_of(solid)};
+  return {normal, reach(solid, normal) + rounding::margin * size_of(solid)};
 }
 
 template <class Solid>
@@ -111,7 +109,7 @@ Companion companion(const Triangle& triangle, const Bound& bound, double now) {
   const auto on_face = companion_on_face(frame, bound, now);
   Companion found = on_face ? *on_face : companion_on_side(frame, bound, now);
   // While the companion is inside, each term of its path is at most about eight side lengths.
-  found.wrong = 4.0 * margin * size_of(triangle);
+  found.wrong = 4.0 * rounding::margin * size_of(triangle);
   return found;
 }
 
@@ -164,7 +162,7 @@ double earliest_separation(const Bound& bound, const Box& shape, double from, do
   // Without it, a bound that has grown by more than the distance would have no certificate, however deep in
   // the box it is.
   Bound inside = bound;
-  inside.radius = depth > 0.0 ? depth + margin * (bound.radius + std::abs(distance)) : 0.0;
+  inside.radius = depth > 0.0 ? depth + rounding::margin * (bound.radius + std::abs(distance)) : 0.0;
   const double out = earliest_exit(inside, shape, from, until);
   return depth < 0.0 && out < infinity ? separation(bound, shape, out, until, distance) : out;
 }
@@ -177,14 +175,14 @@ double earliest_separation(const Bound& bound, const Triangle& shape, double fro
 GapLimits gap_limits(const Bound& bound, const Box& shape, double t) {
   const Reported reported(bound, t);
   const double gap = nearest_point(shape, reported.centre).distance - bound.radius;
-  const double wrong = margin * (reported.size + size_of(shape));
+  const double wrong = rounding::margin * (reported.size + size_of(shape));
   return {.lower = gap - reported.growth - wrong, .upper = gap + reported.growth + wrong};
 }
 
 GapLimits gap_limits(const Bound& bound, const Triangle& shape, double t) {
   const Reported reported(bound, t);
   const double gap = nearest_point(shape, reported.centre).distance - bound.radius;
-  const double wrong = margin * (reported.size + size_of(shape));
+  const double wrong = rounding::margin * (reported.size + size_of(shape));
   // A triangle has no inside.
   return {.lower = std::max(gap - wrong, -bound.radius) - reported.growth - wrong,
           .upper = gap + reported.growth + wrong};

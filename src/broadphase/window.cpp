@@ -9,14 +9,14 @@
 namespace kinesphere {
 namespace {
 
-/// Windows at time t are no shorter than 2^-digits times the power of two of t; double precision could not
-/// represent multiples of shorter lengths.
-constexpr int digits = 50;
+/// Windows at time t are no shorter than 2^-binary_digits times the power of two of t; double precision could
+/// not represent multiples of shorter lengths.
+constexpr int binary_digits = 50;
 
 }  // namespace
 
 Window Window::at(double now, int rung) {
-  const int resolvable = std::clamp(exponent_of(now) - digits, -longest_rung, longest_rung);
+  const int resolvable = std::clamp(exponent_of(now) - binary_digits, -longest_rung, longest_rung);
   const int possible = std::clamp(rung, resolvable, longest_rung);
   return {possible, (std::floor(now * power_of_two(-possible)) + 1.0) * power_of_two(possible)};
 }

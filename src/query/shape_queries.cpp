@@ -10,8 +10,6 @@
 namespace kinesphere {
 namespace {
 
-using rounding::margin;
-
 GapLimits around(double gap, double wrong) { return {gap - wrong, gap + wrong}; }
 
 /// Gap between the projections of the two on a direction.
@@ -24,7 +22,7 @@ double gap_along(const A& a, const B& b, const Vec3& direction) {
 /// its plane, and their projections are inside it, beyond the rounding error.
 bool certainly_crosses(const Triangle& triangle, const Vec3& from, const Vec3& to) {
   const TriangleFrame frame(triangle);
-  const double wrong = margin * (size_of(triangle) + norm_one(from) + norm_one(to));
+  const double wrong = rounding::margin * (size_of(triangle) + norm_one(from) + norm_one(to));
   const auto well_inside = [&](const Vec3& place) {
     return frame.beyond(frame.in_plane(place - frame.origin())) < -wrong;
   };
@@ -60,7 +58,7 @@ RayLimits touch(const Bound& sphere, const Solid& shape, double length) {
 
 GapLimits gap_limits(const Box& region, const HalfSpace& shape) {
   return around(-reach(region, -shape.normal) - shape.offset,
-                margin * (size_of(region) + std::abs(shape.offset)));
+                rounding::margin * (size_of(region) + std::abs(shape.offset)));
 }
 
 GapLimits gap_limits(const Box& region, const Box& shape) {
@@ -86,7 +84,8 @@ GapLimits gap_limits(const Box& region, const Triangle& shape) {
     for (const Vec3& side : sides) try_direction(cross(unit, side));
   }
   const double thick = thickness(shape);
-  const double wrong = margin * (size_of(region) + norm_one(shape.a) + norm_one(shape.b) + norm_one(shape.c));
+  const double wrong =
+      rounding::margin * (size_of(region) + norm_one(shape.a) + norm_one(shape.b) + norm_one(shape.c));
   return {gap - wrong, gap + 16.0 * wrong / thick};
 }
 

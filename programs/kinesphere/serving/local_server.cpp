@@ -30,7 +30,7 @@ constexpr std::size_t max_connections = 64;
 constexpr std::size_t max_owned_bytes = std::size_t{64} << 20;
 /// Bytes of the kernel's send buffer of a connection, which would otherwise grow to several MB.
 constexpr int send_buffer = 1 << 18;
-constexpr int receive_buffer = 1 << 15;
+constexpr int request_buffer = 1 << 15;
 
 /// Blocks all signals for this thread, and for threads that it starts meanwhile, until destruction.
 class SignalsHeldOff {
@@ -55,7 +55,7 @@ FileDescriptor listen_on(int port) {
   const int yes = 1;
   ::setsockopt(listener.number(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
   ::setsockopt(listener.number(), SOL_SOCKET, SO_SNDBUF, &send_buffer, sizeof send_buffer);
-  ::setsockopt(listener.number(), SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
+  ::setsockopt(listener.number(), SOL_SOCKET, SO_RCVBUF, &request_buffer, sizeof request_buffer);
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(static_cast<std::uint16_t>(port));

@@ -43,7 +43,7 @@ std::optional<Vec3> Coordinates::geographic(const Vec3& local) const {
   return geographic_from_utm(*zone_, product(as_in_file(local), units_));
 }
 
-Axes Coordinates::axes_at(const Vec3& local) const {
+LocalAxes Coordinates::axes_at(const Vec3& local) const {
   if (!projection_) return {};
   // Differences over 22 m: long enough for their rounding, short enough for the bend of the earth.
   constexpr double degrees = 1e-4, metres = 10.0;
@@ -54,7 +54,7 @@ Axes Coordinates::axes_at(const Vec3& local) const {
   const Vec3 north = moved(degrees, 0.0) - moved(-degrees, 0.0);
   const Vec3 up = moved(0.0, metres) - moved(0.0, -metres);
   const Vec3 east = cross(north, up);
-  Axes axes{.x = east / norm(east), .y = {}, .z = up / norm(up)};
+  LocalAxes axes{.x = east / norm(east), .y = {}, .z = up / norm(up)};
   axes.y = cross(axes.z, axes.x);
   return axes;
 }

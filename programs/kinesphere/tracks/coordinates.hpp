@@ -34,7 +34,7 @@ class Coordinates {
   /// given; else nothing. Throws ProgramError for positions outside the zone's range.
   std::optional<Vec3> geographic(const Vec3& local) const;
   /// Returns east, north and up at a place on the earth; else the axes of the file.
-  Axes axes_at(const Vec3& local) const;
+  LocalAxes axes_at(const Vec3& local) const;
   /// True if motion without heights stays in the plane z = 0.
   bool are_plane() const { return !projection_ || projection_->is_plane(); }
   /// Text about the projection and its accuracy; empty without a projection.

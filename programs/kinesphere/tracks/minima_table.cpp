@@ -40,7 +40,7 @@ std::vector<Cell> minimum_row(const DistanceMinimum& minimum, const Approach& ap
   add_position(cells, closest.second, recording);
   const Vec3 way = closest.second - closest.first;
   const Vec3 velocity = minimum.second_velocity - minimum.first_velocity;
-  const Axes axes = recording.coordinates.axes_at(closest.first);
+  const LocalAxes axes = recording.coordinates.axes_at(closest.first);
   add_components(cells, axes.components(way), recording);
   add_components(cells, axes.components(velocity), recording);
   const auto add_view = [&](const Vec3& own_velocity, const Vec3& place, double sign) {

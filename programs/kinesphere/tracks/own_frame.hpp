@@ -8,7 +8,7 @@
 namespace kinesphere::program {
 
 /// Three directions at a right angle to each other, of length 1.
-struct Axes {
+struct LocalAxes {
   Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
 
   /// Returns the components of a vector.
