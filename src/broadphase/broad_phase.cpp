@@ -52,6 +52,7 @@ std::uint32_t BroadPhase::level_for(const Window& window, int level) {
 
 void BroadPhase::open(GridLevel& layer, double origin) {
   layer.open(base_, origin, size_classes_.coarseness(layer.window.rung, layer.size_class));
+  layer.spheres.set_spare_slots(has_many_changes_ && layer.window.end < infinity);
   next_end_ = std::min(next_end_, layer.window.end);
 }
 

@@ -100,8 +100,8 @@ class BroadPhase {
   /// free (Window::free_at). bound_of(number) is called by several threads concurrently.
   template <class BoundOf>
   void start(std::span<const Starter> starters, double now, BoundOf bound_of, PoolLease& lease);
-  /// Number of bodies that have started since the last end_windows().
-  std::size_t started() const;
+  /// Number of slots of the grid levels in which bodies have started since the last end_windows().
+  std::size_t started_slots() const;
 
   /// Returns a description of what is wrong with the body's registration, or nothing. Precondition:
   /// contains(number).
@@ -109,8 +109,8 @@ class BroadPhase {
   /// True if the deserialized state is consistent in a world with `bodies` bodies.
   bool is_valid(std::size_t bodies) const;
   static void serialize(auto& self, auto& archive) {
-    auto& [space, registrations, layers, levels, base, has_base, next_end] = self;
-    archive(registrations, layers, levels, base, has_base, next_end);
+    auto& [space, registrations, layers, levels, base, has_base, next_end, many_changes] = self;
+    archive(registrations, layers, levels, base, has_base, next_end, many_changes);
   }
 
  private:
@@ -163,7 +163,8 @@ class BroadPhase {
   SizeClasses size_classes_;
   Vec3 base_{};  ///< base of the frames of levels opened from now on
   bool has_base_ = false;
-  double next_end_ = infinity;  ///< see next_end()
+  double next_end_ = infinity;     ///< see next_end()
+  bool has_many_changes_ = false;  ///< many bodies changed in the windows that ended last
 };
 
 template <class BoundOf>

@@ -1,6 +1,7 @@
 // Bulk restart of windows: the bodies whose windows end start in others. They are sorted into grid levels,
 // each of which is filled as a whole.
 #include <algorithm>
+#include <utility>
 
 #include "broadphase/broad_phase.hpp"
 
@@ -10,6 +11,11 @@ namespace {
 /// A grid level that lasts through a restart is sorted again if its changes since the last sort exceed this
 /// number plus half of its bodies.
 constexpr std::uint64_t least_changes = 64;
+/// Grid levels get spare slots if more than one body in so many has changed in the windows before. Fewer
+/// changes cost less than longer searches.
+constexpr std::uint64_t bodies_for_a_change = 3;
+
+bool has_ended(double end, double now, bool all) { return all ? end < infinity : end <= now; }
 
 }  // namespace
 
@@ -18,18 +24,17 @@ constexpr std::uint64_t least_changes = 64;
 /// would take longer than sorting the few.
 template <class Visit>
 void BroadPhase::for_each_ended(double now, bool all, Visit visit) const {
-  const auto has_ended = [=](double end) { return all ? end < infinity : end <= now; };
   std::size_t most = 0;
   for (const GridLevel& layer : levels_)
-    if (has_ended(layer.window.end)) most += layer.spheres.size();
+    if (has_ended(layer.window.end, now, all)) most += layer.spheres.size();
   constexpr std::size_t few_of_all = 16;
   if (few_of_all * most >= registrations_.size()) {
     for (std::uint32_t number = 0; number < registrations_.size(); ++number)
-      if (contains(number) && has_ended(registrations_[number].end)) visit(number);
+      if (contains(number) && has_ended(registrations_[number].end, now, all)) visit(number);
     return;
   }
   for (const GridLevel& layer : levels_) {
-    if (!has_ended(layer.window.end)) continue;
+    if (!has_ended(layer.window.end, now, all)) continue;
     const SweptSphereTable& table = layer.spheres.table();
     for (std::uint32_t slot = 0; slot < table.slots(); ++slot) {
       const std::uint32_t number = table.number_at(slot);
@@ -49,16 +54,20 @@ void BroadPhase::end_windows(double now, bool all) {
   size_classes_.use_merged();
   next_end_ = infinity;
   for_each_ended(now, all, [this](std::uint32_t number) { registrations_[number].level = none; });
+  std::uint64_t changes = 0;
+  std::uint64_t bodies = 0;
   for (GridLevel& layer : levels_) {
-    const bool has_ended = all ? layer.window.end < infinity : layer.window.end <= now;
     layer.fresh = false;
-    if (has_ended || layer.is_empty()) {
+    if (has_ended(layer.window.end, now, all) || layer.is_empty()) {
+      changes += std::exchange(layer.changes, 0);
+      bodies += layer.spheres.size();
       layer.spheres.clear({});
       layer.window.end = -infinity;
     } else {
       next_end_ = std::min(next_end_, layer.window.end);
     }
   }
+  if (bodies > 0) has_many_changes_ = bodies_for_a_change * changes > bodies;
 }
 
 std::vector<int> BroadPhase::held_rungs() const {
@@ -68,7 +77,7 @@ std::vector<int> BroadPhase::held_rungs() const {
   return held;
 }
 
-std::size_t BroadPhase::started() const {
+std::size_t BroadPhase::started_slots() const {
   std::size_t all = 0;
   for (const GridLevel& layer : levels_)
     if (layer.fresh) all += layer.spheres.table().slots();

@@ -132,7 +132,8 @@ void NeighbourSearch::search_behind(const Started& some) {
   for (std::uint32_t k = 0; k < some.count; ++k) layer.add_search_behind(some.slot + k, searches_);
   layer.make(searches_);
   searches_.for_each_found([&](std::uint32_t k, std::uint32_t slot) {
-    pairs_.push_back({layer.table().number_at(some.slot + k), layer.table().number_at(slot)});
+    const std::uint32_t number = layer.table().number_at(slot);
+    if (number != SweptSphereTable::free_slot) pairs_.push_back({some.number_at(k), number});
   });
 }
 
@@ -147,12 +148,12 @@ void NeighbourSearch::search_other_levels(const BroadPhase& windows, const Start
     const auto note = [&](std::uint32_t k, std::uint32_t slot) {
       if (is_own && slot <= some.slot + k) return;
       const std::uint32_t number = table.number_at(slot);
-      if (number != SweptSphereTable::free_slot)
-        pairs_.push_back({some.own.spheres.table().number_at(some.slot + k), number});
+      if (number != SweptSphereTable::free_slot) pairs_.push_back({some.number_at(k), number});
     };
     searches_.clear();
     searching_.clear();
     for (std::uint32_t k = 0; k < some.count; ++k) {
+      if (!bounds_[k]) continue;
       const double end = some.own.window.end;
       const auto add = [&](const InflatedBound& image, bool shifted) {
         // search_behind() finds the neighbours in the body's own place.
@@ -160,7 +161,7 @@ void NeighbourSearch::search_other_levels(const BroadPhase& windows, const Start
         other.spheres.add_search(other.query(image, now, end), searches_);
         searching_.push_back(k);
       };
-      if (for_each_image(windows.space(), other, bounds_[k], now, end, add)) continue;
+      if (for_each_image(windows.space(), other, *bounds_[k], now, end, add)) continue;
       for (std::uint32_t slot = 0; slot < table.slots(); ++slot) note(k, slot);
     }
     other.spheres.make(searches_);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,8 +33,8 @@ class NeighbourSearch {
   std::vector<std::uint32_t>& near_entered(const BroadPhase& windows, std::uint32_t number,
                                            const InflatedBound& bound, double now);
 
-  /// Returns the pairs of a started body, with an index k <= index < last below BroadPhase::started(), and a
-  /// body that near() finds for it. Calls for all indices together yield each pair of two started bodies
+  /// Returns the pairs of a started body, in a slot k <= slot < last below BroadPhase::started_slots(), and a
+  /// body that near() finds for it. Calls for all slots together yield each pair of two started bodies
   /// once. bound_of(number) is called only if there are several grid levels or space repeats. Precondition:
   /// the levels are as BroadPhase::start() left them.
   template <class BoundOf>
@@ -47,8 +48,8 @@ class NeighbourSearch {
       search_behind(some);
       if (beyond_their_layer) {
         bounds_.clear();
-        for (std::uint32_t slot = some.slot; slot < some.slot + some.count; ++slot)
-          bounds_.push_back(bound_of(some.own.spheres.table().number_at(slot)));
+        for (std::uint32_t one = 0; one < some.count; ++one)
+          bounds_.push_back(some.is_free(one) ? std::nullopt : std::optional(bound_of(some.number_at(one))));
         search_other_levels(windows, some, now);
       }
       k += some.count;
@@ -66,6 +67,9 @@ class NeighbourSearch {
     const GridLevel& own;
     std::uint32_t slot;
     std::uint32_t count;
+
+    std::uint32_t number_at(std::uint32_t k) const { return own.spheres.table().number_at(slot + k); }
+    bool is_free(std::uint32_t k) const { return number_at(k) == SweptSphereTable::free_slot; }
   };
 
   static bool has_several_images(const BroadPhase& windows);
@@ -75,9 +79,9 @@ class NeighbourSearch {
   void search_level(const Space& space, const GridLevel& layer, std::uint32_t number,
                     const InflatedBound& bound, double now, double end, const SweptSphere* entered);
 
-  SweptSphereSearches searches_;          ///< queries for one grid level
-  std::vector<std::uint32_t> searching_;  ///< index in its batch of the body of each query
-  std::vector<InflatedBound> bounds_;
+  SweptSphereSearches searches_;                      ///< queries for one grid level
+  std::vector<std::uint32_t> searching_;              ///< index in its batch of the body of each query
+  std::vector<std::optional<InflatedBound>> bounds_;  ///< of each body of a batch; none for a free slot
   std::vector<std::uint32_t> numbers_;
   std::vector<BodyPair> pairs_;
 };

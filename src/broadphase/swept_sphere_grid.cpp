@@ -13,6 +13,9 @@ namespace {
 /// the coarseness.
 constexpr std::size_t too_few_in_a_cell = 3;
 constexpr std::size_t too_many_in_a_cell = 24;
+/// Number of swept spheres for each spare slot. More spare slots make searches longer, fewer leave more swept
+/// spheres behind the sorted ones.
+constexpr std::uint32_t spheres_for_a_spare_slot = 8;
 
 }  // namespace
 
@@ -28,19 +31,41 @@ void SweptSphereGrid::clear(const SweptSphereFrame& frame) {
 }
 
 std::uint32_t SweptSphereGrid::add(std::uint32_t number, const SweptSphere& sphere, float from) {
-  widest_ = std::max(widest_, float_aabb_of(sphere, from, 1.0f).widest());
-  return table_.add(number, sphere);
+  const FloatAabb aabb = float_aabb_of(sphere, from, 1.0f);
+  widest_ = std::max(widest_, aabb.widest());
+  const std::optional<std::uint32_t> spare = spare_slot_for(aabb);
+  if (!spare) return table_.add(number, sphere);
+  table_.occupy(*spare, number, sphere);
+  return *spare;
+}
+
+/// Returns a free slot of the cell around a box, or of one near it along x, out of which the box reaches no
+/// farther than others do out of theirs.
+std::optional<std::uint32_t> SweptSphereGrid::spare_slot_for(const FloatAabb& aabb) const {
+  if (!has_spare_slots_ || sorted_ == 0) return std::nullopt;
+  const Grid::Cell middle = grid_.cell_around(aabb);
+  for (const std::int32_t way : {0, 1, -1, 2, -2}) {
+    Grid::Cell cell = middle;
+    cell[0] += way;
+    if (!(grid_.looseness(cell, aabb) <= reach_)) continue;
+    const std::uint32_t index = grid_.index_of(cell);
+    // Beyond the end of an axis that is not folded there is no such cell.
+    if (grid_.nearest_image(index, cell) != cell) continue;
+    for (std::uint32_t slot = starts_[index]; slot < starts_[index + 1]; ++slot)
+      if (is_free(slot)) return slot;
+  }
+  return std::nullopt;
 }
 
 std::optional<float> SweptSphereGrid::looseness_at(std::uint32_t slot, const SweptSphere& sphere,
                                                    float from) const {
-  assert(table_.number_at(slot) != SweptSphereTable::free_slot);
+  assert(!is_free(slot));
   // Swept spheres added since the last sort have no cell.
   if (slot >= sorted_) return 0.0f;
   const FloatAabb aabb = float_aabb_of(sphere, from, 1.0f);
   const Grid::Cell here = grid_.nearest_image(cells_[slot], grid_.cell_around(aabb));
   const float out = grid_.looseness(here, aabb);
-  return out <= grid_.edge() ? std::optional(out) : std::nullopt;
+  return out <= (has_spare_slots_ ? reach_ : grid_.edge()) ? std::optional(out) : std::nullopt;
 }
 
 void SweptSphereGrid::replace(std::uint32_t slot, const SweptSphere& sphere, float from, float looseness,
@@ -106,7 +131,7 @@ std::uint32_t SweptSphereGrid::filled_cubes(PoolLease& lease) const {
 double SweptSphereGrid::density(bool flat) const {
   if (filled_ == 0) return 0.0;
   const double edge = grid_.edge();
-  return sorted_ / (filled_ * (flat ? edge * edge : edge * edge * edge));
+  return static_cast<double>(size()) / (filled_ * (flat ? edge * edge : edge * edge * edge));
 }
 
 /// Writes the cell of each swept sphere to `cells`, the number in each cell to starts_[cell], and the
@@ -150,14 +175,22 @@ void SweptSphereGrid::for_each_range(std::size_t spheres, PoolLease& lease, Visi
   });
 }
 
-/// Assigns each swept sphere its slot: by cell and, within a cell, in the order given. Precondition:
-/// count_by_cells().
+/// Assigns each swept sphere its slot: by cell and, within a cell, in the order given, with spare slots
+/// behind. Precondition: count_by_cells().
 void SweptSphereGrid::choose_slots(const std::vector<std::uint32_t>& cells, std::vector<std::uint32_t>& slots,
-                                   PoolLease& lease) {
+                                   std::vector<SpareSlot>& spare, PoolLease& lease) {
   // Each entry of starts_ is at first the end of its cell, and counts down to the cell's begin as slots are
   // taken from the back.
   std::uint32_t sum = 0;
-  for (std::uint32_t& start : starts_) start = sum += start;
+  std::uint32_t without_spare = 0;
+  for (std::uint32_t cell = 0; cell < starts_.size(); ++cell) {
+    const std::uint32_t here = starts_[cell];
+    starts_[cell] = sum += here;
+    if (!has_spare_slots_) continue;
+    for (without_spare += here; without_spare >= spheres_for_a_spare_slot;
+         without_spare -= spheres_for_a_spare_slot)
+      spare.push_back({sum++, cell});
+  }
   for_each_range(cells.size(), lease, [&](std::uint32_t from, std::uint32_t to) {
     for (std::size_t k = cells.size(); k-- > 0;)
       if (cells[k] - from < to - from) slots[k] = --starts_[cells[k]];
@@ -171,17 +204,22 @@ float SweptSphereGrid::arrange(const UnsortedSweptSpheres& all, PoolLease& lease
   const SweptSphereSpread spread = spread_of(all, lease);
   choose_grid(all, spread, cells, lease);
   std::vector<std::uint32_t> slots(count);
-  choose_slots(cells, slots, lease);
+  std::vector<SpareSlot> spare;
+  choose_slots(cells, slots, spare, lease);
   most_behind_ = least_behind + static_cast<std::uint32_t>(4.0 * std::sqrt(static_cast<double>(count)));
-  table_.resize(count, most_behind_ + 2);
-  cells_.resize(count);
+  sorted_ = count + static_cast<std::uint32_t>(spare.size());
+  table_.resize(sorted_, most_behind_ + 2);
+  cells_.resize(sorted_);
   lease.parallel_for(count, many, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t k = begin; k < end; ++k) {
       table_.fill(slots[k], all.numbers[k], all.spheres[k]);
       cells_[slots[k]] = cells[k];
     }
   });
-  sorted_ = count;
+  for (const auto& [slot, cell] : spare) {
+    table_.leave_free(slot);
+    cells_[slot] = cell;
+  }
   return spread.largest();
 }
 
@@ -227,7 +265,12 @@ void SweptSphereGrid::add_search(const SweptSphereQuery& query, SweptSphereSearc
 
 void SweptSphereGrid::add_search_behind(std::uint32_t slot, SweptSphereSearches& searches) const {
   assert(sorted_ == table_.slots());
-  add_ranges({table_.swept_sphere_at(slot), 0.0f, 1.0f}, slot + 1, searches);
+  const SweptSphereQuery query{table_.swept_sphere_at(slot), 0.0f, 1.0f};
+  if (is_free(slot)) {
+    searches.queries.push_back(query);
+  } else {
+    add_ranges(query, slot + 1, searches);
+  }
 }
 
 bool SweptSphereGrid::is_valid() const {

@@ -17,7 +17,9 @@
 namespace kinesphere {
 
 /// Each swept sphere has a slot in the table, which stays the same until the next sort(), fill() or clear().
-/// Swept spheres added since the last sort are behind the sorted ones, and every search tests all of them.
+/// Sorted slots can have free ones among them, spare slots, one for every eight swept spheres. A swept sphere
+/// that is added later takes one near its cell; without such a slot it comes behind the sorted ones, where
+/// every search tests it.
 class SweptSphereGrid {
  public:
   /// Greatest coarseness(). It is many times the width of the widest swept sphere, which may be far less wide
@@ -31,6 +33,8 @@ class SweptSphereGrid {
   const SweptSphereTable& table() const { return table_; }
   /// Number of bodies in the grid.
   std::size_t size() const { return table_.bodies(); }
+  /// Number of slots that are sorted by cell; those added since are behind them.
+  std::uint32_t sorted_slots() const { return sorted_; }
   /// Upper limit of the widths, on any axis, of all swept spheres from the times at which they start to hold
   /// (in units of the frame).
   float widest() const { return widest_; }
@@ -40,12 +44,15 @@ class SweptSphereGrid {
   /// hold few swept spheres, and halves it for the next sort where they hold many.
   float coarseness() const { return coarseness_; }
   void set_coarseness(float coarseness) { coarseness_ = coarseness; }
+  /// Decides whether fill() and sort() make spare slots from now on. They pay if many swept spheres change.
+  void set_spare_slots(bool on) { has_spare_slots_ = on; }
 
   /// Adds a swept sphere that holds from time `from` of the frame until 1, and returns its slot.
   std::uint32_t add(std::uint32_t number, const SweptSphere& sphere, float from);
   /// Returns the looseness (how far out of its cell) of another swept sphere for the body at a slot, which
-  /// would hold from time `from` until 1. Returns nothing if it exceeds the edge of a cell: searches would
-  /// then cost more. Precondition: the slot is not free.
+  /// would hold from time `from` until 1. Returns nothing if it should get another slot, lest searches cost
+  /// more: if the looseness exceeds the edge of a cell or, where there are spare slots, that of all others.
+  /// Precondition: the slot is not free.
   std::optional<float> looseness_at(std::uint32_t slot, const SweptSphere& sphere, float from) const;
   /// Accumulates, over replaced swept spheres, the greatest looseness and width, and their number.
   struct Growth {
@@ -76,23 +83,24 @@ class SweptSphereGrid {
     widest_ = arrange(all, lease);
     lease.parallel_for(table_.slots(), many, [&](std::size_t begin, std::size_t end, std::size_t) {
       for (auto slot = static_cast<std::uint32_t>(begin); slot < end; ++slot)
-        moved(table_.number_at(slot), slot);
+        if (!is_free(slot)) moved(table_.number_at(slot), slot);
     });
   }
-  /// Sorts all swept spheres by cell and removes free slots. Slots change: moved(number, slot) is called for
-  /// each body. Cost: linear.
+  /// Sorts all swept spheres by cell and removes free slots but for spare ones. Slots change: moved(number,
+  /// slot) is called for each body. Cost: linear.
   template <class Moved>
   void sort(PoolLease& lease, Moved moved) {
     arrange(table_.all(), lease);
-    for (std::uint32_t slot = 0; slot < table_.slots(); ++slot) moved(table_.number_at(slot), slot);
+    for (std::uint32_t slot = 0; slot < table_.slots(); ++slot)
+      if (!is_free(slot)) moved(table_.number_at(slot), slot);
   }
 
   /// Adds a search for all swept spheres that the query's may touch during its span; it may find free slots
   /// too.
   void add_search(const SweptSphereQuery& query, SweptSphereSearches& searches) const;
   /// Adds a search, among the slots behind `slot`, for all that the swept sphere at `slot` may touch from
-  /// time 0 to 1. Searches from all slots find each pair once. Precondition: all slots are sorted (none added
-  /// since).
+  /// time 0 to 1; it may find free slots too. Nothing is searched for a free slot. Searches from all slots
+  /// find each pair once. Precondition: all slots are sorted (none added since).
   void add_search_behind(std::uint32_t slot, SweptSphereSearches& searches) const;
   /// Runs the searches.
   void make(SweptSphereSearches& searches) const { searches.make(table_.columns()); }
@@ -103,25 +111,31 @@ class SweptSphereGrid {
   void for_each_cell(Visit visit) const {
     std::map<Grid::Cell, std::size_t> filled;
     for (std::uint32_t slot = 0; slot < table_.slots(); ++slot)
-      if (table_.number_at(slot) != SweptSphereTable::free_slot)
+      if (!is_free(slot))
         ++filled[grid_.cell_around(float_aabb_of(table_.swept_sphere_at(slot), 0.0f, 1.0f))];
     for (const auto& [cell, count] : filled) visit(grid_.box_of(cell), count);
   }
   /// Returns the number of swept spheres per unit of volume (of area, if `flat`) in the cubes that hold any.
-  /// Precondition: the grid has been sorted.
+  /// Precondition: the grid has been sorted, and is unchanged since.
   double density(bool flat) const;
   /// True if the deserialized state is consistent.
   bool is_valid() const;
 
   static void serialize(auto& self, auto& archive) {
-    auto& [frame, table, cells, starts, sorted, grid, reach, widest, most_behind, filled, coarseness] = self;
-    archive(frame, table, cells, starts, sorted, grid, reach, widest, most_behind, filled, coarseness);
+    auto& [frame, table, cells, starts, sorted, grid, reach, widest, most_behind, filled, coarseness, spare] =
+        self;
+    archive(frame, table, cells, starts, sorted, grid, reach, widest, most_behind, filled, coarseness, spare);
   }
 
  private:
   static constexpr std::uint32_t least_behind = 64;
   /// Minimum swept spheres per parallel chunk; below this, dispatch costs more than the work.
   static constexpr std::size_t many = 1024;
+
+  struct SpareSlot {
+    std::uint32_t slot;
+    std::uint32_t cell;
+  };
 
   static SweptSphereSpread spread_of(const UnsortedSweptSpheres& all, PoolLease& lease);
   void choose_grid(const UnsortedSweptSpheres& all, const SweptSphereSpread& spread,
@@ -131,8 +145,10 @@ class SweptSphereGrid {
   template <class Visit>
   void for_each_range(std::size_t spheres, PoolLease& lease, Visit visit) const;
   void choose_slots(const std::vector<std::uint32_t>& cells, std::vector<std::uint32_t>& slots,
-                    PoolLease& lease);
+                    std::vector<SpareSlot>& spare, PoolLease& lease);
   float arrange(const UnsortedSweptSpheres& all, PoolLease& lease);
+  bool is_free(std::uint32_t slot) const { return table_.number_at(slot) == SweptSphereTable::free_slot; }
+  std::optional<std::uint32_t> spare_slot_for(const FloatAabb& aabb) const;
   void add_ranges(const SweptSphereQuery& query, std::uint32_t first_slot,
                   SweptSphereSearches& searches) const;
 
@@ -147,6 +163,7 @@ class SweptSphereGrid {
   std::uint32_t most_behind_ = least_behind;
   std::uint32_t filled_ = 0;  ///< cubes that held any swept sphere at the last sort
   float coarseness_ = 1.0f;
+  bool has_spare_slots_ = false;
 };
 
 }  // namespace kinesphere

@@ -56,9 +56,19 @@ void SweptSphereTable::replace(std::uint32_t slot, const SweptSphere& sphere) {
 
 void SweptSphereTable::remove(std::uint32_t slot) {
   assert(numbers_[slot] != free_slot);
+  leave_free(slot);
+}
+
+void SweptSphereTable::leave_free(std::uint32_t slot) {
   numbers_[slot] = free_slot;
   ++free_slots_;
   store(slot, empty_slot);
+}
+
+void SweptSphereTable::occupy(std::uint32_t slot, std::uint32_t number, const SweptSphere& sphere) {
+  assert(numbers_[slot] == free_slot && free_slots_ > 0);
+  --free_slots_;
+  fill(slot, number, sphere);
 }
 
 void SweptSphereTable::resize(std::uint32_t count, std::uint32_t more) {

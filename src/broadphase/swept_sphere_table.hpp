@@ -50,12 +50,15 @@ class SweptSphereTable {
   /// Makes the slot free. Precondition: it is not free yet.
   void remove(std::uint32_t slot);
   /// Sets the number of slots, none of them free, and reserves memory for `more` slots that are added later.
-  /// Precondition of all other calls: fill() has been called for each slot.
+  /// Precondition of all other calls: fill() or leave_free() has been called for each slot.
   void resize(std::uint32_t count, std::uint32_t more);
   void fill(std::uint32_t slot, std::uint32_t number, const SweptSphere& sphere) {
     numbers_[slot] = number;
     store(slot, sphere);
   }
+  void leave_free(std::uint32_t slot);
+  /// Gives a free slot to a body.
+  void occupy(std::uint32_t slot, std::uint32_t number, const SweptSphere& sphere);
 
   /// True if the deserialized state is consistent.
   bool is_valid() const;

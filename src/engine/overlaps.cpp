@@ -56,7 +56,7 @@ std::optional<std::pair<std::size_t, std::size_t>> Overlaps::first_among(
   windows.start(starters, now_, ball_of, alone);
   std::optional<std::pair<std::size_t, std::size_t>> least;
   NeighbourSearch search;
-  for (const auto& [a, b] : search.near_started(windows, 0, windows.started(), now_, ball_of)) {
+  for (const auto& [a, b] : search.near_started(windows, 0, windows.started_slots(), now_, ball_of)) {
     const auto [first, second] = std::minmax({a, b});
     if (least && std::tie(least->second, least->first) <= std::tie(second, first)) continue;
     if (certainly_overlap(bodies_, now_, {bound_now(added[first], now_)}, {bound_now(added[second], now_)}) &&

@@ -97,6 +97,7 @@ std::uint64_t WindowStart::start(std::span<const BroadPhase::Starter> starters,
       starters, time(), [&](std::uint32_t number) { return inflated_bound(bodies(), number, time()); },
       lease_);
   found_.resize(lease_.count());
+  found_.front().searches += starters.size();
   const std::uint64_t near = find_pairs(others);
   find_links_and_walls(starters);
   for (SearchResults& found : found_) found.hand_over(main_.queue(), main_.work().counters);
@@ -113,10 +114,9 @@ std::uint64_t WindowStart::find_pairs(const std::vector<std::uint8_t>* others) {
   };
   std::vector<std::uint64_t> uncounted(lease_.count());
   lease_.parallel_for(
-      windows.started(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
+      windows.started_slots(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
         SearchResults& found = found_[worker];
         const auto bound_of = [&](std::uint32_t number) { return inflated_bound(bodies(), number, now); };
-        found.searches += to - from;
         for (const auto& [a, b] : found.search.near_started(windows, from, to, now, bound_of)) {
           const std::uint64_t before = found.near;
           certifier.certify(a, b, found);

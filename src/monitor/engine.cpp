@@ -169,7 +169,7 @@ Result<void> Monitor::Engine::start_windows(const Poll* poll) {
   const auto bound_of = [&](std::uint32_t place) -> const InflatedBound& { return *bounds_[place]; };
   broad_phase_.start(starters, time_, bound_of, alone);
   counters_.searches += starters.size();
-  const std::size_t started = broad_phase_.started();
+  const std::size_t started = broad_phase_.started_slots();
   constexpr std::size_t at_once = 256;
   for (std::size_t from = 0; from < started; from += at_once)
     for (const auto& [a, b] :

@@ -14,7 +14,7 @@ namespace {
 
 /// Raise the version when the fields change, or when the engine would continue differently from equal fields.
 constexpr Envelope monitor_envelope{{'K', 'i', 'n', 'M', 'o', 'n', '\r', '\n'},
-                                    8,
+                                    9,
                                     "monitor",
                                     "Monitor::restore",
                                     "snapshot",

@@ -220,7 +220,7 @@ void World::Engine::Answers::consider_all_within(const std::vector<std::uint32_t
   PoolLease alone;
   windows.start(starters, now_, bound_of, alone);
   NeighbourSearch search;
-  for (const auto& [a, b] : search.near_started(windows, 0, windows.started(), now_, bound_of))
+  for (const auto& [a, b] : search.near_started(windows, 0, windows.started_slots(), now_, bound_of))
     consider(a, b, times, first);
   for (const std::uint32_t number : anywhere)
     for (const std::uint32_t other : numbers)

@@ -46,6 +46,23 @@ TEST(SweptSphereTable, HasNoHolesOnceItIsFilledAnew) {
   EXPECT_TRUE(table.is_valid());
 }
 
+TEST(SweptSphereTable, GivesFreeSlotsToOthers) {
+  SweptSphereTable table;
+  table.resize(3, 0);
+  table.fill(0, 10, capsule(1.0f));
+  table.leave_free(1);
+  table.fill(2, 12, capsule(2.0f));
+  EXPECT_TRUE(table.is_valid());
+  EXPECT_EQ(table.bodies(), 2u);
+  EXPECT_EQ(table.free_slots(), 1u);
+  table.occupy(1, 11, capsule(3.0f));
+  EXPECT_TRUE(table.is_valid());
+  EXPECT_EQ(table.free_slots(), 0u);
+  EXPECT_EQ(table.number_at(1), 11u);
+  EXPECT_EQ(table.swept_sphere_at(1), capsule(3.0f));
+  EXPECT_EQ(table.all().numbers, (std::vector<std::uint32_t>{10, 11, 12}));
+}
+
 TEST(SweptSphereTable, HolesAreNearNobody) {
   SweptSphereTable table;
   table.add(0, capsule(1.0f));
