@@ -49,21 +49,37 @@ Response bounced(const Event& event, double restitution, double resting_speed) {
 
 ks_response c_response(const Response& response) {
   const auto vector = [](const std::optional<Vec3>& given) { return c_vector(given.value_or(Vec3{})); };
-  return {.turns_first = response.first_velocity.has_value(),
+  return {.struct_size = sizeof(ks_response),
+          .stop = response.stop,
+          .turns_first = response.first_velocity.has_value(),
           .turns_second = response.second_velocity.has_value(),
-          .first_velocity = vector(response.first_velocity),
-          .second_velocity = vector(response.second_velocity),
           .spins_first = response.first_angular_velocity.has_value(),
           .spins_second = response.second_angular_velocity.has_value(),
+          .first_action = static_cast<ks_body_action>(response.first_action),
+          .second_action = static_cast<ks_body_action>(response.second_action),
+          .first_velocity = vector(response.first_velocity),
+          .second_velocity = vector(response.second_velocity),
           .first_angular_velocity = vector(response.first_angular_velocity),
           .second_angular_velocity = vector(response.second_angular_velocity)};
 }
 
+static_assert(KS_ACTION_SLEEP == static_cast<ks_body_action>(BodyAction::sleep));
+
+BodyAction action_of(const Event& event, BodyId body, ks_body_action action, const std::string& argument) {
+  if (KS_ACTION_NONE <= action && action <= KS_ACTION_SLEEP) return static_cast<BodyAction>(action);
+  detail::bad_result({ErrorCode::out_of_range, argument, body,
+                      "run: respond: " + argument + " at " + std::string(name_of(event.kind)) +
+                          " must be one of KS_ACTION_..., but is " + std::to_string(action)});
+}
+
 Response response_of_caller(const ks_run_definition& definition, const Event& event) {
   const ks_event told = c_event(event);
-  ks_response chosen{};
+  ks_response chosen = c_response({});
   require_success("respond", definition.respond(&told, &chosen, definition.respond_user));
-  Response response;
+  require_record("ks_world_run", &chosen, "response");
+  Response response{.stop = chosen.stop != 0};
+  response.first_action = action_of(event, event.first, chosen.first_action, "first_action");
+  response.second_action = action_of(event, event.second, chosen.second_action, "second_action");
   if (chosen.turns_first) response.first_velocity = vector_of(chosen.first_velocity);
   if (chosen.turns_second) response.second_velocity = vector_of(chosen.second_velocity);
   if (chosen.spins_first) response.first_angular_velocity = vector_of(chosen.first_angular_velocity);
@@ -142,7 +158,7 @@ ks_status ks_world_run(ks_world world, double until, const ks_run_definition* de
 ks_status ks_bounce(const ks_event* event, double restitution, double resting_speed, ks_response* response) {
   return guarded([&, call = __func__] {
     require_record(call, event, "event");
-    require_pointer(call, response, "response");
+    require_record(call, response, "response");
     require_bounce(call, restitution, resting_speed);
     *response = c_response(bounced(event_of(call, *event), restitution, resting_speed));
   });

@@ -58,8 +58,7 @@ std::uint64_t play(int threads) {
   int picked = 0, burst = 0;
   const auto sink = [&](const Event& event) {
     hash.add(event);
-    for (const BodyId id : {event.first, event.second})
-      if (bodies.find(id) && !world.contains(id)) bodies.remove(world, id).value();
+    bodies.remove_gone(world, event, respond).value();
     if (event.kind == EventKind::sensor_enter) ++picked;
     if (!respond(event).stop) return;
     ++burst;

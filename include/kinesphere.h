@@ -607,23 +607,44 @@ static inline ks_event ks_new_event(void) {
 /// Returns a name such as "contact_begin"; "none" for KS_EVENT_NONE and "" for numbers that are no kind.
 KS_API const char* ks_event_kind_name(ks_event_kind kind);
 
-/// Velocities after an event, from a response function or ks_bounce(). A body that is not turned continues as
-/// before.
+/// One of KS_ACTION_...: what a response does to a body, after the body has got its velocity.
+typedef int32_t ks_body_action;
+enum {
+  KS_ACTION_NONE = 0,
+  KS_ACTION_REMOVE = 1,   ///< ks_world_remove()
+  KS_ACTION_DISABLE = 2,  ///< ks_world_disable()
+  KS_ACTION_SLEEP = 3     ///< ks_world_sleep(), with velocity 0
+};
+
+/// What an event does to its bodies, from a response function or ks_bounce() (Response in kinesphere/run.hpp).
+/// A body that is not turned continues as before. A response has no effect on a body that an earlier one at
+/// the same time has removed, and none but KS_ACTION_REMOVE on one that it has disabled.
 typedef struct ks_response {
+  uint32_t struct_size;
+  int32_t stop;  ///< the sink may change the world when it receives this event (ks_sink)
   int32_t turns_first;
   int32_t turns_second;
-  ks_vec3 first_velocity;
-  ks_vec3 second_velocity;
   int32_t spins_first;  ///< the first body is rigid and gets this angular velocity (radians / time)
   int32_t spins_second;
+  ks_body_action first_action;
+  ks_body_action second_action;
+  ks_vec3 first_velocity;
+  ks_vec3 second_velocity;
   ks_vec3 first_angular_velocity;
   ks_vec3 second_angular_velocity;
 } ks_response;
+static inline ks_response ks_new_response(void) {
+  ks_response response;
+  memset(&response, 0, sizeof response);
+  response.struct_size = (uint32_t)sizeof response;
+  return response;
+}
 
 /// The velocities after a frictionless bounce with the masses of the bodies (kinesphere/response.hpp).
 /// Restitution is in [0, 1]. With a resting_speed > 0 (length / time) bodies can settle in a heap; 0 is a
 /// plain bounce. Walls, static and sleeping bodies are not turned, and events other than begins of contacts
-/// turn nobody. Rigid bodies with inertia get angular velocities, too.
+/// turn nobody. Rigid bodies with inertia get angular velocities, too. Overwrites the whole response: choose
+/// actions and `stop` afterwards.
 KS_API ks_status ks_bounce(const ks_event* event, double restitution, double resting_speed,
                            ks_response* response);
 
@@ -659,12 +680,14 @@ KS_API int32_t ks_probe_motions(const ks_body_id* bodies, size_t count, double t
 /// probe, and the call may be repeated: no event is lost.
 KS_API ks_status ks_world_advance(ks_world world, double until, ks_probe probe, void* user, ks_event* event);
 
-/// Chooses velocities after an event; `response` turns nobody at first. It must give the same answer for the
-/// same event at any time, and must not call the world. With several threads it is called by several at a
-/// time. A number other than 0 stops the run.
+/// Chooses what an event does to its bodies; `response` is ks_new_response() at first. It must give the same
+/// answer for the same event at any time, and must not call the world. With several threads it is called by
+/// several at a time. A number other than 0 stops the run.
 typedef int32_t (*ks_respond)(const ks_event* event, ks_response* response, void* user);
-/// Receives each event once, in order, in the thread that called ks_world_run(). A number other than 0 stops
-/// the run.
+/// Receives each event once, in order, in the thread that called ks_world_run(). It may read the world. At an
+/// event whose response has `stop` the world is at the time of the event, and the sink may change it: add and
+/// remove bodies, teleport them. Elsewhere such calls fail with KS_ERROR_RUN_IN_PROGRESS, as
+/// ks_world_advance() and ks_world_run() always do. A number other than 0 stops the run.
 typedef int32_t (*ks_sink)(const ks_event* event, void* user);
 
 /// How ks_world_run() answers events.
@@ -685,9 +708,10 @@ static inline ks_run_definition ks_default_run_definition(void) {
   return definition;
 }
 
-/// Advances to time `until`, and answers all events. Motions of the world must move all its bodies. After an
-/// error the world is at a stop and can continue; no event is lost. Errors: as World::run();
-/// KS_ERROR_CALLBACK_FAILED.
+/// Advances to time `until`, and answers all events. Motions of the world must move all its bodies. A body
+/// that a response removes leaves its motion, too, before the sink receives the event. After an error the
+/// world is at a stop and can continue; no event is lost. Errors: as World::run(), where the argument of a
+/// wrong response is its field; KS_ERROR_CALLBACK_FAILED.
 KS_API ks_status ks_world_run(ks_world world, double until, const ks_run_definition* definition);
 
 // Ready-made motions, owned by the world (kinesphere/motion/).

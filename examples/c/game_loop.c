@@ -72,7 +72,7 @@ int main(void) {
       if (event.kind == KS_EVENT_NONE) break;
       if (event.kind == KS_EVENT_CONTACT_BEGIN) ++between_balls;
       if (event.kind == KS_EVENT_WALL_BEGIN) ++off_walls;
-      ks_response after;
+      ks_response after = ks_new_response();
       require(ks_bounce(&event, 0.8, 0.0, &after));
       if (after.turns_first) {
         game[event.first.index].velocity = after.first_velocity;

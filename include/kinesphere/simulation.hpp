@@ -113,6 +113,7 @@ class Simulation {
 
   Result<std::optional<Event>> advance(double until);
   [[nodiscard]] EventRange events(double until);
+  /// A body that a response removes leaves its motion, too, before the sink receives the event.
   Result<void> run(double until, const ResponseFn& respond, const EventFn& sink, Workers* workers = nullptr);
   /// Returns a probe for the predictions and queries of the world. It stays valid until the simulation is
   /// assigned to or destroyed.

@@ -125,6 +125,19 @@ Result<void> BodyMap::remove(World& world, BodyId body) {
   return world.contains(body) ? world.remove(body) : Result<void>();
 }
 
+Result<void> BodyMap::remove_gone(World& world, const Event& event, const ResponseFn& respond) {
+  const auto has_gone = [&](BodyId body) { return entry(body) != nullptr && !world.contains(body); };
+  if (!has_gone(event.first) && !has_gone(event.second)) return {};
+  // A later event that has been responded to already may have removed the body, which then stays until the
+  // sink receives that event.
+  const Response response = respond(event);
+  const auto remove_if = [&](BodyId body, BodyAction action) {
+    return action == BodyAction::remove && has_gone(body) ? remove(world, body) : Result<void>();
+  };
+  auto removed = remove_if(event.first, response.first_action);
+  return removed ? remove_if(event.second, response.second_action) : removed;
+}
+
 Result<void> BodyMap::push(World& world, FrameMotion& frames, std::span<const Vec3> positions) const {
   std::vector<BodyId> ids(frames.size(), no_body);
   for (std::uint32_t index = 0; index < entries_.size(); ++index) {

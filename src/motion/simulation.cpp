@@ -165,7 +165,11 @@ EventRange Simulation::events(double until) { return world_.events(until, known_
 Result<void> Simulation::run(double until, const ResponseFn& respond, const EventFn& sink, Workers* workers) {
   if (const auto error = moved_from("run")) return *error;
   BodyMap::MapSource source = bodies_->source();
-  return world_.run(until, source, respond, sink, workers);
+  const auto receive = [&](const Event& event) {
+    bodies_->remove_gone(world_, event, respond).value();
+    sink(event);
+  };
+  return world_.run(until, source, respond, sink ? EventFn(receive) : EventFn(), workers);
 }
 
 }  // namespace kinesphere

@@ -67,7 +67,7 @@ static void contacts_and_velocities(void) {
   CHECK_OK(ks_world_touching(world, left, &partner, 1, &count));
   CHECK(count == 1 && ks_same_body(partner, right));
 
-  ks_response after;
+  ks_response after = ks_new_response();
   CHECK_OK(ks_bounce(&event, 1.0, 0.0, &after));
   CHECK(after.turns_first && after.turns_second && fabs(after.first_velocity.x + 1) < 1e-9);
   const ks_body_id both[2] = {left, right};
@@ -134,7 +134,7 @@ static void moving_shapes(void) {
   CHECK(event.kind == KS_EVENT_CONTACT_BEGIN && fabs(event.time - 2.5 / 3) < 1e-5);
   CHECK(ks_same_body(event.first, id) && ks_same_body(event.second, ball) && event.first_traits == 0);
   CHECK(fabs(event.approach_speed - 3) < 1e-12 && event.normal.z == 1);
-  ks_response after;
+  ks_response after = ks_new_response();
   CHECK_OK(ks_bounce(&event, 1.0, 0.0, &after));
   CHECK(!after.turns_first && after.turns_second && fabs(after.second_velocity.z - 5) < 1e-12);
   CHECK_OK(ks_world_destroy(world));
@@ -165,7 +165,7 @@ static void rigid_bodies(void) {
   CHECK(event.kind == KS_EVENT_CONTACT_BEGIN && fabs(event.time - 3.5) < 1e-5);
   CHECK(ks_same_body(event.first, body) && event.first_part == 1 && event.second_part == 0);
   CHECK(fabs(event.first_spin_gain.z - 0.5) < 1e-12 && event.second_spin_gain.z == 0);
-  ks_response after;
+  ks_response after = ks_new_response();
   CHECK_OK(ks_bounce(&event, 1.0, 0.0, &after));
   CHECK(after.turns_first && after.turns_second && after.spins_first && !after.spins_second);
   const double v = after.first_velocity.y, w = after.first_angular_velocity.z, u = after.second_velocity.y;
@@ -745,7 +745,7 @@ static void frames(void) {
       CHECK_OK(ks_world_advance(world, until, ks_probe_motions, NULL, &event));
       if (event.kind == KS_EVENT_NONE) break;
       if (event.kind != KS_EVENT_WALL_BEGIN) continue;
-      ks_response after;
+      ks_response after = ks_new_response();
       CHECK_OK(ks_bounce(&event, 1.0, 0.0, &after));
       CHECK_OK(ks_world_set_velocity(world, ball, after.first_velocity));
       velocity = after.first_velocity.x;
@@ -768,6 +768,110 @@ static void frames(void) {
   CHECK_OK(ks_world_destroy(world));
 }
 
+enum { bullet = 1, rock, fragment, tired, post };  // the user data of bodies
+
+/// A game in which a bullet and a rock vanish as they meet, a fragment appears there, which is disabled at the
+/// wall, and a tired ball falls asleep at a post.
+typedef struct shooting {
+  ks_world world;
+  uint32_t motion;
+  ks_event_hash hash;
+  ks_body_id fragment;
+  int refused;
+} shooting;
+
+static int is_burst(const ks_event* event) {
+  return event->kind == KS_EVENT_CONTACT_BEGIN && event->first_user_data == bullet;
+}
+
+static int32_t shoot(const ks_event* event, ks_response* response, void* user) {
+  (void)user;
+  if (is_burst(event)) {
+    response->first_action = response->second_action = KS_ACTION_REMOVE;
+    response->stop = 1;
+  } else if (event->kind == KS_EVENT_WALL_BEGIN) {
+    response->first_action = KS_ACTION_DISABLE;
+  } else if (event->kind == KS_EVENT_CONTACT_BEGIN) {
+    const int first_is_tired = event->first_user_data == tired;
+    *(first_is_tired ? &response->first_action : &response->second_action) = KS_ACTION_SLEEP;
+  }
+  return 0;
+}
+
+static ks_motion_definition flight_of(const ks_state* state, ks_body_definition* like, uint64_t user_data) {
+  ks_motion_definition motion = ks_default_motion_definition();
+  *like = ks_default_body_definition();
+  like->radius = 0.5;
+  like->user_data = user_data;
+  motion.count = 1;
+  motion.states = state;
+  motion.like = like;
+  return motion;
+}
+
+static int32_t burst(const ks_event* event, void* user) {
+  shooting* const game = (shooting*)user;
+  CHECK_OK(ks_event_hash_add(&game->hash, event));
+  const ks_state state = {event->point, {2, 0, 0}};
+  ks_body_definition like;
+  const ks_motion_definition more = flight_of(&state, &like, fragment);
+  uint32_t number;
+  const ks_status added = ks_world_add_to_motion(game->world, game->motion, &more, &number, &game->fragment);
+  game->refused += added == KS_ERROR_RUN_IN_PROGRESS;
+  if (!is_burst(event)) return added != KS_ERROR_RUN_IN_PROGRESS;
+  CHECK(added == KS_OK && number < 2);  // that of a body that has gone
+  int32_t contains;
+  CHECK_OK(ks_world_contains(game->world, event->first, &contains));
+  CHECK(!contains);
+  ks_event next = ks_new_event();
+  CHECK_STATUS(ks_world_advance(game->world, 9, ks_probe_motions, NULL, &next), KS_ERROR_RUN_IN_PROGRESS);
+  return 0;
+}
+
+static uint64_t play_shooting(int32_t threads) {
+  shooting game;
+  memset(&game, 0, sizeof game);
+  ks_world_definition definition = ks_default_world_definition();
+  definition.has_box = 1;
+  definition.box.upper = vec3(20, 20, 20);
+  CHECK_OK(ks_world_create(&definition, &game.world));
+  const ks_state start[4] = {
+      {{1, 5, 5}, {4, 0, 0}}, {{8, 5, 5}, {0, 0, 0}}, {{1, 9, 9}, {1, 0, 0}}, {{8, 9, 9}, {0, 0, 0}}};
+  const uint64_t kinds[4] = {bullet, rock, tired, post};
+  ks_body_id ids[4];
+  for (int k = 0; k < 4; ++k) {
+    ks_body_definition like;
+    const ks_motion_definition motion = flight_of(&start[k], &like, kinds[k]);
+    CHECK_OK(k == 0 ? ks_world_add_motion(game.world, &motion, &game.motion, ids)
+                    : ks_world_add_to_motion(game.world, game.motion, &motion, NULL, &ids[k]));
+  }
+  ks_run_definition run = ks_default_run_definition();
+  run.threads = threads;
+  run.respond = shoot;
+  run.sink = burst;
+  run.sink_user = &game;
+  CHECK_OK(ks_world_run(game.world, 10, &run));
+
+  ks_state state;
+  CHECK_STATUS(ks_world_states(game.world, &ids[0], 1, 10, &state), KS_ERROR_UNKNOWN_BODY);
+  ks_body_view view = ks_new_body_view();
+  CHECK_STATUS(ks_world_body(game.world, ids[1], &view), KS_ERROR_STALE_BODY);
+  CHECK_OK(ks_world_body(game.world, game.fragment, &view));
+  CHECK(!view.enabled);
+  CHECK_OK(ks_world_body(game.world, ids[2], &view));
+  CHECK(view.sleeping && fabs(view.definition.position.x - 7) < 1e-4 && view.definition.velocity.x == 0);
+  CHECK(game.refused > 0);
+  uint64_t value;
+  CHECK_OK(ks_event_hash_value(&game.hash, &value));
+  CHECK_OK(ks_world_destroy(game.world));
+  return value;
+}
+
+static void responses(void) {
+  const uint64_t hash = play_shooting(1);
+  CHECK(hash != 0 && play_shooting(2) == hash);
+}
+
 int main(void) {
   contacts_and_velocities();
   zones_sensors_and_filters();
@@ -784,6 +888,7 @@ int main(void) {
   motions_and_runs();
   motions_and_probes();
   frames();
+  responses();
   names();
   status_names();
   monitors();

@@ -26,7 +26,7 @@ HAS_SIZE(ks_rigid_part, 56);
 HAS_SIZE(ks_rigid_hull, 24);
 HAS_SIZE(ks_rigid_definition, 136);
 HAS_SIZE(ks_event, 392);
-HAS_SIZE(ks_response, 112);
+HAS_SIZE(ks_response, 128);
 HAS_SIZE(ks_event_hash, 16);
 HAS_SIZE(ks_run_definition, 56);
 HAS_SIZE(ks_motion_definition, 104);

@@ -52,7 +52,7 @@ static void step_by_step(ks_world world) {
     CHECK_OK(ks_world_advance(world, 5.0, ks_probe_motions, NULL, &event));
     if (event.kind == KS_EVENT_NONE) break;
     CHECK_OK(ks_event_hash_add(&hash, &event));
-    ks_response after;
+    ks_response after = ks_new_response();
     CHECK_OK(ks_bounce(&event, 0.9, 0.0, &after));
     if (after.turns_first) CHECK_OK(ks_world_set_velocity(world, event.first, after.first_velocity));
     if (after.turns_second) CHECK_OK(ks_world_set_velocity(world, event.second, after.second_velocity));

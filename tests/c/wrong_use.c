@@ -89,6 +89,13 @@ static int32_t respond_nan(const ks_event* event, ks_response* response, void* u
   return 0;
 }
 
+/// Gives the response that `user` points to.
+static int32_t respond_as_told(const ks_event* event, ks_response* response, void* user) {
+  (void)event;
+  *response = *(const ks_response*)user;
+  return 0;
+}
+
 /// Advances a new world with a probe that misuses it, and returns what the misuse got.
 static ks_status inside_probe(ks_probe probe, int elsewhere) {
   ks_world_definition definition = ks_default_world_definition();
@@ -171,7 +178,7 @@ static void wrong_records(ks_world world) {
   shape.kind = 9;
   REFUSED(ks_world_add_zone(world, &shape, 0, &id), OUT_OF_RANGE);
   event = ks_new_event();
-  ks_response response;
+  ks_response response = ks_new_response();
   REFUSED(ks_bounce(&event, 0.5, 0.0, &response), OUT_OF_RANGE);  // no event
   event.kind = KS_EVENT_CONTACT_BEGIN;
   REFUSED(ks_bounce(&event, 1.5, 0.0, &response), OUT_OF_RANGE);
@@ -358,6 +365,57 @@ static void wrong_motions(void) {
   CHECK_OK(ks_world_destroy(world));
 }
 
+/// Runs a world in which a ball hits a post, then the wall behind it.
+static ks_status run_into_post(const ks_response* response) {
+  ks_world_definition definition = ks_default_world_definition();
+  definition.has_box = 1;
+  definition.box.upper = vec3(10, 10, 10);
+  ks_world world;
+  CHECK_OK(ks_world_create(&definition, &world));
+  ks_body_id ids[2];
+  const ks_state state = {{3, 5, 5}, {1, 0, 0}};
+  ks_motion_definition flight = ks_default_motion_definition();
+  flight.count = 1;
+  flight.states = &state;
+  CHECK_OK(ks_world_add_motion(world, &flight, NULL, &ids[0]));
+  ks_static_definition fixed = ks_default_static_definition();
+  fixed.shape = ks_ball(vec3(6, 5, 5), 0.5);
+  CHECK_OK(ks_world_add_static(world, &fixed, 1, &ids[1]));
+  ks_run_definition run = ks_default_run_definition();
+  run.respond = respond_as_told;
+  run.respond_user = (void*)response;
+  const ks_status done = ks_world_run(world, 20, &run);
+  // After a refusal the world goes on.
+  run.respond = NULL;
+  if (done != KS_OK) CHECK_OK(ks_world_run(world, 20, &run));
+  CHECK_OK(ks_world_destroy(world));
+  return done;
+}
+
+static void wrong_responses(void) {
+  ks_response response = ks_new_response();
+  CHECK_OK(run_into_post(&response));
+  response.second_action = KS_ACTION_SLEEP;  // a static body
+  REFUSED(run_into_post(&response), STATIC_BODY);
+  CHECK(strcmp(ks_last_error_argument(), "second_action") == 0 && ks_last_error_body().index == 1);
+  response.second_action = 17;
+  REFUSED(run_into_post(&response), OUT_OF_RANGE);
+  CHECK(strcmp(ks_last_error_argument(), "second_action") == 0);
+  response.second_action = -1;
+  REFUSED(run_into_post(&response), OUT_OF_RANGE);
+  response = ks_new_response();
+  response.second_action = KS_ACTION_REMOVE;  // the post, and then the wall
+  REFUSED(run_into_post(&response), UNKNOWN_BODY);
+  CHECK(strcmp(ks_last_error_argument(), "second_action") == 0);
+  response.struct_size = 112;
+  REFUSED(run_into_post(&response), BAD_STRUCT);
+  CHECK(strcmp(ks_last_error_argument(), "response") == 0);
+  memset(&response, 0, sizeof response);
+  ks_event event = ks_new_event();
+  event.kind = KS_EVENT_CONTACT_BEGIN;
+  REFUSED(ks_bounce(&event, 1.0, 0.0, &response), BAD_STRUCT);
+}
+
 static void wrong_snapshots(ks_world world) {
   unsigned char bytes[1 << 16];
   size_t count;
@@ -489,6 +547,7 @@ int main(void) {
   wrong_rigid_bodies();
   wrong_time(world);
   wrong_motions();
+  wrong_responses();
   wrong_snapshots(world);
   wrong_recordings();
   wrong_profiling(world);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <deque>
 #include <optional>
@@ -11,10 +12,12 @@
 
 #include "kinesphere/event_hash.hpp"
 #include "kinesphere/motion/ballistic.hpp"
+#include "kinesphere/motion/random_forces.hpp"
 #include "kinesphere/motion/steered_motion.hpp"
 #include "kinesphere/random.hpp"
 #include "kinesphere/response.hpp"
 #include "motion/still.hpp"
+#include "support/eager_workers.hpp"
 #include "support/expect_error.hpp"
 
 namespace kinesphere::simulation_test {
@@ -208,6 +211,53 @@ TEST(Simulation, RunsAsItsWorldDoes) {
     if (given.second_velocity) other.set_velocity(event.second, *given.second_velocity).value();
   }
   EXPECT_EQ(run.value(), looped.value());
+}
+
+/// Bodies under random forces, of which one in four vanishes at a contact, and others come in their places.
+/// Returns the hash of the events. The forces depend on the numbers in the motion.
+std::uint64_t hash_of_comings_and_goings(int threads) {
+  constexpr int side = 10;
+  Simulation simulation(World::create({.box = Box{{0, 0, 0}, {20, 20, 20}}}).value());
+  Random random(5);
+  RandomForcesDefinition forces{.interval = 0.1, .seed = 3};
+  for (int k = 0; k < side * side * side; ++k) {
+    forces.start.push_back({Vec3{1.0 + 2 * (k % side), 1.0 + 2 * (k / side % side), 1.0 + 2 * (k / 100)},
+                            4.0 * random.point_in_ball()});
+    forces.acceleration_limits.push_back(10.0);
+  }
+  const auto crowd = simulation.add_motion(RandomForces::create(forces).value());
+  simulation.add_all(crowd, {.radius = 0.5}).value();
+  const auto respond = [](const Event& event) -> Response {
+    if (event.kind != EventKind::contact_begin && event.kind != EventKind::wall_begin) return {};
+    Random dice(std::bit_cast<std::uint64_t>(event.time));
+    (void)dice.bits();
+    Response response = response_of(event, bounce(event, 1.0));
+    if (dice.bits() % 4 == 0) response.first_action = BodyAction::remove;
+    response.stop = event.kind == EventKind::wall_begin && dice.bits() % 16 == 0;
+    return response;
+  };
+  EventHash hash;
+  int added = 0;
+  const auto sink = [&](const Event& event) {
+    hash.add(event);
+    if (!respond(event).stop || added >= 60) return;
+    for (int k = 0; k < 3; ++k, ++added) {
+      const State state{{4.0 + 0.2 * added, 10.0, 10.0}, {}};
+      simulation.add(crowd, simulation.motion(crowd).add(event.time, state, 10.0).value(), {.radius = 0.1})
+          .value();
+    }
+  };
+  Workers workers = eager_workers(threads).value();
+  simulation.run(3.0, respond, sink, &workers).value();
+  EXPECT_GT(added, 5);
+  EXPECT_GT(simulation.world().size(), 100u);
+  EXPECT_EQ(simulation.motion(crowd).size(), 1000u) << "new bodies have the places of old ones";
+  return hash.value();
+}
+
+TEST(Simulation, ForgetsRemovedBodiesInTheOrderOfEvents) {
+  const std::uint64_t hash = hash_of_comings_and_goings(1);
+  EXPECT_EQ(hash_of_comings_and_goings(2), hash);
 }
 
 /// A motion whose author has forgotten that it needs a clone of its own.
