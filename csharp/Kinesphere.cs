@@ -10,7 +10,7 @@ namespace Kinesphere
     public delegate void Probe(BodyId[] bodies, double time, State[] states);
     /// <summary>Sets the rotations of rigid bodies at a time.</summary>
     public delegate void RotationProbe(BodyId[] bodies, double time, Rotation[] rotations);
-    /// <summary>Chooses velocities after an event: the same for the same event, and in any thread.</summary>
+    /// <summary>Chooses what an event does to its bodies: the same for the same event, and in any thread.</summary>
     public delegate Response Respond(Event happened);
 
     /// <summary>An exception of a callback, which must not pass through C.</summary>
@@ -165,6 +165,8 @@ namespace Kinesphere
         public void Teleport(BodyId body, State state) { Native.Check(Native.ks_world_teleport(handle, body, ref state)); }
         public void SetRadius(BodyId body, double radius) { Native.Check(Native.ks_world_set_radius(handle, body, radius)); }
         public void SetFilter(BodyId body, Filter filter) { Native.Check(Native.ks_world_set_filter(handle, body, ref filter)); }
+        public void Disable(BodyId body) { Native.Check(Native.ks_world_disable(handle, body)); }
+        public void Enable(BodyId body, State state) { Native.Check(Native.ks_world_enable(handle, body, ref state)); }
         public void Sleep(BodyId body) { Native.Check(Native.ks_world_sleep(handle, body)); }
         public void Wake(BodyId body) { Native.Check(Native.ks_world_wake(handle, body)); }
         /// <summary>Sets the distances at which bodies of a class sense bodies with a category in the mask.</summary>
@@ -221,13 +223,15 @@ namespace Kinesphere
         }
 
         /// <summary>Advances to time `until` and answers all events by bouncing, or by `respond`. Motions must move all
-        /// bodies.</summary>
+        /// bodies; one that a response removes leaves its motion, too. The sink receives each event, in order, and may read
+        /// the world. At an event whose response has Stop the world is at the time of the event, and the sink may change it;
+        /// elsewhere such calls throw "run_in_progress", as Advance and Run always do.</summary>
         public void Run(double until, double restitution = 1, Respond respond = null, Action<Event> sink = null, int threads = 1)
         {
             Native.RunDefinition definition;
             Native.Check(Native.ks_run_definition_init(out definition, Native.SizeOf<Native.RunDefinition>()));
             var caught = new Caught();
-            Native.Respond answer = (happened, response, user) => caught.Call(() => *response = respond(*happened));
+            Native.Respond answer = (happened, response, user) => caught.Call(() => *response = respond(*happened).Sized());
             Native.Sink tell = (happened, user) => caught.Call(() => sink(*happened));
             definition.Threads = threads;
             definition.Restitution = restitution;
@@ -245,9 +249,26 @@ namespace Kinesphere
         public BodyId[] AddBallistic(State[] states, BodyDefinition like, Vector gravity, double[] radii = null, double[] masses = null)
         {
             uint motion;
+            return AddBallistic(states, like, gravity, out motion, radii, masses);
+        }
+        /// <summary>The same, with the number of the motion for AddToMotion.</summary>
+        public BodyId[] AddBallistic(State[] states, BodyDefinition like, Vector gravity, out uint motion,
+            double[] radii = null, double[] masses = null)
+        {
             var definition = Motion(0);
             definition.Gravity = gravity;
             return AddMotion(definition, states, like, null, radii, masses, out motion);
+        }
+        /// <summary>Adds more bodies, such as bullets, to a motion. Their numbers there, which are their indices in frames,
+        /// are the next ones, or those of removed bodies.</summary>
+        public BodyId[] AddToMotion(uint motion, State[] states, BodyDefinition like, out uint[] numbers,
+            double[] accelerationLimits = null)
+        {
+            var found = new uint[states.Length];
+            numbers = found;
+            return AddMoved(Motion(0), states, like, accelerationLimits, null, null,
+                (ref Native.MotionDefinition definition, BodyId[] ids) =>
+                    Native.ks_world_add_to_motion(handle, motion, ref definition, found, ids));
         }
         /// <summary>Adds bodies under random accelerations up to their limits, new at multiples of the interval.</summary>
         public BodyId[] AddRandomForces(State[] states, BodyDefinition like, double[] accelerationLimits, double interval,
@@ -364,6 +385,18 @@ namespace Kinesphere
         BodyId[] AddMotion(Native.MotionDefinition definition, State[] states, BodyDefinition like, double[] limits,
             double[] radii, double[] masses, out uint motion)
         {
+            uint number = 0;
+            var ids = AddMoved(definition, states, like, limits, radii, masses,
+                (ref Native.MotionDefinition all, BodyId[] added) =>
+                    Native.ks_world_add_motion(handle, ref all, out number, added));
+            motion = number;
+            return ids;
+        }
+
+        delegate int AddDefined(ref Native.MotionDefinition definition, BodyId[] ids);
+        static BodyId[] AddMoved(Native.MotionDefinition definition, State[] states, BodyDefinition like, double[] limits,
+            double[] radii, double[] masses, AddDefined add)
+        {
             foreach (var numbers in new[] { limits, radii, masses })
                 if (numbers != null && numbers.Length != states.Length)
                     throw new ArgumentException("there must be one entry for each state");
@@ -377,7 +410,7 @@ namespace Kinesphere
                 definition.Radii = fixedRadii;
                 definition.Masses = fixedMasses;
                 definition.Like = &like;
-                Native.Check(Native.ks_world_add_motion(handle, ref definition, out motion, ids));
+                Native.Check(add(ref definition, ids));
             }
             return ids;
         }

@@ -226,19 +226,37 @@ namespace Kinesphere
         /// <summary>Velocities after a frictionless bounce; events other than begins of contacts turn nobody.</summary>
         public Response Bounce(double restitution, double restingSpeed = 0)
         {
-            Response response;
-            Native.Check(Native.ks_bounce(ref this, restitution, restingSpeed, out response));
+            var response = new Response().Sized();
+            Native.Check(Native.ks_bounce(ref this, restitution, restingSpeed, ref response));
             return response;
         }
     }
 
+    /// <summary>What a response does to a body, after the body has got its velocity; Sleep gives it velocity 0.</summary>
+    public enum BodyAction { None, Remove, Disable, Sleep }
+
+    /// <summary>
+    /// What an event does to its bodies, for World.Run. It has no effect on a body that an earlier response at the same time
+    /// has removed, and none but Remove on one that it has disabled.
+    /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct Response
     {
-        int turnsFirst, turnsSecond;
-        Vector first, second;
-        int spinsFirst, spinsSecond;
-        Vector firstSpin, secondSpin;
+        uint structSize;
+        int stop, turnsFirst, turnsSecond, spinsFirst, spinsSecond;
+        public BodyAction FirstAction, SecondAction;
+        Vector first, second, firstSpin, secondSpin;
+        internal Response Sized()
+        {
+            structSize = Native.SizeOf<Response>();
+            return this;
+        }
+        /// <summary>The sink may change the world when it receives this event: add and remove bodies, teleport them.</summary>
+        public bool Stop
+        {
+            get { return stop != 0; }
+            set { stop = value ? 1 : 0; }
+        }
         /// <summary>The velocity from now on; null: the body continues as before.</summary>
         public Vector? First
         {
@@ -566,6 +584,8 @@ namespace Kinesphere
         [DllImport(library)] public static extern int ks_world_set_filter(ulong world, BodyId body, ref Filter filter);
         [DllImport(library)]
         public static extern int ks_world_set_sensor(ulong world, int sensorClass, double[] distances, UIntPtr count, ulong mask);
+        [DllImport(library)] public static extern int ks_world_disable(ulong world, BodyId body);
+        [DllImport(library)] public static extern int ks_world_enable(ulong world, BodyId body, ref State state);
         [DllImport(library)] public static extern int ks_world_sleep(ulong world, BodyId body);
         [DllImport(library)] public static extern int ks_world_wake(ulong world, BodyId body);
         [DllImport(library)] public static extern int ks_world_time(ulong world, out double time);
@@ -575,7 +595,7 @@ namespace Kinesphere
         public static extern int ks_world_touching(ulong world, BodyId body, [Out] BodyId[] partners, UIntPtr capacity, out UIntPtr count);
 
         [DllImport(library)]
-        public static extern int ks_bounce(ref Event happened, double restitution, double restingSpeed, out Response response);
+        public static extern int ks_bounce(ref Event happened, double restitution, double restingSpeed, ref Response response);
         [DllImport(library)] public static extern int ks_event_hash_add(ref EventHash hash, ref Event happened);
         [DllImport(library)] public static extern int ks_event_hash_value(ref EventHash hash, out ulong value);
 
@@ -586,6 +606,9 @@ namespace Kinesphere
         [DllImport(library)] public static extern int ks_world_run(ulong world, double until, ref RunDefinition definition);
         [DllImport(library)]
         public static extern int ks_world_add_motion(ulong world, ref MotionDefinition definition, out uint motion, [Out] BodyId[] ids);
+        [DllImport(library)]
+        public static extern int ks_world_add_to_motion(
+            ulong world, uint motion, ref MotionDefinition definition, [Out] uint[] numbers, [Out] BodyId[] ids);
         [DllImport(library)]
         public static extern int ks_world_push_frame(ulong world, uint motion, Vector[] positions, UIntPtr count);
         [DllImport(library)]

@@ -95,6 +95,84 @@ static class SharedScene
         RequireStatus("bad_snapshot", () => World.Restore(new byte[] { 1, 2, 3 }));
     }
 
+    static bool IsBurst(Event happened) { return happened.Kind == EventKind.ContactBegin && happened.FirstUserData == 1; }
+
+    // A bullet (1) and a rock (2) vanish as they meet, and a fragment appears there, which is disabled at the wall; a tired
+    // ball (3) falls asleep at a post (4).
+    static ulong Shooting(int threads)
+    {
+        var definition = WorldDefinition.Default;
+        definition.SetBox(new Vector(0, 0, 0), new Vector(20, 20, 20));
+        using (var world = new World(definition))
+        {
+            var like = BodyDefinition.Default;
+            like.Radius = 0.5;
+            Func<double, double, double, State[]> at = (x, y, speed) =>
+                new[] { new State { Position = new Vector(x, y, y), Velocity = new Vector(speed, 0, 0) } };
+            uint motion;
+            uint[] numbers;
+            var none = new Vector(0, 0, 0);
+            like.UserData = 1;
+            var gone = world.AddBallistic(at(1, 5, 4), like, none, out motion)[0];
+            like.UserData = 2;
+            world.AddToMotion(motion, at(8, 5, 0), like, out numbers);
+            like.UserData = 3;
+            var tired = world.AddToMotion(motion, at(1, 9, 1), like, out numbers)[0];
+            like.UserData = 4;
+            world.AddToMotion(motion, at(8, 9, 0), like, out numbers);
+            Respond respond = happened =>
+            {
+                var response = new Response();
+                if (IsBurst(happened))
+                {
+                    response.FirstAction = response.SecondAction = BodyAction.Remove;
+                    response.Stop = true;
+                }
+                else if (happened.Kind == EventKind.WallBegin) response.FirstAction = BodyAction.Disable;
+                else if (happened.Kind == EventKind.ContactBegin) response.FirstAction = BodyAction.Sleep;
+                return response;
+            };
+            var hash = new EventHash();
+            int fragments = 0;
+            Action<Event> sink = happened =>
+            {
+                hash.Add(happened);
+                var state = new[] { new State { Position = happened.Point, Velocity = new Vector(2, 0, 0) } };
+                if (!IsBurst(happened))
+                {
+                    RequireStatus("run_in_progress", () => world.AddToMotion(motion, state, like, out numbers));
+                    return;
+                }
+                Require(!world.Contains(happened.First), "the bullet has gone");
+                world.AddToMotion(motion, state, like, out numbers);
+                Require(numbers[0] < 2, "the fragment has the number of one that has gone");
+                ++fragments;
+            };
+            world.Run(10, respond: respond, sink: sink, threads: threads);
+            Require(fragments == 1 && world.Size == 3, "a fragment instead of two bodies");
+            RequireStatus("unknown_body", () => world.States(new[] { gone }, 10));
+            Require(Math.Abs(world.States(new[] { tired }, 10)[0].Position.X - 7) < 1e-4, "the tired ball stands");
+            world.Wake(tired);
+            return hash.Value;
+        }
+    }
+
+    static void Responses()
+    {
+        Require(Shooting(1) == Shooting(2), "removals and stops on two threads");
+        var definition = WorldDefinition.Default;
+        definition.SetBox(new Vector(0, 0, 0), new Vector(20, 20, 20));
+        using (var world = new World(definition))
+        {
+            var state = new State { Position = new Vector(5, 5, 5), Velocity = new Vector(1, 0, 0) };
+            world.AddBallistic(new[] { state }, BodyDefinition.Default, new Vector(0, 0, 0));
+            Respond unknown = happened => new Response { SecondAction = (BodyAction)7 };
+            RequireStatus("out_of_range", () => world.Run(20, respond: unknown));
+            Respond wall = happened => new Response { SecondAction = BodyAction.Remove };
+            RequireStatus("unknown_body", () => world.Run(20, respond: wall));
+        }
+    }
+
     // A plate rises at 2 towards a ball that falls at 1, from a gap of 2.5.
     static void MovingShape()
     {
@@ -257,6 +335,7 @@ static class SharedScene
         AtOnce(NewWorld(start, radii), null, 1);
         AtOnce(NewWorld(start, radii), happened => happened.Bounce(0.9), 2);
         WrongUse();
+        Responses();
         MovingShape();
         RigidBodies();
         RecordingAndProfiling();

@@ -26,7 +26,7 @@ fn step_by_step(mut world: World) -> Result<u64> {
 
 fn at_once(mut world: World, how: Run, threads: i32) -> Result<u64> {
     let mut hash = EventHash::default();
-    world.run(5.0, how, threads, |event| hash.add(event))?;
+    world.run(5.0, how, threads, |_, event| hash.add(event))?;
     Ok(hash.value())
 }
 

@@ -3,6 +3,7 @@ use crate::error::{check, literal, Result};
 use crate::geometry::{BodyId, State, Vec3};
 use crate::sys;
 use std::fmt;
+use std::mem::size_of;
 
 /// Kinds of events, in the order of their delivery within one instant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -142,18 +143,32 @@ impl Event {
     }
     /// Like `bounce`, for bodies that settle in a heap: none separates more slowly than `resting_speed`.
     pub fn settle(&self, restitution: f64, resting_speed: f64) -> Result<Response> {
-        let mut raw = sys::ks_response::default();
+        let mut raw = Response::default().raw();
         check(unsafe { sys::ks_bounce(&self.raw, restitution, resting_speed, &mut raw) })?;
         Ok(Response {
             first: if raw.turns_first != 0 { Some(raw.first_velocity) } else { None },
             second: if raw.turns_second != 0 { Some(raw.second_velocity) } else { None },
             first_angular_velocity: (raw.spins_first != 0).then_some(raw.first_angular_velocity),
             second_angular_velocity: (raw.spins_second != 0).then_some(raw.second_angular_velocity),
+            ..Default::default()
         })
     }
 }
 
-/// Velocities after an event; a body without one continues as before.
+/// What a response does to a body, after the body has got its velocity.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum BodyAction {
+    #[default]
+    None,
+    Remove,
+    Disable,
+    /// With velocity 0.
+    Sleep,
+}
+
+/// What an event does to its bodies: velocities from then on, and what else is done to them. A body without both
+/// continues as before. A response has no effect on a body that an earlier one at the same time has removed, and none
+/// but `Remove` on one that it has disabled.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Response {
     pub first: Option<Vec3>,
@@ -161,11 +176,19 @@ pub struct Response {
     /// Of rigid bodies (radians / time).
     pub first_angular_velocity: Option<Vec3>,
     pub second_angular_velocity: Option<Vec3>,
+    pub first_action: BodyAction,
+    pub second_action: BodyAction,
+    /// In a run: `on_event` may change the world when it receives this event ([`crate::World::run`]).
+    pub stop: bool,
 }
 
 impl Response {
     pub(crate) fn raw(&self) -> sys::ks_response {
         sys::ks_response {
+            struct_size: size_of::<sys::ks_response>() as u32,
+            stop: self.stop as i32,
+            first_action: self.first_action as i32,
+            second_action: self.second_action as i32,
             turns_first: self.first.is_some() as i32,
             turns_second: self.second.is_some() as i32,
             first_velocity: self.first.unwrap_or_default(),

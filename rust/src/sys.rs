@@ -169,12 +169,16 @@ pub struct ks_event {
 #[repr(C)]
 #[derive(Clone, Copy, Default)]
 pub struct ks_response {
+    pub struct_size: u32,
+    pub stop: i32,
     pub turns_first: i32,
     pub turns_second: i32,
-    pub first_velocity: Vec3,
-    pub second_velocity: Vec3,
     pub spins_first: i32,
     pub spins_second: i32,
+    pub first_action: i32,
+    pub second_action: i32,
+    pub first_velocity: Vec3,
+    pub second_velocity: Vec3,
     pub first_angular_velocity: Vec3,
     pub second_angular_velocity: Vec3,
 }

@@ -1,7 +1,7 @@
 //! Worlds.
 use crate::bodies::{BodyDefinition, Contacts, Filter, MotionLimits, RigidDefinition, StaticDefinition};
 use crate::error::{check, filled, Guarded, Result};
-use crate::events::{Event, Response, Wall};
+use crate::events::{BodyAction, Event, Response, Wall};
 use crate::geometry::{BodyId, Box3, Rotation, Shape, State, Vec3};
 use crate::sys;
 use std::mem::size_of;
@@ -179,8 +179,11 @@ pub struct World {
 
 impl Drop for World {
     fn drop(&mut self) {
-        // It cannot fail: no call of this world is active, since none borrows it.
-        unsafe { sys::ks_world_destroy(self.handle) };
+        // It fails only if the function that `run` lent the world replaced it: the run still needs it, and may still
+        // call what it has a pointer to.
+        if unsafe { sys::ks_world_destroy(self.handle) } != 0 {
+            std::mem::forget((self.filter.take(), self.rotations.take()));
+        }
     }
 }
 
@@ -361,7 +364,7 @@ impl World {
         Ok(())
     }
 
-    /// Sets the velocities, and of rigid bodies the angular ones, of a response to this event.
+    /// Does what a response to this event says, but for `stop`: between two events the world always stands still.
     pub fn apply(&mut self, event: &Event, response: Response) -> Result<()> {
         if let Some(velocity) = response.first {
             self.set_velocity(event.first, velocity)?;
@@ -375,7 +378,19 @@ impl World {
         if let (Some(body), Some(spin)) = (event.second, response.second_angular_velocity) {
             self.set_angular_velocity(body, spin)?;
         }
-        Ok(())
+        self.act(event.first, response.first_action)?;
+        event.second.map_or(Ok(()), |body| self.act(body, response.second_action))
+    }
+    fn act(&mut self, body: BodyId, action: BodyAction) -> Result<()> {
+        match action {
+            BodyAction::None => Ok(()),
+            BodyAction::Remove => self.remove(body),
+            BodyAction::Disable => self.disable(body),
+            BodyAction::Sleep => {
+                self.set_velocity(body, Vec3::default())?;
+                self.sleep(body)
+            }
+        }
     }
 
     pub fn teleport(&mut self, body: BodyId, state: State) -> Result<()> {
@@ -498,15 +513,27 @@ impl World {
         Ok(Event::of(event))
     }
 
-    /// Advances to time `until` and answers all events; `on_event` receives each, in order. Motions must move all
-    /// bodies. The outcome is the same for any number of threads.
-    pub fn run<F: FnMut(&Event)>(&mut self, until: f64, how: Run, threads: i32, on_event: F) -> Result<()> {
+    /// Advances to time `until` and answers all events; `on_event` receives each, in order, with this world to read.
+    /// At an event whose response has [`Response::stop`] the world is at the time of the event, and `on_event` may
+    /// change it: add and remove bodies, teleport them. Elsewhere such calls fail with `run_in_progress`, as `advance`
+    /// and `run` always do. Motions must move all bodies; one that a response removes leaves its motion, too. The
+    /// outcome is the same for any number of threads.
+    pub fn run<F: FnMut(&mut World, &Event)>(
+        &mut self,
+        until: f64,
+        how: Run,
+        threads: i32,
+        mut on_event: F,
+    ) -> Result<()> {
+        let handle = self.handle;
+        let world: *mut World = self;
         let function: &(dyn Fn(&Event) -> Response + Sync) = match how {
             Run::Respond(function) => function,
             _ => &|_| Response::default(),
         };
         let mut responses = Guarded::new(function);
-        let mut events = Guarded::new(on_event);
+        // Until C returns, no one uses `self` but this function.
+        let mut events = Guarded::new(|event: &Event| on_event(unsafe { &mut *world }, event));
         let (restitution, resting_speed) = match how {
             Run::Bounce { restitution } => (restitution, 0.0),
             Run::Settle { restitution, resting_speed } => (restitution, resting_speed),
@@ -522,10 +549,10 @@ impl World {
                 _ => None,
             },
             respond_user: responses.user(),
-            sink: Some(sink::<F>),
+            sink: Some(sink_of(&events)),
             sink_user: events.user(),
         };
-        let done = check(unsafe { sys::ks_world_run(self.handle, until, &definition) });
+        let done = check(unsafe { sys::ks_world_run(handle, until, &definition) });
         responses.resume();
         events.resume();
         done
@@ -669,6 +696,11 @@ pub(crate) fn new_event() -> sys::ks_event {
 /// The callback for a function of this type.
 fn respond_of<F: Fn(&Event) -> Response + Sync>(_: F) -> sys::ks_respond {
     respond::<F>
+}
+
+/// The callback for a function that receives events.
+fn sink_of<F: FnMut(&Event)>(_: &Guarded<F>) -> sys::ks_sink {
+    sink::<F>
 }
 
 /// The pointer to an optional array, which has no entries or one for each state.

@@ -167,13 +167,81 @@ fn a_panic_passes_through_the_call() {
     assert_eq!(flying.add_to_motion(number, ballistic, &states[..1], &like).unwrap().0, [7]);
     assert_eq!(flying.len(), 8);
     let respond = |_: &Event| -> Response { panic!("no answer") };
-    let panicked = catch_unwind(AssertUnwindSafe(|| flying.run(20.0, Run::Respond(&respond), 2, |_| {})));
+    let panicked = catch_unwind(AssertUnwindSafe(|| flying.run(20.0, Run::Respond(&respond), 2, |_, _| {})));
     assert_eq!(panicked.unwrap_err().downcast_ref(), Some(&"no answer"));
     let mut walls = 0;
     flying
-        .run(20.0, Run::Bounce { restitution: 1.0 }, 2, |event| walls += event.wall.is_some() as i32)
+        .run(20.0, Run::Bounce { restitution: 1.0 }, 2, |_, event| walls += event.wall.is_some() as i32)
         .unwrap();
     assert!(walls >= 8);
+}
+
+/// A bullet and a rock vanish as they meet, and a fragment appears there, which is disabled at the wall; a tired ball
+/// falls asleep at a post.
+#[test]
+fn responses_remove_disable_put_to_sleep_and_stop() {
+    const BULLET: u64 = 1;
+    const TIRED: u64 = 3;
+    let at = |x, y, speed| State { position: Vec3::new(x, y, y), velocity: Vec3::new(speed, 0.0, 0.0) };
+    let is_burst = |event: &Event| event.kind == EventKind::ContactBegin && event.first_user_data == BULLET;
+    let respond = |event: &Event| -> Response {
+        let sleeps = event.kind == EventKind::ContactBegin && event.first_user_data == TIRED;
+        match event.kind {
+            _ if is_burst(event) => Response {
+                first_action: BodyAction::Remove,
+                second_action: BodyAction::Remove,
+                stop: true,
+                ..Default::default()
+            },
+            _ if sleeps => Response { first_action: BodyAction::Sleep, ..Default::default() },
+            EventKind::WallBegin => Response { first_action: BodyAction::Disable, ..Default::default() },
+            _ => Response::default(),
+        }
+    };
+    let ballistic = Motion::Ballistic { gravity: Vec3::default() };
+    let like = |user_data| BodyDefinition { radius: 0.5, user_data, ..Default::default() };
+    let play = |threads| {
+        let bounds = Some(Box3 { lower: Vec3::default(), upper: Vec3::new(20.0, 20.0, 20.0) });
+        let mut world = World::new(&WorldDefinition { bounds, ..Default::default() }).unwrap();
+        let start = [at(1.0, 5.0, 4.0), at(8.0, 5.0, 0.0), at(1.0, 9.0, 1.0), at(8.0, 9.0, 0.0)];
+        let (motion, mut ids) = world.add_motion(ballistic, &start[..1], &[], &[], &like(BULLET)).unwrap();
+        for k in 1..4 {
+            ids.extend(world.add_to_motion(motion, ballistic, &start[k..=k], &like(k as u64 + 1)).unwrap().1);
+        }
+        let (mut hash, mut fragments, mut refused) = (EventHash::default(), vec![], 0);
+        let on_event = |world: &mut World, event: &Event| {
+            hash.add(event);
+            let state = [State { position: event.point, velocity: Vec3::new(2.0, 0.0, 0.0) }];
+            match world.add_to_motion(motion, ballistic, &state, &like(5)) {
+                Ok((numbers, added)) => {
+                    assert!(is_burst(event) && numbers[0] < 2 && !world.contains(event.first));
+                    fragments = added;
+                }
+                Err(error) => refused += (error.name == "run_in_progress") as i32,
+            }
+        };
+        world.run(10.0, Run::Respond(&respond), threads, on_event).unwrap();
+        assert!(fragments.len() == 1 && refused > 0 && world.len() == 3);
+        assert!(!world.contains(ids[0]) && world.states(&ids[..1], 10.0).is_err());
+        assert!((world.states(&ids[2..3], 10.0).unwrap()[0].position.x - 7.0).abs() < 1e-4);
+        assert_eq!(world.wake(ids[2]), Ok(()));
+        hash.value()
+    };
+    assert_eq!(play(1), play(2));
+
+    // A loop does the same with `apply`; a wall cannot vanish.
+    let mut world = World::new(&WorldDefinition {
+        bounds: Some(Box3 { lower: Vec3::default(), upper: Vec3::new(20.0, 20.0, 20.0) }),
+        ..Default::default()
+    })
+    .unwrap();
+    world.add_motion(ballistic, &[at(5.0, 5.0, 1.0)], &[], &[], &like(0)).unwrap();
+    let wrong = |_: &Event| Response { second_action: BodyAction::Remove, ..Default::default() };
+    let error = world.run(20.0, Run::Respond(&wrong), 1, |_, _| {}).unwrap_err();
+    assert_eq!((error.name, error.argument.as_str()), ("unknown_body", "second_action"));
+    let event = world.advance_motions(20.0).unwrap().unwrap();
+    world.apply(&event, Response { first_action: BodyAction::Remove, ..Default::default() }).unwrap();
+    assert!(world.is_empty());
 }
 
 #[test]
