@@ -113,11 +113,35 @@ namespace Kinesphere
         /// </summary>
         public BodyId AddRigidBody(BodyDefinition body, RigidDefinition rigid, params RigidPart[] parts)
         {
+            return AddRigidBody(body, rigid, parts, new RigidHull[0]);
+        }
+        /// <summary>The same with convex hulls, whose numbers as parts follow those of the others.</summary>
+        public BodyId AddRigidBody(BodyDefinition body, RigidDefinition rigid, RigidPart[] parts, RigidHull[] hulls)
+        {
             BodyId id;
-            fixed (RigidPart* first = parts)
+            var found = new Native.Hull[hulls.Length];
+            var pinned = new GCHandle[hulls.Length];
+            try
             {
-                rigid.SetParts(first, parts.Length);
-                Native.Check(Native.ks_world_add_rigid_body(handle, ref body, ref rigid, out id));
+                for (int k = 0; k < found.Length; ++k)
+                {
+                    pinned[k] = GCHandle.Alloc(hulls[k].Points, GCHandleType.Pinned);
+                    found[k].PointCount = Count(hulls[k].Points);
+                    found[k].Points = (Vector*)pinned[k].AddrOfPinnedObject();
+                    found[k].Radius = hulls[k].Radius;
+                }
+                fixed (RigidPart* first = parts)
+                fixed (Native.Hull* firstHull = found)
+                {
+                    rigid.SetParts(first, parts.Length);
+                    rigid.SetHulls(firstHull, found.Length);
+                    Native.Check(Native.ks_world_add_rigid_body(handle, ref body, ref rigid, out id));
+                }
+            }
+            finally
+            {
+                foreach (var one in pinned)
+                    if (one.IsAllocated) one.Free();
             }
             return id;
         }

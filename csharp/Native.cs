@@ -152,6 +152,27 @@ namespace Kinesphere
         public RigidPart(Vector a, Vector b, double radius) { A = a; B = b; Radius = radius; }
     }
 
+    /// <summary>All points within a radius of the convex hull of 1 to 64 points; three make a plate.</summary>
+    public sealed class RigidHull
+    {
+        public readonly Vector[] Points;
+        public readonly double Radius;
+        public RigidHull(double radius, params Vector[] points)
+        {
+            Radius = radius;
+            Points = points;
+        }
+        /// <summary>All points within a radius of a box.</summary>
+        public static RigidHull Box(Vector lower, Vector upper, double radius)
+        {
+            var corners = new Vector[8];
+            for (int k = 0; k < 8; ++k)
+                corners[k] = new Vector((k & 1) == 0 ? lower.X : upper.X, (k & 2) == 0 ? lower.Y : upper.Y,
+                    (k & 4) == 0 ? lower.Z : upper.Z);
+            return new RigidHull(radius, corners);
+        }
+    }
+
     /// <summary>What a rigid body has beside its BodyDefinition and its parts.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct RigidDefinition
@@ -164,8 +185,9 @@ namespace Kinesphere
         public double AngularAccelerationLimit, LargestAngularSpeed;
         public Vector Inertia;
         UIntPtr hullCount;
-        void* hulls;
+        Native.Hull* hulls;
         internal void SetParts(RigidPart* first, int count) { parts = first; partCount = (UIntPtr)count; }
+        internal void SetHulls(Native.Hull* first, int count) { hulls = first; hullCount = (UIntPtr)count; }
         public static RigidDefinition Default
         {
             get
@@ -477,6 +499,14 @@ namespace Kinesphere
         public delegate int Respond(Event* happened, Response* response, IntPtr user);
         [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
         public delegate int Sink(Event* happened, IntPtr user);
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct Hull
+        {
+            public UIntPtr PointCount;
+            public Vector* Points;
+            public double Radius;
+        }
 
         [StructLayout(LayoutKind.Sequential)]
         public struct RunDefinition

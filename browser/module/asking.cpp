@@ -16,7 +16,9 @@ namespace {
 KINESPHERE_IMPORT(probe)
 bool javascript_probe(std::size_t count, const double* ids, double time, double* states);
 KINESPHERE_IMPORT(respond)
-bool javascript_respond(const double* event, double* velocities);
+bool javascript_respond(const double* event, double* response);
+KINESPHERE_IMPORT(stop)
+bool javascript_stop(const double* event);
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -36,15 +38,16 @@ void ask_javascript(std::span<const BodyId> ids, double time, std::span<State> s
 class MotionOfBodies final : public MotionSource {
  public:
   /// One of the two is null.
-  MotionOfBodies(Motion* motion, const BodyMap* map) : motion_(motion), map_(map) {}
+  MotionOfBodies(Motion* motion, BodyMap* map) : motion_(motion), map_(map) {}
   void states(std::span<const BodyId> ids, double time, std::span<State> states) override {
     for (std::size_t k = 0; k < ids.size(); ++k) {
+      states[k] = {{nan, nan, nan}, {nan, nan, nan}};
+      if (interrupted_) continue;
       const auto moved = find(ids[k]);
       auto reason = moved ? why_unknown(*moved->motion, moved->number, time) : unknown(ids[k]);
       if (reason) {
         reason->body = ids[k];
         refused_ = std::move(reason);
-        states[k] = {{nan, nan, nan}, {nan, nan, nan}};
       } else {
         states[k] = moved->motion->state(moved->number, time);
       }
@@ -60,12 +63,22 @@ class MotionOfBodies final : public MotionSource {
 
   /// Returns the response, or NaNs for a body that cannot be changed.
   Response possible(const Event& event, const Response& answer) {
+    if (interrupted_) return {Vec3{nan, nan, nan}, std::nullopt};
     if (!(answer.first_velocity && is_fixed(event.first)) &&
         !(answer.second_velocity && is_fixed(event.second)))
       return answer;
     refused_ = {ErrorCode::unsupported, "respond", no_body,
                 "run: respond: the bodies of this motion go their own way, and cannot be given velocities"};
     return {Vec3{nan, nan, nan}, std::nullopt};
+  }
+
+  /// Makes the run fail before its next event or probe: what a function threw at a stop cannot pass through the
+  /// module.
+  void interrupt() { interrupted_ = true; }
+  /// Removes what a response has removed from the world from the map and its motions, too.
+  void forget_gone(World& world, const Event& event, const Response& response) {
+    if (map_ == nullptr) return;
+    (void)map_->remove_gone(world, event, [&](const Event&) { return response; });
   }
 
   const std::optional<Error>& refused() const { return refused_; }
@@ -85,8 +98,9 @@ class MotionOfBodies final : public MotionSource {
   }
 
   Motion* motion_;
-  const BodyMap* map_;
+  BodyMap* map_;
   std::optional<Error> refused_;
+  bool interrupted_ = false;
 };
 
 /// Reads a vector, and whether there is one.
@@ -98,12 +112,17 @@ std::optional<Vec3> velocity_at(const double* numbers) {
 Response ask_javascript(const Event& event) {
   double numbers[event_numbers];
   put(event, numbers);
-  // For each of the two bodies a velocity, and then an angular velocity.
-  double velocities[16] = {};
+  // For each of the two bodies a velocity, then an angular velocity, then an action; and whether to stop.
+  double response[19] = {};
   // A function that throws leaves NaN, too.
-  if (!javascript_respond(numbers, velocities)) return {Vec3{nan, nan, nan}, std::nullopt};
-  return {velocity_at(velocities), velocity_at(velocities + 4), velocity_at(velocities + 8),
-          velocity_at(velocities + 12)};
+  if (!javascript_respond(numbers, response)) return {Vec3{nan, nan, nan}, std::nullopt};
+  return {velocity_at(response),
+          velocity_at(response + 4),
+          velocity_at(response + 8),
+          velocity_at(response + 12),
+          static_cast<BodyAction>(response[16]),
+          static_cast<BodyAction>(response[17]),
+          response[18] != 0.0};
 }
 
 /// Given masses are by index; bodies beyond them, or all if there are none, have their own.
@@ -120,7 +139,7 @@ Response bounce_off(const Event& event, std::span<const double> masses, double r
                                                 : bounce(event, first, second, restitution));
 }
 
-MotionOfBodies bodies_of(const MotionHandle* motion, const BodyMapHandle* map) {
+MotionOfBodies bodies_of(const MotionHandle* motion, BodyMapHandle* map) {
   return {motion != nullptr ? motion->motion.get() : nullptr, map != nullptr ? map->map.get() : nullptr};
 }
 
@@ -129,7 +148,7 @@ MotionOfBodies bodies_of(const MotionHandle* motion, const BodyMapHandle* map) {
 /// Returns 0 if there is no event until then; 1 if it is in answer(); -1 for an error. Without a motion and a
 /// map the JavaScript probe is called.
 KINESPHERE_EXPORT(world_advance)
-int world_advance(World* world, double until, const MotionHandle* motion, const BodyMapHandle* map) {
+int world_advance(World* world, double until, const MotionHandle* motion, BodyMapHandle* map) {
   if (motion == nullptr && map == nullptr)
     return answer_event(world->advance(until, static_cast<Probe::Function>(ask_javascript)));
   MotionOfBodies mover = bodies_of(motion, map);
@@ -145,7 +164,7 @@ enum class Responding : int { nothing, bounces, asks_javascript, as_in_scene };
 
 /// One of motion and map is null. All events are in answer() afterwards, also after an error.
 KINESPHERE_EXPORT(world_run)
-bool world_run(World* world, double until, const MotionHandle* motion, const BodyMapHandle* map,
+bool world_run(World* world, double until, const MotionHandle* motion, BodyMapHandle* map,
                Responding responding, const double* masses, std::size_t mass_count, double restitution,
                double resting_speed, const Scene* scene) {
   // JavaScript functions may use answer() meanwhile.
@@ -164,10 +183,18 @@ bool world_run(World* world, double until, const MotionHandle* motion, const Bod
     }
     return {};
   };
-  const auto respond = [&](const Event& event) { return mover.possible(event, answered(event)); };
+  // With one thread the sink gets an event directly after its response.
+  Response last;
+  const auto respond = [&](const Event& event) {
+    last = mover.possible(event, answered(event));
+    return last;
+  };
   const auto sink = [&](const Event& event) {
+    mover.forget_gone(*world, event, last);
     reported.resize(reported.size() + event_numbers);
-    put(event, reported.data() + reported.size() - event_numbers);
+    double* const numbers = reported.data() + reported.size() - event_numbers;
+    put(event, numbers);
+    if (last.stop && !javascript_stop(numbers)) mover.interrupt();
   };
   const auto done = world->run(until, mover, respond, sink);
   answer() = std::move(reported);

@@ -38,6 +38,20 @@ void ask_rotations(std::span<const BodyId> ids, double time, std::span<Rotation>
     rotations[k] = rotation_at(answers.data() + rotation_numbers * k);
 }
 
+/// Reads a part: its kind (0: ball, capsule or hull, 1: box), its radius, the number of its points, and these.
+/// Moves `numbers` behind it.
+RigidPart part_at(const double*& numbers) {
+  const bool is_box = numbers[0] == 1.0;
+  const double radius = numbers[1];
+  std::vector<Vec3> points(static_cast<std::size_t>(numbers[2]));
+  numbers += 3;
+  for (Vec3& point : points) {
+    point = vector_at(numbers);
+    numbers += 3;
+  }
+  return is_box ? box_part({points[0], points[1]}, radius) : hull_part(points, radius);
+}
+
 }  // namespace
 
 RigidBody rigid_body_at(const RigidNumbers& numbers) {
@@ -46,10 +60,8 @@ RigidBody rigid_body_at(const RigidNumbers& numbers) {
                  .angular_acceleration_limit = numbers.rigid[7],
                  .largest_angular_speed = numbers.rigid[8],
                  .inertia = vector_at(numbers.rigid + 9)};
-  for (std::size_t k = 0; k < numbers.part_count; ++k) {
-    const double* const part = numbers.parts + 7 * k;
-    body.parts.push_back({vector_at(part), vector_at(part + 3), part[6]});
-  }
+  const double* part = numbers.parts;
+  for (std::size_t k = 0; k < numbers.part_count; ++k) body.parts.push_back(part_at(part));
   return body;
 }
 
@@ -77,14 +89,16 @@ KINESPHERE_EXPORT(world_rotation) bool world_rotation(const World* world, double
   return true;
 }
 
-/// Answers seven numbers for each part.
+/// Answers for each part its radius, the number of its points, and these.
 KINESPHERE_EXPORT(world_parts_of) bool world_parts_of(const World* world, double body) {
   const auto rigid = rigid_of(world, body);
   if (!is_good(rigid)) return false;
   answer().clear();
-  // JavaScript has no hulls; of one that came in a snapshot it gets the first two points.
-  for (const auto& [a, b, radius, more] : rigid->parts)
-    answer().insert(answer().end(), {a.x, a.y, a.z, b.x, b.y, b.z, radius});
+  for (const auto& [a, b, radius, more] : rigid->parts) {
+    answer().insert(answer().end(),
+                    {radius, static_cast<double>(2 + more.size()), a.x, a.y, a.z, b.x, b.y, b.z});
+    for (const Vec3& point : more) answer().insert(answer().end(), {point.x, point.y, point.z});
+  }
   return true;
 }
 

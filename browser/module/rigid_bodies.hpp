@@ -12,7 +12,7 @@ struct RigidNumbers {
   const double* body;   ///< as body_at() reads it
   const double* rigid;  ///< orientation, angular velocity, two limits, inertia
   std::size_t part_count;
-  const double* parts;  ///< seven numbers for each: a, b and the radius
+  const double* parts;  ///< for each its kind, its radius, the number of its points, and these
 };
 RigidBody rigid_body_at(const RigidNumbers& numbers);
 

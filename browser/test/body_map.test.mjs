@@ -202,3 +202,86 @@ test("a sphere is cast, and a box finds what it overlaps", () => {
   refuses(() => world.overlappingBox({ lower: [5, 0, 0], upper: [1, 1, 1] }), "out_of_range", /box/);
   assert.throws(() => world.overlappingBox({ lower: [5, 0, 0], uper: [1, 1, 1] }), /overlappingBox: box has no key uper; the nearest is upper/);
 });
+
+/** A bullet flies at a rock, and a tired ball at a post; all are bodies of one motion. */
+function shooting() {
+  const world = new World({ box: { lower: [0, 0, 0], upper: [20, 20, 20] } });
+  const flights = new Ballistic({ positions: [], velocities: [] });
+  const bodies = new BodyMap();
+  const add = (position, speed, radius = 0.5) =>
+    bodies.add(world, flights, flights.add(world.time, { position, velocity: [speed, 0, 0] }), { radius });
+  const [bullet, rock, tired, post] = [add([1, 5, 5], 4), add([8, 5, 5], 0), add([1, 9, 9], 1), add([8, 9, 9], 0)];
+  const burst = (event) => event.kind === "contact_begin" && event.first === bullet;
+  const respond = (event) => {
+    if (burst(event)) return { firstAction: "remove", secondAction: "remove", stop: true };
+    if (event.kind === "wall_begin") return { firstAction: "disable" };
+    return event.kind === "contact_begin" ? { firstAction: "sleep" } : undefined;
+  };
+  return { world, flights, bodies, add, bullet, rock, tired, post, burst, respond };
+}
+
+test("answers remove, disable and put to sleep, and stop the world for more", () => {
+  const { world, flights, bodies, add, bullet, rock, tired, burst, respond } = shooting();
+  let fragment = null;
+  const atStop = (event) => {
+    assert.ok(burst(event) && world.time === event.time && !world.contains(bullet) && bodies.find(rock) === null);
+    assert.throws(() => world.advance(20, bodies), { code: "run_in_progress" });
+    assert.throws(() => world.free(), /cannot be freed/);
+    fragment = add([...event.point], 2);
+  };
+  const events = world.run(10, { motion: bodies, respond, atStop });
+  assert.ok(bodies.find(fragment).number < 2, "the number of one that has gone");
+  assert.equal(flights.size, 4);
+  assert.ok(world.size === 3 && !world.contains(rock) && !world.body(fragment).enabled && world.body(tired).sleeping);
+  assert.ok(Math.abs(bodies.states(10, [tired])[0] - 7) < 1e-4);
+
+  // A loop does the same.
+  const other = shooting();
+  const hash = new EventHash();
+  for (const event of other.world.events(10, other.bodies)) {
+    hash.add(event);
+    const answer = other.respond(event);
+    if (answer?.stop) {
+      other.bodies.remove(other.world, event.first);
+      other.bodies.remove(other.world, event.second);
+      other.add([...event.point], 2);
+    } else if (answer?.firstAction === "disable") {
+      other.world.disable(event.first);
+    } else if (answer?.firstAction === "sleep") {
+      other.bodies.setVelocity(other.world, event.first, [0, 0, 0]);
+      other.world.sleep(event.first);
+    }
+  }
+  assert.equal(hash.value, new EventHash().add(events).value);
+});
+
+test("wrong answers are refused, and what atStop throws comes out", () => {
+  const { world, bodies, respond, add } = shooting();
+  const refused = (answer, expected) =>
+    assert.throws(() => world.run(10, { motion: bodies, respond: () => answer, atStop: () => {} }), expected);
+  refused({ firstAction: "explode" }, /firstAction must be "remove", "disable" or "sleep", but is explode/);
+  refused({ firstActon: "remove" }, /nearest is firstAction/);
+  assert.throws(() => world.run(10, { motion: bodies, respond }), /stop needs atStop/);
+  assert.throws(() => world.run(10, { motion: bodies, respond, atStop: true }), /atStop must be a function/);
+  let told = 0;
+  const atStop = () => {
+    throw new Error("no fragments");
+  };
+  const sink = (events) => {
+    told += events.length;
+  };
+  assert.throws(() => world.run(10, { motion: bodies, respond, atStop }, sink), /no fragments/);
+  assert.ok(told === 1 && world.time < 10);
+  // The run goes on behind the stop.
+  add([5, 15, 15], 10);
+  world.run(10, { motion: bodies, respond, atStop }, sink);
+  assert.ok(told > 3 && world.time === 10);
+
+  const box = { lower: [0, 0, 0], upper: [9, 9, 9] };
+  const alone = new World({ box });
+  const map = new BodyMap();
+  const motion = new Ballistic({ positions: [5, 5, 5], velocities: [1, 0, 0] });
+  map.addAll(alone, motion);
+  const wall = { motion: map, respond: () => ({ secondAction: "remove" }) };
+  assert.throws(() => alone.run(10, wall), { code: "unknown_body", argument: "second_action" });
+});

@@ -127,6 +127,39 @@ test("a function turns a body", () => {
   assert.deepEqual([...world.rotation(body).orientation], [1, 0, 0, 0]);
 });
 
+test("boxes and hulls turn, and meet with their sides", () => {
+  const corners = [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]];
+  const parts = [
+    { hull: { points: corners } }, { box: { lower: [-1, -1, 0], upper: [1, 1, 0] } },
+    { box: { lower: [-0.9, -0.9, -0.5], upper: [0.9, 0.9, 0.5], radius: 0.1 } },
+  ];
+  for (const part of parts) {
+    const world = new World();
+    const square = world.addRigidBody([part], { position: [0, 0, 0], angularVelocity: [0, 0, 1] });
+    const ball = world.add({ position: [2.2, 0, 0], radius: 1 });
+    const probe = (ids, time, states) =>
+      ids.forEach((id, k) => states.set([id === ball ? 2.2 : 0, 0, 0, 0, 0, 0], 6 * k));
+    const event = world.advance(10, probe);
+    assert.deepEqual([event.kind, event.first, event.firstPart], ["contact_begin", square, 0]);
+    // The ball has the radius 1, and the side is 1 from the middle, by the radius of the part where its edges are round.
+    if (!part.box?.radius) assert.ok(Math.abs(event.time - Math.acos(2 / 2.2)) < 1e-5, `${event.time}`);
+    else assert.ok(event.time > Math.acos(2 / 2.2));
+    const [{ hull }] = world.partsOf(square);
+    assert.equal(hull.radius, part.box?.radius ?? 0);
+    assert.equal(hull.points.length, part.box?.radius ? 8 : 4);
+    if (part.hull) assert.deepEqual(hull.points.map((point) => [...point]), corners);
+    // A snapshot has all points.
+    const again = World.restore(world.save());
+    assert.deepEqual(again.partsOf(square), world.partsOf(square));
+  }
+  // One and two points are a ball and a capsule.
+  const world = new World();
+  const mixed = world.addRigidBody(
+    [{ hull: { points: [[1, 0, 0]], radius: 0.5 } }, { hull: { points: [[0, 0, 0], [1, 0, 0]], radius: 0.5 } }],
+    { position: [0, 0, 0] });
+  assert.deepEqual(world.partsOf(mixed).map((part) => Object.keys(part)[0]), ["ball", "capsule"]);
+});
+
 test("what a rotation probe throws comes out, and the call can be repeated", () => {
   let failures = 1;
   const { world, probe } = rod((ids, time, rotations) => {
@@ -147,8 +180,14 @@ test("wrong use is refused", () => {
   const refused = (parts, body, expected) =>
     assert.throws(() => world.addRigidBody(parts, { position, ...body }), expected);
   refused([], {}, { code: "out_of_range", argument: "parts" });
-  refused([{ box: {} }], {}, /addRigidBody: part has no key box/);
-  refused([{}], {}, /part must be a ball or a capsule/);
+  refused([{ cube: {} }], {}, /addRigidBody: part has no key cube/);
+  refused([{}], {}, /part must be a ball, a capsule, a hull or a box/);
+  refused([{ box: {} }], {}, /lower/);
+  refused([{ box: { lower: [0, 0, NaN], upper: [1, 1, 1] } }], {}, { code: "not_finite" });
+  refused([{ hull: {} }], {}, /hull must have points/);
+  refused([{ hull: { points: [] } }], {}, /hull must have points/);
+  refused([{ hull: { points: [[0, 0]] } }], {}, /point/);
+  refused([{ hull: { points: Array(65).fill([0, 0, 0]) } }], {}, { code: "out_of_range", argument: "parts" });
   refused([{ capsule: { a: [0, 0, 0], b: [1, 0, 0], radius: -1 } }], {}, { code: "out_of_range" });
   refused(dumbbell, { orientation: [1, 0, 0] }, /orientation must be four numbers/);
   refused(dumbbell, { orientation: [1, 1, 0, 0] }, { code: "out_of_range" });

@@ -203,6 +203,33 @@ static class SharedScene
     }
 
     // A ball hits one end of a dumbbell that rests, and a function turns a rod towards a ball.
+    // A square or a cube that turns meets a ball of radius 1 with a side.
+    static void Hulls()
+    {
+        Vector lower = new Vector(-1, -1, -1), upper = new Vector(1, 1, 1);
+        var square = new RigidHull(0, new Vector(-1, -1, 0), new Vector(1, -1, 0), new Vector(1, 1, 0), new Vector(-1, 1, 0));
+        foreach (var hull in new[] { square, RigidHull.Box(lower, upper, 0) })
+        {
+            using (var world = new World(WorldDefinition.Default))
+            {
+                var rigid = RigidDefinition.Default;
+                rigid.Rotation.AngularVelocity = new Vector(0, 0, 1);
+                world.AddRigidBody(BodyDefinition.Default, rigid, new RigidPart[0], new[] { hull });
+                var ball = BodyDefinition.Default;
+                ball.Position.X = 2.2;
+                var still = world.Add(ball);
+                var met = world.Advance(10, (ids, time, states) =>
+                {
+                    for (int k = 0; k < ids.Length; ++k)
+                        if (ids[k].Equals(still)) states[k].Position.X = 2.2;
+                });
+                Require(Math.Abs(met.Time - Math.Acos(2 / 2.2)) < 1e-5, "a side meets a ball");
+                RequireStatus("null_argument", () => world.AddRigidBody(
+                    BodyDefinition.Default, rigid, new RigidPart[0], new[] { new RigidHull(1) }));
+            }
+        }
+    }
+
     static void RigidBodies()
     {
         using (var world = new World(WorldDefinition.Default))
@@ -338,6 +365,7 @@ static class SharedScene
         Responses();
         MovingShape();
         RigidBodies();
+        Hulls();
         RecordingAndProfiling();
         Predictions();
         return 0;

@@ -1,5 +1,5 @@
 //! Definitions of bodies.
-use crate::geometry::{RigidPart, Rotation, Shape, State, Vec3};
+use crate::geometry::{RigidHull, RigidPart, Rotation, Shape, State, Vec3};
 use crate::sys;
 use std::mem::size_of;
 
@@ -147,8 +147,10 @@ impl StaticDefinition {
 /// What a rigid body has beside its [`BodyDefinition`] (`RigidBody` in C++).
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigidDefinition {
-    /// At least one.
+    /// Balls and capsules; at least one part or hull.
     pub parts: Vec<RigidPart>,
+    /// Parts whose numbers follow those of `parts`.
+    pub hulls: Vec<RigidHull>,
     /// At the world's current time.
     pub rotation: Rotation,
     /// >= 0 (radians / time^2). At 0 the body keeps its angular velocity, and the world knows its rotation.
@@ -165,14 +167,24 @@ impl RigidDefinition {
     pub fn new(parts: Vec<RigidPart>) -> RigidDefinition {
         RigidDefinition {
             parts,
+            hulls: vec![],
             rotation: Rotation::default(),
             angular_acceleration_limit: 0.0,
             largest_angular_speed: f64::INFINITY,
             inertia: Vec3::default(),
         }
     }
-    /// The record of C, which points to the parts.
-    pub(crate) fn raw(&self) -> sys::ks_rigid_definition {
+    /// The records of C of the hulls, which point to their points.
+    pub(crate) fn raw_hulls(&self) -> Vec<sys::ks_rigid_hull> {
+        let raw = |hull: &RigidHull| sys::ks_rigid_hull {
+            point_count: hull.points.len(),
+            points: hull.points.as_ptr(),
+            radius: hull.radius,
+        };
+        self.hulls.iter().map(raw).collect()
+    }
+    /// The record of C, which points to the parts and the hulls.
+    pub(crate) fn raw(&self, hulls: &[sys::ks_rigid_hull]) -> sys::ks_rigid_definition {
         sys::ks_rigid_definition {
             struct_size: size_of::<sys::ks_rigid_definition>() as u32,
             part_count: self.parts.len(),
@@ -181,8 +193,8 @@ impl RigidDefinition {
             angular_acceleration_limit: self.angular_acceleration_limit,
             largest_angular_speed: self.largest_angular_speed,
             inertia: self.inertia,
-            hull_count: 0,
-            hulls: std::ptr::null(),
+            hull_count: hulls.len(),
+            hulls: hulls.as_ptr(),
         }
     }
 }

@@ -129,6 +129,30 @@ pub struct RigidPart {
     pub radius: f64,
 }
 
+/// A part of a rigid body: all points within `radius` of the convex hull of 1 to 64 points, relative to the body's
+/// position. Three points make a plate.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RigidHull {
+    pub points: Vec<Vec3>,
+    /// >= 0 (length). A body that bounces needs two contact tolerances.
+    pub radius: f64,
+}
+
+impl RigidHull {
+    /// All points within `radius` of a box.
+    pub fn cuboid(bounds: Box3, radius: f64) -> RigidHull {
+        let Box3 { lower, upper } = bounds;
+        let side =
+            |k: usize, axis: usize, lower: f64, upper: f64| if k >> axis & 1 == 0 { lower } else { upper };
+        let corner = |k| Vec3 {
+            x: side(k, 0, lower.x, upper.x),
+            y: side(k, 1, lower.y, upper.y),
+            z: side(k, 2, lower.z, upper.z),
+        };
+        RigidHull { points: (0..8).map(corner).collect(), radius }
+    }
+}
+
 /// Names a body of a world until it is removed; a later body never has an equal id.
 #[repr(C)]
 #[derive(Clone, Copy)]

@@ -41,7 +41,7 @@ mod world;
 pub use bodies::{BodyDefinition, Contacts, Filter, MotionLimits, RigidDefinition, StaticDefinition};
 pub use error::{Error, Result};
 pub use events::{BodyAction, Event, EventHash, EventKind, Response, Wall};
-pub use geometry::{BodyId, Box3, Quaternion, RigidPart, Rotation, Shape, State, Vec3};
+pub use geometry::{BodyId, Box3, Quaternion, RigidHull, RigidPart, Rotation, Shape, State, Vec3};
 pub use monitor::{
     ErrorBound, Monitor, MonitorDefinition, MonitorEvent, MonitorEventKind, OpenPair, PairAnswer,
     PredictedPair, ReportRequest, Separation, SeparationRule, Shard, TrackClass, TrackReport, Verdict,

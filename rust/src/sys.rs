@@ -104,7 +104,6 @@ pub struct ks_rigid_definition {
     pub hulls: *const ks_rigid_hull,
 }
 
-/// Not used: the crate has no hulls yet.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct ks_rigid_hull {

@@ -303,10 +303,11 @@ impl World {
         Ok(id)
     }
 
-    /// Adds a rigid body: balls and capsules that move and turn together; the radius is ignored. The probe moves it.
+    /// Adds a rigid body: parts that move and turn together; the radius is ignored. The probe moves it.
     pub fn add_rigid_body(&mut self, body: &BodyDefinition, rigid: &RigidDefinition) -> Result<BodyId> {
         let mut id = BodyId::default();
-        check(unsafe { sys::ks_world_add_rigid_body(self.handle, &body.raw(), &rigid.raw(), &mut id) })?;
+        let (hulls, body) = (rigid.raw_hulls(), body.raw());
+        check(unsafe { sys::ks_world_add_rigid_body(self.handle, &body, &rigid.raw(&hulls), &mut id) })?;
         Ok(id)
     }
 

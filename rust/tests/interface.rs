@@ -93,6 +93,35 @@ fn a_ball_turns_a_dumbbell() {
 }
 
 #[test]
+fn a_square_that_turns_meets_a_ball_with_a_side() {
+    let plate = |x, y| Vec3::new(x, y, 0.0);
+    let square = RigidHull {
+        points: vec![plate(-1.0, -1.0), plate(1.0, -1.0), plate(1.0, 1.0), plate(-1.0, 1.0)],
+        radius: 0.0,
+    };
+    let cube = Box3 { lower: Vec3::new(-1.0, -1.0, -1.0), upper: Vec3::new(1.0, 1.0, 1.0) };
+    for hull in [square, RigidHull::cuboid(cube, 0.0)] {
+        let mut world = World::new(&WorldDefinition::default()).unwrap();
+        let mut rigid = RigidDefinition { hulls: vec![hull], ..RigidDefinition::new(vec![]) };
+        rigid.rotation.angular_velocity.z = 1.0;
+        let body = world.add_rigid_body(&BodyDefinition::default(), &rigid).unwrap();
+        let place = State { position: Vec3::new(2.2, 0.0, 0.0), velocity: Vec3::default() };
+        world.add(&place.into()).unwrap();
+        let probe = move |ids: &[BodyId], _: f64, states: &mut [State]| {
+            for (id, state) in ids.iter().zip(states) {
+                *state = if id.index() == 0 { State::default() } else { place };
+            }
+        };
+        let event = world.advance(10.0, probe).unwrap().unwrap();
+        assert!(event.first == body && (event.time - (2.0_f64 / 2.2).acos()).abs() < 1e-5);
+    }
+    let nothing = RigidDefinition { hulls: vec![RigidHull::default()], ..RigidDefinition::new(vec![]) };
+    let mut world = World::new(&WorldDefinition::default()).unwrap();
+    let error = world.add_rigid_body(&BodyDefinition::default(), &nothing).unwrap_err();
+    assert_eq!(error.argument, "rigid.hulls.points");
+}
+
+#[test]
 fn a_function_turns_a_rod() {
     let mut world = World::new(&WorldDefinition::default()).unwrap();
     let rod = RigidPart { a: Vec3::default(), b: Vec3::new(4.0, 0.0, 0.0), radius: 0.1 };

@@ -15,13 +15,24 @@ export type ProbeFunction = (ids: Float64Array, time: number, states: Float64Arr
 /** If the ids of a world are the numbers of a motion's bodies, the motion itself is a probe; else a BodyMap. */
 export type Probe = ProbeFunction | Motion | BodyMap;
 
-/** The velocities of bodies after an event; a body without one keeps its velocity. */
+/** What an answer does to a body, after it has got its velocity; `sleep` gives it velocity 0. */
+export type BodyAction = "remove" | "disable" | "sleep";
+
+/**
+ * What an event does to its bodies: velocities from then on, and what else is done to them. A body without both goes on
+ * as before. An answer has no effect on a body that an earlier one at the same time has removed, and none but `remove` on
+ * one that it has disabled.
+ */
 export interface Answer {
   first?: Vec3;
   second?: Vec3;
   /** Of rigid bodies (radians / time), in a world without a rotation probe. */
   firstAngularVelocity?: Vec3;
   secondAngularVelocity?: Vec3;
+  firstAction?: BodyAction;
+  secondAction?: BodyAction;
+  /** Calls `atStop` of the run with this event. */
+  stop?: boolean;
 }
 /** Precondition: equal events get equal answers. */
 export type RespondFunction = (event: Event) => Answer | undefined;
@@ -42,13 +53,27 @@ export interface RunOptions {
   /** The source of states: a motion whose numbers are the indices of the ids, or a map. */
   motion: Motion | BodyMap;
   respond?: RespondFunction | Bounces | Scene;
+  /**
+   * Is called with each event whose answer has `stop`. The world is at the time of the event, and may be changed, but not
+   * advanced: add bodies and remove others, teleport them.
+   */
+  atStop?: (event: Event) => void;
 }
 
-export const runKeys: Keys<RunOptions> = { motion: true, respond: true };
+export const runKeys: Keys<RunOptions> = { motion: true, respond: true, atStop: true };
 const bounceKeys: Keys<Bounces> = { masses: true, restitution: true, restingSpeed: true };
 const answerKeys: Keys<Answer> = {
-  first: true, second: true, firstAngularVelocity: true, secondAngularVelocity: true,
+  first: true, second: true, firstAngularVelocity: true, secondAngularVelocity: true, firstAction: true,
+  secondAction: true, stop: true,
 };
+const actions: readonly (BodyAction | undefined)[] = [undefined, "remove", "disable", "sleep"];
+
+/** Returns the number of an action in the module. */
+function actionNumber(action: BodyAction | undefined, what: string): number {
+  const number = actions.indexOf(action);
+  if (number < 0) throw new TypeError(`respond: ${what} must be "remove", "disable" or "sleep", but is ${action}`);
+  return number;
+}
 
 /** Returns the addresses of the motion and of the map, of which at most one is not 0. */
 export function moving(probe: Probe): [motion: number, map: number] {
@@ -69,7 +94,9 @@ export function responded(respond: RunOptions["respond"]): [number, Bounces, num
 /** Callbacks of the module, which pass tables of numbers to these functions. */
 export function asking(
   module: Module, probe: ProbeFunction | null, respond: RespondFunction | null, rotate: RotationProbeFunction | null,
+  atStop?: (event: Event) => void,
 ) {
+  const eventAt = (numbers: number) => new Event(module.numbersAt(numbers, eventNumbers).slice());
   return {
     rotate(count: number, ids: number, time: number, rotations: number): void {
       const answer = new Float64Array(rotationNumbers * count).fill(NaN);
@@ -82,10 +109,11 @@ export function asking(
       probe!(module.numbersAt(ids, count).slice(), time, answer);
       module.numbersAt(states, 6 * count).set(answer);
     },
-    respond(event: number, velocities: number): void {
-      const answer = respond!(new Event(module.numbersAt(event, eventNumbers).slice()));
+    respond(event: number, response: number): void {
+      const answer = respond!(eventAt(event));
       if (answer !== undefined) checkKeys(answer, answerKeys, "answer", "respond");
-      const numbers = new Float64Array(16);
+      if (answer?.stop && atStop === undefined) throw new TypeError("respond: stop needs atStop in the options of run");
+      const numbers = new Float64Array(19);
       for (const [velocity, at] of [
         [answer?.first, 0], [answer?.second, 4], [answer?.firstAngularVelocity, 8], [answer?.secondAngularVelocity, 12],
       ] as const) {
@@ -93,7 +121,13 @@ export function asking(
         numbers.set(vector(velocity, "velocity", "respond"), at);
         numbers[at + 3] = 1;
       }
-      module.numbersAt(velocities, numbers.length).set(numbers);
+      numbers[16] = actionNumber(answer?.firstAction, "firstAction");
+      numbers[17] = actionNumber(answer?.secondAction, "secondAction");
+      numbers[18] = answer?.stop ? 1 : 0;
+      module.numbersAt(response, numbers.length).set(numbers);
+    },
+    stop(event: number): void {
+      atStop!(eventAt(event));
     },
   };
 }

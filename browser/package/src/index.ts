@@ -7,7 +7,7 @@ export {
   type Track,
 } from "./motion.js";
 export { bounce, type Bounce, type BounceOptions } from "./response.js";
-export type { Answer, Bounces, Probe, ProbeFunction, RespondFunction, RunOptions } from "./asking.js";
+export type { Answer, BodyAction, Bounces, Probe, ProbeFunction, RespondFunction, RunOptions } from "./asking.js";
 export type {
   BodyBatch, BodyDefinition, BodyOptions, Filter, MotionLimits, MovedBodyDefinition, MovedOptions, Shape, ShapeCarrier, StaticOptions,
   ZoneOptions,

@@ -31,7 +31,8 @@ type Exports = { memory: WebAssembly.Memory } & Record<string, (...values: numbe
 /** The callbacks of the module during a call. */
 interface Callbacks {
   probe(count: number, ids: number, time: number, states: number): void;
-  respond(event: number, velocities: number): void;
+  respond(event: number, response: number): void;
+  stop(event: number): void;
   rotate(count: number, ids: number, time: number, rotations: number): void;
   poll(count: number, tracks: number, time: number, reports: number): void;
 }
@@ -89,7 +90,9 @@ export class Module {
       }
     };
     const instance = new WebAssembly.Instance(compiled, {
-      kinesphere: { probe: asked("probe"), respond: asked("respond"), rotate: asked("rotate"), poll: asked("poll") },
+      kinesphere: {
+        probe: asked("probe"), respond: asked("respond"), stop: asked("stop"), rotate: asked("rotate"), poll: asked("poll"),
+      },
       env: { emscripten_notify_memory_growth: () => {} },
       wasi_snapshot_preview1: {
         clock_time_get: () => 0,

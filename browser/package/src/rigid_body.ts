@@ -1,4 +1,4 @@
-// Rigid bodies: balls and capsules that move and turn together.
+// Rigid bodies: balls, capsules, boxes and convex hulls that move and turn together.
 import { putBody, bodyNumbers, type MovedOptions, movedKeys, type ShapeCarrier, shapeCarrierKeys } from "./body.js";
 import type { Vec3 } from "./event.js";
 import type { Scratch } from "./module.js";
@@ -20,7 +20,11 @@ export interface Rotation {
 export type RigidPart =
   | { ball: { centre: Vec3; radius: number } }
   /** All points within the radius of the segment from a to b. */
-  | { capsule: { a: Vec3; b: Vec3; radius: number } };
+  | { capsule: { a: Vec3; b: Vec3; radius: number } }
+  /** All points within the radius, by default 0, of the convex hull of one to 64 points. Three make a plate. */
+  | { hull: { points: readonly Vec3[]; radius?: number } }
+  /** All points within the radius, by default 0, of a box. One without height, lower[2] === upper[2], is a rectangle. */
+  | { box: { lower: Vec3; upper: Vec3; radius?: number } };
 
 /** How a rigid body turns. */
 export interface Turning {
@@ -57,9 +61,12 @@ const turningKeys: Keys<Turning> = {
 };
 const rigidBodyKeys: Keys<RigidBodyDefinition> = { ...shapeCarrierKeys, ...turningKeys };
 const movedRigidBodyKeys: Keys<MovedRigidBodyDefinition> = { ...movedKeys, ...turningKeys };
-const partKeys: Keys<{ ball?: unknown; capsule?: unknown }> = { ball: true, capsule: true };
+type AnyPart = { ball?: unknown; capsule?: unknown; hull?: unknown; box?: unknown };
+const partKeys: Keys<AnyPart> = { ball: true, capsule: true, hull: true, box: true };
 const ballKeys: Keys<{ centre: Vec3; radius: number }> = { centre: true, radius: true };
 const capsuleKeys: Keys<{ a: Vec3; b: Vec3; radius: number }> = { a: true, b: true, radius: true };
+const hullKeys: Keys<{ points: readonly Vec3[]; radius?: number }> = { points: true, radius: true };
+const boxKeys: Keys<{ lower: Vec3; upper: Vec3; radius?: number }> = { lower: true, upper: true, radius: true };
 
 /** Size of a rotation in numbers. */
 export const rotationNumbers = 7;
@@ -73,24 +80,46 @@ export function rotationFrom(numbers: Float64Array): Rotation {
   return { orientation: numbers.subarray(0, 4), angularVelocity: numbers.subarray(4, 7) };
 }
 
+/** Returns what part_at() in browser/module/rigid_bodies.cpp reads. */
 function partNumbers(part: RigidPart, call: string): number[] {
-  checkKeys<{ ball?: unknown; capsule?: unknown }>(part, partKeys, "part", call);
+  checkKeys<AnyPart>(part, partKeys, "part", call);
+  const numbers = (kind: 0 | 1, radius: number, points: number[][]) => [kind, radius, points.length, ...points.flat()];
   if ("ball" in part) {
     checkKeys(part.ball, ballKeys, "ball", call);
-    const centre = vector(part.ball.centre, "centre", call);
-    return [...centre, ...centre, part.ball.radius];
+    return numbers(0, part.ball.radius, [vector(part.ball.centre, "centre", call)]);
   }
-  if (!("capsule" in part)) throw new TypeError(`${call}: part must be a ball or a capsule`);
-  checkKeys(part.capsule, capsuleKeys, "capsule", call);
-  return [...vector(part.capsule.a, "a", call), ...vector(part.capsule.b, "b", call), part.capsule.radius];
+  if ("capsule" in part) {
+    checkKeys(part.capsule, capsuleKeys, "capsule", call);
+    const { a, b, radius } = part.capsule;
+    return numbers(0, radius, [vector(a, "a", call), vector(b, "b", call)]);
+  }
+  if ("hull" in part) {
+    checkKeys(part.hull, hullKeys, "hull", call);
+    const { points, radius = 0 } = part.hull;
+    if (!Array.isArray(points) || points.length === 0)
+      throw new TypeError(`${call}: hull must have points, an array of one to 64`);
+    return numbers(0, radius, points.map((point: Vec3) => vector(point, "point", call)));
+  }
+  if (!("box" in part)) throw new TypeError(`${call}: part must be a ball, a capsule, a hull or a box`);
+  checkKeys(part.box, boxKeys, "box", call);
+  const { lower, upper, radius = 0 } = part.box;
+  return numbers(1, radius, [vector(lower, "lower", call), vector(upper, "upper", call)]);
 }
 
+/** Reads the answer of world_parts_of(). A box comes as the hull of its corners. */
 export function partsFrom(numbers: Float64Array): RigidPart[] {
-  return Array.from({ length: numbers.length / 7 }, (_, k) => {
-    const [a, b] = [numbers.subarray(7 * k, 7 * k + 3), numbers.subarray(7 * k + 3, 7 * k + 6)];
-    const radius = numbers[7 * k + 6]!;
-    return a.every((x, axis) => x === b[axis]) ? { ball: { centre: a, radius } } : { capsule: { a, b, radius } };
-  });
+  const parts: RigidPart[] = [];
+  for (let at = 0; at < numbers.length;) {
+    const [radius, count] = [numbers[at]!, numbers[at + 1]!];
+    const first = at + 2;
+    const points = Array.from({ length: count }, (_, k) => numbers.subarray(first + 3 * k, first + 3 * k + 3));
+    at = first + 3 * count;
+    const [a, b] = [points[0]!, points[1]!];
+    const isBall = a.every((x, axis) => x === b[axis]);
+    parts.push(count > 2 ? { hull: { points, radius } }
+               : isBall ? { ball: { centre: a, radius } } : { capsule: { a, b, radius } });
+  }
+  return parts;
 }
 
 /** Returns the arguments that rigid_body_at() in browser/module/rigid_bodies.cpp reads. */

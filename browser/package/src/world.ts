@@ -453,7 +453,7 @@ export class World extends WorldView {
     return id;
   }
   /**
-   * Adds a rigid body: balls and capsules that move and turn together, about its position. It is one body, with one state
+   * Adds a rigid body: parts that move and turn together, about its position. It is one body, with one state
    * in a probe; events name its parts. Its limits are those of the motion of its position.
    */
   addRigidBody(parts: readonly RigidPart[], body: RigidBodyDefinition): BodyId {
@@ -624,13 +624,16 @@ export class World extends WorldView {
   }
   /**
    * Advances to `until` by itself, for bouncing bodies inside the module: the fastest way. Returns all events, and
-   * passes them to `sink` if there is one; after an error, those that came before.
+   * passes them to `sink` if there is one; after an error, those that came before. A body that an answer removes leaves a
+   * BodyMap and its motion, too.
    */
   run(until: number, options: RunOptions, sink?: (events: Events) => void): Events {
     const module = theModule();
     if (!(options?.motion instanceof Motion) && !(options?.motion instanceof BodyMap))
       throw new TypeError("run: motion must be a Motion or a BodyMap");
     checkKeys(options, runKeys, "options", "run");
+    if (options.atStop !== undefined && typeof options.atStop !== "function")
+      throw new TypeError("run: atStop must be a function of an event");
     const [responding, bounces, scene, asked] = responded(options.respond);
     return module.with((scratch) => {
       const masses = bounces.masses ?? [];
@@ -639,8 +642,8 @@ export class World extends WorldView {
                       bounces.restitution ?? 1, bounces.restingSpeed ?? 0, scene];
       let failure: { value: unknown } | null = null;
       try {
-        if (module.callWith(asking(module, null, asked, this.#rotationProbe), [this.address, ...addresses], "world_run",
-                            this.address, ...values) === 0)
+        const callbacks = asking(module, null, asked, this.#rotationProbe, options.atStop);
+        if (module.callWith(callbacks, [this.address, ...addresses], "world_run", this.address, ...values) === 0)
           failure = { value: module.error() };
       } catch (value) {
         failure = { value };
