@@ -72,8 +72,8 @@ class MotionOfBodies final : public MotionSource {
     return {Vec3{nan, nan, nan}, std::nullopt};
   }
 
-  /// Makes the run fail before its next event or probe: what a function threw at a stop cannot pass through the
-  /// module.
+  /// Makes the run fail at the next event of a body that is there, or probe: what a function threw at a stop
+  /// cannot pass through the module.
   void interrupt() { interrupted_ = true; }
   /// Removes what a response has removed from the world from the map and its motions, too.
   void forget_gone(World& world, const Event& event, const Response& response) {

@@ -38,8 +38,8 @@ void ask_rotations(std::span<const BodyId> ids, double time, std::span<Rotation>
     rotations[k] = rotation_at(answers.data() + rotation_numbers * k);
 }
 
-/// Reads a part: its kind (0: ball, capsule or hull, 1: box), its radius, the number of its points, and these.
-/// Moves `numbers` behind it.
+/// Reads a part: its kind (0: ball, capsule or hull, 1: box), its radius, the number of its points, and
+/// these. Moves `numbers` behind it.
 RigidPart part_at(const double*& numbers) {
   const bool is_box = numbers[0] == 1.0;
   const double radius = numbers[1];

@@ -271,7 +271,7 @@ test("wrong answers are refused, and what atStop throws comes out", () => {
     told += events.length;
   };
   assert.throws(() => world.run(10, { motion: bodies, respond, atStop }, sink), /no fragments/);
-  assert.ok(told === 1 && world.time < 10);
+  assert.ok(told === 2 && world.time < 10, "the contact and its end");
   // The run goes on behind the stop.
   add([5, 15, 15], 10);
   world.run(10, { motion: bodies, respond, atStop }, sink);

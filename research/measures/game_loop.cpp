@@ -10,6 +10,7 @@
 #include "kinesphere/random.hpp"
 #include "kinesphere/response.hpp"
 #include "kinesphere/simulation.hpp"
+#include "research/measures/room.hpp"
 
 namespace kinesphere {
 namespace {
@@ -25,20 +26,6 @@ constexpr std::uint32_t spawned_in_a_frame = 2;
 constexpr std::size_t most_spawned = 100;
 constexpr std::size_t blown_away = 500;
 constexpr double blast_speed = 20.0;
-
-/// Returns the edge of a cubic room of which balls fill the part `packing`, to within 2^-20 of it.
-double edge_of_room(const GameLoopSettings& settings) {
-  constexpr double volume_of_ball =
-      4.0 / 3.0 * 3.14159265358979323846 * ball_radius * ball_radius * ball_radius;
-  const double volume = settings.bodies * volume_of_ball / settings.packing;
-  double low = 0.0;
-  double high = std::max(volume, 1.0);
-  while (high - low > 0x1p-20 * high) {
-    const double middle = 0.5 * (low + high);
-    (middle * middle * middle < volume ? low : high) = middle;
-  }
-  return high;
-}
 
 class Game {
  public:
@@ -116,7 +103,7 @@ class Game {
 }  // namespace
 
 void play_game(const GameLoopSettings& settings, const std::function<void(const Counters&)>& visit) {
-  Game game(settings, edge_of_room(settings));
+  Game game(settings, edge_of_room(settings.bodies, ball_radius, settings.packing));
   visit(game.counters());
   for (std::uint32_t frame = 0; frame < settings.frames; ++frame) {
     game.play_frame(frame);

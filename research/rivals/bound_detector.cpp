@@ -21,7 +21,7 @@ Result<void> BoundDetector::add(std::uint32_t number, const BodyDefinition& defi
 }
 
 Result<void> BoundDetector::remove(std::uint32_t number) {
-  instant_.remove_body(
+  instant_.end_all_contacts(
       contacts_, number, time_, [this](std::uint32_t body) { return sphere(body); }, definition_.box);
   std::erase(new_courses_, number);
   bodies_[number] = Body{};

@@ -41,7 +41,7 @@ class FixedStep final : public Detector {
   }
 
   Result<void> remove(std::uint32_t number) override {
-    instant_.remove_body(
+    instant_.end_all_contacts(
         contacts_, number, time_, [this](std::uint32_t body) { return sphere(body); }, definition_.box);
     bodies_[number].present = false;
     if (search_ == FixedStepSearch::grid) grid_.remove(number);

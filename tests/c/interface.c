@@ -770,8 +770,8 @@ static void frames(void) {
 
 enum { bullet = 1, rock, fragment, tired, post };  // the user data of bodies
 
-/// A game in which a bullet and a rock vanish as they meet, a fragment appears there, which is disabled at the
-/// wall, and a tired ball falls asleep at a post.
+/// A game in which a bullet and a rock vanish as they meet, a fragment appears there, which is disabled at
+/// the wall, and a tired ball falls asleep at a post.
 typedef struct shooting {
   ks_world world;
   uint32_t motion;

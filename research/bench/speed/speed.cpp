@@ -70,16 +70,18 @@ int bench_threads(const SpeedOptions& options, const std::vector<SpeedScene>& sc
   report.note(fmt::format(
       "Effort {}. Seconds of real time for whole simulations, motion and response included, from when all "
       "bodies are in: a loop over advance(), World::run on one thread, and on {}. They take turns; medians "
-      "of "
-      "{} turns.",
+      "of {} turns. \"cpu_to_one\": the CPU time of all threads to that of one.",
       settings.name, *options.threads, settings.repetitions));
-  ResultTable table(
-      {"scene", "n", "threads", "loop_s", "one_s", "many_s", "one_to_loop", "one_to_many", "events", "hash"});
+  ResultTable table({"scene", "n", "threads", "loop_s", "one_s", "many_s", "one_to_loop", "one_to_many",
+                     "cpu_to_one", "events", "hash"});
   std::vector<ThreadsRow> rows;
   for (const SpeedScene& scene : scenes) {
     const bool usual = scene.name == "dense-100000" || scene.name == "dense-1000000" || scene.name == "crowd";
-    if (options.only.empty() ? !usual : !is_chosen(options, scene.name)) continue;
-    const ThreadsRow& row = rows.emplace_back(compare_threads(scene, *options.threads, settings));
+    if (options.only.empty() ? usual : is_chosen(options, scene.name))
+      rows.push_back(compare_threads(scene, *options.threads, settings));
+  }
+  if (is_chosen(options, shooting_name)) rows.push_back(compare_threads_in_game(*options.threads, settings));
+  for (const ThreadsRow& row : rows) {
     const auto seconds = [&](double ThreadsTurn::*way) {
       std::vector<double> all;
       all.reserve(row.turns.size());
@@ -88,7 +90,8 @@ int bench_threads(const SpeedOptions& options, const std::vector<SpeedScene>& sc
     };
     table.row({row.scene, std::uint64_t{row.bodies}, static_cast<std::uint64_t>(row.threads),
                seconds(&ThreadsTurn::loop), seconds(&ThreadsTurn::one), seconds(&ThreadsTurn::many),
-               row.one_to_loop(), row.one_to_many(), row.events, fmt::format("{:016x}", row.hash)});
+               row.one_to_loop(), row.one_to_many(), row.cpu_to_one(), row.events,
+               fmt::format("{:016x}", row.hash)});
   }
   report.table("threads", table);
   report.table("threads_verdicts", table_of(verdicts_of_threads(rows)));
@@ -99,8 +102,9 @@ int bench_threads(const SpeedOptions& options, const std::vector<SpeedScene>& sc
 
 CLI::App* add_bench_speed_command(CLI::App& bench, SpeedOptions& options) {
   CLI::App* speed = bench.add_subcommand("speed", "Compare with fixed steps and others; takes half an hour");
-  add_bench_options(*speed, options, names_of(speed_scenes(speed_settings(Effort::full))),
-                    "Up to a million bodies; takes an hour");
+  std::vector<std::string> names = names_of(speed_scenes(speed_settings(Effort::full)));
+  names.emplace_back(fmt::format("{} (with --threads)", shooting_name));
+  add_bench_options(*speed, options, names, "Up to a million bodies; takes an hour");
   speed
       ->add_option(
           "--threads", options.threads,
@@ -112,7 +116,9 @@ CLI::App* add_bench_speed_command(CLI::App& bench, SpeedOptions& options) {
 int bench_speed(const SpeedOptions& options) {
   const SpeedSettings& settings = speed_settings(effort_of(options));
   const std::vector<SpeedScene> scenes = speed_scenes(settings);
-  check_bench_options(options, names_of(scenes));
+  std::vector<std::string> names = names_of(scenes);
+  if (options.threads) names.emplace_back(shooting_name);
+  check_bench_options(options, names);
   const Report report(options.output);
   describe_machine(report);
   if (options.threads) return bench_threads(options, scenes, settings, report);

@@ -9,31 +9,62 @@
 #include "kinesphere/workers.hpp"
 #include "program_error.hpp"
 #include "research/bench/measurement.hpp"
+#include "research/measures/shooting_game.hpp"
 
 namespace kinesphere::program {
 namespace {
 
+/// A whole simulation, timed from the first window starts, with all bodies in, to the end (seconds).
 struct TimedSimulation {
-  SimulationResult result;
-  double seconds = 0.0;  ///< from the first window starts, with all bodies in, to the end
+  double seconds = 0.0;
+  double cpu_seconds = 0.0;  ///< of all threads
+  std::uint64_t events = 0;
+  std::uint64_t hash = 0;
 };
 
 TimedSimulation time_simulation(const Scene& scene, Workers* workers) {
   using Clock = std::chrono::steady_clock;
   TimedSimulation timed;
   Clock::time_point begin;
+  double cpu_begin = 0.0;
   SimulationObserver observer;
   // The second call is the one between the adding of the bodies and the run.
   int calls = 0;
   observer.between_events = [&](const Detector&) {
-    if (++calls == 2) begin = Clock::now();
+    if (++calls != 2) return;
+    begin = Clock::now();
+    cpu_begin = cpu_seconds();
   };
   observer.at_end = [&](Detector&) -> Result<void> {
     timed.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    timed.cpu_seconds = cpu_seconds() - cpu_begin;
     return {};
   };
-  timed.result = require(simulate(scene, make_world_detector, observer, workers));
+  const SimulationResult result = require(simulate(scene, make_world_detector, observer, workers));
+  const auto& events = result.counters.events;
+  timed.events = std::accumulate(events.begin(), events.end(), std::uint64_t{0});
+  timed.hash = result.contact_hash;
   return timed;
+}
+
+/// Fills the row's turns: time(workers) is a simulation by World::run, or by a loop if `workers` is null.
+template <class Time>
+ThreadsRow compare(ThreadsRow row, const SpeedSettings& settings, const Time& time) {
+  Workers one = require(Workers::create(1)), many = require(Workers::create(row.threads));
+  for (int turn = 0; turn < settings.repetitions; ++turn) {
+    const TimedSimulation runs[] = {time(nullptr), time(&one), time(&many)};
+    row.turns.push_back(
+        {runs[0].seconds, runs[1].seconds, runs[2].seconds, runs[1].cpu_seconds, runs[2].cpu_seconds});
+    row.events = runs[0].events;
+    row.hash = runs[0].hash;
+    for (const TimedSimulation& run : runs) {
+      if (run.hash == row.hash) continue;
+      throw ProgramError(
+          fmt::format("bench speed --threads: expected the hash {:016x} in {}, but got {:016x}", row.hash,
+                      row.scene, run.hash));
+    }
+  }
+  return row;
 }
 
 template <class Quotient>
@@ -54,25 +85,23 @@ double ThreadsRow::one_to_many() const {
   return median_of(turns, [](const ThreadsTurn& turn) { return turn.one / turn.many; });
 }
 
+double ThreadsRow::cpu_to_one() const {
+  return median_of(turns, [](const ThreadsTurn& turn) { return turn.many_cpu / turn.one_cpu; });
+}
+
 ThreadsRow compare_threads(const SpeedScene& entry, int threads, const SpeedSettings& settings) {
   const Scene scene = entry.make(entry.response);
-  Workers one = require(Workers::create(1)), many = require(Workers::create(threads));
-  ThreadsRow row{entry.name, entry.bodies, threads, {}, 0, 0};
-  for (int turn = 0; turn < settings.repetitions; ++turn) {
-    const TimedSimulation runs[] = {time_simulation(scene, nullptr), time_simulation(scene, &one),
-                                    time_simulation(scene, &many)};
-    row.turns.push_back({runs[0].seconds, runs[1].seconds, runs[2].seconds});
-    const auto& events = runs[0].result.counters.events;
-    row.events = std::accumulate(events.begin(), events.end(), std::uint64_t{0});
-    row.hash = runs[0].result.contact_hash;
-    for (const TimedSimulation& run : runs) {
-      if (run.result.contact_hash == row.hash) continue;
-      throw ProgramError(
-          fmt::format("bench speed --threads: expected the hash {:016x} in {}, but got {:016x}", row.hash,
-                      entry.name, run.result.contact_hash));
-    }
-  }
-  return row;
+  return compare({entry.name, entry.bodies, threads, {}, 0, 0}, settings,
+                 [&](Workers* workers) { return time_simulation(scene, workers); });
+}
+
+ThreadsRow compare_threads_in_game(int threads, const SpeedSettings& settings) {
+  ShootingSettings game;
+  game.bodies /= settings.divide;
+  return compare({shooting_name, game.bodies, threads, {}, 0, 0}, settings, [&](Workers* workers) {
+    const ShootingResult played = workers ? run_shooting(game, workers) : loop_shooting(game);
+    return TimedSimulation{played.seconds, played.cpu_seconds, played.events, played.hash};
+  });
 }
 
 std::vector<Verdict> verdicts_of_threads(const std::vector<ThreadsRow>& rows) {

@@ -12,9 +12,11 @@ namespace kinesphere::program {
 
 /// Real time of one simulation in three ways, which took turns (seconds).
 struct ThreadsTurn {
-  double loop;  ///< an advance() for each event
-  double one;   ///< World::run with one thread
-  double many;  ///< World::run with all threads
+  double loop;      ///< an advance() for each event
+  double one;       ///< World::run with one thread
+  double many;      ///< World::run with all threads
+  double one_cpu;   ///< CPU time of World::run with one thread
+  double many_cpu;  ///< CPU time of all threads
 };
 
 struct ThreadsRow {
@@ -27,10 +29,17 @@ struct ThreadsRow {
 
   double one_to_loop() const;  ///< quotient of times; the median of the turns
   double one_to_many() const;
+  double cpu_to_one() const;  ///< CPU time of all threads, to that of one
 };
+
+/// The name of the game of research/measures/shooting_game.hpp among the scenes.
+constexpr const char* shooting_name = "shooting";
 
 /// Runs the scene in the three ways. Throws ProgramError, also if their hashes differ.
 ThreadsRow compare_threads(const SpeedScene& entry, int threads, const SpeedSettings& settings);
+
+/// The same for a game in which bodies vanish and appear.
+ThreadsRow compare_threads_in_game(int threads, const SpeedSettings& settings);
 
 /// Returns the verdicts on goal 6.
 std::vector<Verdict> verdicts_of_threads(const std::vector<ThreadsRow>& rows);

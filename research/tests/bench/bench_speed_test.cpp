@@ -118,13 +118,14 @@ TEST_F(BenchSpeedTest, WritesItsVerdicts) {
 TEST_F(BenchSpeedTest, ComparesThreads) {
   bench("--threads 2");
   const auto table = csv_rows(read("threads.csv"));
-  ASSERT_EQ(table.size(), 3u) << "a million bodies are left out here";
+  ASSERT_EQ(table.size(), 4u) << "a million bodies are left out here";
   for (std::size_t row = 0; row + 1 < table.size(); ++row) {
     EXPECT_EQ(csv_cell(table, row, "threads"), "2");
-    for (const char* column : {"loop_s", "one_s", "many_s", "one_to_loop", "one_to_many", "events"})
+    for (const char* column : {"loop_s", "one_s", "many_s", "one_to_loop", "one_to_many", "cpu_to_one", "events"})
       EXPECT_GT(std::stod(csv_cell(table, row, column)), 0.0) << column;
   }
-  EXPECT_EQ(csv_rows(read("threads_verdicts.csv")).size(), 5u);
+  EXPECT_EQ(csv_cell(table, 2, "scene"), "shooting");
+  EXPECT_EQ(csv_rows(read("threads_verdicts.csv")).size(), 7u);
   bench("--threads 3 --only sizes");
   EXPECT_EQ(csv_rows(read("threads_verdicts.csv")).size(), 2u) << "the gain is judged on two threads";
 }
@@ -132,6 +133,7 @@ TEST_F(BenchSpeedTest, ComparesThreads) {
 TEST_F(BenchSpeedTest, RefusesWrongOptions) {
   expect_wrong_input("speed --only paper1-500,paper9", {"--only", "paper1-500, paper1-1000", "paper9"});
   expect_wrong_input("speed --quick --full", {"--full", "--quick"});
+  expect_wrong_input("speed --only shooting", {"--only", "paper1-500", "shooting"});
   expect_wrong_input("speed --threads 0", {"--threads", "from 1 to 256"});
 }
 
