@@ -2,14 +2,23 @@
 # Builds the documentation site, static files for any web server: the guides (MkDocs with Material), and the references of
 # C++ and C (Doxygen), Python, and TypeScript (TypeDoc, if asked for or installed already). Any warning, broken link or
 # public symbol without a description fails. Look at it with: python3 -m http.server --directory build/docs/site
-# Usage: docs.sh [--typescript] [output folder, else build/docs/site]
+# Usage: docs.sh [--typescript] [--viewer] [output folder, else build/docs/site]
 #   --typescript: gets TypeDoc from npm, once
+#   --viewer: builds the viewer, too (in minutes), and the film of the first page leads to it
 # KINESPHERE_PYTHON names an interpreter that has the Python package; if there is none the package is built, in minutes.
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 typescript=no
-if [[ ${1:-} == --typescript ]]; then typescript=yes && shift; fi
+viewer=no
+while [[ ${1:-} == --* ]]; do
+  case $1 in
+    --typescript) typescript=yes ;;
+    --viewer) viewer=yes ;;
+    *) echo "docs: there is no option $1" >&2 && exit 2 ;;
+  esac
+  shift
+done
 work=$PWD/build/docs
 site=$(realpath -m "${1:-$work/site}")
 if [[ -n $(ls -A "$site" 2>/dev/null || true) && ! -e $site/search/search_index.json ]]; then
@@ -42,7 +51,18 @@ if [[ $typescript == yes && ! -x $typedoc ]]; then
   quietly npm --prefix "$tools" ci --no-audit --no-fund
 fi
 
+if [[ $viewer == yes ]]; then
+  scripts/setup.sh browser
+  quietly cmake --preset browser
+  quietly cmake --build --preset browser
+  export KINESPHERE_LIVE=yes
+fi
 /usr/bin/python3 -m mkdocs build --strict --quiet --site-dir "$site"
+if [[ $viewer == yes ]]; then
+  cp -r build/browser/browser/viewer "$site/viewer"
+  # The other page of the viewer's folder needs a watch that runs.
+  rm "$site"/viewer/map.html "$site"/viewer/assets/{map,coast}-*
+fi
 
 version=$(sed -n 's/^project(kinesphere VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 mkdir -p "$site/reference"

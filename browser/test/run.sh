@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Builds the library in WebAssembly, its npm package and the viewer, and tests them: in Node.js, with and without SIMD, and
-# the viewer and the map in chromium.
-# Usage: run.sh <native program, for the hashes> [build | node | pages]
-#   With a second argument only that part; the other two need what `build` has built.
+# the viewer, the map and the documentation's first page in chromium.
+# Usage: run.sh <native program, for the hashes> [build | node | pages | site]
+#   With a second argument only that part; the others need what `build` has built.
 set -euo pipefail
 
 program=$(realpath "$1")
@@ -28,11 +28,17 @@ pages() {
   node --test viewer.test.mjs served.test.mjs hashes.test.mjs dragging.test.mjs pictures.test.mjs map.test.mjs \
     fields.test.mjs
 }
+site() {
+  export KINESPHERE_SITE=$PWD/build/browser/site
+  scripts/docs.sh --viewer "$KINESPHERE_SITE"
+  node --test browser/viewer/test/first_page.test.mjs
+}
 
 case ${2:-all} in
   build) build ;;
   node) node_tests ;;
   pages) pages ;;
-  all) build; (node_tests); (pages) ;;
+  site) site ;;
+  all) build; (node_tests); (pages); site ;;
   *) echo "run: no part is named $2" >&2; exit 1 ;;
 esac

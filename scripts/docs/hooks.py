@@ -3,6 +3,7 @@
 - Links to headers lead to the reference that Doxygen wrote; links to Markdown elsewhere to pages `project/...`; links
   to any other file or folder to pages `sources/...`, made here.
 - The pages that scripts/docs.sh has made, as the reference of Python, are in the folder that KINESPHERE_GENERATED names.
+- If it will put the viewer into the site, as KINESPHERE_LIVE says, the film of the first page leads to that.
 """
 
 import json
@@ -36,6 +37,10 @@ LINK = re.compile(r"\]\((?![a-z]+:|#|/)([\w./+-]+)(#[^)\s]*)?\)")
 LIST_ITEM = re.compile(r" *([-*]|\d+\.) ")
 # A link that MkDocs is not to check: scripts/docs/check_links.py does so when all parts of the site are there.
 UNCHECKED = "/site-root/"
+FILM = re.compile(r"<p>(<picture>.*?</picture>)</p>", re.S)
+LIVE = r"""<figure class="live">\1
+<figcaption><a class="md-button md-button--primary" href="viewer/index.html">Run it live, in three dimensions</a></figcaption>
+</figure><script src="assets/live_viewer.js"></script>"""
 page_of_repository: dict[str, str] = {}
 references = {"python/kinesphere/_kinesphere.pyi": "reference/python.md"}
 if (root / "build/docs/typedoc/node_modules/.bin/typedoc").exists():
@@ -165,7 +170,11 @@ def on_page_markdown(markdown: str, page: Any, **_: Any) -> str:
 
 
 def on_page_content(html: str, page: Any, **_: Any) -> str:
-    """Makes links to pages that MkDocs does not make relative, as all others."""
+    """Makes links to pages that MkDocs does not make relative, as all others, and the first page live."""
+    if page.file.src_path == "index.md" and "KINESPHERE_LIVE" in os.environ:
+        html, found = FILM.subn(LIVE, html)
+        if found != 1:
+            raise ValueError("the first page has no film to be made live")
     up = posixpath.relpath(".", posixpath.dirname(page.url) or ".")
     return html.replace(f'"{UNCHECKED}', f'"{up}/')
 

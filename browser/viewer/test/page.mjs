@@ -16,26 +16,26 @@ const { chromium } = await import(
 
 const kinds = {
   ".html": "text/html", ".js": "text/javascript", ".mjs": "text/javascript", ".css": "text/css", ".json": "application/json",
-  ".wasm": "application/wasm",
+  ".wasm": "application/wasm", ".svg": "image/svg+xml",
 };
 const policy = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; " +
   "connect-src 'self'; img-src 'self' data:; font-src data:";
 
 /** Returns the bytes of a file of one of the folders, or of a text of the test; undefined if there is none. */
-async function bytesOf(path, given) {
+async function bytesOf(path, given, site) {
   if (path in given) return given[path];
   const root = path.startsWith("/package/") ? "/package/" : "/";
   const name = path === "/" ? "index.html" : path.slice(root.length);
-  return readFile(join(folders[root], normalize(name))).catch(() => undefined);
+  return readFile(join(site ?? folders[root], normalize(name))).catch(() => undefined);
 }
 
-/** Serves the page on this machine; `given` has the texts of further paths. */
-async function serve(given) {
+/** Serves the page, or a `site`, on this machine; `given` has the texts of further paths. */
+async function serve(given, site) {
   const server = createServer(async (request, response) => {
     const { pathname } = new URL(request.url, "http://localhost");
-    const bytes = await bytesOf(pathname, given);
+    const bytes = await bytesOf(pathname, given, site);
     const kind = kinds[pathname === "/" ? ".html" : extname(pathname)] ?? "application/octet-stream";
-    response.writeHead(bytes === undefined ? 404 : 200, { "content-type": kind, "content-security-policy": policy });
+    response.writeHead(bytes === undefined ? 404 : 200, { "content-type": kind, ...(site === undefined && { "content-security-policy": policy }) });
     response.end(bytes);
   });
   await new Promise((done) => server.listen(0, "127.0.0.1", done));
@@ -50,15 +50,16 @@ const hasViewerDrawn = () => window.kinesphereViewer?.firstPicture != null;
  * A browser that is there for the tests of a file. `open()` loads the page, here or at another server's address, and
  * waits until `isReady` is true there: of the viewer, for its first picture.
  * `complaints` is whatever pages complained of, and addresses that they asked for elsewhere; `graphics` are options
- * of the browser. `open(where, { prepare })` runs a function in the page before its own code.
+ * of the browser. `open(where, { prepare })` runs a function in the page before its own code. `site` is a folder to
+ * serve in place of the viewer, without the viewer's policy of what a page may load.
  */
-export function browserForTests({ given = {}, viewport = { width: 900, height: 700 }, isReady = hasViewerDrawn, graphics = softwareGraphics } = {}) {
+export function browserForTests({ given = {}, site, viewport = { width: 900, height: 700 }, isReady = hasViewerDrawn, graphics = softwareGraphics } = {}) {
   const found = { complaints: [], page: undefined, address: undefined, open: undefined };
   let server;
   let browser;
   let current;
   const start = async () => {
-    server = await serve(given);
+    server = await serve(given, site);
     found.address = `http://127.0.0.1:${server.address().port}/`;
     browser = await chromium.launch({
       executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
