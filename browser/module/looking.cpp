@@ -9,7 +9,7 @@ namespace kinesphere::browser {
 KINESPHERE_EXPORT(world_bodies) void world_bodies(const World* world) { answer_ids(world->bodies()); }
 
 /// Numbers for each body; WorldView.bodyViews() in package/src/world.ts reads them.
-constexpr std::size_t view_numbers = 33;
+constexpr std::size_t view_numbers = 34;
 KINESPHERE_EXPORT(world_views) bool world_views(const World* world, std::size_t count, const double* bodies) {
   auto& numbers = answer();
   numbers.assign(count * view_numbers, 0.0);
@@ -38,6 +38,7 @@ KINESPHERE_EXPORT(world_views) bool world_views(const World* world, std::size_t 
     at[30] = static_cast<double>(filter.category);
     at[31] = filter.mask == Filter{}.mask ? -1.0 : static_cast<double>(filter.mask);
     at[32] = filter.group;
+    at[33] = view->rigid ? 1.0 : 0.0;
   }
   return true;
 }

@@ -41,6 +41,8 @@ export interface BodyView {
   solid: boolean;
   mass: number;
   filter: Required<Filter>;
+  /** WorldView.partsOf() and rotation() say more of a rigid body. */
+  isRigid: boolean;
 }
 
 /** The first possible contact or approach, and the partner. */
@@ -106,7 +108,7 @@ export interface BusyBody {
   largestAcceleration: number;
 }
 
-const viewNumbers = 33;
+const viewNumbers = 34;
 const busyNumbers = 11;
 
 /** Read access to a world, which may be that of a replay. */
@@ -164,6 +166,7 @@ export class WorldView extends Owned {
         solid: numbers[28] === 1,
         mass: numbers[29]!,
         filter: { category: numbers[30]!, mask: numbers[31]!, group: numbers[32]! },
+        isRigid: numbers[33] === 1,
       };
     });
   }

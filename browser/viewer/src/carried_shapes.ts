@@ -1,20 +1,56 @@
-// The boxes and triangles that moving bodies carry, in place of the balls around them.
-import type { BodyView, Shape, Vec3, WorldView } from "kinesphere";
-import { BoxGeometry, BufferGeometry, type Color, DoubleSide, Float32BufferAttribute, Group, Mesh, MeshBasicMaterial } from "three";
+// What is drawn in place of the ball around a body: the box or triangle that it carries, or the parts of a rigid body.
+import type { BodyView, RigidPart, Shape, Vec3, WorldView } from "kinesphere";
+import {
+  BoxGeometry, BufferGeometry, CapsuleGeometry, type Color, DoubleSide, Float32BufferAttribute, Group, type Material, Mesh, MeshBasicMaterial,
+  MeshPhongMaterial, Quaternion, SphereGeometry, Vector3,
+} from "three";
+import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 
-/** The shapes of the bodies that carry one, by place in the picture. */
-export type CarriedShapes = ReadonlyMap<number, Shape>;
+export type CarriedShape = Shape | { parts: readonly RigidPart[] };
+/** The shapes of the bodies that have one, by place in the picture. */
+export type CarriedShapes = ReadonlyMap<number, CarriedShape>;
+/** How rigid bodies are turned, by place in the picture. */
+export type Orientations = ReadonlyMap<number, Quaternion>;
 
 export function carriedShapes(world: WorldView, views: readonly BodyView[]): CarriedShapes {
-  const found = new Map<number, Shape>();
-  for (const [place, { id }] of views.entries()) {
-    const shape = world.shapeOf(id);
-    if ("box" in shape || "triangle" in shape) found.set(place, shape);
+  const found = new Map<number, CarriedShape>();
+  for (const [place, { id, isRigid }] of views.entries()) {
+    const shape = isRigid ? { parts: world.partsOf(id) } : world.shapeOf(id);
+    if (!("ball" in shape)) found.set(place, shape);
   }
   return found;
 }
 
-function geometryOf(shape: Shape): BufferGeometry {
+/** Returns how rigid bodies are turned at `time`, if each has kept its angular velocity since its last report. */
+export function orientationsAt(time: number, world: WorldView, views: readonly BodyView[]): Orientations {
+  const found = new Map<number, Quaternion>();
+  for (const [place, { id, isRigid, reportTime }] of views.entries()) {
+    if (!isRigid) continue;
+    const { orientation, angularVelocity } = world.rotation(id);
+    const [w, x, y, z] = Array.from(orientation) as [number, number, number, number];
+    const spin = vectorOf(angularVelocity);
+    const speed = spin.length();
+    if (speed > 0) spin.divideScalar(speed);
+    const turned = new Quaternion().setFromAxisAngle(spin, speed * (time - reportTime));
+    found.set(place, turned.multiply(new Quaternion(x, y, z, w)));
+  }
+  return found;
+}
+
+const vectorOf = (point: Vec3) => new Vector3().fromArray(Array.from(point as ArrayLike<number>));
+
+function partGeometry(part: RigidPart): BufferGeometry {
+  if ("ball" in part) return new SphereGeometry(part.ball.radius, 32, 24).translate(...vectorOf(part.ball.centre).toArray());
+  const [a, b] = [vectorOf(part.capsule.a), vectorOf(part.capsule.b)];
+  const along = b.clone().sub(a);
+  // The geometry stands along y.
+  const turn = new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), along.clone().normalize());
+  return new CapsuleGeometry(part.capsule.radius, along.length(), 12, 24).applyQuaternion(turn)
+    .translate(...a.add(b).divideScalar(2).toArray());
+}
+
+function geometryOf(shape: CarriedShape): BufferGeometry {
+  if ("parts" in shape) return mergeGeometries(shape.parts.map((part) => partGeometry(part)));
   if ("box" in shape) {
     const { lower, upper } = shape.box;
     const part = (of: (axis: number) => number) => [of(0), of(1), of(2)] as const;
@@ -25,32 +61,46 @@ function geometryOf(shape: Shape): BufferGeometry {
   return new BufferGeometry().setAttribute("position", new Float32BufferAttribute(corners, 3));
 }
 
+/** Rigid bodies look as balls do; moving shapes may be large, and are translucent. */
+function materialOf(shape: CarriedShape): Material & { color: Color } {
+  return "parts" in shape ? new MeshPhongMaterial({ specular: 0x444444, shininess: 48 })
+    : new MeshBasicMaterial({ transparent: true, opacity: 0.45, side: DoubleSide, depthWrite: false });
+}
+
 export class CarriedShapeMeshes {
   readonly object = new Group();
   private shapes: CarriedShapes = new Map();
-  private meshes = new Map<number, Mesh<BufferGeometry, MeshBasicMaterial>>();
+  private meshes = new Map<number, Mesh<BufferGeometry, Material & { color: Color }>>();
 
   /** Draws the shapes at the positions of their bodies. */
-  draw(shapes: CarriedShapes, positions: Float64Array, colourOf: (body: number) => Color): void {
+  draw(shapes: CarriedShapes, positions: Float64Array, orientations: Orientations, colourOf: (body: number) => Color): void {
     if (shapes !== this.shapes) this.make(shapes);
     for (const [place, mesh] of this.meshes) {
       mesh.visible = !Number.isNaN(positions[3 * place]);
       mesh.position.fromArray(positions, 3 * place);
+      const orientation = orientations.get(place);
+      if (orientation !== undefined) mesh.quaternion.copy(orientation);
       mesh.material.color.copy(colourOf(place));
     }
   }
 
   private make(shapes: CarriedShapes): void {
-    for (const mesh of this.meshes.values()) {
-      mesh.geometry.dispose();
-      mesh.material.dispose();
+    for (const { geometry, material } of this.meshes.values()) {
+      geometry.dispose();
+      material.dispose();
     }
     this.object.clear();
     this.shapes = shapes;
-    this.meshes = new Map(Array.from(shapes, ([place, shape]) => [place, new Mesh(geometryOf(shape),
-      new MeshBasicMaterial({ transparent: true, opacity: 0.45, side: DoubleSide, depthWrite: false }))]));
+    // Bodies of equal shapes share a geometry.
+    const geometries = new Map<string, BufferGeometry>();
+    this.meshes = new Map(Array.from(shapes, ([place, shape]) => {
+      const key = JSON.stringify(shape);
+      const geometry = geometries.get(key) ?? geometryOf(shape);
+      geometries.set(key, geometry);
+      return [place, new Mesh(geometry, materialOf(shape))];
+    }));
     for (const mesh of this.meshes.values()) {
-      mesh.renderOrder = 1;
+      mesh.renderOrder = mesh.material.transparent ? 1 : 0;
       this.object.add(mesh);
     }
   }

@@ -78,7 +78,9 @@ export class Hand {
     let foundHit = false;
     let least = Infinity;
     for (let k = 0; k < radii.length; ++k) {
-      if (Number.isNaN(positions[3 * k]) || shapes.has(k)) continue;
+      const shape = shapes.get(k);
+      // Rigid bodies are grabbed as the balls around them.
+      if (Number.isNaN(positions[3 * k]) || (shape !== undefined && !("parts" in shape))) continue;
       middle.fromArray(positions, 3 * k).sub(origin);
       const along = middle.dot(direction);
       if (along <= camera.near) continue;

@@ -1,7 +1,7 @@
 // The numbers at the edge of the picture, and messages.
 import { BusiestTable, busiestShown } from "./busiest.ts";
 import { Numbers, put, whole } from "./numbers.ts";
-import type { Shown } from "./shown.ts";
+import { countsMissed, type Shown } from "./shown.ts";
 
 /** Means over the last pictures, in milliseconds. */
 export interface Times {
@@ -42,7 +42,7 @@ export class Hud {
     this.about.textContent = shown.about;
     this.crossings.row.hidden = shown.zone === null;
     this.alarms.row.hidden = shown.alarms === null;
-    this.missed.row.hidden = shown.alarms !== null;
+    this.missed.row.hidden = !countsMissed(shown);
   }
 
   update(shown: Shown, times: Times, showBusiest: boolean): void {

@@ -2,7 +2,7 @@
 import type { Color } from "three";
 import type { Palette } from "./colours.ts";
 import type { Settings } from "./settings.ts";
-import type { Shown } from "./shown.ts";
+import { countsMissed, type Shown } from "./shown.ts";
 
 interface Entry {
   /** A dot or a line of one colour, or a row of colours. */
@@ -19,9 +19,8 @@ function entries(shown: Shown, { overlays: on, colouring }: Settings, palette: P
   const dot = (colour: Color, words: string): Entry => ({ kind: "dot", colours: [colour], words });
   const line = (colour: Color, words: string): Entry => ({ kind: "line", colours: [colour], words });
   const found: Entry[] = [];
-  if (on.contacts && shown.alarms === null) {
-    found.push(dot(palette.contact, "contact"), dot(palette.missed, "contact that 60 Hz misses"));
-  }
+  if (on.contacts && shown.alarms === null) found.push(dot(palette.contact, "contact"));
+  if (on.contacts && countsMissed(shown)) found.push(dot(palette.missed, "contact that 60 Hz misses"));
   if (shown.alarms !== null) found.push(line(palette.contact, "warning"), line(palette.missed, "alarm"));
   if (on.trails && shown.trails.length > 0) found.push(line(palette.trail, "trail"), dot(palette.look, "where 60 Hz looks"));
   if (on.probes) found.push(dot(palette.probe, "asked just now"));

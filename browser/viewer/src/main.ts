@@ -258,7 +258,7 @@ function draw(seconds: number): void {
   overlays.update(shown, views, positions, settings, seconds, calmQuery.matches, pixels);
   const safe = colouring === "safe" ? safeDurations(shown, views!) : null;
   const { time } = shown.view;
-  stage.draw(positions, radii, shown.shapes(), (body) => {
+  stage.draw(positions, radii, shown.shapes(), shown.orientations(), (body) => {
     if (body === hand.body) return colour.copy(palette.held);
     if (safe !== null) along(palette.times, placeOfDuration(safe[body]!), colour);
     else if (colouring === "asked") along(palette.times, placeOfDuration(time - views![body]!.reportTime), colour);

@@ -1,6 +1,6 @@
 // A recording for display: bodies are drawn at the centres of their bounds, since nothing else is recorded.
 import { type BodyView, type Box, type BusyBody, EventHash, Replay, type WorldView } from "kinesphere";
-import { type CarriedShapes, carriedShapes } from "./carried_shapes.ts";
+import { type CarriedShapes, carriedShapes, type Orientations, orientationsAt } from "./carried_shapes.ts";
 import { isMissedByLoop } from "./missed.ts";
 import { emptyTally, RecentRate, type Shown, type Tally, type ReportedEvent, wrapInto } from "./shown.ts";
 
@@ -56,6 +56,9 @@ export class Recording implements Shown {
       this.carried = carriedShapes(this.replay.world, views);
     }
     return this.carried;
+  }
+  orientations(): Orientations {
+    return orientationsAt(this.shownTime, this.replay.world, this.views());
   }
   positions(): Float64Array {
     const views = this.views();

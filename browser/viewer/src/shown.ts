@@ -1,6 +1,6 @@
 // A simulation or a recording on the page, in a form for drawing and numbers.
 import type { BodyId, BodyView, Box, BusyBody, Event, WorldView } from "kinesphere";
-import type { CarriedShapes } from "./carried_shapes.ts";
+import type { CarriedShapes, Orientations } from "./carried_shapes.ts";
 import type { AlarmDistances } from "./scenes/live_scene.ts";
 
 /** An event, and whether a loop of 60 Hz would miss it. */
@@ -67,6 +67,8 @@ export interface Shown {
   radii(): Float64Array;
   /** Returns the shapes that bodies carry; the same object until they change. */
   shapes(): CarriedShapes;
+  /** Returns how rigid bodies are turned. */
+  orientations(): Orientations;
   /** Returns three numbers for each body, in the box if space is periodic; NaN for absent ones. */
   positions(): Float64Array;
   /** Returns the moving bodies as the world knows them, in the order of positions(). */
@@ -78,6 +80,11 @@ export interface Shown {
   /** Goes back, as far as the history reaches. */
   back(seconds: number): void;
   free(): void;
+}
+
+/** Whether missed contacts are counted: between balls that report without errors. */
+export function countsMissed(shown: Shown): boolean {
+  return shown.alarms === null && (shown.shapes().size === 0 || shown.shapes().size < shown.radii().length);
 }
 
 /** Returns the shift that brings a coordinate into the box if space is periodic. */

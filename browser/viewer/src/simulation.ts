@@ -1,6 +1,6 @@
 // A running scene with single steps and a way back, in which bodies can be pushed. Needs no page.
 import { type BodyId, type BodyView, type Box, type BusyBody, type Event, EventHash, type Vec3, type World } from "kinesphere";
-import { type CarriedShapes, carriedShapes } from "./carried_shapes.ts";
+import { type CarriedShapes, carriedShapes, type Orientations, orientationsAt } from "./carried_shapes.ts";
 import { isMissedByLoop, loopLooksWithin } from "./missed.ts";
 import type { TrackTable } from "./scenes/crowd.ts";
 import { sceneAbout, setUp } from "./scenes/list.ts";
@@ -104,6 +104,9 @@ export class Simulation implements Shown {
   }
   shapes(): CarriedShapes {
     return this.carried;
+  }
+  orientations(): Orientations {
+    return this.carried.size === 0 ? new Map() : orientationsAt(this.time, this.view, this.views());
   }
   positions(): Float64Array {
     const states = this.now.scene.states();

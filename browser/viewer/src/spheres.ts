@@ -69,6 +69,9 @@ const fragments = `
     fragment = vec4(encoded(clamp(mix(shade, mist, fog), 0.0, 1.0)), cover);
   }`;
 
+/** Where the light comes from, in the eye's frame. */
+export const sunDirection = new Vector3(-0.4, 0.75, 0.53).normalize();
+
 export class Spheres {
   readonly object: Mesh<InstancedBufferGeometry, ShaderMaterial>;
   private balls = new InstancedBufferAttribute(new Float32Array(0), 4);
@@ -88,7 +91,7 @@ export class Spheres {
         blending: CustomBlending, blendSrc: OneFactor, blendDst: ZeroFactor, blendSrcAlpha: OneFactor, blendDstAlpha: OneFactor,
       }),
       uniforms: {
-        sun: { value: new Vector3(-0.4, 0.75, 0.53).normalize() },
+        sun: { value: sunDirection },
         sky: { value: new Vector3(0, 1, 0) },
         mist: { value: new Color() },
         mistRange: { value: [1, 2] },

@@ -1,14 +1,15 @@
 // The picture: camera, light, fog, the box and the spheres.
 import type { Box } from "kinesphere";
 import {
-  BackSide, BoxGeometry, BufferGeometry, type Color, EdgesGeometry, Float32BufferAttribute, Fog, Group, LineBasicMaterial, LineSegments, Mesh,
+  BackSide, BoxGeometry, BufferGeometry, Color, DirectionalLight, EdgesGeometry, Float32BufferAttribute, Fog, Group,
+  HemisphereLight, LineBasicMaterial, LineSegments, Mesh,
   MeshBasicMaterial, PerspectiveCamera, Scene, Sphere, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { type CarriedShapes, CarriedShapeMeshes } from "./carried_shapes.ts";
+import { type CarriedShapes, CarriedShapeMeshes, type Orientations } from "./carried_shapes.ts";
 import type { Palette } from "./colours.ts";
 import type { Shown } from "./shown.ts";
-import { Spheres } from "./spheres.ts";
+import { Spheres, sunDirection } from "./spheres.ts";
 
 export interface Margins {
   left: number;
@@ -31,6 +32,9 @@ export class Stage {
   private readonly bodies = new Spheres();
   private readonly shapes = new CarriedShapeMeshes();
   private lightStrength = 1;
+  /** What the shader of spheres computes, for shapes: light from above, and a sun that moves with the eye. */
+  private readonly sky = new HemisphereLight(new Color().setRGB(0.52, 0.52, 0.52), new Color().setRGB(0.13, 0.15, 0.24));
+  private readonly sun = new DirectionalLight();
   /** Pixels at the edges that something else covers. */
   private covered: Margins = { left: 0, top: 0, right: 0, bottom: 0 };
 
@@ -42,7 +46,8 @@ export class Stage {
     this.controls.enableDamping = true;
     this.controls.dampingFactor = 0.12;
     this.scene.fog = this.fog;
-    this.scene.add(this.surroundings, this.bodies.object, this.shapes.object);
+    this.sky.position.copy(this.camera.up);
+    this.scene.add(this.surroundings, this.bodies.object, this.shapes.object, this.sky, this.sun);
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.resize();
   }
@@ -114,7 +119,8 @@ export class Stage {
   }
 
   /** Draws bodies: three numbers for each, the shape that it carries or else its radius, and its colour. */
-  draw(positions: Float64Array, radii: Float64Array, shapes: CarriedShapes, colourOf: (body: number) => Color): void {
+  draw(positions: Float64Array, radii: Float64Array, shapes: CarriedShapes, orientations: Orientations,
+       colourOf: (body: number) => Color): void {
     this.bodies.resize(radii.length);
     for (let k = 0; k < radii.length; ++k) {
       const isBall = !Number.isNaN(positions[3 * k]) && !shapes.has(k);
@@ -122,7 +128,7 @@ export class Stage {
       else this.bodies.hide(k);
     }
     this.bodies.done();
-    this.shapes.draw(shapes, positions, colourOf);
+    this.shapes.draw(shapes, positions, orientations, colourOf);
   }
 
   render(): void {
@@ -133,6 +139,10 @@ export class Stage {
     this.fog.far = distance + 2.6 * radius;
     const above = new Vector3(0, 0, 1).transformDirection(this.camera.matrixWorldInverse);
     this.bodies.light(above, this.fog.color, this.fog.near, this.fog.far, this.lightStrength);
+    // Materials divide light by pi.
+    this.sky.intensity = Math.PI * this.lightStrength;
+    this.sun.intensity = 0.62 * Math.PI * this.lightStrength;
+    this.sun.position.copy(sunDirection).applyQuaternion(this.camera.quaternion);
     this.renderer.render(this.scene, this.camera);
   }
 

@@ -84,6 +84,7 @@ const pictures = {
   "bullets": { scene: "bullets", bodies: 120, time: 0.1, theme: "dark", colouring: "safe" },
   "bounds": { scene: "gas", bodies: 200, time: 1, theme: "dark", overlays: { bounds: true, certificates: true } },
   "boxes": { scene: "periodic_gas", bodies: 150, time: 1, theme: "bright", overlays: { boxes: true, cells: true } },
+  "rigid": { scene: "rigid", bodies: 90, time: 2, theme: "bright" },
   "drones": { scene: "drones", bodies: 60, time: 12, theme: "dark" },
 };
 

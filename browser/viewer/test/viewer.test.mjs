@@ -196,7 +196,7 @@ test("a throw while time stands still counts", async () => {
 
 test("every scene can be chosen", async () => {
   const names = new Set();
-  for (const key of "1234567890-=") {
+  for (const key of "1234567890-=[") {
     await page.keyboard.press(key);
     const name = await page.evaluate(() => window.kinesphereViewer.simulation.choice.name);
     await page.waitForFunction(() => window.kinesphereViewer.simulation.time > 0.02, null, { timeout: 60_000 });
@@ -213,7 +213,7 @@ test("every scene can be chosen", async () => {
     assert.equal(await page.evaluate(() => window.kinesphereViewer.simulation.view.audit()), null, name);
     names.add(name);
   }
-  assert.equal(names.size, 12);
+  assert.equal(names.size, 13);
 });
 
 test("ten thousand bodies find room", async () => {
@@ -259,6 +259,94 @@ test("a piston is drawn as its shape, and no ball is where it is", async () => {
   assert.equal(seen.others, 0);
   assert.equal(seen.violations, 0);
   assert.ok(seen.deepest < 1e-5, `${seen.deepest}`);
+});
+
+test("rigid bodies are drawn as they turn: parts touch at each contact, and never overlap", async () => {
+  await page.keyboard.press("[");
+  const seen = await page.evaluate(() => {
+    const { simulation, setPlaying } = window.kinesphereViewer;
+    setPlaying(false);
+    /** The ends and the radius of a part as it is drawn. */
+    const placed = (body, part) => {
+      const { ball, capsule } = simulation.shapes().get(body).parts[part];
+      const at = (point) => {
+        // v + 2 q x (q x v + w v)
+        const { x, y, z, w } = simulation.orientations().get(body);
+        const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+        const inner = cross([x, y, z], point).map((c, k) => c + w * point[k]);
+        return cross([x, y, z], inner).map((c, k) => point[k] + 2 * c + simulation.positions()[3 * body + k]);
+      };
+      return ball ? { a: at(ball.centre), b: at(ball.centre), radius: ball.radius }
+        : { a: at(capsule.a), b: at(capsule.b), radius: capsule.radius };
+    };
+    const between = ({ a, b }, share) => a.map((c, k) => c + share * (b[k] - c));
+    const nearest = ({ a, b }, point) => {
+      const along = b.map((c, k) => c - a[k]);
+      const length = along.reduce((sum, c) => sum + c * c, 0);
+      return length === 0 ? 0 : Math.min(Math.max(along.reduce((sum, c, k) => sum + c * (point[k] - a[k]), 0) / length, 0), 1);
+    };
+    /** By turns the nearest point of one to that of the other: converges, as both are convex. */
+    const gap = (one, other) => {
+      let point = between(one, 0.5);
+      let partner;
+      for (let turn = 0; turn < 200; ++turn) {
+        partner = between(other, nearest(other, point));
+        point = between(one, nearest(one, partner));
+      }
+      return Math.hypot(...point.map((c, k) => c - partner[k])) - one.radius - other.radius;
+    };
+    let contacts = 0, furthest = 0, grazed = 0;
+    while (contacts < 40) {
+      for (const { event } of simulation.nextEvent()) {
+        if (event.kind !== "contact_begin") continue;
+        contacts += 1;
+        furthest = Math.max(furthest, Math.abs(gap(placed(event.first, event.firstPart), placed(event.second, event.secondPart))));
+        grazed += Math.hypot(...simulation.view.rotation(event.first).angularVelocity) > 0;
+      }
+    }
+    // A second of time later, all pairs.
+    simulation.run(simulation.time + 1);
+    let deepest = 0;
+    const parts = [...simulation.shapes()].map(([body, { parts }]) => parts.map((_, k) => placed(body, k)));
+    parts.forEach((mine, body) => parts.slice(0, body).forEach((others, other) => {
+      const radii = simulation.radii();
+      const [p, q] = [body, other].map((k) => simulation.positions().subarray(3 * k, 3 * k + 3));
+      if (Math.hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) > radii[body] + radii[other]) return;
+      for (const a of mine) for (const b of others) deepest = Math.max(deepest, -gap(a, b));
+    }));
+    return { furthest, deepest, grazed, bodies: parts.length, violations: simulation.tally.violations };
+  });
+  assert.equal(seen.bodies, 90);
+  // What a loop misses is counted for balls alone.
+  await page.waitForFunction(() => !document.querySelector("#legend").textContent.includes("misses"));
+  assert.doesNotMatch(await page.evaluate(() => document.querySelector("#numbers").innerText), /missed/);
+  assert.equal(seen.violations, 0);
+  assert.ok(seen.grazed > 20);
+  assert.ok(seen.furthest < 1e-4 && seen.deepest < 1e-4, JSON.stringify(seen));
+});
+
+test("a recording of rigid bodies shows their parts, and one can be thrown", async () => {
+  const made = await page.evaluate(() => {
+    const { simulation } = window.kinesphereViewer;
+    const before = simulation.time;
+    simulation.setVelocity(0, [5, 0, 0]);
+    simulation.view.startRecording();
+    simulation.run(simulation.time + 0.5);
+    const files = new DataTransfer();
+    files.items.add(new File([simulation.view.stopRecording()], "turning.rec"));
+    window.dispatchEvent(new DragEvent("drop", { dataTransfer: files, cancelable: true }));
+    return { passed: simulation.time - before, shapes: [...simulation.shapes()],
+             turned: [...simulation.orientations().values()].map((turn) => turn.toArray()) };
+  });
+  await page.waitForFunction(() => window.kinesphereViewer.simulation.title === "turning.rec");
+  const shown = await page.evaluate(() => {
+    const { simulation } = window.kinesphereViewer;
+    simulation.run(Infinity);
+    return { shapes: [...simulation.shapes()], turned: [...simulation.orientations().values()].map((turn) => turn.toArray()) };
+  });
+  assert.deepEqual(shown.shapes, made.shapes);
+  made.turned.forEach((turn, body) => turn.forEach((part, k) => assert.ok(Math.abs(part - shown.turned[body][k]) < 1e-9)));
+  await page.keyboard.press("r");
 });
 
 for (const [width, height] of [[390, 844], [844, 390], [360, 640], [768, 1024], [1024, 768], [1440, 900]]) {

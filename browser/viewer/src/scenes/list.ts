@@ -8,6 +8,7 @@ import type { SceneChoice, Setup } from "./live_scene.ts";
 import { madeUpCrowd } from "./made_up_crowd.ts";
 import { missed } from "./missed.ts";
 import { piston } from "./piston.ts";
+import { rigidBodies } from "./rigid_bodies.ts";
 
 export interface SceneAbout {
   name: string;
@@ -41,6 +42,8 @@ export const scenes: readonly SceneAbout[] = [
     about: "A moving shape. The world knows how strongly the piston may accelerate, and nothing else of its course." },
   { name: "crowd", title: "A crowd", bodies: 10_000, speed: 2,
     about: "Two that come within half a metre are reported. kinesphere view FILE shows people as they were recorded." },
+  { name: "rigid", title: "Things that turn", bodies: 90, speed: 0.5,
+    about: "Rigid bodies: dumbbells, rods and jacks, made of balls and capsules. Contacts turn them, also those that only graze." },
 ];
 
 export function sceneAbout(name: string): SceneAbout {
@@ -50,7 +53,7 @@ export function sceneAbout(name: string): SceneAbout {
 }
 
 /** The key of a scene, by its place in the list. */
-export const sceneKeys = "1234567890-=";
+export const sceneKeys = "1234567890-=[";
 
 /** `opened` are the tracks that the server was given, if any. */
 export function setUp(choice: SceneChoice, opened: TrackTable | null): Setup {
@@ -65,6 +68,8 @@ export function setUp(choice: SceneChoice, opened: TrackTable | null): Setup {
       return game(choice);
     case "piston":
       return piston(choice);
+    case "rigid":
+      return rigidBodies(choice);
     case "crowd":
       return opened === null ? { ...crowd(choice, madeUpCrowd(choice.seed)), about: sceneAbout(choice.name).about } : crowd(choice, opened);
     default:
