@@ -196,6 +196,7 @@ test("wrong use is refused", () => {
   assert.equal(world.size, 0);
   const body = world.addRigidBody(dumbbell, { position, largestAngularSpeed: 2 });
   const ball = world.add({ position: [5, 0, 0] });
+  assert.deepEqual(world.bodyViews([body, ball]).map(({ isRigid }) => isRigid), [true, false]);
   for (const call of [() => world.rotation(ball), () => world.partsOf(ball), () => world.setAngularVelocity(ball, [0, 0, 1])])
     assert.throws(call, { code: "unsupported" });
   assert.throws(() => world.setAngularVelocity(body, [0, 0, 3]), { code: "out_of_range" });

@@ -134,11 +134,12 @@ test("nothing overlaps after that", async () => {
   assert.ok(least > -1e-5, `two bodies overlap by ${-least}`);
 });
 
-test("a broken file and a table are refused with a message, and the scene goes on", async () => {
+test("a broken file, a table and messages are refused with a message, and the scene goes on", async () => {
   await page.keyboard.press("Space");
   for (const [name, content, expected] of [
     ["broken.rec", "Kinerc\r\n12345", /^broken\.rec cannot be shown\. .+/],
     ["walk.csv", "id,time,x,y\n1,0,0,0\n", /^walk\.csv cannot be shown\. .+ kinesphere view walk\.csv shows tables/],
+    ["ais.nmea", "!AIVDM,1,1,,A,13u?etPv2;0n:dDPwUM1U1Cb069D,0*24\n", /^ais\.nmea cannot .+ kinesphere view ais\.nmea shows .+ messages/],
   ]) {
     await page.evaluate(([name, content]) => {
       const files = new DataTransfer();
@@ -295,17 +296,27 @@ test("rigid bodies are drawn as they turn: parts touch at each contact, and neve
       }
       return Math.hypot(...point.map((c, k) => c - partner[k])) - one.radius - other.radius;
     };
-    let contacts = 0, furthest = 0, grazed = 0;
+    let contacts = 0, furthest = 0, turning = 0;
     while (contacts < 40) {
       for (const { event } of simulation.nextEvent()) {
         if (event.kind !== "contact_begin") continue;
         contacts += 1;
         furthest = Math.max(furthest, Math.abs(gap(placed(event.first, event.firstPart), placed(event.second, event.secondPart))));
-        grazed += Math.hypot(...simulation.view.rotation(event.first).angularVelocity) > 0;
+        turning += Math.hypot(...simulation.view.rotation(event.first).angularVelocity) > 0;
       }
     }
-    // A second of time later, all pairs.
-    simulation.run(simulation.time + 1);
+    // Between events each body turns steadily, whether it is asked meanwhile or not.
+    let jerk = 0, steady = 0;
+    for (let step = 0; step < 50; ++step) {
+      const [before, time] = [simulation.orientations(), simulation.time];
+      const hit = new Set(simulation.run(time + 0.02).flatMap(({ event }) => [event.first, event.second]));
+      for (const [body, now] of simulation.orientations()) {
+        if (hit.has(body)) continue;
+        steady += 1;
+        const speed = Math.hypot(...simulation.view.rotation(body).angularVelocity);
+        jerk = Math.max(jerk, Math.abs(before.get(body).angleTo(now) - 0.02 * speed));
+      }
+    }
     let deepest = 0;
     const parts = [...simulation.shapes()].map(([body, { parts }]) => parts.map((_, k) => placed(body, k)));
     parts.forEach((mine, body) => parts.slice(0, body).forEach((others, other) => {
@@ -314,15 +325,15 @@ test("rigid bodies are drawn as they turn: parts touch at each contact, and neve
       if (Math.hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) > radii[body] + radii[other]) return;
       for (const a of mine) for (const b of others) deepest = Math.max(deepest, -gap(a, b));
     }));
-    return { furthest, deepest, grazed, bodies: parts.length, violations: simulation.tally.violations };
+    return { furthest, deepest, turning, jerk, steady, bodies: parts.length, violations: simulation.tally.violations };
   });
   assert.equal(seen.bodies, 90);
   // What a loop misses is counted for balls alone.
   await page.waitForFunction(() => !document.querySelector("#legend").textContent.includes("misses"));
   assert.doesNotMatch(await page.evaluate(() => document.querySelector("#numbers").innerText), /missed/);
   assert.equal(seen.violations, 0);
-  assert.ok(seen.grazed > 20);
-  assert.ok(seen.furthest < 1e-4 && seen.deepest < 1e-4, JSON.stringify(seen));
+  assert.ok(seen.turning > 20 && seen.steady > 2000);
+  assert.ok(seen.furthest < 1e-4 && seen.deepest < 1e-4 && seen.jerk < 1e-6, JSON.stringify(seen));
 });
 
 test("a recording of rigid bodies shows their parts, and one can be thrown", async () => {
