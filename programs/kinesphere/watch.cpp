@@ -97,9 +97,9 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
       ->add_flag("--no-classes", options.no_classes,
                  "No classes by what the stream says: status, ship type, emitter category")
       ->group(promises);
-  measure("--silence", options.silence, "A track of which nothing is heard for so long is told of", "TIME",
+  measure("--silence", options.silence, "A track of which nothing is heard for so long is stale", "TIME",
           promises);
-  measure("--forget", options.forget, "A track of which nothing is heard for so long leaves", "TIME",
+  measure("--forget", options.forget, "A track of which nothing is heard for so long is dropped", "TIME",
           promises);
   const char* const errors = "How far off reports are at most";
   command

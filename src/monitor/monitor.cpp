@@ -23,11 +23,11 @@ std::string_view name_of(MonitorEventKind kind) {
     case MonitorEventKind::resolved:
       return "resolved";
     case MonitorEventKind::stale:
-      return "silent";
+      return "stale";
     case MonitorEventKind::resumed:
-      return "heard";
+      return "resumed";
     case MonitorEventKind::dropped:
-      return "left";
+      return "dropped";
     case MonitorEventKind::reclassified:
       return "reclassified";
   }

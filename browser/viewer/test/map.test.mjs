@@ -49,7 +49,7 @@ describe("a stream with x and y", () => {
   test("its numbers are those of the watch", async () => {
     assert.equal(await number(page, "time"), "8.0 s");
     assert.equal(await number(page, "tracks"), "7");
-    assert.match(await page.textContent('#numbers [data-name="tracks"]'), /1 silent/);
+    assert.match(await page.textContent('#numbers [data-name="tracks"]'), /1 stale/);
     assert.equal(await number(page, "within"), "1");
     assert.equal(await number(page, "undecided"), "1");
     assert.equal(await number(page, "reports"), "10");
@@ -112,7 +112,7 @@ describe("a stream with x and y", () => {
     });
     await page.mouse.click(x, y);
     assert.equal(await page.textContent("#details-title"), "quiet");
-    assert.match(await page.textContent("#details-rows"), /8\.0 s ago, silent/);
+    assert.match(await page.textContent("#details-rows"), /8\.0 s ago, stale/);
     await page.keyboard.press("/");
     await page.keyboard.type("spl");
     await page.keyboard.press("Enter");
@@ -189,7 +189,7 @@ describe("a stream with longitudes and latitudes", () => {
     for (const theme of ["dark", "bright"]) {
       await page.evaluate((theme) => void (document.documentElement.dataset.theme = theme), theme);
       const named = {};
-      for (const name of ["ground", "land", "undecided", "predicted", "within", "need", "track", "silent"]) named[name] = await namedColour(page, name);
+      for (const name of ["ground", "land", "undecided", "predicted", "within", "need", "track", "stale"]) named[name] = await namedColour(page, name);
       for (const [name, colour] of Object.entries(named))
         if (name !== "ground" && name !== "land")
           for (const below of ["ground", "land"]) assert.ok(contrast(colour, named[below]) >= 3, `${theme}: ${name} on the ${below}`);

@@ -51,7 +51,7 @@ function crowdedState(trackCount, pairCount) {
   let seed = 1;
   const random = () => (seed = (seed * 48271) % 2147483647) / 2147483647;
   const tracks = Array.from({ length: trackCount }, (_, k) => ({
-    id: `F${k}`, name: null, stamp: 0, silent: k % 3 === 0,
+    id: `F${k}`, name: null, stamp: 0, stale: k % 3 === 0,
     places: [{ x: 5e5 * (random() - 0.5), y: 5e5 * (random() - 0.5), z: 300 * (k % 40), velocity: [400 * (random() - 0.5), 400 * (random() - 0.5), 0], radius: [4000 * random(), 100] }],
   }));
   const { x, y } = tracks[0].places[0];

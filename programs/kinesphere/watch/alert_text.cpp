@@ -96,7 +96,7 @@ std::string lost_text(const AlertContext& context, const MonitorEvent& event, co
                       const Encounter& encounter) {
   const std::string more =
       fmt::format("{} {}; closest {}, expected at {}", name_in_text(context, event.first),
-                  event.kind == MonitorEventKind::stale ? "is silent" : "has left",
+                  event.kind == MonitorEventKind::stale ? "is stale" : "was dropped",
                   length_text(context, encounter.loss->closest_distance),
                   clock_text(context.times, encounter.loss->closest_time));
   return line_of(context, event.time, "lost", pair_text(context, key.first, key.second), more);

@@ -91,7 +91,7 @@ std::string lost_line(const AlertContext& context, const MonitorEvent& event, co
       R"("closest_time": {}}})"
       "\n",
       json_time(context.times, event.time), json_text(context.names.text(event.first)),
-      event.kind == MonitorEventKind::stale ? "silent" : "left", json_text(context.names.text(first)),
+      event.kind == MonitorEventKind::stale ? "stale" : "dropped", json_text(context.names.text(first)),
       json_text(context.names.text(second)), json_text(context.settings.separations[key.level].name),
       key.level, encounter.predicted, encounter.within, encounter.loss->closest_distance,
       json_time(context.times, encounter.loss->closest_time));

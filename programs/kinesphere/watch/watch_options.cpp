@@ -169,7 +169,7 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
   for (const std::string& text : options.areas) settings.areas.push_back(parse_area(text));
   if (options.most_alerts) settings.most_alerts = *options.most_alerts;
   settings.window = defaults.window;
-  // A track that is not yet silent may be the only one that reports.
+  // A track that is not yet stale may be the only one that reports.
   settings.leap = positive_time(options.leap, "--leap", std::max(settings.leap, settings.silence));
   settings.clock = clock_named(options.clock);
   if (!options.origin.empty()) settings.origin = parse_origin(options.origin);

@@ -31,7 +31,7 @@ std::vector<WatchCount> counts_of(const Watcher& watcher) {
       {"reports", "reports", "taken", monitor.reports},
       {"late", "", "of them late: older than one before of the same track", monitor.late},
       {"repeated", "", "repeated", counts.repeated + monitor.repeated, true},
-      {"stale", "", "too old: from before their track would have been forgotten (--forget)", counts.stale,
+      {"too_old", "", "too old: from before their track would have been forgotten (--forget)", counts.stale,
        true},
       {"ahead", "", "stamped ahead, and not confirmed by others (--leap)", counts.ahead, true},
       {"outside", "", "beyond the radius of the map (--radius, --origin)", counts.outside, true},
@@ -62,11 +62,11 @@ std::vector<WatchCount> counts_of(const Watcher& watcher) {
       {"predictions_ended", "", "predictions ended", events(MonitorEventKind::prediction_ended)},
       {"contradictions", "", "contradictions", events(MonitorEventKind::contradiction)},
       {"resolved", "", "contradictions resolved", events(MonitorEventKind::resolved)},
-      {"silent", "", "tracks fell silent", events(MonitorEventKind::stale)},
-      {"heard", "", "were heard again", events(MonitorEventKind::resumed)},
+      {"stale", "", "tracks became stale", events(MonitorEventKind::stale)},
+      {"resumed", "", "resumed", events(MonitorEventKind::resumed)},
       {"reclassified", "", "changed their class", events(MonitorEventKind::reclassified)},
-      {"left", "", "left", events(MonitorEventKind::dropped)},
-      {"dropped", "", "of them dropped: more pairs were open than --most-pairs", counts.dropped},
+      {"dropped", "", "were dropped", events(MonitorEventKind::dropped)},
+      {"dropped_in_crowds", "", "of them as more pairs were open than --most-pairs", counts.dropped},
   };
 }
 
@@ -153,7 +153,7 @@ std::string state_of_track(const Watcher& watcher, const AlertContext& context, 
   const TrackView view = context.monitor.track(id).value();
   const NamedTrack* const named = context.names.find(id);
   return fmt::format(
-      R"({{"id": {}, "name": {}, "stamp": {}, "silent": {}, "class": {}, "places": [{}]}})",
+      R"({{"id": {}, "name": {}, "stamp": {}, "stale": {}, "class": {}, "places": [{}]}})",
       json_text(context.names.text(id)),
       named != nullptr && !named->name.empty() ? json_text(named->name) : "null",
       json_time(context.times, view.timestamp), view.stale, class_text(context, id),
@@ -263,14 +263,14 @@ std::string watch_metrics(const Watcher& watcher) {
   for (const WatchCount& count : counts_of(watcher))
     add(std::string(count.name) + "_total", "counter", *count.note != '\0' ? count.note : "lines written",
         static_cast<double>(count.count));
-  std::size_t silent = 0, undecided = 0, within = 0;
+  std::size_t stale = 0, undecided = 0, within = 0;
   if (const auto& monitor = watcher.monitor()) {
-    for (const TrackId id : monitor->tracks()) silent += monitor->track(id).value().stale ? 1 : 0;
+    for (const TrackId id : monitor->tracks()) stale += monitor->track(id).value().stale ? 1 : 0;
     for (const OpenPair& pair : monitor->open_pairs())
       ++(pair.verdict == Verdict::within ? within : undecided);
   }
   add("tracks", "gauge", "tracks that are watched", static_cast<double>(watcher.names().size()));
-  add("tracks_silent", "gauge", "of them silent", static_cast<double>(silent));
+  add("tracks_stale", "gauge", "of them stale", static_cast<double>(stale));
   add("pairs_undecided", "gauge", "pairs and separations that are undecided", static_cast<double>(undecided));
   add("pairs_within", "gauge", "pairs and separations that are certainly within",
       static_cast<double>(within));

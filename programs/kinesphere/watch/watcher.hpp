@@ -144,7 +144,7 @@ class Watcher final : public ReportSink {
   /// Why tracks were removed whose alerts are still to come.
   std::map<TrackId, std::string_view> removed_;
   std::optional<TrackGroups> groups_;  ///< from the first report on
-  double next_forgetting_ = 0.0;       ///< time at which the silent members of groups are forgotten
+  double next_forgetting_ = 0.0;       ///< time at which the stale members of groups are forgotten
   std::map<TrackId, TrackGroups::Cell> group_tracks_;  ///< the tracks that stand for groups
   WatchCounts counts_;
   std::size_t line_ = 0;

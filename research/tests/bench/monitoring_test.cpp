@@ -156,7 +156,7 @@ TEST_F(WatchSoak, AlertsMayComeInAnyOrderOfPairs) {
 
 TEST_F(WatchSoak, ALineThatIsNoAlertOfTheSoakIsNamed) {
   const auto alert = [](const char* time, const char* first, const char* verdict) {
-    return std::string(R"({"event":"silent","time":1,"track":"5"})") + "\n" +
+    return std::string(R"({"event":"stale","time":1,"track":"5"})") + "\n" +
            R"({"event":"verdict","time":)" + time + R"(,"first":)" + first + R"(,"second":"7","verdict":)" +
            verdict + R"(,"before":"apart"})" + "\n";
   };
@@ -176,7 +176,7 @@ TEST_F(WatchSoak, ALineThatIsNoAlertOfTheSoakIsNamed) {
   EXPECT_TRUE(has(error_of_alerts(alert("1", R"("5x")", R"("within")")), "expected a track"));
   EXPECT_TRUE(has(error_of_alerts(alert("1", R"("5")", R"("near")")), "expected a verdict"));
   EXPECT_TRUE(has(error_of_alerts(alert("1", R"(5)", R"("within")")), "expected an alert"));
-  EXPECT_TRUE(has(error_of_alerts(R"({"event":"silent"})"
+  EXPECT_TRUE(has(error_of_alerts(R"({"event":"stale"})"
                                   "\n{\"event\":"),
                   "expected an alert"));
 }

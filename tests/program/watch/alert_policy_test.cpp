@@ -186,12 +186,12 @@ TEST_F(WatchPolicy, ATrackThatIsLostInAnEncounterIsTold) {
   const auto lines = alerts(stream, "--separation sphere:50 --silence 3 --forget 10 --hold 30");
   ASSERT_EQ(events(lines), "predicted within lost lost ") << Json(lines).dump(1);
   EXPECT_EQ(lines[2]["track"], "a");
-  EXPECT_EQ(lines[2]["reason"], "silent");
+  EXPECT_EQ(lines[2]["reason"], "stale");
   EXPECT_EQ(lines[2]["second"], "b");
   EXPECT_TRUE(lines[2]["predicted"].get<bool>());
   EXPECT_NEAR(lines[2]["closest_time"].get<double>(), 30.0, 0.5);
   EXPECT_NEAR(lines[2]["closest_distance"].get<double>(), 5.0, 0.5);
-  EXPECT_EQ(lines[3]["reason"], "left");
+  EXPECT_EQ(lines[3]["reason"], "dropped");
   EXPECT_EQ(lines[3]["closest_time"], lines[2]["closest_time"]);
   EXPECT_EQ(summary_["lost"], 2);
 }

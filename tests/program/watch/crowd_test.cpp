@@ -72,7 +72,7 @@ TEST_F(WatchedCrowd, NewTracksAreNotTakenWhileHalfOfTheOpenPairsThatMayBeAre) {
   // 33 tracks make 528 pairs, 32 make 496.
   EXPECT_EQ(summary_["tracks"], 33);
   EXPECT_EQ(summary_["crowded"], 367);
-  EXPECT_EQ(summary_["dropped"], 0);
+  EXPECT_EQ(summary_["dropped_in_crowds"], 0);
 }
 
 TEST_F(WatchedCrowd, TracksThatGatherAreDroppedAndOthersStay) {
@@ -82,18 +82,18 @@ TEST_F(WatchedCrowd, TracksThatGatherAreDroppedAndOthersStay) {
   for (int k = 0; k < 100; ++k) text += report_line("here" + std::to_string(k), 0.0, 200.0 * k);
   for (int k = 0; k < 100; ++k) text += report_line("here" + std::to_string(k), 1.0, 0.01 * k);
   const ProgramRun result = watch(text, "--most-pairs 500");
-  EXPECT_GT(summary_["dropped"], 0);
-  EXPECT_EQ(summary_["left"], summary_["dropped"]);
-  std::set<std::string> left;
+  EXPECT_GT(summary_["dropped_in_crowds"], 0);
+  EXPECT_EQ(summary_["dropped"], summary_["dropped_in_crowds"]);
+  std::set<std::string> dropped;
   std::istringstream lines(result.out);
   for (std::string line; std::getline(lines, line);) {
     const Json alert = Json::parse(line);
-    if (alert["event"] != "left") continue;
+    if (alert["event"] != "dropped") continue;
     EXPECT_EQ(alert["reason"], "crowd");
-    left.insert(alert["track"].get<std::string>());
+    dropped.insert(alert["track"].get<std::string>());
   }
-  EXPECT_EQ(left.size(), summary_["dropped"]);
-  EXPECT_EQ(left.count("far1") + left.count("far2"), 0u);
+  EXPECT_EQ(dropped.size(), summary_["dropped_in_crowds"]);
+  EXPECT_EQ(dropped.count("far1") + dropped.count("far2"), 0u);
   EXPECT_NE(result.err.find("--most-pairs"), std::string::npos) << result.err;
 }
 

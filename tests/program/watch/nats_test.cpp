@@ -188,10 +188,10 @@ TEST_F(WatchNats, TimePassesForAllByTheClockOfTheServer) {
         "t" + std::to_string(k));
   // After three seconds all are stale.
   wait_for_alerts(20);
-  std::size_t silent = 0;
+  std::size_t stale = 0;
   for (const std::string& line : broker_->messages("ALERTS", "alerts.*"))
-    silent += line.find("\"silent\"") != std::string::npos ? 1 : 0;
-  EXPECT_EQ(silent, 20u);
+    stale += line.find("\"stale\"") != std::string::npos ? 1 : 0;
+  EXPECT_EQ(stale, 20u);
 }
 
 TEST_F(WatchNats, OfAFileThatIsReadAgainAndAgainEachIsToldOnce) {

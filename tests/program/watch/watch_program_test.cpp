@@ -186,7 +186,7 @@ TEST_F(WatchProgram, TellsWhatAMonitorTells) {
   EXPECT_EQ(reported, expected);
   EXPECT_GT(expected.size(), 50u);
   EXPECT_EQ(summary_["tracks"], monitor.size()) << "those that left are forgotten";
-  for (const char* kind : {"contradiction", "resolved", "silent", "left", "verdict"})
+  for (const char* kind : {"contradiction", "resolved", "stale", "dropped", "verdict"})
     EXPECT_TRUE(std::any_of(expected.begin(), expected.end(), [&](const std::string& line) {
       return line.starts_with(kind);
     })) << kind;
@@ -213,7 +213,7 @@ TEST_F(WatchProgram, CountsWhatItDoesNotTake) {
   EXPECT_EQ(summary_["late"], 1);
   EXPECT_EQ(summary_["repeated"], 1);
   EXPECT_EQ(summary_["ahead"], 1);
-  EXPECT_EQ(summary_["stale"], 1);
+  EXPECT_EQ(summary_["too_old"], 1);
   EXPECT_EQ(summary_["no_position"], 1);
   EXPECT_EQ(summary_["malformed"], 1);
   EXPECT_EQ(summary_["first_malformed"][0]["line"], 19);
@@ -227,7 +227,7 @@ TEST_F(WatchProgram, BelievesALeapThatOthersConfirm) {
   alerts(write("s.jsonl", text) + " --separation sphere:3 --largest-speed 20 --forget 10" + promises);
   EXPECT_EQ(summary_["to"], 5000);
   EXPECT_EQ(summary_["ahead"], 0);
-  EXPECT_EQ(summary_["left"], 2);
+  EXPECT_EQ(summary_["dropped"], 2);
 }
 
 TEST_F(WatchProgram, GoesByTimesOfArrival) {
@@ -413,11 +413,11 @@ TEST_F(WatchProgram, LetsTimePassByTheClockOfTheMachine) {
   const double now = duration<double>(system_clock::now().time_since_epoch()).count();
   live.write(R"({"id": "only", "stamp": )" + Json(now).dump() +
              R"(, "position": [0, 0, 0], "velocity": [0, 0, 0]})" + "\n");
-  const Json silent = Json::parse(live.line());
-  EXPECT_EQ(silent["event"], "silent");
-  EXPECT_EQ(silent["track"], "only");
-  EXPECT_NEAR(silent["time"].get<double>(), now + 0.2, 1e-3);
-  EXPECT_EQ(Json::parse(live.line())["event"], "left");
+  const Json stale = Json::parse(live.line());
+  EXPECT_EQ(stale["event"], "stale");
+  EXPECT_EQ(stale["track"], "only");
+  EXPECT_NEAR(stale["time"].get<double>(), now + 0.2, 1e-3);
+  EXPECT_EQ(Json::parse(live.line())["event"], "dropped");
   live.write(R"({"id": "only", "stamp": )" + Json(now + 1e4).dump() +
              R"(, "position": [0, 0, 0], "velocity": [0, 0, 0]})" + "\n");
   live.end_input();

@@ -9,7 +9,7 @@ import { Units } from "./units.ts";
 import type { View } from "./view.ts";
 
 /** The colours of a theme, from the style sheet. */
-const colourNames = ["ground", "land", "shore", "grid", "grid-ink", "track", "silent", "undecided", "predicted", "within", "need", "chosen", "ink"] as const;
+const colourNames = ["ground", "land", "shore", "grid", "grid-ink", "track", "stale", "undecided", "predicted", "within", "need", "chosen", "ink"] as const;
 export type Colours = Record<(typeof colourNames)[number], string>;
 
 export function coloursOfPage(): Colours {
@@ -32,9 +32,9 @@ const fullTurn = 2 * Math.PI;
 /** Seconds that the lines ahead of tracks may stand for. */
 const lookAheads = [1200, 600, 300, 120, 60, 30, 20, 10, 5, 2, 1, 0.5, 0.2, 0.1];
 
-const kinds = ["silent", "track", "undecided", "predicted", "within"] as const;
+const kinds = ["stale", "track", "undecided", "predicted", "within"] as const;
 type Kind = (typeof kinds)[number];
-const kindOf = ({ track, concern }: DrawnTrack): Kind => (track.silent ? "silent" : concern ?? "track");
+const kindOf = ({ track, concern }: DrawnTrack): Kind => (track.stale ? "stale" : concern ?? "track");
 /** Order in which names find room. */
 const ranks: Record<Concern, number> = { within: 1, predicted: 2, undecided: 3 };
 /** Maximum pairs with a text at their lines. */
@@ -89,7 +89,7 @@ export class Chart {
     this.drawGrid(view, plane, taken);
     if (scene === null) return;
     const chosenPair = scene.pairs.find(({ key }) => key === chosen.pair) ?? null;
-    const byKind: Record<Kind, DrawnTrack[]> = { silent: [], track: [], undecided: [], predicted: [], within: [] };
+    const byKind: Record<Kind, DrawnTrack[]> = { stale: [], track: [], undecided: [], predicted: [], within: [] };
     for (const drawn of scene.tracks.values()) byKind[kindOf(drawn)].push(drawn);
     for (const kind of kinds) this.drawBounds(view, byKind[kind], colours[kind]);
     this.drawSeparations(view, scene, chosen);
@@ -305,7 +305,7 @@ export class Chart {
     if (this.lookAhead === 0) return;
     context.beginPath();
     for (const { track } of scene.tracks.values()) {
-      if (track.silent) continue;
+      if (track.stale) continue;
       for (const { x, y, velocity } of track.places) {
         const [fromX, fromY] = view.toScreen(x, y);
         if (isFar(view, fromX, fromY, most)) continue;
@@ -324,8 +324,8 @@ export class Chart {
   private drawDots(view: View, tracks: DrawnTrack[], kind: Kind): void {
     const { context, colours } = this;
     const colour = colours[kind];
-    const isHollow = kind === "silent";
-    const isOpen = kind !== "silent" && kind !== "track";
+    const isHollow = kind === "stale";
+    const isOpen = kind !== "stale" && kind !== "track";
     context.beginPath();
     for (const { track: { places } } of tracks) {
       for (let k = 1; k < places.length; ++k) addLine(context, view, places[k - 1]!, places[k]!);
@@ -397,7 +397,7 @@ export class Chart {
     const { context, colours } = this;
     const important = new Set([chosen.track, chosen.hovered, chosenPair?.pair.first, chosenPair?.pair.second, scene.state.own]);
     const rank = ({ track, concern, need }: DrawnTrack) =>
-      important.has(track.id) ? 0 : concern !== null ? ranks[concern] : need !== null && this.showNeeds ? 4 : track.silent ? 6 : 5;
+      important.has(track.id) ? 0 : concern !== null ? ranks[concern] : need !== null && this.showNeeds ? 4 : track.stale ? 6 : 5;
     const dots = new Taken();
     const inSight: { drawn: DrawnTrack; x: number; y: number; rank: number }[] = [];
     for (const drawn of scene.tracks.values()) {
@@ -432,7 +432,7 @@ export class Chart {
       context.strokeStyle = colours.ground;
       context.lineWidth = 3;
       context.strokeText(name + height, atX, atY);
-      context.fillStyle = drawn.track.silent ? colours.silent : colours.ink;
+      context.fillStyle = drawn.track.stale ? colours.stale : colours.ink;
       context.fillText(name, atX, atY);
       if (height === "") continue;
       context.fillStyle = colours["grid-ink"];

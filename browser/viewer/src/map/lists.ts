@@ -16,7 +16,7 @@ const mostShown = 100;
 const longestQuiet = 10;
 
 /** Reasons for skipped reports, by their names in the state. */
-const refusals = ["stale", "ahead", "outside", "no_position", "no_height", "no_bound", "malformed"];
+const refusals = ["too_old", "ahead", "outside", "no_position", "no_height", "no_bound", "malformed"];
 
 export interface ListActions {
   choosePair(key: string): void;
@@ -110,8 +110,8 @@ export class Lists {
     const stillFor = (performance.now() - this.latest.seenAt) / 1000;
     put(this.time, text, stillFor < longestQuiet ? date : `for ${durationText(stillFor)}`);
     this.time.row.classList.toggle("bad", stillFor >= longestQuiet);
-    const silent = state.tracks.filter((track) => track.silent).length;
-    put(this.tracks, whole.format(state.tracks.length), silent > 0 ? `${whole.format(silent)} silent` : "");
+    const stale = state.tracks.filter((track) => track.stale).length;
+    put(this.tracks, whole.format(state.tracks.length), stale > 0 ? `${whole.format(stale)} stale` : "");
     const count = (is: (pair: DrawnPair) => boolean) => whole.format(pairs.filter(is).length);
     put(this.within, count(({ pair }) => pair.verdict === "within"), "");
     put(this.predicted, count(({ isPredicted }) => isPredicted), "");
@@ -207,7 +207,7 @@ export class Lists {
       const isFlat = state.dimensions === 2;
       if (track.name !== null) rows.push(["id", shownName(id)]);
       if (id === state.own) rows.push(["", "The own one: only its pairs are watched."]);
-      rows.push(["last report", `${whenText(track.stamp, state.time)}${track.silent ? ", silent since" : ""}`]);
+      rows.push(["last report", `${whenText(track.stamp, state.time)}${track.stale ? ", stale since" : ""}`]);
       if (track.places.length > 1) rows.push(["", `Reports contradict each other: it is in one of ${track.places.length} places.`]);
       for (const place of track.places) {
         const [horizontal, vertical] = place.radius;

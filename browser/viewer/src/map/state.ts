@@ -21,7 +21,7 @@ export interface Track {
   /** Callsign or ship's name; null if none came. */
   name: string | null;
   stamp: StreamTime | null;
-  silent: boolean;
+  stale: boolean;
   /** The track certainly is in one of these. */
   places: Place[];
 }
