@@ -10,8 +10,12 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/ ${PROJECT_BINARY_DIR}/include/
 
 install(EXPORT kinesphere NAMESPACE kinesphere:: FILE kinesphere-targets.cmake DESTINATION ${package_dir})
 install(FILES ${PROJECT_SOURCE_DIR}/cmake/kinesphere-config.cmake DESTINATION ${package_dir})
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/kinesphere-config-version.cmake
-                                 COMPATIBILITY SameMinorVersion)
+# What docs/versions.md promises.
+set(compatible SameMajorVersion)
+if(PROJECT_VERSION_MAJOR EQUAL 0)
+  set(compatible SameMinorVersion)
+endif()
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/kinesphere-config-version.cmake COMPATIBILITY ${compatible})
 install(FILES ${PROJECT_BINARY_DIR}/kinesphere-config-version.cmake DESTINATION ${package_dir})
 
 set(pkgconfig_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

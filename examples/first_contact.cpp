@@ -12,8 +12,7 @@ int main() {
   const BodyId circling =
       world.add({.radius = 1, .acceleration_limit = 5.001, .position = {20, 0, 0}, .velocity = {0, 10, 0}})
           .value();
-  const BodyId hovering =
-      world.add({.radius = 1, .acceleration_limit = 0.5, .position = {-20, 1.5, 0}}).value();
+  world.add({.radius = 1, .acceleration_limit = 0.5, .position = {-20, 1.5, 0}}).value();
 
   // Called only when it can matter; gives the true positions and velocities of bodies.
   auto probe = [&](std::span<const BodyId> ids, double t, std::span<State> states) {
@@ -23,9 +22,13 @@ int main() {
                                      : State{{-20, 1.5, 0}, {0, 0, 0}};
   };
 
-  for (const Event& event : world.events(30.0, probe))
+  for (const Event& event : world.events(30.0, probe)) {
+    if (event.kind == EventKind::bound_violation) {
+      std::puts("A drone accelerates more than it has promised.");
+      return 1;
+    }
     std::printf("%9.6f s  %-13s  gap %.1e, closing at %.3f\n", event.time, name_of(event.kind).data(),
                 event.gap, event.approach_speed);
+  }
   std::printf("%llu probes in 30 s\n", static_cast<unsigned long long>(world.counters().probes));
-  return world.contains(hovering) ? 0 : 1;
 }

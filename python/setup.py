@@ -11,9 +11,9 @@ from skbuild import setup
 
 here = Path(__file__).resolve().parent
 library = here / "library" if (here / "library").exists() else here.parent
-version = re.search(r"project\(kinesphere VERSION ([\d.]+)", (library / "CMakeLists.txt").read_text()).group(
-    1
-)
+version, address = re.search(
+    r'project\(kinesphere VERSION ([\d.]+) .*HOMEPAGE_URL "(.*)"', (library / "CMakeLists.txt").read_text()
+).groups()
 
 
 class SourceDistribution(sdist):
@@ -37,6 +37,7 @@ setup(
     long_description=(here / "README.md").read_text(),
     long_description_content_type="text/markdown",
     license="MIT",
+    url=address or None,
     python_requires=">=3.11",
     install_requires=["numpy>=1.24"],
     extras_require={"pandas": ["pandas"], "examples": ["matplotlib", "scipy"]},

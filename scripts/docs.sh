@@ -57,6 +57,8 @@ if [[ $viewer == yes ]]; then
   quietly cmake --build --preset browser
   export KINESPHERE_LIVE=yes
 fi
+address=$(sed -nE 's/^project\(kinesphere .*HOMEPAGE_URL "(.+)"$/\1/p' CMakeLists.txt)
+if [[ -n $address ]]; then export KINESPHERE_REPOSITORY=$address; fi
 /usr/bin/python3 -m mkdocs build --strict --quiet --site-dir "$site"
 if [[ $viewer == yes ]]; then
   cp -r build/browser/browser/viewer "$site/viewer"

@@ -16,13 +16,7 @@ find include src c simulation programs research browser/module python/module exa
   -print0 | xargs -0 clang-format --dry-run -Werror
 /usr/bin/black --config python/pyproject.toml --quiet --diff --check python docs scripts packaging
 
-version=$(sed -n 's/^project(kinesphere VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
-for file in browser/package/package.json browser/viewer/package.json rust/Cargo.toml packaging/vcpkg/kinesphere/vcpkg.json packaging/debian/changelog; do
-  if ! grep -qE "^(version = |  \"version\": )\"$version\"|^kinesphere \($version\)" "$file"; then
-    echo "lint: $file: its version is not $version, that of CMakeLists.txt" >&2
-    exit 1
-  fi
-done
+scripts/set_version.sh
 
 if grep -rn '#include ["<]\(simulation\|research\)/' include examples src c ||
   grep -rn '#include ["<]research/' simulation programs browser python tests; then
@@ -55,6 +49,12 @@ if grep -rnwE "$retired" . --include='*.'{cpp,hpp,md,v,py,ts} --exclude={CHANGEL
   --exclude-dir={.git,build,node_modules,_skbuild}; then
   echo "lint: these names are retired: docs/glossary.md has those to use" >&2
   exit 1
+fi
+
+# The headers under another compiler's standard library, libc++, where Emscripten is there.
+if command -v em++ >/dev/null; then
+  find include/kinesphere -name '*.hpp' ! -path '*/distributed/*' ! -name kinesphere.hpp -printf '#include "%p"\n' |
+    em++ -std=c++20 -Wall -Wextra -Werror -fsyntax-only -Iinclude -x c++ -
 fi
 
 if [[ $part == text ]]; then exit; fi

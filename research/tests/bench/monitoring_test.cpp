@@ -156,9 +156,9 @@ TEST_F(WatchSoak, AlertsMayComeInAnyOrderOfPairs) {
 
 TEST_F(WatchSoak, ALineThatIsNoAlertOfTheSoakIsNamed) {
   const auto alert = [](const char* time, const char* first, const char* verdict) {
-    return std::string(R"({"event":"stale","time":1,"track":"5"})") + "\n" +
-           R"({"event":"verdict","time":)" + time + R"(,"first":)" + first + R"(,"second":"7","verdict":)" +
-           verdict + R"(,"before":"apart"})" + "\n";
+    return std::string(R"({"event":"stale","time":1,"track":"5"})") + "\n" + R"({"event":"verdict","time":)" +
+           time + R"(,"first":)" + first + R"(,"second":"7","verdict":)" + verdict + R"(,"before":"apart"})" +
+           "\n";
   };
   const auto error_of_alerts = [&](const std::string& alerts) {
     const ProgramRun compared =
