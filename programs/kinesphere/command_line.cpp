@@ -16,6 +16,14 @@
 namespace kinesphere::program {
 namespace {
 
+std::string commands_of(const CLI::App& app) {
+  const auto commands = app.get_subcommands({});
+  std::string text;
+  for (std::size_t k = 0; k < commands.size(); ++k)
+    text += (k == 0 ? "" : k + 1 < commands.size() ? ", " : " or ") + commands[k]->get_name();
+  return text;
+}
+
 int parse_and_run(CLI::App& app, const std::function<int()>& run_command, int argc, char** argv) {
   reserve_standard_streams();
   app.set_version_flag("--version", std::string(version));
@@ -28,9 +36,17 @@ int parse_and_run(CLI::App& app, const std::function<int()>& run_command, int ar
     write_output(text.str());
     finish_output();
     return exit_code;
+  } catch (const CLI::ExtrasError& error) {
+    const std::string_view first = argv[1];
+    if (!app.get_subcommands().empty() || first.starts_with('-'))
+      throw ProgramError(fmt::format("{} (see --help)", error.what()));
+    throw ProgramError(
+        fmt::format("there is no command {}: expected {} (see --help)", first, commands_of(app)));
   } catch (const CLI::ParseError& error) {
     throw ProgramError(fmt::format("{} (see --help)", error.what()));
   }
+  if (app.get_subcommands().empty() && !app.get_subcommands({}).empty())
+    throw ProgramError(fmt::format("expected a command: {} (see --help)", commands_of(app)));
   const int exit_code = run_command();
   finish_output();
   if (exit_code == exit_fine) check_messages();

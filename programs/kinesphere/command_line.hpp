@@ -7,9 +7,10 @@
 
 namespace kinesphere::program {
 
-/// Parses the command line, then calls `run_command`, which must run the command that `app` has parsed and
-/// return its exit code. To be used as the body of main(). Returns the exit code; exit_wrong_input, with a
-/// message on standard error, for a ProgramError, an invalid command line, or exhausted memory.
+/// Parses the command line, then calls `run_command`, which must run the command that `app` has parsed, one
+/// of those of `app`, and return its exit code. To be used as the body of main(). Returns the exit code;
+/// exit_wrong_input, with a message on standard error, for a ProgramError, a command line that is invalid or
+/// has no command, or exhausted memory.
 int run_program(CLI::App& app, const std::function<int()>& run_command, int argc, char** argv);
 
 }  // namespace kinesphere::program

@@ -5,7 +5,6 @@
 
 #include "command_line.hpp"
 #include "list_scenes.hpp"
-#include "program_error.hpp"
 #include "replay.hpp"
 #include "run.hpp"
 #include "tracks.hpp"
@@ -29,7 +28,7 @@ int run_kinesphere(int argc, char** argv) {
   const CLI::App& verify = *add_verify_command(app, verify_options);
   const CLI::App& scenes = *add_scenes_command(app);
   const CLI::App& view = *add_view_command(app, view_options);
-  const CLI::App& watch = *add_watch_command(app, watch_options);
+  add_watch_command(app, watch_options);
   const auto run_command = [&] {
     if (run) return program::run(run_options);
     if (replay) return program::replay(replay_options);
@@ -37,8 +36,7 @@ int run_kinesphere(int argc, char** argv) {
     if (verify) return program::verify(verify_options);
     if (scenes) return list_scenes();
     if (view) return program::view(view_options);
-    if (watch) return program::watch(watch_options);
-    throw ProgramError("expected a command: run, replay, tracks, verify, scenes, view or watch (see --help)");
+    return program::watch(watch_options);
   };
   return run_program(app, run_command, argc, argv);
 }

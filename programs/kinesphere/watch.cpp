@@ -30,10 +30,9 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
   command
       ->add_option(
           "--separation", options.separations,
-          "What is watched for, once or several times: sphere:50, cylinder:5NM:1000ft, ellipsoid:5NM:1000ft, "
+          "What is watched for, at least once: sphere:50, cylinder:5NM:1000ft, ellipsoid:5NM:1000ft, "
           "well-clear:0.66NM:450ft:35s, do365:corrective; with or without a look-ahead time of its own, as "
           "sphere:1NM:20min")
-      ->required()
       ->expected(1)
       ->take_all()
       ->type_name("SHAPE[:TIME]");
@@ -184,6 +183,10 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
 }
 
 int watch(const WatchOptions& options) {
+  // Not left to CLI11, which would say so before it names a misspelled option.
+  if (options.separations.empty())
+    throw ProgramError(
+        "--separation: expected it, as sphere:50 or cylinder:5NM:1000ft: how near is too near (see --help)");
   const OutputPath outputs[] = {{"--summary", options.summary},
                                 {"--snapshot", options.snapshot},
                                 {"--alerts", is_nats_address(options.alerts) ? "" : options.alerts}};

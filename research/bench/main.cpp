@@ -58,11 +58,7 @@ int main(int argc, char** argv) {
         throw program::ProgramError("--threads, --record: expected only with --detector world");
       return program::run(run_options, detector_options.chosen());
     }
-    if (verify) return program::verify(verify_options, detector_options.chosen());
-    throw program::ProgramError(
-        "expected a command: paper, speed, gas, frames, shapes, vessels, monitoring, soak, paths, run or "
-        "verify "
-        "(see --help)");
+    return program::verify(verify_options, detector_options.chosen());
   };
   return program::run_program(app, run_command, argc, argv);
 }

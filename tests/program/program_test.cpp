@@ -58,7 +58,10 @@ TEST_F(ProgramTest, ListsTheScenes) {
 TEST_F(ProgramTest, RefusesWrongOptions) {
   const std::string scene = write("s.json", small_scene);
   expect_wrong_input("", {"expected a command: run, replay, tracks, verify, scenes, view or watch"});
-  expect_wrong_input("fly", {"fly"});
+  expect_wrong_input("fly", {"there is no command fly: expected run, replay, tracks"});
+  expect_wrong_input("--fly", {"--fly"});
+  expect_wrong_input("watch --seperation sphere:1", {"--seperation"});
+  expect_wrong_input("watch", {"--separation: expected it, as sphere:50"});
   expect_wrong_input("run", {"SCENE"});
   expect_wrong_input("run " + scene + " --fast", {"--fast"});
   expect_wrong_input("run " + scene + " --bodies -1", {"--bodies", "-1"});
