@@ -1,9 +1,10 @@
 // What is drawn in place of the ball around a body: the box or triangle that it carries, or the parts of a rigid body.
 import type { BodyView, RigidPart, Shape, Vec3, WorldView } from "kinesphere";
 import {
-  BoxGeometry, BufferGeometry, CapsuleGeometry, type Color, DoubleSide, Float32BufferAttribute, Group, type Material, Mesh, MeshBasicMaterial,
-  MeshPhongMaterial, Quaternion, SphereGeometry, Vector3,
+  Box3, BoxGeometry, BufferGeometry, CapsuleGeometry, type Color, DoubleSide, Float32BufferAttribute, Group, IcosahedronGeometry, type Material,
+  Mesh, MeshBasicMaterial, MeshPhongMaterial, Quaternion, SphereGeometry, Vector3,
 } from "three";
+import { ConvexGeometry } from "three/addons/geometries/ConvexGeometry.js";
 import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 
 export type CarriedShape = Shape | { parts: readonly RigidPart[] };
@@ -39,18 +40,47 @@ export function orientationsAt(time: number, world: WorldView, views: readonly B
 
 const vectorOf = (point: Vec3) => new Vector3().fromArray(Array.from(point as ArrayLike<number>));
 
+/** Returns the points whose convex hull, with the radius around it, is the part. */
+function cornersOf(part: RigidPart): { corners: Vector3[]; radius: number } {
+  if ("ball" in part) return { corners: [vectorOf(part.ball.centre)], radius: part.ball.radius };
+  if ("capsule" in part) return { corners: [vectorOf(part.capsule.a), vectorOf(part.capsule.b)], radius: part.capsule.radius };
+  if ("hull" in part) return { corners: part.hull.points.map(vectorOf), radius: part.hull.radius ?? 0 };
+  const [lower, upper] = [vectorOf(part.box.lower), vectorOf(part.box.upper)];
+  const corners = Array.from({ length: 8 }, (_, k) =>
+    new Vector3((k & 1 ? upper : lower).x, (k & 2 ? upper : lower).y, (k & 4 ? upper : lower).z));
+  return { corners, radius: part.box.radius ?? 0 };
+}
+
+function hullGeometry(corners: Vector3[], radius: number): BufferGeometry {
+  const size = new Box3().setFromPoints(corners).getSize(new Vector3()).length();
+  // Seen as if it had a little radius at least, since a flat hull would have no inside.
+  const round = new IcosahedronGeometry(Math.max(radius, 0.01 * size), 1).getAttribute("position");
+  const offsets = Array.from({ length: round.count }, (_, k) => new Vector3().fromBufferAttribute(round, k));
+  return new ConvexGeometry(corners.flatMap((corner) => offsets.map((offset) => offset.clone().add(corner))));
+}
+
 function partGeometry(part: RigidPart): BufferGeometry {
-  if ("ball" in part) return new SphereGeometry(part.ball.radius, 32, 24).translate(...vectorOf(part.ball.centre).toArray());
-  const [a, b] = [vectorOf(part.capsule.a), vectorOf(part.capsule.b)];
+  const { corners, radius } = cornersOf(part);
+  if (corners.length > 2) return hullGeometry(corners, radius);
+  const [a, b] = [corners[0]!, corners.at(-1)!];
   const along = b.clone().sub(a);
   // The geometry stands along y.
   const turn = new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), along.clone().normalize());
-  return new CapsuleGeometry(part.capsule.radius, along.length(), 12, 24).applyQuaternion(turn)
-    .translate(...a.add(b).divideScalar(2).toArray());
+  const round = along.length() === 0 ? new SphereGeometry(radius, 32, 24) : new CapsuleGeometry(radius, along.length(), 12, 24);
+  return round.applyQuaternion(turn).translate(...a.add(b).divideScalar(2).toArray());
+}
+
+/** All parts in one geometry, of triangles with normals alone. */
+function partsGeometry(parts: readonly RigidPart[]): BufferGeometry {
+  return mergeGeometries(parts.map((part) => {
+    const geometry = partGeometry(part);
+    geometry.deleteAttribute("uv");
+    return geometry.index === null ? geometry : geometry.toNonIndexed();
+  }));
 }
 
 function geometryOf(shape: CarriedShape): BufferGeometry {
-  if ("parts" in shape) return mergeGeometries(shape.parts.map((part) => partGeometry(part)));
+  if ("parts" in shape) return partsGeometry(shape.parts);
   if ("box" in shape) {
     const { lower, upper } = shape.box;
     const part = (of: (axis: number) => number) => [of(0), of(1), of(2)] as const;

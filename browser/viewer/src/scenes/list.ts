@@ -43,7 +43,7 @@ export const scenes: readonly SceneAbout[] = [
   { name: "crowd", title: "A crowd", bodies: 10_000, speed: 2,
     about: "Two that come within half a metre are reported. kinesphere view FILE shows people as they were recorded." },
   { name: "rigid", title: "Things that turn", bodies: 90, speed: 0.5,
-    about: "Rigid bodies: dumbbells, rods and jacks, made of balls and capsules. Contacts turn them, also those that only graze." },
+    about: "Rigid bodies of balls, capsules, boxes and convex hulls. Each contact comes at its exact time, and turns them." },
 ];
 
 export function sceneAbout(name: string): SceneAbout {

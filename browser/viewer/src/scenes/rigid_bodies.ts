@@ -1,29 +1,38 @@
-// Rigid bodies in a box: dumbbells, rods and jacks, which turn, and turn each other.
+// Rigid bodies in a box: dumbbells, rods, jacks, crates and octahedra, which turn each other.
 import { Ballistic, type BodyId, BodyMap, type Box, type Event, type RigidPart, type Vec3, World } from "kinesphere";
 import type { LiveScene, SceneChoice, Setup } from "./live_scene.ts";
 import { randomNumbers } from "./random_numbers.ts";
 
 const box: Box = { lower: [0, 0, 0], upper: [12, 12, 12] };
 
-/** Parts about the centre of mass, half the length, and moments of inertia for a mass of 1: its axes are principal. */
+/** Parts about the centre of mass, and moments of inertia for a mass of 1: the axes of the body are principal. */
 interface Kind {
   parts: readonly RigidPart[];
   inertia: Vec3;
 }
 
-function kindsOf(half: number): Kind[] {
-  const thick = 0.35 * half;
-  const rod = (end: [number, number, number], radius: number): RigidPart => ({ capsule: { a: end.map((x) => -x) as [number, number, number], b: end, radius } });
-  const ball = (x: number): RigidPart => ({ ball: { centre: [x, 0, 0], radius: 1.4 * thick } });
-  const inner = half - thick;
-  const across = inner ** 2 / 3;
+const crossed = (length: number): Vec3[] => [[length, 0, 0], [0, length, 0], [0, 0, length]];
+const opposite = (point: Vec3): Vec3 => Array.from(point as ArrayLike<number>, (x) => -x) as [number, number, number];
+const rod = (end: Vec3, radius: number): RigidPart => ({ capsule: { a: opposite(end), b: end, radius } });
+const alike = (moment: number): Vec3 => [moment, moment, moment];
+
+/** Each fits into a ball of radius `size`, or a smaller one: colours tell kinds by their sizes. */
+function kindsOf(size: number): Kind[] {
+  const thick = 0.3 * size;
+  const ends = 0.7 * size;
+  const [thin, length] = [0.2 * size, 0.6 * size];
+  const [edge, tip] = [0.45 * size, 0.85 * size];
+  const rounding = 0.02 * size;
   return [
-    // Two masses of a half at the ends of a light rod.
-    { parts: [ball(-inner), ball(inner), rod([inner, 0, 0], 0.3 * thick)], inertia: [0, inner ** 2, inner ** 2] },
-    { parts: [rod([inner, 0, 0], thick)], inertia: [0, across, across] },
-    // Three rods of a third.
-    { parts: [rod([inner, 0, 0], 0.6 * thick), rod([0, inner, 0], 0.6 * thick), rod([0, 0, inner], 0.6 * thick)],
-      inertia: [2 / 3 * across, 2 / 3 * across, 2 / 3 * across] },
+    // A dumbbell: two masses of a half at the ends of a light rod.
+    { parts: [{ ball: { centre: [ends, 0, 0], radius: thick } }, { ball: { centre: [-ends, 0, 0], radius: thick } },
+              rod([ends, 0, 0], 0.3 * thick)], inertia: [0, ends ** 2, ends ** 2] },
+    { parts: [rod([0.65 * size, 0, 0], thick)], inertia: [0, (0.65 * size) ** 2 / 3, (0.65 * size) ** 2 / 3] },
+    // A jack: three rods of a third, each of which turns about two of the axes.
+    { parts: crossed(length).map((end) => rod(end, thin)), inertia: alike((2 / 9) * length ** 2) },
+    // A crate, and an octahedron.
+    { parts: [{ box: { lower: [-edge, -edge, -edge], upper: [edge, edge, edge], radius: rounding } }], inertia: alike((2 / 3) * edge ** 2) },
+    { parts: [{ hull: { points: [...crossed(tip), ...crossed(-tip)], radius: rounding } }], inertia: alike(tip ** 2 / 5) },
   ];
 }
 
@@ -67,13 +76,12 @@ export function rigidBodies({ bodies: count, seed }: SceneChoice): Setup {
   const world = new World({ box, contacts: "impacts", zenoInterval: 1e-4 });
   const flight = new Ballistic({ positions, velocities });
   const bodies = new BodyMap();
-  // Balls of this radius around the bodies do not overlap at the start.
-  const kinds = kindsOf(0.45 * pitch);
+  const kinds = kindsOf(0.48 * pitch);
   for (let body = 0; body < count; ++body) {
-    const { parts, inertia } = kinds[body % kinds.length]!;
+    const { parts, inertia } = kinds[Math.floor(kinds.length * random())]!;
     const orientation = Array.from({ length: 4 }, () => 2 * random() - 1);
     const length = Math.hypot(...orientation);
-    // A dumbbell and a rod do not spin about themselves, so that all keep their angular velocities between contacts.
+    // All keep their angular velocities between contacts, since nothing spins a dumbbell or a rod about itself.
     bodies.addRigidBody(world, flight, body, parts, { inertia, orientation: orientation.map((part) => part / length) });
   }
   return { scene: new Tumbling(world, flight, bodies), radii: Float64Array.from(world.bodyViews(), ({ radius }) => radius) };
