@@ -23,7 +23,8 @@ struct QuantityNames {
 constexpr QuantityNames quantities[quantity_count] = {
     {Quantity::id, "id", Measure::none,
      "mmsi trackid agent agentid ped pedid pedestrian pedestrianid person personid object objectid vehicleid "
-     "vesselid icao24 hex trajectoryid particle particleid tag tagid animalid individuallocalidentifier"},
+     "vesselid droneid drone uavid uav icao24 hex trajectoryid particle particleid tag tagid animalid "
+     "individuallocalidentifier"},
     {Quantity::time, "time", Measure::time,
      "t timestamp datetime basedatetime utc timeutc timestamputc datetimeutc unixtime epoch stamp zeit "
      "seconds:s secs:s sec:s milliseconds:ms"},

@@ -474,10 +474,16 @@ void require_columns(const TableHead& head, const ColumnHints& hints, const Tabl
           "--columns: expected id=..., time=... (or frame=...), x=...,y=... (or lon=...,lat=...) and "
           "perhaps z=..., but got '{}'",
           hints.columns));
+    const bool has_time = has(Quantity::time) || has(Quantity::frame);
+    const std::string_view unnamed = head.names.empty()  ? ""
+                                     : !has_id           ? ", none of which is called like an id"
+                                     : !has_time         ? ", none of which is called like a time"
+                                     : !(plane || earth) ? ", not two of which are called like positions"
+                                                         : "";
     throw ProgramError(fmt::format(
         "{}: expected columns for id, time, x and y (or lon and lat) by their usual names, --columns or "
-        "--format; it has {}",
-        head.file, head.text()));
+        "--format; it has {}{}",
+        head.file, head.text(), unnamed));
   }
   if (has(Quantity::vx) != has(Quantity::vy) || (has(Quantity::course) && !has(Quantity::speed)) ||
       (has(Quantity::vx) && has(Quantity::speed)))

@@ -132,7 +132,11 @@ TEST(TrackFile, NamesWhatItDoesNotRecognise) {
   EXPECT_EQ(
       error_in("i,x,y,z\n0,1,2,3\n"),
       "t.txt: expected columns for id, time, x and y (or lon and lat) by their usual names, --columns or "
-      "--format; it has the columns i, x, y, z");
+      "--format; it has the columns i, x, y, z, none of which is called like an id");
+  EXPECT_NE(error_in("id,x,y,z\n0,1,2,3\n").find("id, x, y, z, none of which is called like a time"),
+            std::string::npos);
+  EXPECT_NE(error_in("id,t,x,b\n0,1,2,3\n").find("not two of which are called like positions"),
+            std::string::npos);
   EXPECT_NE(error_in("1 2 3\n").find("it has no header and 3 columns"), std::string::npos);
   EXPECT_EQ(error_in("id,mmsi,t,x,y\n0,0,1,2,3\n"),
             "t.txt: columns 'id' and 'mmsi' may both be meant: say which with --columns");
