@@ -17,7 +17,7 @@ export function carriedShapes(world: WorldView, views: readonly BodyView[]): Car
   const found = new Map<number, CarriedShape>();
   for (const [place, { id, isRigid }] of views.entries()) {
     const shape = isRigid ? { parts: world.partsOf(id) } : world.shapeOf(id);
-    if (!("ball" in shape)) found.set(place, shape);
+    if ("parts" in shape || "box" in shape || "triangle" in shape) found.set(place, shape);
   }
   return found;
 }

@@ -58,7 +58,7 @@ export class Recording implements Shown {
     return this.carried;
   }
   orientations(): Orientations {
-    return orientationsAt(this.shownTime, this.replay.world, this.views());
+    return this.shapes().size === 0 ? new Map() : orientationsAt(this.shownTime, this.replay.world, this.views());
   }
   positions(): Float64Array {
     const views = this.views();
