@@ -2,6 +2,7 @@
 // the start of the batch, and how far clusters are executed.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -27,6 +28,27 @@ struct BodyCheckpoint {
   FirstChange first_change{};
 };
 
+/// A time that several threads may lower and read at once.
+class SharedTime {
+ public:
+  SharedTime(double time = 0.0) : time_(time) {}
+  SharedTime(const SharedTime& other) : time_(other) {}
+  SharedTime& operator=(const SharedTime& other) {
+    time_ = double(other);
+    return *this;
+  }
+
+  operator double() const { return time_.load(std::memory_order_relaxed); }
+  void lower_to(double time) {
+    double now = *this;
+    while (time < now && !time_.compare_exchange_weak(now, time, std::memory_order_relaxed)) {
+    }
+  }
+
+ private:
+  std::atomic<double> time_;
+};
+
 struct BatchState {
   static constexpr std::uint32_t unassigned = std::numeric_limits<std::uint32_t>::max();
   static constexpr std::uint32_t none = unassigned;
@@ -43,7 +65,9 @@ struct BatchState {
   std::vector<std::uint8_t> has_checkpoint;
   double begin = 0.0;  ///< start of the batch (time)
   double epoch_end = 0.0;
-  double stop = 0.0;   ///< end of the batch, exclusive
+  /// End of the batch, exclusive. A cluster that needs the main processor lowers it for all others, so that
+  /// these do less in vain.
+  SharedTime stop;
   double until = 0.0;  ///< end of the run, inclusive
   /// Maximum number of updates of one cluster; execution fails above it. Trades fallbacks to advance()
   /// against the cost of every search, which scans all updates of the cluster.

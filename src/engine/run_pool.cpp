@@ -82,6 +82,7 @@ Result<void> RunPool::respond(Worker& worker, const Event& event) {
   if (!answer) return answer.error();
   if (changes_more_than_clusters(event, *answer)) {
     worker.log.stop = event.time;
+    worker.log.batch->stop.lower_to(event.time);
     return {};
   }
   const auto note = [&](BodyId body, const std::optional<Vec3>& velocity) {

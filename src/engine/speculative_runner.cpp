@@ -181,10 +181,10 @@ bool SpeculativeRunner::execute_found() {
 /// Ends the batch before the first instant at which a cluster needs the main processor. Clusters that have
 /// done anything at that instant or later are executed again.
 void SpeculativeRunner::end_before_exclusive() {
-  double first = batch_.stop;
+  double first = infinity;
   for (const std::uint32_t own : to_run_) first = std::min(first, clusters_[own].record.stop);
-  if (first == batch_.stop) return;
-  batch_.stop = first;
+  if (first == infinity) return;
+  assert(first == batch_.stop);
   exclusive_ = first;
   for (const Cluster& cluster : clusters_.all())
     if (!cluster.is_merged() && cluster.executed && cluster.record.time >= first) run_again(cluster.index);
@@ -384,7 +384,7 @@ void SpeculativeRunner::commit(std::vector<const EventInRound*>& committed) {
     if (one->removes_first) state_.bodies.remove(state_.bodies.table().number_of(one->event.first));
     if (one->removes_second) state_.bodies.remove(state_.bodies.table().number_of(one->event.second));
   }
-  main_.advance_clock(std::min(batch_.until, batch_.stop));
+  main_.advance_clock(std::min<double>(batch_.until, batch_.stop));
   sizer_.adapt(state_.bodies.table().live_count());
 }
 
