@@ -616,9 +616,10 @@ enum {
   KS_ACTION_SLEEP = 3     ///< ks_world_sleep(), with velocity 0
 };
 
-/// What an event does to its bodies, from a response function or ks_bounce() (Response in kinesphere/run.hpp).
-/// A body that is not turned continues as before. A response has no effect on a body that an earlier one at
-/// the same time has removed, and none but KS_ACTION_REMOVE on one that it has disabled.
+/// What an event does to its bodies, from a response function or ks_bounce() (Response in
+/// kinesphere/run.hpp). A body that is not turned continues as before. A response has no effect on a body
+/// that an earlier one at the same time has removed, and none but KS_ACTION_REMOVE on one that it has
+/// disabled.
 typedef struct ks_response {
   uint32_t struct_size;
   int32_t stop;  ///< the sink may change the world when it receives this event (ks_sink)

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <memory>
 #include <mutex>
@@ -40,6 +42,9 @@ class SharedRange {
 
   /// Processes ranges until none is left or one has failed. Thread-safe.
   void work(std::size_t worker);
+  /// CPU time of all threads in work() (seconds); 0 where the system does not tell. Precondition: all workers
+  /// have stopped.
+  double cpu_seconds() const { return 1e-9 * static_cast<double>(cpu_nanoseconds_); }
   /// Throws the exception of the first range that failed, if any. Precondition: all workers have stopped.
   void rethrow() const {
     if (failure_) std::rethrow_exception(failure_);
@@ -50,6 +55,7 @@ class SharedRange {
   std::size_t range_;
   RangeFunction work_;
   std::atomic<std::size_t> next_ = 0;
+  std::atomic<std::int64_t> cpu_nanoseconds_ = 0;
   std::atomic<bool> failed_ = false;
   std::mutex mutex_;  ///< protects the members below
   std::exception_ptr failure_;
@@ -67,6 +73,14 @@ class Workers::Pool {
   /// Processes all items on the calling thread, as worker 0, and on others, each with its own number less
   /// than count(). Returns when all have stopped.
   virtual void run(SharedRange& items) = 0;
+  /// The same, and notes its times.
+  void run_timed(SharedRange& items) {
+    using Clock = std::chrono::steady_clock;
+    const auto begin = Clock::now();
+    run(items);
+    shared_wall_ += std::chrono::duration<double>(Clock::now() - begin).count();
+    shared_cpu_ += items.cpu_seconds();
+  }
 
   /// Makes the threads work however little they gain: for tests.
   void never_stand_back() { stands_back_ = false; }
@@ -80,6 +94,9 @@ class Workers::Pool {
   std::atomic<bool> busy_ = false;
   bool stands_back_ = true;
   ThreadGain gain_;  ///< in runs of gain_in_
+  // Seconds in parallel loops since take_sharing(): of all threads, and of real time.
+  double shared_cpu_ = 0.0;
+  double shared_wall_ = 0.0;
   const void* gain_in_ = nullptr;
 };
 
@@ -109,6 +126,12 @@ class PoolLease {
     return &pool_->gain_;
   }
 
+  /// CPU time of all threads in parallel loops since the last call, and the real time of these loops
+  /// (seconds). Precondition: gain_in() returned something.
+  std::pair<double, double> take_sharing() {
+    return {std::exchange(pool_->shared_cpu_, 0.0), std::exchange(pool_->shared_wall_, 0.0)};
+  }
+
   /// Calls f(begin, end, worker) for disjoint ranges that cover all items, on up to count() threads
   /// concurrently; each thread has its own number `worker` less than count(). Ranges have at least
   /// `least_range` items, except for the last one, and begin in order. Returns when all are done. If f
@@ -122,7 +145,7 @@ class PoolLease {
       return;
     }
     SharedRange shared(items, range, RangeFunction(f));
-    pool_->run(shared);
+    pool_->run_timed(shared);
     shared.rethrow();
   }
 

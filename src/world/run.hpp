@@ -46,7 +46,9 @@ class World::Run final : private ResponseHandler {
   Result<bool> step_batch();
   Result<bool> step(double until);
   void deliver();
+  void begin_measurement();
   void measure();
+  void look_at_sharing();
   /// Returns a measure of the work so far, which does not depend on the number of threads.
   std::uint64_t work_so_far() const {
     const Counters& counters = world_.engine_->counters();

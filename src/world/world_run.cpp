@@ -79,13 +79,13 @@ Result<void> World::Run::go() {
   const ScopeGuard stop([&] { world_.running_ = false; });
   deliver();
   gain_ = lease_.gain_in(&world_);
-  measured_at_ = Clock::now();
-  measured_work_ = work_so_far();
+  begin_measurement();
   for (;;) {
     const double epoch_end = world_.engine_->epoch_end();
     const auto done = work();
     if (!done) return done.error();
     deliver();
+    if (gain_ != nullptr && gain_->uses_threads()) look_at_sharing();
     const bool is_new_epoch = world_.engine_->epoch_end() != epoch_end;
     if (gain_ != nullptr && (is_new_epoch || *done)) measure();
     if (gain_ != nullptr && is_new_epoch) gain_->decide();
@@ -116,14 +116,23 @@ Result<bool> World::Run::work() {
   return step_batch();
 }
 
-/// Notes how long the work took since the last call, and how much it was.
+void World::Run::begin_measurement() {
+  measured_at_ = Clock::now();
+  measured_work_ = work_so_far();
+}
+
+/// Notes how long the work took since the measurement began, and how much it was. Begins the next one.
 void World::Run::measure() {
-  const auto now = Clock::now();
-  const std::uint64_t done = work_so_far();
-  gain_->note(std::chrono::duration<double>(now - measured_at_).count(),
-              static_cast<double>(done - measured_work_));
-  measured_at_ = now;
-  measured_work_ = done;
+  gain_->note(std::chrono::duration<double>(Clock::now() - measured_at_).count(),
+              static_cast<double>(work_so_far() - measured_work_));
+  begin_measurement();
+}
+
+/// Lets the threads stand back if they get hardly any processor time. What has been done since the
+/// measurement began belongs to neither way then.
+void World::Run::look_at_sharing() {
+  const auto [cpu, wall] = lease_.take_sharing();
+  if (cpu > 0.0 && gain_->note_sharing(cpu, wall)) begin_measurement();
 }
 
 /// Processes many events at once if possible, otherwise one.

@@ -38,6 +38,36 @@ TEST(ThreadGain, KeepsThreadsThatGain) {
   }
 }
 
+TEST(ThreadGain, KeepsThreadsInAShortRun) {
+  // A run of 20 ms has no time for a trial of one thread.
+  ThreadGain gain;
+  EXPECT_LT(work(gain, 0.02, 0.6), 0.601 * 0.02);
+}
+
+/// The same as work() with threads that have `sharing` seconds of processor time for each one of real time.
+double work_sharing(ThreadGain& gain, double seconds, double cost, double sharing) {
+  constexpr double part = 0.0005;
+  double taken = 0.0;
+  for (double done = 0.0; done < seconds; done += part) {
+    const double time = gain.uses_threads() ? cost * part : part;
+    if (!gain.uses_threads() || !gain.note_sharing(sharing * time, time)) gain.note(time, 100.0);
+    gain.decide();
+    taken += time;
+  }
+  return taken;
+}
+
+TEST(ThreadGain, StandsBackAtOnceWhereOneProcessorIsFree) {
+  for (const double sharing : {0.5, 1.0, 1.1}) {
+    ThreadGain gain;
+    EXPECT_LT(work_sharing(gain, 0.1, 1.6, sharing), 1.03 * 0.1) << sharing;
+    EXPECT_LT(work_sharing(gain, 3.0, 1.6, sharing), 1.01 * 3.0) << sharing;
+  }
+  ThreadGain gain;
+  EXPECT_LT(work_sharing(gain, 3.0, 0.6, 1.8), 0.62 * 3.0) << "two are free";
+  EXPECT_TRUE(gain.uses_threads());
+}
+
 TEST(ThreadGain, NoticesThatProcessorsBecomeFreeAndBusy) {
   ThreadGain gain;
   for (const double cost : {1.5, 0.6, 1.5}) {

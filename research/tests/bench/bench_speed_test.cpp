@@ -121,7 +121,8 @@ TEST_F(BenchSpeedTest, ComparesThreads) {
   ASSERT_EQ(table.size(), 4u) << "a million bodies are left out here";
   for (std::size_t row = 0; row + 1 < table.size(); ++row) {
     EXPECT_EQ(csv_cell(table, row, "threads"), "2");
-    for (const char* column : {"loop_s", "one_s", "many_s", "one_to_loop", "one_to_many", "cpu_to_one", "events"})
+    for (const char* column :
+         {"loop_s", "one_s", "many_s", "one_to_loop", "one_to_many", "cpu_to_one", "events"})
       EXPECT_GT(std::stod(csv_cell(table, row, column)), 0.0) << column;
   }
   EXPECT_EQ(csv_cell(table, 2, "scene"), "shooting");
