@@ -344,10 +344,19 @@ sensor distance that differs changes it. str(hash) has the 16 digits that the pr
     const py::object second = contact.second == no_body ? py::none() : array_of(after.second_velocity);
     return py::make_tuple(array_of(after.first_velocity), second);
   };
+  // A restitution that is not named would be a mass.
+  const auto require_both = [](std::string_view call, const std::optional<double>& first_mass,
+                               const std::optional<double>& second_mass) {
+    if (first_mass.has_value() != second_mass.has_value())
+      refuse({call, first_mass ? "second_mass" : "first_mass"},
+             "must be given with the other mass (a restitution needs its name, as restitution=0.5)",
+             "is None");
+  };
   module.def(
       "bounce",
-      [velocities](const Event& contact, std::optional<double> first_mass, std::optional<double> second_mass,
-                   double restitution) {
+      [velocities, require_both](const Event& contact, std::optional<double> first_mass,
+                                 std::optional<double> second_mass, double restitution) {
+        require_both("bounce", first_mass, second_mass);
         return velocities(contact, bounce(contact, first_mass.value_or(contact.first_mass),
                                           second_mass.value_or(contact.second_mass), restitution));
       },
@@ -356,13 +365,15 @@ sensor distance that differs changes it. str(hash) has the 16 digits that the pr
       R"(Velocities after a frictionless central bounce: two arrays of shape (3,); at a wall the second is
 None.
 
-Masses are > 0, those of the event if not given. A static body keeps its velocity and turns the other one, as a
+Masses are > 0, both or none; those of the event if not given. A static body keeps its velocity and turns the other one, as a
 wall does; so does a body of infinite mass. The restitution lies in [0, 1]. Momentum is conserved; a repeated
 contact loses no energy. A NaN gives velocities that the world refuses by name.)");
   module.def(
       "settle",
-      [velocities](const Event& contact, std::optional<double> first_mass, std::optional<double> second_mass,
-                   double restitution, double resting_speed) {
+      [velocities, require_both](const Event& contact, std::optional<double> first_mass,
+                                 std::optional<double> second_mass, double restitution,
+                                 double resting_speed) {
+        require_both("settle", first_mass, second_mass);
         return velocities(contact,
                           settle(contact, first_mass.value_or(contact.first_mass),
                                  second_mass.value_or(contact.second_mass), restitution, resting_speed));

@@ -89,17 +89,18 @@ Bouncing::Bouncing(const py::object& masses, double restitution, double resting_
   const std::string_view call = "Bouncing";
   if (!masses.is_none()) {
     const Numbers numbers(masses, {call, "masses"});
+    // Equal masses change nothing, so one number is a restitution without its name.
+    if (numbers.dimensions() == 0)
+      refuse({call, "masses"},
+             "must have one number for each body (a restitution needs its name, as restitution=0.5)",
+             "is " + py::repr(masses).cast<std::string>());
     if (numbers.dimensions() > 1)
       refuse({call, "masses"}, "must have shape (n,)", "has shape " + numbers.shape());
-    if (numbers.dimensions() == 0)
-      common_mass_ = numbers.scalar();
-    else
-      masses_ = each_of(masses, {call, "masses"}, numbers.length(0));
+    masses_ = each_of(masses, {call, "masses"}, numbers.length(0));
   }
   const auto check = [call](bool good, std::string_view name, std::string_view expectation, double found) {
     if (!good) refuse({call, name}, expectation, "is " + py::repr(py::float_(found)).cast<std::string>());
   };
-  if (common_mass_) check(*common_mass_ > 0.0, "masses", "must be > 0", *common_mass_);
   for (const double mass : masses_.value_or(std::vector<double>()))
     check(mass > 0.0, "masses", "must be > 0", mass);
   check(restitution >= 0.0 && restitution <= 1.0, "restitution", "must lie in [0, 1]", restitution);
@@ -108,9 +109,7 @@ Bouncing::Bouncing(const py::object& masses, double restitution, double resting_
 }
 
 py::tuple Bouncing::arguments() const {
-  const py::object masses = masses_        ? array_of(*masses_)
-                            : common_mass_ ? py::object(py::float_(*common_mass_))
-                                           : py::none();
+  const py::object masses = masses_ ? py::object(array_of(*masses_)) : py::none();
   return py::make_tuple(masses, restitution_, resting_speed_);
 }
 
@@ -124,7 +123,6 @@ Response Bouncing::answer(const Event& event) const {
 }
 
 double Bouncing::mass(BodyId body, double own) const {
-  if (common_mass_) return *common_mass_;
   if (!masses_) return own;
   if (body.index < masses_->size()) return (*masses_)[body.index];
   throw BadResult({ErrorCode::out_of_range, "masses", body,
@@ -179,8 +177,7 @@ void bind_moving(py::module_& module) {
       module, "Bouncing",
       R"(A ready-made response for World.run(): bodies bounce off each other, walls and static bodies.
 
-masses (> 0) is one number for all, or an array with one at the index of each body; without, the bodies have
-the masses of add(). Static bodies count as infinitely heavy. restitution lies in [0, 1]. With a
+masses (> 0) is an array with one at the index of each body; without, the bodies have the masses of add(). Static bodies count as infinitely heavy. restitution lies in [0, 1]. With a
 resting_speed (length / time) bodies come to rest as settle() has them.)")
       .def(py::init<const py::object&, double, double>(), py::arg("masses") = py::none(),
            py::arg("restitution") = 1.0, py::arg("resting_speed") = 0.0)

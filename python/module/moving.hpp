@@ -60,7 +60,6 @@ class Bouncing {
   double mass(BodyId body, double own) const;
 
   std::optional<std::vector<double>> masses_;
-  std::optional<double> common_mass_;
   double restitution_;
   double resting_speed_;
 };

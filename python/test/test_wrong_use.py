@@ -245,10 +245,12 @@ def test_wrong_kinds_of_things_are_named() -> None:
         (lambda: things.w.add((0, 0, 0), sensor_classes=300), ks.InvalidValue, r"\[0, 255\]"),
         (lambda: things.w.add((0, 0, 0), masks=-1), ks.InvalidValue, "2\\^64"),
         (lambda: things.w.add((0, 0, 0), group=2**40), ks.InvalidValue, "32 bits"),
-        (lambda: ks.Bouncing(masses=-1), ks.InvalidValue, "masses must be > 0"),
+        (lambda: ks.Bouncing(masses=[1.0, -1]), ks.InvalidValue, "masses must be > 0"),
+        (lambda: ks.Bouncing(0.5), ks.InvalidValue, "masses must have one number for each body .*restitution=0.5"),  # type: ignore[arg-type]
         (lambda: ks.Bouncing(restitution=2), ks.InvalidValue, "restitution"),
         (lambda: ks.Bouncing(masses=np.ones((2, 2))), ks.InvalidValue, "masses must have shape"),
         (lambda: things.w.run(20, things.motion, ks.Bouncing(masses=[1.0])), ks.InvalidValue, "masses must have one number for each body"),
+        (lambda: ks.bounce(things.w.clone().run(20.0, things.motion, ks.Bouncing())[0], 0.5), ks.InvalidValue, "second_mass must be given with .*restitution=0.5"),
         (lambda: ks.World(periodic="w"), ks.InvalidValue, "letters x, y and z"),
         (lambda: ks.World(box=((0, 0, 0), (9, 9, 9)), periodic="xyz", dimensions=2), ks.InvalidValue, 'such as "xy", but is .xyz.'),
         (lambda: ks.World(periodic=3), TypeError, "periodic"),  # type: ignore[arg-type]

@@ -23,17 +23,23 @@ struct QuantityNames {
 constexpr QuantityNames quantities[quantity_count] = {
     {Quantity::id, "id", Measure::none,
      "mmsi trackid agent agentid ped pedid pedestrian pedestrianid person personid object objectid vehicleid "
-     "vesselid droneid drone uavid uav icao24 hex trajectoryid particle particleid tag tagid animalid "
-     "individuallocalidentifier"},
+     "vesselid shipid sourcemmsi deviceid droneid drone uavid uav robotid playerid entityid icao24 hex "
+     "trajectoryid particle "
+     "particleid tag tagid animalid individuallocalidentifier"},
     {Quantity::time, "time", Measure::time,
-     "t timestamp datetime basedatetime utc timeutc timestamputc datetimeutc unixtime epoch stamp zeit "
-     "seconds:s secs:s sec:s milliseconds:ms"},
-    {Quantity::frame, "frame", Measure::none, "frameid frameno framenr framenumber frameindex"},
+     "t timestamp datetime basedatetime utc timeutc timestamputc datetimeutc unixtime epoch stamp tstamp "
+     "headerstamp fixtime utctime date/time localtime timestamplocal zeit uhrzeit seconds:s secs:s sec:s "
+     "milliseconds:ms"},
+    {Quantity::frame, "frame", Measure::none, "frameid frameno framenr framenumber frameindex frameidx fr"},
+    {Quantity::date, "date", Measure::none, "datum utcdate dateutc gpsdate localdate"},
     {Quantity::arrival, "arrival", Measure::time, "received"},
-    {Quantity::x, "x", Measure::length, "posx xpos positionx xposition px east easting"},
-    {Quantity::y, "y", Measure::length, "posy ypos positiony yposition py north northing"},
+    {Quantity::x, "x", Measure::length,
+     "posx xpos positionx xposition posepositionx px centerx xcenter centroidx xcentroid east easting"},
+    {Quantity::y, "y", Measure::length,
+     "posy ypos positiony yposition posepositiony py centery ycenter centroidy ycentroid north northing"},
     {Quantity::z, "z", Measure::length,
-     "posz zpos positionz zposition pz alt altitude ele elevation flightlevel:FL fl:FL"},
+     "posz zpos positionz zposition posepositionz pz centerz zcenter centroidz zcentroid alt altitude ele "
+     "elevation flightlevel:FL fl:FL"},
     {Quantity::longitude, "lon", Measure::angle,
      "lng long longitude locationlong locationlon gpslon gpslongitude decimallongitude"},
     {Quantity::latitude, "lat", Measure::angle, "latitude locationlat gpslat gpslatitude decimallatitude"},
@@ -190,11 +196,12 @@ bool looks_like_height(std::string_view column_name) {
          is_word_of(plain, "level lvl floor storey story etage deck quota modec vertical zcoord coordz");
 }
 
-bool is_fraction_of_time(std::string_view column_name) {
+bool is_part_of_time(std::string_view column_name) {
   return has_word(
-      column_name,
-      "nsec nsecs nanosec nanosecs nanoseconds usec usecs microsec microseconds msec msecs millis "
-      "millisec fraction");
+             column_name,
+             "nsec nsecs nanosec nanosecs nanoseconds usec usecs microsec microseconds msec msecs millis "
+             "millisec fraction") ||
+         is_word_of(plain_name(column_name), "gpsweek gpswk");
 }
 
 bool looks_like_angle(std::string_view column_name, Quantity angle) {
@@ -224,7 +231,17 @@ bool is_scene(std::string_view column_name) {
   return is_word_of(
       plain,
       "scene scenario case recording session trial video clip match game experiment replicate run "
-      "simulation arena");
+      "simulation arena camera cam cameraid sensor tank cage well plate");
+}
+
+bool is_of_aircraft(std::string_view column_name) {
+  return is_word_of(plain_name(column_name),
+                    "icao icao24 hex modes squawk callsign flight registration altbaro altgeom");
+}
+
+bool is_zone(std::string_view column_name) {
+  return is_word_of(plain_name(column_name),
+                    "zone utmzone gridzone map mapid building buildingid floorid levelid");
 }
 
 bool is_nobody(std::string_view column_name, std::string_view id) {

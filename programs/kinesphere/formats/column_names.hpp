@@ -15,6 +15,7 @@ enum class Quantity {
   id,
   time,
   frame,
+  date,  ///< of a clock time in another column
   arrival,
   x,
   y,
@@ -62,8 +63,8 @@ std::optional<ColumnMeaning> meaning_of(std::string_view column_name);
 std::string_view unit_in_name(std::string_view column_name, Measure measure);
 /// True for a name that has a word for heights: geoaltitude, z_raw, altGeom, floor.
 bool looks_like_height(std::string_view column_name);
-/// True for a column that may have the fractions of a time in whole seconds: nanosec, header.stamp.nsecs.
-bool is_fraction_of_time(std::string_view column_name);
+/// True for a column that may have a part of a time, beside another with its seconds: nanosec, gps_week.
+bool is_part_of_time(std::string_view column_name);
 /// True for a name that has a word for longitudes or latitudes, as `angle` says: geo_lon, X_WGS84.
 bool looks_like_angle(std::string_view column_name, Quantity angle);
 /// Returns the values with which a column says that its row means nothing, such as "true 1" of `lost`; empty
@@ -71,6 +72,10 @@ bool looks_like_angle(std::string_view column_name, Quantity angle);
 std::string_view void_values_of(std::string_view column_name);
 /// True for a column that says to which scene, trial or match a row belongs: scene_id, case, gameId.
 bool is_scene(std::string_view column_name);
+/// True for a column that only tables of aircraft have: icao24, callsign, squawk, alt_baro.
+bool is_of_aircraft(std::string_view column_name);
+/// True for a column that says in which zone, map or building the coordinates of its row are.
+bool is_zone(std::string_view column_name);
 /// True for an id that is nobody in most files: missing, negative, unknown, noise; 0 for MMSI and ICAO 24.
 bool is_nobody(std::string_view column_name, std::string_view id);
 

@@ -12,11 +12,19 @@
 
 namespace kinesphere::program {
 
-std::optional<ConvertedTable> convert_to_table(std::string_view text, const std::string& file) {
+std::optional<ConvertedTable> convert_to_table(std::string_view text, const std::string& file,
+                                               bool geometric) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  for (auto* const convert : {&convert_gpx, &convert_lammps, &convert_xyz})
+  if (auto table = convert_json_trace(text, file, geometric)) return table;
+  for (auto* const convert :
+       {&convert_gpx, &convert_fcd, &convert_lammps, &convert_xyz, &convert_json_records})
     if (auto table = convert(text, file)) return table;
   return std::nullopt;
+}
+
+bool is_xml_with(std::string_view text, std::string_view element) {
+  return text.substr(std::min(text.find_first_not_of(" \t\r\n"), text.size())).starts_with('<') &&
+         text.substr(0, 4000).find(element) != std::string_view::npos;
 }
 
 std::optional<std::string_view> LineCutter::next() {

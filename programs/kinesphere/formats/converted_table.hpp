@@ -15,17 +15,28 @@ struct ConvertedTable {
   std::string format;  ///< for the summary
   /// A table with a header; its rows stand in the lines in which the file has them.
   std::string text;
+  /// So many lines more than in the file stand before the rows: a file of JSON has no header.
+  std::size_t lines_before = 0;
   std::vector<std::string> warnings;
 };
 
-/// Converts GPX (tracks of a GPS receiver), XYZ and extended XYZ, and dumps of LAMMPS; returns nothing for
-/// other text. Throws ProgramError naming `file` and the line for a damaged file.
-std::optional<ConvertedTable> convert_to_table(std::string_view text, const std::string& file);
+/// Converts GPX (tracks of a GPS receiver), FCD output of SUMO, XYZ and extended XYZ, dumps of LAMMPS, traces
+/// of tar1090, and JSON records; returns nothing for other text. `geometric`: heights of aircraft are those
+/// of satellite navigation. Throws ProgramError naming `file` and the line for a damaged file.
+std::optional<ConvertedTable> convert_to_table(std::string_view text, const std::string& file,
+                                               bool geometric);
 
 // One file each. They return nothing for another format.
 std::optional<ConvertedTable> convert_gpx(std::string_view text, const std::string& file);
+std::optional<ConvertedTable> convert_fcd(std::string_view text, const std::string& file);
 std::optional<ConvertedTable> convert_xyz(std::string_view text, const std::string& file);
 std::optional<ConvertedTable> convert_lammps(std::string_view text, const std::string& file);
+std::optional<ConvertedTable> convert_json_records(std::string_view text, const std::string& file);
+std::optional<ConvertedTable> convert_json_trace(std::string_view text, const std::string& file,
+                                                 bool geometric);
+
+/// True for XML whose first elements contain `element`, such as "<gpx".
+bool is_xml_with(std::string_view text, std::string_view element);
 
 /// Cuts lines off the front of a text and counts them.
 class LineCutter {

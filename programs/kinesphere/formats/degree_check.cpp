@@ -25,8 +25,9 @@ std::string DegreeCheck::suspicion() const {
                         std::abs(least_y_) <= 90.0 && std::abs(largest_y_) <= 90.0;
   if (all_whole_ || !in_range || offset < std::max(least_ratio * spread, least_offset)) return {};
   return fmt::format(
-      "x ({:.9g} to {:.9g}) and y ({:.9g} to {:.9g}) may be degrees: say --positions lonlat if they are "
-      "longitude and latitude, or --positions plane if they are lengths",
+      "x ({:.9g} to {:.9g}) and y ({:.9g} to {:.9g}) may be degrees: say --positions lonlat if x is the "
+      "longitude and y the latitude (lon=... and lat=... with --columns where it is the other way round), or "
+      "--positions plane if they are lengths",
       least_x_, largest_x_, least_y_, largest_y_);
 }
 

@@ -15,8 +15,13 @@ std::string_view with_decimal_point(std::string_view text, std::string& buffer);
 /// True for a table whose numbers may have decimal commas: one with this separator.
 constexpr bool has_decimal_commas(char separator) { return separator == ';' || separator == '\t'; }
 
-/// True for what stands for no value: nothing, NaN, NaT, inf, NA, N/A, #N/A, <NA>, null, nil, none, \N, -, --
-/// and ?, in any case.
+/// Returns degrees with a hemisphere's letter or a sign of degrees: 47.5 N, S12.25, 47°30'15.5"N, 8 30.25 E;
+/// nothing for other text. `letters`: that of positive degrees, and that of negative ones.
+std::optional<double> angle_field(std::string_view text, bool decimal_comma, std::string_view letters);
+
+/// True for what stands for no value: nothing, NaN, NaT, inf, NA, N/A, #N/A, <NA>, null, nil, none, nodata,
+/// \N, -,
+/// --, ?, errors of spreadsheets, and the word ground, in any case.
 bool is_missing(std::string_view field);
 /// Returns the field on one line and shortened, for messages: in quotes, or the word nothing.
 std::string shown_field(std::string_view field);

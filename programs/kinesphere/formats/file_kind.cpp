@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 namespace kinesphere::program {
 namespace {
@@ -16,6 +17,10 @@ struct FileKind {
 };
 
 constexpr std::string_view as_csv = ": write it as CSV, with pandas for example";
+constexpr std::string_view as_rows_of_vicon =
+    "an export of Vicon Nexus, with columns for each marker: write it as rows of id, time, x, y, z";
+constexpr std::string_view pdb = "a PDB file: write it as XYZ, with VMD or MDAnalysis";
+constexpr std::string_view sp3 = "an ephemeris (SP3): write it as CSV, with columns id, time, x, y, z";
 
 /// Files that begin with certain bytes.
 constexpr FileKind kinds_by_bytes[] = {
@@ -46,6 +51,36 @@ constexpr FileKind kinds_by_bytes[] = {
     {"{\\rtf"sv, "a document of RTF: save it as text"},
     {"$GP"sv, "NMEA 0183: write it as CSV or GPX, with gpsbabel"},
     {"$GN"sv, "NMEA 0183: write it as CSV or GPX, with gpsbabel"},
+    {"Format Version,"sv,
+     "a take of OptiTrack Motive, with columns for each body: write it as rows of id, time, x, y, z"},
+    {"PathFileType"sv,
+     "a .trc file of markers, with columns for each: write it as rows of id, time, x, y, z"},
+    {"NO_OF_FRAMES"sv,
+     "a file of Qualisys, with columns for each marker: write it as rows of id, time, x, y, z"},
+    {"Trajectories\n"sv, as_rows_of_vicon},
+    {"Trajectories\r\n"sv, as_rows_of_vicon},
+    {"scorer,"sv,
+     "a table of DeepLabCut, with columns for each part of a body: write one part of each as rows of id, "
+     "frame, x, y"},
+    {"track_id; type; traveled_d"sv,
+     "a table of pNEUMA, with a whole track in each row: write it as rows of id, time, lat, lon"},
+    {"$VISION"sv, "a record of Vissim or Viswalk: write it as CSV, with columns id, time, x and y"},
+    {"CCSDS_OEM_VERS"sv,
+     "an ephemeris (OEM) of one object: write its rows as CSV, with columns id, time, x, y, z"},
+    {"stk.v."sv, "an ephemeris of STK: write its rows as CSV, with columns id, time, x, y, z"},
+    {"#aP"sv, sp3},
+    {"#cP"sv, sp3},
+    {"#dP"sv, sp3},
+    {"FMT, 128,"sv,
+     "an ArduPilot log: write its messages GPS as CSV, with mavlogdump.py --types GPS --format csv"},
+    {"\xA3\x95"sv,
+     "an ArduPilot log: write its messages GPS as CSV, with mavlogdump.py --types GPS --format csv"},
+    {"CRYST1"sv, pdb},
+    {"HEADER    "sv, pdb},
+    {"REMARK "sv, pdb},
+    {"TITLE     "sv, pdb},
+    {"MODEL     "sv, pdb},
+    {"ATOM  "sv, pdb},
 };
 
 /// XML by a word in its beginning.
@@ -53,6 +88,9 @@ constexpr FileKind kinds_of_xml[] = {
     {"<gpx", "a GPX file: write it as CSV, with gpsbabel -t -i gpx -f FILE -o unicsv -F FILE.csv"},
     {"<kml", "a KML file: write it as CSV, with gpsbabel -t -i kml -f FILE -o unicsv -F FILE.csv"},
     {"<fcd-export", "the FCD output of SUMO: write it as CSV, with SUMO's xml2csv.py"},
+    {"<TrainingCenterDatabase",
+     "a TCX file: write it as GPX, with gpsbabel -i gtrnctr -f FILE -o gpx -F FILE.gpx"},
+    {"<oem", "an ephemeris (OEM): write its rows as CSV, with columns id, time, x, y, z"},
     {"<TrackMate", "a file of TrackMate: export the spots as CSV"},
     {"<html", "a page of HTML: save the table as CSV"},
     {"<!DOCTYPE html", "a page of HTML: save the table as CSV"},
@@ -62,21 +100,62 @@ bool has_begin(std::string_view text, std::string_view begin) {
   return text.substr(0, begin.size()) == begin;
 }
 
+/// A set of two lines of orbital elements: numbers 1 and 2, and the same satellite.
+bool are_orbital_elements(std::string_view first, std::string_view second) {
+  const auto is_line = [](std::string_view line, char number) {
+    return line.size() == 69 && line[0] == number && line[1] == ' ' && line[8] == ' ';
+  };
+  return is_line(first, '1') && is_line(second, '2') && first.substr(2, 5) == second.substr(2, 5);
+}
+
+/// Files that are known by their first lines.
+std::string kind_by_lines(std::string_view text) {
+  std::array<std::string_view, 3> lines;
+  for (std::string_view& line : lines) {
+    line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    if (line.ends_with('\r')) line.remove_suffix(1);
+  }
+  if (are_orbital_elements(lines[0], lines[1]) || are_orbital_elements(lines[1], lines[2]))
+    return "orbital elements (TLE), not positions: propagate them first (docs/satellites.md)";
+  const bool is_alone = lines[0].find_first_of(",; \t") == std::string_view::npos;
+  if (is_alone && lines[0].starts_with('A') && (lines[1].starts_with("HF") || lines[2].starts_with("HF")))
+    return "a flight log (IGC): write it as GPX, with gpsbabel -i igc -f FILE -o gpx -F FILE.gpx";
+  const auto is_count = [](std::string_view line) {
+    return !line.empty() && line.find_first_not_of(" 0123456789") == std::string_view::npos;
+  };
+  if (is_count(lines[1]) && lines[2].size() >= 44 && is_count(lines[2].substr(0, 5)) &&
+      is_count(lines[2].substr(15, 5)) && lines[2].substr(20, 24).find('.') != std::string_view::npos)
+    return "a .gro file of GROMACS: write it as XYZ, with VMD or MDAnalysis";
+  return {};
+}
+
 }  // namespace
 
 std::string other_file_kind(std::string_view beginning) {
+  if (beginning.empty()) return {};
   for (const FileKind& kind : kinds_by_bytes)
     if (has_begin(beginning, kind.begins)) return std::string(kind.is);
   // Text in UTF-16 may lack its mark.
   if (beginning.size() >= 4 && (beginning[0] == '\0') != (beginning[1] == '\0') &&
       (beginning[0] == '\0') == (beginning[2] == '\0') && (beginning[1] == '\0') == (beginning[3] == '\0'))
     return std::string(kinds_by_bytes[0].is);
+  const std::size_t first_return = beginning.find('\r');
+  if (first_return < beginning.size() - 1 && beginning.find('\n') == std::string_view::npos)
+    return "text whose lines end as on old Macs: convert it with tr '\\r' '\\n'";
   constexpr std::size_t place_of_tar = 257;
   if (beginning.size() > place_of_tar && has_begin(beginning.substr(place_of_tar), "ustar"))
     return "a tar archive: unpack it first";
+  constexpr std::size_t place_of_fit = 8;
+  if (beginning.size() > place_of_fit && has_begin(beginning.substr(place_of_fit), ".FIT"))
+    return "a FIT file: write it as GPX, with gpsbabel -i garmin_fit -f FILE -o gpx -F FILE.gpx";
+  if (const std::string kind = kind_by_lines(beginning); !kind.empty()) return kind;
   if (has_begin(beginning, "\xEF\xBB\xBF")) beginning.remove_prefix(3);
   beginning.remove_prefix(std::min(beginning.find_first_not_of(" \t\r\n"), beginning.size()));
-  if (has_begin(beginning, "{") || has_begin(beginning, "["))
+  const bool is_json = has_begin(beginning, "{") || has_begin(beginning, "[");
+  if (is_json && beginning.substr(0, 4000).find("\"FeatureCollection\"") != std::string_view::npos)
+    return "GeoJSON: write its points as CSV, with ogr2ogr -f CSV FILE.csv FILE -lco GEOMETRY=AS_XY";
+  if (is_json)
     return "JSON of none of the formats that are read (docs/tables.md): write it as CSV, for example with jq "
            "-r "
            "'[.id,.time,.x,.y]|@csv'";

@@ -52,6 +52,16 @@ constexpr Preset presets[] = {
      "7 = 0",
      {},
      10},
+    // Positions are relative to the camera of the car: x to its right, z forward; y is down.
+    {"kitti",
+     "KITTI tracking (the ground as the camera's car sees it)",
+     "id=2,frame=1,x=14:m,y=16:m",
+     "",
+     10.0,
+     {},
+     "2 != -1",
+     {},
+     17},
     {"mot", "MOT (left and top of boxes)", "id=2,frame=1,x=3,y=4", "", 0.0, {}, "7 != 0", {}, 7},
     // Road traffic. Positions of highD are corners of boxes.
     {"highd", "highD (upper left corners)",
@@ -175,13 +185,26 @@ bool is_tum(const std::vector<double>& row) {
   return std::abs(std::hypot(std::hypot(row[4], row[5]), std::hypot(row[6], row[7])) - 1.0) < 1e-3;
 }
 
-/// id left top right bottom frame lost occluded generated "label"
+/// id left top right bottom frame lost occluded generated label
 bool is_sdd(const std::vector<std::string>& fields) {
-  return fields.size() == 10 && fields[9].starts_with('"') && fields[9].ends_with('"') &&
+  constexpr std::string_view labels[] = {"Biker", "Pedestrian", "Skater", "Skateboarder",
+                                         "Cart",  "Car",        "Bus"};
+  return fields.size() == 10 &&
+         std::find(std::begin(labels), std::end(labels), fields[9]) != std::end(labels) &&
          numbers_in({fields.begin(), fields.end() - 1}).has_value();
 }
 
+/// frame id type truncated occluded alpha, box in the image, height width length, x y z, rotation[, score]
+bool is_kitti(const std::vector<std::string>& fields) {
+  constexpr std::string_view types[] = {"Car",     "Van",  "Truck", "Pedestrian", "Person_sitting",
+                                        "Cyclist", "Tram", "Misc",  "DontCare",   "Person"};
+  return (fields.size() == 17 || fields.size() == 18) &&
+         std::find(std::begin(types), std::end(types), fields[2]) != std::end(types) &&
+         numbers_in({fields.begin() + 3, fields.end()}).has_value();
+}
+
 const Preset* shown_by_first_row(const TableHead& head) {
+  if (is_kitti(head.first)) return preset_named("kitti");
   if (is_sdd(head.first)) return preset_named("sdd");
   const auto numbers = numbers_in(head.first);
   if (!numbers) return nullptr;

@@ -150,7 +150,7 @@ std::optional<StreamFormat> recognised_format(std::string_view beginning) {
   // A header consists of names.
   const bool has_letters =
       std::any_of(line.begin(), line.end(), [](char c) { return ('a' <= (c | 32) && (c | 32) <= 'z'); });
-  if (has_letters && line.find_first_of(",;\t") != std::string_view::npos && !line.starts_with('!') &&
+  if (has_letters && line.find_first_of(",;\t|") != std::string_view::npos && !line.starts_with('!') &&
       !line.starts_with('[') && !line.starts_with('$') && !line.starts_with('\\'))
     return StreamFormat::csv;
   return std::nullopt;

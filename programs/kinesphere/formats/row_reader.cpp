@@ -27,6 +27,20 @@ bool is_one_of(std::string_view value, std::string_view words) {
   return false;
 }
 
+/// True for a time of day such as 9:30, 09:30:15.5, 09:30:15 PM.
+bool is_clock(std::string_view text) {
+  const std::size_t colon = text.find(':');
+  return colon != std::string_view::npos && colon >= 1 && colon <= 2 && parse_number(text.substr(0, colon));
+}
+
+/// True for a number that a spreadsheet has rounded: 2.19E+08, which has fewer digits than it should.
+bool is_rounded(std::string_view text) {
+  const std::size_t exponent = text.find_first_of("eE"), point = text.find('.');
+  if (exponent == std::string_view::npos || point > exponent) return false;
+  const auto power = parse_number(text.substr(exponent + 1));
+  return power && *power > static_cast<double>(exponent - point - 1);
+}
+
 /// True for YYYYMMDDhhmmss of the years 1900 to 2199.
 bool is_packed_date(std::int64_t number) {
   const std::int64_t clock = number % 1'000'000, date = number / 1'000'000;
@@ -102,6 +116,11 @@ std::string_view RowReader::id() {
   const bool whole = number && std::floor(*number) == *number && std::abs(*number) < 1e15;
   if (whole) id_ = fmt::format("{}", static_cast<long long>(*number));
   const std::string_view id = whole ? std::string_view(id_) : text;
+  if (whole && is_rounded(text) && !filter_.mentions(column))
+    throw OpenQuestion(
+        fmt::format("the id {} looks rounded, as spreadsheets do with long numbers: write ids in full, "
+                    "or keep it with --where '{} != none'",
+                    text, where_name(Quantity::id)));
   if (text.empty())
     throw WrongInput(fmt::format("{} (--where '{} != \"\"' leaves such rows out)",
                                  wrong_text(column, "an id"), where_name(Quantity::id)));
@@ -139,7 +158,8 @@ void RowReader::check_place(double x, double y) const {
 std::optional<TimeField> RowReader::time(Quantity quantity) {
   const auto& column = columns_[quantity];
   if (!column) return std::nullopt;
-  const std::string_view text = field(column->place);
+  std::string_view text = field(column->place);
+  if (quantity == Quantity::time) text = with_date(text);
   auto time = time_field(text, columns_.dates);
   if (!time && is_missing(text)) {
     if (!missing_) missing_ = {column->place, "time"};
@@ -153,15 +173,43 @@ std::optional<TimeField> RowReader::time(Quantity quantity) {
                       wrong_text(column->place, "a date whose order of day and month is known")));
     if (text.find_first_of("-/:") == std::string_view::npos)
       throw WrongInput(wrong_text(column->place, "a number as time"));
-    throw WrongInput(wrong_text(column->place, "a time") + " (dates are read as in 2024-01-31T12:30:00Z)");
+    throw WrongInput(wrong_text(column->place, "a time") +
+                     (is_clock(text)
+                          ? ", which has no date: write it as in 2024-01-31T12:30:00Z, or the date in a "
+                            "column called date"
+                          : " (dates are read as in 2024-01-31T12:30:00Z)"));
   }
   if (time->kind != TimeKind::number) return time;
   time->kind = columns_.time_kind;
   if (quantity != Quantity::time) return time;
   if (!columns_.time_problem.empty()) throw OpenQuestion(columns_.time_problem, false);
+  check_date(text, time->time);
   if (!columns_.time_unit_said) check_size(time->time);
   has_time_ = true;
   return time;
+}
+
+/// Returns the clock time behind the date of another column; nothing if that is missing.
+std::string_view RowReader::with_date(std::string_view clock) {
+  if (!columns_[Quantity::date] || !is_clock(clock)) return clock;
+  std::string date(field(columns_[Quantity::date]->place));
+  if (is_missing(date)) return {};
+  // Sheets write a day as its midnight.
+  if (date.find(':') != std::string::npos) date.resize(std::min(date.find_first_of(" T"), date.size()));
+  if (date.size() == 8 && parse_number(date)) date.insert(6, "-").insert(4, "-");
+  date_and_clock_ = date + ' ' + std::string(clock);
+  return date_and_clock_;
+}
+
+/// Asks about numbers beside dates, which may be clocks or the seconds of a day.
+void RowReader::check_date(std::string_view text, const FileTime& time) const {
+  constexpr std::int64_t largest_clock = 1'000'000;
+  if (!columns_[Quantity::date] || columns_.time_kind != TimeKind::number || time.whole > largest_clock)
+    return;
+  throw OpenQuestion(fmt::format(
+      "the time {} and the date {} may belong together: write both as one column, as in "
+      "2024-01-31T12:30:00, or say {} to take the time alone",
+      shown_field(text), shown_field(field(columns_[Quantity::date]->place)), columns_.time_advice));
 }
 
 /// Asks about numbers that are no likely seconds. Receivers on the earth know the date, so that what is one
@@ -191,11 +239,30 @@ std::optional<double> RowReader::number(Quantity quantity) {
   return std::nullopt;
 }
 
+/// Returns the number of a longitude or latitude, negative in the west or south. `letters` name the
+/// hemispheres.
+std::optional<double> RowReader::degrees(Quantity quantity, const std::optional<std::size_t>& hemisphere,
+                                         std::string_view letters) {
+  const std::size_t column = columns_[quantity]->place;
+  auto degrees = number_field(field(column), columns_.decimal_comma);
+  if (!degrees) degrees = angle_field(field(column), columns_.decimal_comma, letters);
+  if (!degrees) degrees = number(quantity);  // missing, or wrong
+  if (!degrees || !hemisphere) return degrees;
+  const std::string_view letter = *hemisphere < fields_->size() ? field(*hemisphere) : std::string_view();
+  const bool is_negative = same_name(letter, letters.substr(1));
+  if (!is_negative && !(same_name(letter, letters.substr(0, 1)) && *degrees >= 0.0))
+    throw WrongInput(wrong_text(
+        *hemisphere, fmt::format("{} or {} of {}", letters[0], letters[1], shown_field(field(column)))));
+  return is_negative ? -std::abs(*degrees) : degrees;
+}
+
 std::optional<Vec3> RowReader::position() {
   const bool geographic = columns_.geographic;
   const Quantity along = geographic ? Quantity::longitude : Quantity::x;
   const Quantity across = geographic ? Quantity::latitude : Quantity::y;
-  const auto x = number(along), y = number(across), z = number(Quantity::z);
+  const auto x = geographic ? degrees(along, columns_.east_or_west, "EW") : number(along);
+  const auto y = geographic ? degrees(across, columns_.north_or_south, "NS") : number(across);
+  const auto z = number(Quantity::z);
   has_height_ = z.has_value();
   if (!x || !y) return std::nullopt;
   check_place(*x, *y);

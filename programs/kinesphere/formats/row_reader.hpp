@@ -49,6 +49,8 @@ class RowReader {
   std::size_t bodies() const { return std::max<std::size_t>(columns_.bodies.size(), 1); }
   void set_body(std::size_t body);
 
+  /// Returns the file's name without folder and endings, which is the id of a file with one body.
+  const std::string& file_id() const { return file_id_; }
   /// Returns the id as spelled, but 3 for 3.0 and 3.000000e+00; valid until the next call.
   std::string_view id();
   /// Returns nothing for a missing time, or if there is no such column.
@@ -80,6 +82,10 @@ class RowReader {
   std::string_view field(std::size_t column) const { return (*fields_)[column]; }
   std::string_view name_of(Quantity quantity) const;
   void check_size(const FileTime& time);
+  std::string_view with_date(std::string_view clock);
+  void check_date(std::string_view text, const FileTime& time) const;
+  std::optional<double> degrees(Quantity quantity, const std::optional<std::size_t>& hemisphere,
+                                std::string_view letters);
   void check_place(double x, double y) const;
   std::string where_name(Quantity quantity) const;
 
@@ -92,7 +98,7 @@ class RowReader {
   bool has_height_ = false;
   bool has_time_ = false;  ///< a row had a time
   std::size_t body_ = 0;
-  std::string file_id_, id_, buffer_;
+  std::string file_id_, id_, buffer_, date_and_clock_;
 };
 
 }  // namespace kinesphere::program

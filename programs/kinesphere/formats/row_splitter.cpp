@@ -25,7 +25,7 @@ char separator_of(std::string_view text) {
     if (c == '\n') break;
     outside += c;
   }
-  for (char separator : {';', ',', '\t'})
+  for (char separator : {';', ',', '\t', '|'})
     if (trimmed(outside).find(separator) != std::string_view::npos) return separator;
   return ' ';
 }
@@ -58,12 +58,16 @@ void RowSplitter::read(std::vector<std::string_view>& fields) {
   }
 }
 
+std::size_t RowSplitter::end_of_field(std::string_view line) const {
+  return std::min(separator_ == ' ' ? line.find_first_of(blanks) : line.find(separator_), line.size());
+}
+
 /// Reads up to the separator or the end of the line.
 std::string_view RowSplitter::read_field(std::size_t column) {
   std::string_view ahead = line_ahead();
   const std::size_t blank =
       std::min(ahead.find_first_not_of(separator_ == '\t' ? " \r" : blanks), ahead.size());
-  if (ahead.substr(blank).starts_with('"') && separator_ != ' ') {
+  if (ahead.substr(blank).starts_with('"')) {
     rest_.remove_prefix(blank + 1);
     return read_quoted(column);
   }
@@ -71,8 +75,7 @@ std::string_view RowSplitter::read_field(std::size_t column) {
     rest_.remove_prefix(blank);
     ahead.remove_prefix(blank);
   }
-  const std::size_t end =
-      std::min(separator_ == ' ' ? ahead.find_first_of(blanks) : ahead.find(separator_), ahead.size());
+  const std::size_t end = end_of_field(ahead);
   const std::string_view field = trimmed(ahead.substr(0, end));
   if (separator_ != ' ' && field.find('"') != std::string_view::npos)
     fail_in(column, "expected quotes only around a whole field");
@@ -98,7 +101,7 @@ std::string_view RowSplitter::read_quoted(std::size_t column) {
   if (doubled != nullptr) field = doubled->append(begin.substr(copied, at - copied));
   rest_.remove_prefix(at + 1);
   const std::string_view after = line_ahead();
-  const std::size_t end = std::min(after.find(separator_), after.size());
+  const std::size_t end = end_of_field(after);
   if (!trimmed(after.substr(0, end)).empty()) fail_in(column, "expected a separator after the quoted field");
   rest_.remove_prefix(end);
   return field;

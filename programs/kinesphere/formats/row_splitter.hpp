@@ -16,7 +16,7 @@ class WrongInput : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Returns the first of ; , tab outside quotes in the first row of `text`, else a blank.
+/// Returns the first of ; , tab | outside quotes in the first row of `text`, else a blank.
 char separator_of(std::string_view text);
 
 /// Splits rows. Fields are quoted as in RFC 4180: separators and line ends in quotes belong to the field, and
@@ -34,6 +34,8 @@ class RowSplitter {
  private:
   /// Returns the next line without its end; empty at the end of the text.
   std::string_view line_ahead() const { return rest_.substr(0, rest_.find('\n')); }
+  /// Returns where the field at the beginning of `line` ends.
+  std::size_t end_of_field(std::string_view line) const;
   std::string_view read_field(std::size_t column);
   std::string_view read_quoted(std::size_t column);
 

@@ -47,13 +47,15 @@ std::string column_word(const TableHead& head, std::size_t place) {
   return by_name ? head.names[place] : fmt::format("{}", place + 1);
 }
 
-/// Returns "id=mmsi,time=t,lon=lon,lat=lat" of the columns found, with a unit behind that of `quantity`.
+/// Returns "id=mmsi,time=t,lon=lon,lat=lat" of the columns found, with a unit behind that of `quantity`, and
+/// without the column `without`.
 std::string columns_text(const TableHead& head, const TableColumns& columns,
-                         std::optional<Quantity> quantity = {}, std::string_view unit = {}) {
+                         std::optional<Quantity> quantity = {}, std::string_view unit = {},
+                         std::optional<Quantity> without = {}) {
   std::string text;
   for (std::size_t k = 0; k < quantity_count; ++k) {
-    if (!columns.of[k]) continue;
     const auto each = static_cast<Quantity>(k);
+    if (!columns.of[k] || each == without) continue;
     text += fmt::format("{}{}={}{}", text.empty() ? "" : ",", key_of(each),
                         column_word(head, columns.of[k]->place), each == quantity ? unit : "");
   }
@@ -146,7 +148,7 @@ class SaidColumns {
       unit = names.substr(colon + 1);
       names = names.substr(0, colon);
     }
-    if (preset_ != nullptr && names == "@file") {
+    if (*quantity == Quantity::id && names == "@file") {
       columns_.id_is_file = true;
       return;
     }
@@ -191,8 +193,9 @@ class SaidColumns {
 };
 
 bool is_position(Quantity quantity) {
-  constexpr Quantity positions[] = {Quantity::id, Quantity::time, Quantity::frame,     Quantity::x,
-                                    Quantity::y,  Quantity::z,    Quantity::longitude, Quantity::latitude};
+  constexpr Quantity positions[] = {Quantity::id,   Quantity::time,      Quantity::frame,
+                                    Quantity::date, Quantity::x,         Quantity::y,
+                                    Quantity::z,    Quantity::longitude, Quantity::latitude};
   return std::find(std::begin(positions), std::end(positions), quantity) != std::end(positions);
 }
 
@@ -255,8 +258,11 @@ class UsualColumns {
       forget({Quantity::x, Quantity::y});
     if (hints.positions == "plane" || hints.positions.starts_with("utm"))
       forget({Quantity::longitude, Quantity::latitude});
-    // Frame numbers are not needed if there are times.
+    // Frame numbers are not needed if there are times, nor dates without a clock.
     if (!places(Quantity::time).empty()) forget({Quantity::frame});
+    auto& times = places_[static_cast<std::size_t>(Quantity::time)];
+    if (times.empty() && places(Quantity::frame).empty())
+      times.swap(places_[static_cast<std::size_t>(Quantity::date)]);
   }
 
   TableColumns found() const {
@@ -331,16 +337,15 @@ void find_pairs(const TableHead& head, const ColumnHints& hints, TableColumns& c
   if (bodies.front().z) columns[Quantity::z] = Column{.place = *bodies.front().z};
 }
 
-/// Asks about a second column of the time, as ROS has them.
-void ask_for_fractions(const TableHead& head, const TableColumns& columns) {
+/// Asks about a second column of the time: nanoseconds, as ROS has them, or weeks, as GPS has.
+void ask_for_parts_of_time(const TableHead& head, const TableColumns& columns) {
   const auto& time = columns[Quantity::time];
   if (!time) return;
   for (std::size_t place = 0; place < head.names.size(); ++place)
-    if (place != time->place && is_fraction_of_time(head.names[place]))
+    if (place != time->place && is_part_of_time(head.names[place]))
       throw ProgramError(fmt::format(
-          "{}: {} may have the fractions of {}: write both as one column of times, or say --columns {} to "
-          "use "
-          "whole seconds",
+          "{}: {} may be a part of the time, as {} is: write both as one column of times, "
+          "or say --columns {} to use the latter alone",
           head.file, column_text(head, place), column_text(head, time->place), columns_text(head, columns)));
 }
 
@@ -461,6 +466,30 @@ void understand_places(const TableHead& head, const ColumnHints& hints, TableCol
   columns.geographic = lon.has_value();
 }
 
+/// Returns the message about columns that were not found, with those that were.
+std::string missing_columns_text(const TableHead& head, const TableColumns& columns, bool has_id,
+                                 bool has_time, bool has_place) {
+  const std::string text = fmt::format(
+      "{}: expected columns for id, time, x and y (or lon and lat) by their usual names, --columns or "
+      "--format; it "
+      "has {}",
+      head.file, head.text());
+  if (!has_id && !has_time && !has_place) {
+    constexpr std::size_t fewest = 4;
+    const std::string_view above = "lines above the header have to be left out or begin with #";
+    if (!head.names.empty()) return head.names.size() < fewest ? fmt::format("{} ({})", text, above) : text;
+    return fmt::format("{}: say --columns id=1,time=2,x=3,y=4 with the numbers of its columns ({})", text,
+                       above);
+  }
+  std::vector<std::string> said;
+  if (!has_id) said.emplace_back("id=...");
+  if (!has_time) said.emplace_back("time=...");
+  if (const std::string found = columns_text(head, columns); !found.empty()) said.push_back(found);
+  if (!has_place) said.emplace_back("x=...,y=...");
+  return fmt::format("{}: say --columns {}{}", text, fmt::join(said, ","),
+                     has_id ? "" : ", with id=@file where each file is one body");
+}
+
 void require_columns(const TableHead& head, const ColumnHints& hints, const TableColumns& columns) {
   const auto has = [&](Quantity quantity) { return columns[quantity].has_value(); };
   const bool plane = has(Quantity::x) && has(Quantity::y);
@@ -468,22 +497,15 @@ void require_columns(const TableHead& head, const ColumnHints& hints, const Tabl
   const bool half =
       has(Quantity::x) != has(Quantity::y) || has(Quantity::longitude) != has(Quantity::latitude);
   const bool has_id = has(Quantity::id) || columns.id_is_file || !columns.bodies.empty();
-  if (!has_id || has(Quantity::time) == has(Quantity::frame) || plane == earth || half) {
+  const bool has_time = has(Quantity::time) != has(Quantity::frame), has_place = plane != earth && !half;
+  if (!has_id || !has_time || !has_place) {
     if (!hints.columns.empty())
-      throw ProgramError(fmt::format(
-          "--columns: expected id=..., time=... (or frame=...), x=...,y=... (or lon=...,lat=...) and "
-          "perhaps z=..., but got '{}'",
-          hints.columns));
-    const bool has_time = has(Quantity::time) || has(Quantity::frame);
-    const std::string_view unnamed = head.names.empty()  ? ""
-                                     : !has_id           ? ", none of which is called like an id"
-                                     : !has_time         ? ", none of which is called like a time"
-                                     : !(plane || earth) ? ", not two of which are called like positions"
-                                                         : "";
-    throw ProgramError(fmt::format(
-        "{}: expected columns for id, time, x and y (or lon and lat) by their usual names, --columns or "
-        "--format; it has {}{}",
-        head.file, head.text(), unnamed));
+      throw ProgramError(
+          fmt::format("--columns: expected id=... (or id=@file), time=... (or frame=...), x=...,y=... (or "
+                      "lon=...,lat=...) and "
+                      "perhaps z=..., but got '{}'",
+                      hints.columns));
+    throw ProgramError(missing_columns_text(head, columns, has_id, has_time, has_place));
   }
   if (has(Quantity::vx) != has(Quantity::vy) || (has(Quantity::course) && !has(Quantity::speed)) ||
       (has(Quantity::vx) && has(Quantity::speed)))
@@ -492,7 +514,44 @@ void require_columns(const TableHead& head, const ColumnHints& hints, const Tabl
                     head.file));
 }
 
+/// Finds columns of N, S, E and W, each behind that of its degrees.
+void find_hemispheres(const TableHead& head, TableColumns& columns) {
+  if (!columns.geographic) return;
+  const auto behind = [&](const Column& angle, std::string_view letters) -> std::optional<std::size_t> {
+    const std::size_t place = angle.place + 1;
+    if (place >= head.columns() || head.first[place].size() != 1) return std::nullopt;
+    return letters.find(head.first[place][0]) != std::string_view::npos ? std::optional(place) : std::nullopt;
+  };
+  columns.east_or_west = behind(columns.x(), "EWew");
+  columns.north_or_south = behind(columns.y(), "NSns");
+}
+
 // Lengths.
+
+/// Asks for the unit of heights of aircraft, which are in feet as transponders send them, and of speeds of
+/// aircraft and ships, which are in knots.
+void ask_for_units_of_craft(const TableHead& head, const TableColumns& columns) {
+  if (!columns.geographic) return;
+  const auto is_of_ships = [](const std::string& name) {
+    return same_name(name, "mmsi") || same_name(name, "sourcemmsi") || same_name(name, "imo");
+  };
+  const auto craft = std::find_if(head.names.begin(), head.names.end(), [&](const std::string& name) {
+    return is_of_aircraft(name) || is_of_ships(name);
+  });
+  if (craft == head.names.end()) return;
+  const auto ask = [&](Quantity quantity, std::string_view what, std::string_view unit,
+                       std::string_view other) {
+    const auto& column = columns[quantity];
+    if (!column || column->has_unit || (quantity == Quantity::z && is_of_ships(*craft))) return;
+    throw ProgramError(
+        fmt::format("{}: {} does not say its unit, which for {} (column '{}') may be {} or {}: say "
+                    "--columns {} (or :{})",
+                    head.file, column_text(head, column->place), what, *craft, unit, other,
+                    columns_text(head, columns, quantity, fmt::format(":{}", unit)), other));
+  };
+  ask(Quantity::z, "heights of aircraft", "ft", "m");
+  ask(Quantity::speed, "speeds of ships and aircraft", "kt", "m/s");
+}
 
 /// Returns the columns that are lengths or speeds.
 std::vector<Quantity> measured(const TableColumns& columns) {
@@ -627,9 +686,11 @@ void list_unused(const TableHead& head, TableColumns& columns) {
   for (std::size_t place = 0; place < head.columns(); ++place) {
     const bool is_used = std::any_of(columns.of.begin(), columns.of.end(),
                                      [&](const auto& column) { return column && column->place == place; }) ||
-                         std::any_of(columns.bodies.begin(), columns.bodies.end(), [&](const auto& body) {
-                           return body.x == place || body.y == place || body.z == place;
-                         });
+                         std::any_of(columns.bodies.begin(), columns.bodies.end(),
+                                     [&](const auto& body) {
+                                       return body.x == place || body.y == place || body.z == place;
+                                     }) ||
+                         columns.east_or_west == place || columns.north_or_south == place;
     if (!is_used) columns.unused.push_back(place);
   }
 }
@@ -649,13 +710,16 @@ TableColumns find_columns(const TableHead& head, const ColumnHints& hints, Colum
   understand_places(head, hints, columns);
   require_columns(head, hints, columns);
   if (hints.columns.empty() && !columns.has_own_heights) ask_for_heights(head, columns);
-  if (columns.format == "table") ask_for_fractions(head, columns);
+  if (columns.format == "table") ask_for_parts_of_time(head, columns);
   understand_lengths(head, hints, columns);
   understand_time(head, use, columns);
   apply_time_hints(hints, columns);
   if (hints.dates != DateOrder::unknown) columns.dates = hints.dates;
   columns.height_advice =
       fmt::format("--columns {} (or :m)", columns_text(head, columns, Quantity::z, ":ft"));
+  columns.time_advice = fmt::format("--columns {}", columns_text(head, columns, {}, {}, Quantity::date));
+  ask_for_units_of_craft(head, columns);
+  find_hemispheres(head, columns);
   if (columns.geographic && columns.z() && !columns.z()->has_unit) columns.format += ", heights in m";
   if (!hints.where.empty())
     columns.where =

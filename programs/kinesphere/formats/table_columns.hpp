@@ -48,6 +48,7 @@ struct TableColumns {
   bool time_unit_said = false;            ///< not only taken for seconds because the column is called time
   std::string time_problem;               ///< not empty: why numbers cannot be taken as times
   std::string height_advice;              ///< how to say the unit of heights
+  std::string time_advice;                ///< how to leave the column of dates out
   DateOrder dates = DateOrder::unknown;
   /// Frames are numbers of a film that was sampled 2.5 times a second: every tenth at 25 frames/s (UCY), or
   /// every sixth at 15 or tenth at 25 frames/s (ETH).
@@ -67,6 +68,8 @@ struct TableColumns {
     std::optional<std::size_t> z;
   };
   std::vector<Body> bodies;
+  /// Columns with E or W, and with N or S, where degrees are without a sign.
+  std::optional<std::size_t> east_or_west, north_or_south;
   std::vector<std::size_t> unused;  ///< columns that are not read
   bool decimal_comma = false;
 

@@ -10,7 +10,7 @@ namespace kinesphere::program {
 
 struct TableHead {
   std::string file;                   ///< name of the table, for messages
-  std::vector<std::string> comments;  ///< lines that begin with #, without it
+  std::vector<std::string> comments;  ///< without the signs before them
   std::vector<std::string> names;     ///< of the columns; empty without a header
   std::vector<std::string> units;     ///< from a row of units below the header; empty, or one for each column
   std::vector<std::string> first;     ///< fields of the first row of values
@@ -29,8 +29,10 @@ class TableHeadReader {
   explicit TableHeadReader(std::string file) { head_.file = std::move(file); }
 
   void set_separator(char separator) { head_.separator = separator; }
-  /// Takes a line that begins with #, without it.
+  /// Takes a line that is a comment, without the sign before it.
   void comment(std::string_view line);
+  /// The rows have a column more than the header, before its first.
+  void add_row_names() { head_.names.insert(head_.names.begin(), ""); }
   /// Takes a row; returns true if it is the first row of values, with which the head is complete.
   bool row(const std::vector<std::string_view>& fields);
 

@@ -12,7 +12,9 @@
 namespace kinesphere::program {
 
 /// Reads a table record by record, as RowSplitter splits rows and TableHeadReader finds the header. A byte
-/// order mark, blank lines, lines that begin with #, and headers of files that were appended are passed over.
+/// order mark, blank lines, comments (lines that begin with #, % or //), the line "sep=;" of Excel, and
+/// headers of files that were appended are passed over. So is an empty field behind the last name, and a name
+/// of each row before the first becomes a column without a name.
 class TextTable {
  public:
   /// `has_equal_rows`: each row has as many fields as the first.

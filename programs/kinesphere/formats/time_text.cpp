@@ -17,6 +17,7 @@ namespace {
 constexpr double too_large = 0x1p61;
 
 bool is_digit(char c) { return '0' <= c && c <= '9'; }
+bool is_letter(char c) { return 'a' <= (c | 32) && (c | 32) <= 'z'; }
 
 bool all_digits(std::string_view text) { return std::all_of(text.begin(), text.end(), is_digit); }
 
@@ -76,14 +77,18 @@ class Reader {
     rest_.remove_prefix(word.size());
     return true;
   }
-  std::string_view all_digits_ahead() {
-    const auto end = std::find_if_not(rest_.begin(), rest_.end(), is_digit);
+  std::string_view all_digits_ahead() { return ahead(is_digit); }
+  std::string_view letters_ahead() { return ahead(is_letter); }
+
+ private:
+  template <class Condition>
+  std::string_view ahead(Condition condition) {
+    const auto end = std::find_if_not(rest_.begin(), rest_.end(), condition);
     const std::string_view digits = rest_.substr(0, static_cast<std::size_t>(end - rest_.begin()));
     rest_.remove_prefix(digits.size());
     return digits;
   }
 
- private:
   std::string_view rest_;
 };
 
@@ -101,9 +106,9 @@ std::optional<std::int64_t> read_date(Reader& reader, bool& extended) {
   const auto year = reader.digits(4, 9999);
   const char between = reader.take('-') ? '-' : reader.take('/') ? '/' : '\0';
   extended = between != '\0';
-  const auto month = reader.digits(2, 12);
+  const auto month = extended ? reader.few_digits(2) : reader.digits(2, 12);
   if (extended && !reader.take(between)) return std::nullopt;
-  const auto day = reader.digits(2, 31);
+  const auto day = extended ? reader.few_digits(2) : reader.digits(2, 31);
   if (!year || !month || !day) return std::nullopt;
   return days_of(*year, *month, *day);
 }
@@ -121,9 +126,43 @@ std::optional<std::int64_t> read_ordered_date(Reader& reader, DateOrder order) {
   return order == DateOrder::day_first ? day_first : month_first;
 }
 
-/// Returns seconds since midnight. `free`: the hour may have one digit, and AM or PM may follow.
-std::optional<FileTime> read_clock(Reader& reader, bool extended, bool free = false) {
-  auto hour = free ? reader.few_digits(2) : reader.digits(2, 24);
+/// Returns the month, from 1, whose English name begins with these letters, three or more.
+std::optional<int> month_named(std::string_view letters) {
+  constexpr std::string_view names[] = {"january",   "february", "march",    "april",
+                                        "may",       "june",     "july",     "august",
+                                        "september", "october",  "november", "december"};
+  for (int month = 1; letters.size() >= 3 && month <= 12; ++month)
+    if (same_name(names[month - 1].substr(0, letters.size()), letters)) return month;
+  return std::nullopt;
+}
+
+/// Reads a day with the month's name, 29-Feb-2024, 29 Feb 2024 or Feb 29, 2024, perhaps behind "Thu, ".
+/// Returns days since 1970-01-01.
+std::optional<std::int64_t> read_named_date(Reader& reader) {
+  const auto pass_over_signs = [&] {
+    while (reader.take(' ') || reader.take(',') || reader.take('-') || reader.take('.')) {
+    }
+  };
+  auto day = reader.few_digits(2);
+  pass_over_signs();
+  auto month = month_named(reader.letters_ahead());
+  pass_over_signs();
+  if (!day && !month) {  // the word was the day of the week
+    day = reader.few_digits(2);
+    pass_over_signs();
+    month = month_named(reader.letters_ahead());
+    pass_over_signs();
+  }
+  if (!day) day = reader.few_digits(2);
+  pass_over_signs();
+  const auto year = reader.digits(4, 9999);
+  return day && month && year ? days_of(*year, *month, *day) : std::nullopt;
+}
+
+/// Returns seconds since midnight. `extended`: there is : between the parts, the hour may have one digit, and
+/// AM or PM may follow.
+std::optional<FileTime> read_clock(Reader& reader, bool extended) {
+  const auto hour = extended ? reader.few_digits(2) : reader.digits(2, 24);
   if (hour && *hour > 24) return std::nullopt;
   if (extended && !reader.take(':')) return std::nullopt;
   const auto minute = reader.digits(2, 59);
@@ -141,18 +180,21 @@ std::optional<FileTime> read_clock(Reader& reader, bool extended, bool free = fa
     }
   }
   if (*hour == 24 && (time.whole > std::int64_t{24} * 3600 || time.fraction > 0)) return std::nullopt;
-  if (free) {
+  if (extended) {
     reader.take(' ');
     const bool after_noon = reader.take_word("pm");
-    if ((after_noon || reader.take_word("am")) && (*hour < 1 || *hour > 12)) return std::nullopt;
-    if (after_noon) time.whole += *hour == 12 ? 0 : 12 * 3600;
+    const bool of_twelve = after_noon || reader.take_word("am");
+    if (of_twelve && (*hour < 1 || *hour > 12)) return std::nullopt;
+    // Twelve is the hour before one.
+    if (of_twelve) time.whole += 3600 * (*hour % 12 + (after_noon ? 12 : 0) - *hour);
   }
   return with_sign(false, time);
 }
 
 /// Returns seconds east of Greenwich.
 std::optional<int> read_offset(Reader& reader) {
-  if (reader.take('Z') || reader.take('z')) return 0;
+  for (std::string_view name : {"Z", "UTC", "GMT"})
+    if (reader.take_word(name)) return 0;
   const int sign = reader.take('+') ? 1 : -1;
   if (sign < 0 && !reader.take('-')) return std::nullopt;
   const auto hours = reader.digits(2, 23);
@@ -202,13 +244,21 @@ std::optional<DateTime> parse_date_time(std::string_view text, DateOrder order) 
   // Numbers are most frequent.
   if (text.size() < 8) return std::nullopt;
   Reader reader(text);
-  bool extended = false;
-  const bool is_ordered = order != DateOrder::unknown && text.find_first_of("/.-") < 3;
-  if (is_ordered) extended = true;
-  const auto days = is_ordered ? read_ordered_date(reader, order) : read_date(reader, extended);
+  bool extended = true;
+  std::optional<std::int64_t> days;
+  if (const std::string_view begin = text.substr(0, 4); std::any_of(begin.begin(), begin.end(), is_letter)) {
+    days = read_named_date(reader);
+  } else if (order != DateOrder::unknown && text.find_first_of("/.-") < 3) {
+    days = read_ordered_date(reader, order);
+  } else {
+    days = read_date(reader, extended);
+  }
   if (days && extended && reader.at_end()) return DateTime{{*days * 86400, 0.0}, false};
-  if (!days || !(reader.take('T') || reader.take('t') || reader.take(' '))) return std::nullopt;
-  const auto clock = read_clock(reader, extended, is_ordered);
+  const auto take_between = [&] {
+    return reader.take('T') || reader.take('t') || reader.take(' ') || (!extended && reader.take('_'));
+  };
+  if (!days || !take_between()) return std::nullopt;
+  const auto clock = read_clock(reader, extended);
   if (!clock) return std::nullopt;
   DateTime result{{*days * 86400 + clock->whole, clock->fraction, clock->rest}, false};
   if (reader.at_end()) return result;

@@ -51,10 +51,12 @@ struct DateTime {
   bool has_offset = false;  ///< it ended in Z or an offset such as +02:00; otherwise it is taken as UTC
 };
 
-/// ISO 8601: a date YYYY-MM-DD, T or one blank, hh:mm[:ss[.fraction]] and perhaps Z, +hh, +hhmm or +hh:mm;
-/// also without - and : (YYYYMMDDThhmmss). A date YYYY-MM-DD alone is its midnight. A second 60 is the first
-/// of the next minute. Days must exist. So is YYYY/MM/DD; and D/M/YYYY or M/D/YYYY, also with . or - between
-/// them and perhaps AM or PM behind the clock, where `order` says which of the two.
+/// ISO 8601: a date YYYY-MM-DD, T or one blank, hh:mm[:ss[.fraction]] and perhaps Z, UTC, GMT, +hh, +hhmm or
+/// +hh:mm; also without - and : (YYYYMMDDThhmmss, or _ for T). A date YYYY-MM-DD alone is its midnight. A
+/// second 60 is the first of the next minute. Days must exist. So are YYYY/MM/DD, D-Mon-YYYY, D Mon YYYY and
+/// Mon D, YYYY with English names of months; and D/M/YYYY or M/D/YYYY, also with . or - between them, where
+/// `order` says which of the two. Month, day and hour may have one digit, and AM or PM may stand behind the
+/// clock, but for a time without - and :.
 std::optional<DateTime> parse_date_time(std::string_view text, DateOrder order = DateOrder::unknown);
 
 struct TimeField {

@@ -21,18 +21,19 @@ struct NamedUnit {
   double rate = 1.0;  ///< times: so many to a second
 };
 
-constexpr NamedUnit length_units[] = {{"m metre metres meter meters", 1.0},
-                                      {"km kilometre kilometres kilometer kilometers", 1e3},
-                                      {"cm centimetre centimetres centimeter centimeters", 0.01},
-                                      {"mm millimetre millimetres millimeter millimeters", 0.001},
-                                      {"um \xC2\xB5m \xCE\xBCm micron microns micrometre micrometer", 1e-6},
-                                      {"ft feet foot", foot},
-                                      {"NM nmi", 1852.0},
-                                      {"mi mile miles", 1609.344},
-                                      {"yd yard yards", 0.9144},
-                                      {"inch inches", 0.0254},
-                                      {"FL hft", 100.0 * foot},
-                                      {"kft", 1000.0 * foot}};
+constexpr NamedUnit length_units[] = {
+    {"m metre metres meter meters", 1.0},
+    {"km kilometre kilometres kilometer kilometers", 1e3},
+    {"cm centimetre centimetres centimeter centimeters", 0.01},
+    {"mm millimetre millimetres millimeter millimeters", 0.001},
+    {"um \xC2\xB5m \xCE\xBCm \xB5m micron microns micrometre micrometer", 1e-6},
+    {"ft feet foot", foot},
+    {"NM nmi", 1852.0},
+    {"mi mile miles", 1609.344},
+    {"yd yard yards", 0.9144},
+    {"inch inches", 0.0254},
+    {"FL hft", 100.0 * foot},
+    {"kft", 1000.0 * foot}};
 constexpr NamedUnit speed_units[] = {{"m/s mps m_s ms-1", 1.0},
                                      {"kt kts kn knot knots", knot},
                                      {"km/h kmh kph km_h", 1.0 / 3.6},
@@ -44,12 +45,12 @@ constexpr NamedUnit speed_units[] = {{"m/s mps m_s ms-1", 1.0},
 constexpr NamedUnit acceleration_units[] = {{"m/s2", 1.0}, {"g", 9.80665}};
 constexpr NamedUnit time_units[] = {{"s sec secs second seconds", 1.0},
                                     {"ms msec millis millisecond milliseconds", 1.0, 1e3},
-                                    {"us usec \xC2\xB5s \xCE\xBCs microsecond microseconds", 1.0, 1e6},
+                                    {"us usec \xC2\xB5s \xCE\xBCs \xB5s microsecond microseconds", 1.0, 1e6},
                                     {"ns nsec nanosecond nanoseconds", 1.0, 1e9},
                                     {"min minute minutes", 60.0},
                                     {"h hour hours", 3600.0},
                                     {"d day days", 86400.0}};
-constexpr NamedUnit angle_units[] = {{"deg degree degrees \xC2\xB0", 1.0},
+constexpr NamedUnit angle_units[] = {{"deg degree degrees \xC2\xB0 \xB0", 1.0},
                                      {"rad radian radians", 180.0 / 3.14159265358979323846}};
 
 std::span<const NamedUnit> units_of(Measure measure) {

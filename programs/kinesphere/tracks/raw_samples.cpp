@@ -38,8 +38,13 @@ TableColumns columns_of_messages(StreamFormat format, bool geographic, bool has_
 /// Takes the reports of one file.
 class RawRecording::FileReader final : public ReportSink {
  public:
-  FileReader(RawRecording& recording, StreamFormat format, const FormatChoices& choices)
-      : recording_(recording), format_(format), reader_(make_format(format, choices)) {}
+  /// `lines_before`: so many lines of the text are not in the file.
+  FileReader(RawRecording& recording, StreamFormat format, const FormatChoices& choices,
+             std::size_t lines_before)
+      : recording_(recording),
+        format_(format),
+        lines_before_(lines_before),
+        reader_(make_format(format, choices)) {}
 
   void read(std::string_view text) {
     RecordCutter cutter(is_table(format_) ? RecordCutter::Kind::rows : records_of(format_));
@@ -50,7 +55,10 @@ class RawRecording::FileReader final : public ReportSink {
     }
     if (const auto record = cutter.rest()) read(*record);
     guarded([&] { reader_->finish(*this); });
-    if (is_table(format_)) return recording_.add_columns(reader_->rows()->columns(), file());
+    if (is_table(format_)) {
+      if (reader_->rows()->columns().id_is_file) recording_.add_file_id(reader_->rows()->file_id());
+      return recording_.add_columns(reader_->rows()->columns(), file());
+    }
     settle_heights();
     recording_.add_columns(columns_of_messages(format_, geographic_.value_or(false), has_heights_), file());
     if (malformed_ > 0)
@@ -76,6 +84,7 @@ class RawRecording::FileReader final : public ReportSink {
     } else {
       track.radius = std::max(track.radius, report.extent);
       add_scenes(*report.row, time.time);
+      note_order(track, time.time);
     }
     track.samples.push_back({time.time, position, place_});
   }
@@ -107,7 +116,8 @@ class RawRecording::FileReader final : public ReportSink {
 
   const std::string& file() const { return recording_.files_.back(); }
 
-  void read(const Record& record) {
+  void read(Record record) {
+    if (record.line > lines_before_) record.line -= lines_before_;
     place_ = {static_cast<std::uint32_t>(recording_.files_.size() - 1), static_cast<int>(record.line)};
     is_counted_ = false;
     guarded([&] {
@@ -137,7 +147,7 @@ class RawRecording::FileReader final : public ReportSink {
   RawTrack& track_of(const SourceReport& report) const {
     auto& tracks = recording_.tracks_;
     const auto [place, is_new] = recording_.track_of_.emplace(report.id, tracks.size());
-    if (is_new) tracks.push_back({place->first, {}, 0.0, {}});
+    if (is_new) tracks.push_back({.id = place->first});
     return tracks[place->second];
   }
 
@@ -172,11 +182,20 @@ class RawRecording::FileReader final : public ReportSink {
     if (!scene_columns_) {
       scene_columns_.emplace();
       for (const std::size_t place : row.columns().unused)
-        if (place < names.size() && is_scene(names[place]) && !row.filter().mentions(place))
+        if (place < names.size() && (is_scene(names[place]) || is_zone(names[place])) &&
+            !row.filter().mentions(place))
           scene_columns_->push_back(place);
     }
     for (const std::size_t column : *scene_columns_)
       recording_.scenes_.add(names[column], row.fields()[column], time);
+  }
+  /// Counts the rows of a track by their order in time.
+  void note_order(RawTrack& track, const FileTime& time) const {
+    if (track.samples.empty() || track.samples.back().place.file != place_.file) return;
+    const FileTime& before = track.samples.back().time;
+    if (is_earlier(before, time)) ++track.forward;
+    if (!is_earlier(time, before)) return;
+    if (track.backward++ == 0) track.first_backward = place_;
   }
 
   /// Leaves out messages without a height where others have one.
@@ -195,6 +214,7 @@ class RawRecording::FileReader final : public ReportSink {
 
   RawRecording& recording_;
   StreamFormat format_;
+  std::size_t lines_before_;
   std::unique_ptr<ReportFormat> reader_;
   Place place_;              ///< of the record
   bool is_counted_ = false;  ///< the row was counted
@@ -216,7 +236,9 @@ StreamFormat RawRecording::format_of(std::string_view text) const {
 }
 
 void RawRecording::read(std::string text, const std::string& file) {
-  auto converted = convert_to_table(text, file);
+  const bool geometric = options_.altitude == FormatChoices::Altitude::geometric;
+  const auto said = format_named(options_.hints.format, {});
+  auto converted = said && !is_table(*said) ? std::nullopt : convert_to_table(text, file, geometric);
   if (converted) {
     text = std::move(converted->text);
     counts_.warnings.insert(counts_.warnings.end(), converted->warnings.begin(), converted->warnings.end());
@@ -235,9 +257,18 @@ void RawRecording::read(std::string text, const std::string& file) {
     if (text.find('\0') != std::string::npos)
       throw ProgramError(fmt::format("{}: expected a text file, but it has zero bytes", file));
   }
-  FileReader reader(*this, format, choices);
+  FileReader reader(*this, format, choices, converted ? converted->lines_before : 0);
   reader.read(text);
   if (files_.size() == 1) head_ = reader.rows() != nullptr ? reader.rows()->head() : TableHead{.file = file};
+}
+
+void RawRecording::add_file_id(const std::string& id) {
+  const auto [place, is_new] = file_of_.emplace(id, files_.back());
+  if (!is_new)
+    throw ProgramError(
+        fmt::format("{}: expected files of different names, because each is a body called like it, but "
+                    "{} is called {}, too",
+                    files_.back(), place->second, id));
 }
 
 void RawRecording::add_columns(const TableColumns& columns, const std::string& file) {

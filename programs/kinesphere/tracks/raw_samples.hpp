@@ -35,7 +35,9 @@ struct RawTrack {
   std::string id;
   std::vector<RawSample> samples;  ///< in the order of the rows
   double radius = 0.0;             ///< of a disc that covers the body (metres); 0 where no size is known
-  std::vector<FileTime> breaks;    ///< times at which the track does not go on (MissingPolicy::split)
+  std::size_t forward = 0, backward = 0;  ///< rows that are later, or earlier, than the row before
+  Place first_backward;                   ///< row
+  std::vector<FileTime> breaks;           ///< times at which the track does not go on (MissingPolicy::split)
 };
 
 class RawRecording {
@@ -68,6 +70,8 @@ class RawRecording {
   class FileReader;
 
   StreamFormat format_of(std::string_view text) const;
+  /// Notes the body of a file. Throws ProgramError if another file has the same.
+  void add_file_id(const std::string& id);
   /// Takes the columns of a file; all files have the units and the kind of times of the first. Throws
   /// ProgramError naming the file.
   void add_columns(const TableColumns& columns, const std::string& file);
@@ -82,6 +86,7 @@ class RawRecording {
   Place first_time_;
   std::vector<RawTrack> tracks_;
   std::unordered_map<std::string, std::size_t> track_of_;
+  std::unordered_map<std::string, std::string> file_of_;  ///< of the bodies that are called like their file
   ReadCounts counts_;
   SceneCheck scenes_;
 };

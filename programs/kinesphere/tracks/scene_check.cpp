@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "formats/column_names.hpp"
 #include "formats/row_filter.hpp"
 #include "program_error.hpp"
 
@@ -26,19 +27,21 @@ void SceneCheck::ask(const std::string& file) const {
     std::vector<std::pair<std::string, Span>> ordered(scenes.begin(), scenes.end());
     std::sort(ordered.begin(), ordered.end(),
               [](const auto& a, const auto& b) { return is_earlier(a.second.first, b.second.first); });
+    const bool are_zones = is_zone(column);
     std::size_t latest = 0;
     for (std::size_t k = 1; k < ordered.size(); ++k) {
-      if (!is_earlier(ordered[k].second.first, ordered[latest].second.last)) {
+      if (!are_zones && !is_earlier(ordered[k].second.first, ordered[latest].second.last)) {
         latest = k;
         continue;
       }
       const std::string name = name_in_filter(column);
       throw ProgramError(
-          fmt::format("{}: the rows with {} as '{}' and '{}' have the same times, so that they may be "
-                      "different scenes: take "
-                      "one with --where '{} = {}', or all as one with --where '{} != none'",
-                      file, column, ordered[latest].first, ordered[k].first, name,
-                      name_in_filter(ordered[latest].first), name));
+          fmt::format("{}: the rows with {} as '{}' and '{}' {}: take one with --where '{} = {}', or all as "
+                      "one with --where '{} != none'",
+                      file, column, ordered[latest].first, ordered[k].first,
+                      are_zones ? "may have coordinates that cannot be compared"
+                                : "have the same times, so that they may be different scenes",
+                      name, name_in_filter(ordered[latest].first), name));
     }
   }
 }

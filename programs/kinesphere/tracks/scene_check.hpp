@@ -14,7 +14,7 @@ namespace kinesphere::program {
 class SceneCheck {
  public:
   void add(std::string_view column, std::string_view scene, const FileTime& time);
-  /// Throws ProgramError naming two scenes of one column that have the same times.
+  /// Throws ProgramError naming two scenes of one column that have the same times, or two zones at any times.
   void ask(const std::string& file) const;
 
  private:

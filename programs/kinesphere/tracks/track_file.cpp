@@ -123,6 +123,51 @@ void ask_about_clock_times(const RawRecording& raw) {
       raw.head().file, least, largest));
 }
 
+/// Asks about numbers that may be the days of a spreadsheet or of MATLAB: 45351.50001157 is one second later
+/// than 45351.5.
+void ask_about_days(const RawRecording& raw) {
+  if (raw.columns().time_unit_said || raw.time_scale().kind() != TimeKind::number) return;
+  // Days from 1980 to 2100.
+  constexpr std::pair<double, double> sheets{29'220.0, 73'050.0}, matlab{723'181.0, 767'011.0};
+  double least = std::numeric_limits<double>::infinity(), largest = -least;
+  std::size_t most_samples = 0;
+  for (const RawTrack& track : raw.tracks()) most_samples = std::max(most_samples, track.samples.size());
+  for_each_sample(raw, [&](const RawSample& sample) {
+    const double time = static_cast<double>(sample.time.whole) + sample.time.fraction;
+    least = std::min(least, time);
+    largest = std::max(largest, time);
+  });
+  const auto all_in = [&](const std::pair<double, double>& days) {
+    return least >= days.first && largest <= days.second;
+  };
+  // Seconds would be more than a hundred samples a second.
+  if (most_samples < 2 || !(all_in(sheets) || all_in(matlab)) ||
+      !(largest - least < 0.01 * static_cast<double>(most_samples)))
+    return;
+  throw ProgramError(
+      fmt::format("{}: the times {} to {} may be days, as spreadsheets and MATLAB have them: say "
+                  "--time-unit d, or s if they are seconds",
+                  raw.head().file, least, largest));
+}
+
+/// Returns a warning about rows that go back in time; nothing where none do, or all, as in a file that begins
+/// with its end.
+std::optional<std::string> warning_about_order(const RawRecording& raw) {
+  std::size_t rows = 0;
+  const RawTrack* first = nullptr;
+  for (const RawTrack& track : raw.tracks()) {
+    if (track.forward == 0) continue;
+    rows += track.backward;
+    if (track.backward > 0 && first == nullptr) first = &track;
+  }
+  if (first == nullptr) return std::nullopt;
+  return fmt::format(
+      "{}: this row and {} others are earlier than the row of their id before (id '{}'): rows are taken in "
+      "the order "
+      "of their times, so that a clock that was set back, or begins again, mixes two courses",
+      raw.name(first->first_backward), rows - 1, first->id);
+}
+
 /// The pieces of one id, before they are split at gaps.
 struct Body {
   std::string id;
@@ -135,6 +180,7 @@ class Reading {
  public:
   Reading(const RawRecording& raw, const TrackOptions& options) : raw_(raw), options_(options) {
     static_cast<ReadCounts&>(recording_) = raw.counts();
+    if (auto warning = warning_about_order(raw)) recording_.warnings.push_back(std::move(*warning));
     recording_.times = time_scale_of(raw);
     recording_.dates = raw.columns().dates;
     recording_.coordinates = coordinates_of(raw, options);
@@ -235,6 +281,7 @@ Recording parse_tracks(std::vector<NamedText> texts, const TrackOptions& options
   }
   ask_about_row_numbers(raw);
   ask_about_clock_times(raw);
+  ask_about_days(raw);
   raw.ask_about_scenes();
   Recording recording = Reading(raw, options).run();
   if (recording.tracks.empty()) {

@@ -290,6 +290,14 @@ void WatchRun::warn() {
   // Fewer reports say little, such as those before a clock is confirmed.
   constexpr std::uint64_t least = 100;
   const std::uint64_t taken = watcher_.monitor_counters().reports;
+  if (std::exchange(taken_before_, taken) != taken) stale_before_ = counts.stale;
+  if (counts.stale - stale_before_ >= least)
+    warn_once(
+        has_warned_of_clock_,
+        fmt::format(
+            "the last {} reports are older than all others by more than --forget, and not taken: a clock "
+            "was set back, or had been ahead; a new start goes on with them",
+            least));
   constexpr std::uint64_t many = 1000;
   if (taken >= many) warn_of_own();
   const std::uint64_t unusable = counts.unusable() + (taken == 0 ? counts.meant_to_be_left_out() : 0);

@@ -49,6 +49,79 @@ TEST(ConvertedTables, ReadsGpx) {
       error_in("<!DOCTYPE gpx [<!ENTITY a \"aaaa\">]><gpx>&a;</gpx>").starts_with("f:1: expected GPX: "));
 }
 
+TEST(ConvertedTables, ReadsFcdOutputOfSumo) {
+#ifndef KINESPHERE_WITH_EXPAT
+  GTEST_SKIP() << "built without expat";
+#endif
+  const auto step = [](int time, double x) {
+    return fmt::format(
+        "<timestep time=\"{}.50\">\n<vehicle id=\"a\" x=\"{}\" y=\"2\" type=\"car\"/>\n"
+        "<person id=\"a\" x=\"5\" y=\"2\" speed=\"1\"/>\n</timestep>\n",
+        time, x);
+  };
+  const Recording fcd =
+      parse("<?xml version=\"1.0\"?>\n<fcd-export>\n" + step(0, 1) + step(1, 2) + "</fcd-export>\n");
+  EXPECT_EQ(fcd.format, "SUMO FCD");
+  ASSERT_EQ(fcd.tracks.size(), 2u);
+  EXPECT_EQ(fcd.tracks[0].id, "a");
+  EXPECT_EQ(fcd.tracks[1].id, "person a");
+  EXPECT_EQ(fcd.tracks[0].samples[1].position, (Vec3{2, 2, 0}));
+  EXPECT_EQ(fcd.times.text(fcd.tracks[0].samples[1].time), "1.5");
+  EXPECT_EQ(
+      error_in("<fcd-export>\n<timestep time=\"0\">\n<vehicle id=\"a\" x=\"one\" y=\"2\"/>\n</timestep>\n"
+               "</fcd-export>"),
+      "f:3: expected a number as x (column 3), but got 'one'");
+}
+
+TEST(ConvertedTables, ReadsJsonRecords) {
+  const std::string list =
+      R"([{"id": "a, \"b\"", "time": 1700000000.123456, "pose": {"position": {"x": 1, "y": 2}}},)"
+      "\n"
+      R"({"time": 1700000001.123456, "id": "a, \"b\"", "pose": {"position": {"x": 3, "y": null}}, "note": [1, 2, 3, 4]},)"
+      "\n"
+      R"({"time": 1700000002.123456, "id": "a, \"b\"", "pose": {"position": {"x": 3, "y": 2.5}}}])";
+  TrackOptions skip;
+  skip.missing = MissingPolicy::skip;
+  const Recording records = parse(list, skip);
+  EXPECT_EQ(records.format, "JSON records");
+  ASSERT_EQ(records.tracks.size(), 1u);
+  EXPECT_EQ(records.tracks[0].id, "a, \"b\"");
+  EXPECT_EQ(records.times.text(records.tracks[0].samples[1].time), "1700000002.123456");
+  EXPECT_EQ(records.missing.count, 1u);
+  EXPECT_EQ(error_in(list), "f:2: expected a number as y (column 4), but got nothing (see --missing)");
+  const std::string lines = "{\"id\":1,\"t\":0,\"at\":[1,2]}\n{\"id\":1,\"t\":1,\"at\":[1,3]}\n";
+  TrackOptions columns;
+  columns.hints.columns = "id=id,time=t,x=at.0,y=at.1";
+  EXPECT_EQ(parse(lines, columns).tracks[0].samples.size(), 2u);
+  EXPECT_EQ(error_in(lines + "{\"id\":1,\"t\":\"two\",\"at\":[1,3]}\n", columns),
+            "f:3: expected a number as time (column 2), but got 'two'");
+  std::string keys;
+  for (int k = 0; k < 1200; ++k) keys += fmt::format("{{\"{}\":1}}\n", k);
+  EXPECT_EQ(error_in(keys), "f:1001: expected records of at most 1000 names, but got more");
+  EXPECT_TRUE(error_in(lines + "{\"id\":1,\n", columns).starts_with("f:3: expected JSON records: "));
+}
+
+TEST(ConvertedTables, ReadsTracesOfTar1090) {
+  const std::string trace =
+      R"({"icao":"4ca1fa","timestamp":1600000000.5,"trace":[[0,47,8,"ground",10,90,0,null,null,"adsb_icao",null],)"
+      R"([10.25,47.1,8.1,1000,100,90,0,64,{"flight":"A"},"adsb_icao",1200],[20,47.2,8.2,2000,100,90,1,64,null]]})";
+  const auto read = [&](FormatChoices::Altitude altitude) {
+    TrackOptions options;
+    options.altitude = altitude;
+    return parse(trace, options);
+  };
+  const Recording flight = read(FormatChoices::Altitude::barometric);
+  EXPECT_EQ(flight.format, "trace of tar1090 (barometric altitude)");
+  ASSERT_EQ(flight.tracks.size(), 1u);
+  EXPECT_EQ(flight.tracks[0].id, "4ca1fa");
+  EXPECT_EQ(flight.times.text(flight.tracks[0].samples[0].time), "1600000010.75");
+  EXPECT_NEAR(flight.coordinates.geographic(flight.tracks[0].samples[1].position)->z, 2000 * 0.3048, 1e-6);
+  EXPECT_EQ(flight.warnings.size(), 1u);
+  EXPECT_NE(error_of([&] { read(FormatChoices::Altitude::geometric); }), "") << "one sample alone";
+  EXPECT_TRUE(
+      error_in(R"({"icao":"4ca1fa","trace":[[0,47,8,1,)").starts_with("f:1: expected JSON records: "));
+}
+
 TEST(ConvertedTables, ReadsXyz) {
   const std::string ours =
       "2\nLattice=\"9 0 0 0 9 0 0 0 9\" pbc=\"F F F\" Properties=species:S:1:id:I:1:pos:R:3 Time=0.125\n"

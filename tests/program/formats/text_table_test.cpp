@@ -101,7 +101,39 @@ TEST(TextTable, FindsTheHeader) {
 
 TEST(TextTable, NamesTheLineOfARowOfOtherLength) {
   EXPECT_EQ(error_in("# c\n1 2 3\n\n1 2\n"), "t.txt:4: expected 3 columns, but got 2");
-  EXPECT_EQ(error_in("a;b\n1;2;3\n"), "t.txt:2: expected 2 columns, but got 3");
+  EXPECT_EQ(error_in("a;b\n1;2\n1;2;3\n"), "t.txt:3: expected 2 columns, but got 3");
+  EXPECT_EQ(error_in("a;b\n1;2;3\n"),
+            "t.txt:2: expected 2 columns as in the first line, but got 3 (lines above the header have to be "
+            "left out "
+            "or begin with #)");
+}
+
+std::vector<Fields> rows_of(const std::string& text) {
+  std::vector<Fields> rows;
+  for (const Row& row : parse(text).rows) rows.push_back(row.fields);
+  return rows;
+}
+
+TEST(TextTable, ReadsWhatToolsWriteAroundTheRows) {
+  const Table comment = parse("% id x\n1 2\n");
+  EXPECT_EQ(comment.header, (Fields{"id", "x"}));
+  EXPECT_EQ(parse("//id,x\n1,2\n").header, (Fields{"id", "x"}));
+  EXPECT_EQ(rows_of("id,x\n1,2\n% pause\n3,4\n"), (std::vector<Fields>{{"1", "2"}, {"3", "4"}}));
+  const std::string excel = "sep=;\r\nid;x\r\n1;2\r\n";
+  EXPECT_EQ(parse(excel).header, (Fields{"id", "x"}));
+  EXPECT_EQ(rows_of(excel), (std::vector<Fields>{{"1", "2"}}));
+  EXPECT_EQ(rows_of("id|x\n1|2\n"), (std::vector<Fields>{{"1", "2"}}));
+  // An empty field behind the last.
+  EXPECT_EQ(rows_of("id,x\n1,2,\n3,4,\n"), (std::vector<Fields>{{"1", "2"}, {"3", "4"}}));
+  // R's write.table names rows.
+  const std::string named = "\"id\" \"x\"\n\"1\" \"a b\" 2\n\"2\" \"c\" 4\n";
+  EXPECT_EQ(parse(named).header, (Fields{"", "id", "x"}));
+  EXPECT_EQ(rows_of(named), (std::vector<Fields>{{"1", "a b", "2"}, {"2", "c", "4"}}));
+  EXPECT_EQ(parse("id\tx\n\"3\"\t7\t2\n\"4\"\t8\t2\n").header, (Fields{"", "id", "x"}));
+  // A column too many, or a decimal comma, is no name of a row.
+  EXPECT_NE(error_in("frame x\n1 2 5\n"), "");
+  EXPECT_NE(error_in("id,x\n1,2,5\n"), "");
+  EXPECT_NE(error_in("time id\n2024-01-01 00:00:00 7\n"), "");
 }
 
 TEST(TextTable, WantsARow) {

@@ -26,6 +26,16 @@ TEST(TimeText, ReadsDates) {
   EXPECT_EQ(date_seconds("2016-12-31T23:59:60Z"), date_seconds("2017-01-01T00:00:00Z"));
   EXPECT_EQ(date_seconds("2016-12-31T24:00:00Z"), date_seconds("2017-01-01T00:00:00Z"));
   EXPECT_EQ(parse_date_time("2024-01-31T12:30:15.125Z")->time.fraction, 0.125);
+  for (const char* same :
+       {"2024-01-31 12:30:15 UTC", "2024-01-31 12:30:15 GMT", "20240131_123015Z", "2024-1-31 12:30:15Z",
+        "31-Jan-2024 12:30:15", "31 January 2024 12:30:15", "Jan 31, 2024 12:30:15 PM",
+        "Wed, 31 Jan 2024 12:30:15 GMT", "31.Jan.2024 12:30:15", "2024/1/31 12:30:15 pm"})
+    EXPECT_EQ(date_seconds(same), 1706704215) << same;
+  EXPECT_EQ(date_seconds("2024-1-31 9:30:15"), 1706704215 - 3 * 3600);
+  EXPECT_EQ(date_seconds("2024-01-31 12:30:15 AM"), 1706704215 - 12 * 3600);
+  EXPECT_EQ(date_seconds("2024-01-31 9:30:15 PM"), 1706704215 + 9 * 3600);
+  EXPECT_TRUE(parse_date_time("2024-01-31 12:30:15 UTC")->has_offset);
+  EXPECT_FALSE(parse_date_time("31-Jan-2024 12:30:15")->has_offset);
   EXPECT_EQ(parse_date_time("2024-01-31T12:30:15,5")->time.fraction, 0.5);
   EXPECT_TRUE(parse_date_time("2024-01-31T12:30:15Z")->has_offset);
   EXPECT_FALSE(parse_date_time("2024-01-31T12:30:15")->has_offset);
@@ -35,7 +45,12 @@ TEST(TimeText, RefusesWhatIsNoDate) {
   for (const char* wrong : {"",
                             "2024",
                             "20240131",
-                            "2024-1-31T00:00",
+                            "2024-1-31T00:0",
+                            "Thu 31 2024",
+                            "31-Foo-2024",
+                            "29-Feb-2023",
+                            "31-Ja-2024",
+                            "2024-01-31 13:30 PM",
                             "2023-02-29T00:00:00Z",
                             "2024-13-01T00:00",
                             "2024-00-10",

@@ -125,7 +125,7 @@ TEST_F(TablesOfTheField, DegreesAreNoLengths) {
 
 TEST_F(TablesOfTheField, HeightsAreAskedAboutAndUnusedColumnsNamed) {
   const std::string flights =
-      "id,time,lon,lat,geoaltitude,squawk\nu,0,8,47,10000,7000\nu,1,8,47,10000,7000\nv,0,8,47,6000,7000\nv,1,"
+      "id,time,lon,lat,geoaltitude,remark\nu,0,8,47,10000,7000\nu,1,8,47,10000,7000\nv,0,8,47,6000,7000\nv,1,"
       "8,47,6000,"
       "7000\n";
   const std::string asked = approaches(flights, "--distance 100");
@@ -136,9 +136,9 @@ TEST_F(TablesOfTheField, HeightsAreAskedAboutAndUnusedColumnsNamed) {
       << asked;
   EXPECT_EQ(approaches(flights, "--distance 100 --columns id=id,time=time,lon=lon,lat=lat,alt=geoaltitude"),
             "0");
-  EXPECT_NE(out_.find("columns squawk"), std::string::npos) << out_;
+  EXPECT_NE(out_.find("columns remark"), std::string::npos) << out_;
   EXPECT_EQ(approaches(flights, "--distance 100 --columns id=id,time=time,lon=lon,lat=lat"), "1");
-  EXPECT_NE(out_.find("columns geoaltitude, squawk"), std::string::npos) << out_;
+  EXPECT_NE(out_.find("columns geoaltitude, remark"), std::string::npos) << out_;
 }
 
 TEST_F(TablesOfTheField, HeightsUnderOtherNamesAreAskedAbout) {
@@ -209,7 +209,8 @@ TEST_F(TablesOfTheField, PlacesThatAreNone) {
   EXPECT_EQ(approaches(unfixed, "--distance 1 --where 'lon != none'"), "1");
   const std::string marked = text("x,y", "1,2", "8,9", "-9999,-9999");
   EXPECT_NE(approaches(marked, "--distance 1").find("--where 'x != -9999 or y != -9999'"), std::string::npos);
-  for (const char* none : {"-,-", "?,?", "#N/A,#N/A", "<NA>,<NA>", "\\N,\\N", "nil,NaT"}) {
+  for (const char* none : {"-,-", "?,?", "#N/A,#N/A", "#VALUE!,#VALUE!", "-1.#IND,-nan(ind)", "ground,ground",
+                           "<NA>,<NA>", "\\N,\\N", "nil,NaT"}) {
     const std::string gone = text("x,y", "1,2", "8,9", none);
     EXPECT_NE(approaches(gone, "--distance 1").find("(see --missing)"), std::string::npos) << none;
   }
@@ -292,7 +293,7 @@ TEST_F(TablesOfTheField, NumbersAndTimesOfOtherHabits) {
             std::string::npos);
   EXPECT_EQ(approaches(infinite, "--distance 1 --missing skip"), "1");
   EXPECT_NE(approaches("id,sec,nanosec,x,y\nu,1,900000000,0,0\nu,2,0,0,0\n", "--distance 1")
-                .find("column 'nanosec' may have the fractions of column 'sec'"),
+                .find("column 'nanosec' may be a part of the time, as column 'sec' is"),
             std::string::npos);
   const std::string dates =
       "id,time,x,y\nu,03/04/2025 10:00,0,0\nu,03/04/2025 10:01,0,0\nv,04/03/2025 10:00,0,0\n"
@@ -322,6 +323,129 @@ TEST_F(TablesOfTheField, NumbersAndTimesOfOtherHabits) {
             std::string::npos);
 }
 
+TEST_F(TablesOfTheField, HemispheresAreSigns) {
+  const std::string text = "id,time,{0}\nu,0,{1}\nu,9,{1}\nv,0,{2}\nv,9,{2}\n";
+  const auto apart = [&](const char* names, const char* u, const char* v) {
+    return approaches(fmt::format(fmt::runtime(text), names, u, v), "--distance 100");
+  };
+  EXPECT_EQ(apart("lat,ns,lon,ew", "0.1,N,8,E", "0.1,N,8,E"), "1");
+  EXPECT_EQ(apart("lat,ns,lon,ew", "0.1,N,8,E", "0.1,S,8,E"), "0");
+  EXPECT_EQ(apart("lat,ns,lon,ew", "0.1,S,8,w", "-0.1,S,8,W"), "1");
+  EXPECT_EQ(apart("lat,lon", "0.1N,8E", "0.1S,8E"), "0");
+  EXPECT_EQ(apart("lat,lon", "0.1N,8W", "N0.1,-8"), "1");
+  EXPECT_EQ(apart("lat,lon",
+                  "\"47\xC2\xB0 30' 15.5\"\" N\",8\xB0"
+                  "06'W",
+                  "47.50430555,-8.1"),
+            "1");
+  EXPECT_NE(apart("lat,ns,lon,ew", "0.1,N,8,E", "0.1,X,8,E")
+                .find("expected N or S of '0.1' (column 4), but got 'X'"),
+            std::string::npos);
+  EXPECT_NE(apart("lat,lon", "47 61 N,8E", "0,1").find("expected a number as latitude"), std::string::npos);
+}
+
+TEST_F(TablesOfTheField, HeightsOfAircraftHaveAUnit) {
+  const std::string text =
+      "{},time,lon,lat,altitude\nu,0,8,47,3000\nu,9,8,47,3000\nv,0,8,47,4000\nv,9,8,47,4000\n";
+  const std::string asked = approaches(fmt::format(fmt::runtime(text), "icao24"), "--distance 400");
+  EXPECT_NE(asked.find("which for heights of aircraft (column 'icao24') may be ft or m: say --columns "
+                       "id=icao24,time=time,z=altitude:ft,lon=lon,lat=lat (or :m)"),
+            std::string::npos)
+      << asked;
+  EXPECT_EQ(approaches(fmt::format(fmt::runtime(text), "hex"),
+                       "--distance 400 --columns id=hex,time=time,z=altitude:ft,lon=lon,lat=lat"),
+            "1");
+  EXPECT_EQ(approaches(fmt::format(fmt::runtime(text), "id"), "--distance 400"), "0");
+}
+
+TEST_F(TablesOfTheField, DatesBesideClocks) {
+  const std::string text = "id,{0},x,y\nu,{1},0,0\nu,{2},0,0\nv,{1},1,0\nv,{2},1,0\n";
+  const auto read = [&](const char* names, const char* from, const char* to, const char* options = "") {
+    return approaches(fmt::format(fmt::runtime(text), names, from, to),
+                      std::string("--distance 2 ") + options);
+  };
+  for (const auto& [from, to] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"2024-02-29,23:59:50", "2024-03-01,0:00:10"},
+           {"20240229,23:59:50", "20240301,00:00:10"},
+           {"29-Feb-2024,11:59:50 PM", "1-Mar-2024,12:00:10 AM"},
+           {"2024-02-29 00:00:00,23:59:50", "2024-03-01 00:00:00,00:00:10"}}) {
+    EXPECT_EQ(read("Date,Time", from, to), "1") << from;
+    EXPECT_NE(out_.find("from 2024-02-29T23:59:50 to 2024-03-01T00:00:10"), std::string::npos) << out_;
+  }
+  EXPECT_EQ(read("date,time", "29/02/2024,23:59:50", "01/03/2024,00:00:10", "--dates day-first"), "1");
+  EXPECT_NE(read("date,time", "12:30,23:59:50", "12:30,00:00:10").find("expected a time (column 3)"),
+            std::string::npos);
+  EXPECT_NE(read("date,time", "NA,23:59:50", "NA,00:00:10").find("(see --missing)"), std::string::npos);
+  EXPECT_EQ(read("date", "2024-02-29 23:59:50", "2024-03-01 00:00:10"), "1") << "a date with its clock";
+  EXPECT_NE(read("date,time", "20240229,235950", "20240301,000010")
+                .find("the time '235950' and the date '20240229' may belong together: write both as one "
+                      "column, as in "
+                      "2024-01-31T12:30:00, or say --columns id=id,time=time,x=x,y=y"),
+            std::string::npos);
+  EXPECT_NE(read("time", "23:59:50", "00:00:10").find("which has no date"), std::string::npos);
+  EXPECT_NE(read("gps_week,time", "2300,604799", "2301,10").find("'gps_week' may be a part of the time"),
+            std::string::npos);
+  EXPECT_NE(read("time", "45351.50001157", "45351.50002315")
+                .find("may be days, as spreadsheets and MATLAB have them"),
+            std::string::npos);
+  EXPECT_EQ(read("time", "45351.50001157", "45351.50002315", "--time-unit d"), "1");
+  EXPECT_EQ(read("time", "45351.5", "45352.5"), "1");
+}
+
+TEST_F(TablesOfTheField, RowsThatGoBackInTimeAreTold) {
+  const std::string back = "id,time,x,y\nu,0,0,0\nu,1,0,0\nu,0.5,9,0\nu,1.5,9,0\n";
+  const auto warning = [&](const std::string& text) {
+    return run("tracks " + write("t.csv", text) + " --distance 1").err;
+  };
+  EXPECT_NE(
+      warning(back).find(":4: this row and 0 others are earlier than the row of their id before (id 'u')"),
+      std::string::npos);
+  EXPECT_EQ(warning("id,time,x,y\nu,2,0,0\nu,1,0,0\nu,0,0,0\n"), "") << "a file that begins with its end";
+  EXPECT_EQ(warning("id,time,x,y\nu,0,0,0\nv,5,0,0\nu,1,0,0\nv,6,0,0\n"), "");
+}
+
+TEST_F(TablesOfTheField, IdsThatASpreadsheetHasRounded) {
+  const std::string text = "mmsi,time,x,y\n{0},0,0,0\n{0},1,0,0\n";
+  EXPECT_NE(approaches(fmt::format(fmt::runtime(text), "2.19E+08"), "--distance 1")
+                .find("the id 2.19E+08 looks rounded"),
+            std::string::npos);
+  EXPECT_EQ(approaches(fmt::format(fmt::runtime(text), "2.19E+08"), "--distance 1 --where 'mmsi != none'"),
+            "0");
+  EXPECT_EQ(approaches(fmt::format(fmt::runtime(text), "2.190123450e+08"), "--distance 1"), "0");
+  EXPECT_EQ(approaches(fmt::format(fmt::runtime(text), "3.000000e+00"), "--distance 1"), "0");
+}
+
+TEST_F(TablesOfTheField, OneBodyInEachFile) {
+  const std::string text = "time,x [cm],y [cm]\n0,{0},0\n1,{0},0\n";
+  const auto files = [&](const char* other) {
+    std::filesystem::create_directories(path("other"));
+    return std::vector{write("fish0.csv", fmt::format(fmt::runtime(text), 0)),
+                       write(other, fmt::format(fmt::runtime(text), 50))};
+  };
+  const std::string asked = approaches_in(files("fish1.csv"), "--distance 1");
+  EXPECT_NE(
+      asked.find(
+          "say --columns id=...,time=time,x=x [cm],y=y [cm], with id=@file where each file is one body"),
+      std::string::npos)
+      << asked;
+  const std::string said =
+      "--distance 1 --columns 'id=@file,time=time,x=x [cm],y=y [cm]' --contacts " + path("c.csv");
+  EXPECT_EQ(approaches_in(files("fish1.csv"), said), "1");
+  EXPECT_NE(read_text(path("c.csv")).find(",fish0,fish1,"), std::string::npos);
+  EXPECT_NE(approaches_in(files("other/fish0.csv"), said).find("is called fish0, too"), std::string::npos);
+}
+
+TEST_F(TablesOfTheField, CoordinatesOfSeveralZonesAreAskedAbout) {
+  const std::string zones =
+      "id,t,x,y,utm_zone\nu,0,500000,0,32\nu,1,500000,0,32\nv,5,500000,0,33\nv,6,500000,0,33\n";
+  EXPECT_NE(approaches(zones, "--distance 1")
+                .find("the rows with utm_zone as '32' and '33' may have coordinates that cannot be compared: "
+                      "take one "
+                      "with --where 'utm_zone = 32'"),
+            std::string::npos);
+  EXPECT_EQ(approaches(zones, "--distance 1 --where 'utm_zone != none'"), "0");
+}
+
 TEST_F(TablesOfTheField, ClockTimesAreNoSeconds) {
   const std::string clock =
       "id,utc,x,y\nu,101530,0,0\nu,101600,0,0\nu,101630,0,0\nv,101530.5,0,0\nv,101600.5,0,0\n";
@@ -348,11 +472,23 @@ TEST_F(TablesOfTheField, TimesComeBackAsTheyWere) {
 TEST_F(TablesOfTheField, OtherFilesAreNamed) {
   for (const auto& [text, part] : std::initializer_list<std::pair<std::string, std::string>>{
            {std::string("\xFF\xFEi\0d\0", 6), "UTF-16: convert it with iconv"},
-           {"{\"id\":1,\"time\":0}\n", "JSON"},
+           {"[1, 2]\n", "JSON"},
            {"<?xml version=\"1.0\"?><kml></kml>", "KML"},
            {std::string("i\0d\0", 4), "UTF-16"},
            {std::string("PK\3\4\0\0", 6), "zip archive"},
            {"PAR1\1\2", "Parquet"},
+           {"id,t\r1,2\r", "old Macs: convert it with tr '\\r' '\\n'"},
+           {"Format Version,1.23,Take Name,a\n,,\n", "OptiTrack Motive"},
+           {"scorer,a,a\nbodyparts,b,b\n", "DeepLabCut"},
+           {"PathFileType\t4\n", ".trc"},
+           {"{\"type\":\"FeatureCollection\",\"features\":[]}\n", "GeoJSON"},
+           {"#cP2024  1  1\n", "SP3"},
+           {"ATOM      1  CA  ALA A   1       0.000   0.000   0.000\n", "PDB"},
+           {"water\n 1\n    1SOL     OW    1   0.000   0.000   0.000\n 1 1 1\n", "GROMACS"},
+           {"AXXX001\nHFDTE010124\nB000000\n", "IGC"},
+           {"ISS\n1 25544U 98067A   24001.50000000  .00016717  00000-0  10270-3 0  9009\n"
+            "2 25544  51.6400 208.9163 0006703 130.5360 325.0288 15.72125391 10008\n",
+            "TLE"},
            {"MATLAB 5.0 MAT-file", ".mat file"}}) {
     const std::string message = approaches(text, "--distance 1");
     EXPECT_NE(message.find("expected a table in a text file, but it is "), std::string::npos) << message;
@@ -391,6 +527,13 @@ const Shape shapes[] = {
     {"columns as given", "", "{0} {1} {2}e2 {3}e2 180\n",
      "--columns id=1,frame=2,x=3:cm,y=4:cm --frame-rate 16"},
     {"MOT", "", "{1},{0},{2},{3},10,20,1,-1,-1,-1\n", "--frame-rate 30"},
+    {"KITTI tracking", "", "{1} {0} Car 0 0 -1.5 296 161 452 292 2.0 1.8 4.4 {2} 1.8 {3} -1.59\n"},
+    {"columns as given", "header.stamp.secs,pose.position.x,pose.position.y,pose.position.z\n",
+     "160000000{1},{2},{3},0\n",
+     "--columns id=@file,time=header.stamp.secs,x=pose.position.x,y=pose.position.y", 2},
+    {"table", "#framerate: 8.00\n#ID\tFR\tX\tY\tZ\tA\n", "{0}\t{1}\t{2}\t{3}\t0\t0.2\n"},
+    {"table", "t,shipid,lon,lat,heading\n", "{1},s{0},{4},{5},1\n"},
+    {"table", "MMSI,TSTAMP,LATITUDE,LONGITUDE\n", "36600000{0},2024-01-01 00:00:0{1} GMT,{5},{4}\n"},
     {"Stanford Drone Dataset", "", "{0} {2} {3} 9 9 {1} 0 0 1 \"Biker\"\n", "--frame-rate 30"},
     {"Movebank",
      "event-id,visible,timestamp,location-long,location-lat,tag-local-identifier,individual-local-"

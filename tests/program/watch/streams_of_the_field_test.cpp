@@ -130,6 +130,21 @@ TEST_F(StreamsOfTheField, SparseStreamsGoOn) {
   EXPECT_EQ(summary_["reports"], 30);
 }
 
+TEST_F(StreamsOfTheField, AClockThatIsSetBackIsTold) {
+  const auto reports = [](int from, int count) {
+    std::string rows;
+    for (int k = 0; k < count; ++k) rows += fmt::format("u,{0},0,0\nv,{0},9,0\n", from + k);
+    return rows;
+  };
+  const std::string before = "id,time,x,y\n" + reports(3600, 200);
+  EXPECT_EQ(verdicts(before + reports(0, 40), promises), "");
+  EXPECT_EQ(err_.find("a clock was set back"), std::string::npos) << "80 reports may be late";
+  EXPECT_EQ(verdicts(before + reports(0, 60), promises), "");
+  EXPECT_NE(err_.find("warning: " + path("stream") + ": the last 100 reports are older than all others"),
+            std::string::npos)
+      << err_;
+}
+
 TEST_F(StreamsOfTheField, AStreamOfWhichNothingCanBeUsedIsAnError) {
   expect_refused(
       head_on("aircraft", 1566891938, R"("rc":0,"alt_baro":30000,"gs":450)",
@@ -169,6 +184,16 @@ TEST_F(StreamsOfTheField, TablesMeanWhatTheySay) {
                  {"column 'y' does not say its unit, but column 'x_cm' does"});
   expect_refused("id,time,lat,lon,sog,cog\nu,0,50,8,10,90\n", promises,
                  {"column 'sog' does not say its unit", "speed=sog:kt"});
+  for (const char* craft : {"mmsi", "icao24"})
+    expect_refused(fmt::format("{},time,lat,lon,speed,course\n211,0,50,8,10,90\n", craft), promises,
+                   {"column 'speed' does not say its unit, which for speeds of ships and aircraft",
+                    "speed=speed:kt", "(or :m/s)"});
+  EXPECT_EQ(
+      verdicts(
+          "date,time,id,lat,n,lon,e\n2024-02-29,23:59:59,u,0,N,8,W\n2024-02-29,23:59:59,v,0.00003,S,8,W\n",
+          promises)
+          .substr(0, 7),
+      "within ");
   expect_refused("id,time,x,y\nu,1700000000000,0,0\n", promises,
                  {":2: expected seconds as time", "--time-unit ms"});
   expect_refused(head_on("aircraft", 0.0, R"("gs":450)", R"("gs":450)"), cylinder + " --where 'speed > 1'",

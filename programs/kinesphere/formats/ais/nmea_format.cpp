@@ -71,7 +71,8 @@ class NmeaFormat final : public ReportFormat {
     untimed_.clear();
     if (!has_sentences_)
       throw UnusableStream(
-          "expected sentences of AIS (!AIVDM or !AIVDO of any talker), but the stream has none");
+          "expected sentences of AIS (!AIVDM or !AIVDO of any talker), but the stream has none (a log of a "
+          "GPS receiver, $GPGGA and $GPRMC, becomes GPX with gpsbabel -i nmea -f FILE -o gpx -F FILE.gpx)");
   }
 
   nlohmann::json save() const override {

@@ -1,0 +1,73 @@
+// SUMO's FCD output in XML: vehicles and persons at each time step.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "formats/converted_table.hpp"
+#include "formats/xml_elements.hpp"
+#include "program_error.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+#ifdef KINESPHERE_WITH_EXPAT
+
+/// Vehicles have their id; those of persons and containers are other names, so that they begin with the kind.
+class FcdReader final : XmlElements {
+ public:
+  FcdReader(std::string_view text, const std::string& file) : XmlElements(text, file, "FCD output of SUMO") {}
+
+  ConvertedTable read() {
+    read_all();
+    const bool have_heights =
+        std::all_of(places_.begin(), places_.end(), [](const Place& place) { return !place.z.empty(); });
+    ConvertedTable table{.format = "SUMO FCD",
+                         .text = have_heights ? "vehicle_id,time,x,y,z\n" : "vehicle_id,time,x,y\n"};
+    std::size_t row_line = 2;
+    for (const Place& place : places_) {
+      for (; row_line < place.line; ++row_line) table.text += '\n';
+      table.text += fmt::format("{},{},{},{}{}\n", place.id, place.time, place.x, place.y,
+                                have_heights ? "," + place.z : "");
+      ++row_line;
+    }
+    return table;
+  }
+
+ private:
+  struct Place {
+    std::string id, time, x, y, z;
+    std::size_t line = 0;
+  };
+
+  void begin(std::string_view name, const char** attributes) override {
+    if (name == "timestep") time_ = attribute(attributes, "time");
+    if (name != "vehicle" && name != "person" && name != "container") return;
+    const std::string kind = name == "vehicle" ? "" : std::string(name) + ' ';
+    places_.push_back({.id = kind + attribute(attributes, "id"),
+                       .time = time_,
+                       .x = attribute(attributes, "x"),
+                       .y = attribute(attributes, "y"),
+                       .z = attribute(attributes, "z"),
+                       .line = line()});
+  }
+  void end(std::string_view) override {}
+
+  std::string time_;
+  std::vector<Place> places_;
+};
+
+#endif
+
+}  // namespace
+
+std::optional<ConvertedTable> convert_fcd(std::string_view text, const std::string& file) {
+  if (!is_xml_with(text, "<fcd-export")) return std::nullopt;
+#ifdef KINESPHERE_WITH_EXPAT
+  return FcdReader(text, file).read();
+#else
+  throw ProgramError(
+      fmt::format("{}: XML needs expat, and this program was built without it (libexpat1-dev)", file));
+#endif
+}
+
+}  // namespace kinesphere::program
