@@ -56,7 +56,7 @@ namespace kinesphere {
 
 /// The world's present knowledge of one body, as World::body() returns it.
 struct BodyView {
-  BodyDefinition definition{};  ///< its state is that of the last report
+  BodyDefinition definition{};  ///< its state is that of the last report, its radius the present one
   Bound bound{};                ///< time-varying bound, valid since the last report
   /// Box that contains the body and its sensor range from now until box_end. Invalid (box_end == time())
   /// until the next advance() if the body was just added or changed.
@@ -103,6 +103,9 @@ struct BodyChange {
   /// Turns a rigid body at once, as World::teleport() moves it. Errors: as for angular_velocity; out_of_range
   /// for an orientation that has not length 1; outside_domain and overlapping as for teleport().
   std::optional<Rotation> rotation{};
+  /// Rate at which the radius changes from the current time on (BodyDefinition::radius_rate). Errors:
+  /// static_body; not_finite; out_of_range; unsupported for a moving shape and a rigid body.
+  std::optional<double> radius_rate{};
 
   friend constexpr bool operator==(const BodyChange&, const BodyChange&) = default;
 };

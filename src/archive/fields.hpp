@@ -64,9 +64,9 @@ void serialize(Some<Sensor> auto& self, auto& archive) {
 
 void serialize(Some<BodyDefinition> auto& self, auto& archive) {
   auto& [radius, acceleration_limit, planned_acceleration, position_error, velocity_error, position, velocity,
-         filter, solid, contacts, sensor_class, user_data, mass] = self;
+         filter, solid, contacts, sensor_class, user_data, mass, radius_rate] = self;
   archive(radius, acceleration_limit, planned_acceleration, position_error, velocity_error, position,
-          velocity, filter, solid, contacts, sensor_class, user_data, mass);
+          velocity, filter, solid, contacts, sensor_class, user_data, mass, radius_rate);
 }
 
 void serialize(Some<MotionLimits> auto& self, auto& archive) {

@@ -1,6 +1,8 @@
 // Time-varying bounds of bodies, with their swept boxes and the gaps between them.
 #include "kinesphere/bound.hpp"
 
+#include <cmath>
+
 #include "bound/relative_motion.hpp"
 #include "bound/rounding.hpp"
 #include "number/infinity.hpp"
@@ -13,7 +15,7 @@ Bound bound_of(const BodyDefinition& body, const State& state, double time) {
           .velocity = state.velocity,
           .planned_acceleration = body.planned_acceleration,
           .radius = body.radius + body.position_error,
-          .growth_speed = body.velocity_error,
+          .growth_speed = body.velocity_error + std::abs(body.radius_rate),
           .acceleration_limit = body.acceleration_limit};
 }
 

@@ -124,7 +124,8 @@ void describe_as_seen(Event& event, const Sphere& first, const Sphere& second) {
   if (first.rigid || second.rigid) {
     describe_parts(event, first, second);
     event.approach_speed =
-        dot(event.normal, first_at_point(event).velocity - second_at_point(event).velocity);
+        dot(event.normal, first_at_point(event).velocity - second_at_point(event).velocity) +
+        (first.radius_rate + second.radius_rate);
     return;
   }
   if (first.shape || second.shape) {
@@ -132,7 +133,8 @@ void describe_as_seen(Event& event, const Sphere& first, const Sphere& second) {
   } else {
     describe_spheres(event, first, second);
   }
-  event.approach_speed = dot(event.normal, first.state.velocity - second.state.velocity);
+  event.approach_speed = dot(event.normal, first.state.velocity - second.state.velocity) +
+                         (first.radius_rate + second.radius_rate);
 }
 
 }  // namespace
@@ -182,7 +184,7 @@ void describe(Event& event, const Sphere& sphere, const Box& box) {
   }
   const double distance = dot(inside.normal, sphere.state.position) - inside.offset;
   event.gap = distance - sphere.radius;
-  event.approach_speed = dot(event.normal, sphere.state.velocity);
+  event.approach_speed = dot(event.normal, sphere.state.velocity) + sphere.radius_rate;
   event.point = sphere.state.position + event.normal * distance;
 }
 
@@ -212,7 +214,9 @@ double approach_error(const Event& event, double arm) {
 }
 
 double approach_error(const Event& event, const Sphere& first, const Sphere& second) {
-  const auto with_arm = [&](double arm) { return approach_error(event, arm); };
+  const double rates =
+      std::abs(first.radius_rate) + (event.wall == Wall::none ? std::abs(second.radius_rate) : 0.0);
+  const auto with_arm = [&](double arm) { return approach_error(event, arm) + rate_error(rates); };
   if (event.wall != Wall::none) return with_arm(infinity);
   const Shape* shape = first.shape ? first.shape : second.shape;
   const auto radius = [](const Sphere& body) {

@@ -28,7 +28,11 @@ struct Sphere {
   BodyTraits traits{};
   ContactEvents wanted = ContactEvents::all;
   const RigidRecord* rigid = nullptr;  ///< of a rigid body; then `radius` is ignored
+  double radius_rate = 0.0;            ///< at which the radius grows (length / time)
 };
+
+/// Bounds the rounding error that radii that change at these rates add to the approach speed.
+inline double rate_error(double rates) { return 0x1p-49 * rates; }
 
 /// Returns the contact events that a pair reports; for a wall, `second` is the body again.
 inline ContactEvents wanted_of(const Sphere& first, const Sphere& second) {

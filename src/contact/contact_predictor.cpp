@@ -78,7 +78,7 @@ template <class Partner>
 ContactDecision ContactPredictor<Partner>::decide(const Event& current, const RelativeLimits& limits) const {
   ContactDecision decision;
   const double beyond = current.gap - threshold_.distance;
-  const double error = approach_error(current, arm(current.gap));
+  const double error = approach_error(current, arm(current.gap)) + rate_error(limits.radius_rates);
   decision.change = rule_.decide(threshold_, beyond, current.approach_speed, error);
   if (decision.is_event()) return decision;
   const bool stays = threshold_.within && decision.change != ContactRule::Change::release;

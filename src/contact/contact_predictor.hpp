@@ -21,6 +21,7 @@ double just_after(double time);
 struct RelativeLimits {
   double speed_error;
   double acceleration;
+  double radius_rates = 0.0;  ///< sum of the magnitudes of the rates at which the radii change
 };
 
 /// Horizon of a prediction, per kind of search: a time later than the horizon counts as never.

@@ -31,6 +31,7 @@ struct BodyMessage {
   PeriodicImage image{};
   Filter filter{};
   double mass = 1.0;
+  ChangingRadius radius{};
   ContactCheckpoint contacts{};
   /// Registration in the broad phase and, if registered, the window (`rung`, `end`). `enters`: the receiver
   /// inserts it now, with a new swept sphere. `starts`: it takes part in the bulk window start that is in
@@ -49,10 +50,10 @@ struct BodyMessage {
   Window window() const { return {rung, end}; }
 
   static void serialize(auto& self, auto& archive) {
-    auto& [name, owner, body, image, filter, mass, contacts, is_registered, enters, starts, rung, end,
+    auto& [name, owner, body, image, filter, mass, radius, contacts, is_registered, enters, starts, rung, end,
            is_stale, due, pending, motion] = self;
-    archive(name, owner, body, image, filter, mass, contacts, is_registered, enters, starts, rung, end,
-            is_stale, due, pending, motion);
+    archive(name, owner, body, image, filter, mass, radius, contacts, is_registered, enters, starts, rung,
+            end, is_stale, due, pending, motion);
   }
 };
 

@@ -18,6 +18,7 @@ BodyMessage Migration::pack(std::uint32_t number) const {
   message.image = image;
   message.filter = bodies.filters.of(number);
   message.mass = bodies.masses.of(number);
+  message.radius = bodies.radii.of(number);
   message.contacts = ContactCheckpoint::of(rank_.state.contacts, number);
   const BroadPhase& windows = rank_.state.broad_phase;
   message.is_registered = windows.contains(number);
@@ -180,7 +181,8 @@ Result<std::uint32_t> Migration::install(BodyMessage& message) {
   }
   const auto in_motion = motion_.read_body(bytes);
   if (!in_motion) return in_motion.error();
-  const std::uint32_t number = known ? *known : bodies.add(BodyDefinition{}, message.name);
+  const std::uint32_t number =
+      known ? *known : bodies.add_named(BodyDefinition{}, rank_.time(), message.name);
   Body& body = bodies[number];
   const std::uint32_t generation = body.generation;
   const std::uint32_t new_revision = message.is_stale || !known ? body.revision + 1 : body.revision;
@@ -190,6 +192,7 @@ Result<std::uint32_t> Migration::install(BodyMessage& message) {
   body.shape_number = body.change_number = body.sleep_number = Body::none;
   bodies.filters.keep(number, message.filter);
   bodies.masses.keep(number, message.mass);
+  bodies.radii.keep(number, message.radius);
   bodies.set_solid(number, body.solid);
   if (bodies.space().repeats()) bodies.images[number] = message.image;
   if (!known) {

@@ -45,7 +45,7 @@ Result<void> DistributedWorld::RankEngine::add(std::uint32_t name, const BodyDef
                                                std::uint32_t number_in_motion) {
   auto valid = check_body_to_add(name, body, number_in_motion);
   if (!valid) return valid;
-  const std::uint32_t number = rank_.bodies().add(body, name);
+  const std::uint32_t number = rank_.bodies().add_named(body, time(), name);
   rank_.state.contacts.add(number, 0.0);
   rank_.directory.add(name, number, communicator_.rank());
   rank_.directory[number].in_motion = number_in_motion;

@@ -12,13 +12,15 @@ void Bodies::reserve(std::size_t bodies) {
   if (space_.repeats()) images.reserve(bodies);
 }
 
-std::uint32_t Bodies::add(const BodyDefinition& definition) { return describe(table_.take(), definition); }
-
-std::uint32_t Bodies::add(const BodyDefinition& definition, std::uint32_t name) {
-  return describe(table_.take(name), definition);
+std::uint32_t Bodies::add(const BodyDefinition& definition, double now) {
+  return describe(table_.take(), definition, now);
 }
 
-std::uint32_t Bodies::describe(std::uint32_t number, const BodyDefinition& definition) {
+std::uint32_t Bodies::add_named(const BodyDefinition& definition, double now, std::uint32_t name) {
+  return describe(table_.take(name), definition, now);
+}
+
+std::uint32_t Bodies::describe(std::uint32_t number, const BodyDefinition& definition, double now) {
   if (space_.repeats()) images.resize(numbers());
   Body& body = table_[number];
   body.radius = definition.radius;
@@ -28,6 +30,8 @@ std::uint32_t Bodies::describe(std::uint32_t number, const BodyDefinition& defin
   body.user_data = definition.user_data;
   filters.keep(number, definition.filter);
   masses.keep(number, definition.mass);
+  if (definition.radius_rate != 0.0)
+    radii.keep(number, {definition.radius_rate, definition.radius, now, definition.velocity_error, true});
   set_solid(number, definition.solid);
   return number;
 }
@@ -43,6 +47,7 @@ void Bodies::remove(std::uint32_t number) {
   forget_change(number);
   filters.keep(number, {});
   masses.keep(number, BodyDefinition{}.mass);
+  radii.keep(number, {});
   count_images_anew(number);
   table_.give_back(number);
 }
@@ -54,7 +59,7 @@ BodyDefinition Bodies::definition_of(std::uint32_t number) const {
                             .acceleration_limit = bound.acceleration_limit,
                             .planned_acceleration = bound.planned_acceleration,
                             .position_error = body.position_error,
-                            .velocity_error = bound.growth_speed,
+                            .velocity_error = velocity_error(number),
                             .position = bound.position,
                             .velocity = bound.velocity,
                             .filter = filters.of(number),
@@ -62,7 +67,8 @@ BodyDefinition Bodies::definition_of(std::uint32_t number) const {
                             .contacts = body.contact_events,
                             .sensor_class = body.sensor_class,
                             .user_data = body.user_data,
-                            .mass = masses.of(number)};
+                            .mass = masses.of(number),
+                            .radius_rate = radius_rate(number)};
   if (const Change* change = changes.find(body)) {
     definition = with_motion_limits(definition, change->limits);
     definition.velocity = change->velocity.value_or(bound.velocity);
@@ -70,6 +76,18 @@ BodyDefinition Bodies::definition_of(std::uint32_t number) const {
   if (const SleepRecord* record = sleep_records.find(body))
     definition = with_motion_limits(definition, record->limits);
   return definition;
+}
+
+void Bodies::forget_change(std::uint32_t number) {
+  if (ChangingRadius* const changing = radii.find(number))
+    if (const Change* const change = changes.find(table_[number]))
+      changing->velocity_error = change->limits.velocity_error;
+  changes.remove(table_, number);
+}
+
+void Bodies::set_radius_law(std::uint32_t number, double radius, double rate, double now) {
+  if (rate != 0.0 || radii.find(number))
+    radii.keep(number, {rate, radius, now, velocity_error(number), true});
 }
 
 void Bodies::set_solid(std::uint32_t number, bool solid) {

@@ -16,6 +16,7 @@
 #include "contact/contact_event.hpp"
 #include "contact/sensor_table.hpp"
 #include "engine/body_table.hpp"
+#include "engine/changing_radii.hpp"
 #include "engine/filters.hpp"
 #include "engine/masses.hpp"
 #include "engine/periodic_image.hpp"
@@ -43,11 +44,11 @@ class Bodies {
   std::uint32_t numbers() const { return table_.numbers(); }
 
   void reserve(std::size_t bodies);
-  /// Adds a body with its definition except for its state and motion limits. Returns its number.
-  std::uint32_t add(const BodyDefinition& definition);
-  /// Adds a body as above, with a name (BodyTable). The definition may be that of a body that moved here from
-  /// another process.
-  std::uint32_t add(const BodyDefinition& definition, std::uint32_t name);
+  /// Adds a body with its definition at time `now`, except for its state and motion limits. Returns its
+  /// number.
+  std::uint32_t add(const BodyDefinition& definition, double now = 0.0);
+  /// Adds a body as above, with a name (BodyTable).
+  std::uint32_t add_named(const BodyDefinition& definition, double now, std::uint32_t name);
   /// Gives the body a shape: a carried one, or else one at rest, which makes the body static.
   void give_shape(std::uint32_t number, const Shape& shape, bool carried);
   /// Gives a body with a shape another one. Its bound must follow.
@@ -64,7 +65,25 @@ class Bodies {
   /// Returns the pending change of the body, and creates it if there is none.
   Change& change_of(std::uint32_t number);
   /// Removes the pending change: it has taken effect, or the body is being removed.
-  void forget_change(std::uint32_t number) { changes.remove(table_, number); }
+  void forget_change(std::uint32_t number);
+
+  // Radii that change with time. Body::radius is that at the last report.
+  /// Returns the radius that the body has at time `now`.
+  double radius_at(std::uint32_t number, double now) const {
+    const ChangingRadius* const changing = radii.find(number);
+    return changing ? changing->at(now) : table_[number].radius;
+  }
+  double radius_rate(std::uint32_t number) const { return radii.of(number).rate; }
+  /// Returns the growth speed of the body's bound without the rate of its radius.
+  double velocity_error(std::uint32_t number) const {
+    const ChangingRadius* const changing = radii.find(number);
+    return changing ? changing->velocity_error : table_[number].bound.growth_speed;
+  }
+  /// From time `now`, when the body has this radius, its radius changes at this rate. Body::radius and the
+  /// bound must follow.
+  void set_radius_law(std::uint32_t number, double radius, double rate, double now);
+  /// Gives the body in the table the radius that it has at time `now`. Its bound must follow.
+  void update_radius(std::uint32_t number, double now) { table_[number].radius = radius_at(number, now); }
 
   /// Returns true if the filters allow two bodies to touch or sense each other.
   bool may_meet(std::uint32_t a, std::uint32_t b) const { return !filters.any() || filters_allow(a, b); }
@@ -109,11 +128,11 @@ class Bodies {
   /// Bodies that are read get ids with tag 0.
   template <class Self, class Archive>
   static void serialize(Self& self, Archive& archive) {
-    auto& [changes, sleep_records, filters, masses, images, shapes, rigid, sensors, definition, space,
+    auto& [changes, sleep_records, filters, masses, radii, images, shapes, rigid, sensors, definition, space,
            enclosure, table] = self;
     auto& [bodies, live_count, free, tag, names] = table;
     auto& [by_number, pair_filter, any] = filters;
-    archive(bodies, live_count, changes, sleep_records, by_number, masses, images, free, shapes, rigid,
+    archive(bodies, live_count, changes, sleep_records, by_number, masses, radii, images, free, shapes, rigid,
             sensors, any);
     if constexpr (!std::is_const_v<Self>) tag = 0;
   }
@@ -126,13 +145,14 @@ class Bodies {
   SleepRecords sleep_records;
   Filters filters;
   Masses masses;
+  ChangingRadii radii;
   std::vector<PeriodicImage> images;  ///< by body number; empty unless space is periodic
   Shapes shapes;
   RigidBodies rigid;
   SensorTable sensors;
 
  private:
-  std::uint32_t describe(std::uint32_t number, const BodyDefinition& definition);
+  std::uint32_t describe(std::uint32_t number, const BodyDefinition& definition, double now);
   bool filters_allow(std::uint32_t a, std::uint32_t b) const;
   bool bodies_are_valid(double now, const std::vector<std::uint32_t>& dirty) const;
   bool is_valid(std::uint32_t number, double now) const;
@@ -140,6 +160,7 @@ class Bodies {
   bool carried_shape_is_valid(const Body& body, const BodyDefinition& definition) const;
   bool rigid_body_is_valid(std::uint32_t number, double now) const;
   bool sleep_is_valid(const Body& body) const;
+  bool radius_is_valid(std::uint32_t number, double now) const;
   bool limits_are_valid(const Body& body, BodyDefinition definition) const;
 
   WorldDefinition definition_;

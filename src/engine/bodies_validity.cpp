@@ -28,7 +28,7 @@ bool is_valid(const Bound& bound, const Vec3& place, double now, const WorldDefi
   as_body.radius = 0.5 * bound.radius;  // bound.radius is the sum of a radius and an error
   as_body.acceleration_limit = bound.acceleration_limit;
   as_body.planned_acceleration = bound.planned_acceleration;
-  as_body.velocity_error = bound.growth_speed;
+  as_body.velocity_error = 0.5 * bound.growth_speed;  // likewise
   as_body.position = place;
   as_body.velocity = bound.velocity;
   return bound.time >= -limits::largest_time && bound.time <= now && check_body(as_body, world, "restore");
@@ -101,7 +101,8 @@ const char* Bodies::first_invalid_part(double now, const std::vector<std::uint32
 bool Bodies::bodies_are_valid(double now, const std::vector<std::uint32_t>& dirty) const {
   const std::size_t where_space_repeats = space_.repeats() ? numbers() : 0;
   if (!table_.is_valid() || !changes.is_valid(table_) || !sleep_records.is_valid(table_) ||
-      !filters.is_valid(numbers()) || !masses.is_valid(numbers()) || images.size() != where_space_repeats)
+      !filters.is_valid(numbers()) || !masses.is_valid(numbers()) || !radii.is_valid(numbers()) ||
+      images.size() != where_space_repeats)
     return false;
   std::vector<bool> is_listed(numbers(), false);
   for (const std::uint32_t number : dirty) {
@@ -131,7 +132,7 @@ bool Bodies::is_valid(std::uint32_t number, double now) const {
       (space_.repeats() && !images[number].is_valid(space_)))
     return false;
   if (!limits_are_valid(body, definition) || !carried_shape_is_valid(body, definition) ||
-      !rigid_body_is_valid(number, now))
+      !rigid_body_is_valid(number, now) || !radius_is_valid(number, now))
     return false;
   if (!body.enabled) return !body.dirty;
   // The bound's radius includes an error. Only the bound of a disabled body can be out of date.
@@ -195,6 +196,21 @@ bool Bodies::rigid_body_is_valid(std::uint32_t number, double now) const {
     return false;
   return record.origin_time >= -limits::largest_time && record.origin_time <= now &&
          (record.is_changed || record.origin_time <= body.bound.time) && body.radius == body_of(made).radius;
+}
+
+/// Only a ball that does not sleep changes its size with time.
+bool Bodies::radius_is_valid(std::uint32_t number, double now) const {
+  const ChangingRadius* const changing = radii.find(number);
+  if (!changing) return true;
+  const Body& body = table_[number];
+  BodyDefinition grown = definition_of(number);
+  grown.radius = changing->radius;
+  grown.velocity_error = changing->velocity_error;
+  return check_radius(grown, no_body, definition_, "restore") &&
+         check_limits(grown, no_body, definition_, "restore") &&
+         check_radius_rate(changing->rate, no_body, "restore") && !body.is_shaped() &&
+         !(body.is_sleeping() && changing->rate != 0.0) && changing->time >= -limits::largest_time &&
+         changing->time <= now;
 }
 
 /// A sleeping body is present and not static; its bound stands still unless a change still waits for a

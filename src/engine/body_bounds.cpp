@@ -49,6 +49,10 @@ Sphere sphere_at(const Bodies& bodies, double now, std::uint32_t number) {
                 traits_of(bodies[number]),
                 bodies[number].contact_events,
                 bodies.rigid.find(bodies[number])};
+  if (const ChangingRadius* const changing = bodies.radii.find(number)) {
+    sphere.radius += changing->at(now) - bodies[number].radius;
+    sphere.radius_rate = changing->rate_at(now);
+  }
   const Space& space = bodies.space();
   if (space.repeats()) sphere.state.position = space.wrapped(sphere.state.position).position;
   return sphere;

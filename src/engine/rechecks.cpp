@@ -2,6 +2,7 @@
 // fresh reports decide whether it has.
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "engine/event_processor.hpp"
 #include "number/infinity.hpp"
@@ -63,8 +64,9 @@ Result<void> EventProcessor::probe_stale_of(std::uint32_t a, std::uint32_t b) {
 std::optional<double> EventProcessor::decide_pair(std::uint32_t a, std::uint32_t b) {
   const PairCertifier certifier = this->certifier();
   const double end = certifier.earliest_window_end(a, b);
-  const RelativeLimits sum{bodies()[a].bound.growth_speed + bodies()[b].bound.growth_speed,
-                           bodies().largest_acceleration(a) + bodies().largest_acceleration(b)};
+  const RelativeLimits sum{bodies().velocity_error(a) + bodies().velocity_error(b),
+                           bodies().largest_acceleration(a) + bodies().largest_acceleration(b),
+                           std::abs(bodies().radius_rate(a)) + std::abs(bodies().radius_rate(b))};
   std::optional<double> next = infinity;
   visit_pair(bodies(), a, b, [&](const Bound& bound, const auto& partner) {
     certifier.for_each_threshold(a, b, [&](const Threshold& threshold) {
@@ -149,7 +151,8 @@ Result<void> EventProcessor::recheck_walls(std::uint32_t number) {
 std::optional<double> EventProcessor::decide_walls(std::uint32_t number) {
   const Body& body = bodies()[number];
   const double end = certifier().window_end_of(number);
-  const RelativeLimits limits{body.bound.growth_speed, bodies().largest_acceleration(number)};
+  const RelativeLimits limits{bodies().velocity_error(number), bodies().largest_acceleration(number),
+                              std::abs(bodies().radius_rate(number))};
   const CollisionShape shape = collision_shape_of(bodies(), number);
   const Box near = walls_in_reach(contacts().rule(), body.bound, *bodies().walls(), time_, end);
   double first = infinity;

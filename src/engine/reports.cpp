@@ -39,6 +39,14 @@ Rotation normalized(const Rotation& rotation) {
   return {after(rotation.orientation, Quaternion{}), rotation.angular_velocity};
 }
 
+/// Returns the bound of the centre of a body whose radius changes with time.
+Bound centre_bound(const Body& body, double velocity_error) {
+  Bound bound = body.bound;
+  bound.radius -= body.radius;
+  bound.growth_speed = velocity_error;
+  return bound;
+}
+
 Error no_rotation_probe(BodyId body, std::string_view call) {
   return {ErrorCode::null_probe, "rotation_probe", body,
           std::string(call) + ": set_rotation_probe() must have given a function that knows how " +
@@ -81,7 +89,7 @@ Result<std::span<const Reports::Violation>> Reports::take(Bodies& bodies, double
   for (std::size_t k = 0; k < count && are_plain; ++k) {
     const Body& body = bodies[numbers[k]];
     are_plain = body.change_number == Body::none && !body.is_sleeping() && !body.is_rigid &&
-                is_valid_report(states[k], bodies.definition());
+                bodies.radii.find(numbers[k]) == nullptr && is_valid_report(states[k], bodies.definition());
     // An invalid report stays as it is, for the error message.
     if (are_plain) move_to_nearest_image(bodies.space(), body.bound, time, states[k]);
     are_plain = are_plain && certainly_keeps(body.bound, time, states[k], body.radius);
@@ -145,7 +153,13 @@ std::size_t Reports::first_bad(const Bodies& bodies, double time, PoolLease& lea
 
 Result<void> Reports::check(const Bodies& bodies, double time, std::size_t k) const {
   auto valid = check_report(states_[k], ids_[k], time, bodies.definition(), call_);
-  const Body& body = bodies[bodies.table().number_of(ids_[k])];
+  const std::uint32_t number = bodies.table().number_of(ids_[k]);
+  const Body& body = bodies[number];
+  if (const ChangingRadius* const changing = valid ? bodies.radii.find(number) : nullptr) {
+    const double reach = bodies.sensors.reach(body.sensor_class);
+    return check_grown({.radius = changing->at(time), .position_error = body.position_error}, reach, ids_[k],
+                       bodies.definition(), call_);
+  }
   if (!valid || !body.is_rigid) return valid;
   if (rotations_.empty()) return bodies.rigid[body].keeps_spin() ? valid : no_rotation_probe(ids_[k], call_);
   return check_rotation(rotations_[k], ids_[k], bodies.definition(), call_);
@@ -174,7 +188,9 @@ void Reports::apply(Bodies& bodies, double time, std::size_t from, std::size_t t
     Body& body = bodies[number];
     State state = states_[k];
     move_to_nearest_image(bodies.space(), body.bound, time, state);
-    const Bound before = body.bound;
+    const bool changes_size = bodies.radii.find(number) != nullptr;
+    const Bound before = changes_size ? centre_bound(body, bodies.velocity_error(number)) : body.bound;
+    if (changes_size) bodies.update_radius(number, time);
     std::optional<Vec3> new_velocity;
     if (const Change* change = bodies.changes.find(bodies[number])) {
       new_velocity = change->velocity;
@@ -182,14 +198,17 @@ void Reports::apply(Bodies& bodies, double time, std::size_t from, std::size_t t
       bodies.forget_change(number);
     } else {
       restart(body.bound, time, state);
+      if (changes_size) body.bound.radius = body.radius + body.position_error;
     }
+    const Bound after = changes_size ? centre_bound(body, bodies.velocity_error(number)) : body.bound;
+    const double radius = changes_size ? 0.0 : body.radius;
     std::optional<BoundViolation> violation;
     if (body.is_rigid) violation = turn(bodies.rigid[body], body, before, k);
-    if (new_velocity || before.radius != body.bound.radius ||
-        !certainly_keeps(before, time, {body.bound.position, body.bound.velocity}, body.radius))
-      violation = sum_of(violation, bound_violation(before, body.bound, body.radius, new_velocity,
+    if (new_velocity || before.radius != after.radius ||
+        !certainly_keeps(before, time, {after.position, after.velocity}, radius))
+      violation = sum_of(violation, bound_violation(before, after, radius, new_velocity,
                                                     bodies.definition().contact_tolerance));
-    if (profile_ != nullptr && !new_velocity) profile_->note_report(number, before, body.bound);
+    if (profile_ != nullptr && !new_velocity) profile_->note_report(number, before, after);
     if (body.is_sleeping()) body.stand_still();
     if (violation) broken.push_back({k, states_[k].velocity, *violation});
   }

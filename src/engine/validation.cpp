@@ -22,6 +22,12 @@ void require_radius(InputCheck& check, double radius, BodyId body, const WorldDe
   require_size(check, {"radius", body}, radius, coordinate_limit(world));
 }
 
+void require_radius_rate(InputCheck& check, double rate, BodyId body) {
+  check.finite({"radius_rate", body}, rate)
+      .require(std::abs(rate) <= limits::largest_speed, ErrorCode::out_of_range, {"radius_rate", body},
+               "must be within +-", limits::largest_speed, rate);
+}
+
 /// Ensures that a pair can meet in one image only; space/space.hpp has the limit and the proof.
 void require_fit(InputCheck& check, std::string_view argument, const BodyDefinition& definition, BodyId body,
                  const WorldDefinition& world) {
@@ -197,6 +203,7 @@ Result<void> check_body(const BodyDefinition& body, const WorldDefinition& world
   require_fit(check, "radius", body, no_body, world);
   if (body.contacts) require_contact_events(check, *body.contacts);
   check.not_negative_or_infinite({"mass"}, body.mass);
+  require_radius_rate(check, body.radius_rate, no_body);
   return check.result();
 }
 
@@ -226,6 +233,18 @@ Result<void> check_radius(const BodyDefinition& changed, BodyId body, const Worl
   require_radius(check, changed.radius, body, world);
   require_fit(check, "radius", changed, body, world);
   return check.result();
+}
+
+Result<void> check_radius_rate(double rate, BodyId body, std::string_view call) {
+  InputCheck check(call);
+  require_radius_rate(check, rate, body);
+  return check.result();
+}
+
+Result<void> check_grown(const BodyDefinition& grown, double reach, BodyId body, const WorldDefinition& world,
+                         std::string_view call) {
+  auto valid = check_radius(grown, body, world, call);
+  return valid ? check_reach(reach, grown, body, "radius", world, call) : valid;
 }
 
 Result<void> check_limits(const BodyDefinition& changed, BodyId body, const WorldDefinition& world,

@@ -25,6 +25,11 @@ Result<void> check_rotation(const Rotation& rotation, BodyId body, const WorldDe
 /// Validates a changed radius or changed motion limits of a body that is in the world already.
 Result<void> check_radius(const BodyDefinition& changed, BodyId body, const WorldDefinition& world,
                           std::string_view call);
+/// Validates a rate at which the radius of a body is to change.
+Result<void> check_radius_rate(double rate, BodyId body, std::string_view call);
+/// Validates that a body whose radius has changed with time is not too large, with its sensor reach (length).
+Result<void> check_grown(const BodyDefinition& grown, double reach, BodyId body, const WorldDefinition& world,
+                         std::string_view call);
 Result<void> check_limits(const BodyDefinition& changed, BodyId body, const WorldDefinition& world,
                           std::string_view call);
 Result<void> check_state(const State& state, const BodyDefinition& definition, BodyId body,

@@ -12,7 +12,7 @@ void World::WorldEditor::reserve(std::size_t bodies) {
 }
 
 BodyId World::WorldEditor::add(const BodyDefinition& definition) {
-  const std::uint32_t number = state_.bodies.add(definition);
+  const std::uint32_t number = state_.bodies.add(definition, time());
   insert_at(number, bound_now(definition, time()));
   state_.contacts.add(number, bodies()[number].largest_acceleration());
   return bodies().id_of(number);
@@ -137,6 +137,7 @@ void World::WorldEditor::teleport(BodyId id, const State& state) {
   sleeping().wake(id.index);
   state_.contacts.turn_reported(id.index);
   state_.bodies.count_images_anew(id.index);
+  state_.bodies.update_radius(id.index, time());
   replace(id.index, bound_of(bodies().definition_of(id.index), state, time()));
   state_.bodies.forget_change(id.index);
 }
@@ -147,6 +148,19 @@ void World::WorldEditor::set_radius(BodyId id, double radius) {
   changed.radius = radius;
   if (bodies()[id.index].enabled) replace(id.index, bound_with(bodies(), id.index, changed, time()));
   state_.bodies[id.index].radius = radius;
+  state_.bodies.set_radius_law(id.index, radius, changed.radius_rate, time());
+}
+
+void World::WorldEditor::set_radius_rate(BodyId id, double rate) {
+  const std::uint32_t number = id.index;
+  const Body& body = bodies()[number];
+  if (body.is_sleeping()) sleeping().wake(number);
+  state_.bodies.set_radius_law(number, bodies().radius_at(number, time()), rate, time());
+  if (body.enabled) state_.contacts.turn_reported(number);
+  if (body.enabled && body.fresh(time()))
+    return replace(number, bound_with(bodies(), number, bodies().definition_of(number), time()));
+  state_.bodies.change_of(number);
+  if (body.enabled) main_.invalidate(number);
 }
 
 void World::WorldEditor::set_shape(BodyId id, const Shape& shape) {
@@ -175,6 +189,8 @@ void World::WorldEditor::set_motion_limits(BodyId id, const MotionLimits& limits
   const BodyDefinition changed = with_motion_limits(bodies().definition_of(id.index), limits);
   if (body.enabled) replace(id.index, bound_with(bodies(), id.index, changed, time()));
   body.position_error = limits.position_error;
+  ChangingRadius* const changing = state_.bodies.radii.find(id.index);
+  if (changing && body.enabled && body.fresh(time())) changing->velocity_error = limits.velocity_error;
   if (!body.enabled || !body.fresh(time())) state_.bodies.change_of(id.index).limits = limits;
   const RigidRecord* const turning = bodies().rigid.find(body);
   state_.contacts.set_largest_acceleration(id.index,
@@ -196,6 +212,7 @@ void World::WorldEditor::enable(BodyId id, const State& state) {
   body.enabled = true;
   if (body.is_static()) return insert_at(id.index, body.bound);
   state_.bodies.count_images_anew(id.index);
+  state_.bodies.update_radius(id.index, time());
   const BodyDefinition definition = bodies().definition_of(id.index);
   state_.bodies.forget_change(id.index);
   if (body.is_rigid) {

@@ -32,6 +32,7 @@ class World::WorldEditor {
   void set_velocity(BodyId id, const Vec3& velocity) { main_.set_velocity(id.index, velocity); }
   void teleport(BodyId id, const State& state);
   void set_radius(BodyId id, double radius);
+  void set_radius_rate(BodyId id, double rate);
   void set_motion_limits(BodyId id, const MotionLimits& limits);
   void disable(BodyId id);
   void enable(BodyId id, const State& state);

@@ -17,7 +17,8 @@ World::Engine::Answers::Answers(const Engine& engine) : engine_(engine), now_(en
 }
 
 Bound World::Engine::Answers::present(std::uint32_t number) const {
-  return present_bound(body(number), engine_.bodies().changes.find(engine_.bodies()[number]), now_);
+  return present_bound(body(number), engine_.bodies().changes.find(engine_.bodies()[number]),
+                       engine_.bodies().radius_rate(number), now_);
 }
 
 /// Inflates the present bound so that, while two such bounds do not meet, no contact begins. A begin is

@@ -61,7 +61,9 @@ class World::Engine::Audit {
 
   /// True if reports of the body are exact. A noisy report may violate an earlier bound although the true
   /// body does not.
-  static bool exact(const Body& body) { return body.position_error == 0.0 && body.bound.growth_speed == 0.0; }
+  bool exact(std::uint32_t number) const {
+    return body(number).position_error == 0.0 && engine_.bodies().velocity_error(number) == 0.0;
+  }
 
   void check_absence(std::uint32_t number) {
     if (engine_.broad_phase().contains(number))
@@ -87,7 +89,7 @@ class World::Engine::Audit {
       find("registration", name(number) + " rests, but its bound does not stand still");
     if (b.is_static()) return check_static(number, end);
     if (is_too_wide(number, end)) find("registration", name(number) + " has too wide a box");
-    if (!exact(b)) return;
+    if (!exact(number)) return;
     const Vec3 margin = Vec3{1.0, 1.0, 1.0} * (0.25 * engine_.definition().contact_tolerance);
     Box box{engine_.box(number).lower - margin, engine_.box(number).upper + margin};
     if (engine_.bodies().space().is_flat())
@@ -133,7 +135,7 @@ class World::Engine::Audit {
   void check_walls(std::uint32_t number) {
     const Body& b = body(number);
     if (!engine_.bodies().walls() || b.is_shaped() || !is_certified(number, number) ||
-        engine_.contacts().walls_of(number) != 0 || !exact(b))
+        engine_.contacts().walls_of(number) != 0 || !exact(number))
       return;
     // Bodies without ends follow the contact rule within the tolerance instead, as in checkable().
     const bool has_ends = wants_ends(b.contact_events);
@@ -283,7 +285,7 @@ class World::Engine::Audit {
   /// bodies without ends, or in touch, follows the contact rule instead.
   bool checkable(std::uint32_t a, std::uint32_t b, const Threshold& threshold) const {
     // PlainGap knows no bodies that turn.
-    if (!exact(body(a)) || !exact(body(b)) || body(a).is_rigid || body(b).is_rigid) return false;
+    if (!exact(a) || !exact(b) || body(a).is_rigid || body(b).is_rigid) return false;
     const ContactRule& rule = engine_.contacts().rule();
     return threshold.within || wants_ends(threshold.wanted) ||
            gap_at(engine_.bodies(), now_, collision_shape_of(engine_.bodies(), a),

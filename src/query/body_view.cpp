@@ -9,6 +9,7 @@ namespace kinesphere {
 BodyView body_view(const Bodies& bodies, const BroadPhase& windows, std::uint32_t number, double now) {
   const Body& body = bodies[number];
   const Space& space = bodies.space();
+  const double radius = bodies.radius_at(number, now);
   BodyView view{bodies.definition_of(number),
                 body.bound,
                 {},
@@ -17,7 +18,8 @@ BodyView body_view(const Bodies& bodies, const BroadPhase& windows, std::uint32_
                 body.enabled,
                 body.is_static(),
                 body.is_sleeping(),
-                body.has_shape() ? bodies.shapes.of(body) : Ball{body.bound.position, body.radius}};
+                body.has_shape() ? bodies.shapes.of(body) : Ball{body.bound.position, radius}};
+  view.definition.radius = radius;
   if (body.is_rigid) view.rigid = rigid_body(bodies, number);
   if (windows.contains(number)) {
     view.box = windows.box_of(number, now);
@@ -27,7 +29,7 @@ BodyView body_view(const Bodies& bodies, const BroadPhase& windows, std::uint32_
   const auto [position, images] = space.wrapped(body.bound.position);
   const Vec3 shift = space.shift_of(images);
   view.definition.position = view.bound.position = position;
-  if (!body.has_shape()) view.shape = Ball{position, body.radius};
+  if (!body.has_shape()) view.shape = Ball{position, radius};
   if (view.rigid) view.rigid->body.position = position;
   view.box = {view.box.lower - shift, view.box.upper - shift};
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,6 +1,8 @@
 // Where a body certainly is at the present time, also after changes that no report has followed yet.
 #pragma once
 
+#include <cmath>
+
 #include "bound/rounding.hpp"
 #include "engine/engine.hpp"
 
@@ -44,12 +46,13 @@ inline std::optional<CertainShape> certain_shape_of(const Bodies& bodies, std::u
 }
 
 /// Returns a bound that contains the body from now on. After a velocity change or new motion limits, the last
-/// report determines only the present position and, without a velocity change, the velocity.
-inline Bound present_bound(const Body& body, const Change* change, double now) {
+/// report determines only the present position and, without a velocity change, the velocity. `radius_rate` is
+/// that of the body.
+inline Bound present_bound(const Body& body, const Change* change, double radius_rate, double now) {
   const Bound& last = body.bound;
   if (!change) return last;
   const MotionLimits& limits = change->limits;
-  const bool is_unchanged = last.growth_speed == limits.velocity_error &&
+  const bool is_unchanged = last.growth_speed == limits.velocity_error + std::abs(radius_rate) &&
                             last.acceleration_limit == limits.acceleration_limit &&
                             last.planned_acceleration == limits.planned_acceleration;
   if (is_unchanged && !change->velocity) return last;
@@ -59,13 +62,14 @@ inline Bound present_bound(const Body& body, const Change* change, double now) {
               .velocity = change->velocity.value_or(last.velocity_at(now)),
               .planned_acceleration = limits.planned_acceleration,
               .radius = sphere.outer,
-              .growth_speed = limits.velocity_error,
+              .growth_speed = limits.velocity_error + std::abs(radius_rate),
               .acceleration_limit = limits.acceleration_limit};
   if (!change->velocity) {
     const double s = now - last.time;
     const double speed =
         norm_one(last.velocity) + (norm_one(last.planned_acceleration) + last.acceleration_limit) * s;
-    bound.growth_speed = last.growth_speed + last.acceleration_limit * s + rounding::margin * speed;
+    bound.growth_speed =
+        last.growth_speed + last.acceleration_limit * s + rounding::margin * speed + std::abs(radius_rate);
   }
   return bound;
 }

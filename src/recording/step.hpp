@@ -103,6 +103,7 @@ using SetSensorClass = Set<SensorClass, &BodyChange::sensor_class>;
 using SetMass = Set<double, &BodyChange::mass>;
 using SetUserData = Set<std::uint64_t, &BodyChange::user_data>;
 using SetAngularVelocity = Set<Vec3, &BodyChange::angular_velocity>;
+using SetRadiusRate = Set<double, &BodyChange::radius_rate>;
 using SetRotation = Set<Rotation, &BodyChange::rotation>;
 
 /// Change of the pair filter. A predicate is code and cannot be recorded, so this holds only whether there is
@@ -155,12 +156,13 @@ struct End {
 }  // namespace step
 
 /// Any step of a recording. The order of the alternatives is part of the format.
-using Step = std::variant<step::Asking, step::Add, step::AddStatic, step::Remove, step::SetVelocity,
-                          step::Teleport, step::SetRadius, step::SetMotionLimits, step::Disable, step::Enable,
-                          step::SetFilter, step::SetPairFilter, step::RefreshFilter, step::SetSolid,
-                          step::SetSensor, step::SetSensorClass, step::SetUserData, step::End,
-                          step::SleepBody, step::Wake, step::SetShape, step::SetMass, step::AddMovingShape,
-                          step::AddRigidBody, step::SetAngularVelocity, step::SetRotation>;
+using Step =
+    std::variant<step::Asking, step::Add, step::AddStatic, step::Remove, step::SetVelocity, step::Teleport,
+                 step::SetRadius, step::SetMotionLimits, step::Disable, step::Enable, step::SetFilter,
+                 step::SetPairFilter, step::RefreshFilter, step::SetSolid, step::SetSensor,
+                 step::SetSensorClass, step::SetUserData, step::End, step::SleepBody, step::Wake,
+                 step::SetShape, step::SetMass, step::AddMovingShape, step::AddRigidBody,
+                 step::SetAngularVelocity, step::SetRotation, step::SetRadiusRate>;
 
 /// Running hash over the outcomes of all steps so far: events to the last bit, and all work counters.
 class StepHash {

@@ -90,8 +90,13 @@ Result<void> World::Preconditions::can_turn(BodyId body) const {
 
 Result<void> World::Preconditions::can_sleep(BodyId body) const {
   auto valid = can_turn(body);
-  if (!valid || !engine_->bodies()[body.index].is_rigid) return valid;
-  return error_about(ErrorCode::unsupported, body, "body must not be rigid, but " + text_of(body) + " is");
+  if (!valid) return valid;
+  if (engine_->bodies()[body.index].is_rigid)
+    return error_about(ErrorCode::unsupported, body, "body must not be rigid, but " + text_of(body) + " is");
+  if (engine_->bodies().radius_rate(body.index) != 0.0)
+    return error_about(ErrorCode::unsupported, body,
+                       "body must have radius_rate 0, but " + text_of(body) + " has not");
+  return {};
 }
 
 Result<void> World::Preconditions::is_enabled(BodyId body, bool enabled) const {
@@ -160,12 +165,20 @@ Result<void> World::Preconditions::can_spin(BodyId body, const Vec3& angular_vel
 }
 
 Result<void> World::Preconditions::new_rigid_body(const RigidBody& added, BodyId id) const {
-  auto valid = check_rigid_body(added, definition(), call_);
+  auto valid = keeps_size(added.body);
+  if (valid) valid = check_rigid_body(added, definition(), call_);
   if (!valid) return valid;
   const BodyDefinition body = body_of(added);
   valid = check_body(body, domain_of(true), call_);
   if (valid) valid = reach(body, no_body, "sensor_class");
   return valid ? room_for(added, id) : valid;
+}
+
+Result<void> World::Preconditions::keeps_size(const BodyDefinition& body) const {
+  if (body.radius_rate == 0.0) return {};
+  return Error{ErrorCode::unsupported, "radius_rate", no_body,
+               std::string(call_) + ": radius_rate must be 0 for a body that is not a ball, but is " +
+                   text_of(body.radius_rate)};
 }
 
 /// The parts are inside the walls and, if overlaps are forbidden, overlap no other body.
@@ -202,6 +215,7 @@ Result<void> World::Preconditions::moved(BodyId id, const State& state) const {
   const Body& body = engine_->bodies()[id.index];
   BodyDefinition moved = engine_->bodies().definition_of(id.index);
   if (auto valid = check_state(state, moved, id, domain_of(body.is_shaped()), call_); !valid) return valid;
+  moved.radius = engine_->bodies().radius_at(id.index, engine_->time());
   moved.position = state.position;
   moved.velocity = state.velocity;
   if (body.is_rigid) {
@@ -213,15 +227,16 @@ Result<void> World::Preconditions::moved(BodyId id, const State& state) const {
 }
 
 Result<void> World::Preconditions::changed(BodyId id, const BodyChange& change) const {
-  const bool is_of_moving = change.radius || change.motion_limits || change.mass;
+  const bool is_of_moving = change.radius || change.radius_rate || change.motion_limits || change.mass;
   auto valid = is_of_moving ? moving(id) : changeable(id);
   if (valid && change.rotation) valid = turned(id, *change.rotation);
   if (valid && change.angular_velocity) valid = can_spin(id, *change.angular_velocity);
   if (!valid || !(is_of_moving || change.sensor_class)) return valid;
   BodyDefinition changed = engine_->bodies().definition_of(id.index);
-  if (change.radius) {
-    if (engine_->bodies()[id.index].is_shaped())
-      return error_about(ErrorCode::unsupported, id, "body must be a ball, but " + text_of(id) + " is not");
+  if ((change.radius || change.radius_rate) && engine_->bodies()[id.index].is_shaped())
+    return error_about(ErrorCode::unsupported, id, "body must be a ball, but " + text_of(id) + " is not");
+  if (change.radius_rate) valid = check_radius_rate(*change.radius_rate, id, call_);
+  if (valid && change.radius) {
     changed.radius = *change.radius;
     valid = check_radius(changed, id, definition(), call_);
     if (valid) valid = growth(changed, id, "radius");
@@ -279,6 +294,7 @@ Result<StaticDefinition> World::Preconditions::new_static(const StaticDefinition
 }
 
 Result<MovingShape> World::Preconditions::new_moving_shape(const MovingShape& added, BodyId id) const {
+  if (auto valid = keeps_size(added.body); !valid) return valid.error();
   if (auto valid = check_carried_shape(added.shape, definition(), call_); !valid) return valid.error();
   const MovingShape accepted{added.body, normalized_carried(added.shape, definition())};
   if (auto valid = check_body(body_of(accepted, definition()), domain_of(true), call_); !valid)

@@ -49,7 +49,8 @@ class World::Preconditions {
   Result<void> mobile(BodyId body) const;
   /// Like mobile(), but without idle(): for responses during run().
   Result<void> can_turn(BodyId body) const;
-  /// Like can_turn(), for a body that is not rigid (ErrorCode::unsupported).
+  /// Like can_turn(), for a ball or a moving shape whose size does not change with time
+  /// (ErrorCode::unsupported).
   Result<void> can_sleep(BodyId body) const;
   /// The two bodies are different, and each is changeable.
   Result<void> pair(BodyId first, BodyId second) const;
@@ -96,6 +97,8 @@ class World::Preconditions {
   WorldDefinition domain_of(bool has_shape) const;
   Result<void> no_overlap(const CollisionShape& shape, const BodyDefinition& body, BodyId id,
                           std::string_view argument) const;
+  /// The body, which is no ball, does not change its size (ErrorCode::unsupported).
+  Result<void> keeps_size(const BodyDefinition& body) const;
   bool is_foreign(BodyId body) const;
   // Precondition: the body is known.
   Result<void> is_enabled(BodyId body, bool enabled) const;

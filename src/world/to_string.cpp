@@ -66,7 +66,7 @@ std::string to_string(const BodyDefinition& body) {
   return fields("radius", body.radius, "position", body.position, "velocity", body.velocity) + ", " +
          to_string(motion_limits_of(body)) + ", " + to_string(body.filter) + ", " +
          fields("solid", body.solid, "sensor_class", body.sensor_class, "user_data", body.user_data, "mass",
-                body.mass);
+                body.mass, "radius_rate", body.radius_rate);
 }
 std::string to_string(const Bound& bound) {
   return fields("time", bound.time, "position", bound.position, "velocity", bound.velocity,

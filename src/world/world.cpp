@@ -193,6 +193,8 @@ Result<void> World::wake(BodyId body) {
 Result<void> World::change(BodyId body, const BodyChange& change) {
   if (auto valid = Preconditions(*this, "change").changed(body, change); !valid) return valid;
   if (change.radius) changing(step::SetRadius{body, *change.radius}).set_radius(body, *change.radius);
+  if (change.radius_rate)
+    changing(step::SetRadiusRate{body, *change.radius_rate}).set_radius_rate(body, *change.radius_rate);
   if (change.motion_limits) {
     changing(step::SetMotionLimits{body, *change.motion_limits})
         .set_motion_limits(body, *change.motion_limits);

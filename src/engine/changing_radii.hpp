@@ -1,0 +1,59 @@
+// ChangingRadii stores how the radii of bodies change with time.
+//
+// The rate is a part of the growth speed of the body's bound, whatever its sign: then each certificate holds
+// for a radius that grows, and for one that shrinks it is early. A report gives the bound the radius that the
+// body has by then.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace kinesphere {
+
+struct ChangingRadius {
+  double rate = 0.0;    ///< BodyDefinition::radius_rate
+  double radius = 0.0;  ///< at `time` (length)
+  double time = 0.0;
+  double velocity_error = 0.0;  ///< the rest of the bound's growth speed
+  bool is_kept = false;         ///< true for a body whose radius changes, or has changed
+
+  double at(double now) const { return std::max(radius + rate * (now - time), 0.0); }
+  /// A ball that has shrunk to a point stays one.
+  double rate_at(double now) const { return rate < 0.0 && at(now) == 0.0 ? 0.0 : rate; }
+
+  static void serialize(auto& self, auto& archive) {
+    auto& [rate, radius, time, velocity_error, is_kept] = self;
+    archive(rate, radius, time, velocity_error, is_kept);
+  }
+};
+
+class ChangingRadii {
+ public:
+  /// Returns nullptr for a body whose radius has never changed with time.
+  const ChangingRadius* find(std::uint32_t number) const {
+    return number < records_.size() && records_[number].is_kept ? &records_[number] : nullptr;
+  }
+  ChangingRadius* find(std::uint32_t number) {
+    return number < records_.size() && records_[number].is_kept ? &records_[number] : nullptr;
+  }
+  /// Returns a copy of the record of the body, for keep().
+  ChangingRadius of(std::uint32_t number) const { return find(number) ? records_[number] : ChangingRadius{}; }
+  void keep(std::uint32_t number, const ChangingRadius& record) {
+    if (record.is_kept && number >= records_.size()) records_.resize(number + std::size_t{1});
+    if (number < records_.size()) records_[number] = record;
+  }
+
+  /// Validates the table after reading, except for the records themselves.
+  bool is_valid(std::size_t bodies) const { return records_.size() <= bodies; }
+  static void serialize(auto& self, auto& archive) {
+    auto& [records] = self;
+    archive(records);
+  }
+
+ private:
+  std::vector<ChangingRadius> records_;  ///< by body number, up to the last body whose radius has changed
+};
+
+}  // namespace kinesphere
