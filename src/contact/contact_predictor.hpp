@@ -22,6 +22,7 @@ struct RelativeLimits {
   double speed_error;
   double acceleration;
   double radius_rates = 0.0;  ///< sum of the magnitudes of the rates at which the radii change
+  double shrinking = 0.0;     ///< sum of the speeds at which the radii shrink
 };
 
 /// Horizon of a prediction, per kind of search: a time later than the horizon counts as never.
@@ -56,9 +57,17 @@ EventKind kind_of(ContactRule::Change change, bool sensed, Wall wall);
 template <class Partner>
 class ContactPredictor {
  public:
+  /// `shrinking` is the speed (length / time) at which the radii of the two shrink up to the horizon of a
+  /// meeting. Positive only with fresh reports: bounds grow by it.
   ContactPredictor(const ContactRule& rule, const Threshold& threshold, const Bound& bound,
-                   const Partner& partner, double now, const Horizon& horizon)
-      : rule_(rule), threshold_(threshold), bound_(bound), partner_(partner), now_(now), horizons_(horizon) {}
+                   const Partner& partner, double now, const Horizon& horizon, double shrinking = 0.0)
+      : rule_(rule),
+        threshold_(threshold),
+        bound_(bound),
+        partner_(partner),
+        now_(now),
+        horizons_(horizon),
+        shrinking_(shrinking) {}
 
   /// Returns a time before which the threshold cannot be crossed, from the present bounds; `now` if fresh
   /// reports are needed. The bounds give a useful certificate only while they are clear of the gap at which
@@ -81,9 +90,7 @@ class ContactPredictor {
   double until_separated() const { return std::max(separation(rule_.release_gap()), just_after(now_)); }
 
  private:
-  double meeting(double gap) const {
-    return earliest_meeting(bound_, partner_, now_, horizons_.meeting, gap + threshold_.distance);
-  }
+  double meeting(double gap) const;
   double separation(double gap) const {
     return earliest_separation(bound_, partner_, now_, horizons_.separation, gap + threshold_.distance);
   }
@@ -96,6 +103,7 @@ class ContactPredictor {
   const Partner& partner_;
   double now_;
   Horizon horizons_;
+  double shrinking_;
 };
 
 /// Returns true if exact bounds with the same planned acceleration recede by more than rounding could hide:

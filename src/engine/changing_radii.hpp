@@ -21,7 +21,10 @@ struct ChangingRadius {
 
   double at(double now) const { return std::max(radius + rate * (now - time), 0.0); }
   /// A ball that has shrunk to a point stays one.
-  double rate_at(double now) const { return rate < 0.0 && at(now) == 0.0 ? 0.0 : rate; }
+  double rate_at(double now) const { return shrinks(now) || rate > 0.0 ? rate : 0.0; }
+  bool shrinks(double now) const { return rate < 0.0 && at(now) > 0.0; }
+  /// Returns when the radius is 0. Precondition: it shrinks.
+  double end() const { return time - radius / rate; }
 
   static void serialize(auto& self, auto& archive) {
     auto& [rate, radius, time, velocity_error, is_kept] = self;

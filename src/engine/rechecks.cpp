@@ -59,24 +59,41 @@ Result<void> EventProcessor::probe_stale_of(std::uint32_t a, std::uint32_t b) {
   return probe(std::span(order).first(asks_both ? 2 : 1), touching ? ProbeCause::touching : ProbeCause::near);
 }
 
+/// Returns how fast the radii of bodies shrink together, and until when: up to `end`, or until one is 0.
+EventProcessor::Shrinking EventProcessor::shrinking(std::initializer_list<std::uint32_t> numbers,
+                                                    double end) const {
+  Shrinking all{0.0, end};
+  for (const std::uint32_t number : numbers) {
+    const ChangingRadius* const changing = bodies().radii.find(number);
+    if (changing == nullptr || !changing->shrinks(time_)) continue;
+    all.speed -= changing->rate;
+    all.until = std::min(all.until, std::max(changing->end(), just_after(time_)));
+  }
+  return all;
+}
+
 /// Applies the contact rule to the fresh reports of two bodies. Returns the time of the next recheck, or
 /// nullopt if an event must be delivered first.
 std::optional<double> EventProcessor::decide_pair(std::uint32_t a, std::uint32_t b) {
   const PairCertifier certifier = this->certifier();
   const double end = certifier.earliest_window_end(a, b);
+  const Shrinking shrinking = this->shrinking({a, b}, end);
   const RelativeLimits sum{bodies().velocity_error(a) + bodies().velocity_error(b),
                            bodies().largest_acceleration(a) + bodies().largest_acceleration(b),
-                           std::abs(bodies().radius_rate(a)) + std::abs(bodies().radius_rate(b))};
+                           std::abs(bodies().radius_rate(a)) + std::abs(bodies().radius_rate(b)),
+                           shrinking.speed};
   std::optional<double> next = infinity;
   visit_pair(bodies(), a, b, [&](const Bound& bound, const auto& partner) {
     certifier.for_each_threshold(a, b, [&](const Threshold& threshold) {
       ++work_.counters.certificates;
-      const ContactPredictor predictor(contacts().rule(), threshold, bound, partner, time_, {end, end});
+      const ContactPredictor predictor(contacts().rule(), threshold, bound, partner, time_,
+                                       {shrinking.until, end}, shrinking.speed);
       const auto known =
           decide(predictor, threshold, sum, [&] { return contact(EventKind::zeno_guard, a, b); });
       next = next && known ? std::optional(std::min(*next, *known)) : std::nullopt;
     });
   });
+  if (next && shrinking.until < end) next = std::min(*next, shrinking.until);
   return next;
 }
 
@@ -151,8 +168,9 @@ Result<void> EventProcessor::recheck_walls(std::uint32_t number) {
 std::optional<double> EventProcessor::decide_walls(std::uint32_t number) {
   const Body& body = bodies()[number];
   const double end = certifier().window_end_of(number);
+  const Shrinking shrinking = this->shrinking({number}, end);
   const RelativeLimits limits{bodies().velocity_error(number), bodies().largest_acceleration(number),
-                              std::abs(bodies().radius_rate(number))};
+                              std::abs(bodies().radius_rate(number)), shrinking.speed};
   const CollisionShape shape = collision_shape_of(bodies(), number);
   const Box near = walls_in_reach(contacts().rule(), body.bound, *bodies().walls(), time_, end);
   double first = infinity;
@@ -162,12 +180,14 @@ std::optional<double> EventProcessor::decide_walls(std::uint32_t number) {
     const HalfSpace inside = half_space(*bodies().walls(), wall);
     const Threshold threshold = contacts().wall_threshold(number, wall, body.contact_events);
     const auto next = visit_wall(shape, inside, [&](const Bound& bound, const auto& partner) {
-      const ContactPredictor predictor(contacts().rule(), threshold, bound, partner, time_, {end, end});
+      const ContactPredictor predictor(contacts().rule(), threshold, bound, partner, time_,
+                                       {shrinking.until, end}, shrinking.speed);
       return decide(predictor, threshold, limits,
                     [&] { return wall_contact(EventKind::zeno_guard, number, wall); });
     });
     if (next) first = std::min(first, *next);
   }
+  if (shrinking.until < end) first = std::min(first, shrinking.until);
   return first;
 }
 

@@ -60,9 +60,10 @@ class World::Engine::Audit {
   }
 
   /// True if reports of the body are exact. A noisy report may violate an earlier bound although the true
-  /// body does not.
+  /// body does not. Certificates of a ball that shrinks can be better than its bound.
   bool exact(std::uint32_t number) const {
-    return body(number).position_error == 0.0 && engine_.bodies().velocity_error(number) == 0.0;
+    return body(number).position_error == 0.0 && engine_.bodies().velocity_error(number) == 0.0 &&
+           engine_.bodies().radius_rate(number) >= 0.0;
   }
 
   void check_absence(std::uint32_t number) {
