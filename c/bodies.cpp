@@ -234,6 +234,11 @@ ks_status ks_world_set_radius(ks_world world, ks_body_id body, double radius) {
                      [&](World& of, BodyId id) { return of.change(id, {.radius = radius}); });
 }
 
+ks_status ks_world_set_radius_rate(ks_world world, ks_body_id body, double rate) {
+  return change_body(__func__, world, body,
+                     [&](World& of, BodyId id) { return of.change(id, {.radius_rate = rate}); });
+}
+
 ks_status ks_world_set_mass(ks_world world, ks_body_id body, double mass) {
   return change_body(__func__, world, body,
                      [&](World& of, BodyId id) { return of.change(id, {.mass = mass}); });

@@ -188,6 +188,8 @@ namespace Kinesphere
         }
         public void Teleport(BodyId body, State state) { Native.Check(Native.ks_world_teleport(handle, body, ref state)); }
         public void SetRadius(BodyId body, double radius) { Native.Check(Native.ks_world_set_radius(handle, body, radius)); }
+        /// <summary>Lets the radius of a ball change at this rate (length / time); negative for one that shrinks.</summary>
+        public void SetRadiusRate(BodyId body, double rate) { Native.Check(Native.ks_world_set_radius_rate(handle, body, rate)); }
         public void SetFilter(BodyId body, Filter filter) { Native.Check(Native.ks_world_set_filter(handle, body, ref filter)); }
         public void Disable(BodyId body) { Native.Check(Native.ks_world_disable(handle, body)); }
         public void Enable(BodyId body, State state) { Native.Check(Native.ks_world_enable(handle, body, ref state)); }

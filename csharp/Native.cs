@@ -610,6 +610,7 @@ namespace Kinesphere
         [DllImport(library)] public static extern int ks_world_remove(ulong world, BodyId[] bodies, UIntPtr count);
         [DllImport(library)] public static extern int ks_world_set_velocity(ulong world, BodyId body, Vector velocity);
         [DllImport(library)] public static extern int ks_world_teleport(ulong world, BodyId body, ref State state);
+        [DllImport(library)] public static extern int ks_world_set_radius_rate(ulong world, BodyId body, double rate);
         [DllImport(library)] public static extern int ks_world_set_radius(ulong world, BodyId body, double radius);
         [DllImport(library)] public static extern int ks_world_set_filter(ulong world, BodyId body, ref Filter filter);
         [DllImport(library)]

@@ -417,6 +417,9 @@ KS_API ks_status ks_world_set_rotation_probe(ks_world world, ks_rotation_probe p
 /// Puts a body elsewhere, in its motion, too.
 KS_API ks_status ks_world_teleport(ks_world world, ks_body_id body, const ks_state* state);
 KS_API ks_status ks_world_set_radius(ks_world world, ks_body_id body, double radius);
+/// Lets the radius of a ball change at this rate (length / time) from the current time on; negative for one
+/// that shrinks, which stays a point once it is one.
+KS_API ks_status ks_world_set_radius_rate(ks_world world, ks_body_id body, double rate);
 KS_API ks_status ks_world_set_mass(ks_world world, ks_body_id body, double mass);
 KS_API ks_status ks_world_set_motion_limits(ks_world world, ks_body_id body, const ks_motion_limits* limits);
 KS_API ks_status ks_world_set_shape(ks_world world, ks_body_id body, const ks_shape* shape);

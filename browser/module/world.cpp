@@ -162,6 +162,10 @@ KINESPHERE_EXPORT(world_teleport) bool world_teleport(World* world, double body,
 KINESPHERE_EXPORT(world_set_radius) bool world_set_radius(World* world, double body, double radius) {
   return is_good(world->change(body_of(body), {.radius = radius}));
 }
+KINESPHERE_EXPORT(world_set_radius_rate)
+bool world_set_radius_rate(World* world, double body, double rate) {
+  return is_good(world->change(body_of(body), {.radius_rate = rate}));
+}
 KINESPHERE_EXPORT(world_set_shape)
 bool world_set_shape(World* world, double body, int kind, const double* shape) {
   return is_good(world->set_shape(body_of(body), shape_at(kind, shape)));

@@ -308,6 +308,14 @@ void set_radius(WorldHandle& handle, const py::object& bodies, const py::object&
               [&](BodyId body, std::size_t k) { return handle.world.change(body, {.radius = each[k]}); });
 }
 
+void set_radius_rate(WorldHandle& handle, const py::object& bodies, const py::object& rates) {
+  const std::vector<double> each =
+      each_of(rates, {"set_radius_rate", "rates"}, ids_of(bodies, {"set_radius_rate", "bodies"}).ids.size());
+  change_each(handle, bodies, "set_radius_rate", [&](BodyId body, std::size_t k) {
+    return handle.world.change(body, {.radius_rate = each[k]});
+  });
+}
+
 void set_shape(WorldHandle& handle, const py::object& body, const py::object& shape) {
   const auto turn = handle.take("set_shape");
   require(
@@ -461,6 +469,11 @@ changed.)")
            R"(Gives a static body or a zone another shape from now on: it grows, shrinks or moves.
 
 Only true changes are told: who stays inside a zone neither leaves nor enters.)")
+      .def("set_radius_rate", set_radius_rate, py::arg("bodies"), py::arg("rates"),
+           R"(Lets the radii of balls change at these rates (length / time) from now on.
+
+A rate below 0 is that of a ball that shrinks; it stays a point once it is one. Events have the speed at which the
+surfaces approach, and body() has the present radius. Such a ball cannot sleep.)")
       .def("set_mass", set_mass, py::arg("bodies"), py::arg("masses"),
            "The masses (>= 0) that events have from now on; see add().")
       .def("set_motion_limits", set_motion_limits, py::arg("bodies"), py::arg("acceleration_limit"),

@@ -446,6 +446,7 @@ extern "C" {
     pub fn ks_world_set_velocity(world: ks_world, body: BodyId, velocity: Vec3) -> ks_status;
     pub fn ks_world_teleport(world: ks_world, body: BodyId, state: *const State) -> ks_status;
     pub fn ks_world_set_radius(world: ks_world, body: BodyId, radius: f64) -> ks_status;
+    pub fn ks_world_set_radius_rate(world: ks_world, body: BodyId, rate: f64) -> ks_status;
     pub fn ks_world_set_mass(world: ks_world, body: BodyId, mass: f64) -> ks_status;
     pub fn ks_world_set_motion_limits(world: ks_world, body: BodyId, limits: *const ks_motion_limits) -> ks_status;
     pub fn ks_world_set_shape(world: ks_world, body: BodyId, shape: *const ks_shape) -> ks_status;

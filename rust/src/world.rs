@@ -400,6 +400,11 @@ impl World {
     pub fn set_radius(&mut self, body: BodyId, radius: f64) -> Result<()> {
         check(unsafe { sys::ks_world_set_radius(self.handle, body, radius) })
     }
+    /// Lets the radius of a ball change at this rate (length / time) from the current time on; negative for one
+    /// that shrinks, which stays a point once it is one.
+    pub fn set_radius_rate(&mut self, body: BodyId, rate: f64) -> Result<()> {
+        check(unsafe { sys::ks_world_set_radius_rate(self.handle, body, rate) })
+    }
     pub fn set_mass(&mut self, body: BodyId, mass: f64) -> Result<()> {
         check(unsafe { sys::ks_world_set_mass(self.handle, body, mass) })
     }

@@ -63,13 +63,13 @@ double ContactPredictor<Partner>::until_reports() const {
 template <class Partner>
 double ContactPredictor<Partner>::meeting(double gap) const {
   const double distance = gap + threshold_.distance;
-  if (is_rigid_pair<Partner> || shrinking_ == 0.0)
+  if (is_rigid_pair<Partner> || excess_growth_ == 0.0)
     return earliest_meeting(bound_, partner_, now_, horizons_.meeting, distance);
   // Rounding margins count a falling radius as one that grows less; what they lack is far below this part.
-  constexpr double part_kept = 0x1p-40;
-  Bound shrinks = bound_;
-  shrinks.growth_speed -= (2.0 - part_kept) * shrinking_;
-  return earliest_meeting(shrinks, partner_, now_, horizons_.meeting, distance);
+  constexpr double part_kept = 0x1p-44;
+  Bound true_growth = bound_;
+  true_growth.growth_speed -= (1.0 - part_kept) * excess_growth_;
+  return earliest_meeting(true_growth, partner_, now_, horizons_.meeting, distance);
 }
 
 template <class Partner>
@@ -111,7 +111,7 @@ ContactDecision ContactPredictor<Partner>::decide(const Event& current, const Re
   double time = meeting(rule_.guarded_gap(gap));
   const double hidden_approach = std::max(current.approach_speed + error, 0.0);
   // Certificates of rigid bodies do not know that a ball shrinks.
-  const double unknown_speed = limits.speed_error + (is_rigid_pair<Partner> ? 2.0 * limits.shrinking : 0.0);
+  const double unknown_speed = limits.speed_error + (is_rigid_pair<Partner> ? limits.excess_growth : 0.0);
   const double least = now_ + rule_.least_step(beyond, unknown_speed + hidden_approach, limits.acceleration);
   if (time < least) {
     // The Zeno guard: time must advance between two checks of a contact that does not approach.

@@ -21,8 +21,8 @@ double just_after(double time);
 struct RelativeLimits {
   double speed_error;
   double acceleration;
-  double radius_rates = 0.0;  ///< sum of the magnitudes of the rates at which the radii change
-  double shrinking = 0.0;     ///< sum of the speeds at which the radii shrink
+  double radius_rates = 0.0;   ///< sum of the magnitudes of the rates at which the radii change
+  double excess_growth = 0.0;  ///< see ContactPredictor()
 };
 
 /// Horizon of a prediction, per kind of search: a time later than the horizon counts as never.
@@ -57,17 +57,17 @@ EventKind kind_of(ContactRule::Change change, bool sensed, Wall wall);
 template <class Partner>
 class ContactPredictor {
  public:
-  /// `shrinking` is the speed (length / time) at which the radii of the two shrink up to the horizon of a
-  /// meeting. Positive only with fresh reports: bounds grow by it.
+  /// `excess_growth` is the speed (length / time) by which the two bounds grow faster than the bodies do, up
+  /// to the horizon of a meeting: positive if a radius shrinks. It must be 0 unless both reports are fresh.
   ContactPredictor(const ContactRule& rule, const Threshold& threshold, const Bound& bound,
-                   const Partner& partner, double now, const Horizon& horizon, double shrinking = 0.0)
+                   const Partner& partner, double now, const Horizon& horizon, double excess_growth = 0.0)
       : rule_(rule),
         threshold_(threshold),
         bound_(bound),
         partner_(partner),
         now_(now),
         horizons_(horizon),
-        shrinking_(shrinking) {}
+        excess_growth_(excess_growth) {}
 
   /// Returns a time before which the threshold cannot be crossed, from the present bounds; `now` if fresh
   /// reports are needed. The bounds give a useful certificate only while they are clear of the gap at which
@@ -103,7 +103,7 @@ class ContactPredictor {
   const Partner& partner_;
   double now_;
   Horizon horizons_;
-  double shrinking_;
+  double excess_growth_;
 };
 
 /// Returns true if exact bounds with the same planned acceleration recede by more than rounding could hide:

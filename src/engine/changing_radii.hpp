@@ -19,11 +19,11 @@ struct ChangingRadius {
   double velocity_error = 0.0;  ///< the rest of the bound's growth speed
   bool is_kept = false;         ///< true for a body whose radius changes, or has changed
 
-  double at(double now) const { return std::max(radius + rate * (now - time), 0.0); }
+  double at(double now) const { return is_point(now) ? 0.0 : std::max(radius + rate * (now - time), 0.0); }
+  double rate_at(double now) const { return is_point(now) ? 0.0 : rate; }
   /// A ball that has shrunk to a point stays one.
-  double rate_at(double now) const { return shrinks(now) || rate > 0.0 ? rate : 0.0; }
-  bool shrinks(double now) const { return rate < 0.0 && at(now) > 0.0; }
-  /// Returns when the radius is 0. Precondition: it shrinks.
+  bool is_point(double now) const { return rate < 0.0 && now >= end(); }
+  /// Returns when the radius is 0. Precondition: the rate is negative.
   double end() const { return time - radius / rate; }
 
   static void serialize(auto& self, auto& archive) {

@@ -59,15 +59,16 @@ Result<void> EventProcessor::probe_stale_of(std::uint32_t a, std::uint32_t b) {
   return probe(std::span(order).first(asks_both ? 2 : 1), touching ? ProbeCause::touching : ProbeCause::near);
 }
 
-/// Returns how fast the radii of bodies shrink together, and until when: up to `end`, or until one is 0.
-EventProcessor::Shrinking EventProcessor::shrinking(std::initializer_list<std::uint32_t> numbers,
-                                                    double end) const {
-  Shrinking all{0.0, end};
+/// Returns by how much the bounds of bodies with fresh reports grow faster than the bodies, and until when:
+/// up to `end`, or until one that shrinks is a point.
+EventProcessor::ExcessGrowth EventProcessor::excess_growth(std::initializer_list<std::uint32_t> numbers,
+                                                           double end) const {
+  ExcessGrowth all{0.0, end};
   for (const std::uint32_t number : numbers) {
     const ChangingRadius* const changing = bodies().radii.find(number);
-    if (changing == nullptr || !changing->shrinks(time_)) continue;
-    all.speed -= changing->rate;
-    all.until = std::min(all.until, std::max(changing->end(), just_after(time_)));
+    if (changing == nullptr || changing->rate >= 0.0) continue;
+    all.speed += -changing->rate - changing->rate_at(time_);
+    if (!changing->is_point(time_)) all.until = std::min(all.until, changing->end());
   }
   return all;
 }
@@ -77,23 +78,23 @@ EventProcessor::Shrinking EventProcessor::shrinking(std::initializer_list<std::u
 std::optional<double> EventProcessor::decide_pair(std::uint32_t a, std::uint32_t b) {
   const PairCertifier certifier = this->certifier();
   const double end = certifier.earliest_window_end(a, b);
-  const Shrinking shrinking = this->shrinking({a, b}, end);
+  const ExcessGrowth excess = excess_growth({a, b}, end);
   const RelativeLimits sum{bodies().velocity_error(a) + bodies().velocity_error(b),
                            bodies().largest_acceleration(a) + bodies().largest_acceleration(b),
                            std::abs(bodies().radius_rate(a)) + std::abs(bodies().radius_rate(b)),
-                           shrinking.speed};
+                           excess.speed};
   std::optional<double> next = infinity;
   visit_pair(bodies(), a, b, [&](const Bound& bound, const auto& partner) {
     certifier.for_each_threshold(a, b, [&](const Threshold& threshold) {
       ++work_.counters.certificates;
       const ContactPredictor predictor(contacts().rule(), threshold, bound, partner, time_,
-                                       {shrinking.until, end}, shrinking.speed);
+                                       {excess.until, end}, excess.speed);
       const auto known =
           decide(predictor, threshold, sum, [&] { return contact(EventKind::zeno_guard, a, b); });
       next = next && known ? std::optional(std::min(*next, *known)) : std::nullopt;
     });
   });
-  if (next && shrinking.until < end) next = std::min(*next, shrinking.until);
+  if (next && excess.until < end) next = std::min(*next, excess.until);
   return next;
 }
 
@@ -168,9 +169,9 @@ Result<void> EventProcessor::recheck_walls(std::uint32_t number) {
 std::optional<double> EventProcessor::decide_walls(std::uint32_t number) {
   const Body& body = bodies()[number];
   const double end = certifier().window_end_of(number);
-  const Shrinking shrinking = this->shrinking({number}, end);
+  const ExcessGrowth excess = excess_growth({number}, end);
   const RelativeLimits limits{bodies().velocity_error(number), bodies().largest_acceleration(number),
-                              std::abs(bodies().radius_rate(number)), shrinking.speed};
+                              std::abs(bodies().radius_rate(number)), excess.speed};
   const CollisionShape shape = collision_shape_of(bodies(), number);
   const Box near = walls_in_reach(contacts().rule(), body.bound, *bodies().walls(), time_, end);
   double first = infinity;
@@ -181,13 +182,13 @@ std::optional<double> EventProcessor::decide_walls(std::uint32_t number) {
     const Threshold threshold = contacts().wall_threshold(number, wall, body.contact_events);
     const auto next = visit_wall(shape, inside, [&](const Bound& bound, const auto& partner) {
       const ContactPredictor predictor(contacts().rule(), threshold, bound, partner, time_,
-                                       {shrinking.until, end}, shrinking.speed);
+                                       {excess.until, end}, excess.speed);
       return decide(predictor, threshold, limits,
                     [&] { return wall_contact(EventKind::zeno_guard, number, wall); });
     });
     if (next) first = std::min(first, *next);
   }
-  if (shrinking.until < end) first = std::min(first, shrinking.until);
+  if (excess.until < end) first = std::min(first, excess.until);
   return first;
 }
 

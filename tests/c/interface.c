@@ -297,6 +297,7 @@ static void changes_of_bodies(void) {
   const ks_body_id ball = add_ball(world, &f, vec3(0, 0, 0), vec3(0, 0, 0));
   ks_body_view view = ks_new_body_view();
   CHECK_OK(ks_world_set_radius(world, ball, 2));
+  CHECK_OK(ks_world_set_radius_rate(world, ball, 0));
   CHECK_OK(ks_world_set_mass(world, ball, 3));
   const ks_motion_limits limits = {4, 0, 0, {0, 0, -9}};
   CHECK_OK(ks_world_set_motion_limits(world, ball, &limits));

@@ -312,6 +312,7 @@ TEST_P(GrowingBalls, TouchWhenTheirSurfacesMeet) {
   }
   for (const auto& [key, spans] : touching) check_spans(key, spans);
   EXPECT_GT(begins, 10u);
+  EXPECT_LT(world->counters().probes, 20000u);
 }
 
 INSTANTIATE_TEST_SUITE_P(, GrowingBalls,

@@ -534,6 +534,14 @@ export class World extends WorldView {
     const module = theModule();
     module.require(module.call("world_set_radius", this.address, body, radius));
   }
+  /**
+   * Lets the radius of a ball change at this rate (length / time) from now on; negative for one that shrinks, which
+   * stays a point once it is one. Events have the speed at which the surfaces approach.
+   */
+  setRadiusRate(body: BodyId, rate: number): void {
+    const module = theModule();
+    module.require(module.call("world_set_radius_rate", this.address, body, rate));
+  }
   /** Gives a static body or a zone another shape: those that stay in contact with it or inside it get no event. */
   setShape(body: BodyId, shape: Shape): void {
     const module = theModule();
