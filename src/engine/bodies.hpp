@@ -73,7 +73,10 @@ class Bodies {
     const ChangingRadius* const changing = radii.find(number);
     return changing ? changing->at(now) : table_[number].radius;
   }
-  double radius_rate(std::uint32_t number) const { return radii.of(number).rate; }
+  double radius_rate(std::uint32_t number) const {
+    const ChangingRadius* const changing = radii.find(number);
+    return changing ? changing->rate : 0.0;
+  }
   /// Returns the growth speed of the body's bound without the rate of its radius.
   double velocity_error(std::uint32_t number) const {
     const ChangingRadius* const changing = radii.find(number);

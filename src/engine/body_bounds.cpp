@@ -11,6 +11,20 @@ Box cut_box(const Bodies& bodies, const Shape& shape) {
   return bounding_box(shape, 8.0 * coordinate_limit(bodies.definition()));
 }
 
+/// Radius with the position error (length), and rate of the radius (length / time).
+struct Size {
+  double radius;
+  double rate;
+};
+
+/// Returns the size of a body now, if that of any changes with time. Out of line, for worlds where none does.
+[[gnu::noinline]] Size changing_size(const Bodies& bodies, double now, std::uint32_t number) {
+  const Body& body = bodies[number];
+  const ChangingRadius* const changing = bodies.radii.find(number);
+  if (changing == nullptr) return {body.bound.radius, 0.0};
+  return {body.bound.radius + (changing->at(now) - body.radius), changing->rate_at(now)};
+}
+
 }  // namespace
 
 Bound bound_now(const BodyDefinition& body, double now) {
@@ -39,8 +53,9 @@ GapLimits gap_at(const Bodies& bodies, double now, const CollisionShape& a, cons
 
 Sphere sphere_at(const Bodies& bodies, double now, std::uint32_t number) {
   const Bound& bound = bodies[number].bound;
+  const Size size = bodies.radii.any() ? changing_size(bodies, now, number) : Size{bound.radius, 0.0};
   Sphere sphere{bodies.id_of(number),
-                bound.radius,
+                size.radius,
                 {bound.centre_at(now), bound.velocity_at(now)},
                 bodies.shapes.empty() ? nullptr : collision_shape_of(bodies, number).shape,
                 bodies[number].carries_shape,
@@ -48,11 +63,8 @@ Sphere sphere_at(const Bodies& bodies, double now, std::uint32_t number) {
                 bodies.masses.of(number),
                 traits_of(bodies[number]),
                 bodies[number].contact_events,
-                bodies.rigid.find(bodies[number])};
-  if (const ChangingRadius* const changing = bodies.radii.find(number)) {
-    sphere.radius += changing->at(now) - bodies[number].radius;
-    sphere.radius_rate = changing->rate_at(now);
-  }
+                bodies.rigid.find(bodies[number]),
+                size.rate};
   const Space& space = bodies.space();
   if (space.repeats()) sphere.state.position = space.wrapped(sphere.state.position).position;
   return sphere;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace kinesphere {
@@ -34,12 +35,14 @@ struct ChangingRadius {
 
 class ChangingRadii {
  public:
+  /// Returns false as long as no radius has changed with time.
+  bool any() const { return !records_.empty(); }
   /// Returns nullptr for a body whose radius has never changed with time.
   const ChangingRadius* find(std::uint32_t number) const {
-    return number < records_.size() && records_[number].is_kept ? &records_[number] : nullptr;
+    return any() && number < records_.size() && records_[number].is_kept ? &records_[number] : nullptr;
   }
   ChangingRadius* find(std::uint32_t number) {
-    return number < records_.size() && records_[number].is_kept ? &records_[number] : nullptr;
+    return const_cast<ChangingRadius*>(std::as_const(*this).find(number));
   }
   /// Returns a copy of the record of the body, for keep().
   ChangingRadius of(std::uint32_t number) const { return find(number) ? records_[number] : ChangingRadius{}; }

@@ -176,15 +176,10 @@ class alignas(128) EventProcessor {
   void certify_speculatively(std::uint32_t number, std::uint32_t other);
 
   // rechecks.cpp
-  /// Speed (length / time) at which the bounds of some bodies grow faster than the bodies until a time.
-  struct ExcessGrowth {
-    double speed;
-    double until;
-  };
   Result<void> recheck(const PairCertificate& pair);
   Result<void> recheck_pair(std::uint32_t a, std::uint32_t b);
   Result<void> recheck_walls(std::uint32_t number);
-  ExcessGrowth excess_growth(std::initializer_list<std::uint32_t> numbers, double end) const;
+  double note_rates(RelativeLimits& limits, std::initializer_list<std::uint32_t> numbers, double end) const;
   std::optional<double> decide_pair(std::uint32_t a, std::uint32_t b);
   std::optional<double> decide_walls(std::uint32_t number);
   template <class Partner, class EventNow>

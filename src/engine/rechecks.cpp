@@ -59,18 +59,20 @@ Result<void> EventProcessor::probe_stale_of(std::uint32_t a, std::uint32_t b) {
   return probe(std::span(order).first(asks_both ? 2 : 1), touching ? ProbeCause::touching : ProbeCause::near);
 }
 
-/// Returns by how much the bounds of bodies with fresh reports grow faster than the bodies, and until when:
-/// up to `end`, or until one that shrinks is a point.
-EventProcessor::ExcessGrowth EventProcessor::excess_growth(std::initializer_list<std::uint32_t> numbers,
-                                                           double end) const {
-  ExcessGrowth all{0.0, end};
+/// Sets what limits say of radii that change with time. Returns the time until which the excess growth holds:
+/// `end`, or when a ball that shrinks is a point.
+double EventProcessor::note_rates(RelativeLimits& limits, std::initializer_list<std::uint32_t> numbers,
+                                  double end) const {
+  limits.speed_error = 0.0;
   for (const std::uint32_t number : numbers) {
+    limits.speed_error += bodies().velocity_error(number);
     const ChangingRadius* const changing = bodies().radii.find(number);
-    if (changing == nullptr || changing->rate >= 0.0) continue;
-    all.speed += -changing->rate - changing->rate_at(time_);
-    if (!changing->is_point(time_)) all.until = std::min(all.until, changing->end());
+    if (changing == nullptr) continue;
+    limits.radius_rates += std::abs(changing->rate);
+    limits.excess_growth += std::abs(changing->rate) - changing->rate_at(time_);
+    if (changing->rate < 0.0 && !changing->is_point(time_)) end = std::min(end, changing->end());
   }
-  return all;
+  return end;
 }
 
 /// Applies the contact rule to the fresh reports of two bodies. Returns the time of the next recheck, or
@@ -78,23 +80,21 @@ EventProcessor::ExcessGrowth EventProcessor::excess_growth(std::initializer_list
 std::optional<double> EventProcessor::decide_pair(std::uint32_t a, std::uint32_t b) {
   const PairCertifier certifier = this->certifier();
   const double end = certifier.earliest_window_end(a, b);
-  const ExcessGrowth excess = excess_growth({a, b}, end);
-  const RelativeLimits sum{bodies().velocity_error(a) + bodies().velocity_error(b),
-                           bodies().largest_acceleration(a) + bodies().largest_acceleration(b),
-                           std::abs(bodies().radius_rate(a)) + std::abs(bodies().radius_rate(b)),
-                           excess.speed};
+  RelativeLimits sum{bodies()[a].bound.growth_speed + bodies()[b].bound.growth_speed,
+                     bodies().largest_acceleration(a) + bodies().largest_acceleration(b)};
+  const double until = bodies().radii.any() ? note_rates(sum, {a, b}, end) : end;
   std::optional<double> next = infinity;
   visit_pair(bodies(), a, b, [&](const Bound& bound, const auto& partner) {
     certifier.for_each_threshold(a, b, [&](const Threshold& threshold) {
       ++work_.counters.certificates;
-      const ContactPredictor predictor(contacts().rule(), threshold, bound, partner, time_,
-                                       {excess.until, end}, excess.speed);
+      const ContactPredictor predictor(contacts().rule(), threshold, bound, partner, time_, {until, end},
+                                       sum.excess_growth);
       const auto known =
           decide(predictor, threshold, sum, [&] { return contact(EventKind::zeno_guard, a, b); });
       next = next && known ? std::optional(std::min(*next, *known)) : std::nullopt;
     });
   });
-  if (next && excess.until < end) next = std::min(*next, excess.until);
+  if (next && until < end) next = std::min(*next, until);
   return next;
 }
 
@@ -169,9 +169,8 @@ Result<void> EventProcessor::recheck_walls(std::uint32_t number) {
 std::optional<double> EventProcessor::decide_walls(std::uint32_t number) {
   const Body& body = bodies()[number];
   const double end = certifier().window_end_of(number);
-  const ExcessGrowth excess = excess_growth({number}, end);
-  const RelativeLimits limits{bodies().velocity_error(number), bodies().largest_acceleration(number),
-                              std::abs(bodies().radius_rate(number)), excess.speed};
+  RelativeLimits limits{body.bound.growth_speed, bodies().largest_acceleration(number)};
+  const double until = bodies().radii.any() ? note_rates(limits, {number}, end) : end;
   const CollisionShape shape = collision_shape_of(bodies(), number);
   const Box near = walls_in_reach(contacts().rule(), body.bound, *bodies().walls(), time_, end);
   double first = infinity;
@@ -181,14 +180,14 @@ std::optional<double> EventProcessor::decide_walls(std::uint32_t number) {
     const HalfSpace inside = half_space(*bodies().walls(), wall);
     const Threshold threshold = contacts().wall_threshold(number, wall, body.contact_events);
     const auto next = visit_wall(shape, inside, [&](const Bound& bound, const auto& partner) {
-      const ContactPredictor predictor(contacts().rule(), threshold, bound, partner, time_,
-                                       {excess.until, end}, excess.speed);
+      const ContactPredictor predictor(contacts().rule(), threshold, bound, partner, time_, {until, end},
+                                       limits.excess_growth);
       return decide(predictor, threshold, limits,
                     [&] { return wall_contact(EventKind::zeno_guard, number, wall); });
     });
     if (next) first = std::min(first, *next);
   }
-  if (excess.until < end) first = std::min(first, excess.until);
+  if (until < end) first = std::min(first, until);
   return first;
 }
 
