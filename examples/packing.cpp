@@ -1,6 +1,7 @@
 // Balls that grow until they jam (Lubachevsky and Stillinger, 1990): equal balls fly in a box that repeats,
 // bounce off each other and grow, until none can move. Fast growth jams them at random places, which fill
 // about 0.64 of the box; slow growth would give them time to order.
+// Usage: example_packing [number of balls [rate of the radii]]
 #include <kinesphere/kinesphere.hpp>
 
 #include <cmath>
@@ -13,7 +14,7 @@ using namespace kinesphere;
 
 int main(int arguments, char** argument) {
   const int count = arguments > 1 ? std::atoi(argument[1]) : 1000;
-  const double rate = 0.02;  // growth of the radii, beside speeds of about 1
+  const double rate = arguments > 2 ? std::atof(argument[2]) : 0.02;  // beside speeds of about 1
   const Box box{{0, 0, 0}, Vec3{1, 1, 1} * std::cbrt(count)};
   const Axes everywhere{true, true, true};
   const auto filled_at = [](double radius) { return 4 * std::numbers::pi / 3 * radius * radius * radius; };

@@ -55,6 +55,11 @@ TEST(DistributedWorld, TellsOfAGasInASpaceThatRepeats) {
   expect_the_same_as_alone({.scene = scene_of(parameters)}, 100);
 }
 
+TEST(DistributedWorld, TellsOfRadiiThatChange) {
+  expect_the_same_as_alone({.scene = scene_of(parameters_of("paper1", 300, 2.0)), .radius_rate = 0.1}, 300);
+  expect_the_same_as_alone({.scene = scene_of(parameters_of("gas", 200, 1.0)), .radius_rate = 0.02}, 300);
+}
+
 /// Clusters are large, and their bodies come to ranks while these execute.
 TEST(DistributedWorld, TellsOfADenseGasWithSensors) {
   SceneParameters parameters = parameters_of("gas", 220, 0.5);

@@ -38,6 +38,8 @@ struct Setting {
   bool sensors = false;
   std::vector<double> distances{0.4, 1.1};
   double position_error = 0.0;
+  /// Radii grow at this rate, keep or shrink at it, in turn.
+  double radius_rate = 0.0;
   /// Factor by which the bodies' limits are too small.
   double broken = 1.0;
   int threads = 1;
@@ -51,6 +53,7 @@ struct Setting {
     body.user_data = number;
     if (sensors && number % 3 == 0) body.sensor_class = 1;
     if (number % 2 == 1) body.position_error = position_error;
+    body.radius_rate = radius_rate * (1.0 - number % 3);
     if (number % 5 == 2) body.acceleration_limit *= broken;
     return body;
   }

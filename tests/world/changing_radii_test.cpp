@@ -20,6 +20,7 @@
 #include "support/eager_workers.hpp"
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
+#include "support/scenes_of_each.hpp"
 
 namespace kinesphere::changing_radii_test {
 namespace {
@@ -316,10 +317,11 @@ TEST_P(GrowingBalls, TouchWhenTheirSurfacesMeet) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, GrowingBalls,
-                         testing::Values(Scene{false, false, 0.0, 0.0, 1}, Scene{false, false, 2.0, 0.0, 2},
-                                         Scene{true, false, 0.0, 0.0, 3}, Scene{true, false, 2.0, 0.0, 4},
-                                         Scene{false, true, 0.0, 0.0, 5}, Scene{false, true, 2.0, 0.0, 6},
-                                         Scene{true, false, 1.0, 0.01, 7}, Scene{false, true, 1.0, 0.01, 8}));
+                         testing::ValuesIn(scenes_of_each<Scene>(
+                             {Scene{false, false, 0.0, 0.0, 1}, Scene{false, false, 2.0, 0.0, 2},
+                              Scene{true, false, 0.0, 0.0, 3}, Scene{true, false, 2.0, 0.0, 4},
+                              Scene{false, true, 0.0, 0.0, 5}, Scene{false, true, 2.0, 0.0, 6},
+                              Scene{true, false, 1.0, 0.01, 7}, Scene{false, true, 1.0, 0.01, 8}})));
 
 TEST(ChangingRadii, AreMetAndLeftWithTheSpeedOfTheirSurfaces) {
   Playground p({.contact_tolerance = 1e-9});

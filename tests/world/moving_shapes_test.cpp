@@ -18,6 +18,7 @@
 #include "number/infinity.hpp"
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
+#include "support/scenes_of_each.hpp"
 #include "world/surroundings.hpp"
 
 namespace kinesphere::moving_shapes_test {
@@ -223,10 +224,10 @@ TEST_P(RandomMovingShapes, MeetWhatTheyTouch) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, RandomMovingShapes,
-                         testing::Values(Kind{ContactEvents::begin_and_end, 0.0, 1},
-                                         Kind{ContactEvents::begin_and_end, 0.5, 2},
-                                         Kind{ContactEvents::impacts, 0.0, 3},
-                                         Kind{ContactEvents::impacts, 0.01, 4}));
+                         testing::ValuesIn(scenes_of_each<Kind>({Kind{ContactEvents::begin_and_end, 0.0, 1},
+                                                                 Kind{ContactEvents::begin_and_end, 0.5, 2},
+                                                                 Kind{ContactEvents::impacts, 0.0, 3},
+                                                                 Kind{ContactEvents::impacts, 0.01, 4}})));
 
 constexpr Box plate{{-1, -1, 0}, {1, 1, 0.5}};
 

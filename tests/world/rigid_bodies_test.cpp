@@ -16,6 +16,7 @@
 #include "kinesphere/response.hpp"
 #include "number/infinity.hpp"
 #include "support/expect_error.hpp"
+#include "support/scenes_of_each.hpp"
 #include "support/true_hulls.hpp"
 #include "world/surroundings.hpp"
 
@@ -514,10 +515,11 @@ TEST_P(RandomRigidBodies, AreReportedWheneverTheirPartsTouch) {
 
 INSTANTIATE_TEST_SUITE_P(
     Kinds, RandomRigidBodies,
-    testing::Values(Kind{1, 0.0, false, false}, Kind{2, 0.0, true, false}, Kind{3, 8.0, false, false},
-                    Kind{4, 8.0, true, false}, Kind{5, 0.0, false, true}, Kind{6, 8.0, false, true},
-                    Kind{7, 0.0, true, false, true, 10.0, 25}, Kind{8, 8.0, false, false, true, 10.0, 15},
-                    Kind{9, 8.0, false, true, true, 10.0, 40}, Kind{10, 200.0, true, false, true, 100.0, 3}));
+    testing::ValuesIn(scenes_of_each<Kind>(
+        {Kind{1, 0.0, false, false}, Kind{2, 0.0, true, false}, Kind{3, 8.0, false, false},
+         Kind{4, 8.0, true, false}, Kind{5, 0.0, false, true}, Kind{6, 8.0, false, true},
+         Kind{7, 0.0, true, false, true, 10.0, 25}, Kind{8, 8.0, false, false, true, 10.0, 15},
+         Kind{9, 8.0, false, true, true, 10.0, 40}, Kind{10, 200.0, true, false, true, 100.0, 3}})));
 
 /// A dumbbell along x: two balls of radius 0.5 and mass 1, each 1 from the position.
 RigidBody dumbbell(const Vec3& position, const Vec3& velocity = {}, const Vec3& spin = {}) {
