@@ -412,7 +412,7 @@ KS_API ks_status ks_world_set_angular_velocity(ks_world world, ks_body_id body, 
 KS_API ks_status ks_world_set_rotation(ks_world world, ks_body_id body, const ks_rotation* rotation);
 /// Sets the function that gives rotations; NULL removes it. Without one, only rigid bodies that keep their
 /// angular velocity can be probed. Clones call it, too, snapshots do not contain it, and `user` must outlive
-/// the world and its clones. Errors: KS_ERROR_UNSUPPORTED for a world that is being recorded.
+/// the world and its clones. Recordings contain its answers.
 KS_API ks_status ks_world_set_rotation_probe(ks_world world, ks_rotation_probe probe, void* user);
 /// Puts a body elsewhere, in its motion, too.
 KS_API ks_status ks_world_teleport(ks_world world, ks_body_id body, const ks_state* state);

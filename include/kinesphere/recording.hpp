@@ -9,10 +9,10 @@
 //     if (auto event = replay.advance().value()) ...  // replay.world() is as the world was then
 //   }
 //
-// A recording holds the world as it was at the start, every change, every probed state, and the outcome of
-// every call that could probe, with a hash of the event and of all work so far. A replay is a real world
-// whose probe reads from the recording: it needs nothing else, on any machine, and names the first step
-// that differs.
+// A recording holds the world as it was at the start, every change, every probed state and rotation, and the
+// outcome of every call that could probe, with a hash of the event and of all work so far. A replay is a
+// real world whose probes read from the recording: it needs nothing else, on any machine, and names the
+// first step that differs.
 #pragma once
 
 #include <cstddef>

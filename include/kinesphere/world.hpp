@@ -204,7 +204,7 @@ class World {
   Result<BodyId> add_rigid_body(const RigidBody& body);
   /// Sets the function that gives rotations of rigid bodies; an empty one removes it. Without one, only
   /// bodies that keep their angular velocity (angular_acceleration_limit 0) can be probed. Snapshots do not
-  /// contain it. Errors: probe_in_progress; unsupported while the world is recorded.
+  /// contain it, and recordings contain its answers. Errors: probe_in_progress.
   Result<void> set_rotation_probe(RotationProbe probe);
 
   /// Gives a static body, a zone or a moving shape another shape from the current time on: it grows, shrinks,

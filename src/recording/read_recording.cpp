@@ -46,7 +46,7 @@ Result<RecordingContent> read_content(std::span<const std::byte> recording) {
   if (!bytes) return bytes.error();
   RecordingContent content;
   ByteReader reader(*bytes);
-  reader(content.snapshot, content.has_pair_filter);
+  reader(content.snapshot, content.has_pair_filter, content.has_rotation_probe);
   while (!reader.failed() && reader.remaining() > 0) reader(content.steps.emplace_back());
   if (reader.failed() || !is_valid(content.steps))
     return recording_envelope.refusal("must hold a recording, but its content does not have the form of one");

@@ -5,8 +5,20 @@
 
 namespace kinesphere {
 
-Recorder::Recorder(const World& world, bool has_pair_filter) {
-  content_(world.save().value(), has_pair_filter);
+Recorder::Recorder(const World& world, bool has_pair_filter, bool has_rotation_probe) {
+  content_(world.save().value(), has_pair_filter, has_rotation_probe);
+}
+
+RotationProbe Recorder::listen_to(RotationProbe probe) {
+  rotation_probe_ = std::move(probe);
+  if (!rotation_probe_) return {};
+  return [this](std::span<const BodyId> ids, double time, std::span<Rotation> rotations) {
+    // As in Listener: the probe may throw.
+    const std::size_t first = asking_.rotations.size();
+    for (std::size_t k = 0; k < ids.size(); ++k) asking_.rotations.push_back({time, ids[k], rotations[k]});
+    rotation_probe_(ids, time, rotations);
+    for (std::size_t k = 0; k < ids.size(); ++k) asking_.rotations[first + k].rotation = rotations[k];
+  };
 }
 
 std::vector<std::byte> Recorder::finish(const World& world) {
@@ -14,7 +26,9 @@ std::vector<std::byte> Recorder::finish(const World& world) {
   return recording_envelope.seal(std::exchange(content_, {}).bytes());
 }
 
-std::size_t Recorder::memory() const { return sizeof *this + heap_bytes(content_.bytes(), asking_.answers); }
+std::size_t Recorder::memory() const {
+  return sizeof *this + heap_bytes(content_.bytes(), asking_.answers, asking_.rotations);
+}
 
 Recorder::Listener::Listener(Recorder& recorder, const World& world, const Probe& probe,
                              std::optional<double> until)
@@ -22,6 +36,7 @@ Recorder::Listener::Listener(Recorder& recorder, const World& world, const Probe
   step::Asking& asking = recorder_.asking_;
   asking.until = until;
   asking.answers.clear();
+  asking.rotations.clear();
   asking.failed = true;
   asking.event.reset();
 }

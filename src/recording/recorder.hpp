@@ -8,10 +8,16 @@ namespace kinesphere {
 class Recorder {
  public:
   /// Starts a recording with a snapshot of the world. Precondition: no probe of the world is running.
-  Recorder(const World& world, bool has_pair_filter);
+  Recorder(const World& world, bool has_pair_filter, bool has_rotation_probe);
 
   /// Records a change of the world.
   void note(const Step& change) { content_(change); }
+
+  /// Returns a probe that asks `probe` and records its answers; an empty one if `probe` is empty. The
+  /// recorder must outlive it.
+  RotationProbe listen_to(RotationProbe probe);
+  /// Returns the probe that is listened to.
+  const RotationProbe& rotation_probe() const { return rotation_probe_; }
 
   /// Returns the complete recording and leaves the recorder empty.
   std::vector<std::byte> finish(const World& world);
@@ -25,6 +31,7 @@ class Recorder {
   ByteWriter content_;
   StepHash hash_;
   step::Asking asking_;  ///< Member, so that its memory is reused.
+  RotationProbe rotation_probe_;
 };
 
 /// A probe that forwards each call to another probe and records its answers. The destructor completes the

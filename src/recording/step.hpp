@@ -117,6 +117,16 @@ struct SetPairFilter {
   }
 };
 
+/// Change of the rotation probe; it holds only whether there is one.
+struct SetRotationProbe {
+  bool given = false;
+
+  static void serialize(auto& self, auto& archive) {
+    auto& [is_given] = self;
+    archive(is_given);
+  }
+};
+
 /// A probed state, as one of several that a single probe call returned.
 struct Answer {
   ProbedState report{};
@@ -128,17 +138,30 @@ struct Answer {
   }
 };
 
+/// A rotation that the rotation probe returned.
+struct RotationAnswer {
+  double time = 0.0;
+  BodyId body{};
+  Rotation rotation{};
+
+  static void serialize(auto& self, auto& archive) {
+    auto& [asked, id, answer] = self;
+    archive(asked, id, answer);
+  }
+};
+
 /// A call that probed: advance(), or any other call with a probe.
 struct Asking {
   std::optional<double> until{};  ///< The argument of advance(); empty for other calls.
   std::vector<Answer> answers{};
+  std::vector<RotationAnswer> rotations{};
   bool failed = true;  ///< The last answer was refused, or the probe threw.
   std::optional<Event> event{};
   std::uint64_t hash = 0;  ///< StepHash of all outcomes so far.
 
   static void serialize(auto& self, auto& archive) {
-    auto& [advance_until, all_answers, has_failed, outcome, running_hash] = self;
-    archive(advance_until, all_answers, has_failed, outcome, running_hash);
+    auto& [advance_until, all_answers, all_rotations, has_failed, outcome, running_hash] = self;
+    archive(advance_until, all_answers, all_rotations, has_failed, outcome, running_hash);
   }
 };
 
@@ -162,7 +185,7 @@ using Step =
                  step::SetPairFilter, step::RefreshFilter, step::SetSolid, step::SetSensor,
                  step::SetSensorClass, step::SetUserData, step::End, step::SleepBody, step::Wake,
                  step::SetShape, step::SetMass, step::AddMovingShape, step::AddRigidBody,
-                 step::SetAngularVelocity, step::SetRotation, step::SetRadiusRate>;
+                 step::SetAngularVelocity, step::SetRotation, step::SetRadiusRate, step::SetRotationProbe>;
 
 /// Running hash over the outcomes of all steps so far: events to the last bit, and all work counters.
 class StepHash {
@@ -179,6 +202,7 @@ class StepHash {
 struct RecordingContent {
   std::vector<std::byte> snapshot{};
   bool has_pair_filter = false;
+  bool has_rotation_probe = false;
   std::vector<Step> steps{};
 };
 

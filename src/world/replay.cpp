@@ -1,6 +1,7 @@
 // Replay: drives a world from a recording, and compares the two at each step.
 #include <array>
 #include <cstdio>
+#include <functional>
 #include <limits>
 #include <string>
 #include <utility>
@@ -85,8 +86,10 @@ class RecordedProbe {
 
 class Replay::Player {
  public:
-  Player(World world, std::vector<Step> steps, PairFilter pair_filter)
-      : world_(std::move(world)), steps_(std::move(steps)), pair_filter_(std::move(pair_filter)) {}
+  Player(World world, RecordingContent content, PairFilter pair_filter)
+      : world_(std::move(world)), steps_(std::move(content.steps)), pair_filter_(std::move(pair_filter)) {
+    set_rotation_probe(content.has_rotation_probe).value();
+  }
 
   Result<std::optional<Event>> advance() {
     while (!finished()) {
@@ -119,8 +122,20 @@ class Replay::Player {
       diverge("expected a change that can be made, but found: " + made.error().message);
   }
 
+  void repeat(const step::SetRotationProbe& change) {
+    if (const auto made = set_rotation_probe(change.given); !made)
+      diverge("expected a change that can be made, but found: " + made.error().message);
+  }
+
+  Result<void> set_rotation_probe(bool given) {
+    RotationProbe probe;
+    if (given) probe = std::ref(rotations_);
+    return world_.set_rotation_probe(std::move(probe));
+  }
+
   void repeat(const step::Asking& recorded) {
     step::Asking found;
+    rotations_.start(recorded.rotations);
     RecordedProbe probe(recorded.answers);
     std::string refused;
     if (recorded.until) {
@@ -135,6 +150,8 @@ class Replay::Player {
     }
     hash_.add(world_, found);
     if (const auto difference = probe.difference(); !difference.empty()) return diverge(difference);
+    if (!rotations_.are_complete())
+      return diverge("expected the rotations of other bodies, or at other times, to be asked for");
     if (found.failed == recorded.failed && bytes_of(found.event) == bytes_of(recorded.event)) {
       if (hash_.value() == recorded.hash) return;
       return diverge("expected the hash " + hex(recorded.hash) + ", but found " + hex(hash_.value()) + ": " +
@@ -171,9 +188,36 @@ class Replay::Player {
                   std::to_string(steps_.size()) + " at time " + text_of(world_.time()) + ": " + what};
   }
 
+  /// Returns the recorded rotations of a call while the questions match the recording.
+  class RecordedRotations {
+   public:
+    void start(const std::vector<step::RotationAnswer>& answers) {
+      answers_ = answers;
+      differs_ = false;
+    }
+    /// Leaves the rotations invalid, which makes the asking call fail, from the first question on that
+    /// differs.
+    void operator()(std::span<const BodyId> ids, double time, std::span<Rotation> rotations) {
+      for (std::size_t k = 0; k < ids.size() && !differs_; ++k) {
+        differs_ =
+            answers_.empty() || answers_.front().body != ids[k] || !same_bits(answers_.front().time, time);
+        if (differs_) break;
+        rotations[k] = answers_.front().rotation;
+        answers_ = answers_.subspan(1);
+      }
+    }
+    /// Returns true if the questions so far have been all of the recorded ones, and no others.
+    bool are_complete() const { return !differs_ && answers_.empty(); }
+
+   private:
+    std::span<const step::RotationAnswer> answers_;
+    bool differs_ = false;
+  };
+
   World world_;
   std::vector<Step> steps_;
   PairFilter pair_filter_;
+  RecordedRotations rotations_;
   std::size_t next_ = 0;
   StepHash hash_;
   std::optional<Error> divergence_;
@@ -193,8 +237,7 @@ Result<Replay> Replay::open(std::span<const std::byte> recording, PairFilter pai
   }
   auto world = World::restore(content->snapshot, content->has_pair_filter ? pair_filter : PairFilter());
   if (!world) return world.error();
-  return Replay(
-      std::make_unique<Player>(std::move(*world), std::move(content->steps), std::move(pair_filter)));
+  return Replay(std::make_unique<Player>(std::move(*world), std::move(*content), std::move(pair_filter)));
 }
 
 Replay::Replay(std::unique_ptr<Player> player) : player_(std::move(player)) {}

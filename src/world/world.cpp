@@ -311,6 +311,7 @@ Result<World> World::restore(std::span<const std::byte> snapshot, PairFilter pai
 Result<World> World::clone() const {
   if (auto idle = Preconditions(*this, "clone").idle(); !idle) return idle.error();
   World copy(std::make_unique<Engine>(*engine_));
+  if (recorder_) copy.changeable().changes().set_rotation_probe(recorder_->rotation_probe());
   if (undelivered_) copy.undelivered_ = std::make_unique<UndeliveredEvents>(*undelivered_);
   return copy;
 }
@@ -321,10 +322,10 @@ Result<void> World::start_recording() {
   if (recorder_)
     return Error{ErrorCode::recording, "world", no_body,
                  "start_recording: the world is being recorded already"};
-  if (engine_->bodies().rigid.probe)
-    return Error{ErrorCode::unsupported, "world", no_body,
-                 "start_recording: a recording contains no rotations, but the world has a rotation probe"};
-  recorder_ = std::make_unique<Recorder>(*this, engine_->bodies().filters.has_pair_filter());
+  const RotationProbe& rotations = engine_->bodies().rigid.probe;
+  recorder_ = std::make_unique<Recorder>(*this, engine_->bodies().filters.has_pair_filter(),
+                                         static_cast<bool>(rotations));
+  changeable().changes().set_rotation_probe(recorder_->listen_to(rotations));
   return {};
 }
 
@@ -334,6 +335,7 @@ Result<std::vector<std::byte>> World::stop_recording() {
   if (!recorder_)
     return Error{ErrorCode::not_recording, "world", no_body,
                  "stop_recording: the world is not being recorded"};
+  changeable().changes().set_rotation_probe(recorder_->rotation_probe());
   return std::exchange(recorder_, nullptr)->finish(*this);
 }
 

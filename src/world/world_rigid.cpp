@@ -17,9 +17,10 @@ Result<BodyId> World::add_rigid_body(const RigidBody& body) {
 Result<void> World::set_rotation_probe(RotationProbe probe) {
   auto valid = Preconditions(*this, "set_rotation_probe").idle();
   if (!valid) return valid;
-  if (recorder_)
-    return Error{ErrorCode::unsupported, "world", no_body,
-                 "set_rotation_probe: a recording contains no rotations, but the world is being recorded"};
+  if (recorder_) {
+    recorder_->note(step::SetRotationProbe{static_cast<bool>(probe)});
+    probe = recorder_->listen_to(std::move(probe));
+  }
   changeable().changes().set_rotation_probe(std::move(probe));
   return {};
 }
