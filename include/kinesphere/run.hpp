@@ -80,7 +80,7 @@ struct Response {
   std::optional<Vec3> first_angular_velocity{};
   std::optional<Vec3> second_angular_velocity{};
   /// Done to the first body, then to the second. The motion source is not told of a removal; the sink may
-  /// remove the body there (BodyMap::remove).
+  /// remove the body there (BodyMap::remove_gone).
   BodyAction first_action = BodyAction::none;
   BodyAction second_action = BodyAction::none;
   /// The world stops at this event, so that the sink can change it: when the sink receives the event,

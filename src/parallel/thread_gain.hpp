@@ -4,7 +4,7 @@
 //
 // Two signs are looked at. Where the threads get hardly more processor time than one thread would, they stand
 // back within milliseconds. Otherwise the costs of both ways are compared, which takes a trial of the other
-// way.
+// way; where they get much more, a short run has none.
 #pragma once
 
 #include <algorithm>
@@ -25,8 +25,9 @@ class ThreadGain {
     shared_cpu_ += cpu;
     shared_wall_ += wall;
     if (!uses_threads_ || shared_wall_ < least_shared) return false;
-    const double all = std::exchange(shared_wall_, 0.0);
-    if (std::exchange(shared_cpu_, 0.0) > least_sharing * all) return false;
+    const double sharing = std::exchange(shared_cpu_, 0.0) / std::exchange(shared_wall_, 0.0);
+    shares_well_ = sharing > good_sharing;
+    if (sharing > least_sharing) return false;
     seconds_ = work_ = 0.0;
     settle(false);
     return true;
@@ -44,6 +45,12 @@ class ThreadGain {
     seconds_ = work_ = 0.0;
     if (is_trial_) return settle(cost_[1] < largest_cost * cost_[0]);
     if (--until_trial_ > 0) return;
+    if (shares_well_ && first_measurements_ < most_first_measurements) {
+      ++first_measurements_;
+      until_trial_ = 1;
+      return;
+    }
+    first_measurements_ = most_first_measurements;
     is_trial_ = true;
     uses_threads_ = !uses_threads_;
   }
@@ -63,18 +70,23 @@ class ThreadGain {
   static constexpr double least_seconds = 0.005;
   /// Wall time of the parallel sections of one look at processor times: some slices of a busy system.
   static constexpr double least_shared = 0.003;
-  /// Processor time for each second that threads have at least. One free processor gives 1.
+  // Processor time of all threads for each second. One free processor gives 1.
   static constexpr double least_sharing = 1.2;
+  static constexpr double good_sharing = 1.6;
+  /// Measurements before the first trial where threads share well: where they lose nevertheless, these are
+  /// lost; a run that is not longer has no trial.
+  static constexpr int most_first_measurements = 4;
   /// Share of the costs of one thread that several may have at most.
   static constexpr double largest_cost = 0.97;
   // Measurements between two trials of the other way: more, the longer the decision holds.
-  static constexpr int first_pause = 4;
   static constexpr int shortest_pause = 16;
   static constexpr int longest_pause = 256;
 
   bool uses_threads_ = true;
-  bool is_trial_ = false;          ///< of the way that is used now
-  int until_trial_ = first_pause;  ///< measurements until the other way is tried
+  bool is_trial_ = false;  ///< of the way that is used now
+  int until_trial_ = 1;    ///< measurements until the other way is tried
+  int first_measurements_ = 1;
+  bool shares_well_ = false;  ///< at the last look
   int pause_ = shortest_pause / 2;
   std::array<double, 2> cost_{};  ///< seconds for a unit of work: alone, with threads
   double seconds_ = 0.0;          ///< of the measurement in progress, as work_

@@ -122,12 +122,13 @@ class PoolLease {
   /// ran since; nullptr if there is one thread alone, or if the threads never stand back.
   ThreadGain* gain_in(const void* world) {
     if (count() == 1 || !pool_->stands_back_) return nullptr;
+    (void)take_sharing();
     if (std::exchange(pool_->gain_in_, world) != world) pool_->gain_ = {};
     return &pool_->gain_;
   }
 
   /// CPU time of all threads in parallel loops since the last call, and the real time of these loops
-  /// (seconds). Precondition: gain_in() returned something.
+  /// (seconds). Precondition: count() > 1.
   std::pair<double, double> take_sharing() {
     return {std::exchange(pool_->shared_cpu_, 0.0), std::exchange(pool_->shared_wall_, 0.0)};
   }
