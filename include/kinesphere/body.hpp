@@ -53,7 +53,7 @@ struct BodyDefinition {
   /// Infinity for a body that moves but that no contact turns; 0 is the limit of small masses. The world does
   /// not interpret it.
   double mass = 1.0;
-  /// g (length / time): the radius at a later time t is max(radius + g (t - now), 0), in events, queries and
+  /// k (length / time): the radius at a later time t is max(radius + k (t - now), 0), in events, queries and
   /// bounds; negative for a ball that shrinks, which stays a point once it is one. Events have the speed at
   /// which the surfaces approach. Not 0 only for a ball; it cannot sleep then.
   double radius_rate = 0.0;
