@@ -21,7 +21,8 @@ ks_world_definition c_world(const WorldDefinition& definition) {
           .zeno_interval = definition.zeno_interval,
           .start_time = definition.start_time,
           .contacts = static_cast<ks_contacts>(definition.contacts),
-          .allow_overlap = definition.allow_overlap};
+          .allow_overlap = definition.allow_overlap,
+          .spread_window_starts = definition.spread_window_starts};
 }
 
 WorldDefinition world_of(std::string_view call, const ks_world_definition& given) {
@@ -36,7 +37,8 @@ WorldDefinition world_of(std::string_view call, const ks_world_definition& given
       .contacts = static_cast<ContactEvents>(given.contacts),
       .allow_overlap = given.allow_overlap != 0,
       .zeno_interval = given.zeno_interval,
-      .start_time = given.start_time};
+      .start_time = given.start_time,
+      .spread_window_starts = given.spread_window_starts != 0};
   if (given.has_box) definition.box = box_of(given.box);
   return definition;
 }

@@ -246,6 +246,7 @@ typedef struct ks_world_definition {
   double start_time;
   ks_contacts contacts;
   int32_t allow_overlap;
+  int32_t spread_window_starts;  ///< 0, or 1 for frames that cost about the same
 } ks_world_definition;
 KS_API ks_status ks_world_definition_init(ks_world_definition* definition, uint32_t struct_size);
 static inline ks_world_definition ks_default_world_definition(void) {

@@ -18,6 +18,7 @@ WorldDefinition definition_at(const double* numbers) {
   definition.allow_overlap = numbers[14] != 0.0;
   definition.zeno_interval = numbers[15];
   definition.start_time = numbers[16];
+  definition.spread_window_starts = numbers[17] != 0.0;
   return definition;
 }
 
@@ -83,7 +84,7 @@ KINESPHERE_EXPORT(world_definition) const WorldDefinition* world_definition(cons
 KINESPHERE_EXPORT(definition_numbers) void definition_numbers(const WorldDefinition* written) {
   const WorldDefinition& definition = *written;
   auto& numbers = answer();
-  numbers.assign(17, 0.0);
+  numbers.assign(18, 0.0);
   if (definition.box) {
     numbers[0] = 1.0;
     put(definition.box->lower, numbers.data() + 1);
@@ -98,6 +99,7 @@ KINESPHERE_EXPORT(definition_numbers) void definition_numbers(const WorldDefinit
   numbers[14] = definition.allow_overlap ? 1.0 : 0.0;
   numbers[15] = definition.zeno_interval;
   numbers[16] = definition.start_time;
+  numbers[17] = definition.spread_window_starts ? 1.0 : 0.0;
 }
 
 KINESPHERE_EXPORT(world_time) double world_time(const World* world) { return world->time(); }

@@ -234,7 +234,7 @@ test("a freed object says so, and may be freed twice", () => {
 
 test("snapshots and clones go on alike", () => {
   const scene = new Scene("paper1", { bodies: 150, seconds: 2 });
-  const world = new World(scene.definition);
+  const world = new World({ ...scene.definition, spreadWindowStarts: true });
   const motion = scene.motion();
   world.addMotion(motion, scene.radii);
   world.run(1, { motion, respond: scene });

@@ -41,6 +41,7 @@ class WorldDefinition(TypedDict):
     allow_overlap: bool
     zeno_interval: float
     start_time: float
+    spread_window_starts: bool
 
 class BodyDefinitions(TypedDict):
     positions: Doubles
@@ -572,6 +573,7 @@ class World:
         allow_overlap: bool = True,
         zeno_interval: float = 0.0,
         start_time: float = 0.0,
+        spread_window_starts: bool = False,
     ) -> None: ...
     @property
     def definition(self) -> WorldDefinition: ...

@@ -21,7 +21,8 @@ const char* name_of(ContactEvents contacts) {
 std::shared_ptr<WorldHandle> create_world(const py::object& box, const py::object& periodic, int dimensions,
                                           double contact_tolerance, const py::object& separation_distance,
                                           const std::string& contacts, bool allow_overlap,
-                                          double zeno_interval, double start_time) {
+                                          double zeno_interval, double start_time,
+                                          bool spread_window_starts) {
   WorldDefinition definition;
   definition.box = box_of(box, {"World", "box"}, dimensions == 2);
   definition.periodic = axes_of(periodic, {"World", "periodic"}, dimensions == 2);
@@ -37,6 +38,7 @@ std::shared_ptr<WorldHandle> create_world(const py::object& box, const py::objec
   definition.allow_overlap = allow_overlap;
   definition.zeno_interval = zeno_interval;
   definition.start_time = start_time;
+  definition.spread_window_starts = spread_window_starts;
   return std::make_shared<WorldHandle>(World::create(definition).value());
 }
 
@@ -104,6 +106,7 @@ py::dict arguments_of(const WorldDefinition& definition) {
   arguments["allow_overlap"] = definition.allow_overlap;
   arguments["zeno_interval"] = definition.zeno_interval;
   arguments["start_time"] = definition.start_time;
+  arguments["spread_window_starts"] = definition.spread_window_starts;
   return arguments;
 }
 
@@ -162,6 +165,7 @@ at a time may use a world; another one is refused with StateError.)");
            py::arg("dimensions") = 3, py::arg("contact_tolerance") = 1e-6,
            py::arg("separation_distance") = py::none(), py::arg("contacts") = "all",
            py::arg("allow_overlap") = true, py::arg("zeno_interval") = 0.0, py::arg("start_time") = 0.0,
+           py::arg("spread_window_starts") = false,
            R"(box: walls, a Box or a pair of corners; without one the world is unbounded.
 periodic: True, or axes such as "xy", on which the box repeats instead of having walls.
 dimensions: 3, or 2 for discs in the plane z = 0; corners may then have two numbers, and True means "xy".
@@ -176,7 +180,9 @@ and the first approach if the contact began without one or a response has parted
 allow_overlap: when False, add() refuses a body that certainly overlaps another or a wall.
 zeno_interval (time, >= 0): contacts of a body that follow each other sooner are marked as repeated, and
 bounce() takes no energy from those; otherwise a ball that comes to rest would bounce infinitely often in a
-finite time. Raises ValueError (InvalidValue) that names the argument.)")
+finite time.
+spread_window_starts: for games, makes frames of equal length cost about the same; in total they cost
+more. Has no effect where the box repeats. Raises ValueError (InvalidValue) that names the argument.)")
       .def_property_readonly(
           "definition",
           reading("definition", [](const World& made) { return arguments_of(made.definition()); }),

@@ -33,9 +33,11 @@ class Game {
       : settings_(settings),
         room_{{0, 0, 0}, {edge, edge, edge}},
         random_(settings.seed),
-        simulation_(
-            World::create({.box = room_, .contact_tolerance = 1e-3, .contacts = ContactEvents::impacts})
-                .value()) {
+        simulation_(World::create({.box = room_,
+                                   .contact_tolerance = 1e-3,
+                                   .contacts = ContactEvents::impacts,
+                                   .spread_window_starts = settings.spread_window_starts})
+                        .value()) {
     const std::vector<double> radii(settings.bodies, ball_radius);
     std::vector<State> start;
     for (const Vec3& centre : place_spheres(radii, room_, {.seed = settings.seed}).value())

@@ -50,6 +50,7 @@ pub struct ks_world_definition {
     pub start_time: f64,
     pub contacts: i32,
     pub allow_overlap: i32,
+    pub spread_window_starts: i32,
 }
 
 #[repr(C)]

@@ -29,6 +29,8 @@ pub struct WorldDefinition {
     /// >= 0 (time)
     pub zeno_interval: f64,
     pub start_time: f64,
+    /// For games: frames of equal length cost about the same, and more in total. Has no effect in periodic space.
+    pub spread_window_starts: bool,
 }
 
 impl Default for WorldDefinition {
@@ -45,6 +47,7 @@ impl Default for WorldDefinition {
             allow_overlap: raw.allow_overlap != 0,
             zeno_interval: raw.zeno_interval,
             start_time: raw.start_time,
+            spread_window_starts: raw.spread_window_starts != 0,
         }
     }
 }
@@ -63,6 +66,7 @@ impl WorldDefinition {
             start_time: self.start_time,
             contacts: self.contacts as i32,
             allow_overlap: self.allow_overlap as i32,
+            spread_window_starts: self.spread_window_starts as i32,
         }
     }
 }

@@ -20,6 +20,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -105,6 +106,10 @@ class ByteWriter {
   void write(const std::set<T, Less>& values) {
     write_all(values);
   }
+  template <class Key, class Value>
+  void write(const std::map<Key, Value>& values) {
+    write_all(values);
+  }
   template <class T>
   void write(const std::optional<T>& value) {
     write(value.has_value());
@@ -185,6 +190,11 @@ class ByteReader {
   void read(std::set<T, Less>& values) {
     values.clear();
     read_all<T>([&values](T&& value) { values.insert(std::move(value)); });
+  }
+  template <class Key, class Value>
+  void read(std::map<Key, Value>& values) {
+    values.clear();
+    read_all<std::pair<Key, Value>>([&values](auto&& value) { values.insert(std::move(value)); });
   }
   template <class T>
   void read(std::optional<T>& value) {

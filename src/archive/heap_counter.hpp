@@ -36,6 +36,11 @@ class HeapCounter {
     bytes_ += values.size() * (sizeof(T) + node_overhead + block_overhead);
     count_all(values);
   }
+  template <class Key, class Value>
+  void count(const std::map<Key, Value>& values) {
+    bytes_ += values.size() * (sizeof(std::pair<Key, Value>) + node_overhead + block_overhead);
+    count_all(values);
+  }
   template <class T>
   void count(const std::optional<T>& value) {
     if (value) count(*value);

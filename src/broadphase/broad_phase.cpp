@@ -15,6 +15,13 @@ std::size_t BroadPhase::size() const {
   return all;
 }
 
+std::size_t BroadPhase::size_of(const Window& window) const {
+  std::size_t all = 0;
+  for (const GridLevel& layer : levels_)
+    if (layer.window == window) all += layer.spheres.size();
+  return all;
+}
+
 std::size_t BroadPhase::moving() const {
   std::size_t all = 0;
   for (const GridLevel& layer : levels_)
@@ -87,6 +94,7 @@ void BroadPhase::replace(const Entry& entry, double now, SweptSphereGrid::Growth
 /// The order in which bodies enter does not change what searches find: a body's size class depends on its
 /// window, but not on when in it the body enters, and a level has the same frame whichever body enters first.
 void BroadPhase::enter(std::uint32_t number, const InflatedBound& bound, double now, const Window& window) {
+  note_change(number);
   const Entry entry = prepare(number, bound, now, window);
   if (entry.level != none) {
     SweptSphereGrid::Growth growth;
@@ -110,6 +118,7 @@ void BroadPhase::enter(std::uint32_t number, const InflatedBound& bound, double 
 }
 
 void BroadPhase::leave(std::uint32_t number) {
+  note_change(number);
   ++levels_[registrations_[number].level].changes;
   take_out(number);
 }
@@ -133,16 +142,46 @@ void BroadPhase::tidy(PoolLease& lease) {
 std::optional<std::string> BroadPhase::check(std::uint32_t number) const {
   const Registration& here = registrations_[number];
   if (here.level >= levels_.size()) return "is in a layer that is not there";
-  const SweptSphereTable& table = levels_[here.level].spheres.table();
-  if (here.slot >= table.slots() || table.number_at(here.slot) != number)
-    return "is not where its layer has it";
+  if (!is_in_its_level(number)) return "is not where its layer has it";
   if (here.end != levels_[here.level].window.end) return "is not in the window of its layer";
   return std::nullopt;
 }
 
+/// Returns where the bodies that start in a level are kept until they are sorted; nullptr if none do.
+const BroadPhase::Opening* BroadPhase::opening_of(std::uint32_t level) const {
+  const auto found = std::find_if(filling_.openings.begin(), filling_.openings.end(),
+                                  [=](const Opening& opening) { return opening.level == level; });
+  return found == filling_.openings.end() ? nullptr : &*found;
+}
+
+/// True if the slot of the body is its own, or its index among the swept spheres that are not sorted yet.
+bool BroadPhase::is_in_its_level(std::uint32_t number) const {
+  const auto& [end, level, slot] = registrations_[number];
+  if (const Opening* const opening = opening_of(level)) {
+    const std::vector<std::uint32_t>& numbers = opening->unsorted.numbers;
+    return slot < numbers.size() && numbers[slot] == number;
+  }
+  const SweptSphereTable& table = levels_[level].spheres.table();
+  return slot < table.slots() && table.number_at(slot) == number;
+}
+
+bool BroadPhase::filling_is_valid() const {
+  return std::all_of(filling_.openings.begin(), filling_.openings.end(),
+                     [this](const Opening& opening) {
+                       const auto& [level, unsorted] = opening;
+                       return level < levels_.size() && levels_[level].has_frame && levels_[level].fresh &&
+                              levels_[level].window.is_valid() &&
+                              levels_[level].spheres.table().slots() == 0 &&
+                              unsorted.spheres.size() == unsorted.numbers.size();
+                     }) &&
+         std::all_of(filling_.sizes.begin(), filling_.sizes.end(),
+                     [](const auto& size) { return SizeClasses::is_size_class(size.first); });
+}
+
 bool BroadPhase::is_valid(std::size_t bodies) const {
   if (registrations_.size() > bodies || !size_classes_.is_valid() || !is_finite(base_) ||
-      std::isnan(next_end_))
+      std::isnan(next_end_) || !filling_is_valid() ||
+      std::any_of(changes_.begin(), changes_.end(), [=](std::uint32_t number) { return number >= bodies; }))
     return false;
   std::size_t registered = 0;
   for (std::uint32_t number = 0; number < registrations_.size(); ++number) {
@@ -150,7 +189,10 @@ bool BroadPhase::is_valid(std::size_t bodies) const {
     ++registered;
     if (std::isnan(registrations_[number].end) || check(number)) return false;
   }
-  return registered == size() && std::all_of(levels_.begin(), levels_.end(), [this](const GridLevel& layer) {
+  std::size_t in_levels = size();
+  for (const Opening& opening : filling_.openings) in_levels += opening.unsorted.numbers.size();
+  return registered == in_levels &&
+         std::all_of(levels_.begin(), levels_.end(), [this](const GridLevel& layer) {
            return layer.is_valid() && (layer.is_empty() || next_end_ <= layer.window.end);
          });
 }

@@ -48,6 +48,8 @@ class BroadPhase {
   Box box_of(std::uint32_t number, double now) const;
   /// Number of registered bodies.
   std::size_t size() const;
+  /// Number of bodies registered in a window.
+  std::size_t size_of(const Window& window) const;
   /// Number of registered bodies in windows that end.
   std::size_t moving() const;
   /// Lower bound on the end of every window that holds a body; +infinity if there is none. A window that
@@ -99,9 +101,45 @@ class BroadPhase {
   /// Registers the starters in the given order. Preconditions: end_windows() came before; the windows are
   /// free (Window::free_at). bound_of(number) is called by several threads concurrently.
   template <class BoundOf>
-  void start(std::span<const Starter> starters, double now, BoundOf bound_of, PoolLease& lease);
-  /// Number of slots of the grid levels in which bodies have started since the last end_windows().
+  void start(std::span<const Starter> starters, double now, BoundOf bound_of, PoolLease& lease) {
+    add_starters(starters, now, bound_of, lease);
+    finish_start(lease);
+  }
+  /// The steps of start(), for starters that come in groups: their swept spheres, group by group, and the
+  /// sorting of all into grid levels. In between nothing may enter, and nothing can be searched.
+  template <class BoundOf>
+  void add_starters(std::span<const Starter> starters, double now, BoundOf bound_of, PoolLease& lease);
+  void finish_start(PoolLease& lease);
+  /// True if the body, or any, was added since the last finish_start().
+  bool is_starter(std::uint32_t number) const {
+    return contains(number) && opening_of(registrations_[number].level) != nullptr;
+  }
+  bool has_starters() const { return !filling_.openings.empty(); }
+  /// Takes a starter back. Precondition: is_starter(number).
+  void remove_starter(std::uint32_t number);
+  /// Number of sorted slots of the grid levels in which bodies have started since the last end_windows().
   std::size_t started_slots() const;
+
+  // A start that is prepared in a broad phase of its own, while the present windows last.
+
+  /// Returns a broad phase that holds what this one will hold at `end` if nothing changes: the bodies whose
+  /// windows last beyond it. Others can start in it at `end`; their levels have spare slots.
+  BroadPhase successor(double end) const;
+  /// Replaces the contents by those of a successor, as if its starters had started here.
+  void take_over(BroadPhase&& successor);
+  /// True if a search for the started slots from `first` on (NeighbourSearch::near_started()) finds the pair.
+  /// Precondition: contains(a), contains(b).
+  bool will_find(std::uint32_t a, std::uint32_t b, std::size_t first) const {
+    return searches_for(a, b, first) || searches_for(b, a, first);
+  }
+  /// Keeps a list of the bodies that enter or leave from now on, or stops that.
+  void record_changes(bool on);
+  /// Returns the list so far, each body once in ascending order, and begins a new one.
+  std::vector<std::uint32_t> take_changes();
+  /// True if the body is in the list. Cost: linear.
+  bool has_changed(std::uint32_t number) const {
+    return std::find(changes_.begin(), changes_.end(), number) != changes_.end();
+  }
 
   /// Returns a description of what is wrong with the body's registration, or nothing. Precondition:
   /// contains(number).
@@ -109,8 +147,9 @@ class BroadPhase {
   /// True if the deserialized state is consistent in a world with `bodies` bodies.
   bool is_valid(std::size_t bodies) const;
   static void serialize(auto& self, auto& archive) {
-    auto& [space, registrations, layers, levels, base, has_base, next_end, many_changes] = self;
-    archive(registrations, layers, levels, base, has_base, next_end, many_changes);
+    auto& [space, registrations, layers, levels, base, has_base, next_end, many_changes, filling, records,
+           changed] = self;
+    archive(registrations, layers, levels, base, has_base, next_end, many_changes, filling, records, changed);
   }
 
  private:
@@ -133,14 +172,28 @@ class BroadPhase {
     SweptSphere sphere{};
     float looseness = 0.0f;
   };
-  /// A grid level in which `bodies` bodies start, and the number of the first of them.
+  /// A grid level in which bodies start, and their swept spheres until finish_start() sorts them.
   struct Opening {
-    std::uint32_t level;
-    std::uint32_t first;
-    std::size_t bodies;
+    std::uint32_t level = none;
+    UnsortedSweptSpheres unsorted{};
+
+    static void serialize(auto& self, auto& archive) {
+      auto& [level, unsorted] = self;
+      archive(level, unsorted);
+    }
   };
   /// Number of bodies by size class.
   using Sizes = std::map<int, std::size_t>;
+  /// What add_starters() has added since the last finish_start().
+  struct Filling {
+    std::vector<Opening> openings;
+    Sizes sizes;
+
+    static void serialize(auto& self, auto& archive) {
+      auto& [openings, sizes] = self;
+      archive(openings, sizes);
+    }
+  };
 
   Entry prepare(std::uint32_t number, const InflatedBound& bound, double now, const Window& window) const;
   void replace(const Entry& entry, double now, SweptSphereGrid::Growth& growth);
@@ -151,8 +204,15 @@ class BroadPhase {
   void sort(GridLevel& layer, PoolLease& lease);
   template <class Visit>
   void for_each_ended(double now, bool all, Visit visit) const;
-  std::vector<Opening> choose_levels(std::span<const Starter> starters, Sizes& sizes);
-  void finish_start(const std::vector<UnsortedSweptSpheres>& unsorted, PoolLease& lease);
+  std::vector<std::uint32_t> choose_levels(std::span<const Starter> starters);
+  bool searches_for(std::uint32_t a, std::uint32_t b, std::size_t first) const;
+  std::size_t index_of(const Registration& started) const;
+  const Opening* opening_of(std::uint32_t level) const;
+  bool is_in_its_level(std::uint32_t number) const;
+  bool filling_is_valid() const;
+  void note_change(std::uint32_t number) {
+    if (records_changes_) changes_.push_back(number);
+  }
   template <class Sort>
   void sort_to_start(GridLevel& layer, Sort sort_layer);
   void merge_size_classes(const Sizes& sizes);
@@ -165,6 +225,9 @@ class BroadPhase {
   bool has_base_ = false;
   double next_end_ = infinity;     ///< see next_end()
   bool has_many_changes_ = false;  ///< many bodies changed in the windows that ended last
+  Filling filling_;
+  bool records_changes_ = false;
+  std::vector<std::uint32_t> changes_;  ///< see take_changes(); a body may occur several times
 };
 
 template <class BoundOf>
@@ -185,6 +248,7 @@ void BroadPhase::enter_all(std::span<const Arrival> arrivals, BoundOf bound_of, 
                          }
                        }
                      });
+  for (const Arrival& arrival : arrivals) note_change(arrival.number);
   for (const std::vector<SweptSphereGrid::Growth>& of_layers : growth)
     for (std::size_t layer = 0; layer < of_layers.size(); ++layer) levels_[layer].grow(of_layers[layer]);
   // Sorted, so that the order of entering does not depend on which thread prepared which arrival.
@@ -198,28 +262,25 @@ void BroadPhase::enter_all(std::span<const Arrival> arrivals, BoundOf bound_of, 
 }
 
 template <class BoundOf>
-void BroadPhase::start(std::span<const Starter> starters, double now, BoundOf bound_of, PoolLease& lease) {
-  std::vector<UnsortedSweptSpheres> unsorted(levels_.size());
-  Sizes sizes;
-  for (const Opening& opening : choose_levels(starters, sizes)) {
-    base_ = bound_of(opening.first).moved.centre;
+void BroadPhase::add_starters(std::span<const Starter> starters, double now, BoundOf bound_of,
+                              PoolLease& lease) {
+  const std::size_t opened = filling_.openings.size();
+  const std::vector<std::uint32_t> first_bodies = choose_levels(starters);
+  for (std::size_t k = 0; k < first_bodies.size(); ++k) {
+    base_ = bound_of(first_bodies[k]).moved.centre;
     has_base_ = true;
-    open(levels_[opening.level], now);
-    unsorted.resize(levels_.size());
-    unsorted[opening.level] = UnsortedSweptSpheres(opening.bodies);
+    open(levels_[filling_.openings[opened + k].level], now);
   }
+  std::vector<SweptSphere*> spheres(levels_.size());
+  for (Opening& opening : filling_.openings) spheres[opening.level] = opening.unsorted.spheres.data();
   constexpr std::size_t bodies_at_once = 512;
   lease.parallel_for(starters.size(), bodies_at_once, [&](std::size_t begin, std::size_t end, std::size_t) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::uint32_t number = starters[k].number;
       const Registration& here = registrations_[number];
-      UnsortedSweptSpheres& all = unsorted[here.level];
-      all.numbers[here.slot] = number;
-      all.spheres[here.slot] = levels_[here.level].swept_sphere(bound_of(number), now);
+      spheres[here.level][here.slot] = levels_[here.level].swept_sphere(bound_of(number), now);
     }
   });
-  finish_start(unsorted, lease);
-  merge_size_classes(sizes);
 }
 
 }  // namespace kinesphere

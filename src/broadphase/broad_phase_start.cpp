@@ -1,6 +1,7 @@
 // Bulk restart of windows: the bodies whose windows end start in others. They are sorted into grid levels,
 // each of which is filled as a whole.
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "broadphase/broad_phase.hpp"
@@ -80,13 +81,15 @@ std::vector<int> BroadPhase::held_rungs() const {
 std::size_t BroadPhase::started_slots() const {
   std::size_t all = 0;
   for (const GridLevel& layer : levels_)
-    if (layer.fresh) all += layer.spheres.table().slots();
+    if (layer.fresh) all += layer.spheres.sorted_slots();
   return all;
 }
 
-/// Assigns each starter a grid level and a slot in it, and counts the starters by size class in `sizes`.
-std::vector<BroadPhase::Opening> BroadPhase::choose_levels(std::span<const Starter> starters, Sizes& sizes) {
-  std::vector<Opening> openings;
+/// Assigns each starter a grid level and an index among those that start in it, and counts the starters by
+/// size class. Returns the first starter of each level that is opened.
+std::vector<std::uint32_t> BroadPhase::choose_levels(std::span<const Starter> starters) {
+  auto& [openings, sizes] = filling_;
+  std::vector<std::uint32_t> first_bodies;
   // Most starters go where the previous one went, so that level and size class are tried first.
   std::size_t at = 0;
   auto size = sizes.end();
@@ -98,36 +101,115 @@ std::vector<BroadPhase::Opening> BroadPhase::choose_levels(std::span<const Start
     const auto suits = [&](const Opening& opening) {
       return levels_[opening.level].is_of(starter.window, level);
     };
-    if (at == openings.size() || !suits(openings[at])) {
+    if (at >= openings.size() || !suits(openings[at])) {
       const auto found = std::find_if(openings.begin(), openings.end(), suits);
       at = static_cast<std::size_t>(found - openings.begin());
       if (found == openings.end()) {
-        openings.push_back({level_for(starter.window, level), starter.number, 0});
+        openings.push_back({level_for(starter.window, level)});
+        first_bodies.push_back(starter.number);
         levels_[openings.back().level].fresh = true;
       }
     }
     if (starter.number >= registrations_.size()) registrations_.resize(starter.number + std::size_t{1});
+    std::vector<std::uint32_t>& numbers = openings[at].unsorted.numbers;
     registrations_[starter.number] = {starter.window.end, openings[at].level,
-                                      static_cast<std::uint32_t>(openings[at].bodies++)};
+                                      static_cast<std::uint32_t>(numbers.size())};
+    numbers.push_back(starter.number);
+    note_change(starter.number);
   }
-  return openings;
+  for (auto& [level, unsorted] : openings) unsorted.spheres.resize(unsorted.numbers.size());
+  return first_bodies;
+}
+
+void BroadPhase::remove_starter(std::uint32_t number) {
+  assert(is_starter(number));
+  Registration& here = registrations_[number];
+  for (auto& [level, unsorted] : filling_.openings) {
+    if (level != here.level) continue;
+    auto& [numbers, spheres] = unsorted;
+    registrations_[numbers.back()].slot = here.slot;
+    numbers[here.slot] = numbers.back();
+    spheres[here.slot] = spheres.back();
+    numbers.pop_back();
+    spheres.pop_back();
+  }
+  here.level = none;
 }
 
 /// Fills the grid levels in which bodies start, which are empty, and sorts the lasting levels that have
 /// changed much.
-void BroadPhase::finish_start(const std::vector<UnsortedSweptSpheres>& unsorted, PoolLease& lease) {
-  for (std::size_t k = 0; k < levels_.size(); ++k) {
-    GridLevel& layer = levels_[k];
-    if (layer.fresh) {
-      sort_to_start(layer, [&] {
-        layer.spheres.fill(unsorted[k], lease, [&](std::uint32_t number, std::uint32_t slot) {
-          registrations_[number].slot = slot;
-        });
+void BroadPhase::finish_start(PoolLease& lease) {
+  for (const Opening& opening : filling_.openings) {
+    GridLevel& layer = levels_[opening.level];
+    sort_to_start(layer, [&] {
+      layer.spheres.fill(opening.unsorted, lease, [&](std::uint32_t number, std::uint32_t slot) {
+        registrations_[number].slot = slot;
       });
-    } else if (layer.changes > least_changes + layer.spheres.size() / 2) {
-      sort_to_start(layer, [&] { sort(layer, lease); });
-    }
+    });
   }
+  for (GridLevel& layer : levels_)
+    if (!layer.fresh && layer.changes > least_changes + layer.spheres.size() / 2)
+      sort_to_start(layer, [&] { sort(layer, lease); });
+  merge_size_classes(filling_.sizes);
+  filling_ = {};
+}
+
+BroadPhase BroadPhase::successor(double end) const {
+  BroadPhase next(space_);
+  next.size_classes_ = size_classes_;
+  next.size_classes_.use_merged();
+  next.has_many_changes_ = true;
+  next.registrations_.resize(registrations_.size());
+  for (const GridLevel& layer : levels_) {
+    if (layer.is_empty() || layer.window.end <= end) continue;
+    const auto level = static_cast<std::uint32_t>(next.levels_.size());
+    const SweptSphereTable& table = next.levels_.emplace_back(layer).spheres.table();
+    next.levels_.back().fresh = false;
+    next.next_end_ = std::min(next.next_end_, layer.window.end);
+    for (std::uint32_t slot = 0; slot < table.slots(); ++slot)
+      if (table.number_at(slot) != SweptSphereTable::free_slot)
+        next.registrations_[table.number_at(slot)] = {layer.window.end, level, slot};
+  }
+  return next;
+}
+
+void BroadPhase::take_over(BroadPhase&& successor) {
+  *this = std::move(successor);
+  next_end_ = infinity;
+  for (GridLevel& layer : levels_) {
+    layer.fresh = false;
+    if (!layer.is_empty()) next_end_ = std::min(next_end_, layer.window.end);
+  }
+}
+
+/// Returns the index of a sorted slot of a fresh level among all such slots.
+std::size_t BroadPhase::index_of(const Registration& started) const {
+  std::size_t index = started.slot;
+  for (std::uint32_t level = 0; level < started.level; ++level)
+    if (levels_[level].fresh) index += levels_[level].spheres.sorted_slots();
+  return index;
+}
+
+/// Returns true if `a` has started, in a slot from `first` on, and searches for `b`.
+bool BroadPhase::searches_for(std::uint32_t a, std::uint32_t b, std::size_t first) const {
+  const Registration& one = registrations_[a];
+  const Registration& other = registrations_[b];
+  const GridLevel& own = levels_[one.level];
+  const std::uint32_t sorted = own.spheres.sorted_slots();
+  if (!own.fresh || one.slot >= sorted || index_of(one) < first) return false;
+  if (one.level == other.level) return one.slot < other.slot && other.slot < sorted;
+  return !levels_[other.level].fresh || !levels_[other.level].is_before(own);
+}
+
+void BroadPhase::record_changes(bool on) {
+  changes_.clear();
+  records_changes_ = on;
+}
+
+std::vector<std::uint32_t> BroadPhase::take_changes() {
+  std::sort(changes_.begin(), changes_.end());
+  changes_.erase(std::unique(changes_.begin(), changes_.end()), changes_.end());
+  return std::exchange(changes_, {});
 }
 
 /// Sorts a level from the coarseness recorded in size_classes_, so that the result does not depend on what

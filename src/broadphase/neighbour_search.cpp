@@ -114,14 +114,14 @@ NeighbourSearch::Started NeighbourSearch::started_at(std::span<const GridLevel> 
                                                      std::size_t most) {
   const auto holds = [&k](const GridLevel& layer) {
     if (!layer.fresh) return false;
-    const std::size_t slots = layer.spheres.table().slots();
+    const std::size_t slots = layer.spheres.sorted_slots();
     if (k < slots) return true;
     k -= slots;
     return false;
   };
   const auto found = std::find_if(layers.begin(), layers.end(), holds);
   assert(found != layers.end());
-  const std::size_t behind = found->spheres.table().slots() - k;
+  const std::size_t behind = found->spheres.sorted_slots() - k;
   return {*found, static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(std::min(behind, most))};
 }
 

@@ -35,8 +35,8 @@ class NeighbourSearch {
 
   /// Returns the pairs of a started body, in a slot k <= slot < last below BroadPhase::started_slots(), and a
   /// body that near() finds for it. Calls for all slots together yield each pair of two started bodies
-  /// once. bound_of(number) is called only if there are several grid levels or space repeats. Precondition:
-  /// the levels are as BroadPhase::start() left them.
+  /// once. bound_of(number) is called only if there are several grid levels or space repeats. Of bodies
+  /// that have entered or left since BroadPhase::start(), those are found that BroadPhase::will_find() tells.
   template <class BoundOf>
   std::span<const BodyPair> near_started(const BroadPhase& windows, std::size_t k, std::size_t last,
                                          double now, BoundOf bound_of) {

@@ -33,6 +33,10 @@ struct SweptSphere {
   float radius = 0.0f;
 
   friend bool operator==(const SweptSphere&, const SweptSphere&) = default;
+  static void serialize(auto& self, auto& archive) {
+    auto& [centre, velocity, radius] = self;
+    archive(centre, velocity, radius);
+  }
 };
 
 /// Returns a swept sphere that contains a body, with `margin` around it, from `now` for `duration`.

@@ -264,7 +264,6 @@ void SweptSphereGrid::add_search(const SweptSphereQuery& query, SweptSphereSearc
 }
 
 void SweptSphereGrid::add_search_behind(std::uint32_t slot, SweptSphereSearches& searches) const {
-  assert(sorted_ == table_.slots());
   const SweptSphereQuery query{table_.swept_sphere_at(slot), 0.0f, 1.0f};
   if (is_free(slot)) {
     searches.queries.push_back(query);

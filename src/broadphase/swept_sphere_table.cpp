@@ -23,7 +23,7 @@ SweptSphereColumns SweptSphereTable::columns() const {
 }
 
 UnsortedSweptSpheres SweptSphereTable::all() const {
-  UnsortedSweptSpheres all(bodies());
+  UnsortedSweptSpheres all{std::vector<std::uint32_t>(bodies()), std::vector<SweptSphere>(bodies())};
   std::size_t next = 0;
   for (std::uint32_t slot = 0; slot < slots(); ++slot) {
     if (numbers_[slot] == free_slot) continue;

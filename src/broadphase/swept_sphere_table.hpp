@@ -17,7 +17,10 @@ struct UnsortedSweptSpheres {
   std::vector<std::uint32_t> numbers;
   std::vector<SweptSphere> spheres;
 
-  explicit UnsortedSweptSpheres(std::size_t size = 0) : numbers(size), spheres(size) {}
+  static void serialize(auto& self, auto& archive) {
+    auto& [numbers, spheres] = self;
+    archive(numbers, spheres);
+  }
 };
 
 /// Each swept sphere has a slot, which it keeps until the next resize() or clear(). Removed bodies leave free

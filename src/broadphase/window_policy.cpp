@@ -236,6 +236,17 @@ void WindowPolicy::finish_start(const Sample& round, std::uint64_t near, std::ui
   }
 }
 
+void WindowPolicy::add_starters(const Sample& round) {
+  bodies_ += round.bodies_;
+  (round.most_ ? main_ : fast_) += round;
+}
+
+void WindowPolicy::keep_fast(const WindowPolicy& present) {
+  fast_ = present.fast_;
+  fast_way_ =
+      std::clamp(present.fast_way_ * (typical_way_ / present.typical_way_), typical_way_, longest_way_);
+}
+
 void WindowPolicy::note_price() {
   const auto count = static_cast<double>(main_.bodies);
   const auto near = static_cast<double>(main_.near);

@@ -102,6 +102,8 @@ class WindowPolicy {
   WindowPolicy(double longest_way, int dimensions) : longest_way_(longest_way), dimensions_(dimensions) {}
 
   bool is_chosen() const { return typical_way_ > 0.0; }
+  /// Rung of the main windows.
+  int main_rung() const { return main_rung_; }
   /// Chooses windows before any statistics of starts exist: a body with the speed bound `typical` goes `way`
   /// (length, > 0), or the longest way if that is less, in a main window.
   void choose(double way, const SpeedBound& typical);
@@ -116,6 +118,11 @@ class WindowPolicy {
   /// Records that all bodies of a sample have started, that their searches found `near` near pairs, and that
   /// there are `bodies` bodies in all windows.
   void finish_start(const Sample& round, std::uint64_t near, std::uint64_t bodies);
+  /// Records a part of the bodies that start, whose pairs finish_start() records with the last part.
+  void add_starters(const Sample& round);
+  /// Takes over the statistics of bodies that are much faster than most from a policy of which this was a
+  /// copy.
+  void keep_fast(const WindowPolicy& present);
   /// Returns the cost of widening a typical body's swept sphere by `more` (length), in swept-sphere tests.
   double cost_of_width(double more) const;
 

@@ -65,6 +65,7 @@ struct BatchState {
   std::vector<std::uint8_t> has_checkpoint;
   double begin = 0.0;  ///< start of the batch (time)
   double epoch_end = 0.0;
+  double next_slice = 0.0;
   /// End of the batch, exclusive. A cluster that needs the main processor lowers it for all others, so that
   /// these do less in vain.
   SharedTime stop;

@@ -6,7 +6,8 @@ namespace kinesphere {
 World::Engine::Engine(const WorldDefinition& definition)
     : state_(definition), main_(state_, definition.start_time) {}
 
-World::Engine::Engine(const Engine& other) : state_(other.state_), main_(other.main_, state_) {}
+World::Engine::Engine(const Engine& other)
+    : state_(other.state_), main_(other.main_, state_), prepared_(other.prepared_) {}
 
 Result<std::optional<Event>> World::Engine::advance(double until, const Probe& probe) {
   main_.reports().ask(probe, "advance");
@@ -21,7 +22,7 @@ Result<std::optional<Event>> World::Engine::advance(double until, const Probe& p
     }
     if (auto recertified = recertify(alone); !recertified) return recertified.error();
     if (!main_.events().pending().empty()) continue;
-    const double next = std::min(main_.epoch_end(), main_.next_time());
+    const double next = std::min(main_.pause(), main_.next_time());
     if (next > until) {
       main_.advance_clock(until);
       return std::optional<Event>();
@@ -35,8 +36,8 @@ Result<bool> World::Engine::run_epoch(double until, const Probe& probe, PoolLeas
   main_.reports().ask(probe, "advance");
   main_.note_response();
   if (main_.is_gathering() || !main_.events().is_quiet()) return false;
-  if (main_.epoch_end() <= time()) {
-    if (auto started = start_windows(lease, false); !started) return started.error();
+  if (main_.pause() <= time()) {
+    if (auto ended = end_epoch(lease); !ended) return ended.error();
     if (!main_.events().is_quiet()) {
       // As in advance(), all events of an instant are known before the first is delivered.
       main_.begin_instant(time());
@@ -51,8 +52,8 @@ Result<bool> World::Engine::run_epoch(double until, const Probe& probe, PoolLeas
 /// later instants (EventProcessor::gather).
 Result<void> World::Engine::gather(double until) {
   PoolLease alone;
-  if (main_.epoch_end() <= time()) {
-    if (auto started = start_windows(alone, false); !started) return started;
+  if (main_.pause() <= time()) {
+    if (auto ended = end_epoch(alone); !ended) return ended;
   }
   if (auto recertified = recertify(alone); !recertified) return recertified;
   return main_.gather(until);

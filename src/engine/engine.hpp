@@ -16,6 +16,7 @@
 #include "engine/call_state.hpp"
 #include "engine/event_processor.hpp"
 #include "engine/overlaps.hpp"
+#include "engine/prepared_start.hpp"
 #include "engine/speculative_runner.hpp"
 #include "engine/window_choice.hpp"
 #include "engine/world_editor.hpp"
@@ -41,7 +42,7 @@ class World::Engine {
   }
   double epoch_end() const { return main_.epoch_end(); }
   /// Returns true if there is work to do before time can advance.
-  bool is_due() { return std::min(main_.epoch_end(), main_.next_time()) <= time(); }
+  bool is_due() { return std::min(main_.pause(), main_.next_time()) <= time(); }
   double time() const { return main_.time(); }
   CallState activity() const;
 
@@ -83,6 +84,10 @@ class World::Engine {
   class Audit;
 
   // epochs.cpp and engine.cpp
+  Result<void> end_epoch(PoolLease& lease);
+  void plan_next_start();
+  void discard_prepared_start();
+  bool may_prepare_starts() const { return definition().spread_window_starts && !bodies().space().repeats(); }
   Result<void> start_windows(PoolLease& lease, bool all, std::span<const std::uint32_t> joining = {});
   Result<void> start_with_arrivals(PoolLease& lease);
   Result<void> gather(double until);
@@ -99,7 +104,8 @@ class World::Engine {
   WorldState state_;
   EventProcessor main_;
   std::unique_ptr<ProbeProfile> profile_;
-  std::vector<SearchResults> found_;  ///< by worker; a member only to reuse its memory
+  std::optional<PreparedStart> prepared_;  ///< the next start of most bodies, if it is prepared
+  std::vector<SearchResults> found_;       ///< by worker; a member only to reuse its memory
   /// certificates read from a snapshot, before they enter the queue
   std::vector<PairCertificate> read_pairs_;
 };

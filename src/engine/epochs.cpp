@@ -3,6 +3,7 @@
 
 #include "engine/engine.hpp"
 #include "engine/window_start.hpp"
+#include "number/infinity.hpp"
 
 namespace kinesphere {
 
@@ -37,14 +38,23 @@ Result<void> World::Engine::start_windows(PoolLease& lease, bool all,
   BroadPhase& windows = state_.broad_phase;
   WindowPolicy& window_policy = state_.window_policy;
   const double now = time();
+  if (prepared_ && (all || prepared_->end() < now)) discard_prepared_start();
+  const PreparedStart::Work work{state_, main_, lease, found_};
+  PreparedStart* const prepared = prepared_ && prepared_->end() == now ? &*prepared_ : nullptr;
   WindowStart starting(state_, main_, lease, found_);
   std::vector<std::uint32_t> numbers = windows.ended(now, all);
-  const bool most = 2 * (numbers.size() + joining.size()) > windows.moving();
+  const bool most = !prepared && 2 * (numbers.size() + joining.size()) > windows.moving();
+  std::vector<std::uint32_t> started;
+  if (prepared) started = prepared->complete(work, numbers);
   if (auto probed = starting.refresh(numbers); !probed) return probed;
   if (most) window_policy.start_main(now, std::exchange(main_.work().recertified, {}));
-  windows.end_windows(now, all);
   // A body that violated its bound is dirty and is recertified separately.
   std::erase_if(numbers, [this](std::uint32_t number) { return bodies()[number].dirty; });
+  if (prepared) {
+    prepared->take_over(work, std::move(started), numbers);
+  } else {
+    windows.end_windows(now, all);
+  }
   ++main_.work().counters.window_ends;
   main_.work().counters.starts += numbers.size();
   main_.work().counters.restarts += joining.size();
@@ -58,7 +68,33 @@ Result<void> World::Engine::start_windows(PoolLease& lease, bool all,
   const std::uint64_t near = starting.start(starters);
   window_policy.finish_start(round, near, windows.size());
   main_.begin_epoch(windows.next_end());
+  if (most || prepared) plan_next_start();
   return {};
+}
+
+/// Does what is due of the preparation of the next start, and starts windows at the end of the epoch.
+Result<void> World::Engine::end_epoch(PoolLease& lease) {
+  while (prepared_ && prepared_->next_slice() <= time()) {
+    if (auto done = prepared_->prepare_slice({state_, main_, lease, found_}); !done) return done;
+    main_.set_next_slice(prepared_->next_slice());
+  }
+  return main_.epoch_end() <= time() ? start_windows(lease, false) : Result<void>();
+}
+
+/// Prepares the next start of most bodies from now on, if they are many.
+void World::Engine::plan_next_start() {
+  discard_prepared_start();
+  const Window present = Window::at(time(), state_.window_policy.main_rung());
+  const std::size_t bodies = may_prepare_starts() ? broad_phase().size_of(present) : 0;
+  if (!PreparedStart::pays(bodies)) return;
+  prepared_.emplace(state_.bodies.space(), state_.window_policy, present, time(), bodies);
+  main_.set_next_slice(prepared_->next_slice());
+}
+
+void World::Engine::discard_prepared_start() {
+  state_.broad_phase.record_changes(false);
+  prepared_.reset();
+  main_.set_next_slice(infinity);
 }
 
 }  // namespace kinesphere

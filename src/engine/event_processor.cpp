@@ -18,7 +18,7 @@ Result<void> EventProcessor::gather(double until) {
     if (auto recertified = recertify(); !recertified) return recertified;
     const double next = next_time();
     if (next > time_) {
-      if (next > until || next >= epoch_end_ || !events_.is_quiet()) break;
+      if (next > until || next >= pause() || !events_.is_quiet()) break;
       advance_clock(next);
     }
     const PairCertificate pair = queue_.take_first();

@@ -146,6 +146,11 @@ class alignas(128) EventProcessor {
   /// one by one, for which the queue contains window_end certificates.
   double epoch_end() const { return epoch_end_; }
   void begin_epoch(double end) { epoch_end_ = end; }
+  /// Time before which certificates are processed without a pause: the end of the epoch, or the next slice of
+  /// a prepared start, whichever is earlier.
+  double pause() const { return std::min(epoch_end_, next_slice_); }
+  double next_slice() const { return next_slice_; }
+  void set_next_slice(double time) { next_slice_ = time; }
 
   /// Serializes all fields of a snapshot except the queue, which is archived separately.
   static void serialize(auto& self, auto& archive) {
@@ -197,6 +202,7 @@ class alignas(128) EventProcessor {
   WorldState* state_;
   double time_;
   double epoch_end_ = infinity;
+  double next_slice_ = infinity;
   CertificateQueue queue_;
   PendingEvents events_;
   DirtyList dirty_;

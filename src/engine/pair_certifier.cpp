@@ -27,8 +27,8 @@ namespace {
 
 std::optional<Window> PairCertifier::window_of(std::uint32_t number) const {
   if (const SweptSphereUpdate* update = log_ ? log_->last_update(number) : nullptr) return update->window;
-  if (!state_.broad_phase.contains(number)) return std::nullopt;
-  return state_.broad_phase.window_of(number);
+  if (!windows_.contains(number)) return std::nullopt;
+  return windows_.window_of(number);
 }
 
 PairCertificate PairCertifier::certificate(double time, std::uint32_t a, std::uint32_t b) const {
@@ -118,7 +118,10 @@ double PairCertifier::certify(std::uint32_t a, std::uint32_t b, SearchResults& f
   const double until = apart_until(a, b);
   if (until == infinity) return until;
   ++found.near;
-  if (are_linked(a, b)) return infinity;
+  if (are_linked(a, b)) {
+    if (found.keeps_linked) found.linked.push_back(certificate(until, a, b));
+    return infinity;
+  }
   if (until <= time_ && bounce_apart(a, b)) return infinity;
   found.certificates.push_back(certificate(until, a, b));
   ++found.certified;
@@ -129,7 +132,7 @@ double PairCertifier::certify(std::uint32_t a, std::uint32_t b, SearchResults& f
 void PairCertifier::certify_linked(std::uint32_t number, SearchResults& found) const {
   const auto add = [&](std::uint32_t other) {
     // If both bodies are marked as visited, the first one certifies the pair.
-    if (!state_.broad_phase.contains(other) ||
+    if (!windows_.contains(other) ||
         (bodies()[other].visited && bodies().table().comes_before(other, number)))
       return;
     const double until = unchanged_until_by_thresholds(number, other);

@@ -23,6 +23,8 @@ struct alignas(128) SearchResults {
   std::uint64_t candidates = 0;
   std::uint64_t near = 0;       ///< candidates that may meet before the earlier window end
   std::uint64_t certified = 0;  ///< certificates created for candidates
+  bool keeps_linked = false;    ///< linked pairs that are near go to `linked`
+  std::vector<PairCertificate> linked;
 
   void clear() {
     certificates.clear();
@@ -56,12 +58,15 @@ double apart_until(const Bodies& bodies, const BoundRef& a, const BoundRef& b, d
 class PairCertifier {
  public:
   PairCertifier(const WorldState& state, double time, const SpeculationLog* log)
-      : state_(state), time_(time), log_(log) {}
+      : state_(state), windows_(state.broad_phase), time_(time), log_(log) {}
+  /// Certifies from `time` on, which may be later than the present, for windows that start then.
+  PairCertifier(const WorldState& state, double time, const BroadPhase& windows)
+      : state_(state), windows_(windows), time_(time), log_(nullptr) {}
 
   /// Returns the time until which the body stays in its swept sphere.
   double window_end_of(std::uint32_t number) const {
     const SweptSphereUpdate* update = log_ ? log_->last_update(number) : nullptr;
-    return update != nullptr ? update->window.end : state_.broad_phase.end_of(number);
+    return update != nullptr ? update->window.end : windows_.end_of(number);
   }
   /// Returns the earliest window end of the two bodies.
   double earliest_window_end(std::uint32_t a, std::uint32_t b) const {
@@ -110,7 +115,8 @@ class PairCertifier {
   double certify(std::uint32_t a, std::uint32_t b, SearchResults& found) const;
   /// Certifies the body with each body that it touches or senses.
   void certify_linked(std::uint32_t number, SearchResults& found) const;
-  /// Certifies the body with the walls that it may reach or leave before its window ends.
+  /// Certifies the body with the walls that it may reach or leave before its window ends. A body that touches
+  /// a wall gets a certificate that fails at once.
   void certify_walls(std::uint32_t number, SearchResults& found) const;
 
  private:
@@ -133,7 +139,7 @@ class PairCertifier {
   }
   /// Returns bound_ref() for the processor with all bodies, which has no log to search.
   BoundRef bound_ref_without_log(std::uint32_t number) const {
-    return {number, &bodies()[number].bound, state_.broad_phase.end_of(number),
+    return {number, &bodies()[number].bound, windows_.end_of(number),
             bodies().space().repeats() ? &bodies().images[number].middle : nullptr};
   }
   std::uint32_t revision_of(std::uint32_t number) const {
@@ -142,6 +148,7 @@ class PairCertifier {
   }
 
   const WorldState& state_;
+  const BroadPhase& windows_;
   double time_;
   const SpeculationLog* log_;  ///< nullptr for the processor with all bodies
 };

@@ -41,6 +41,14 @@ void World::Engine::serialize(Self& self, Archive& archive) {
   // The definition comes first, since an engine is constructed from it. The tag is omitted (BodyId::world).
   archive(self.state_.bodies, self.state_.contacts, self.state_.broad_phase, self.state_.window_policy,
           self.main_);
+  if constexpr (std::is_const_v<Self>) {
+    archive(self.prepared_.has_value());
+  } else {
+    bool is_prepared = false;
+    archive(is_prepared);
+    if (is_prepared) self.prepared_.emplace(self.bodies().space(), self.state_.window_policy);
+  }
+  if (self.prepared_) archive(*self.prepared_);
   // The queue is saved as its valid certificates in sorted order, without stale ones and without its buckets.
   if constexpr (std::is_const_v<Self>) {
     std::vector<PairCertificate> pairs = self.certificates();
@@ -74,6 +82,7 @@ Result<std::unique_ptr<World::Engine>> World::Engine::restore(std::span<const st
   if (const char* where = engine->first_invalid_part())
     return refusal(std::string("must hold a world that can be, but contradicts itself in its ") + where);
   engine->main_.queue().add_all(engine->read_pairs_);
+  if (engine->prepared_) engine->main_.set_next_slice(engine->prepared_->next_slice());
   if (pair_filter) engine->state_.bodies.filters.keep_pair_filter(std::move(pair_filter));
   return engine;
 }
@@ -91,6 +100,9 @@ const char* World::Engine::first_invalid_part() const {
       !shape_contacts_are_valid())
     return "contacts";
   if (!broad_phase().is_valid(bodies().numbers()) || !state_.window_policy.is_valid()) return "windows";
+  if (prepared_ &&
+      (!may_prepare_starts() || !state_.window_policy.is_chosen() || !prepared_->is_valid(state_)))
+    return "prepared start";
   if (!queue_is_valid() || !window_ends_are_valid()) return "certificates";
   for (std::uint32_t number = 0; number < bodies().numbers(); ++number) {
     const Body& body = bodies()[number];

@@ -10,6 +10,7 @@ void EventProcessor::begin(SpeculationLog& log, std::span<const PairCertificate>
   log_ = &log;
   time_ = log.batch->begin;
   epoch_end_ = log.batch->epoch_end;
+  next_slice_ = log.batch->next_slice;
   queue_.clear();
   for (const PairCertificate& pair : due) queue_.add(pair);
   events_.clear();

@@ -46,10 +46,11 @@ bool SpeculativeRunner::run(double until, std::deque<Event>& events) {
 double SpeculativeRunner::take_due(double until, double latest) {
   batch_.begin = main_.time();
   batch_.epoch_end = main_.epoch_end();
+  batch_.next_slice = main_.next_slice();
   batch_.until = until;
   due_.clear();
   return main_.queue().take_until(
-      until, std::min(batch_.epoch_end, latest), sizer_.most_due(state_.bodies.table().live_count()), due_,
+      until, std::min(main_.pause(), latest), sizer_.most_due(state_.bodies.table().live_count()), due_,
       [certifier = main_.certifier()](const PairCertificate& pair) { return certifier.is_stale(pair); });
 }
 

@@ -72,9 +72,9 @@ Window WindowChoice::longer_window(std::uint32_t number, const Window& ended) co
   return Window::at(time_, rung_in_space(number, std::max(suits, ended.rung + 1)));
 }
 
-bool WindowChoice::needs_report(std::uint32_t number) const {
+bool WindowChoice::needs_report(std::uint32_t number, double report_time) const {
   const Body& body = bodies()[number];
-  if (body.fresh(time_)) return false;
+  if (body.fresh(report_time)) return false;
   const Bound& bound = body.bound;
   const SpeedBound speed_bound = speed_bound_of(BoundAt(bound, time_));
   const Window window = Window::at(time_, rung_for(number, speed_bound));
@@ -82,7 +82,7 @@ bool WindowChoice::needs_report(std::uint32_t number) const {
   const auto growth_after = [&bound](double time) {
     return (bound.growth_speed + 0.5 * bound.acceleration_limit * time) * time;
   };
-  const double saved = growth_after(s) - growth_after(window.end - time_);
+  const double saved = growth_after(s) - growth_after(window.end - report_time);
   if (state_.window_policy.cost_of_width(2.0 * saved) > price_of_report) return true;
   const double speed = norm(bound.velocity) + bound.growth_speed + body.largest_acceleration() * s;
   if (!bodies().space().repeats()) return speed * s > longest_way(bodies().definition());

@@ -25,10 +25,11 @@ class WindowChoice {
   /// Returns the next window of a body whose individual window ends now. The body had no discontinuity for a
   /// while, so the next window is longer, if periodic space permits, to keep such renewals rare.
   Window longer_window(std::uint32_t number, const Window& ended) const;
-  /// Returns true if, by the end of the next window, the bound would grow so much that a report costs less,
-  /// or the body would move too far from its last report for an accurate position, or would be too large for
-  /// any window in periodic space.
-  bool needs_report(std::uint32_t number) const;
+  /// Returns true if, by the end of the next window, the bound would grow so much that a report at
+  /// `report_time` costs less, or the body would move too far from its last report for an accurate position,
+  /// or would be too large for any window in periodic space.
+  bool needs_report(std::uint32_t number, double report_time) const;
+  bool needs_report(std::uint32_t number) const { return needs_report(number, time_); }
 
  private:
   int rung_in_space(std::uint32_t number, int rung) const;

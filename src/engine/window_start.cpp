@@ -1,6 +1,7 @@
 #include "engine/window_start.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 
 namespace kinesphere {
@@ -32,7 +33,7 @@ class FreeWindows {
 MotionStatistics WindowStart::measure(std::span<const std::uint32_t> numbers) const {
   MotionStatistics statistics;
   for (const std::uint32_t number : numbers) {
-    const BoundAt moved(bodies()[number].bound, time());
+    const BoundAt moved(bodies()[number].bound, time_);
     statistics.note(moved.centre, speed_bound_of(moved));
   }
   return statistics;
@@ -44,11 +45,11 @@ void WindowStart::choose_policy(const MotionStatistics& statistics) {
 }
 
 Result<void> WindowStart::refresh(std::span<const std::uint32_t> ending) {
-  const WindowChoice choice(state_, time());
+  const WindowChoice choice(state_, time_);
   std::vector<std::uint8_t> is_asked(ending.size());
   lease_.parallel_for(ending.size(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
     for (std::size_t k = from; k < to; ++k)
-      is_asked[k] = !bodies()[ending[k]].dirty && choice.needs_report(ending[k]) ? 1 : 0;
+      is_asked[k] = !bodies()[ending[k]].dirty && choice.needs_report(ending[k], main_.time()) ? 1 : 0;
   });
   std::vector<std::uint32_t> asked;
   for (std::size_t k = 0; k < ending.size(); ++k)
@@ -60,7 +61,7 @@ Result<void> WindowStart::refresh(std::span<const std::uint32_t> ending) {
 std::vector<BroadPhase::Starter> WindowStart::choose_windows(std::span<const std::uint32_t> numbers,
                                                              std::span<const int> held,
                                                              WindowPolicy::Sample& sample) {
-  const double now = time();
+  const double now = time_;
   const WindowChoice choice(state_, now);
   std::vector<BroadPhase::Starter> starters(numbers.size());
   const std::size_t chunks = (numbers.size() + bodies_at_once - 1) / bodies_at_once;
@@ -93,31 +94,41 @@ std::vector<BroadPhase::Starter> WindowStart::choose_windows(std::span<const std
 
 std::uint64_t WindowStart::start(std::span<const BroadPhase::Starter> starters,
                                  const std::vector<std::uint8_t>* others) {
-  state_.broad_phase.start(
-      starters, time(), [&](std::uint32_t number) { return inflated_bound(bodies(), number, time()); },
-      lease_);
-  found_.resize(lease_.count());
-  found_.front().searches += starters.size();
-  const std::uint64_t near = find_pairs(others);
-  find_links_and_walls(starters);
-  for (SearchResults& found : found_) found.hand_over(main_.queue(), main_.work().counters);
+  add_starters(starters);
+  windows_.finish_start(lease_);
+  const std::uint64_t near = find_pairs(0, windows_.started_slots(), others);
+  std::vector<std::uint32_t> numbers;
+  numbers.reserve(starters.size());
+  for (const BroadPhase::Starter& starter : starters) numbers.push_back(starter.number);
+  find_links(numbers);
+  find_walls(numbers);
+  hand_over();
   return near;
 }
 
-/// Searches for the pairs of bodies that have started, and certifies them. Returns the number of near pairs.
-std::uint64_t WindowStart::find_pairs(const std::vector<std::uint8_t>* others) {
-  const double now = time();
-  const BroadPhase& windows = state_.broad_phase;
-  const PairCertifier certifier = main_.certifier();
+void WindowStart::add_starters(std::span<const BroadPhase::Starter> starters) {
+  found_.front().searches += starters.size();
+  windows_.add_starters(
+      starters, time_, [&](std::uint32_t number) { return inflated_bound(bodies(), number, time_); }, lease_);
+}
+
+/// Searches for the pairs of bodies in slots that have started, and certifies them. Returns the number of
+/// near pairs.
+std::uint64_t WindowStart::find_pairs(std::size_t first, std::size_t last,
+                                      const std::vector<std::uint8_t>* others) {
+  const PairCertifier certifier = this->certifier();
   const auto is_counted = [&](std::uint32_t a, std::uint32_t b) {
     return others == nullptr || (*others)[bodies().table().comes_before(a, b) ? a : b] == 0;
   };
+  std::uint64_t before_all = 0;
+  for (const SearchResults& found : found_) before_all += found.near;
   std::vector<std::uint64_t> uncounted(lease_.count());
   lease_.parallel_for(
-      windows.started_slots(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
+      last - first, bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
         SearchResults& found = found_[worker];
-        const auto bound_of = [&](std::uint32_t number) { return inflated_bound(bodies(), number, now); };
-        for (const auto& [a, b] : found.search.near_started(windows, from, to, now, bound_of)) {
+        const auto bound_of = [&](std::uint32_t number) { return inflated_bound(bodies(), number, time_); };
+        for (const auto& [a, b] :
+             found.search.near_started(windows_, first + from, first + to, time_, bound_of)) {
           const std::uint64_t before = found.near;
           certifier.certify(a, b, found);
           if (found.near != before && !is_counted(a, b)) ++uncounted[worker];
@@ -126,19 +137,17 @@ std::uint64_t WindowStart::find_pairs(const std::vector<std::uint8_t>* others) {
   std::uint64_t near = 0;
   for (const SearchResults& found : found_) near += found.near;
   for (const std::uint64_t some : uncounted) near -= some;
-  return near;
+  return near - before_all;
 }
 
-/// Certifies linked pairs and walls of the bodies that have started.
-void WindowStart::find_links_and_walls(std::span<const BroadPhase::Starter> starters) {
-  const PairCertifier certifier = main_.certifier();
+void WindowStart::find_links(std::span<const std::uint32_t> numbers) {
+  const PairCertifier certifier = this->certifier();
   const auto is_linked = [this](std::uint32_t number) {
     return !state_.contacts.partners_of(number).empty() || !state_.contacts.overlaps_of(number).empty();
   };
   // Only linked bodies are marked and certified, so that the records of most bodies are not accessed.
   std::vector<std::uint32_t> linked;
-  for (const BroadPhase::Starter& starter : starters)
-    if (is_linked(starter.number)) linked.push_back(starter.number);
+  std::copy_if(numbers.begin(), numbers.end(), std::back_inserter(linked), is_linked);
   for (const std::uint32_t number : linked) bodies()[number].visited = true;
   lease_.parallel_for(linked.size(), bodies_at_once,
                       [&](std::size_t from, std::size_t to, std::size_t worker) {
@@ -146,12 +155,20 @@ void WindowStart::find_links_and_walls(std::span<const BroadPhase::Starter> star
                           certifier.certify_linked(linked[k], found_[worker]);
                       });
   for (const std::uint32_t number : linked) bodies()[number].visited = false;
+}
+
+void WindowStart::find_walls(std::span<const std::uint32_t> numbers) {
   if (!bodies().walls()) return;
-  lease_.parallel_for(starters.size(), bodies_at_once,
+  const PairCertifier certifier = this->certifier();
+  lease_.parallel_for(numbers.size(), bodies_at_once,
                       [&](std::size_t from, std::size_t to, std::size_t worker) {
                         for (std::size_t k = from; k < to; ++k)
-                          certifier.certify_walls(starters[k].number, found_[worker]);
+                          certifier.certify_walls(numbers[k], found_[worker]);
                       });
+}
+
+void WindowStart::hand_over() {
+  for (SearchResults& found : found_) found.hand_over(main_.queue(), main_.work().counters);
 }
 
 }  // namespace kinesphere

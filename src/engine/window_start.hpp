@@ -1,7 +1,8 @@
 // WindowStart provides the steps of a window start: probing, choice of windows, registration and searches.
 //
 // An engine calls them in this order. A process that owns some of the bodies exchanges data with the others
-// between the steps (distributed/).
+// between the steps (distributed/). PreparedStart calls them for parts of the bodies, before their windows
+// start.
 #pragma once
 
 #include <cstdint>
@@ -19,16 +20,22 @@ constexpr bool are_many(std::size_t arrived, std::size_t all) { return arrived >
 
 class WindowStart {
  public:
-  /// `found`, by worker, is passed only to reuse its memory.
+  /// A start at the present time. `found`, by worker, is passed only to reuse its memory.
   WindowStart(WorldState& state, EventProcessor& main, PoolLease& lease, std::vector<SearchResults>& found)
-      : state_(state), main_(main), lease_(lease), found_(found) {}
+      : WindowStart(state, main, lease, found, state.broad_phase, main.time()) {}
+  /// A start of the windows of another broad phase, at `time`, which may be later than the present.
+  WindowStart(WorldState& state, EventProcessor& main, PoolLease& lease, std::vector<SearchResults>& found,
+              BroadPhase& windows, double time)
+      : state_(state), main_(main), lease_(lease), found_(found), windows_(windows), time_(time) {
+    found_.resize(lease_.count());
+  }
 
   /// Returns the motion statistics of bodies that have no window yet.
   MotionStatistics measure(std::span<const std::uint32_t> numbers) const;
   /// Chooses the window policy. Most bodies travel about a quarter of their spacing in the first main window.
   void choose_policy(const MotionStatistics& statistics);
 
-  /// Probes the bodies whose windows end, if a larger swept sphere would cost more than a report. Errors:
+  /// Probes now the bodies that will start, if a larger swept sphere would cost more than a report. Errors:
   /// those of probe().
   Result<void> refresh(std::span<const std::uint32_t> ending);
   /// Returns windows for bodies that have none, of rungs other than `held` (Window::free_at). A body for
@@ -41,17 +48,31 @@ class WindowStart {
   std::uint64_t start(std::span<const BroadPhase::Starter> starters,
                       const std::vector<std::uint8_t>* others = nullptr);
 
+  // The steps of start().
+  /// Registers swept spheres, which BroadPhase::finish_start() sorts.
+  void add_starters(std::span<const BroadPhase::Starter> starters);
+  /// Searches for the started bodies with an index from <= k < to below BroadPhase::started(), and certifies
+  /// the pairs. Returns the number of near pairs.
+  std::uint64_t find_pairs(std::size_t from, std::size_t to,
+                           const std::vector<std::uint8_t>* others = nullptr);
+  /// Certifies the pairs of bodies of `numbers` that touch or sense each other.
+  void find_links(std::span<const std::uint32_t> numbers);
+  void find_walls(std::span<const std::uint32_t> numbers);
+  /// Moves all certificates found to the queue.
+  void hand_over();
+
+  PairCertifier certifier() const { return {state_, time_, windows_}; }
+
  private:
-  std::uint64_t find_pairs(const std::vector<std::uint8_t>* others);
-  void find_links_and_walls(std::span<const BroadPhase::Starter> starters);
   Bodies& bodies() { return state_.bodies; }
   const Bodies& bodies() const { return state_.bodies; }
-  double time() const { return main_.time(); }
 
   WorldState& state_;
   EventProcessor& main_;
   PoolLease& lease_;
   std::vector<SearchResults>& found_;
+  BroadPhase& windows_;
+  double time_;  ///< at which the windows start
 };
 
 }  // namespace kinesphere

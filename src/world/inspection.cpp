@@ -34,6 +34,7 @@ Memory World::Engine::memory() const {
   memory.bodies = heap_bytes(bodies());
   memory.contacts = heap_bytes(contacts());
   memory.windows = heap_bytes(broad_phase());
+  if (prepared_) memory.windows += heap_bytes(*prepared_);
   memory.other = sizeof *this + main_.bytes() - memory.pairs;
   if (profile_) memory.other += profile_->bytes();
   for (const SearchResults& found : found_) memory.other += heap_bytes(found.certificates);

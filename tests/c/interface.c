@@ -721,8 +721,10 @@ static void predictions_and_shards(void) {
 /// A game moves a ball at 5 frames a unit of time, towards a wall, and takes its place back after each frame.
 static void frames(void) {
   ks_world_definition definition = ks_default_world_definition();
+  CHECK(definition.spread_window_starts == 0);
   definition.has_box = 1;
   definition.box.upper = vec3(10, 10, 10);
+  definition.spread_window_starts = 1;
   ks_world world;
   CHECK_OK(ks_world_create(&definition, &world));
   ks_state start = {{5, 5, 5}, {0, 0, 0}};

@@ -152,6 +152,7 @@ std::vector<Original> make_originals() {
       {.box = box, .contacts = ContactEvents::impacts, .start_time = 1e9},
       {.box = box, .periodic = {true, true, true}, .allow_overlap = true},
       {.box = box, .periodic = {true, false, false}, .dimensions = 2, .separation_distance = 1e-3},
+      {.box = box, .spread_window_starts = true},
   };
   std::vector<Original> all;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) all.push_back({of_stream(seed, 60, seed % 4 == 0)});

@@ -141,6 +141,7 @@ WorldKind kind_of(std::span<const std::uint8_t> bytes) {
   if (lengths % 4 == 1) world.separation_distance = 1.5 * world.contact_tolerance;
   if (lengths % 4 == 2) world.separation_distance = 0.1;
   if (lengths / 4 % 4 == 1) world.zeno_interval = 0.01;
+  world.spread_window_starts = lengths / 4 % 4 >= 2;
   world.start_time = lengths / 16 - 3.0;
   kind.crowd = bodies == 255 && choices / 64 % 2 == 1;
   kind.most_bodies = kind.crowd ? 240 : bodies >= 252 ? 100 : 3 + bodies % 32;

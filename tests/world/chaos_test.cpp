@@ -26,7 +26,7 @@ class Chaos {
   Chaos(std::uint64_t seed, const Scales& scales, bool repeats)
       : random_(seed),
         time_(power_of_ten(scales.least_time, scales.largest_time)),
-        world_(create(scales, repeats)) {
+        world_(create(scales, repeats, seed % 2 == 1)) {
     if (random_.bits() % 3 == 0)
       world_.set_sensor(1, {.distances = {0.05 * length_, 0.02 * length_}}).value();
   }
@@ -50,9 +50,10 @@ class Chaos {
 
   double power_of_ten(double least, double most) { return std::pow(10.0, random_.uniform(least, most)); }
 
-  World create(const Scales& scales, bool repeats) {
+  World create(const Scales& scales, bool repeats, bool spreads) {
     length_ = power_of_ten(scales.least_length, scales.largest_length);
     WorldDefinition definition;
+    definition.spread_window_starts = spreads;
     definition.dimensions = random_.bits() % 4 == 0 ? 2 : 3;
     definition.contact_tolerance = 1e-6 * length_;
     definition.contacts = random_.bits() % 2 == 0 ? ContactEvents::impacts : ContactEvents::begin_and_end;

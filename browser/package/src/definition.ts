@@ -37,6 +37,8 @@ export interface WorldDefinition {
   /** >= 0 (time): contacts of a body that follow each other sooner are `repeated`. */
   zenoInterval?: number;
   startTime?: number;
+  /** For games: frames of equal length cost about the same, and more in total. Has no effect in periodic space. */
+  spreadWindowStarts?: boolean;
 }
 
 /** A definition with all defaults filled in. */
@@ -44,7 +46,7 @@ export type Definition = Required<Omit<WorldDefinition, "box">> & Pick<WorldDefi
 
 const definitionKeys: Keys<WorldDefinition> = {
   box: true, periodic: true, dimensions: true, contactTolerance: true, separationDistance: true, contacts: true,
-  allowOverlap: true, zenoInterval: true, startTime: true,
+  allowOverlap: true, zenoInterval: true, startTime: true, spreadWindowStarts: true,
 };
 const periodicKeys: Keys<NonNullable<WorldDefinition["periodic"]>> = { x: true, y: true, z: true };
 export const boxKeys: Keys<Box> = { lower: true, upper: true };
@@ -71,6 +73,7 @@ export function definitionNumbers(definition: WorldDefinition): number[] {
     definition.allowOverlap === false ? 0 : 1,
     definition.zenoInterval ?? 0,
     definition.startTime ?? 0,
+    definition.spreadWindowStarts ? 1 : 0,
   ];
 }
 
@@ -94,5 +97,6 @@ export function definitionAt(module: Module, address: number): Definition {
     allowOverlap: numbers[14] !== 0,
     zenoInterval: numbers[15]!,
     startTime: numbers[16]!,
+    spreadWindowStarts: numbers[17] !== 0,
   };
 }
