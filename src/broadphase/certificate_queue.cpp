@@ -80,7 +80,7 @@ void CertificateQueue::divide(double first, double last, std::size_t pairs) {
 }
 
 void CertificateQueue::add_all(std::vector<PairCertificate>& pairs) {
-  if (4 * pairs.size() < size() || pairs.size() < 64) {
+  if (4 * pairs.size() < size() || pairs.size() < many) {
     for (const PairCertificate& pair : pairs) add(pair);
   } else {
     for_each([&](const PairCertificate& pair) { pairs.push_back(pair); });

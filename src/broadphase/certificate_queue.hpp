@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "number/infinity.hpp"
@@ -141,6 +142,7 @@ class CertificateQueue {
   }
 
  private:
+  static constexpr std::size_t many = 64;
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   struct Node {
     PairCertificate pair;
@@ -169,6 +171,13 @@ class CertificateQueue {
       --waiting_;
     }
     heads_[bucket_] = none;
+    // The last bucket has all that fails after the times of the others. Times that never come cannot be
+    // divided.
+    const auto never = [](const PairCertificate& pair) { return pair.failure_time == infinity; };
+    if (waiting_ == 0 && sorted_.size() > many && std::none_of(sorted_.begin(), sorted_.end(), never)) {
+      std::vector<PairCertificate> pairs = std::exchange(sorted_, {});
+      return add_all(pairs);
+    }
     std::sort(sorted_.begin(), sorted_.end(), order_);
   }
 

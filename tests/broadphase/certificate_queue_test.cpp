@@ -236,6 +236,30 @@ TEST(CertificateQueue, ForgetsVoidPairsOfASliceWhenItBegins) {
   EXPECT_EQ(queue.next_time(), infinity);
 }
 
+/// Those that fail after all that were there when times were divided share the last slice, until it begins.
+TEST(CertificateQueue, KeepsTheOrderOfThoseBeyondTheLastSlice) {
+  Random random(seed);
+  CertificateQueue queue;
+  std::vector<PairCertificate> pairs;
+  for (int k = 0; k < 1000; ++k) pairs.push_back({.failure_time = random.uniform()});
+  queue.add_all(pairs);
+  for (int k = 0; k < 3000; ++k) queue.add({.failure_time = k % 3 == 0 ? 7.0 : random.uniform(2.0, 9.0)});
+  double before = 0.0;
+  std::size_t added = 0;
+  for (std::size_t left = 4000; left > 0; --left) {
+    queue.open([](const PairCertificate&) { return false; });
+    ASSERT_EQ(queue.size(), left);
+    ASSERT_GE(queue.next_time(), before);
+    before = queue.next_time();
+    ASSERT_EQ(queue.take_first().failure_time, before);
+    // Some come to be due soon, others beyond the last again.
+    if (++added % 100 == 0 && added < 4000) {
+      queue.add({.failure_time = before + random.uniform(0.0, 9.0)});
+      ++left;
+    }
+  }
+}
+
 TEST(CertificateQueue, KeepsNoMoreMemoryThanItsPairsNeed) {
   Random random(seed);
   CertificateQueue queue;
