@@ -153,11 +153,15 @@ def test_many_bodies_are_changed_at_once() -> None:
     ids = world.add(np.arange(30.0).reshape(10, 3) * 10)
     world.set_velocity(ids, np.ones((10, 3)))
     world.set_radius(ids[2:4], [0.5, 0.25])
+    world.set_radius_rate(ids[2:4], [0.5, -0.25])
     world.teleport(ids[:2], [[1, 1, 1], [5, 5, 5]])
     world.set_user_data(ids, np.arange(10, dtype=np.uint64) + 2**63)
     world.set_motion_limits(ids, 3.0, planned_acceleration=(0, 0, -1))
     assert world.user_data(3) == 2**63 + 3
     assert world.body(3).radius == 0.25 and world.body(3).acceleration_limit == 3.0
+    with pytest.raises(ks.StateError, match="radius_rate"):
+        world.sleep(3)
+    world.set_radius_rate(ids, 0)
     world.disable(ids[:5])
     assert not world.body(0).enabled
     world.enable(ids[:5], np.zeros((5, 3)) + [[0], [20], [40], [60], [80]], np.zeros((5, 3)))
