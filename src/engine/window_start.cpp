@@ -112,8 +112,6 @@ void WindowStart::add_starters(std::span<const BroadPhase::Starter> starters) {
       starters, time_, [&](std::uint32_t number) { return inflated_bound(bodies(), number, time_); }, lease_);
 }
 
-/// Searches for the pairs of bodies in slots that have started, and certifies them. Returns the number of
-/// near pairs.
 std::uint64_t WindowStart::find_pairs(std::size_t first, std::size_t last,
                                       const std::vector<std::uint8_t>* others) {
   const PairCertifier certifier = this->certifier();

@@ -51,8 +51,8 @@ class WindowStart {
   // The steps of start().
   /// Registers swept spheres, which BroadPhase::finish_start() sorts.
   void add_starters(std::span<const BroadPhase::Starter> starters);
-  /// Searches for the started bodies with an index from <= k < to below BroadPhase::started(), and certifies
-  /// the pairs. Returns the number of near pairs.
+  /// Searches for the slots from <= k < to below BroadPhase::started_slots(), and certifies the pairs.
+  /// Returns the number of near pairs; `others` as for start().
   std::uint64_t find_pairs(std::size_t from, std::size_t to,
                            const std::vector<std::uint8_t>* others = nullptr);
   /// Certifies the pairs of bodies of `numbers` that touch or sense each other.
