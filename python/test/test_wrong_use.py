@@ -246,7 +246,7 @@ def test_wrong_kinds_of_things_are_named() -> None:
         (lambda: things.w.add((0, 0, 0), masks=-1), ks.InvalidValue, "2\\^64"),
         (lambda: things.w.add((0, 0, 0), group=2**40), ks.InvalidValue, "32 bits"),
         (lambda: ks.Bouncing(masses=[1.0, -1]), ks.InvalidValue, "masses must be > 0"),
-        (lambda: ks.Bouncing(0.5), ks.InvalidValue, "masses must have one number for each body .*restitution=0.5"),  # type: ignore[arg-type]
+        (lambda: ks.Bouncing(0.5), ks.InvalidValue, "masses must have one number for each body .*restitution=0.5"),
         (lambda: ks.Bouncing(restitution=2), ks.InvalidValue, "restitution"),
         (lambda: ks.Bouncing(masses=np.ones((2, 2))), ks.InvalidValue, "masses must have shape"),
         (lambda: things.w.run(20, things.motion, ks.Bouncing(masses=[1.0])), ks.InvalidValue, "masses must have one number for each body"),

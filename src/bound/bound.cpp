@@ -10,13 +10,15 @@
 namespace kinesphere {
 
 Bound bound_of(const BodyDefinition& body, const State& state, double time) {
-  return {.time = time,
-          .position = state.position,
-          .velocity = state.velocity,
-          .planned_acceleration = body.planned_acceleration,
-          .radius = body.radius + body.position_error,
-          .growth_speed = body.velocity_error + std::abs(body.radius_rate),
-          .acceleration_limit = body.acceleration_limit};
+  Bound bound{.time = time,
+              .position = state.position,
+              .velocity = state.velocity,
+              .planned_acceleration = body.planned_acceleration,
+              .radius = body.radius + body.position_error,
+              .growth_speed = body.velocity_error,
+              .acceleration_limit = body.acceleration_limit};
+  if (body.radius_rate != 0.0) bound.growth_speed += std::abs(body.radius_rate);
+  return bound;
 }
 
 namespace {

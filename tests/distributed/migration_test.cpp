@@ -16,7 +16,7 @@ struct Rank {
   explicit Rank(int rank) : local({}, rank), migration(motion, local) {}
 
   std::uint32_t add(std::uint32_t name, const State& state) {
-    const std::uint32_t number = local.bodies().add({.radius = 0.5}, name);
+    const std::uint32_t number = local.bodies().add_named({.radius = 0.5}, 0.0, name);
     local.state.contacts.add(number, 0.0);
     local.directory.add(name, number, 0);
     local.directory[number].in_motion = motion.add(0.0, state).value();

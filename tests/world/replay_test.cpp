@@ -151,7 +151,7 @@ Bytes altered(const Bytes& bytes, Change change) {
   RecordingContent content = read_content(bytes).value();
   change(content.steps);
   ByteWriter writer;
-  writer(content.snapshot, content.has_pair_filter);
+  writer(content.snapshot, content.has_pair_filter, content.has_rotation_probe);
   for (const Step& step : content.steps) writer(step);
   return recording_envelope.seal(writer.bytes());
 }
