@@ -17,7 +17,7 @@ namespace {
 
 /// Relative error of the spans of the truth: they are exact to about this part of the distance.
 constexpr double rounding = 1e-9;
-constexpr double tolerance = 1e-3;
+constexpr double monitor_tolerance = 1e-3;
 
 RecordedSky sky_of(const MonitoringOptions& options) {
   const Recording recording = read_tracks(options.files, options.reading);
@@ -33,12 +33,12 @@ void add_certainty(ResultTable& table, const RecordedSky& sky, const MonitoringO
   const std::vector<Delivery> deliveries = sky.deliveries(reporting);
   const auto truth = require(sky.within(options.distance));
   const auto clearly = require(sky.within(options.distance * (1.0 - rounding)));
-  const auto loosely = require(sky.within((options.distance + tolerance) * (1.0 + rounding)));
+  const auto loosely = require(sky.within((options.distance + monitor_tolerance) * (1.0 + rounding)));
   Monitor monitor = require(Monitor::create({.dimensions = sky.dimensions(),
                                              .start_time = deliveries.front().time,
                                              .classes = {sky.promise()},
                                              .separations = {{0, 0, {Separation::sphere(options.distance)}}},
-                                             .tolerance = tolerance,
+                                             .tolerance = monitor_tolerance,
                                              .window = options.window}));
   const VerdictHistory history = watch(monitor, sky, deliveries);
   const Correctness correctness = correctness_of(history, sky, clearly, loosely);
