@@ -224,7 +224,7 @@ class BroadPhase {
   Vec3 base_{};  ///< base of the frames of levels opened from now on
   bool has_base_ = false;
   double next_end_ = infinity;     ///< see next_end()
-  bool has_many_changes_ = false;  ///< many bodies changed in the windows that ended last
+  bool has_many_changes_ = false;  ///< in the windows that ended last, so that spare slots pay
   Filling filling_;
   bool records_changes_ = false;
   std::vector<std::uint32_t> changes_;  ///< see take_changes(); a body may occur several times

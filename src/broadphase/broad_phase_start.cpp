@@ -15,6 +15,8 @@ constexpr std::uint64_t least_changes = 64;
 /// Grid levels get spare slots if more than one body in so many has changed in the windows before. Fewer
 /// changes cost less than longer searches.
 constexpr std::uint64_t bodies_for_a_change = 3;
+/// They get none if bodies have changed more often than this on average: the slots would soon be taken.
+constexpr std::uint64_t most_changes_of_a_body = 3;
 
 bool has_ended(double end, double now, bool all) { return all ? end < infinity : end <= now; }
 
@@ -68,7 +70,8 @@ void BroadPhase::end_windows(double now, bool all) {
       next_end_ = std::min(next_end_, layer.window.end);
     }
   }
-  if (bodies > 0) has_many_changes_ = bodies_for_a_change * changes > bodies;
+  if (bodies > 0)
+    has_many_changes_ = bodies_for_a_change * changes > bodies && changes <= most_changes_of_a_body * bodies;
 }
 
 std::vector<int> BroadPhase::held_rungs() const {
