@@ -11,7 +11,7 @@
 namespace kinesphere::program {
 namespace {
 
-std::string what_made(ProbeReason reason) {
+std::string reason_words(ProbeReason reason) {
   std::string words(name_of(reason));
   std::replace(words.begin(), words.end(), '_', ' ');
   return words;
@@ -19,7 +19,7 @@ std::string what_made(ProbeReason reason) {
 
 /// Returns the reason, with the figures that show it.
 std::string note_on(const BusyBody& busy) {
-  std::string note = what_made(busy.reason);
+  std::string note = reason_words(busy.reason);
   if (busy.contacts > 0) note += fmt::format(", {} contacts", grouped(busy.contacts));
   if (busy.acceleration_limit > 0.0)
     note += fmt::format(", acceleration limit {}, reports showed {}", number(busy.acceleration_limit),
@@ -45,7 +45,7 @@ std::string text_of_busiest(std::span<const BusyBody> busiest, std::uint64_t pro
   }
   std::string text = rows.text();
   for (const ProbeReason reason : reasons)
-    text += fmt::format("\n{}: {}\n", what_made(reason), advice_on(reason));
+    text += fmt::format("\n{}: {}\n", reason_words(reason), advice_on(reason));
   return text;
 }
 

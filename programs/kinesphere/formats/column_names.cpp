@@ -24,8 +24,7 @@ constexpr QuantityNames quantities[quantity_count] = {
     {Quantity::id, "id", Measure::none,
      "mmsi trackid agent agentid ped pedid pedestrian pedestrianid person personid object objectid vehicleid "
      "vesselid shipid sourcemmsi deviceid droneid drone uavid uav robotid playerid entityid icao24 hex "
-     "trajectoryid particle "
-     "particleid tag tagid animalid individuallocalidentifier"},
+     "trajectoryid particle particleid tag tagid animalid individuallocalidentifier"},
     {Quantity::time, "time", Measure::time,
      "t timestamp datetime basedatetime utc timeutc timestamputc datetimeutc unixtime epoch stamp tstamp "
      "headerstamp fixtime utctime date/time localtime timestamplocal zeit uhrzeit seconds:s secs:s sec:s "

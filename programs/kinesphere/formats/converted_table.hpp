@@ -1,6 +1,7 @@
 // Files of other formats, turned into tables that are read as all others are.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -34,6 +35,24 @@ std::optional<ConvertedTable> convert_lammps(std::string_view text, const std::s
 std::optional<ConvertedTable> convert_json_records(std::string_view text, const std::string& file);
 std::optional<ConvertedTable> convert_json_trace(std::string_view text, const std::string& file,
                                                  bool geometric);
+
+/// Returns a table of places, each on the line of the file that it has (Place::line). `fields` returns all
+/// fields of a place but its height (Place::height, perhaps empty). Unless all places have one, none is used.
+template <class Place, class Fields>
+ConvertedTable table_of_places(std::string_view format, const std::string& columns, const std::string& height,
+                               const std::vector<Place>& places, Fields fields) {
+  const bool have_heights =
+      std::all_of(places.begin(), places.end(), [](const Place& place) { return !place.height.empty(); });
+  ConvertedTable table{.format = std::string(format),
+                       .text = columns + (have_heights ? "," + height : "") + "\n"};
+  std::size_t line = 2;
+  for (const Place& place : places) {
+    for (; line < place.line; ++line) table.text += '\n';
+    table.text += fields(place) + (have_heights ? "," + place.height : "") + "\n";
+    ++line;
+  }
+  return table;
+}
 
 /// True for XML whose first elements contain `element`, such as "<gpx".
 bool is_xml_with(std::string_view text, std::string_view element);

@@ -1,8 +1,6 @@
 // SUMO's FCD output in XML: vehicles and persons at each time step.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "formats/converted_table.hpp"
 #include "formats/xml_elements.hpp"
 #include "program_error.hpp"
@@ -19,23 +17,14 @@ class FcdReader final : XmlElements {
 
   ConvertedTable read() {
     read_all();
-    const bool have_heights =
-        std::all_of(places_.begin(), places_.end(), [](const Place& place) { return !place.z.empty(); });
-    ConvertedTable table{.format = "SUMO FCD",
-                         .text = have_heights ? "vehicle_id,time,x,y,z\n" : "vehicle_id,time,x,y\n"};
-    std::size_t row_line = 2;
-    for (const Place& place : places_) {
-      for (; row_line < place.line; ++row_line) table.text += '\n';
-      table.text += fmt::format("{},{},{},{}{}\n", place.id, place.time, place.x, place.y,
-                                have_heights ? "," + place.z : "");
-      ++row_line;
-    }
-    return table;
+    return table_of_places("SUMO FCD", "vehicle_id,time,x,y", "z", places_, [](const Place& place) {
+      return fmt::format("{},{},{},{}", place.id, place.time, place.x, place.y);
+    });
   }
 
  private:
   struct Place {
-    std::string id, time, x, y, z;
+    std::string id, time, x, y, height;
     std::size_t line = 0;
   };
 
@@ -47,7 +36,7 @@ class FcdReader final : XmlElements {
                        .time = time_,
                        .x = attribute(attributes, "x"),
                        .y = attribute(attributes, "y"),
-                       .z = attribute(attributes, "z"),
+                       .height = attribute(attributes, "z"),
                        .line = line()});
   }
   void end(std::string_view) override {}

@@ -18,22 +18,14 @@ class GpxReader final : XmlElements {
 
   ConvertedTable read() {
     read_all();
-    const bool have_heights =
-        std::all_of(points_.begin(), points_.end(), [](const Point& point) { return !point.height.empty(); });
-    const bool has_heights =
-        std::any_of(points_.begin(), points_.end(), [](const Point& point) { return !point.height.empty(); });
-    ConvertedTable table{.format = "GPX",
-                         .text = have_heights ? "id,time,lon,lat,ele\n" : "id,time,lon,lat\n"};
-    if (has_heights && !have_heights)
+    ConvertedTable table = table_of_places("GPX", "id,time,lon,lat", "ele", points_, [](const Point& point) {
+      return fmt::format("{},{},{},{}", point.track, point.time, point.longitude, point.latitude);
+    });
+    const auto has_height = [](const Point& point) { return !point.height.empty(); };
+    if (std::any_of(points_.begin(), points_.end(), has_height) &&
+        !std::all_of(points_.begin(), points_.end(), has_height))
       table.warnings.push_back(
           fmt::format("{}: some points have no height (ele), so that none is used", file()));
-    std::size_t line = 2;
-    for (const Point& point : points_) {
-      for (; line < point.line; ++line) table.text += '\n';
-      table.text += fmt::format("{},{},{},{}{}\n", point.track, point.time, point.longitude, point.latitude,
-                                have_heights ? "," + point.height : "");
-      ++line;
-    }
     return table;
   }
 
