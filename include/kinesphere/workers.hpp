@@ -28,10 +28,9 @@ struct TaskSystem {
 };
 
 /// Serves one run() at a time, of any world; another run() that starts meanwhile fails with workers_busy.
-/// Idle threads yield a hundred times while they look for work, and then sleep. A run measures how long its
-/// work takes with all threads and with the calling one alone, and uses the faster way; the other is tried
-/// again from time to time. The outcome is the same either way. Workers that serve runs of several worlds in
-/// turn measure anew at each change.
+/// Idle threads yield a hundred times while they look for work, and then sleep. A run measures how much
+/// processor time its threads get. Where that is hardly more than one thread would have, the calling thread
+/// works alone; the others are tried again from time to time. The outcome is the same either way.
 class Workers {
  public:
   class Pool;  ///< of the library

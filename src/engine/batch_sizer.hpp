@@ -4,17 +4,31 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 
 namespace kinesphere {
 
 class BatchSizer {
  public:
+  /// For a run with this number of threads in a world with this number of bodies. Few bodies have many
+  /// conflicts between clusters, so their first epochs are processed without speculation.
+  BatchSizer(std::size_t threads, std::size_t bodies)
+      : threads_(std::max<std::size_t>(threads, 1)), least_due_(std::max<std::size_t>(2048 / threads_, 128)) {
+    if (bodies < 16 * least_due_) paused_ = pause_ = 15;
+  }
+
+  /// For tests: speculates wherever it may pay with any number of threads.
+  static BatchSizer eager() { return {16, std::numeric_limits<std::size_t>::max()}; }
+
   /// Forces speculative execution of every epoch, however long it takes and however few pairs are due.
   void require_speculation() {
     must_speculate_ = true;
     least_due_ = 8;
+    paused_ = 0;
   }
   bool may_decline() const { return !must_speculate_; }
+  /// Returns the fewest due pairs of a batch that repay its overhead.
+  std::size_t fewest_due() const { return must_speculate_ ? 1 : least_due_; }
 
   /// Returns true if the next epoch is processed without speculation. Consumes one paused epoch.
   bool skips_epoch() {
@@ -48,23 +62,25 @@ class BatchSizer {
     }
   }
   /// Pauses speculation for 1, 3, 7, ... up to 31 epochs, longer with each consecutive call, while repeats
-  /// exceed 1/3 of the first runs and the batch was not committed or could not be smaller. Resets the pause
-  /// otherwise. `done` is true if the batch was committed.
+  /// exceed the share of the first runs that the threads can make up for, and the batch was not committed or
+  /// could not be smaller. Resets the pause otherwise. `done` is true if the batch was committed.
   void pause(bool done) {
     constexpr int longest = 31;
-    const bool repeat_much = 3 * repeats_ > first_runs_ && (!done || most_due_ == least_due_);
+    const std::size_t share = std::max<std::size_t>(16 / threads_, 3);
+    const bool repeat_much = share * repeats_ > first_runs_ && (!done || most_due_ == least_due_);
     if (first_runs_ > 0) pause_ = repeat_much ? std::min(2 * pause_ + 1, longest) : 0;
     paused_ = pause_;
   }
 
  private:
   bool must_speculate_ = false;
-  std::size_t least_due_ = 128;  ///< minimum due pairs per batch; fewer do not repay its overhead
-  std::size_t most_due_ = 0;     ///< maximum due pairs per batch; 0 until most_due() is called
-  std::size_t first_runs_ = 0;   ///< due pairs of first executions in this batch
-  std::size_t repeats_ = 0;      ///< due pairs of repeated executions in this batch
-  int pause_ = 0;                ///< length of the current pause in epochs
-  int paused_ = 0;               ///< epochs of the pause that are still to come
+  std::size_t threads_;
+  std::size_t least_due_;       ///< minimum due pairs per batch; fewer do not repay its overhead
+  std::size_t most_due_ = 0;    ///< maximum due pairs per batch; 0 until most_due() is called
+  std::size_t first_runs_ = 0;  ///< due pairs of first executions in this batch
+  std::size_t repeats_ = 0;     ///< due pairs of repeated executions in this batch
+  int pause_ = 0;               ///< length of the current pause in epochs
+  int paused_ = 0;              ///< epochs of the pause that are still to come
 };
 
 }  // namespace kinesphere

@@ -9,18 +9,17 @@ World::Engine::Engine(const WorldDefinition& definition)
 World::Engine::Engine(const Engine& other)
     : state_(other.state_), main_(other.main_, state_), prepared_(other.prepared_) {}
 
-Result<std::optional<Event>> World::Engine::advance(double until, const Probe& probe) {
+Result<std::optional<Event>> World::Engine::advance(double until, const Probe& probe, PoolLease& lease) {
   main_.reports().ask(probe, "advance");
   main_.note_response();
-  PoolLease alone;
   for (;;) {
     if (main_.is_gathering()) {
-      if (auto gathered = gather(until); !gathered) return gathered.error();
+      if (auto gathered = gather(until, lease); !gathered) return gathered.error();
     }
     if (!main_.events().is_quiet()) {
       if (std::optional<Event> event = main_.pop()) return event;
     }
-    if (auto recertified = recertify(alone); !recertified) return recertified.error();
+    if (auto recertified = recertify(lease); !recertified) return recertified.error();
     if (!main_.events().pending().empty()) continue;
     const double next = std::min(main_.pause(), main_.next_time());
     if (next > until) {
@@ -31,8 +30,7 @@ Result<std::optional<Event>> World::Engine::advance(double until, const Probe& p
   }
 }
 
-Result<bool> World::Engine::run_epoch(double until, const Probe& probe, PoolLease& lease,
-                                      SpeculativeRunner& runner, std::deque<Event>& events) {
+Result<bool> World::Engine::prepare_batch(const Probe& probe, PoolLease& lease) {
   main_.reports().ask(probe, "advance");
   main_.note_response();
   if (main_.is_gathering() || !main_.events().is_quiet()) return false;
@@ -45,17 +43,16 @@ Result<bool> World::Engine::run_epoch(double until, const Probe& probe, PoolLeas
     }
   }
   if (auto recertified = recertify(lease); !recertified) return recertified.error();
-  return main_.is_certified() && runner.run(until, events);
+  return main_.is_certified();
 }
 
 /// Starts the windows that end at this instant, then rechecks all certificates that are due, also those of
 /// later instants (EventProcessor::gather).
-Result<void> World::Engine::gather(double until) {
-  PoolLease alone;
+Result<void> World::Engine::gather(double until, PoolLease& lease) {
   if (main_.pause() <= time()) {
-    if (auto ended = end_epoch(alone); !ended) return ended;
+    if (auto ended = end_epoch(lease); !ended) return ended;
   }
-  if (auto recertified = recertify(alone); !recertified) return recertified;
+  if (auto recertified = recertify(lease); !recertified) return recertified;
   return main_.gather(until);
 }
 

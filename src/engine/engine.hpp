@@ -31,12 +31,10 @@ class World::Engine {
   Engine(const Engine& other);
 
   // Time.
-  Result<std::optional<Event>> advance(double until, const Probe& probe);
-  /// Processes many events concurrently (speculative_runner.hpp), up to `until` or to the end of a batch of
-  /// the epoch, and appends them to `events`. Results are those of advance(). Returns false if speculation is
-  /// impossible or does not pay until the end of the epoch; the caller then uses advance().
-  Result<bool> run_epoch(double until, const Probe& probe, PoolLease& lease, SpeculativeRunner& runner,
-                         std::deque<Event>& events);
+  Result<std::optional<Event>> advance(double until, const Probe& probe, PoolLease& lease);
+  /// Does what is due before a batch (speculative_runner.hpp): starts the windows that end now, and
+  /// recertifies changed bodies. Returns false if no batch can begin now; the caller then uses advance().
+  Result<bool> prepare_batch(const Probe& probe, PoolLease& lease);
   SpeculativeRunner runner(PoolLease& lease, const Probe& probe, ResponseHandler* handler) {
     return {state_, main_, lease, probe, handler};
   }
@@ -90,7 +88,7 @@ class World::Engine {
   bool may_prepare_starts() const { return definition().spread_window_starts && !bodies().space().repeats(); }
   Result<void> start_windows(PoolLease& lease, bool all, std::span<const std::uint32_t> joining = {});
   Result<void> start_with_arrivals(PoolLease& lease);
-  Result<void> gather(double until);
+  Result<void> gather(double until, PoolLease& lease);
   Result<void> recertify(PoolLease& lease);
 
   // snapshot.cpp

@@ -19,6 +19,8 @@ SpeculativeRunner::SpeculativeRunner(WorldState& state, EventProcessor& main, Po
       main_(main),
       lease_(lease),
       handler_(handler),
+      sizer_(lease.is_eager() ? BatchSizer::eager()
+                              : BatchSizer(lease.count(), state.bodies.table().live_count())),
       pool_(state, main, lease.count(), probe, handler) {}
 
 bool SpeculativeRunner::run(double until, std::deque<Event>& events) {
@@ -94,7 +96,7 @@ bool SpeculativeRunner::is_worthwhile() const {
     all += cluster.due.size();
     largest = std::max<std::size_t>(largest, cluster.due.size());
   }
-  return clusters_.size() >= few && 2 * largest < all;
+  return clusters_.size() >= few && 2 * largest < all && all >= sizer_.fewest_due();
 }
 
 void SpeculativeRunner::merge_bodies(std::span<const std::uint32_t> numbers) {

@@ -82,8 +82,8 @@ class Workers::Pool {
     shared_cpu_ += items.cpu_seconds();
   }
 
-  /// Makes the threads work however little they gain: for tests.
-  void never_stand_back() { stands_back_ = false; }
+  /// Makes the threads work, and speculate, however little they gain: for tests.
+  void be_eager() { is_eager_ = true; }
 
   /// Returns the pool of `workers`. Precondition: they have not been moved from.
   static Pool& of(Workers& workers) { return *workers.pool_; }
@@ -92,12 +92,11 @@ class Workers::Pool {
  private:
   friend class PoolLease;
   std::atomic<bool> busy_ = false;
-  bool stands_back_ = true;
-  ThreadGain gain_;  ///< in runs of gain_in_
+  bool is_eager_ = false;
+  ThreadGain gain_;
   // Seconds in parallel loops since take_sharing(): of all threads, and of real time.
   double shared_cpu_ = 0.0;
   double shared_wall_ = 0.0;
-  const void* gain_in_ = nullptr;
 };
 
 using ThreadPool = Workers::Pool;
@@ -118,14 +117,9 @@ class PoolLease {
   /// Returns the maximum number of concurrent workers.
   std::size_t count() const { return pool_ ? static_cast<std::size_t>(pool_->count()) : 1; }
 
-  /// Returns what the threads have gained in runs of the world at this address, and nothing if another world
-  /// ran since; nullptr if there is one thread alone, or if the threads never stand back.
-  ThreadGain* gain_in(const void* world) {
-    if (count() == 1 || !pool_->stands_back_) return nullptr;
-    (void)take_sharing();
-    if (std::exchange(pool_->gain_in_, world) != world) pool_->gain_ = {};
-    return &pool_->gain_;
-  }
+  /// Returns nullptr if there is one thread alone, or if the threads never stand back.
+  ThreadGain* gain() { return count() == 1 || is_eager() ? nullptr : &pool_->gain_; }
+  bool is_eager() const { return pool_ && pool_->is_eager_; }
 
   /// CPU time of all threads in parallel loops since the last call, and the real time of these loops
   /// (seconds). Precondition: count() > 1.

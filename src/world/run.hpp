@@ -1,7 +1,6 @@
 // One call of World::run: repeated work, each time followed by delivering the resulting events to the sink.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -37,8 +36,6 @@ class World::Run final : private ResponseHandler {
   Result<void> go();
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   /// Does some work, and appends the resulting events to undelivered_->events. Returns true when the world
   /// has reached the end of the run. Precondition: all earlier events in undelivered_->events have been
   /// delivered to the sink.
@@ -46,15 +43,8 @@ class World::Run final : private ResponseHandler {
   Result<bool> step_batch();
   Result<bool> step(double until);
   void deliver();
-  void begin_measurement();
-  void measure();
-  void look_at_sharing();
-  /// Returns a measure of the work so far, which does not depend on the number of threads.
-  std::uint64_t work_so_far() const {
-    const Counters& counters = world_.engine_->counters();
-    return counters.probes + counters.searches;
-  }
-
+  bool shares_work() const;
+  bool stands_back();
   Result<std::optional<Event>> next(double until);
   Result<void> answer_one(const Event& event);
   void act(BodyId body, BodyAction action);
@@ -79,9 +69,7 @@ class World::Run final : private ResponseHandler {
   const Probe& probe_;
   const EventFn& on_event_;
   PoolLease lease_;
-  ThreadGain* gain_ = nullptr;  ///< nullptr if the time of work is not measured
-  Clock::time_point measured_at_{};
-  std::uint64_t measured_work_ = 0;          ///< work_so_far() then
+  ThreadGain* gain_ = nullptr;               ///< nullptr if the threads never stand back
   std::optional<SpeculativeRunner> runner_;  ///< created when several threads are used
   /// End of the epoch in which speculative execution does not pay off: until then, events are processed one
   /// by one.

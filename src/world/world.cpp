@@ -270,9 +270,10 @@ EventRange World::events(double until, Probe probe) { return {*this, until, std:
 void EventRange::go_on() { event_ = world_->advance(until_, probe_).value(); }
 
 Result<std::optional<Event>> World::recorded_advance(double until, const Probe& probe) {
-  if (!recorder_) return changeable().advance(until, probe);
+  PoolLease alone;
+  if (!recorder_) return changeable().advance(until, probe, alone);
   Recorder::Listener listener(*recorder_, *this, probe, until);
-  auto event = changeable().advance(until, listener);
+  auto event = changeable().advance(until, listener, alone);
   if (event) listener.succeeded(*event);
   return event;
 }

@@ -78,17 +78,11 @@ Result<void> World::Run::go() {
   world_.running_ = true;
   const ScopeGuard stop([&] { world_.running_ = false; });
   deliver();
-  gain_ = lease_.gain_in(&world_);
-  begin_measurement();
+  gain_ = lease_.gain();
   for (;;) {
-    const double epoch_end = world_.engine_->epoch_end();
     const auto done = work();
     if (!done) return done.error();
     deliver();
-    if (gain_ != nullptr && gain_->uses_threads()) look_at_sharing();
-    const bool is_new_epoch = world_.engine_->epoch_end() != epoch_end;
-    if (gain_ != nullptr && (is_new_epoch || *done)) measure();
-    if (gain_ != nullptr && is_new_epoch) gain_->decide();
     if (*done) return {};
   }
 }
@@ -105,48 +99,44 @@ void World::Run::deliver() {
 }
 
 Result<bool> World::Run::work() {
-  // Recording and profiling require events to be processed one at a time. Clusters know of no shapes that
-  // move.
-  const bool alone = lease_.count() == 1 || world_.recorder_ || world_.profiling_ ||
-                     world_.engine_->bodies().shapes.any_carried() || world_.engine_->bodies().rigid.any() ||
-                     !world_.undelivered_->empty();
   if (exclusive_) return step(*exclusive_);
-  if (alone || (gain_ != nullptr && !gain_->uses_threads()) || world_.engine_->epoch_end() == one_by_one_)
-    return step(until_);
+  if (!shares_work()) return step(until_);
+  // Each epoch is tried anew.
+  const double epoch_end = world_.engine_->epoch_end();
+  if (stands_back() || epoch_end == one_by_one_) return step(std::min(until_, epoch_end));
   return step_batch();
 }
 
-void World::Run::begin_measurement() {
-  measured_at_ = Clock::now();
-  measured_work_ = work_so_far();
+/// Returns false if one thread does all, however many there are. Recording and profiling require events to be
+/// processed one at a time. Clusters know of no shapes that move.
+bool World::Run::shares_work() const {
+  return lease_.count() > 1 && !world_.recorder_ && !world_.profiling_ &&
+         !world_.engine_->bodies().shapes.any_carried() && !world_.engine_->bodies().rigid.any() &&
+         world_.undelivered_->empty();
 }
 
-/// Notes how long the work took since the measurement began, and how much it was. Begins the next one.
-void World::Run::measure() {
-  gain_->note(std::chrono::duration<double>(Clock::now() - measured_at_).count(),
-              static_cast<double>(work_so_far() - measured_work_));
-  begin_measurement();
-}
-
-/// Lets the threads stand back if they get hardly any processor time. What has been done since the
-/// measurement began belongs to neither way then.
-void World::Run::look_at_sharing() {
-  const auto [cpu, wall] = lease_.take_sharing();
-  if (cpu > 0.0 && gain_->note_sharing(cpu, wall)) begin_measurement();
+/// Returns true if one thread does all for some time, because the processors are busy.
+bool World::Run::stands_back() {
+  if (gain_ == nullptr) return false;
+  if (const auto [cpu, wall] = lease_.take_sharing(); cpu > 0.0)
+    gain_->note_sharing(cpu, wall, ThreadGain::Clock::now());
+  return !gain_->uses_threads(ThreadGain::Clock::now);
 }
 
 /// Processes many events at once if possible, otherwise one.
 Result<bool> World::Run::step_batch() {
   Engine& engine = world_.changeable();
-  if (!runner_) runner_.emplace(engine.runner(lease_, probe_, respond_ != nullptr ? this : nullptr));
-  const auto done = engine.run_epoch(until_, probe_, lease_, *runner_, world_.undelivered_->events);
-  if (!done) return renamed(done.error());
-  if (*done) {
-    exclusive_ = runner_->exclusive();
-    return engine.time() == until_ && !engine.is_due();
+  const auto can_begin = engine.prepare_batch(probe_, lease_);
+  if (!can_begin) return renamed(can_begin.error());
+  if (*can_begin) {
+    if (!runner_) runner_.emplace(engine.runner(lease_, probe_, respond_ != nullptr ? this : nullptr));
+    if (runner_->run(until_, world_.undelivered_->events)) {
+      exclusive_ = runner_->exclusive();
+      return engine.time() == until_ && !engine.is_due();
+    }
+    one_by_one_ = engine.epoch_end();
   }
-  one_by_one_ = engine.epoch_end();
-  return step(until_);
+  return step(std::min(until_, engine.epoch_end()));
 }
 
 /// Processes one event, or advances to `until` if there is none before.
@@ -170,7 +160,8 @@ Result<bool> World::Run::step(double until) {
 
 Result<std::optional<Event>> World::Run::next(double until) {
   if (auto event = world_.undelivered_->take()) return event;
-  return world_.engine_advance(until, probe_);
+  if (!shares_work() || stands_back()) return world_.engine_advance(until, probe_);
+  return world_.changeable().advance(until, probe_, lease_);
 }
 
 Result<void> World::Run::answer_one(const Event& event) {

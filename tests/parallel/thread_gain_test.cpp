@@ -3,77 +3,66 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <chrono>
 
 namespace kinesphere::thread_gain_test {
 namespace {
 
-/// Does as much work as takes one thread `seconds`, in parts of 1 ms; with several threads each takes `cost`
-/// times as long. Returns the time that it took.
-double work(ThreadGain& gain, double seconds, double cost) {
-  constexpr double part = 0.001;
-  double taken = 0.0;
-  for (double done = 0.0; done < seconds; done += part) {
-    const double time = gain.uses_threads() ? cost * part : part;
-    gain.note(time, 100.0);
-    gain.decide();
-    taken += time;
-  }
-  return taken;
-}
+using Seconds = std::chrono::duration<double>;
 
-TEST(ThreadGain, LosesLittleWhereThreadsLose) {
-  for (const double cost : {1.0, 1.1, 1.6}) {
-    ThreadGain gain;
-    EXPECT_LT(work(gain, 3.0, cost), 1.03 * 3.0) << cost;
-    EXPECT_LT(work(gain, 20.0, cost), 1.01 * 20.0) << cost;
-  }
-}
+class Machine {
+ public:
+  explicit Machine(double sharing) : sharing_(sharing) {}
 
-TEST(ThreadGain, KeepsThreadsThatGain) {
-  for (const double cost : {0.5, 0.6, 0.9}) {
-    ThreadGain gain;
-    EXPECT_LT(work(gain, 3.0, cost), (cost + 0.03) * 3.0) << cost;
-    EXPECT_LT(work(gain, 20.0, cost), (cost + 0.01) * 20.0) << cost;
+  /// From now on, threads have so many seconds of processor time for each one of real time.
+  void set_sharing(double sharing) { sharing_ = sharing; }
+  /// Runs for some seconds, in parallel sections of half a millisecond with serial ones of the same length
+  /// between them. Returns the share of the time in which threads were used.
+  double run(ThreadGain& gain, double seconds) {
+    constexpr double section = 0.0005;
+    double with_threads = 0.0;
+    double all = 0.0;
+    for (; all < seconds; all += 2.0 * section) {
+      const bool uses_threads = gain.uses_threads([this] { return now_; });
+      now_ += std::chrono::duration_cast<ThreadGain::Clock::duration>(Seconds(2.0 * section));
+      if (!uses_threads) continue;
+      with_threads += 2.0 * section;
+      gain.note_sharing(sharing_ * section, section, now_);
+    }
+    return with_threads / all;
   }
-}
 
-/// The same as work() with threads that have `sharing` seconds of processor time for each one of real time.
-double work_sharing(ThreadGain& gain, double seconds, double cost, double sharing) {
-  constexpr double part = 0.0005;
-  double taken = 0.0;
-  for (double done = 0.0; done < seconds; done += part) {
-    const double time = gain.uses_threads() ? cost * part : part;
-    if (!gain.uses_threads() || !gain.note_sharing(sharing * time, time)) gain.note(time, 100.0);
-    gain.decide();
-    taken += time;
-  }
-  return taken;
-}
+ private:
+  double sharing_;
+  ThreadGain::Clock::time_point now_{};
+};
 
 TEST(ThreadGain, StandsBackAtOnceWhereOneProcessorIsFree) {
   for (const double sharing : {0.5, 1.0, 1.1}) {
     ThreadGain gain;
-    EXPECT_LT(work_sharing(gain, 0.1, 1.6, sharing), 1.03 * 0.1) << sharing;
-    EXPECT_LT(work_sharing(gain, 3.0, 1.6, sharing), 1.01 * 3.0) << sharing;
+    Machine machine(sharing);
+    EXPECT_LT(machine.run(gain, 0.1), 0.08) << sharing;
+    EXPECT_LT(machine.run(gain, 20.0), 0.01) << sharing;
   }
 }
 
-TEST(ThreadGain, HasNoTrialOfOneThreadInAShortRunWhereTwoProcessorsAreFree) {
-  ThreadGain gain;
-  EXPECT_LT(work_sharing(gain, 0.02, 0.6, 1.8), 0.601 * 0.02);
-  EXPECT_LT(work_sharing(gain, 3.0, 0.6, 1.8), 0.62 * 3.0);
-  EXPECT_TRUE(gain.uses_threads());
-  ThreadGain other;
-  EXPECT_LT(work_sharing(other, 3.0, 1.3, 1.8), 1.01 * 3.0) << "they share, and lose nevertheless";
+TEST(ThreadGain, UsesThreadsThatShare) {
+  for (const double sharing : {1.3, 2.0, 8.0}) {
+    ThreadGain gain;
+    EXPECT_EQ(Machine(sharing).run(gain, 20.0), 1.0) << sharing;
+  }
 }
 
 TEST(ThreadGain, NoticesThatProcessorsBecomeFreeAndBusy) {
   ThreadGain gain;
-  for (const double cost : {1.5, 0.6, 1.5}) {
-    work(gain, 3.0, cost);
-    EXPECT_EQ(gain.uses_threads(), cost < 1.0);
-    EXPECT_LT(work(gain, 3.0, cost), 1.05 * 3.0 * std::min(cost, 1.0));
+  Machine machine(1.0);
+  for (int turn = 0; turn < 3; ++turn) {
+    machine.set_sharing(1.0);
+    machine.run(gain, 0.05);
+    EXPECT_LT(machine.run(gain, 5.0), 0.02);
+    machine.set_sharing(1.9);
+    machine.run(gain, 1.7);
+    EXPECT_EQ(machine.run(gain, 1.0), 1.0);
   }
 }
 

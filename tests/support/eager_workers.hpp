@@ -9,7 +9,7 @@ namespace kinesphere {
 /// Returns Workers::create(threads), or an error of it. Their threads work however little they gain.
 inline Result<Workers> eager_workers(int threads) {
   auto workers = Workers::create(threads);
-  if (workers) ThreadPool::of(*workers).never_stand_back();
+  if (workers) ThreadPool::of(*workers).be_eager();
   return workers;
 }
 
