@@ -18,7 +18,7 @@ constexpr std::uint32_t count = 60;
 
 Bodies some_bodies() {
   Bodies bodies{WorldDefinition{}};
-  for (std::uint32_t number = 0; number < count; ++number) bodies.add({.radius = 0.1});
+  for (std::uint32_t number = 0; number < count; ++number) bodies.add({.radius = 0.1}, 0.0);
   return bodies;
 }
 
