@@ -46,7 +46,7 @@ bool Monitor::Engine::is_stale(const PairCertificate& pair) const {
   if (!pair.has_second()) return first.life != pair.first_revision || first.expected != pair.second_revision;
   if (pair.second_revision == of_open_record) {
     const PairRecord* record = pair_records_.find(pair.first, pair.second);
-    return record == nullptr || record->version != pair.first_revision;
+    return record == nullptr || record->revision != pair.first_revision;
   }
   return first.life != pair.first_revision || tracks_[pair.second].life != pair.second_revision ||
          pair_records_.find(pair.first, pair.second) != nullptr;

@@ -24,7 +24,7 @@ struct LevelState {
 };
 
 struct PairRecord {
-  std::uint32_t version = 0;  ///< Certificates of the pair with another revision are stale.
+  std::uint32_t revision = 0;  ///< Certificates of the pair with another revision are stale.
   std::vector<LevelState> levels;
 
   bool is_apart() const {
@@ -43,8 +43,8 @@ struct PairRecord {
   }
 
   static void serialize(auto& self, auto& archive) {
-    auto& [version, levels] = self;
-    archive(version, levels);
+    auto& [revision, levels] = self;
+    archive(revision, levels);
   }
 };
 
@@ -102,7 +102,7 @@ class PairMap {
   std::unordered_map<std::uint64_t, Record> records_;
 };
 
-/// The PairRecords of a monitor, and the versions given to them.
+/// The PairRecords of a monitor, and the revisions given to them.
 class PairRecords : public PairMap<PairRecord> {
  public:
   PairRecord& add(std::uint32_t a, std::uint32_t b, std::size_t levels) {
@@ -110,12 +110,12 @@ class PairRecords : public PairMap<PairRecord> {
     record.levels.resize(levels);
     return record;
   }
-  std::uint32_t fresh_version() { return ++last_version_; }
-  std::uint32_t last_version() const { return last_version_; }
-  void start_versions_at(std::uint32_t version) { last_version_ = version; }
+  std::uint32_t fresh_revision() { return ++last_revision_; }
+  std::uint32_t last_revision() const { return last_revision_; }
+  void start_revisions_at(std::uint32_t revision) { last_revision_ = revision; }
 
  private:
-  std::uint32_t last_version_ = 0;
+  std::uint32_t last_revision_ = 0;
 };
 
 }  // namespace kinesphere

@@ -83,10 +83,10 @@ void Monitor::Engine::decide(std::uint32_t a, std::uint32_t b) {
   // Apart at one of several levels has a start time; apart at all levels has none.
   if (apart)
     for (LevelState& state : record->levels) state.since = -infinity;
-  record->version = pair_records_.fresh_version();
+  record->revision = pair_records_.fresh_revision();
   const auto [one, other] = std::minmax(a, b);
   if (until < (apart ? window().end : infinity))
-    queue_.add({until, one, other, record->version, of_open_record});
+    queue_.add({until, one, other, record->revision, of_open_record});
 }
 
 /// Removes the records of pairs that are apart again. Call it only when the windows end: until then the queue

@@ -35,22 +35,22 @@ void Monitor::Engine::serialize(Self& self, Archive& archive) {
           self.broad_phase_, self.predictions_);
   std::vector<SavedPair<PairRecord>> records;
   std::vector<MonitorEvent> events;
-  std::uint32_t last_version = 0;
+  std::uint32_t last_revision = 0;
   if constexpr (std::is_const_v<Self>) {
     records = self.pair_records_.sorted();
     events.assign(self.events_.begin(), self.events_.end());
-    last_version = self.pair_records_.last_version();
+    last_revision = self.pair_records_.last_revision();
     std::vector<PairCertificate> pairs;
     self.queue_.for_each([&](const PairCertificate& pair) {
       if (!self.is_stale(pair)) pairs.push_back(pair);
     });
     std::sort(pairs.begin(), pairs.end());
-    archive(records, last_version, events, pairs);
+    archive(records, last_revision, events, pairs);
   } else {
-    archive(records, last_version, events, self.read_pairs_);
+    archive(records, last_revision, events, self.read_pairs_);
     for (const SavedPair<PairRecord>& saved : records)
       self.pair_records_.add(saved.first, saved.second, 0) = saved.record;
-    self.pair_records_.start_versions_at(last_version);
+    self.pair_records_.start_revisions_at(last_revision);
     self.events_.assign(events.begin(), events.end());
   }
 }
@@ -137,7 +137,7 @@ const char* Monitor::Engine::first_invalid_part() const {
   bool valid = true;
   pair_records_.for_each([&](std::uint32_t a, std::uint32_t b, const PairRecord& record) {
     valid = valid && a < b && is_present(a) && is_present(b) &&
-            record.version <= pair_records_.last_version() &&
+            record.revision <= pair_records_.last_revision() &&
             record.levels.size() == levels_of(a, b).size() &&
             std::all_of(record.levels.begin(), record.levels.end(), [](const LevelState& state) {
               return state.verdict <= Verdict::within && !std::isnan(state.since) && !std::isnan(state.until);
