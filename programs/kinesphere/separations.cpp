@@ -79,7 +79,9 @@ NamedSeparation parse_separation(const std::string& text) {
   const std::size_t last = 1 + form->lengths + form->times;
   const bool has_time = parts.size() > last;
   if (has_time) separation.look_ahead = measure(last, Measure::time);
-  return {text, separation, has_time};
+  const bool has_unit =
+      std::any_of(parts.begin() + 1, parts.begin() + 1 + std::ptrdiff_t(form->lengths), has_unit_behind);
+  return {text, separation, has_time, has_unit};
 }
 
 }  // namespace kinesphere::program

@@ -13,6 +13,7 @@ struct NamedSeparation {
   std::string name;  ///< spelled like in the option
   Separation separation;
   bool has_time = false;  ///< its text says the look-ahead time, perhaps 0
+  bool has_unit = false;  ///< its text says the unit of a length
 };
 
 /// Parses "sphere:50", "cylinder:5NM:1000ft", "ellipsoid:5NM:1000ft", "well-clear:0.66NM:450ft:35s", each

@@ -94,6 +94,24 @@ std::string closest_approaches(const std::vector<Approach>& approaches, const Re
   return text;
 }
 
+/// Warns of bodies at the same place.
+void warn_of_one_place(const std::vector<Approach>& approaches, const Recording& recording,
+                       double tolerance) {
+  const auto is_at_one = [&](const Approach& approach) {
+    return norm(approach.closest.second - approach.closest.first) <= tolerance;
+  };
+  const auto first = std::find_if(approaches.begin(), approaches.end(), is_at_one);
+  if (first == approaches.end()) return;
+  const Vec3 at = recording.coordinates.as_in_file(first->closest.first);
+  print_message(
+      "kinesphere: warning: two bodies are at exactly one place in {} approaches, as {} and {} are at {}, at "
+      "{:.9g}, {:.9g}: "
+      "such places may stand for none (--where), or be of one body with two ids\n",
+      grouped(static_cast<std::uint64_t>(std::count_if(approaches.begin(), approaches.end(), is_at_one))),
+      recording.tracks[first->first].id, recording.tracks[first->second].id,
+      recording.times.text(first->closest.time, 6), at.x, at.y);
+}
+
 /// Returns a callback that shows a progress bar over the span of the scene.
 ComparisonProgress shown(const TracksOptions& options, const Scene& scene) {
   const auto progress = std::make_shared<Progress>(scene.world.start_time, scene.end_time);
@@ -227,6 +245,7 @@ int tracks(const TracksOptions& options) {
                                    *scene.motion, approaches);
   const LeftOut left_out = filter.apply(approaches);
   find_closest(*scene.motion, approaches, radii_of(recording));
+  warn_of_one_place(approaches, recording, scene.world.contact_tolerance);
   files.write(recording, scene, approaches, closeness.distance);
   Summary summary;
   add_recording(summary, options.files, recording, scene_and_notes);

@@ -24,20 +24,28 @@ constexpr QuantityNames quantities[quantity_count] = {
     {Quantity::id, "id", Measure::none,
      "mmsi trackid agent agentid ped pedid pedestrian pedestrianid person personid object objectid vehicleid "
      "vesselid shipid sourcemmsi deviceid droneid drone uavid uav robotid playerid entityid icao24 hex "
-     "trajectoryid particle particleid tag tagid animalid individuallocalidentifier"},
+     "trajectoryid particle particleid tag tagid animalid individuallocalidentifier identity objid targetid "
+     "instanceid cellid carid persid personnr bodyid individual individualid individualidentifier subjectid "
+     "birdid fishid satid satelliteid noradid "
+     "noradcatid nodeid"},
     {Quantity::time, "time", Measure::time,
      "t timestamp datetime basedatetime utc timeutc timestamputc datetimeutc unixtime epoch stamp tstamp "
-     "headerstamp fixtime utctime date/time localtime timestamplocal zeit uhrzeit seconds:s secs:s sec:s "
+     "headerstamp fixtime utctime date/time date&time epochutc timegmt datetimegmt localtime timestamplocal "
+     "zeit uhrzeit seconds:s secs:s sec:s "
      "milliseconds:ms"},
-    {Quantity::frame, "frame", Measure::none, "frameid frameno framenr framenumber frameindex frameidx fr"},
+    {Quantity::frame, "frame", Measure::none,
+     "frameid frameno framenr framenumber frameindex frameidx fr timestep"},
     {Quantity::date, "date", Measure::none, "datum utcdate dateutc gpsdate localdate"},
     {Quantity::arrival, "arrival", Measure::time, "received"},
     {Quantity::x, "x", Measure::length,
-     "posx xpos positionx xposition posepositionx px centerx xcenter centroidx xcentroid east easting"},
+     "posx xpos positionx xposition posepositionx px centerx xcenter centroidx xcentroid east easting "
+     "points0"},
     {Quantity::y, "y", Measure::length,
-     "posy ypos positiony yposition posepositiony py centery ycenter centroidy ycentroid north northing"},
+     "posy ypos positiony yposition posepositiony py centery ycenter centroidy ycentroid north northing "
+     "points1"},
     {Quantity::z, "z", Measure::length,
-     "posz zpos positionz zposition posepositionz pz centerz zcenter centroidz zcentroid alt altitude ele "
+     "posz zpos positionz zposition posepositionz pz centerz zcenter centroidz zcentroid points2 alt "
+     "altitude ele "
      "elevation flightlevel:FL fl:FL"},
     {Quantity::longitude, "lon", Measure::angle,
      "lng long longitude locationlong locationlon gpslon gpslongitude decimallongitude"},
@@ -45,8 +53,8 @@ constexpr QuantityNames quantities[quantity_count] = {
     {Quantity::vx, "vx", Measure::speed, "velx velocityx"},
     {Quantity::vy, "vy", Measure::speed, "vely velocityy"},
     {Quantity::vz, "vz", Measure::speed, "velz velocityz"},
-    {Quantity::speed, "speed", Measure::speed, "gs:? sog:?"},
-    {Quantity::course, "course", Measure::none, "cog track"},
+    {Quantity::speed, "speed", Measure::speed, "gs:? sog:? speedoverground:?"},
+    {Quantity::course, "course", Measure::none, "cog track courseoverground"},
     {Quantity::climb, "climb", Measure::speed, "verticalrate:?"},
     {Quantity::position_error, "position_error", Measure::length, "positionerror"},
     {Quantity::height_error, "height_error", Measure::length, "heighterror"},
@@ -142,7 +150,7 @@ bool has_part(const std::string& plain, std::string_view parts) {
 std::string plain_name(std::string_view name) {
   std::string plain;
   for (char c : name)
-    if (c != ' ' && c != '_' && c != '-' && c != '.') plain += lower_case(c);
+    if (c != ' ' && c != '_' && c != '-' && c != '.' && c != ':') plain += lower_case(c);
   return plain;
 }
 
@@ -168,10 +176,30 @@ std::optional<ColumnMeaning> meaning_of(std::string_view column_name) {
     if (!may_begin_unit(column_name, at)) continue;
     const auto meaning = whole_name(column_name.substr(0, at));
     const std::string_view unit = unit_behind(column_name, at);
-    if (meaning && meaning->unit.empty() && is_unit_of(measure_of(meaning->quantity), unit))
+    if (!meaning || !meaning->unit.empty()) continue;
+    if (is_unit_of(measure_of(meaning->quantity), unit))
       return ColumnMeaning{meaning->quantity, std::string(unit)};
+    if (meaning->quantity == Quantity::time && (same_name(unit, "utc") || same_name(unit, "gmt")))
+      return meaning;
   }
   return std::nullopt;
+}
+
+AxisAndBody axis_and_body(std::string_view column_name) {
+  std::string name;
+  for (const char c : column_name) name += lower_case(c);
+  for (const bool is_first : {true, false}) {
+    if (name.size() < 2) break;
+    const std::size_t axis = std::string_view("xyz").find(is_first ? name.front() : name.back());
+    if (axis == std::string_view::npos) continue;
+    std::string_view rest = std::string_view(name).substr(is_first ? 1 : 0, name.size() - 1);
+    const bool is_apart =
+        std::string_view(" _-.").find(is_first ? rest.front() : rest.back()) != std::string_view::npos;
+    if (is_apart) rest = rest.substr(is_first ? 1 : 0, rest.size() - 1);
+    const bool is_number = is_first && rest.find_first_not_of("0123456789") == std::string_view::npos;
+    if (!rest.empty() && (is_apart || is_number)) return {axis, std::string(rest)};
+  }
+  return {};
 }
 
 std::string_view unit_in_name(std::string_view column_name, Measure measure) {
@@ -183,6 +211,8 @@ std::string_view unit_in_name(std::string_view column_name, Measure measure) {
 }
 
 bool looks_like_height(std::string_view column_name) {
+  // The h of km_h is an hour.
+  if (!unit_in_name(column_name, Measure::speed).empty()) return false;
   const std::string plain = plain_name(column_name);
   // The last two are Höhe in UTF-8 and in Latin 1.
   return has_part(
@@ -239,8 +269,9 @@ bool is_of_aircraft(std::string_view column_name) {
 }
 
 bool is_zone(std::string_view column_name) {
-  return is_word_of(plain_name(column_name),
-                    "zone utmzone gridzone map mapid building buildingid floorid levelid");
+  return is_word_of(
+      plain_name(column_name),
+      "zone utmzone gridzone map mapid building buildingid floorid levelid centername refframe timesystem");
 }
 
 bool is_nobody(std::string_view column_name, std::string_view id) {

@@ -46,7 +46,7 @@ std::optional<Quantity> quantity_of_key(std::string_view key);
 /// Returns all keys, separated by commas.
 std::string key_list();
 
-/// Returns the name in lower case, without blanks, - _ and . between words.
+/// Returns the name in lower case, without blanks, - _ . and : between words.
 std::string plain_name(std::string_view name);
 
 struct ColumnMeaning {
@@ -58,6 +58,12 @@ struct ColumnMeaning {
 /// Knows the usual names in any case, with or without blanks, - and _ between words; returns nothing for
 /// others.
 std::optional<ColumnMeaning> meaning_of(std::string_view column_name);
+/// An axis, 0 to 2 for x, y and z, and the body that the rest of a name tells: x1, fish_2.y, z_head.
+struct AxisAndBody {
+  std::size_t axis = 0;
+  std::string body;  ///< in lower case; empty for another name
+};
+AxisAndBody axis_and_body(std::string_view column_name);
 /// Returns the unit of this measure at the end of a name such as east_cm or "up [ft]"; empty if there is
 /// none.
 std::string_view unit_in_name(std::string_view column_name, Measure measure);

@@ -16,10 +16,14 @@ std::optional<ConvertedTable> convert_to_table(std::string_view text, const std:
                                                bool geometric) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   if (auto table = convert_json_trace(text, file, geometric)) return table;
-  for (auto* const convert :
-       {&convert_gpx, &convert_fcd, &convert_lammps, &convert_xyz, &convert_json_records})
+  for (auto* const convert : {&convert_gpx, &convert_kml, &convert_fcd, &convert_lammps, &convert_xyz,
+                              &convert_oem, &convert_geojson, &convert_json_records})
     if (auto table = convert(text, file)) return table;
   return std::nullopt;
+}
+
+std::string warning_of_heights(const std::string& file, std::string_view height) {
+  return fmt::format("{}: some points have no height ({}), so that none is used", file, height);
 }
 
 bool is_xml_with(std::string_view text, std::string_view element) {

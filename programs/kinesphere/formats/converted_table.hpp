@@ -21,9 +21,10 @@ struct ConvertedTable {
   std::vector<std::string> warnings;
 };
 
-/// Converts GPX (tracks of a GPS receiver), FCD output of SUMO, XYZ and extended XYZ, dumps of LAMMPS, traces
-/// of tar1090, and JSON records; returns nothing for other text. `geometric`: heights of aircraft are those
-/// of satellite navigation. Throws ProgramError naming `file` and the line for a damaged file.
+/// Converts GPX (tracks of a GPS receiver), KML, GeoJSON, FCD output of SUMO, orbit ephemeris messages, XYZ
+/// and extended XYZ, dumps of LAMMPS, traces of tar1090, and JSON records; returns nothing for other text.
+/// `geometric`: heights of aircraft are those of satellite navigation. Throws ProgramError naming `file` and
+/// the line for a damaged file.
 std::optional<ConvertedTable> convert_to_table(std::string_view text, const std::string& file,
                                                bool geometric);
 
@@ -32,19 +33,28 @@ std::optional<ConvertedTable> convert_gpx(std::string_view text, const std::stri
 std::optional<ConvertedTable> convert_fcd(std::string_view text, const std::string& file);
 std::optional<ConvertedTable> convert_xyz(std::string_view text, const std::string& file);
 std::optional<ConvertedTable> convert_lammps(std::string_view text, const std::string& file);
+std::optional<ConvertedTable> convert_kml(std::string_view text, const std::string& file);
+std::optional<ConvertedTable> convert_geojson(std::string_view text, const std::string& file);
+std::optional<ConvertedTable> convert_oem(std::string_view text, const std::string& file);
 std::optional<ConvertedTable> convert_json_records(std::string_view text, const std::string& file);
 std::optional<ConvertedTable> convert_json_trace(std::string_view text, const std::string& file,
                                                  bool geometric);
 
+/// Returns the warning of a file in which only some places have the height of this name.
+std::string warning_of_heights(const std::string& file, std::string_view height);
+
 /// Returns a table of places, each on the line of the file that it has (Place::line). `fields` returns all
-/// fields of a place but its height (Place::height, perhaps empty). Unless all places have one, none is used.
+/// fields of a place but its height (Place::height, perhaps empty). Unless all places have one, none is used,
+/// with a warning.
 template <class Place, class Fields>
-ConvertedTable table_of_places(std::string_view format, const std::string& columns, const std::string& height,
-                               const std::vector<Place>& places, Fields fields) {
-  const bool have_heights =
-      std::all_of(places.begin(), places.end(), [](const Place& place) { return !place.height.empty(); });
+ConvertedTable table_of_places(std::string_view format, const std::string& file, const std::string& columns,
+                               const std::string& height, const std::vector<Place>& places, Fields fields) {
+  const auto with_height =
+      std::count_if(places.begin(), places.end(), [](const Place& place) { return !place.height.empty(); });
+  const bool have_heights = with_height == std::ssize(places);
   ConvertedTable table{.format = std::string(format),
                        .text = columns + (have_heights ? "," + height : "") + "\n"};
+  if (with_height > 0 && !have_heights) table.warnings.push_back(warning_of_heights(file, height));
   std::size_t line = 2;
   for (const Place& place : places) {
     for (; line < place.line; ++line) table.text += '\n';

@@ -17,7 +17,7 @@ class FcdReader final : XmlElements {
 
   ConvertedTable read() {
     read_all();
-    return table_of_places("SUMO FCD", "vehicle_id,time,x,y", "z", places_, [](const Place& place) {
+    return table_of_places("SUMO FCD", file(), "vehicle_id,time,x,y", "z", places_, [](const Place& place) {
       return fmt::format("{},{},{},{}", place.id, place.time, place.x, place.y);
     });
   }

@@ -20,6 +20,8 @@ constexpr std::string_view as_csv = ": write it as CSV, with pandas for example"
 constexpr std::string_view as_rows_of_vicon =
     "an export of Vicon Nexus, with columns for each marker: write it as rows of id, time, x, y, z";
 constexpr std::string_view pdb = "a PDB file: write it as XYZ, with VMD or MDAnalysis";
+constexpr std::string_view vtk =
+    "data of VTK: write the points of all steps as CSV, with ParaView: save data, all time steps";
 constexpr std::string_view sp3 = "an ephemeris (SP3): write it as CSV, with columns id, time, x, y, z";
 
 /// Files that begin with certain bytes.
@@ -75,6 +77,7 @@ constexpr FileKind kinds_by_bytes[] = {
      "an ArduPilot log: write its messages GPS as CSV, with mavlogdump.py --types GPS --format csv"},
     {"\xA3\x95"sv,
      "an ArduPilot log: write its messages GPS as CSV, with mavlogdump.py --types GPS --format csv"},
+    {"# vtk DataFile"sv, vtk},
     {"CRYST1"sv, pdb},
     {"HEADER    "sv, pdb},
     {"REMARK "sv, pdb},
@@ -92,6 +95,7 @@ constexpr FileKind kinds_of_xml[] = {
      "a TCX file: write it as GPX, with gpsbabel -i gtrnctr -f FILE -o gpx -F FILE.gpx"},
     {"<oem", "an ephemeris (OEM): write its rows as CSV, with columns id, time, x, y, z"},
     {"<TrackMate", "a file of TrackMate: export the spots as CSV"},
+    {"<VTKFile", vtk},
     {"<html", "a page of HTML: save the table as CSV"},
     {"<!DOCTYPE html", "a page of HTML: save the table as CSV"},
 };

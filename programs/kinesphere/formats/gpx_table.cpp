@@ -1,8 +1,6 @@
 // GPX: the points of its tracks.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "formats/converted_table.hpp"
 #include "formats/xml_elements.hpp"
 #include "program_error.hpp"
@@ -18,15 +16,9 @@ class GpxReader final : XmlElements {
 
   ConvertedTable read() {
     read_all();
-    ConvertedTable table = table_of_places("GPX", "id,time,lon,lat", "ele", points_, [](const Point& point) {
+    return table_of_places("GPX", file(), "id,time,lon,lat", "ele", points_, [](const Point& point) {
       return fmt::format("{},{},{},{}", point.track, point.time, point.longitude, point.latitude);
     });
-    const auto has_height = [](const Point& point) { return !point.height.empty(); };
-    if (std::any_of(points_.begin(), points_.end(), has_height) &&
-        !std::all_of(points_.begin(), points_.end(), has_height))
-      table.warnings.push_back(
-          fmt::format("{}: some points have no height (ele), so that none is used", file()));
-    return table;
   }
 
  private:

@@ -110,7 +110,7 @@ constexpr Preset presets[] = {
      "TimeUS,Lat,Lng,Alt"},
     {"airdata", "DJI, by AirData",
      "id=@file,time=datetime(utc),lon=longitude,lat=latitude,z?=height_above_takeoff(meters)|"
-     "height_above_takeoff(feet)",
+     "height_above_takeoff(feet)|altitude(feet)|altitude(m)",
      "time(millisecond),datetime(utc),latitude,longitude"},
     {"tum",
      "TUM",

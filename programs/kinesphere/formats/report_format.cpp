@@ -79,13 +79,19 @@ bool is_sbs(std::string_view line) {
   return line.empty() || parse_number(line.substr(0, line.find(','))) || line.starts_with(',');
 }
 
-bool has_column(std::string_view header, std::string_view name) {
+/// True for a header with the number of a ship, a longitude and a latitude.
+bool is_table_of_ships(std::string_view header) {
+  bool has_number = false, has_longitude = false, has_latitude = false;
   while (!header.empty()) {
-    std::string_view field = header.substr(0, header.find(','));
-    header.remove_prefix(std::min(field.size() + 1, header.size()));
-    if (same_name(field, name)) return true;
+    std::string_view field = trimmed(header.substr(0, header.find_first_of(",;\t|")));
+    header.remove_prefix(std::min(header.find_first_of(",;\t|"), header.size() - 1) + 1);
+    if (field.size() >= 2 && field.starts_with('"')) field = field.substr(1, field.size() - 2);
+    const auto meaning = meaning_of(field);
+    has_number = has_number || plain_name(field).ends_with("mmsi");
+    has_longitude = has_longitude || (meaning && meaning->quantity == Quantity::longitude);
+    has_latitude = has_latitude || (meaning && meaning->quantity == Quantity::latitude);
   }
-  return false;
+  return has_number && has_longitude && has_latitude;
 }
 
 }  // namespace
@@ -144,9 +150,7 @@ std::optional<StreamFormat> recognised_format(std::string_view beginning) {
     if (has_key(line, "stamp")) return StreamFormat::jsonl;
     return std::nullopt;
   }
-  if (has_column(line, "MMSI") && (has_column(line, "BaseDateTime") || has_column(line, "base_date_time") ||
-                                   has_column(line, "Type of mobile")))
-    return StreamFormat::ais;
+  if (is_table_of_ships(line)) return StreamFormat::ais;
   // A header consists of names.
   const bool has_letters =
       std::any_of(line.begin(), line.end(), [](char c) { return ('a' <= (c | 32) && (c | 32) <= 'z'); });

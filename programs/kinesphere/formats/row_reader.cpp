@@ -140,8 +140,23 @@ std::string RowReader::where_name(Quantity quantity) const {
                              : name_in_filter(head_.names[columns_[quantity]->place]);
 }
 
-/// Asks about numbers that stand for no position: 0 and 0 as degrees, and -999, 9999 and the like.
-void RowReader::check_place(double x, double y) const {
+/// Asks about numbers that stand for no position: 0 and 0 as degrees, -999, 9999 and the like, the largest of
+/// a type, and heights such as -9999.
+void RowReader::check_place(double x, double y, std::optional<double> z) const {
+  const auto ask_about_one = [&](Quantity quantity, double value) {
+    if (filter_.mentions(columns_[quantity]->place)) return;
+    throw OpenQuestion(
+        fmt::format("{0} as {1} is no position in most files: leave such rows out with --where '{2} != "
+                    "{0}', or keep them with --where '{2} != none'",
+                    value, name_of(quantity), where_name(quantity)));
+  };
+  constexpr double largest = 1e30, no_heights[] = {-9999.0, -99999.0, -999999.0, -32768.0};
+  const auto is_too_large = [&](double value) { return std::abs(value) >= largest; };
+  if (z && (is_too_large(*z) ||
+            std::find(std::begin(no_heights), std::end(no_heights), *z) != std::end(no_heights)))
+    ask_about_one(Quantity::z, *z);
+  if (!columns_.geographic && is_too_large(x)) ask_about_one(Quantity::x, x);
+  if (!columns_.geographic && is_too_large(y)) ask_about_one(Quantity::y, y);
   if (x != y) return;
   constexpr double none[] = {-999.0, -9999.0, -99999.0, -999999.0, 9999.0, 99999.0, 999999.0};
   const bool is_none =
@@ -265,7 +280,7 @@ std::optional<Vec3> RowReader::position() {
   const auto z = number(Quantity::z);
   has_height_ = z.has_value();
   if (!x || !y) return std::nullopt;
-  check_place(*x, *y);
+  check_place(*x, *y, z);
   if (geographic) {
     const double longitude = *x * columns_.x().unit, latitude = *y * columns_.y().unit;
     if (longitude == 181.0 || latitude == 91.0) {
@@ -273,10 +288,16 @@ std::optional<Vec3> RowReader::position() {
       missing_ = {(first ? columns_.x() : columns_.y()).place, name_of(first ? along : across)};
       return std::nullopt;
     }
+    // Whole numbers are ten-millionths in messages of MAVLink and GPS.
+    constexpr double least_whole = 1e6;
+    const char* const unit_advice =
+        std::abs(*x) >= least_whole || std::abs(*y) >= least_whole
+            ? ": say --columns ...,lon=...:degE7,lat=...:degE7 if it is in 1e-7 degrees"
+            : "";
     if (!(std::abs(longitude) <= 360.0))
-      throw WrongInput(wrong_text(columns_.x().place, "a longitude from -360 to 360 degrees"));
+      throw WrongInput(wrong_text(columns_.x().place, "a longitude from -360 to 360 degrees") + unit_advice);
     if (!(std::abs(latitude) <= 90.0))
-      throw WrongInput(wrong_text(columns_.y().place, "a latitude from -90 to 90 degrees"));
+      throw WrongInput(wrong_text(columns_.y().place, "a latitude from -90 to 90 degrees") + unit_advice);
     // No aircraft or balloon flies as high; in feet they do.
     constexpr double highest = 20e3;
     if (z && !columns_.z()->has_unit && std::abs(*z) > highest)

@@ -86,7 +86,7 @@ class RowReader {
   void check_date(std::string_view text, const FileTime& time) const;
   std::optional<double> degrees(Quantity quantity, const std::optional<std::size_t>& hemisphere,
                                 std::string_view letters);
-  void check_place(double x, double y) const;
+  void check_place(double x, double y, std::optional<double> z) const;
   std::string where_name(Quantity quantity) const;
 
   const TableHead& head_;

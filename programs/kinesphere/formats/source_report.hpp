@@ -35,6 +35,7 @@ struct SourceReport {
   std::optional<FileTime> arrival{};  ///< when it came in, where the stream says so
   TimeKind time_kind = TimeKind::number;
   bool geographic = false;
+  bool in_metres = false;  ///< lengths without degrees are known to be metres
   /// x, y, z; if geographic, degrees east and north on WGS 84, and metres above it.
   Vec3 position{};
   bool has_height = false;

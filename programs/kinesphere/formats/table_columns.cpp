@@ -52,7 +52,7 @@ std::string column_word(const TableHead& head, std::size_t place) {
 std::string columns_text(const TableHead& head, const TableColumns& columns,
                          std::optional<Quantity> quantity = {}, std::string_view unit = {},
                          std::optional<Quantity> without = {}) {
-  std::string text;
+  std::string text = columns.id_is_file ? "id=@file" : "";
   for (std::size_t k = 0; k < quantity_count; ++k) {
     const auto each = static_cast<Quantity>(k);
     if (!columns.of[k] || each == without) continue;
@@ -258,6 +258,7 @@ class UsualColumns {
       forget({Quantity::x, Quantity::y});
     if (hints.positions == "plane" || hints.positions.starts_with("utm"))
       forget({Quantity::longitude, Quantity::latitude});
+    take_track_as_id();
     // Frame numbers are not needed if there are times, nor dates without a clock.
     if (!places(Quantity::time).empty()) forget({Quantity::frame});
     auto& times = places_[static_cast<std::size_t>(Quantity::time)];
@@ -285,6 +286,18 @@ class UsualColumns {
   const std::vector<std::size_t>& places(Quantity quantity) const {
     return places_[static_cast<std::size_t>(quantity)];
   }
+  /// A column called track has courses beside speeds, and else ids.
+  void take_track_as_id() {
+    const bool has_speed = std::any_of(head_.names.begin(), head_.names.end(), [](const std::string& name) {
+      const auto meaning = meaning_of(name);
+      return meaning && meaning->quantity == Quantity::speed;
+    });
+    auto& ids = places_[static_cast<std::size_t>(Quantity::id)];
+    if (has_speed || !ids.empty()) return;
+    for (std::size_t place = 0; place < head_.names.size(); ++place)
+      if (plain_name(head_.names[place]) == "track") ids.push_back(place);
+    if (!ids.empty()) forget({Quantity::course});
+  }
   void forget(std::initializer_list<Quantity> forgotten) {
     for (Quantity quantity : forgotten) places_[static_cast<std::size_t>(quantity)].clear();
   }
@@ -297,25 +310,46 @@ class UsualColumns {
   std::array<std::vector<std::size_t>, quantity_count> places_;
 };
 
+/// Columns of one body among several: x1 and y1, car_1.x and car_1.y.
+struct AxisColumns {
+  std::string body;
+  std::array<std::optional<std::size_t>, 3> places;
+};
+
+/// Finds the columns that are called after an axis and a body, by bodies.
+std::vector<AxisColumns> axis_columns(const TableHead& head) {
+  std::vector<AxisColumns> all;
+  for (std::size_t place = 0; place < head.names.size(); ++place) {
+    const auto [axis, body] = axis_and_body(head.names[place]);
+    if (body.empty()) continue;
+    auto known = std::find_if(all.begin(), all.end(),
+                              [&, &name = body](const auto& each) { return each.body == name; });
+    if (known == all.end()) known = all.insert(all.end(), {.body = body, .places = {}});
+    known->places[axis] = place;
+  }
+  std::erase_if(all, [](const AxisColumns& each) { return !each.places[0] || !each.places[1]; });
+  return all;
+}
+
+/// True for bodies that are told apart by a number alone: 1 and 2, car_1 and car_2.
+bool are_numbered(const std::vector<AxisColumns>& bodies) {
+  const auto kind_of = [](std::string_view body) {
+    return body.substr(0, body.find_last_not_of("0123456789") + 1);
+  };
+  return std::all_of(bodies.begin(), bodies.end(), [&](const AxisColumns& each) {
+    return kind_of(each.body).size() < each.body.size() && kind_of(each.body) == kind_of(bodies.front().body);
+  });
+}
+
 /// Finds a pair of columns for each body: x1, y1, x2, y2, as idtracker.ai writes them; or three, with z.
 void find_pairs(const TableHead& head, const ColumnHints& hints, TableColumns& columns) {
   if (columns[Quantity::id] || columns[Quantity::x] || columns[Quantity::longitude]) return;
-  const auto place_of_plain = [&](const std::string& name) -> std::optional<std::size_t> {
-    for (std::size_t place = 0; place < head.names.size(); ++place)
-      if (plain_name(head.names[place]) == name) return place;
-    return std::nullopt;
-  };
-  std::size_t heights = 0;
-  for (std::size_t number = 0; number <= head.names.size(); ++number) {
-    const auto x = place_of_plain(fmt::format("x{}", number)), y = place_of_plain(fmt::format("y{}", number));
-    if (!x || !y) continue;
-    const auto z = place_of_plain(fmt::format("z{}", number));
-    heights += z ? 1 : 0;
-    columns.bodies.push_back({fmt::format("{}", number), *x, *y, z});
-  }
-  auto& bodies = columns.bodies;
-  if (bodies.empty()) return;
-  if (heights != 0 && heights != bodies.size())
+  const std::vector<AxisColumns> bodies = axis_columns(head);
+  const bool numbered = are_numbered(bodies);
+  if (bodies.empty() || (!numbered && bodies.size() == 1)) return;
+  const auto heights = std::count_if(bodies.begin(), bodies.end(),
+                                     [](const AxisColumns& each) { return each.places[2].has_value(); });
+  if (heights != 0 && heights != std::ssize(bodies))
     throw ProgramError(fmt::format("{}: expected a z for each pair of x and y or for none; it has {}",
                                    head.file, head.text()));
   // Of the bodies, as x1 is, or the time.
@@ -324,17 +358,22 @@ void find_pairs(const TableHead& head, const ColumnHints& hints, TableColumns& c
     return name.ends_with('1') || name.ends_with('2') ||
            (meaning && (meaning->quantity == Quantity::time || meaning->quantity == Quantity::frame));
   };
-  if (bodies.size() == 2 && heights == 0 && hints.format != "table" &&
-      !std::all_of(head.names.begin(), head.names.end(), is_usual))
+  const bool may_be_corners = bodies.size() == 2 && heights == 0 && parse_number(bodies.front().body) &&
+                              !std::all_of(head.names.begin(), head.names.end(), is_usual);
+  if ((!numbered || may_be_corners) && hints.format != "table")
     throw ProgramError(fmt::format(
-        "{}: {}, {}, {} and {} may be two bodies or the corners of boxes: say --format table if they are two "
-        "bodies, else say the columns with --columns",
-        head.file, head.names[bodies[0].x], head.names[bodies[0].y], head.names[bodies[1].x],
-        head.names[bodies[1].y]));
+        "{}: {}, {}, {} and {} may be two bodies or {}: say --format table if each such pair is a "
+        "body, else say the columns with --columns",
+        head.file, head.names[*bodies[0].places[0]], head.names[*bodies[0].places[1]],
+        head.names[*bodies[1].places[0]], head.names[*bodies[1].places[1]],
+        numbered ? "the corners of boxes" : "parts of one"));
+  for (const AxisColumns& each : bodies)
+    columns.bodies.push_back({each.body, *each.places[0], *each.places[1], each.places[2]});
   columns.format = fmt::format("{} {} of columns", bodies.size(), heights == 0 ? "pairs" : "triples");
-  columns[Quantity::x] = Column{.place = bodies.front().x};
-  columns[Quantity::y] = Column{.place = bodies.front().y};
-  if (bodies.front().z) columns[Quantity::z] = Column{.place = *bodies.front().z};
+  const TableColumns::Body& first = columns.bodies.front();
+  columns[Quantity::x] = Column{.place = first.x};
+  columns[Quantity::y] = Column{.place = first.y};
+  if (first.z) columns[Quantity::z] = Column{.place = *first.z};
 }
 
 /// Asks about a second column of the time: nanoseconds, as ROS has them, or weeks, as GPS has.

@@ -15,6 +15,7 @@
 #include "formats/report_format.hpp"
 #include "formats/row_reader.hpp"
 #include "formats/text_table.hpp"
+#include "formats/time_check.hpp"
 #include "number_text.hpp"
 #include "program_error.hpp"
 
@@ -62,6 +63,7 @@ class CsvFormat final : public ReportFormat {
     has_handed_over_ = reader_.has_value();
     // The earlier run has asked.
     if (reader_) checked_ = most_checked;
+    is_checking_clock_ = false;
   }
 
  private:
@@ -69,9 +71,8 @@ class CsvFormat final : public ReportFormat {
   void begin() {
     const TableHead& head = table_.head();
     ColumnHints hints = choices_.hints;
+    // Of several presets of ships the header chooses one; others have the usual names.
     if (hints.format == "csv" || (is_ais_ && hints.format == "ais")) hints.format.clear();
-    if (is_ais_ && hints.columns.empty() && hints.format.empty() && recognised_preset(head) == nullptr)
-      hints.format = "ais";
     TableColumns columns =
         find_columns(head, hints, choices_.is_recording ? ColumnUse::positions : ColumnUse::reports);
     if (!choices_.title.empty()) columns.format = choices_.title;
@@ -133,6 +134,7 @@ class CsvFormat final : public ReportFormat {
     report.stamp = stamp->time;
     report.time_kind = stamp->kind;
     report.geographic = columns.geographic;
+    report.in_metres = columns.in_metres;
     report.position = {position->x * columns.x().unit, position->y * columns.y().unit,
                        columns.z() ? position->z * columns.z()->unit : 0.0};
     report.has_height = reader_->has_height();
@@ -148,6 +150,7 @@ class CsvFormat final : public ReportFormat {
     add_class(report);
     has_handed_over_ = true;
     if (checked_ < most_checked) check_first(*position, report);
+    if (is_checking_clock_) check_clock(report);
     sink.take(report);
   }
 
@@ -164,14 +167,28 @@ class CsvFormat final : public ReportFormat {
     counts_rows_ = counts_rows_ && number && (!last_number_ || *number == *last_number_ + 1.0);
     last_number_ = number;
     if (!first_stamp_) first_stamp_ = report.stamp;
+    stamps_ += !last_stamp_ || is_earlier(*last_stamp_, report.stamp) ? 1 : 0;
+    last_stamp_ = report.stamp;
     has_later_ = has_later_ || is_earlier(*first_stamp_, report.stamp);
     ++checked_;
     if (checked_ == most_checked) ask();
+  }
+  /// A stream of clock times shows itself with its second minute.
+  void check_clock(const SourceReport& report) {
+    is_checking_clock_ = !reader_->columns().time_unit_said && report.time_kind == TimeKind::number;
+    if (!is_checking_clock_) return;
+    time_check_.add(report.stamp);
+    is_checking_clock_ = time_check_.may_be_clock();
+    if (const std::string suspicion = time_check_.clock_suspicion(); !suspicion.empty())
+      throw UnusableStream(suspicion);
   }
   void ask() const {
     if (!reader_ || choices_.is_recording) return;
     ask_about_row_numbers();
     ask_about_degrees();
+    const bool is_said = reader_->columns().time_unit_said;
+    if (const std::string suspicion = time_check_.day_suspicion(stamps_); !is_said && !suspicion.empty())
+      throw UnusableStream(suspicion);
   }
   /// Asks about ids that are one more in each row.
   void ask_about_row_numbers() const {
@@ -248,7 +265,10 @@ class CsvFormat final : public ReportFormat {
   bool counts_rows_ = true;  ///< ids are one more in each row
   bool has_later_ = false;   ///< a report is later than the first
   std::optional<double> last_number_;
-  std::optional<FileTime> first_stamp_;
+  std::optional<FileTime> first_stamp_, last_stamp_;
+  std::size_t stamps_ = 0;  ///< of the reports that are checked, those later than the one before
+  TimeCheck time_check_;
+  bool is_checking_clock_ = true;
   const std::vector<std::string_view>* fields_ = nullptr;  ///< of the row
 };
 

@@ -24,6 +24,12 @@ bool says_separator(std::string_view line) {
   return line.size() == 5 && same_name(line.substr(0, 4), "sep=");
 }
 
+/// True for a line that is drawn below a header, as psql and Markdown have it: ---+---, |:--|--:|.
+bool is_rule(std::string_view line) {
+  return line.find_first_not_of("-+|=: \t") == std::string_view::npos &&
+         (line.find("--") != std::string_view::npos || line.find("==") != std::string_view::npos);
+}
+
 /// True for fields behind a quoted number of their row, for which the header has no name, as R's write.table
 /// writes them.
 bool have_row_name(const std::vector<std::string_view>& fields, std::string_view row, char separator) {
@@ -35,9 +41,10 @@ bool have_row_name(const std::vector<std::string_view>& fields, std::string_view
 const std::vector<std::string_view>* TextTable::read(const Record& record) {
   if (!record.is_whole) throw WrongInput("expected a line, but it is too long");
   std::string_view text = record.text;
-  if (record.line == 1 && text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  // Files that were put together have it in the middle, too.
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   const std::string_view content = trimmed(text);
-  if (content.empty()) return nullptr;
+  if (content.empty() || is_rule(content)) return nullptr;
   if (!has_begun_) beginning_.emplace_back(text);
   if (const auto comment = comment_in(content)) {
     if (!has_begun_) head_.comment(*comment);

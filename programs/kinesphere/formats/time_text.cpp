@@ -72,6 +72,9 @@ class Reader {
     while (count < std::min(most, rest_.size()) && is_digit(rest_[count])) ++count;
     return count == 0 ? std::nullopt : digits(count, std::numeric_limits<int>::max());
   }
+  std::size_t digits_ahead() const {
+    return static_cast<std::size_t>(std::find_if_not(rest_.begin(), rest_.end(), is_digit) - rest_.begin());
+  }
   bool take_word(std::string_view word) {
     if (!same_name(rest_.substr(0, word.size()), word)) return false;
     rest_.remove_prefix(word.size());
@@ -101,11 +104,21 @@ std::optional<std::int64_t> days_of(int year, int month, int day) {
   return std::chrono::sys_days(date).time_since_epoch().count();
 }
 
+/// Reads the day of a year from 001, as ephemerides have it. Returns days since 1970-01-01.
+std::optional<std::int64_t> read_day_of_year(Reader& reader, std::optional<int> year) {
+  const auto day = reader.digits(3, 366);
+  const auto first = year ? days_of(*year, 1, 1) : std::nullopt,
+             last = year ? days_of(*year, 12, 31) : std::nullopt;
+  if (!first || !last || !day || *day < 1 || *first + *day - 1 > *last) return std::nullopt;
+  return *first + *day - 1;
+}
+
 /// Returns days since 1970-01-01. `extended`: the parts have - or / between them.
 std::optional<std::int64_t> read_date(Reader& reader, bool& extended) {
   const auto year = reader.digits(4, 9999);
   const char between = reader.take('-') ? '-' : reader.take('/') ? '/' : '\0';
   extended = between != '\0';
+  if (between == '-' && reader.digits_ahead() == 3) return read_day_of_year(reader, year);
   const auto month = extended ? reader.few_digits(2) : reader.digits(2, 12);
   if (extended && !reader.take(between)) return std::nullopt;
   const auto day = extended ? reader.few_digits(2) : reader.digits(2, 31);

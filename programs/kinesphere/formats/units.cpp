@@ -51,7 +51,8 @@ constexpr NamedUnit time_units[] = {{"s sec secs second seconds", 1.0},
                                     {"h hour hours", 3600.0},
                                     {"d day days", 86400.0}};
 constexpr NamedUnit angle_units[] = {{"deg degree degrees \xC2\xB0 \xB0", 1.0},
-                                     {"rad radian radians", 180.0 / 3.14159265358979323846}};
+                                     {"rad radian radians", 180.0 / 3.14159265358979323846},
+                                     {"degE7", 1e-7}};
 
 std::span<const NamedUnit> units_of(Measure measure) {
   switch (measure) {
@@ -114,6 +115,8 @@ double parse_measure(std::string_view text, Measure measure, std::string_view op
                                    unit_list(measure), text));
   return *number * size;
 }
+
+bool has_unit_behind(std::string_view number) { return !parse_number(number).has_value(); }
 
 bool is_pixel(std::string_view unit) {
   return same_name(unit, "px") || same_name(unit, "pixel") || same_name(unit, "pixels");

@@ -31,6 +31,9 @@ std::string unit_list(Measure measure);
 /// number that is not finite or is negative.
 double parse_measure(std::string_view text, Measure measure, std::string_view option);
 
+/// True for a number with a unit, as parse_measure knows it.
+bool has_unit_behind(std::string_view number);
+
 /// True for px and pixel: lengths of unknown size.
 bool is_pixel(std::string_view unit);
 /// True for a name of a unit of any measure, in brackets or not.

@@ -48,7 +48,9 @@ class XmlElements {
   void read_all() {
     if (text_.size() > std::numeric_limits<int>::max())
       throw ProgramError(fmt::format("{}: expected {} of less than 2 GiB", file_, kind_));
-    if (XML_Parse(parser_.get(), text_.data(), static_cast<int>(text_.size()), 1) == XML_STATUS_ERROR)
+    const XML_Status status = XML_Parse(parser_.get(), text_.data(), static_cast<int>(text_.size()), 1);
+    if (!failure_.empty()) throw ProgramError(failure_);
+    if (status == XML_STATUS_ERROR)
       throw ProgramError(fmt::format("{}:{}: expected {}: {}", file_, line(), kind_,
                                      XML_ErrorString(XML_GetErrorCode(parser_.get()))));
   }
@@ -62,6 +64,11 @@ class XmlElements {
 
   /// The text since the last beginning of an element, as a field of a table.
   std::string content() const { return plain(content_); }
+  /// Ends the reading: read_all() throws ProgramError with this text, naming file and line.
+  void fail(std::string_view text) {
+    if (failure_.empty()) failure_ = fmt::format("{}:{}: {}", file_, line(), text);
+    XML_StopParser(parser_.get(), XML_FALSE);
+  }
   std::size_t line() const { return XML_GetCurrentLineNumber(parser_.get()); }
   const std::string& file() const { return file_; }
   /// Returns an attribute as a field of a table; empty if there is none.
@@ -91,6 +98,7 @@ class XmlElements {
   std::string_view kind_;
   std::unique_ptr<std::remove_pointer_t<XML_Parser>, Free> parser_;
   std::string content_;
+  std::string failure_;
 };
 
 }  // namespace kinesphere::program

@@ -3,29 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <string_view>
-
 #include "formats/units.hpp"
-#include "number_text.hpp"
 #include "program_error.hpp"
 #include "separations.hpp"
 
 namespace kinesphere::program {
-namespace {
-
-/// True if one of the lengths of "1000:300ft" has a unit.
-bool any_has_unit(std::string_view lengths) {
-  for (std::size_t begin = 0; begin < lengths.size();) {
-    const std::size_t end = std::min(lengths.find_first_of(": ", begin), lengths.size());
-    if (end > begin && !parse_number(lengths.substr(begin, end - begin))) return true;
-    begin = end + 1;
-  }
-  return false;
-}
-
-}  // namespace
-
 Closeness closeness_of(const std::string& distance_text, const std::string& separation_text) {
   if (distance_text.empty() == separation_text.empty())
     throw ProgramError("expected either --distance LENGTH or --separation cylinder:HORIZONTAL:VERTICAL");
@@ -34,7 +16,7 @@ Closeness closeness_of(const std::string& distance_text, const std::string& sepa
     if (distance > 0)
       return {.distance = distance,
               .vertical = {},
-              .has_unit = !parse_number(distance_text),
+              .has_unit = has_unit_behind(distance_text),
               .option = "--distance",
               .given = distance_text,
               .text = fmt::format("below {}", distance)};
@@ -46,10 +28,9 @@ Closeness closeness_of(const std::string& distance_text, const std::string& sepa
     throw ProgramError(
         fmt::format("--separation: expected no time, which a recording needs no prediction for, but got '{}'",
                     named.name));
-  const std::string_view lengths = std::string_view(named.name).substr(named.name.find_first_of(": ") + 1);
   Closeness closeness{.distance = separation.horizontal,
                       .vertical = {},
-                      .has_unit = any_has_unit(lengths),
+                      .has_unit = named.has_unit,
                       .option = "--separation",
                       .given = named.name,
                       .text = fmt::format("below {}", separation.horizontal)};

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "formats/degree_check.hpp"
+#include "formats/time_check.hpp"
 #include "input_file.hpp"
 #include "program_error.hpp"
 #include "tracks/cleaning.hpp"
@@ -103,51 +104,15 @@ void ask_about_row_numbers(const RawRecording& raw) {
       head.text()));
 }
 
-/// Asks about numbers that are all clock times, as 101530 is 10:15:30.
-void ask_about_clock_times(const RawRecording& raw) {
+/// Asks about numbers that may be clock times or days.
+void ask_about_times(const RawRecording& raw) {
   if (raw.columns().time_unit_said || raw.time_scale().kind() != TimeKind::number) return;
-  bool is_clock = true, has_seconds = false;
-  std::int64_t least = 240'000, largest = 0;
-  for_each_sample(raw, [&](const RawSample& sample) {
-    const std::int64_t time = sample.time.whole;
-    is_clock = is_clock && time >= 0 && time < 240'000 && time % 100 < 60 && time / 100 % 100 < 60;
-    has_seconds = has_seconds || time % 100 != 0;
-    least = std::min(least, time);
-    largest = std::max(largest, time);
-  });
-  // Seconds that last longer have 60 to 99 as last digits, too.
-  if (!is_clock || !has_seconds || largest < 10'000 || largest - least < 100) return;
-  throw ProgramError(fmt::format(
-      "{}: the times {} to {} may be those of a clock (hhmmss): write them as in 2024-01-31T12:30:15, "
-      "or say --time-unit s if they are seconds",
-      raw.head().file, least, largest));
-}
-
-/// Asks about numbers that may be the days of a spreadsheet or of MATLAB: 45351.50001157 is one second later
-/// than 45351.5.
-void ask_about_days(const RawRecording& raw) {
-  if (raw.columns().time_unit_said || raw.time_scale().kind() != TimeKind::number) return;
-  // Days from 1980 to 2100.
-  constexpr std::pair<double, double> sheets{29'220.0, 73'050.0}, matlab{723'181.0, 767'011.0};
-  double least = std::numeric_limits<double>::infinity(), largest = -least;
+  TimeCheck check;
   std::size_t most_samples = 0;
   for (const RawTrack& track : raw.tracks()) most_samples = std::max(most_samples, track.samples.size());
-  for_each_sample(raw, [&](const RawSample& sample) {
-    const double time = static_cast<double>(sample.time.whole) + sample.time.fraction;
-    least = std::min(least, time);
-    largest = std::max(largest, time);
-  });
-  const auto all_in = [&](const std::pair<double, double>& days) {
-    return least >= days.first && largest <= days.second;
-  };
-  // Seconds would be more than a hundred samples a second.
-  if (most_samples < 2 || !(all_in(sheets) || all_in(matlab)) ||
-      !(largest - least < 0.01 * static_cast<double>(most_samples)))
-    return;
-  throw ProgramError(
-      fmt::format("{}: the times {} to {} may be days, as spreadsheets and MATLAB have them: say "
-                  "--time-unit d, or s if they are seconds",
-                  raw.head().file, least, largest));
+  for_each_sample(raw, [&](const RawSample& sample) { check.add(sample.time); });
+  for (const std::string& suspicion : {check.clock_suspicion(), check.day_suspicion(most_samples)})
+    if (!suspicion.empty()) throw ProgramError(fmt::format("{}: {}", raw.head().file, suspicion));
 }
 
 /// Returns a warning about rows that go back in time; nothing where none do, or all, as in a file that begins
@@ -280,8 +245,7 @@ Recording parse_tracks(std::vector<NamedText> texts, const TrackOptions& options
     raw.read(std::move(text.text), text.file);
   }
   ask_about_row_numbers(raw);
-  ask_about_clock_times(raw);
-  ask_about_days(raw);
+  ask_about_times(raw);
   raw.ask_about_scenes();
   Recording recording = Reading(raw, options).run();
   if (recording.tracks.empty()) {

@@ -42,7 +42,9 @@ std::string length_text(const AlertContext& context, double length) {
   });
   constexpr double mile = 1852.0;
   if (in_miles) return fmt::format("{:.2f} NM", length / mile);
-  if (!context.is_geographic) return fmt::format("{:.4g}", length);
+  constexpr double many_digits = 1e4;
+  if (!context.is_geographic)
+    return length < many_digits ? fmt::format("{:.4g}", length) : fmt::format("{:.0f}", length);
   return length < 10e3 ? fmt::format("{:.0f} m", length) : fmt::format("{:.1f} km", length / 1e3);
 }
 
@@ -77,7 +79,9 @@ std::string text_of_pair(const AlertContext& context, const MonitorEvent& event)
     const double to_go = answer->closest_time - event.time;
     const double now = 0.5 * (answer->lower / context.stretch + answer->upper);
     more += fmt::format(", now {}", length_text(context, now));
-    if (to_go > 0.0)
+    // What is farther off says nothing: two that keep their distance.
+    constexpr double an_hour = 3600.0;
+    if (to_go > 0.0 && to_go <= an_hour)
       more += fmt::format(", closest {} in {}", length_text(context, answer->closest_distance),
                           duration_text(to_go));
   }

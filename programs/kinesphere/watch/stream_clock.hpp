@@ -29,6 +29,10 @@ class StreamClock {
     FileTime first_ahead{}, latest_ahead{};
     std::string first_id{};
     bool several_ids = false;
+    // The latest of these times is ahead of those before it by more than the limit.
+    bool leapt = false;
+    FileTime latest_before_leap{};
+    bool several_ids_before_leap = false;
   };
 
   StreamClock(Source source, double leap) : leap_(leap), memory_{.source = source} {}
@@ -48,8 +52,14 @@ class StreamClock {
   /// Adds an unconfirmed time of a track. Returns true if consecutive times, with no accepted one in between,
   /// confirm each other: three timestamps of at least two tracks, or ten of one; or two arrivals that differ.
   /// They must come in order, but for the limit of leaps; how far apart they are does not count, as a stream
-  /// may be sparse. `others`: there are more tracks.
+  /// may be sparse. `others`: there are more tracks. The first times of a stream, before it has begun, need
+  /// more: a latest one that is ahead of the others by more than the limit does not confirm them before six,
+  /// and does not count where one behind it goes on with those before.
   bool confirms(const FileTime& time, const std::string& id, bool others);
+  /// Returns false for a time that is ahead of all that confirm each other.
+  bool is_confirmed(const FileTime& time) const {
+    return seconds_between(memory_.latest_ahead, time) <= leap_;
+  }
   /// Number of consecutive unconfirmed times, this one included.
   std::size_t in_a_row() const { return memory_.in_a_row; }
   /// Resets the count because an accepted time came in between.

@@ -95,6 +95,28 @@ Shard parse_share(const std::string& text) {
   return {.of = of, .first = first - 1, .count = last - first + 1};
 }
 
+/// Says which option gives a unit of lengths or speeds, if one does.
+void find_measured_option(const WatchOptions& options, WatchSettings& settings) {
+  const auto take = [&](std::string_view option, const std::string& text, bool has_unit) {
+    if (!has_unit || !settings.measured_option.empty()) return;
+    settings.measured_option = option;
+    settings.measured_text = text;
+  };
+  for (const NamedSeparation& named : settings.separations) take("--separation", named.name, named.has_unit);
+  for (const auto& [option, text] : {std::pair("--acceleration", options.acceleration),
+                                     std::pair("--largest-speed", options.largest_speed),
+                                     std::pair("--position-error", options.position_error),
+                                     std::pair("--velocity-error", options.velocity_error)}) {
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    const std::string_view first = std::string_view(text).substr(0, colon),
+                           second = std::string_view(text).substr(std::min(colon + 1, text.size()));
+    take(option, text,
+         (!first.empty() && has_unit_behind(first)) || (!second.empty() && has_unit_behind(second)));
+  }
+  for (const std::string& text : options.areas)
+    take("--area", text, has_unit_behind(comma_parts(text).back()));
+}
+
 double positive_time(const std::string& given, std::string_view option, double otherwise) {
   if (given.empty()) return otherwise;
   const double time = parse_measure(given, Measure::time, option);
@@ -168,6 +190,7 @@ WatchSettings settings_of(const WatchOptions& options, StreamFormat format, cons
   settings.text = options.text;
   for (const std::string& text : options.areas) settings.areas.push_back(parse_area(text));
   if (options.most_alerts) settings.most_alerts = *options.most_alerts;
+  find_measured_option(options, settings);
   settings.window = defaults.window;
   // A track that is not yet stale may be the only one that reports.
   settings.leap = positive_time(options.leap, "--leap", std::max(settings.leap, settings.silence));

@@ -98,9 +98,11 @@ std::optional<StreamFormat> format_of(const WatchOptions& options,
     throw ProgramError(fmt::format("{}: expected a stream of reports, but it is {}", source.name(), kind));
   };
   if (!kind.empty() && beginning.find('\0') != std::string_view::npos) refuse_kind();
+  const auto format = recognised_format(beginning);
   // An option that names columns implies a table.
-  if (!options.choices.hints.columns.empty()) return StreamFormat::csv;
-  if (const auto format = recognised_format(beginning)) return *format;
+  if (!options.choices.hints.columns.empty())
+    return format == StreamFormat::ais ? *format : StreamFormat::csv;
+  if (format) return *format;
   if (stop.asked()) return std::nullopt;
   if (beginning.find_first_not_of(" \t\r\n") == std::string_view::npos)
     throw ProgramError(fmt::format("{}: expected reports, but it is empty", source.name()));
@@ -296,8 +298,25 @@ void WatchRun::warn() {
         has_warned_of_clock_,
         fmt::format(
             "the last {} reports are older than all others by more than --forget, and not taken: a clock "
-            "was set back, or had been ahead; a new start goes on with them",
+            "was set back, or had been ahead, where a new start goes on with them; or the rows of a file are "
+            "not in "
+            "the order of their times, and have to be sorted",
             least));
+  if (const std::uint64_t late = watcher_.monitor_counters().late; late >= least && 2 * late > taken)
+    warn_once(has_warned_of_order_,
+              "most reports are older than one before of their track, so that alerts may be missing: "
+              "rows have to be in the order of their times");
+  constexpr std::uint64_t least_contradictions = 10;
+  const std::uint64_t contradictions =
+      counts.events[static_cast<std::size_t>(MonitorEventKind::contradiction)];
+  if (contradictions >= least_contradictions && 5 * contradictions > taken)
+    warn_once(
+        has_warned_of_contradictions_,
+        fmt::format(
+            "{} of {} reports contradict those before, so that alerts may be wrong or missing: the errors "
+            "(--position-error, --stamp-error) or limits (--acceleration, --largest-speed) are too small, or "
+            "units are wrong",
+            contradictions, taken));
   constexpr std::uint64_t many = 1000;
   if (taken >= many) warn_of_own();
   const std::uint64_t unusable = counts.unusable() + (taken == 0 ? counts.meant_to_be_left_out() : 0);

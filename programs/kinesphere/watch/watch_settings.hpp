@@ -41,9 +41,12 @@ struct WatchSettings {
   bool text = false;               ///< alerts are lines of text
   std::vector<WatchedArea> areas;  ///< alerts are about pairs with a track in one of them; empty: all are
   std::uint64_t most_alerts = std::numeric_limits<std::uint64_t>::max();  ///< alerts in a second
-  double hold = 0.0;              ///< MonitorDefinition::prediction_hold (seconds)
-  double confirm = 0.0;           ///< MonitorDefinition::prediction_confirmation (seconds)
-  Shard share{};                  ///< other watches have the other pairs
+  double hold = 0.0;     ///< MonitorDefinition::prediction_hold (seconds)
+  double confirm = 0.0;  ///< MonitorDefinition::prediction_confirmation (seconds)
+  Shard share{};         ///< other watches have the other pairs
+  /// An option that gives a unit of lengths or speeds, and what it says: "--separation", "sphere:50m"; both
+  /// empty where none does. Then streams whose unit is not known are taken as they are.
+  std::string measured_option, measured_text;
   std::optional<int> dimensions;  ///< empty: three if the first report has a height
   TrackClasses classes;           ///< with the limits of tracks
   std::vector<ClassRule> class_rules;

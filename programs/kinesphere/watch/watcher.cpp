@@ -149,6 +149,10 @@ void Watcher::deliver_held() {
   std::vector<HeldReport> reports = std::move(held_);
   held_.clear();
   for (HeldReport& held : reports) {
+    if (!clock_.is_confirmed(clock_time(held.report))) {
+      ++counts_.ahead;
+      continue;
+    }
     held.report.id = held.id;
     held.report.name = held.name;
     go_on(clock_time(held.report));
@@ -360,6 +364,12 @@ void Watcher::begin_map(const WatchSettings::Origin& origin) {
 }
 
 void Watcher::begin_monitor(const SourceReport& report) {
+  if (!report.geographic && !report.in_metres && !settings_.measured_option.empty())
+    throw ProgramError(
+        fmt::format("{}: expected numbers without a unit, because the unit of the lengths of {} is not "
+                    "known, but got '{}'{}",
+                    settings_.measured_option, settings_.source, settings_.measured_text,
+                    settings_.format == "jsonl" ? "" : ": say --unit"));
   is_geographic_ = report.geographic;
   dimensions_ = settings_.dimensions.value_or(report.has_height || report.may_have_height ? 3 : 2);
   MonitorDefinition definition{.dimensions = dimensions_,

@@ -53,7 +53,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SourceReport, stamp, arrival, time_kind, geog
                                    velocity_spread, extent, ground_speed, said_status, said_kind, ruled_class,
                                    same_within)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StreamClock::Memory, source, has_begun, now, in_a_row, first_ahead,
-                                   latest_ahead, first_id, several_ids)
+                                   latest_ahead, first_id, several_ids, leapt, latest_before_leap,
+                                   several_ids_before_leap)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MalformedLine, line, reason)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WatchCounts::Turns, apart, undecided, within)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WatchCounts, repeated, stale, ahead, outside, no_position, on_ground,

@@ -49,6 +49,88 @@ TEST(ConvertedTables, ReadsGpx) {
       error_in("<!DOCTYPE gpx [<!ENTITY a \"aaaa\">]><gpx>&a;</gpx>").starts_with("f:1: expected GPX: "));
 }
 
+TEST(ConvertedTables, ReadsKml) {
+#ifndef KINESPHERE_WITH_EXPAT
+  GTEST_SKIP() << "built without expat";
+#endif
+  const auto kml = [](const std::string& mode, const std::string& coordinates) {
+    return "<kml "
+           "xmlns:gx=\"http://www.google.com/kml/ext/2.2\"><Document><name>all</name><Placemark><name>a</"
+           "name>"
+           "<gx:Track>" +
+           mode + "<when>2024-01-01T00:00:00Z</when><when>2024-01-01T00:00:10Z</when>\n" + coordinates +
+           "</gx:Track></Placemark></Document></kml>";
+  };
+  const std::string two = "<gx:coord>8.0 47.0 10</gx:coord><gx:coord>8.0001 47.0 10</gx:coord>";
+  const Recording flat = parse(kml("", two));
+  EXPECT_EQ(flat.format, "KML");
+  ASSERT_EQ(flat.tracks.size(), 1u);
+  EXPECT_EQ(flat.tracks[0].id, "a");
+  EXPECT_TRUE(flat.is_plane) << "heights are not those of the sea";
+  EXPECT_NEAR(norm(flat.tracks[0].samples[1].position - flat.tracks[0].samples[0].position), 7.6, 0.1);
+  EXPECT_TRUE(parse(kml("<altitudeMode>absolute</altitudeMode>", two)).has_heights);
+  EXPECT_EQ(error_in(kml("", "<gx:coord>8.0 47.0 10</gx:coord>")),
+            "f:2: expected as many times as places of track 'a', but got 2 and 1");
+  EXPECT_EQ(
+      error_in(
+          "<kml><Placemark><LineString><coordinates>8,47 9,47</coordinates></LineString></Placemark></kml>"),
+      "f: expected tracks with times (gx:Track), but there are none: other lines of KML have no times");
+}
+
+TEST(ConvertedTables, ReadsGeoJson) {
+  const auto collection = [](const std::string& features) {
+    return "{\"type\": \"FeatureCollection\", \"features\": [\n" + features + "]}";
+  };
+  const auto point = [](int second, std::string_view place) {
+    return fmt::format(
+        R"({{"type": "Feature", "geometry": {{"type": "Point", "coordinates": [{}]}}, "properties": {{"mmsi": 211, )"
+        R"("lat": 1, "time": "2024-01-01T00:00:0{}Z"}}}})",
+        place, second);
+  };
+  const Recording points = parse(collection(point(0, "8, 47") + ",\n" + point(5, "8.0001, 47")));
+  EXPECT_EQ(points.format, "GeoJSON");
+  ASSERT_EQ(points.tracks.size(), 1u);
+  EXPECT_EQ(points.tracks[0].id, "211");
+  EXPECT_NEAR(norm(points.tracks[0].samples[1].position - points.tracks[0].samples[0].position), 7.6, 0.1);
+  const std::string line =
+      R"({"type": "Feature", "properties": {"name": "a", "coordTimes": ["2024-01-01T00:00:00Z", "2024-01-01T00:00:05Z"]},)"
+      R"("geometry": {"type": "LineString", "coordinates": [[8, 47, 10], [8.0001, 47, 10]]}})";
+  const std::string area =
+      R"({"type": "Feature", "properties": null, "geometry": {"type": "Polygon", "coordinates": []}})";
+  const Recording lines = parse(collection(line + ",\n" + area));
+  ASSERT_EQ(lines.tracks.size(), 1u);
+  EXPECT_EQ(lines.tracks[0].id, "a");
+  EXPECT_TRUE(lines.has_heights);
+  EXPECT_EQ(lines.warnings.size(), 1u) << "an area is no track";
+  EXPECT_TRUE(
+      error_in(collection(area)).starts_with("f: expected points with properties such as id and time"));
+  EXPECT_EQ(error_in(collection(point(0, "8, \"north\""))), "f:1: expected numbers as coordinates");
+  EXPECT_TRUE(error_in(collection("{\"type\": \"Feature\", ")).starts_with("f:1: expected JSON"));
+}
+
+TEST(ConvertedTables, ReadsEphemerides) {
+  const auto segment = [](const std::string& name, const std::string& frame, double x) {
+    return fmt::format(
+        "META_START\nOBJECT_NAME = {}\nCENTER_NAME = EARTH\nREF_FRAME = {}\nTIME_SYSTEM = "
+        "UTC\nMETA_STOP\nCOMMENT 1 2 3 4\n"
+        "2024-060T00:00:00.5 {} 0 0 1 0 0\n2024-02-29T00:01:00.5 {} 1 0 1 0 0\n"
+        "COVARIANCE_START\nEPOCH = 2024-060T00:00:00\n3.3e-4\nCOVARIANCE_STOP\n",
+        name, frame, x, x);
+  };
+  const std::string version = "CCSDS_OEM_VERS = 2.0\nORIGINATOR = X\n";
+  const Recording two = parse(version + segment("A 1", "GCRF", 7000) + segment("B", "GCRF", 7001));
+  EXPECT_EQ(two.format, "OEM");
+  ASSERT_EQ(two.tracks.size(), 2u);
+  EXPECT_EQ(two.tracks[0].id, "A 1");
+  EXPECT_EQ(two.times.text(two.tracks[0].samples[0].time), "2024-02-29T00:00:00.5");
+  EXPECT_DOUBLE_EQ(norm(two.tracks[0].samples[0].position - two.tracks[1].samples[0].position), 1000.0);
+  EXPECT_NE(
+      error_in(version + segment("A", "GCRF", 7000) + segment("B", "ITRF", 7001)).find("with ref_frame as"),
+      std::string::npos);
+  EXPECT_EQ(error_in(version + "META_STOP\n2024-060T00:00:00 1\n"),
+            "f:4: expected a time and a position, but got '2024-060T00:00:00 1'");
+}
+
 TEST(ConvertedTables, ReadsFcdOutputOfSumo) {
 #ifndef KINESPHERE_WITH_EXPAT
   GTEST_SKIP() << "built without expat";
@@ -67,6 +149,13 @@ TEST(ConvertedTables, ReadsFcdOutputOfSumo) {
   EXPECT_EQ(fcd.tracks[1].id, "person a");
   EXPECT_EQ(fcd.tracks[0].samples[1].position, (Vec3{2, 2, 0}));
   EXPECT_EQ(fcd.times.text(fcd.tracks[0].samples[1].time), "1.5");
+  EXPECT_TRUE(fcd.warnings.empty());
+  const Recording some = parse(
+      "<fcd-export><timestep time=\"0\"><vehicle id=\"a\" x=\"0\" y=\"0\" z=\"5\"/></timestep>"
+      "<timestep time=\"1\"><vehicle id=\"a\" x=\"0\" y=\"0\"/></timestep></fcd-export>");
+  EXPECT_FALSE(some.has_heights);
+  EXPECT_EQ(some.warnings,
+            std::vector<std::string>{"f: some points have no height (z), so that none is used"});
   EXPECT_EQ(
       error_in("<fcd-export>\n<timestep time=\"0\">\n<vehicle id=\"a\" x=\"one\" y=\"2\"/>\n</timestep>\n"
                "</fcd-export>"),

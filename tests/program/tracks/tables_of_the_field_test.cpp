@@ -179,6 +179,60 @@ TEST_F(TablesOfTheField, CornersOfBoxesAreNoBodies) {
   EXPECT_EQ(approaches("seconds,x1,y1,p1,x2,y2,p2\n0,0,0,1,0,1,1\n1,0,0,1,0,1,1\n", "--distance 2"), "1");
 }
 
+TEST_F(TablesOfTheField, ColumnsOfEachBodyByName) {
+  const std::string rows = "0,0,0,9,9\n1,1,0,1,0.5\n2,2,0,9,9\n";
+  for (const char* header :
+       {"t,x1,y1,x2,y2\n", "t,car1_x,car1_y,car2_x,car2_y\n", "t,X_fish 1,Y_fish 1,X_fish 2,Y_fish 2\n"})
+    EXPECT_EQ(approaches(header + rows, "--distance 1"), "1") << header;
+  approaches("t,car1.x,car1.y,car2.x,car2.y\n" + rows, "--distance 1");
+  EXPECT_NE(out_.find("car1 car2"), std::string::npos) << out_;
+  const std::string parts = "t,head.x,head.y,tail.x,tail.y\n" + rows;
+  EXPECT_NE(approaches(parts, "--distance 1")
+                .find("head.x, head.y, tail.x and tail.y may be two bodies or parts of one"),
+            std::string::npos);
+  EXPECT_EQ(approaches(parts, "--distance 1 --format table"), "1");
+}
+
+TEST_F(TablesOfTheField, NamesOfOtherHabits) {
+  const auto with = [&](std::string_view header, std::string_view options) {
+    std::string text(header);
+    for (int body = 1; body <= 2; ++body)
+      for (int step = 0; step < 3; ++step) text += fmt::format("{},{},0,{}\n", body, step, 0.5 * body);
+    return approaches(text, fmt::format("--distance 1 {}", options));
+  };
+  for (const char* header : {"identity,t,x,y\n", "PersID,Time (UTC),x,y\n", "NORAD_CAT_ID,epoch_utc,x,y\n",
+                             "car_id,Date & Time [GMT],x,y\n", "track,t,x,y\n", "id,t,Points_0,Points:1\n"})
+    EXPECT_EQ(with(header, "--time-unit s"), "1") << header;
+  EXPECT_EQ(with("id,TimeStep,x,y\n", "--frame-rate 1"), "1");
+  // Beside a speed it is a course.
+  EXPECT_NE(approaches("track,speed,t,x,y\n1,1,0,0,0\n", "--distance 1").find("id=..."), std::string::npos);
+  // The h of km_h is no height.
+  EXPECT_EQ(
+      approaches("id,t,lon,lat,speed_km_h\nu,0,8,47,1\nu,1,8,47,1\nv,0,8,47,1\nv,1,8,47,1\n", "--distance 1"),
+      "1");
+}
+
+TEST_F(TablesOfTheField, LinesBetweenHeadersAndRows) {
+  for (const char* text :
+       {" id | t | x | y\n----+---+---+---\n u | 0 | 0 | 0\n u | 1 | 0 | 0\n v | 0 | 0 | 0.5\n v | 1 | 0 | "
+        "0.5\n",
+        "| id | t | x | y |\n|:---|---|---|--:|\n| u | 0 | 0 | 0 |\n| u | 1 | 0 | 0 |\n| v | 0 | 0 | 0.5 "
+        "|\n| v | 1 | 0 | 0.5 |\n",
+        "\xEF\xBB\xBFid,t,x,y\nu,0,0,0\nu,1,0,0\n\xEF\xBB\xBFid,t,x,y\nv,0,0,0.5\nv,1,0,0.5\n"})
+    EXPECT_EQ(approaches(text, "--distance 1"), "1") << text;
+}
+
+TEST_F(TablesOfTheField, TenMillionthsOfDegrees) {
+  const std::string text =
+      "id,time,lat,lon\nu,0,470000000,80000000\nu,1,470000000,80000000\nv,0,470000040,80000000\nv,1,"
+      "470000040,80000000\n";
+  EXPECT_NE(approaches(text, "--distance 1").find("say --columns ...,lon=...:degE7,lat=...:degE7"),
+            std::string::npos);
+  const std::string columns = " --columns id=id,time=time,lon=lon:degE7,lat=lat:degE7";
+  EXPECT_EQ(approaches(text, "--distance 0.45" + columns), "1");
+  EXPECT_EQ(approaches(text, "--distance 0.44" + columns), "0");
+}
+
 TEST_F(TablesOfTheField, NobodyIsNoTrack) {
   for (const char* id : {"-2", "-999", "unknown", "UNK", "noise", "?", "-", "<NA>", "4294967295"})
     EXPECT_NE(
@@ -230,6 +284,31 @@ TEST_F(TablesOfTheField, ScenesOfOneTableAreAskedAbout) {
   EXPECT_EQ(approaches(cases, "--distance 1 --where 'case_id = 2'"), "0");
   const std::string trials = "trial,id,t,x,y\n1,u,0,0,0\n1,u,1,0,0\n2,u,2,0,0\n2,u,3,0,0\n";
   EXPECT_EQ(approaches(trials, "--distance 1"), "0");
+}
+
+TEST_F(TablesOfTheField, MarkersOfNoPlaceInOneColumn) {
+  const std::string head = "id,time,x,y,z\nu,0,0,0,1\nu,1,0,0,1\n";
+  for (const std::string row : {"u,2,0,0,-9999\n", "u,2,3.4e38,0,1\n", "u,2,0,-1.7976931348623157e308,1\n"})
+    EXPECT_NE(approaches(head + row, "--distance 1")
+                  .find("is no position in most files: leave such rows out with --where '"),
+              std::string::npos)
+        << row;
+  EXPECT_EQ(
+      approaches(head + "u,2,0,0,-9999\nv,0,0,0,1.5\nv,1,0,0,1.5\n", "--distance 1 --where 'z != -9999'"),
+      "1");
+}
+
+TEST_F(TablesOfTheField, BodiesAtOnePlaceAreTold) {
+  const std::string passing = "id,time,x,y\nu,0,0,0\nu,1,1,0\nu,2,2,0\nv,0,0,{0}\nv,1,1,{0}\nv,2,2,{0}\n";
+  for (const auto& [y, is_told] : {std::pair("0", true), std::pair("0.1", false)}) {
+    const ProgramRun result =
+        run("tracks " + write("t.csv", fmt::format(fmt::runtime(passing), y)) + " --distance 1");
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.err.find("at exactly one place in 1 approaches, as u and v are at 0, at 0, 0") !=
+                  std::string::npos,
+              is_told)
+        << result.err;
+  }
 }
 
 TEST_F(TablesOfTheField, ColumnsThatMarkVoidRows) {
@@ -458,6 +537,17 @@ TEST_F(TablesOfTheField, ClockTimesAreNoSeconds) {
             "1");
   EXPECT_NE(approaches("id,t,x,y\nu,20240131101530,0,0\n", "--distance 1").find("read as 20240131T123015"),
             std::string::npos);
+  EXPECT_NE(
+      approaches("id,t,x,y\nu,2460380.5,0,0\nu,2460380.50001,0,0\n", "--distance 1").find("may be days"),
+      std::string::npos)
+      << "Julian dates";
+  // The day of a year.
+  const std::string ordinal =
+      "id,t,x,y\nu,2024-060T00:00:00,0,0\nu,2024-060T00:00:01,0,0\nv,2024-02-29T00:00:00,0,0\nv,2024-02-"
+      "29T00:00:01,0,0\n";
+  EXPECT_EQ(approaches(ordinal, "--distance 1"), "1");
+  EXPECT_NE(approaches("id,t,x,y\nu,2023-366T00:00:00,0,0\n", "--distance 1").find("expected a time"),
+            std::string::npos);
 }
 
 TEST_F(TablesOfTheField, TimesComeBackAsTheyWere) {
@@ -473,7 +563,8 @@ TEST_F(TablesOfTheField, OtherFilesAreNamed) {
   for (const auto& [text, part] : std::initializer_list<std::pair<std::string, std::string>>{
            {std::string("\xFF\xFEi\0d\0", 6), "UTF-16: convert it with iconv"},
            {"[1, 2]\n", "JSON"},
-           {"<?xml version=\"1.0\"?><kml></kml>", "KML"},
+           {"<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\"/>", "VTK"},
+           {"# vtk DataFile Version 3.0\nballs\nASCII\n", "VTK"},
            {std::string("i\0d\0", 4), "UTF-16"},
            {std::string("PK\3\4\0\0", 6), "zip archive"},
            {"PAR1\1\2", "Parquet"},
@@ -481,7 +572,6 @@ TEST_F(TablesOfTheField, OtherFilesAreNamed) {
            {"Format Version,1.23,Take Name,a\n,,\n", "OptiTrack Motive"},
            {"scorer,a,a\nbodyparts,b,b\n", "DeepLabCut"},
            {"PathFileType\t4\n", ".trc"},
-           {"{\"type\":\"FeatureCollection\",\"features\":[]}\n", "GeoJSON"},
            {"#cP2024  1  1\n", "SP3"},
            {"ATOM      1  CA  ALA A   1       0.000   0.000   0.000\n", "PDB"},
            {"water\n 1\n    1SOL     OW    1   0.000   0.000   0.000\n 1 1 1\n", "GROMACS"},

@@ -65,6 +65,21 @@ TEST(StreamClock, BelievesSparseTimesInOrder) {
   EXPECT_TRUE(clock.confirms(at(890), "b", true)) << "a little disorder does not count";
 }
 
+/// One of three clocks is an hour ahead when the stream begins.
+TEST(StreamClock, BeginsWithoutAWrongClock) {
+  StreamClock clock(Source::stamps, 60.0);
+  EXPECT_FALSE(clock.confirms(at(0), "a", false));
+  EXPECT_FALSE(clock.confirms(at(3600), "wrong", false));
+  EXPECT_FALSE(clock.confirms(at(1), "c", false)) << "the one before does not count";
+  EXPECT_EQ(clock.in_a_row(), 2u);
+  EXPECT_TRUE(clock.confirms(at(2), "a", false));
+  EXPECT_FALSE(clock.is_confirmed(at(3600)));
+  // A sparse stream begins with six.
+  StreamClock sparse(Source::stamps, 60.0);
+  for (int k = 0; k < 5; ++k) EXPECT_FALSE(sparse.confirms(at(1200 * k), k % 2 == 0 ? "a" : "b", false)) << k;
+  EXPECT_TRUE(sparse.confirms(at(6000), "b", false));
+}
+
 TEST(StreamClock, BelievesTwoArrivalsThatDiffer) {
   StreamClock clock(Source::arrivals, 60.0);
   clock.go_on(at(0));

@@ -168,6 +168,75 @@ TEST_F(StreamsOfTheField, AStreamOfWhichNothingCanBeUsedIsAnError) {
       << blind.err;
 }
 
+TEST_F(StreamsOfTheField, LengthsOfUnknownUnit) {
+  const std::string stream = "id,time,x,y\nu,0,0,0\nv,0,3,0\nu,1,0,0\nv,1,3,0\n";
+  const std::string numbers =
+      " --separation sphere:5 --largest-speed 1 --position-error 0.1 --only all --look-ahead 0";
+  EXPECT_EQ(verdicts(stream, numbers), "within ");
+  for (const char* options : {"--separation sphere:5m --largest-speed 1 --position-error 0.1",
+                              "--separation sphere:5 --largest-speed 1kt --position-error 0.1",
+                              "--separation sphere:5 --largest-speed 1 --position-error 0.1:1ft"})
+    expect_refused(stream, options,
+                   {"expected numbers without a unit, because the unit of the lengths of ", "say --unit"});
+  EXPECT_EQ(verdicts(stream,
+                     " --separation sphere:500cm --unit m --largest-speed 1 --position-error 0.1 --only all"),
+            "within ");
+  EXPECT_EQ(verdicts("id,time,x_cm,y_cm\nu,0,0,0\nv,0,300,0\nu,1,0,0\nv,1,300,0\n",
+                     " --separation sphere:5m --largest-speed 1 --position-error 0.1 --only all"),
+            "within ");
+  expect_refused("{\"id\": \"u\", \"stamp\": 0, \"position\": [0, 0]}\n",
+                 "--separation sphere:5m --largest-speed 1 --position-error 0.1",
+                 {"--separation: expected numbers without a unit", "'sphere:5m'"});
+}
+
+TEST_F(StreamsOfTheField, LongLengthsAreWrittenOut) {
+  const ProgramRun far =
+      run("watch " + write("stream", "id,time,x,y\nu,0,0,0\nv,0,500000000,0\nu,1,0,0\nv,1,500000000,0\n") +
+          " --separation sphere:600000000 --largest-speed 1 --position-error 0.1 --text --quiet");
+  EXPECT_NE(far.out.find("now 500000000"), std::string::npos) << far.out << far.err;
+}
+
+TEST_F(StreamsOfTheField, TimesThatAreNoSeconds) {
+  const auto stream = [](auto time_of) {
+    std::string text = "id,time,x,y\n";
+    for (int k = 0; k < 200; ++k) text += fmt::format("u,{0},0,0\nv,{0},9,0\n", time_of(k));
+    return text;
+  };
+  expect_refused(stream([](int k) { return fmt::format("{:.8f}", 45351.5 + k / 86400.0); }), promises,
+                 {"may be days", "--time-unit d"});
+  expect_refused(stream([](int k) { return fmt::format("10{:02}{:02}", 15 + k / 60, k % 60); }), promises,
+                 {"the times 101500 to 101600 may be those of a clock"});
+  EXPECT_EQ(verdicts(stream([](int k) { return fmt::format("{}", 101500 + k); }), promises), "");
+  EXPECT_EQ(summary_["reports"], 400);
+}
+
+TEST_F(StreamsOfTheField, WhatCannotBeTrueIsToldWhileItRuns) {
+  std::string jumps = "id,time,x,y\n", sorted_by_id = jumps;
+  for (int k = 0; k < 40; ++k) jumps += fmt::format("u,{},{},0\n", k, 1000 * (k % 2));
+  verdicts(jumps, promises);
+  EXPECT_NE(err_.find("reports contradict those before, so that alerts may be wrong or missing"),
+            std::string::npos)
+      << err_;
+  for (const char* id : {"u", "v"})
+    for (int k = 0; k < 150; ++k) sorted_by_id += fmt::format("{},{},{},0\n", id, 10 * k, id[0] - 'u');
+  verdicts(sorted_by_id, promises);
+  EXPECT_NE(err_.find("have to be sorted"), std::string::npos) << err_;
+  std::string backwards = "id,time,x,y\n";
+  for (int k = 0; k < 150; ++k) backwards += fmt::format("u,{0},0,0\nv,{0},9,0\n", 150 - k);
+  verdicts(backwards, promises);
+  EXPECT_NE(err_.find("rows have to be in the order of their times"), std::string::npos) << err_;
+}
+
+TEST_F(StreamsOfTheField, TablesOfShipsAreKnownByTheirColumns) {
+  const std::string rows =
+      "211;2024-01-01T00:00:00Z;8.0;54.0\n212;2024-01-01T00:00:00Z;8.0;54.0\n"
+      "211;2024-01-01T00:00:09Z;8.0;54.0\n212;2024-01-01T00:00:09Z;8.0;54.0\n";
+  for (const char* header : {"mmsi;date_time_utc;lon;lat\n", "SourceMMSI;t;longitude;latitude\n"}) {
+    EXPECT_EQ(verdicts(header + rows, "--separation sphere:200m"), "within ") << header;
+    EXPECT_EQ(summary_["format"], "ais");
+  }
+}
+
 TEST_F(StreamsOfTheField, PositionsAloneNeedALargestSpeed) {
   expect_refused("id,time,x,y\nu,0,0,0\nv,0,3,0\n",
                  "--separation sphere:5 --acceleration 1 --position-error 0.1",

@@ -1,0 +1,148 @@
+// GeoJSON: points with times in their properties, and lines with a list of times.
+#include <array>
+#include <cstddef>
+
+#include "formats/column_names.hpp"
+#include "formats/json_rows.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+class GeoJsonReader {
+ public:
+  explicit GeoJsonReader(const std::string& file) : file_(file) {}
+
+  ConvertedTable read(std::string_view text) {
+    JsonDocumentReader reader;
+    ondemand::document document = reader.open(text);
+    JsonLine line(document);
+    for (ondemand::value feature : document["features"].get_array()) {
+      ++features_;
+      add(feature.get_object(), line.now());
+    }
+    auto table = rows_.table();
+    if (!table)
+      throw ProgramError(fmt::format(
+          "{}: expected points with properties such as id and time, or lines with a list of as many times "
+          "in a property coordTimes, but there are none",
+          file_));
+    table->format = "GeoJSON";
+    if (left_out_ > 0)
+      table->warnings.push_back(fmt::format(
+          "{}: {} features that are no points, and no lines with times, are left out", file_, left_out_));
+    return *std::move(table);
+  }
+
+ private:
+  void add(ondemand::object feature, std::size_t line) {
+    std::string kind;
+    if (ondemand::object geometry; !feature["geometry"].get_object().get(geometry))
+      kind = std::string_view(geometry["type"].get_string());
+    feature.reset();
+    if (kind == "Point") return add_point(feature, line);
+    if (kind != "LineString" || !add_line(feature, line)) ++left_out_;
+  }
+
+  void add_point(ondemand::object feature, std::size_t line) {
+    rows_.begin_row(line);
+    if (ondemand::object properties; !feature["properties"].get_object().get(properties)) {
+      for (auto field : properties) {
+        const std::string name(std::string_view(field.unescaped_key()));
+        const auto meaning = meaning_of(name);
+        // The point itself says where it is.
+        const bool is_place =
+            meaning && (meaning->quantity == Quantity::longitude || meaning->quantity == Quantity::latitude);
+        if (!is_place) rows_.add_value(name, field.value());
+      }
+    }
+    feature.reset();
+    set_place(numbers_of(feature["geometry"]["coordinates"].get_array()));
+  }
+
+  /// Returns false for a line without times.
+  bool add_line(ondemand::object feature, std::size_t line) {
+    std::string id = fmt::format("feature {}", features_);
+    std::vector<std::string> times;
+    if (ondemand::object properties; !feature["properties"].get_object().get(properties))
+      read_properties(properties, id, times);
+    feature.reset();
+    std::vector<std::vector<std::string>> places;
+    for (ondemand::value place : feature["geometry"]["coordinates"].get_array())
+      places.push_back(numbers_of(place.get_array()));
+    if (times.empty()) return false;
+    if (times.size() != places.size())
+      throw MalformedRecord(fmt::format("expected as many times as places of '{}', but got {} and {}", id,
+                                        times.size(), places.size()));
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      rows_.begin_row(line);
+      rows_.set("id", JsonRows::quoted(id));
+      rows_.set("time", times[k]);
+      set_place(places[k]);
+    }
+    return true;
+  }
+
+  static void read_properties(ondemand::object properties, std::string& id, std::vector<std::string>& times) {
+    bool has_id = false;
+    for (auto field : properties) {
+      const std::string name(std::string_view(field.unescaped_key()));
+      ondemand::value value = field.value();
+      const auto meaning = meaning_of(name);
+      const bool is_id = meaning && meaning->quantity == Quantity::id;
+      if (value.type() == ondemand::json_type::array) {
+        const std::string plain = plain_name(name);
+        if (plain == "coordtimes" || plain == "times" || plain == "timestamps")
+          times = fields_of(value.get_array());
+      } else if (value.type() == ondemand::json_type::object) {
+        if (ondemand::array list; !value.get_object()["times"].get_array().get(list)) times = fields_of(list);
+      } else if (is_id || (!has_id && plain_name(name) == "name")) {
+        has_id = is_id;
+        id = value.type() == ondemand::json_type::string ? std::string(std::string_view(value.get_string()))
+                                                         : std::string(trimmed(value.raw_json_token()));
+      }
+    }
+  }
+
+  /// Returns texts and numbers as fields of a table.
+  static std::vector<std::string> fields_of(ondemand::array list) {
+    std::vector<std::string> fields;
+    for (ondemand::value value : list)
+      fields.push_back(value.type() == ondemand::json_type::string
+                           ? JsonRows::quoted(value.get_string())
+                           : std::string(trimmed(value.raw_json_token())));
+    return fields;
+  }
+  static std::vector<std::string> numbers_of(ondemand::array list) {
+    std::vector<std::string> numbers;
+    for (ondemand::value value : list) {
+      if (value.type() != ondemand::json_type::number)
+        throw MalformedRecord("expected numbers as coordinates");
+      numbers.emplace_back(trimmed(value.raw_json_token()));
+    }
+    if (numbers.size() < 2) throw MalformedRecord("expected a longitude and a latitude as coordinates");
+    return numbers;
+  }
+  void set_place(const std::vector<std::string>& numbers) {
+    rows_.set("lon", numbers[0]);
+    rows_.set("lat", numbers[1]);
+    if (numbers.size() > 2) rows_.set("alt", numbers[2]);
+  }
+
+  const std::string& file_;
+  JsonRows rows_;
+  std::size_t features_ = 0, left_out_ = 0;
+};
+
+}  // namespace
+
+std::optional<ConvertedTable> convert_geojson(std::string_view text, const std::string& file) {
+  const std::string_view begin = text.substr(0, 4096);
+  if (!trimmed(begin).starts_with('{') || begin.find("\"FeatureCollection\"") == std::string_view::npos)
+    return std::nullopt;
+  std::optional<ConvertedTable> table;
+  const std::size_t first_line = 1;
+  read_json(file, first_line, [&] { table = GeoJsonReader(file).read(text); });
+  return table;
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,140 @@
+// Objects of JSON as rows of a table.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "ascii_text.hpp"
+#include "formats/converted_table.hpp"
+#include "formats/json_reading.hpp"
+#include "program_error.hpp"
+
+namespace kinesphere::program {
+
+/// Gathers objects as rows. Objects and short lists in them become several columns, with . between the names.
+class JsonRows {
+ public:
+  void add(ondemand::object object, std::size_t line) {
+    begin_row(line);
+    add_fields("", object);
+  }
+  void begin_row(std::size_t line) { rows_.push_back({line, {}}); }
+
+  /// Returns the table; nothing where no column was found.
+  std::optional<ConvertedTable> table() const {
+    if (names_.empty()) return std::nullopt;
+    ConvertedTable table{.format = "JSON records"};
+    for (const std::string& name : names_) table.text += (table.text.empty() ? "" : ",") + quoted(name);
+    table.text += '\n';
+    table.lines_before = 1;
+    std::size_t row_line = 1;
+    for (const Row& row : rows_) {
+      for (; row_line < row.line; ++row_line) table.text += '\n';
+      for (std::size_t column = 0; column < names_.size(); ++column)
+        table.text += (column == 0 ? "" : ",") + (column < row.fields.size() ? row.fields[column] : "");
+      table.text += '\n';
+      ++row_line;
+    }
+    return table;
+  }
+
+  /// Returns a text as a field of a table.
+  static std::string quoted(std::string_view text) {
+    std::string field = "\"";
+    for (const char c : text) field += c == '"' ? "\"\"" : std::string(1, c == '\n' || c == '\r' ? ' ' : c);
+    return field + '"';
+  }
+
+  /// Sets what the row that was begun last has of this name.
+  void add_value(const std::string& name, ondemand::value value) {
+    switch (value.type()) {
+      case ondemand::json_type::object:
+        return add_fields(name + '.', value.get_object());
+      case ondemand::json_type::array: {
+        // Longer lists are no positions.
+        constexpr std::size_t longest = 3;
+        ondemand::array list = value.get_array();
+        if (list.count_elements() > longest) return;
+        std::size_t place = 0;
+        for (ondemand::value element : list) add_value(fmt::format("{}.{}", name, place++), element);
+        return;
+      }
+      case ondemand::json_type::string:
+        return set(name, quoted(value.get_string()));
+      case ondemand::json_type::null:
+        return set(name, "");
+      default:
+        // Numbers keep all their digits.
+        return set(name, std::string(trimmed(value.raw_json_token())));
+    }
+  }
+  void set(const std::string& name, std::string field) {
+    const auto [place, is_new] = columns_.emplace(name, names_.size());
+    if (is_new) names_.push_back(name);
+    // Objects whose keys are ids or times would need memory for each of them in each row.
+    constexpr std::size_t most_columns = 1000;
+    if (names_.size() > most_columns)
+      throw MalformedRecord(fmt::format("expected records of at most {} names, but got more", most_columns));
+    auto& fields = rows_.back().fields;
+    if (fields.size() <= place->second) fields.resize(place->second + 1);
+    fields[place->second] = std::move(field);
+  }
+
+ private:
+  struct Row {
+    std::size_t line;
+    std::vector<std::string> fields;  ///< by column
+  };
+
+  void add_fields(const std::string& prefix, ondemand::object object) {
+    for (auto field : object) {
+      const std::string name = prefix + std::string(std::string_view(field.unescaped_key()));
+      add_value(name, field.value());
+    }
+  }
+
+  std::vector<std::string> names_;
+  std::unordered_map<std::string, std::size_t> columns_;
+  std::vector<Row> rows_;
+};
+
+/// The line of a document that has been read so far.
+class JsonLine {
+ public:
+  explicit JsonLine(ondemand::document& document) : document_(document), at_(document.current_location()) {}
+
+  std::size_t now() {
+    const char* next = nullptr;
+    if (document_.current_location().get(next)) return line_;
+    line_ += static_cast<std::size_t>(std::count(at_, next, '\n'));
+    at_ = next;
+    return line_;
+  }
+
+ private:
+  ondemand::document& document_;
+  const char* at_;
+  std::size_t line_ = 1;
+};
+
+/// Calls `read`; throws ProgramError naming file and line of JSON that is none.
+template <class Action>
+void read_json(const std::string& file, const std::size_t& line, Action read) {
+  try {
+    read();
+  } catch (const simdjson::simdjson_error& error) {
+    throw ProgramError(fmt::format("{}:{}: expected JSON records: {}", file, line, error.what()));
+  } catch (const MalformedRecord& error) {
+    throw ProgramError(fmt::format("{}:{}: {}", file, line, error.what()));
+  }
+}
+
+}  // namespace kinesphere::program
