@@ -8,6 +8,9 @@
 namespace kinesphere {
 namespace {
 
+/// Number of windows of one length, before it doubles.
+constexpr std::uint32_t windows_of_a_length = 8;
+
 Space space_of(const MonitorDefinition& definition) {
   return Space(WorldDefinition{.dimensions = definition.dimensions});
 }
@@ -119,8 +122,21 @@ InflatedBound Monitor::Engine::inflated_bound(std::uint32_t number, const Hypoth
 /// so a gap takes 8 times the binary logarithm of its length in windows. The length doubles more slowly while
 /// windows find many pairs.
 Window Monitor::Engine::next_window() const {
-  constexpr std::uint32_t windows_of_a_length = 8;
   return Window::at(time_, rung_ + static_cast<int>(quiet_windows_ / windows_of_a_length));
+}
+
+/// Lets windows become up to 8 times as long while fewer reports come than a sixteenth of the tracks: then
+/// the cost is that of silent tracks, each of which starts with each window.
+void Monitor::Engine::weigh_reports(std::size_t tracks) {
+  constexpr std::uint64_t tracks_for_each = 16;
+  constexpr std::uint32_t most = 3 * windows_of_a_length;
+  const std::uint64_t reports = counters_.reports - reports_before_window_;
+  reports_before_window_ = counters_.reports;
+  if (reports == 0) return;
+  if (reports * tracks_for_each < tracks)
+    sparse_windows_ = std::min(sparse_windows_ + 1, most);
+  else
+    sparse_windows_ -= std::min(sparse_windows_, windows_of_a_length);
 }
 
 Result<void> Monitor::Engine::start_windows(const Poll* poll) {
@@ -151,6 +167,7 @@ Result<void> Monitor::Engine::start_windows(const Poll* poll) {
     }
   }
   close_records();
+  weigh_reports(numbers.size());
   window_ = next;
   ++counters_.windows;
   broad_phase_.end_windows(time_, true);

@@ -85,6 +85,7 @@ class Monitor::Engine {
   }
   Window next_window() const;
   Result<void> start_windows(const Poll* poll);
+  void weigh_reports(std::size_t tracks);
   Result<void> recheck(const Poll* poll);
   Result<void> ask_about(const PairCertificate& pair, const Poll& poll);
   Result<void> ask(std::span<const std::uint32_t> numbers, const Poll& poll, Placing placing);
@@ -135,6 +136,10 @@ class Monitor::Engine {
   /// Number of windows started since the last report or request; windows that find many pairs count an
   /// eighth.
   std::uint32_t quiet_windows_ = 0;
+  /// So many of them count although reports arrive: it grows while a window has few reports for the tracks
+  /// that it starts, most of which are silent, and shrinks faster.
+  std::uint32_t sparse_windows_ = 0;
+  std::uint64_t reports_before_window_ = 0;  ///< Counter of reports at the start of the window.
   MonitorCounters counters_;
   TrackTable tracks_;
   PairRecords pair_records_;

@@ -104,7 +104,7 @@ std::uint32_t Monitor::Engine::take(TrackId id, const TrackReport& report, Placi
     }
   }
   const TrackEstimate::Learned learned = track.estimate.update(flat, track_class, time_, power_of_two(rung_));
-  quiet_windows_ = 0;
+  quiet_windows_ = std::min(quiet_windows_, sparse_windows_);
   if (learned.outcome == TrackEstimate::Outcome::repeated) {
     ++counters_.repeated;
     return number;

@@ -14,7 +14,7 @@ namespace {
 
 /// Raise the version when the fields change, or when the engine would continue differently from equal fields.
 constexpr Envelope monitor_envelope{{'K', 'i', 'n', 'M', 'o', 'n', '\r', '\n'},
-                                    9,
+                                    10,
                                     "monitor",
                                     "Monitor::restore",
                                     "snapshot",
@@ -31,8 +31,8 @@ bool is_blank(const KnownTrack& track) {
 
 template <class Self, class Archive>
 void Monitor::Engine::serialize(Self& self, Archive& archive) {
-  archive(self.time_, self.has_started_, self.window_, self.quiet_windows_, self.counters_, self.tracks_,
-          self.broad_phase_, self.predictions_);
+  archive(self.time_, self.has_started_, self.window_, self.quiet_windows_, self.sparse_windows_,
+          self.reports_before_window_, self.counters_, self.tracks_, self.broad_phase_, self.predictions_);
   std::vector<SavedPair<PairRecord>> records;
   std::vector<MonitorEvent> events;
   std::uint32_t last_revision = 0;

@@ -314,9 +314,15 @@ void WatchRun::warn() {
         has_warned_of_contradictions_,
         fmt::format(
             "{} of {} reports contradict those before, so that alerts may be wrong or missing: the errors "
-            "(--position-error, --stamp-error) or limits (--acceleration, --largest-speed) are too small, or "
-            "units are wrong",
+            "(--position-error, --stamp-error) or limits (--acceleration, --largest-speed) are too small, "
+            "units are wrong, or two tracks have one id",
             contradictions, taken));
+  if (counts.ahead >= least)
+    warn_once(has_warned_of_ahead_,
+              fmt::format(
+                  "{} reports are stamped ahead of all others by more than --leap, and not taken: the clock "
+                  "of their tracks is wrong",
+                  counts.ahead));
   constexpr std::uint64_t many = 1000;
   if (taken >= many) warn_of_own();
   const std::uint64_t unusable = counts.unusable() + (taken == 0 ? counts.meant_to_be_left_out() : 0);

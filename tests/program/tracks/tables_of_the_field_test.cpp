@@ -465,7 +465,7 @@ TEST_F(TablesOfTheField, DatesBesideClocks) {
   EXPECT_NE(read("gps_week,time", "2300,604799", "2301,10").find("'gps_week' may be a part of the time"),
             std::string::npos);
   EXPECT_NE(read("time", "45351.50001157", "45351.50002315")
-                .find("may be days, as spreadsheets and MATLAB have them"),
+                .find("may be days, as spreadsheets, MATLAB and astronomers have them"),
             std::string::npos);
   EXPECT_EQ(read("time", "45351.50001157", "45351.50002315", "--time-unit d"), "1");
   EXPECT_EQ(read("time", "45351.5", "45352.5"), "1");

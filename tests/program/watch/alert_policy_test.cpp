@@ -143,7 +143,7 @@ class WatchPolicy : public ProgramTest {
   std::vector<Json> alerts(const std::string& stream, const std::string& options) {
     const ProgramRun result = run("watch " + write("s.csv", stream) +
                                   " --acceleration 0.5 --largest-speed 40 --position-error 1 "
-                                  "--velocity-error 0.1 --quiet " +
+                                  "--velocity-error 0.1 --unit m --quiet " +
                                   options + " --summary '" + path("summary.json") + "'");
     EXPECT_EQ(result.exit_code, 0) << result.err;
     summary_ = Json::parse(read_text(path("summary.json")));

@@ -172,7 +172,7 @@ TEST_F(StreamsOfTheField, LengthsOfUnknownUnit) {
   const std::string stream = "id,time,x,y\nu,0,0,0\nv,0,3,0\nu,1,0,0\nv,1,3,0\n";
   const std::string numbers =
       " --separation sphere:5 --largest-speed 1 --position-error 0.1 --only all --look-ahead 0";
-  EXPECT_EQ(verdicts(stream, numbers), "within ");
+  EXPECT_EQ(verdicts(stream, numbers), "within undecided within ");
   for (const char* options : {"--separation sphere:5m --largest-speed 1 --position-error 0.1",
                               "--separation sphere:5 --largest-speed 1kt --position-error 0.1",
                               "--separation sphere:5 --largest-speed 1 --position-error 0.1:1ft"})
@@ -180,10 +180,10 @@ TEST_F(StreamsOfTheField, LengthsOfUnknownUnit) {
                    {"expected numbers without a unit, because the unit of the lengths of ", "say --unit"});
   EXPECT_EQ(verdicts(stream,
                      " --separation sphere:500cm --unit m --largest-speed 1 --position-error 0.1 --only all"),
-            "within ");
+            "within undecided within ");
   EXPECT_EQ(verdicts("id,time,x_cm,y_cm\nu,0,0,0\nv,0,300,0\nu,1,0,0\nv,1,300,0\n",
                      " --separation sphere:5m --largest-speed 1 --position-error 0.1 --only all"),
-            "within ");
+            "within undecided within ");
   expect_refused("{\"id\": \"u\", \"stamp\": 0, \"position\": [0, 0]}\n",
                  "--separation sphere:5m --largest-speed 1 --position-error 0.1",
                  {"--separation: expected numbers without a unit", "'sphere:5m'"});
@@ -221,6 +221,11 @@ TEST_F(StreamsOfTheField, WhatCannotBeTrueIsToldWhileItRuns) {
     for (int k = 0; k < 150; ++k) sorted_by_id += fmt::format("{},{},{},0\n", id, 10 * k, id[0] - 'u');
   verdicts(sorted_by_id, promises);
   EXPECT_NE(err_.find("have to be sorted"), std::string::npos) << err_;
+  std::string wrong_clock = "id,time,x,y\n";
+  for (int k = 0; k < 150; ++k) wrong_clock += fmt::format("u,{0},0,0\nw,{1},3,0\nv,{0},9,0\n", k, k + 3600);
+  verdicts(wrong_clock, promises);
+  EXPECT_EQ(summary_["reports"], 300) << "the first wrong time does not count either";
+  EXPECT_NE(err_.find("100 reports are stamped ahead of all others"), std::string::npos) << err_;
   std::string backwards = "id,time,x,y\n";
   for (int k = 0; k < 150; ++k) backwards += fmt::format("u,{0},0,0\nv,{0},9,0\n", 150 - k);
   verdicts(backwards, promises);
