@@ -105,8 +105,7 @@ void warn_of_one_place(const std::vector<Approach>& approaches, const Recording&
   const Vec3 at = recording.coordinates.as_in_file(first->closest.first);
   print_message(
       "kinesphere: warning: two bodies are at exactly one place in {} approaches, as {} and {} are at {}, at "
-      "{:.9g}, {:.9g}: "
-      "such places may stand for none (--where), or be of one body with two ids\n",
+      "{:.9g}, {:.9g}: such places may stand for none (--where), or be of one body with two ids\n",
       grouped(static_cast<std::uint64_t>(std::count_if(approaches.begin(), approaches.end(), is_at_one))),
       recording.tracks[first->first].id, recording.tracks[first->second].id,
       recording.times.text(first->closest.time, 6), at.x, at.y);

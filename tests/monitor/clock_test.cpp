@@ -94,6 +94,33 @@ TEST(MonitorClock, GetsAnywhereInFewStepsWithWindowsAndResolutionsOfAllSizes) {
       }
 }
 
+/// One track reports each second for 1000 seconds and passes one of 200 others; returns the number of
+/// windows.
+std::uint64_t windows_among(bool others_report) {
+  Monitor monitor =
+      Monitor::create({.classes = {{.acceleration_limit = 1.0}, {.largest_speed = ErrorBound(0.001)}},
+                       .separations = {{0, 1, {Separation::sphere(5.0)}}}})
+          .value();
+  std::size_t within = 0;
+  for (int second = 0; second < 1000; ++second) {
+    for (TrackId other = 1; other <= 200; ++other) {
+      TrackReport report = at(second, {1000.0 * static_cast<double>(other - 1), 3, 0});
+      report.track_class = 1;
+      if (second == 0 || others_report) monitor.report(other, report).value();
+    }
+    monitor.report(1000, at(second, {second - 500.0, 0, 0}, {1, 0, 0})).value();
+    for (const MonitorEvent& event : monitor.events(second))
+      if (event.kind == MonitorEventKind::verdict && event.verdict == Verdict::within) ++within;
+  }
+  EXPECT_GE(within, 1u) << "the two pass each other at 3 m";
+  return monitor.counters().windows;
+}
+
+TEST(MonitorClock, FewReportsOfManyTracksMakeLongWindows) {
+  EXPECT_LT(windows_among(false), 300u);
+  EXPECT_GT(windows_among(true), 900u);
+}
+
 TEST(MonitorClock, MissesNothingInAGap) {
   // Two tracks approach at speed 1 each from 20,000 apart, without accelerations and further reports.
   MonitorDefinition exact = definition();

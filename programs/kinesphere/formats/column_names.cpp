@@ -26,13 +26,11 @@ constexpr QuantityNames quantities[quantity_count] = {
      "vesselid shipid sourcemmsi deviceid droneid drone uavid uav robotid playerid entityid icao24 hex "
      "trajectoryid particle particleid tag tagid animalid individuallocalidentifier identity objid targetid "
      "instanceid cellid carid persid personnr bodyid individual individualid individualidentifier subjectid "
-     "birdid fishid satid satelliteid noradid "
-     "noradcatid nodeid"},
+     "birdid fishid satid satelliteid noradid noradcatid nodeid"},
     {Quantity::time, "time", Measure::time,
      "t timestamp datetime basedatetime utc timeutc timestamputc datetimeutc unixtime epoch stamp tstamp "
      "headerstamp fixtime utctime date/time date&time epochutc timegmt datetimegmt localtime timestamplocal "
-     "zeit uhrzeit seconds:s secs:s sec:s "
-     "milliseconds:ms"},
+     "zeit uhrzeit seconds:s secs:s sec:s milliseconds:ms"},
     {Quantity::frame, "frame", Measure::none,
      "frameid frameno framenr framenumber frameindex frameidx fr timestep"},
     {Quantity::date, "date", Measure::none, "datum utcdate dateutc gpsdate localdate"},
@@ -45,8 +43,7 @@ constexpr QuantityNames quantities[quantity_count] = {
      "points1"},
     {Quantity::z, "z", Measure::length,
      "posz zpos positionz zposition posepositionz pz centerz zcenter centroidz zcentroid points2 alt "
-     "altitude ele "
-     "elevation flightlevel:FL fl:FL"},
+     "altitude ele elevation flightlevel:FL fl:FL"},
     {Quantity::longitude, "lon", Measure::angle,
      "lng long longitude locationlong locationlon gpslon gpslongitude decimallongitude"},
     {Quantity::latitude, "lat", Measure::angle, "latitude locationlat gpslat gpslatitude decimallatitude"},

@@ -20,6 +20,10 @@ constexpr std::string_view as_csv = ": write it as CSV, with pandas for example"
 constexpr std::string_view as_rows_of_vicon =
     "an export of Vicon Nexus, with columns for each marker: write it as rows of id, time, x, y, z";
 constexpr std::string_view pdb = "a PDB file: write it as XYZ, with VMD or MDAnalysis";
+constexpr std::string_view mode_s =
+    "raw messages of Mode S (Beast or AVR): decode them with readsb or dump1090, and read port 30003 (SBS) "
+    "or "
+    "aircraft.json";
 constexpr std::string_view vtk =
     "data of VTK: write the points of all steps as CSV, with ParaView: save data, all time steps";
 constexpr std::string_view sp3 = "an ephemeris (SP3): write it as CSV, with columns id, time, x, y, z";
@@ -49,6 +53,9 @@ constexpr FileKind kinds_by_bytes[] = {
     {"SQLite format 3"sv, "a SQLite database: write its table as CSV, with sqlite3 -csv -header"},
     {"#ROSBAG"sv, "a ROS bag: write the topic as CSV"},
     {"ULog\x01\x12\x35"sv, "a PX4 log: write it as CSV, with ulog2csv"},
+    {"\x1A\x31"sv, mode_s},
+    {"\x1A\x32"sv, mode_s},
+    {"\x1A\x33"sv, mode_s},
     {"%PDF"sv, "a PDF file"},
     {"{\\rtf"sv, "a document of RTF: save it as text"},
     {"$GP"sv, "NMEA 0183: write it as CSV or GPX, with gpsbabel"},
@@ -122,6 +129,9 @@ std::string kind_by_lines(std::string_view text) {
   }
   if (are_orbital_elements(lines[0], lines[1]) || are_orbital_elements(lines[1], lines[2]))
     return "orbital elements (TLE), not positions: propagate them first (docs/satellites.md)";
+  if (lines[0].starts_with('*') && lines[0].ends_with(';') &&
+      lines[0].find_first_not_of("0123456789abcdefABCDEF", 1) == lines[0].size() - 1)
+    return std::string(mode_s);
   const bool is_alone = lines[0].find_first_of(",; \t") == std::string_view::npos;
   if (is_alone && lines[0].starts_with('A') && (lines[1].starts_with("HF") || lines[2].starts_with("HF")))
     return "a flight log (IGC): write it as GPX, with gpsbabel -i igc -f FILE -o gpx -F FILE.gpx";

@@ -175,7 +175,10 @@ class CsvFormat final : public ReportFormat {
   }
   /// A stream of clock times shows itself with its second minute.
   void check_clock(const SourceReport& report) {
-    is_checking_clock_ = !reader_->columns().time_unit_said && report.time_kind == TimeKind::number;
+    // Seconds since the start of something may look like a clock after midnight.
+    constexpr std::int64_t one_o_clock = 10'000;
+    is_checking_clock_ = !reader_->columns().time_unit_said && report.time_kind == TimeKind::number &&
+                         first_stamp_->whole >= one_o_clock;
     if (!is_checking_clock_) return;
     time_check_.add(report.stamp);
     is_checking_clock_ = time_check_.may_be_clock();

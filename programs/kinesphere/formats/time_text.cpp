@@ -116,7 +116,7 @@ std::optional<std::int64_t> read_day_of_year(Reader& reader, std::optional<int> 
 /// Returns days since 1970-01-01. `extended`: the parts have - or / between them.
 std::optional<std::int64_t> read_date(Reader& reader, bool& extended) {
   const auto year = reader.digits(4, 9999);
-  const char between = reader.take('-') ? '-' : reader.take('/') ? '/' : '\0';
+  const char between = reader.take('-') ? '-' : reader.take('/') ? '/' : reader.take('.') ? '.' : '\0';
   extended = between != '\0';
   if (between == '-' && reader.digits_ahead() == 3) return read_day_of_year(reader, year);
   const auto month = extended ? reader.few_digits(2) : reader.digits(2, 12);

@@ -299,36 +299,41 @@ void WatchRun::warn() {
         fmt::format(
             "the last {} reports are older than all others by more than --forget, and not taken: a clock "
             "was set back, or had been ahead, where a new start goes on with them; or the rows of a file are "
-            "not in "
-            "the order of their times, and have to be sorted",
+            "not in the order of their times, and have to be sorted",
             least));
-  if (const std::uint64_t late = watcher_.monitor_counters().late; late >= least && 2 * late > taken)
-    warn_once(has_warned_of_order_,
-              "most reports are older than one before of their track, so that alerts may be missing: "
-              "rows have to be in the order of their times");
-  constexpr std::uint64_t least_contradictions = 10;
-  const std::uint64_t contradictions =
-      counts.events[static_cast<std::size_t>(MonitorEventKind::contradiction)];
-  if (contradictions >= least_contradictions && 5 * contradictions > taken)
-    warn_once(
-        has_warned_of_contradictions_,
-        fmt::format(
-            "{} of {} reports contradict those before, so that alerts may be wrong or missing: the errors "
-            "(--position-error, --stamp-error) or limits (--acceleration, --largest-speed) are too small, "
-            "units are wrong, or two tracks have one id",
-            contradictions, taken));
-  if (counts.ahead >= least)
-    warn_once(has_warned_of_ahead_,
-              fmt::format(
-                  "{} reports are stamped ahead of all others by more than --leap, and not taken: the clock "
-                  "of their tracks is wrong",
-                  counts.ahead));
+  warn_of_doubtful_reports();
   constexpr std::uint64_t many = 1000;
   if (taken >= many) warn_of_own();
   const std::uint64_t unusable = counts.unusable() + (taken == 0 ? counts.meant_to_be_left_out() : 0);
   if (!has_warned_of_unusable_ && unusable >= least && unusable > taken)
     warn_once(has_warned_of_unusable_,
               fmt::format("most reports cannot be used: {} taken, {}", taken, reasons_text(watcher_)));
+}
+
+/// Warns, once of each, of reports that make alerts doubtful.
+void WatchRun::warn_of_doubtful_reports() {
+  const WatchCounts& counts = watcher_.counts();
+  const MonitorCounters monitor = watcher_.monitor_counters();
+  constexpr std::uint64_t least = 100, least_contradictions = 10;
+  if (monitor.late >= least && 2 * monitor.late > monitor.reports)
+    warn_once(
+        has_warned_of_order_,
+        "most reports are older than one before of their track, so that alerts may be missing: rows have "
+        "to be in the order of their times");
+  if (monitor.contradictions >= least_contradictions && 5 * monitor.contradictions > monitor.reports)
+    warn_once(
+        has_warned_of_contradictions_,
+        fmt::format(
+            "{} of {} reports contradict those before, so that alerts may be wrong or missing: the errors "
+            "(--position-error, --stamp-error) or limits (--acceleration, --largest-speed) are too small, "
+            "units are wrong, or two tracks have one id",
+            monitor.contradictions, monitor.reports));
+  if (counts.ahead >= least)
+    warn_once(
+        has_warned_of_ahead_,
+        fmt::format("{} reports are stamped ahead of all others by more than --leap, and not taken: the "
+                    "clock of their tracks is wrong",
+                    counts.ahead));
 }
 
 /// Warns if the own track is none of the stream's so far.

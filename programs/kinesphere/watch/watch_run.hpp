@@ -45,6 +45,7 @@ class WatchRun {
   FileTime now() const;
   void complain();
   void warn();
+  void warn_of_doubtful_reports();
   void warn_of_own();
   void warn_once(bool& has_warned, std::string_view warning);
   bool is_time_for_snapshot() const;

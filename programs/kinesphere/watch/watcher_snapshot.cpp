@@ -47,11 +47,11 @@ inline void from_json(const Json& from, DeclaredError& error) { error = {from.at
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FileTime, whole, fraction, rest)
 // Without what is valid during a call alone, and what a format adds for recordings.
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SourceReport, stamp, arrival, time_kind, geographic, position, has_height,
-                                   may_have_height, on_ground, velocity, has_climb, position_error,
-                                   height_error, velocity_error, climb_error, stamp_error, velocity_age,
-                                   velocity_spread, extent, ground_speed, said_status, said_kind, ruled_class,
-                                   same_within)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SourceReport, stamp, arrival, time_kind, geographic, in_metres, position,
+                                   has_height, may_have_height, on_ground, velocity, has_climb,
+                                   position_error, height_error, velocity_error, climb_error, stamp_error,
+                                   velocity_age, velocity_spread, extent, ground_speed, said_status,
+                                   said_kind, ruled_class, same_within)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StreamClock::Memory, source, has_begun, now, in_a_row, first_ahead,
                                    latest_ahead, first_id, several_ids, leapt, latest_before_leap,
                                    several_ids_before_leap)

@@ -25,6 +25,7 @@ constexpr PresetShape preset_shapes[] = {
     {"eth", "", "{frame} {id} {x} 0 {y} 0 0 0\n", 1.0, no_heights, "eth"},
     {"pedpy", "# framerate: 25 fps\n# id frame x/m y/m z/m\n", "{id} {frame} {x} {y} 1.8\n"},
     {"hermes", "# id frame x/cm y/cm z/cm\n", "{id} {frame} {x} {y} 180\n", 0.01, no_heights, "25"},
+    {"petrack", "# framerate: 25 fps\n# PersID Frame X Y Z\n", "{id} {frame} {x} {y} 180\n"},
     {"vadere", "pedestrianId simTime endTime-PID1 startX-PID1 startY-PID1 endX-PID1 endY-PID1\n",
      "{id} {s} 0 {x} {y} 0 0\n"},
     {"sdd", "", "{id} {x} {y} 9 9 {frame} 0 0 1 \"Biker\"\n", 1.0, no_heights, "25", false,

@@ -541,6 +541,8 @@ TEST_F(TablesOfTheField, ClockTimesAreNoSeconds) {
       approaches("id,t,x,y\nu,2460380.5,0,0\nu,2460380.50001,0,0\n", "--distance 1").find("may be days"),
       std::string::npos)
       << "Julian dates";
+  EXPECT_EQ(approaches("id,t,x,y\nu,2024.01.31 10:00:00,0,0\nu,2024.01.31 10:00:01,0,0\n", "--distance 1"),
+            "0");
   // The day of a year.
   const std::string ordinal =
       "id,t,x,y\nu,2024-060T00:00:00,0,0\nu,2024-060T00:00:01,0,0\nv,2024-02-29T00:00:00,0,0\nv,2024-02-"
@@ -565,6 +567,8 @@ TEST_F(TablesOfTheField, OtherFilesAreNamed) {
            {"[1, 2]\n", "JSON"},
            {"<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\"/>", "VTK"},
            {"# vtk DataFile Version 3.0\nballs\nASCII\n", "VTK"},
+           {std::string("\x1A\x33\0\0\0", 5), "Beast"},
+           {"*8D4840D6202CC371C32CE0576098;\n", "Mode S"},
            {std::string("i\0d\0", 4), "UTF-16"},
            {std::string("PK\3\4\0\0", 6), "zip archive"},
            {"PAR1\1\2", "Parquet"},
