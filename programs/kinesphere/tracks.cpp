@@ -94,11 +94,15 @@ std::string closest_approaches(const std::vector<Approach>& approaches, const Re
   return text;
 }
 
-/// Warns of bodies at the same place.
+/// Warns of bodies that jump to one place, or keep together at one.
 void warn_of_one_place(const std::vector<Approach>& approaches, const Recording& recording,
                        double tolerance) {
+  const ImpliedSpeeds speeds(recording);
   const auto is_at_one = [&](const Approach& approach) {
-    return norm(approach.closest.second - approach.closest.first) <= tolerance;
+    const auto& [time, distance, first, second, relative_speed] = approach.closest;
+    return norm(second - first) <= tolerance &&
+           (relative_speed <= tolerance || speeds.is_absurd_at(approach.first, time) ||
+            speeds.is_absurd_at(approach.second, time));
   };
   const auto first = std::find_if(approaches.begin(), approaches.end(), is_at_one);
   if (first == approaches.end()) return;

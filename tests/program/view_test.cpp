@@ -56,7 +56,8 @@ TEST_F(View, RefusesFilesThatCannotBeRead) {
   expect_refused(write("empty.csv", ""), {"empty.csv"});
   const std::string damaged = write("packed.csv.gz", std::string("\x1f\x8b\x08\0\0\0\0\0\0\3 no", 13));
   expect_refused(damaged, {"packed.csv.gz", "damaged gzip data"});
-  expect_refused(write("far.csv", "id,t,x,y\nann,0,-1e308,0\nann,1,1e308,0\n"), {"id 'ann'"});
+  expect_refused(write("far.csv", "id,t,x,y\nann,0,-1e308,0\nann,1,1e308,0\n"),
+                 {"far.csv:2", "-1e+308 as x"});
 }
 
 TEST_F(View, RefusesRecordingsThatCannotBeShown) {

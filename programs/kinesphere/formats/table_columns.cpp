@@ -621,12 +621,15 @@ void understand_lengths(const TableHead& head, const ColumnHints& hints, TableCo
                       "one column",
                       column_text(head, column.place), head.file, hints.unit, key_of(quantity),
                       column_word(head, column.place), hints.unit));
+    const auto meaning = head.names.empty() ? std::nullopt : meaning_of(head.names[column.place]);
+    const bool needs_unit = meaning && meaning->needs_unit;
     if (unit_is_said && !column.has_unit && measure_of(quantity) == Measure::length) {
       column.unit = said;
       column.has_unit = true;
     }
-    const auto meaning = head.names.empty() ? std::nullopt : meaning_of(head.names[column.place]);
-    if (!column.has_unit && meaning && meaning->needs_unit)
+    // Where lengths are metres, speeds are metres a second.
+    if (said == 1.0 && measure_of(quantity) == Measure::speed && !needs_unit) column.has_unit = true;
+    if (!column.has_unit && needs_unit)
       throw ProgramError(fmt::format("{}: {} does not say its unit: say --columns {}, or another unit ({})",
                                      head.file, column_text(head, column.place),
                                      columns_text(head, columns, quantity, ":kt"),

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <random>
 #include <utility>
@@ -328,6 +329,15 @@ void WatchRun::warn_of_doubtful_reports() {
             "(--position-error, --stamp-error) or limits (--acceleration, --largest-speed) are too small, "
             "units are wrong, or two tracks have one id",
             monitor.contradictions, monitor.reports));
+  const auto& separations = watcher_.settings().separations;
+  const bool looks_ahead =
+      std::any_of(separations.begin(), separations.end(),
+                  [](const NamedSeparation& named) { return named.separation.look_ahead > 0.0; });
+  if (monitor.reports >= least && counts.with_velocity == 0 && looks_ahead)
+    warn_once(has_warned_of_velocities_,
+              "reports have no velocities (vx and vy, or speed and course), without which encounters are not "
+              "predicted "
+              "before they are near");
   if (counts.ahead >= least)
     warn_once(
         has_warned_of_ahead_,

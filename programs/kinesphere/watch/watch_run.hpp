@@ -64,7 +64,7 @@ class WatchRun {
   std::size_t complaints_ = 0;
   bool has_warned_of_crowds_ = false, has_warned_of_unusable_ = false, has_warned_of_heights_ = false;
   bool has_warned_of_own_ = false, has_warned_of_clock_ = false, has_warned_of_order_ = false;
-  bool has_warned_of_contradictions_ = false, has_warned_of_ahead_ = false;
+  bool has_warned_of_contradictions_ = false, has_warned_of_ahead_ = false, has_warned_of_velocities_ = false;
   std::uint64_t taken_before_ = 0, stale_before_ = 0;  ///< at the last report that was taken
   std::chrono::duration<double> snapshot_interval_;
   std::optional<std::chrono::steady_clock::time_point> last_snapshot_;

@@ -479,6 +479,7 @@ void Watcher::deliver(const SourceReport& report) {
     return refuse(fmt::format("{}: {}", report.id, taken.error().message));
   if (!settings_.own.empty() && report.id == settings_.own) ++counts_.of_own;
   if (lacks_height) ++counts_.no_height;
+  if (knows_velocity) ++counts_.with_velocity;
   NamedTrack& named = known != nullptr ? *known : names_.add(id, report.id);
   if (const std::string_view name = shown_name(report.name); !name.empty()) named.name = name;
   if (known == nullptr || seconds_between(named.stamp, report.stamp) >= 0.0) {

@@ -299,16 +299,24 @@ TEST_F(TablesOfTheField, MarkersOfNoPlaceInOneColumn) {
 }
 
 TEST_F(TablesOfTheField, BodiesAtOnePlaceAreTold) {
-  const std::string passing = "id,time,x,y\nu,0,0,0\nu,1,1,0\nu,2,2,0\nv,0,0,{0}\nv,1,1,{0}\nv,2,2,{0}\n";
-  for (const auto& [y, is_told] : {std::pair("0", true), std::pair("0.1", false)}) {
-    const ProgramRun result =
-        run("tracks " + write("t.csv", fmt::format(fmt::runtime(passing), y)) + " --distance 1");
-    EXPECT_EQ(result.exit_code, 0);
-    EXPECT_EQ(result.err.find("at exactly one place in 1 approaches, as u and v are at 0, at 0, 0") !=
-                  std::string::npos,
-              is_told)
-        << result.err;
-  }
+  const auto is_told = [&](const std::string& rows) {
+    const ProgramRun result = run("tracks " + write("t.csv", "id,time,x,y\n" + rows) + " --distance 1");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.err.find("two bodies are at exactly one place in 1 approaches, as u and v are at ") !=
+           std::string::npos;
+  };
+  const auto rows = [](auto row) {
+    std::string text;
+    for (int step = 0; step < 12; ++step) text += row(step);
+    return text;
+  };
+  EXPECT_TRUE(is_told(rows([](int k) { return fmt::format("u,{0},{0},0\nv,{0},{0},0\n", k); }))) << "two ids";
+  EXPECT_FALSE(is_told(rows([](int k) { return fmt::format("u,{0},{0},0\nv,{0},{0},0.1\n", k); })));
+  EXPECT_FALSE(is_told(rows([](int k) { return fmt::format("u,{0},{0},5\nv,{0},5,{0}\n", k); })))
+      << "they meet";
+  EXPECT_TRUE(is_told(rows([](int k) {
+    return k == 5 ? "u,5,-1,-1\nv,5,-1,-1\n" : fmt::format("u,{0},{0},500\nv,{0},900,{0}\n", k);
+  }))) << "a marker of none";
 }
 
 TEST_F(TablesOfTheField, ColumnsThatMarkVoidRows) {

@@ -31,7 +31,7 @@ struct ClassWatch {
         make_ruled_format(make_format(format, options.choices), watcher.settings().class_rules, is_table);
   }
   static WatchOptions with_separation(WatchOptions options) {
-    if (options.separations.empty()) options.separations = {"sphere:500m"};
+    if (options.separations.empty()) options.separations = {"sphere:500"};
     if (options.only.empty()) options.only = {"within", "undecided", "tracks"};
     return options;
   }

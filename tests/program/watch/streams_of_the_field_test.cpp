@@ -225,6 +225,9 @@ TEST_F(StreamsOfTheField, WhatCannotBeTrueIsToldWhileItRuns) {
   for (int k = 0; k < 150; ++k) wrong_clock += fmt::format("u,{0},0,0\nw,{1},3,0\nv,{0},9,0\n", k, k + 3600);
   verdicts(wrong_clock, promises);
   EXPECT_EQ(summary_["reports"], 300) << "the first wrong time does not count either";
+  EXPECT_EQ(err_.find("have no velocities"), std::string::npos) << "nothing is predicted";
+  verdicts(wrong_clock, " --separation sphere:5 --largest-speed 1 --position-error 0.1");
+  EXPECT_NE(err_.find("have no velocities"), std::string::npos) << err_;
   EXPECT_NE(err_.find("100 reports are stamped ahead of all others"), std::string::npos) << err_;
   std::string backwards = "id,time,x,y\n";
   for (int k = 0; k < 150; ++k) backwards += fmt::format("u,{0},0,0\nv,{0},9,0\n", 150 - k);
