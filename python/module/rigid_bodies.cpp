@@ -146,7 +146,7 @@ void set_rotation_probe(WorldHandle& handle, const py::object& function) {
                          py::repr(function).cast<std::string>());
   RotationProbe probe;
   if (!function.is_none()) {
-    // A world with rigid bodies works with one thread, so nothing but the probe can throw meanwhile.
+    // A world with a rotation probe works with one thread, so nothing but the probe can throw meanwhile.
     probe = [kept = kept_by_engine(function)](std::span<const BodyId> ids, double time,
                                               std::span<Rotation> rotations) {
       const py::gil_scoped_acquire gil;

@@ -449,7 +449,7 @@ GapLimits gap(const PartBound& part, const Shape& shape, double t) {
 
 /// The ball around a part, or around a whole body, at one time.
 struct BallNow {
-  const RigidPart* part;
+  const RigidPart* part = nullptr;
   Vec3 centre;
   Vec3 velocity;
   double radius;        ///< grown up to now
@@ -461,8 +461,7 @@ struct BallNow {
 BallNow ball_now(const RigidExtent& body, double time) {
   const Bound& bound = body.bound;
   const double s = time - bound.time;
-  return {.part = nullptr,
-          .centre = bound.centre_at(time),
+  return {.centre = bound.centre_at(time),
           .velocity = bound.velocity_at(time),
           .radius = bound.radius_at(time),
           .speed = bound.growth_speed + bound.acceleration_limit * s,
@@ -471,43 +470,22 @@ BallNow ball_now(const RigidExtent& body, double time) {
                   (norm_one(bound.velocity) + norm_one(bound.planned_acceleration) * s) * s + bound.radius};
 }
 
-/// Returns the balls around all parts, as RigidExtent::of_point() gives them for their middles.
-std::vector<BallNow> balls_now(const RigidExtent& body, double time) {
-  const double s = time - body.bound.time;
-  const BallNow whole = ball_now(body, time);
-  const double turning = body.spin_growth + body.spin * body.spin;
-  std::vector<BallNow> balls;
-  balls.reserve(body.parts.size());
-  for (const RigidPart& part : body.parts) {
-    const BallAroundPoints points(part);
-    const Vec3 arm = rotated(body.rotation.orientation, points.middle);
-    const Vec3 turn = cross(body.rotation.angular_velocity, arm);
-    const double reach = norm(points.middle);
-    BallNow ball = whole;
-    ball.part = &part;
-    ball.centre += arm + turn * s;
-    ball.velocity += turn;
-    ball.radius += part.radius + points.reach - body.radius + 0.5 * turning * reach * s * s;
-    ball.speed += turning * reach * s;
-    ball.acceleration += turning * reach;
-    balls.push_back(ball);
-  }
-  return balls;
-}
-
 /// What is certain of the gap between what is in two balls.
 struct GapNow {
+  static constexpr double rounding_lost = 0x1p-40;
+
+  Vec3 way;        ///< unit vector from the second ball to the first
   double least;    ///< now
-  double opening;  ///< rate at which it grows along the line of centres, at least
+  double opening;  ///< rate at which it grows along that direction, at least
   double closing;  ///< largest acceleration against that
 
   [[gnu::always_inline]] GapNow(const BallNow& a, const BallNow& b) {
-    constexpr double rounding_lost = 0x1p-40;
-    const Vec3 way = a.centre - b.centre;
-    const Vec3 turn = a.velocity - b.velocity;
-    const double distance = norm(way);
+    const Vec3 between = a.centre - b.centre;
+    const double distance = norm(between);
+    way = between * (1.0 / distance);
     least = distance - (a.radius + b.radius) - rounding_lost * (a.size + b.size);
-    opening = dot(way, turn) / distance - (a.speed + b.speed) - rounding_lost * norm_one(turn);
+    opening = dot(way, a.velocity - b.velocity) - (a.speed + b.speed) -
+              rounding_lost * (norm_one(a.velocity) + norm_one(b.velocity));
     closing = (a.acceleration + b.acceleration) * (1.0 + rounding_lost);
   }
   /// Returns true if the gap is larger than `distance` all the time: a concave function is least at an end.
@@ -516,43 +494,123 @@ struct GapNow {
   }
 };
 
-/// Returns the ball whose centre is nearest to a point.
-const BallNow& nearest_to(const Vec3& point, const std::vector<BallNow>& balls) {
-  return *std::min_element(balls.begin(), balls.end(), [&](const BallNow& a, const BallNow& b) {
-    return norm_squared(a.centre - point) < norm_squared(b.centre - point);
-  });
-}
-
-/// Calls visit(part, other) for pairs of parts, a pair that is near first. Leaves out those for which
-/// skips(gap) is true of their GapNow.
-template <class Skips, class Visit>
-void for_each_part(const RigidPair<RigidExtent>& pair, double time, Skips skips, Visit visit) {
-  const std::vector<BallNow> own = balls_now(pair.body, time);
-  const std::vector<BallNow> others = balls_now(pair.other, time);
-  const BallNow all_others = ball_now(pair.other, time);
-  const auto is_skipped = [&](const BallNow& a, const BallNow& b) { return skips(GapNow(a, b)); };
-  const auto consider = [&](const BallNow& a, const BallNow& b) {
-    if (!is_skipped(a, b)) visit(PartBound(pair.body, *a.part), PartBound(pair.other, *b.part));
-  };
-  const BallNow& first = nearest_to(all_others.centre, own);
-  const BallNow& second = nearest_to(first.centre, others);
-  consider(first, second);
-  for (const BallNow& a : own) {
-    if (others.size() > 1 && is_skipped(a, all_others)) continue;
-    for (const BallNow& b : others)
-      if (&a != &first || &b != &second) consider(a, b);
+/// The parts of a body beside the ball around its partner, at one time.
+class PartsBeside {
+ public:
+  /// `way` points from the partner to the body.
+  PartsBeside(const RigidExtent& body, const BallNow& whole, const GapNow& balls, const Vec3& way,
+              double time)
+      : body_(body), whole_(whole), s_(time - body.bound.time) {
+    // Products with vectors of the body, so that the parts need not be turned.
+    const Vec3 along = rotated_back(body.rotation.orientation, way);
+    const Vec3 turn = rotated_back(body.rotation.orientation, cross(way, body.rotation.angular_velocity));
+    parts_.reserve(body.parts.size());
+    for (const RigidPart& part : body.parts) {
+      const BallAroundPoints points(part);
+      Part seen{&part, points.middle, norm(points.middle), part.radius + points.reach - body.radius, balls};
+      const double turning = turning_of(seen);
+      const double speed = dot(turn, seen.middle);
+      seen.gap.least += dot(along, seen.middle) + speed * s_ - seen.radius - 0.5 * turning * s_ * s_;
+      seen.gap.opening += speed - turning * s_ - GapNow::rounding_lost * body.spin * seen.arm;
+      seen.gap.closing += turning * (1.0 + GapNow::rounding_lost);
+      parts_.push_back(seen);
+    }
   }
+
+  /// Returns the part that reaches farthest towards the partner.
+  const RigidPart& foremost() const {
+    return *std::min_element(parts_.begin(), parts_.end(), [](const Part& a, const Part& b) {
+              return a.gap.least < b.gap.least;
+            })->part;
+  }
+  /// Returns the balls around the parts for which skips(gap) is false of their gap to the ball of the
+  /// partner.
+  template <class Skips>
+  std::vector<BallNow> near(Skips skips) const {
+    std::vector<BallNow> found;
+    for (const Part& part : parts_) {
+      if (skips(part.gap)) continue;
+      if (found.empty()) found.reserve(parts_.size());
+      found.push_back(ball(part));
+    }
+    return found;
+  }
+
+ private:
+  struct Part {
+    const RigidPart* part;
+    Vec3 middle;    ///< of the ball around it, in the body
+    double arm;     ///< distance of the middle from the position
+    double radius;  ///< of that ball, less that of the body
+    GapNow gap;     ///< to the ball around the partner
+  };
+
+  /// Limit of the acceleration of the middle of a part beyond that of the position.
+  double turning_of(const Part& part) const {
+    return (body_.spin_growth + body_.spin * body_.spin) * part.arm;
+  }
+  /// Returns the ball around a part as RigidExtent::of_point() gives it for its middle.
+  BallNow ball(const Part& part) const {
+    const Vec3 arm = rotated(body_.rotation.orientation, part.middle);
+    const Vec3 turn = cross(body_.rotation.angular_velocity, arm);
+    const double turning = turning_of(part);
+    BallNow ball = whole_;
+    ball.part = part.part;
+    ball.centre += arm + turn * s_;
+    ball.velocity += turn;
+    ball.radius += part.radius + 0.5 * turning * s_ * s_;
+    ball.speed += turning * s_;
+    ball.acceleration += turning;
+    return ball;
+  }
+
+  const RigidExtent& body_;
+  const BallNow& whole_;
+  double s_;
+  std::vector<Part> parts_;
+};
+
+/// A part of each body of a pair, or none.
+struct PartPair {
+  const RigidPart* own = nullptr;
+  const RigidPart* other = nullptr;
+};
+
+/// Calls visit(part, other) for pairs of parts: `first`, or those that reach farthest towards each other, and
+/// then all others but those for which skips(gap) is true of the gap of balls that contain them.
+template <class Skips, class Visit>
+void for_each_part(const RigidPair<RigidExtent>& pair, double time, PartPair first, Skips skips,
+                   Visit visit) {
+  const auto consider = [&](const RigidPart& a, const RigidPart& b) {
+    visit(PartBound(pair.body, a), PartBound(pair.other, b));
+  };
+  if (pair.body.parts.size() == 1 && pair.other.parts.size() == 1)
+    return consider(pair.body.parts[0], pair.other.parts[0]);
+  const BallNow one = ball_now(pair.body, time);
+  const BallNow other = ball_now(pair.other, time);
+  const GapNow balls(one, other);
+  const PartsBeside own(pair.body, one, balls, balls.way, time);
+  const PartsBeside others(pair.other, other, balls, -balls.way, time);
+  if (first.own == nullptr) first = {&own.foremost(), &others.foremost()};
+  consider(*first.own, *first.other);
+  const std::vector<BallNow> near = own.near(skips);
+  if (near.empty()) return;
+  const std::vector<BallNow> others_near = others.near(skips);
+  for (const BallNow& a : near)
+    for (const BallNow& b : others_near)
+      if ((a.part != first.own || b.part != first.other) && !skips(GapNow(a, b))) consider(*a.part, *b.part);
 }
 
 /// Calls visit(part, partner) for each part of the body.
 template <class Other, class Skips, class Visit>
-void for_each_part(const RigidPair<Other>& pair, double, Skips, Visit visit) {
+void for_each_part(const RigidPair<Other>& pair, double, PartPair, Skips, Visit visit) {
   for (const RigidPart& part : pair.body.parts) visit(PartBound(pair.body, part), pair.other);
 }
 
-/// Earliest meeting from what is known at the time of the reports.
+/// Earliest meeting from what is known at the time of the reports. Begins with the parts that would have met
+/// first before, and replaces them by those that do now.
 template <class Other>
-double meeting(const RigidPair<Other>& pair, double from, double until, double distance) {
+double meeting(const RigidPair<Other>& pair, double from, double until, double distance, PartPair& parts) {
   double start = from;
   // Before the balls around two bodies meet, the parts inside do not.
   if constexpr (std::is_same_v<Other, RigidExtent>)
@@ -562,12 +620,21 @@ double meeting(const RigidPair<Other>& pair, double from, double until, double d
   // Meetings later than the first one so far do not matter.
   const auto limit = [&] { return std::min(first, until); };
   for_each_part(
-      pair, start,
+      pair, start, parts,
       [&](const GapNow& gap) { return start >= limit() || gap.exceeds(distance, limit() - start); },
       [&](const PartBound& part, const auto& partner) {
-        first = std::min(first, meeting(part, partner, start, limit(), distance));
+        const double time = meeting(part, partner, start, limit(), distance);
+        if (!(time < first)) return;
+        first = time;
+        if constexpr (std::is_same_v<Other, RigidExtent>) parts = {&part.part(), &partner.part()};
       });
   return first;
+}
+
+/// Returns the pair as it is at a time, if that is certain, or else as it was reported.
+template <class Other>
+RigidPair<Other> foreseen(const RigidPair<Other>& pair, double time) {
+  return pair.is_exact() ? pair.at(time) : pair;
 }
 
 }  // namespace
@@ -575,13 +642,17 @@ double meeting(const RigidPair<Other>& pair, double from, double until, double d
 template <class Other>
 double earliest_meeting(const Bound&, const RigidPair<Other>& pair, double from, double until,
                         double distance) {
-  double time = meeting(pair, from, until, distance);
+  PartPair parts;
+  double time = meeting(foreseen(pair, from), from, until, distance, parts);
   if (!pair.is_exact()) return time;
   // Where the two will be is known, so that the next step needs no report.
   double gain = time - from;
+  double last = gain;
   for (int round = 1; round < most_rounds && time < infinity; ++round) {
-    if (!(gain > (time - from) * negligible_gain)) break;
-    const double next = meeting(pair.at(time), time, until, distance);
+    // The next step gains less than this one by the same factor or more, as this one did.
+    if (!(gain * gain > last * (time - from) * negligible_gain)) break;
+    const double next = meeting(pair.at(time), time, until, distance, parts);
+    last = gain;
     gain = next - time;
     time = next;
   }
@@ -593,7 +664,8 @@ double earliest_separation(const Bound&, const RigidPair<Other>& pair, double fr
                            double distance) {
   double last = from;
   for_each_part(
-      pair, from, [&](const GapNow& gap) { return last == infinity || gap.least > distance; },
+      foreseen(pair, from), from, {},
+      [&](const GapNow& gap) { return last == infinity || gap.least > distance; },
       [&](const PartBound& part, const auto& partner) {
         last = std::max(last, separation(part, partner, from, until, distance));
       });
@@ -604,7 +676,7 @@ template <class Other>
 GapLimits gap_limits(const Bound&, const RigidPair<Other>& pair, double t) {
   GapLimits limits{infinity, infinity};
   for_each_part(
-      pair, t, [&](const GapNow& gap) { return gap.least > limits.upper; },
+      foreseen(pair, t), t, {}, [&](const GapNow& gap) { return gap.least > limits.upper; },
       [&](const PartBound& part, const auto& partner) {
         const GapLimits own = gap(part, partner, t);
         limits = {std::min(limits.lower, own.lower), std::min(limits.upper, own.upper)};

@@ -21,8 +21,9 @@ struct RigidExtent {
 
   /// True if the body flies and turns exactly as the last report says.
   bool is_exact() const { return spin_growth == 0.0 && bound.is_exact(); }
-  /// Returns the same body with a later report. Precondition: is_exact().
+  /// Returns the same body with a report at `time`, which is not earlier. Precondition: is_exact().
   RigidExtent at(double time) const {
+    if (time == bound.time) return *this;
     const double s = time - bound.time;
     RigidExtent later = *this;
     later.is_foreseen = true;

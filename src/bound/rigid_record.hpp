@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 #include "bound/rounding.hpp"
@@ -22,6 +23,7 @@ struct RigidRecord {
   Rotation origin{};
   double origin_time = 0.0;
   bool is_changed = false;  ///< `rotation` is from before the last change, until the next report
+  std::tuple<Rotation, Rotation, double, bool> kept{};  ///< for go_back()
 
   bool keeps_spin() const { return angular_acceleration_limit == 0.0; }
   /// Returns the largest angular speed until the next change (radians / time).
@@ -50,12 +52,16 @@ struct RigidRecord {
     if (is_fresh) rotation = now;
     is_changed = !is_fresh;
   }
+  /// Keeps all that reports and changes of the rotation change.
+  void keep() { kept = {rotation, origin, origin_time, is_changed}; }
+  /// Undoes the reports and changes since keep().
+  void go_back() { std::tie(rotation, origin, origin_time, is_changed) = kept; }
   /// Returns the change of angular velocity by a unit impulse along `direction` at `arm` from the position.
   Vec3 spin_gain(const Vec3& arm, const Vec3& direction) const;
 
   static void serialize(auto& self, auto& archive) {
     auto& [parts, rotation, angular_acceleration_limit, largest_angular_speed, inertia, origin, origin_time,
-           is_changed] = self;
+           is_changed, kept] = self;
     archive(parts, rotation, angular_acceleration_limit, largest_angular_speed, inertia, origin, origin_time,
             is_changed);
   }

@@ -81,6 +81,8 @@ std::optional<double> ContactPredictor<Partner>::next_check_if_apart() const {
     gap = norm(partner_.centre_at(now_) - centre) - (bound_.radius + partner_.radius);
   } else if constexpr (std::is_same_v<Partner, HalfSpace>) {
     gap = dot(partner_.normal, centre) - partner_.offset - bound_.radius;
+  } else if constexpr (is_rigid_pair<Partner>) {
+    gap = gap_limits(bound_, partner_, now_).lower;
   }
   if (!(gap - threshold_.distance > rule_.tolerance())) return std::nullopt;
   return std::max(meeting(0.0), just_after(now_));

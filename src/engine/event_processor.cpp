@@ -112,6 +112,23 @@ void EventProcessor::set_velocity(std::uint32_t number, const Vec3& velocity) {
     assert(log_ == nullptr && "clusters share the table of changes");
     bodies().change_of(number).velocity = velocity;
   }
+  turn_reported(number);
+}
+
+void EventProcessor::set_angular_velocity(std::uint32_t number, const Vec3& angular_velocity) {
+  Body& body = bodies()[number];
+  RigidRecord& record = bodies().rigid[body];
+  record.change({record.at(time_).orientation, angular_velocity}, time_, body.fresh(time_));
+  if (!body.fresh(time_)) {
+    assert(log_ == nullptr && "clusters share the table of changes");
+    bodies().change_of(number);
+  }
+  contacts().set_largest_acceleration(number, bodies().largest_acceleration(number));
+  turn_reported(number);
+}
+
+/// Makes everything stale that depends on how the body has moved until now.
+void EventProcessor::turn_reported(std::uint32_t number) {
   if (log_) {
     note_linked_conflicts(number);
     if (!log_->conflicts.empty()) return;

@@ -120,6 +120,8 @@ class alignas(128) EventProcessor {
     set_velocity(bodies().table().number_of(body), velocity);
   }
   void set_velocity(std::uint32_t number, const Vec3& velocity);
+  /// Sets the angular velocity of a rigid body from the current time on.
+  void set_angular_velocity(std::uint32_t number, const Vec3& angular_velocity);
   /// Ends the contacts of the body, makes all its certificates stale and takes it out of the broad phase:
   /// the body is about to be removed or disabled.
   void detach(std::uint32_t number);
@@ -168,6 +170,7 @@ class alignas(128) EventProcessor {
   ContactGraph& contacts() { return state_->contacts; }
   const ContactGraph& contacts() const { return state_->contacts; }
 
+  void turn_reported(std::uint32_t number);
   void recertify_changed(std::uint32_t a, std::uint32_t b);
   Result<void> recertify_dirty();
   void recertify(std::span<const std::uint32_t> numbers);

@@ -68,6 +68,12 @@ double PairCertifier::apart_until(std::uint32_t a, std::uint32_t b) const {
                          : apart_until(bound_ref(a), bound_ref(b));
 }
 
+bool PairCertifier::needs_thresholds(std::uint32_t a, std::uint32_t b) const {
+  if (earliest_window_end(a, b) == infinity) return true;
+  return (bodies()[a].is_shaped() || bodies()[b].is_shaped()) && bodies().may_meet(a, b) &&
+         !(kinesphere::apart_until(bodies(), bound_ref(a), bound_ref(b), time_) > time_);
+}
+
 double PairCertifier::unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) const {
   const double end = earliest_window_end(a, b);
   double first = infinity;

@@ -101,6 +101,9 @@ class PairCertifier {
   /// Returns the time before which two unlinked bodies neither touch nor sense each other; +infinity if they
   /// do not before the earlier window end. Returns the current time if only fresh reports can decide.
   double apart_until(std::uint32_t a, std::uint32_t b) const;
+  /// Returns true if apart_until() of two bodies in different clusters needs more of the other one than its
+  /// bound, which is unknown here.
+  bool needs_thresholds(std::uint32_t a, std::uint32_t b) const;
   /// Returns the time before which no threshold of the two is crossed, by the contact rules; +infinity if
   /// never. Valid for linked and unlinked pairs.
   double unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) const;

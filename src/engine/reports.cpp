@@ -29,6 +29,11 @@ inline void move_to_nearest_image(const Space& space, const Bound& bound, double
   bound.velocity = report.velocity;
 }
 
+/// Returns true if the world knows how the rigid body turns.
+bool turns_by_itself(const Bodies& bodies, const Body& body) {
+  return !bodies.rigid.probe && bodies.rigid[body].keeps_spin();
+}
+
 std::optional<BoundViolation> sum_of(const std::optional<BoundViolation>& a,
                                      const std::optional<BoundViolation>& b) {
   if (!a || !b) return a ? a : b;
@@ -72,8 +77,8 @@ Result<std::span<const Reports::Violation>> Reports::take(Bodies& bodies, double
 }
 
 /// Probes one or two bodies, as nearly all calls do. Applies the reports if they are valid, keep the limits
-/// of the bodies, and change nothing but their bounds, as nearly all do. Otherwise keeps them, and returns
-/// false.
+/// of the bodies, and change nothing but their bounds and known rotations, as nearly all do. Otherwise keeps
+/// them, and returns false.
 [[gnu::always_inline]] inline bool Reports::take_few(Bodies& bodies, double time,
                                                      std::span<const std::uint32_t> numbers) {
   std::array<BodyId, few_reports> ids;
@@ -88,7 +93,8 @@ Result<std::span<const Reports::Violation>> Reports::take(Bodies& bodies, double
   bool are_plain = true;
   for (std::size_t k = 0; k < count && are_plain; ++k) {
     const Body& body = bodies[numbers[k]];
-    are_plain = body.change_number == Body::none && !body.is_sleeping() && !body.is_rigid &&
+    are_plain = body.change_number == Body::none && !body.is_sleeping() &&
+                (!body.is_rigid || turns_by_itself(bodies, body)) &&
                 bodies.radii.find(numbers[k]) == nullptr && is_valid_report(states[k], bodies.definition());
     // An invalid report stays as it is, for the error message.
     if (are_plain) move_to_nearest_image(bodies.space(), body.bound, time, states[k]);
@@ -99,7 +105,11 @@ Result<std::span<const Reports::Violation>> Reports::take(Bodies& bodies, double
     states_.assign(states.begin(), states.begin() + static_cast<std::ptrdiff_t>(count));
     return false;
   }
-  for (std::size_t k = 0; k < count; ++k) restart(bodies[numbers[k]].bound, time, states[k]);
+  for (std::size_t k = 0; k < count; ++k) {
+    Body& body = bodies[numbers[k]];
+    restart(body.bound, time, states[k]);
+    if (body.is_rigid) bodies.rigid[body].report(bodies.rigid[body].at(time), time);
+  }
   return true;
 }
 

@@ -40,6 +40,16 @@ class RigidBodies {
     free_.push_back(body.shape_number);
   }
 
+  // For speculative execution.
+  /// Keeps the rotation of the body, if it is rigid.
+  void keep(const Body& body) {
+    if (body.is_rigid) records_[body.shape_number].keep();
+  }
+  /// Gives the body the rotation that was kept.
+  void go_back(const Body& body) {
+    if (body.is_rigid) records_[body.shape_number].go_back();
+  }
+
   /// Gives the rotations of bodies whose rotation is not known without; empty if there is none.
   RotationProbe probe{};
 

@@ -93,6 +93,11 @@ Result<void> RunPool::respond(Worker& worker, const Event& event) {
   if (auto applied = handler_->apply(event, *answer); !applied) return applied;
   if (answer->first_velocity) worker.processor.set_velocity(event.first, *answer->first_velocity);
   if (answer->second_velocity) worker.processor.set_velocity(event.second, *answer->second_velocity);
+  const auto turn = [&](BodyId body, const std::optional<Vec3>& spin) {
+    if (spin) worker.processor.set_angular_velocity(state_.bodies.table().number_of(body), *spin);
+  };
+  turn(event.first, answer->first_angular_velocity);
+  turn(event.second, answer->second_angular_velocity);
   EventInRound& delivered = worker.log.events.all().back();
   delivered.removes_first = act(worker, event.first, answer->first_action);
   delivered.removes_second = act(worker, event.second, answer->second_action);
@@ -100,16 +105,18 @@ Result<void> RunPool::respond(Worker& worker, const Event& event) {
 }
 
 /// Returns true if the response concerns more than the bodies of a cluster and what is theirs alone: the
-/// whole world, a static body, or the table of changes, in which the new velocity of a body waits that has
+/// whole world, a static body, or the table of changes, in which the new velocities of a body wait that has
 /// no fresh report.
 bool RunPool::changes_more_than_clusters(const Event& event, const Response& answer) const {
-  const auto is_more = [&](BodyId id, const std::optional<Vec3>& velocity, BodyAction action) {
-    if (!velocity && action == BodyAction::none) return false;
+  const auto is_more = [&](BodyId id, bool is_turned, BodyAction action) {
+    if (!is_turned && action == BodyAction::none) return false;
     const Body& body = state_.bodies[state_.bodies.table().number_of(id)];
-    return action == BodyAction::sleep || body.is_static() || (velocity && !body.fresh(event.time));
+    return action == BodyAction::sleep || body.is_static() || (is_turned && !body.fresh(event.time));
   };
-  return answer.stop || is_more(event.first, answer.first_velocity, answer.first_action) ||
-         is_more(event.second, answer.second_velocity, answer.second_action);
+  return answer.stop ||
+         is_more(event.first, answer.first_velocity || answer.first_angular_velocity, answer.first_action) ||
+         is_more(event.second, answer.second_velocity || answer.second_angular_velocity,
+                 answer.second_action);
 }
 
 /// Removes or disables the body in its cluster. What all clusters share is left to the commit: its number in

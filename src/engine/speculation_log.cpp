@@ -34,8 +34,7 @@ void EventProcessor::note_linked_conflicts(std::uint32_t number) {
 void EventProcessor::certify_speculatively(std::uint32_t number, std::uint32_t other) {
   assert(log_->is_own(number) && !log_->is_own(other));
   const PairCertifier certifier = this->certifier();
-  // The thresholds of a pair in endless windows depend on state of the other cluster that is unknown here.
-  if (log_->checkpoint_of(other) != nullptr && certifier.earliest_window_end(number, other) == infinity)
+  if (log_->checkpoint_of(other) != nullptr && certifier.needs_thresholds(number, other))
     return log_->conflicts.add(other);
   const double until = certifier.certify(number, other, found_);
   if (until == infinity || bodies()[other].is_static()) return;

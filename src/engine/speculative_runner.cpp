@@ -198,9 +198,10 @@ void SpeculativeRunner::end_before_exclusive() {
 void SpeculativeRunner::checkpoint(const Cluster& cluster) {
   for (const std::uint32_t number : clusters_.members_of(cluster)) {
     const std::uint32_t slot = batch_.slots[number].checkpoint;
-    if (std::exchange(batch_.has_checkpoint[slot], std::uint8_t{1}) == 0)
-      batch_.checkpoints[slot] = {state_.bodies.checkpoint(number),
-                                  ContactCheckpoint::of(state_.contacts, number)};
+    if (std::exchange(batch_.has_checkpoint[slot], std::uint8_t{1}) != 0) continue;
+    batch_.checkpoints[slot] = {state_.bodies.checkpoint(number),
+                                ContactCheckpoint::of(state_.contacts, number)};
+    state_.bodies.rigid.keep(state_.bodies[number]);
   }
 }
 
@@ -222,6 +223,7 @@ void SpeculativeRunner::rollback(Cluster& cluster) {
     BatchState::BodySlot& slot = batch_.slots[number];
     BodyCheckpoint& before = batch_.checkpoints[slot.checkpoint];
     state_.bodies.restore(number, before.body);
+    state_.bodies.rigid.go_back(state_.bodies[number]);
     before.contacts.restore(state_.contacts, number);
     before.first_change = {};
     slot.update = BatchState::none;

@@ -48,14 +48,7 @@ BodyId World::WorldEditor::add_rigid_body(const RigidBody& definition) {
 }
 
 void World::WorldEditor::set_angular_velocity(BodyId id, const Vec3& angular_velocity) {
-  const std::uint32_t number = id.index;
-  Body& body = state_.bodies[number];
-  RigidRecord& record = state_.bodies.rigid[body];
-  record.change({record.at(time()).orientation, angular_velocity}, time(), body.fresh(time()));
-  if (!body.fresh(time())) state_.bodies.change_of(number);
-  state_.contacts.set_largest_acceleration(number, bodies().largest_acceleration(number));
-  state_.contacts.turn_reported(number);
-  main_.invalidate(number);
+  main_.set_angular_velocity(id.index, angular_velocity);
 }
 
 void World::WorldEditor::set_rotation(BodyId id, const Rotation& rotation) {

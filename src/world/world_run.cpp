@@ -108,10 +108,11 @@ Result<bool> World::Run::work() {
 }
 
 /// Returns false if one thread does all, however many there are. Recording and profiling require events to be
-/// processed one at a time. Clusters know of no shapes that move.
+/// processed one at a time, and a rotation probe has to be called in the order of time. Clusters know of no
+/// shapes that move.
 bool World::Run::shares_work() const {
   return lease_.count() > 1 && !world_.recorder_ && !world_.profiling_ &&
-         !world_.engine_->bodies().shapes.any_carried() && !world_.engine_->bodies().rigid.any() &&
+         !world_.engine_->bodies().shapes.any_carried() && !world_.engine_->bodies().rigid.probe &&
          world_.undelivered_->empty();
 }
 

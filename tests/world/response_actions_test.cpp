@@ -1,5 +1,6 @@
-// Responses that remove bodies, disable them, put them to sleep, or stop the world so that the sink adds
-// bodies: World::run is equal to a loop over advance() that does the same, with any number of threads.
+// Responses that turn bodies, remove them, disable them, put them to sleep, or stop the world so that the
+// sink adds bodies: World::run is equal to a loop over advance() that does the same, with any number of
+// threads.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,8 +48,13 @@ struct Game {
         if (action != BodyAction::sleep && velocity && enabled(id))
           bodies.set_velocity(world, id, *velocity).value();
       };
+      const auto spin = [&](BodyId id, const std::optional<Vec3>& angular_velocity) {
+        if (angular_velocity && enabled(id)) world.change(id, {.angular_velocity = angular_velocity}).value();
+      };
       turn(event->first, given.first_velocity, given.first_action);
       turn(event->second, given.second_velocity, given.second_action);
+      spin(event->first, given.first_angular_velocity);
+      spin(event->second, given.second_angular_velocity);
       act(event->first, given.first_action);
       act(event->second, given.second_action);
       tell(*event, given);
@@ -110,6 +116,7 @@ struct Kind {
   bool sensors = false;
   bool fixed = false;      ///< there are static bodies and a zone
   bool forces = false;     ///< bodies accelerate at random
+  bool rigid = false;      ///< four in five turn, and are no balls
   bool removes = true;     ///< responses remove and disable bodies
   std::uint64_t stop = 0;  ///< one event in so many stops the world; 0: none
   std::uint64_t sleep = 0;
@@ -119,13 +126,48 @@ struct Kind {
 constexpr int side = 12;
 constexpr double spacing = 2.0;
 
+/// A dumbbell, a capsule, a box or eight balls.
+RigidBody thing(std::uint32_t number, double size) {
+  Random random(number + 1);
+  RigidBody body{.inertia = Vec3{0.2, 0.2, 0.2} * (size * size)};
+  const auto ball = [&](const Vec3& place, double radius) {
+    body.parts.push_back({place * size, place * size, radius * size});
+  };
+  switch (number % 4) {
+    case 0:
+      ball({-0.5, 0.0, 0.0}, 0.4);
+      ball({0.5, 0.0, 0.0}, 0.3);
+      break;
+    case 1:
+      body.parts = {{{-0.6 * size, 0.0, 0.0}, {0.6 * size, 0.0, 0.0}, 0.3 * size}};
+      break;
+    case 2:
+      body.parts = {box_part({Vec3{-0.4, -0.4, -0.4} * size, Vec3{0.4, 0.4, 0.6} * size}, 0.05 * size)};
+      break;
+    default:
+      for (int corner = 0; corner < 8; ++corner)
+        ball({corner & 1 ? 0.3 : -0.3, corner & 2 ? 0.3 : -0.3, corner & 4 ? 0.3 : -0.3}, 0.25);
+  }
+  body.rotation = {rotation_by(3.0 * random.point_in_ball()), 3.0 * random.point_in_ball()};
+  return body;
+}
+
 /// Bodies of three sizes that bounce in a box, and vanish at some contacts.
 struct Shooting : Game {
   explicit Shooting(const Kind& of) : Game(world_of(of), motion_of(of)), kind(of) {
     std::vector<double> radii;
     for (std::uint32_t number = 0; number < crowd->size(); ++number)
       radii.push_back(number % 7 == 0 ? 0.6 : number % 3 == 0 ? 0.4 : 0.2);
-    const auto ids = bodies.add_all(world, *crowd, radii).value();
+    std::vector<BodyId> ids;
+    if (kind.rigid) {
+      for (std::uint32_t number = 0; number < radii.size(); ++number)
+        ids.push_back(
+            number % 5 == 0
+                ? bodies.add(world, *crowd, number, {.radius = radii[number]}).value()
+                : bodies.add_rigid_body(world, *crowd, number, thing(number, 1.5 * radii[number])).value());
+    } else {
+      ids = bodies.add_all(world, *crowd, radii).value();
+    }
     if (kind.sensors) {
       for (std::size_t k = 0; k < ids.size(); k += 5) world.change(ids[k], {.sensor_class = 1}).value();
       world.set_sensor(1, {.distances = {0.2, 0.4}}).value();
@@ -240,7 +282,15 @@ INSTANTIATE_TEST_SUITE_P(
                       Kind{.name = "fixed", .sensors = true, .fixed = true},
                       Kind{.name = "spawns", .faster = 10.0, .sensors = true, .stop = 64},
                       Kind{.name = "spawns_alone", .removes = false, .stop = 16, .end = 1.0},
-                      Kind{.name = "sleeping", .sensors = true, .stop = 64, .sleep = 256}),
+                      Kind{.name = "sleeping", .sensors = true, .stop = 64, .sleep = 256},
+                      Kind{.name = "turning", .contacts = ContactEvents::impacts, .rigid = true},
+                      Kind{.name = "turning_periodic", .periodic = true, .rigid = true},
+                      Kind{.name = "turning_forces",
+                           .sensors = true,
+                           .fixed = true,
+                           .forces = true,
+                           .rigid = true,
+                           .stop = 64}),
     [](const auto& kind) { return kind.param.name; });
 
 // Many things at one instant.
