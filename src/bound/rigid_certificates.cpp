@@ -470,23 +470,26 @@ BallNow ball_now(const RigidExtent& body, double time) {
                   (norm_one(bound.velocity) + norm_one(bound.planned_acceleration) * s) * s + bound.radius};
 }
 
-/// What is certain of the gap between what is in two balls.
+/// What is certain of the gap between what is in two balls, along a direction that is fixed in space.
 struct GapNow {
   static constexpr double rounding_lost = 0x1p-40;
 
-  Vec3 way;        ///< unit vector from the second ball to the first
   double least;    ///< now
-  double opening;  ///< rate at which it grows along that direction, at least
+  double opening;  ///< rate at which it grows, at least
   double closing;  ///< largest acceleration against that
 
-  [[gnu::always_inline]] GapNow(const BallNow& a, const BallNow& b) {
-    const Vec3 between = a.centre - b.centre;
-    const double distance = norm(between);
-    way = between * (1.0 / distance);
-    least = distance - (a.radius + b.radius) - rounding_lost * (a.size + b.size);
-    opening = dot(way, a.velocity - b.velocity) - (a.speed + b.speed) -
-              rounding_lost * (norm_one(a.velocity) + norm_one(b.velocity));
-    closing = (a.acceleration + b.acceleration) * (1.0 + rounding_lost);
+  /// `way`: the direction, of length 1, from the second ball to the first.
+  [[gnu::always_inline]] GapNow(const BallNow& a, const BallNow& b, const Vec3& way)
+      : least(dot(way, a.centre - b.centre) - (a.radius + b.radius) - rounding_lost * (a.size + b.size)),
+        opening(dot(way, a.velocity - b.velocity) - (a.speed + b.speed) -
+                rounding_lost * (norm_one(a.velocity) + norm_one(b.velocity))),
+        closing((a.acceleration + b.acceleration) * (1.0 + rounding_lost)) {}
+  /// Along the line of centres.
+  [[gnu::always_inline]] GapNow(const BallNow& a, const BallNow& b) : GapNow(a, b, direction(a, b)) {}
+
+  [[gnu::always_inline]] static Vec3 direction(const BallNow& a, const BallNow& b) {
+    const Vec3 way = a.centre - b.centre;
+    return way * (1.0 / norm(way));
   }
   /// Returns true if the gap is larger than `distance` all the time: a concave function is least at an end.
   bool exceeds(double distance, double duration) const {
@@ -497,77 +500,71 @@ struct GapNow {
 /// The parts of a body beside the ball around its partner, at one time.
 class PartsBeside {
  public:
-  /// `way` points from the partner to the body.
+  /// `balls`: the gap of the two bodies along `way`, which points from the partner to the body.
   PartsBeside(const RigidExtent& body, const BallNow& whole, const GapNow& balls, const Vec3& way,
               double time)
-      : body_(body), whole_(whole), s_(time - body.bound.time) {
-    // Products with vectors of the body, so that the parts need not be turned.
-    const Vec3 along = rotated_back(body.rotation.orientation, way);
-    const Vec3 turn = rotated_back(body.rotation.orientation, cross(way, body.rotation.angular_velocity));
-    parts_.reserve(body.parts.size());
-    for (const RigidPart& part : body.parts) {
-      const BallAroundPoints points(part);
-      Part seen{&part, points.middle, norm(points.middle), part.radius + points.reach - body.radius, balls};
-      const double turning = turning_of(seen);
-      const double speed = dot(turn, seen.middle);
-      seen.gap.least += dot(along, seen.middle) + speed * s_ - seen.radius - 0.5 * turning * s_ * s_;
-      seen.gap.opening += speed - turning * s_ - GapNow::rounding_lost * body.spin * seen.arm;
-      seen.gap.closing += turning * (1.0 + GapNow::rounding_lost);
-      parts_.push_back(seen);
-    }
-  }
+      : body_(body),
+        whole_(whole),
+        balls_(balls),
+        s_(time - body.bound.time),
+        turning_(body.spin_growth + body.spin * body.spin),
+        along_(rotated_back(body.rotation.orientation, way)),
+        turn_(rotated_back(body.rotation.orientation, cross(way, body.rotation.angular_velocity))) {}
 
   /// Returns the part that reaches farthest towards the partner.
   const RigidPart& foremost() const {
-    return *std::min_element(parts_.begin(), parts_.end(), [](const Part& a, const Part& b) {
-              return a.gap.least < b.gap.least;
-            })->part;
+    const Vec3 along = along_ + turn_ * s_;
+    const auto least = [&](const PartBall& part) { return dot(along, part.middle) - part.radius; };
+    const auto first =
+        std::min_element(body_.balls.begin(), body_.balls.end(),
+                         [&](const PartBall& a, const PartBall& b) { return least(a) < least(b); });
+    return body_.parts[static_cast<std::size_t>(first - body_.balls.begin())];
   }
   /// Returns the balls around the parts for which skips(gap) is false of their gap to the ball of the
   /// partner.
   template <class Skips>
   std::vector<BallNow> near(Skips skips) const {
     std::vector<BallNow> found;
-    for (const Part& part : parts_) {
-      if (skips(part.gap)) continue;
-      if (found.empty()) found.reserve(parts_.size());
-      found.push_back(ball(part));
+    for (std::size_t k = 0; k < body_.balls.size(); ++k) {
+      if (skips(gap(body_.balls[k]))) continue;
+      if (found.empty()) found.reserve(body_.balls.size());
+      found.push_back(ball(body_.parts[k], body_.balls[k]));
     }
     return found;
   }
 
  private:
-  struct Part {
-    const RigidPart* part;
-    Vec3 middle;    ///< of the ball around it, in the body
-    double arm;     ///< distance of the middle from the position
-    double radius;  ///< of that ball, less that of the body
-    GapNow gap;     ///< to the ball around the partner
-  };
-
-  /// Limit of the acceleration of the middle of a part beyond that of the position.
-  double turning_of(const Part& part) const {
-    return (body_.spin_growth + body_.spin * body_.spin) * part.arm;
+  /// Returns the gap of a part to the ball of the partner. Products with vectors of the body save turning it.
+  [[gnu::always_inline]] GapNow gap(const PartBall& part) const {
+    const double turning = turning_ * part.arm;
+    const double speed = dot(turn_, part.middle);
+    GapNow gap = balls_;
+    gap.least +=
+        dot(along_, part.middle) + speed * s_ - (part.radius - body_.radius) - 0.5 * turning * s_ * s_;
+    gap.opening += speed - turning * s_ - GapNow::rounding_lost * body_.spin * part.arm;
+    gap.closing += turning * (1.0 + GapNow::rounding_lost);
+    return gap;
   }
   /// Returns the ball around a part as RigidExtent::of_point() gives it for its middle.
-  BallNow ball(const Part& part) const {
-    const Vec3 arm = rotated(body_.rotation.orientation, part.middle);
+  BallNow ball(const RigidPart& part, const PartBall& around) const {
+    const Vec3 arm = rotated(body_.rotation.orientation, around.middle);
     const Vec3 turn = cross(body_.rotation.angular_velocity, arm);
-    const double turning = turning_of(part);
-    BallNow ball = whole_;
-    ball.part = part.part;
-    ball.centre += arm + turn * s_;
-    ball.velocity += turn;
-    ball.radius += part.radius + 0.5 * turning * s_ * s_;
-    ball.speed += turning * s_;
-    ball.acceleration += turning;
-    return ball;
+    const double turning = turning_ * around.arm;
+    return {.part = &part,
+            .centre = whole_.centre + arm + turn * s_,
+            .velocity = whole_.velocity + turn,
+            .radius = whole_.radius + (around.radius - body_.radius) + 0.5 * turning * s_ * s_,
+            .speed = whole_.speed + turning * s_,
+            .acceleration = whole_.acceleration + turning,
+            .size = whole_.size};
   }
 
   const RigidExtent& body_;
   const BallNow& whole_;
-  double s_;
-  std::vector<Part> parts_;
+  const GapNow& balls_;
+  double s_;           ///< since the report
+  double turning_;     ///< largest acceleration of a point beyond that of the position, for its distance
+  Vec3 along_, turn_;  ///< direction and spin across it, in the body
 };
 
 /// A part of each body of a pair, or none.
@@ -588,9 +585,10 @@ void for_each_part(const RigidPair<RigidExtent>& pair, double time, PartPair fir
     return consider(pair.body.parts[0], pair.other.parts[0]);
   const BallNow one = ball_now(pair.body, time);
   const BallNow other = ball_now(pair.other, time);
-  const GapNow balls(one, other);
-  const PartsBeside own(pair.body, one, balls, balls.way, time);
-  const PartsBeside others(pair.other, other, balls, -balls.way, time);
+  const Vec3 way = GapNow::direction(one, other);
+  const GapNow balls(one, other, way);
+  const PartsBeside own(pair.body, one, balls, way, time);
+  const PartsBeside others(pair.other, other, balls, -way, time);
   if (first.own == nullptr) first = {&own.foremost(), &others.foremost()};
   consider(*first.own, *first.other);
   const std::vector<BallNow> near = own.near(skips);

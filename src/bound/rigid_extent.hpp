@@ -9,15 +9,23 @@
 
 namespace kinesphere {
 
+/// The ball around a part, without rounding margin.
+struct PartBall {
+  Vec3 middle;    ///< in the body
+  double arm;     ///< distance of the middle from the position
+  double radius;  ///< of the ball
+};
+
 /// A rigid body between two reports. A ball is one with a single part at its position. Refers to the parts.
 struct RigidExtent {
   Bound bound;          ///< of the body's position
   double radius = 0.0;  ///< part of the bound's radius that stands for the parts; the rest is its error
   std::span<const RigidPart> parts;
-  Rotation rotation{};       ///< at the time of the bound
-  double spin = 0.0;         ///< largest angular speed since then (radians / time)
-  double spin_growth = 0.0;  ///< largest angular acceleration (radians / time^2)
-  bool is_foreseen = false;  ///< at a time later than that of its report
+  std::span<const PartBall> balls;  ///< around the parts
+  Rotation rotation{};              ///< at the time of the bound
+  double spin = 0.0;                ///< largest angular speed since then (radians / time)
+  double spin_growth = 0.0;         ///< largest angular acceleration (radians / time^2)
+  bool is_foreseen = false;         ///< at a time later than that of its report
 
   /// True if the body flies and turns exactly as the last report says.
   bool is_exact() const { return spin_growth == 0.0 && bound.is_exact(); }

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <vector>
 
+#include "bound/rigid_extent.hpp"
 #include "kinesphere/rigid_body.hpp"
 
 namespace kinesphere {
@@ -55,5 +57,16 @@ struct BallAroundPoints {
   explicit BallAroundPoints(const RigidPart& part)
       : BallAroundPoints(point_count(part), [&](std::size_t k) { return point_of(part, k); }) {}
 };
+
+inline PartBall ball_around(const RigidPart& part) {
+  const BallAroundPoints points(part);
+  return {points.middle, norm(points.middle), points.reach + part.radius};
+}
+inline std::vector<PartBall> balls_around(std::span<const RigidPart> parts) {
+  std::vector<PartBall> balls;
+  balls.reserve(parts.size());
+  for (const RigidPart& part : parts) balls.push_back(ball_around(part));
+  return balls;
+}
 
 }  // namespace kinesphere

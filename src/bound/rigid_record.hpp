@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
+#include "bound/rigid_part.hpp"
 #include "bound/rounding.hpp"
 #include "kinesphere/rigid_body.hpp"
 
@@ -14,7 +16,8 @@ namespace kinesphere {
 /// A rigid body, but for its position.
 struct RigidRecord {
   std::vector<RigidPart> parts;
-  Rotation rotation{};  ///< at the time of the body's bound
+  std::vector<PartBall> balls;  ///< balls_around(parts)
+  Rotation rotation{};          ///< at the time of the body's bound
   double angular_acceleration_limit = 0.0;
   double largest_angular_speed = 0.0;
   Vec3 inertia{};
@@ -60,10 +63,11 @@ struct RigidRecord {
   Vec3 spin_gain(const Vec3& arm, const Vec3& direction) const;
 
   static void serialize(auto& self, auto& archive) {
-    auto& [parts, rotation, angular_acceleration_limit, largest_angular_speed, inertia, origin, origin_time,
-           is_changed, kept] = self;
+    auto& [parts, balls, rotation, angular_acceleration_limit, largest_angular_speed, inertia, origin,
+           origin_time, is_changed, kept] = self;
     archive(parts, rotation, angular_acceleration_limit, largest_angular_speed, inertia, origin, origin_time,
             is_changed);
+    if constexpr (!std::is_const_v<std::remove_reference_t<decltype(self)>>) balls = balls_around(parts);
   }
 
  private:

@@ -26,8 +26,13 @@ struct CollisionShape {
   bool meets_shapes() const { return shape == nullptr && !is_static; }
   /// Precondition: the body is rigid.
   RigidExtent extent() const {
-    return {bound,           carried_radius, rigid->parts,
-            rigid->rotation, rigid->spin(),  rigid->angular_acceleration_limit};
+    return {bound,
+            carried_radius,
+            rigid->parts,
+            rigid->balls,
+            rigid->rotation,
+            rigid->spin(),
+            rigid->angular_acceleration_limit};
   }
 };
 
@@ -42,7 +47,8 @@ auto visit_rigid(const CollisionShape& a, const CollisionShape& b, Visit visit) 
   };
   if (other.rigid) return with(other.extent());
   const RigidPart ball{.radius = other.bound.radius};
-  const RigidExtent alone{other.bound, other.bound.radius, std::span(&ball, 1)};
+  const PartBall same = ball_around(ball);
+  const RigidExtent alone{other.bound, other.bound.radius, std::span(&ball, 1), std::span(&same, 1)};
   if (!other.shape) return with(alone);
   return std::visit(
       [&]<class Solid>(const Solid& solid) {

@@ -60,6 +60,7 @@ BodyDefinition body_of(const RigidBody& definition) {
 
 RigidRecord record_of(const RigidBody& definition, double time) {
   RigidRecord record{.parts = definition.parts,
+                     .balls = balls_around(definition.parts),
                      .angular_acceleration_limit = definition.angular_acceleration_limit,
                      .largest_angular_speed = definition.largest_angular_speed,
                      .inertia = definition.inertia};
