@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 #include <vector>
 
 #include "bound/hull_distance.hpp"
+#include "bound/part_pairs.hpp"
 #include "bound/rigid_part.hpp"
 #include "bound/segments.hpp"
 #include "number/infinity.hpp"
@@ -42,25 +44,12 @@ class PlacedPart {
   std::vector<Vec3> hull_;
 };
 
-/// The same with a ball around it.
-struct PartInBall : PlacedPart {
-  BallAroundPoints ball;
-
-  PartInBall(const RigidPose& body, const RigidPart& part)
-      : PlacedPart(body, part), ball(points().size(), [this](std::size_t k) { return points()[k]; }) {}
-  double reach() const { return ball.reach + radius(); }
-};
-
-std::vector<PartInBall> placed(const RigidPose& body) {
-  std::vector<PartInBall> found;
-  found.reserve(body.parts.size());
-  for (const RigidPart& part : body.parts) found.emplace_back(body, part);
-  return found;
-}
-
 /// Takes `found` if it is nearer than `nearest`.
 void keep_nearer(NearestParts& nearest, const NearestParts& found) {
-  if (found.gap < nearest.gap) nearest = found;
+  const auto order = [](const NearestParts& parts) {
+    return std::tuple(parts.gap, parts.first_part, parts.second_part);
+  };
+  if (order(found) < order(nearest)) nearest = found;
 }
 
 NearestParts of_hulls(const NearestInHulls& nearest, const PlacedPart& first, double second_radius) {
@@ -104,6 +93,13 @@ NearestParts of_part_and_solid(const PlacedPart& part, const HalfSpace& solid) {
   return from_surface(from, nearest_point(solid, from), part.radius());
 }
 
+RigidExtent at_rest(const RigidPose& body) {
+  double radius = 0.0;
+  for (const PartBall& part : body.balls) radius = std::max(radius, part.arm + part.radius);
+  radius *= 1.0 + rounding::margin;
+  return {{.position = body.position, .radius = radius}, radius, body.parts, body.balls, {body.orientation}};
+}
+
 template <class Solid>
 NearestParts nearest_to_solid(const RigidPose& body, const Solid& solid) {
   NearestParts nearest{.gap = infinity};
@@ -118,20 +114,16 @@ NearestParts nearest_to_solid(const RigidPose& body, const Solid& solid) {
 }  // namespace
 
 NearestParts nearest_parts(const RigidPose& first, const RigidPose& second) {
-  const std::vector<PartInBall> own = placed(first);
-  const std::vector<PartInBall> other = placed(second);
   NearestParts nearest{.gap = infinity};
-  for (std::uint32_t k = 0; k < own.size(); ++k)
-    for (std::uint32_t m = 0; m < other.size(); ++m) {
-      // The balls around the two are not nearer than the nearest parts so far.
-      const double enough = nearest.gap + own[k].reach() + other[m].reach();
-      const Vec3 between = own[k].ball.middle - other[m].ball.middle;
-      if (enough < 0.0 || norm_squared(between) > enough * enough) continue;
-      NearestParts found = of_two(own[k], other[m]);
-      found.first_part = k;
-      found.second_part = m;
-      keep_nearer(nearest, found);
-    }
+  for_each_part_pair(
+      at_rest(first), at_rest(second), 0.0, {}, [&](const GapNow& gap) { return gap.least > nearest.gap; },
+      [&](const RigidPart& one, const RigidPart& other) {
+        NearestParts found = of_two(PlacedPart(first, one), PlacedPart(second, other));
+        found.first_part = static_cast<std::uint32_t>(&one - first.parts.data());
+        found.second_part = static_cast<std::uint32_t>(&other - second.parts.data());
+        keep_nearer(nearest, found);
+        return true;
+      });
   return nearest;
 }
 

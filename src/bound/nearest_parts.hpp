@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "bound/rigid_extent.hpp"
 #include "kinesphere/rigid_body.hpp"
 #include "kinesphere/shape.hpp"
 
@@ -14,6 +15,7 @@ struct RigidPose {
   Vec3 position;
   Quaternion orientation;
   std::span<const RigidPart> parts;
+  std::span<const PartBall> balls;  ///< around the parts
 };
 
 /// The pair of parts with the least gap; of equally near ones the first.

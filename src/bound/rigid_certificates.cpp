@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bound/hull_distance.hpp"
+#include "bound/part_pairs.hpp"
 #include "bound/reach.hpp"
 #include "bound/rigid_part.hpp"
 #include "bound/safe_steps.hpp"
@@ -447,162 +448,33 @@ GapLimits gap(const PartBound& part, const Shape& shape, double t) {
 
 // Whole bodies.
 
-/// The ball around a part, or around a whole body, at one time.
-struct BallNow {
-  const RigidPart* part = nullptr;
-  Vec3 centre;
-  Vec3 velocity;
-  double radius;        ///< grown up to now
-  double speed;         ///< at which it grows
-  double acceleration;  ///< of centre and growth
-  double size;          ///< sum of the magnitudes of all terms (length)
-};
-
-BallNow ball_now(const RigidExtent& body, double time) {
-  const Bound& bound = body.bound;
-  const double s = time - bound.time;
-  return {.centre = bound.centre_at(time),
-          .velocity = bound.velocity_at(time),
-          .radius = bound.radius_at(time),
-          .speed = bound.growth_speed + bound.acceleration_limit * s,
-          .acceleration = bound.acceleration_limit + norm(bound.planned_acceleration),
-          .size = norm_one(bound.position) +
-                  (norm_one(bound.velocity) + norm_one(bound.planned_acceleration) * s) * s + bound.radius};
+/// Calls visit(part, partner) for each part of the body, until it returns false.
+template <class Other, class Skips, class Visit>
+void for_each_part(const RigidPair<Other>& pair, double, PartPair, Skips, Visit visit) {
+  for (const RigidPart& part : pair.body.parts)
+    if (!visit(PartBound(pair.body, part), pair.other)) return;
 }
 
-/// What is certain of the gap between what is in two balls, along a direction that is fixed in space.
-struct GapNow {
-  static constexpr double rounding_lost = 0x1p-40;
+/// Does the same without parts for which skips(gap) is true (part_pairs.hpp).
+template <class Skips, class Visit>
+void for_each_part(const RigidPair<HalfSpace>& pair, double time, PartPair first, Skips skips, Visit visit) {
+  for_each_part_towards(pair.body, pair.other, time, first, skips,
+                        [&](const RigidPart& part) { return visit(PartBound(pair.body, part), pair.other); });
+}
 
-  double least;    ///< now
-  double opening;  ///< rate at which it grows, at least
-  double closing;  ///< largest acceleration against that
-
-  /// `way`: the direction, of length 1, from the second ball to the first.
-  [[gnu::always_inline]] GapNow(const BallNow& a, const BallNow& b, const Vec3& way)
-      : least(dot(way, a.centre - b.centre) - (a.radius + b.radius) - rounding_lost * (a.size + b.size)),
-        opening(dot(way, a.velocity - b.velocity) - (a.speed + b.speed) -
-                rounding_lost * (norm_one(a.velocity) + norm_one(b.velocity))),
-        closing((a.acceleration + b.acceleration) * (1.0 + rounding_lost)) {}
-  /// Along the line of centres.
-  [[gnu::always_inline]] GapNow(const BallNow& a, const BallNow& b) : GapNow(a, b, direction(a, b)) {}
-
-  [[gnu::always_inline]] static Vec3 direction(const BallNow& a, const BallNow& b) {
-    const Vec3 way = a.centre - b.centre;
-    return way * (1.0 / norm(way));
-  }
-  /// Returns true if the gap is larger than `distance` all the time: a concave function is least at an end.
-  bool exceeds(double distance, double duration) const {
-    return least > distance && least - distance + (opening - 0.5 * closing * duration) * duration > 0.0;
-  }
-};
-
-/// The parts of a body beside the ball around its partner, at one time.
-class PartsBeside {
- public:
-  /// `balls`: the gap of the two bodies along `way`, which points from the partner to the body.
-  PartsBeside(const RigidExtent& body, const BallNow& whole, const GapNow& balls, const Vec3& way,
-              double time)
-      : body_(body),
-        whole_(whole),
-        balls_(balls),
-        s_(time - body.bound.time),
-        turning_(body.spin_growth + body.spin * body.spin),
-        along_(rotated_back(body.rotation.orientation, way)),
-        turn_(rotated_back(body.rotation.orientation, cross(way, body.rotation.angular_velocity))) {}
-
-  /// Returns the part that reaches farthest towards the partner.
-  const RigidPart& foremost() const {
-    const Vec3 along = along_ + turn_ * s_;
-    const auto least = [&](const PartBall& part) { return dot(along, part.middle) - part.radius; };
-    const auto first =
-        std::min_element(body_.balls.begin(), body_.balls.end(),
-                         [&](const PartBall& a, const PartBall& b) { return least(a) < least(b); });
-    return body_.parts[static_cast<std::size_t>(first - body_.balls.begin())];
-  }
-  /// Returns the balls around the parts for which skips(gap) is false of their gap to the ball of the
-  /// partner.
-  template <class Skips>
-  std::vector<BallNow> near(Skips skips) const {
-    std::vector<BallNow> found;
-    for (std::size_t k = 0; k < body_.balls.size(); ++k) {
-      if (skips(gap(body_.balls[k]))) continue;
-      if (found.empty()) found.reserve(body_.balls.size());
-      found.push_back(ball(body_.parts[k], body_.balls[k]));
-    }
-    return found;
-  }
-
- private:
-  /// Returns the gap of a part to the ball of the partner. Products with vectors of the body save turning it.
-  [[gnu::always_inline]] GapNow gap(const PartBall& part) const {
-    const double turning = turning_ * part.arm;
-    const double speed = dot(turn_, part.middle);
-    GapNow gap = balls_;
-    gap.least +=
-        dot(along_, part.middle) + speed * s_ - (part.radius - body_.radius) - 0.5 * turning * s_ * s_;
-    gap.opening += speed - turning * s_ - GapNow::rounding_lost * body_.spin * part.arm;
-    gap.closing += turning * (1.0 + GapNow::rounding_lost);
-    return gap;
-  }
-  /// Returns the ball around a part as RigidExtent::of_point() gives it for its middle.
-  BallNow ball(const RigidPart& part, const PartBall& around) const {
-    const Vec3 arm = rotated(body_.rotation.orientation, around.middle);
-    const Vec3 turn = cross(body_.rotation.angular_velocity, arm);
-    const double turning = turning_ * around.arm;
-    return {.part = &part,
-            .centre = whole_.centre + arm + turn * s_,
-            .velocity = whole_.velocity + turn,
-            .radius = whole_.radius + (around.radius - body_.radius) + 0.5 * turning * s_ * s_,
-            .speed = whole_.speed + turning * s_,
-            .acceleration = whole_.acceleration + turning,
-            .size = whole_.size};
-  }
-
-  const RigidExtent& body_;
-  const BallNow& whole_;
-  const GapNow& balls_;
-  double s_;           ///< since the report
-  double turning_;     ///< largest acceleration of a point beyond that of the position, for its distance
-  Vec3 along_, turn_;  ///< direction and spin across it, in the body
-};
-
-/// A part of each body of a pair, or none.
-struct PartPair {
-  const RigidPart* own = nullptr;
-  const RigidPart* other = nullptr;
-};
-
-/// Calls visit(part, other) for pairs of parts: `first`, or those that reach farthest towards each other, and
-/// then all others but those for which skips(gap) is true of the gap of balls that contain them.
+/// Calls visit(part, other) for pairs of parts, in the same way.
 template <class Skips, class Visit>
 void for_each_part(const RigidPair<RigidExtent>& pair, double time, PartPair first, Skips skips,
                    Visit visit) {
-  const auto consider = [&](const RigidPart& a, const RigidPart& b) {
-    visit(PartBound(pair.body, a), PartBound(pair.other, b));
-  };
-  if (pair.body.parts.size() == 1 && pair.other.parts.size() == 1)
-    return consider(pair.body.parts[0], pair.other.parts[0]);
-  const BallNow one = ball_now(pair.body, time);
-  const BallNow other = ball_now(pair.other, time);
-  const Vec3 way = GapNow::direction(one, other);
-  const GapNow balls(one, other, way);
-  const PartsBeside own(pair.body, one, balls, way, time);
-  const PartsBeside others(pair.other, other, balls, -way, time);
-  if (first.own == nullptr) first = {&own.foremost(), &others.foremost()};
-  consider(*first.own, *first.other);
-  const std::vector<BallNow> near = own.near(skips);
-  if (near.empty()) return;
-  const std::vector<BallNow> others_near = others.near(skips);
-  for (const BallNow& a : near)
-    for (const BallNow& b : others_near)
-      if ((a.part != first.own || b.part != first.other) && !skips(GapNow(a, b))) consider(*a.part, *b.part);
+  for_each_part_pair(pair.body, pair.other, time, first, skips, [&](const RigidPart& a, const RigidPart& b) {
+    return visit(PartBound(pair.body, a), PartBound(pair.other, b));
+  });
 }
 
-/// Calls visit(part, partner) for each part of the body.
-template <class Other, class Skips, class Visit>
-void for_each_part(const RigidPair<Other>& pair, double, PartPair, Skips, Visit visit) {
-  for (const RigidPart& part : pair.body.parts) visit(PartBound(pair.body, part), pair.other);
+PartPair parts_of(const PartBound& own, const PartBound& other) { return {&own.part(), &other.part()}; }
+template <class Other>
+PartPair parts_of(const PartBound& own, const Other&) {
+  return {&own.part()};
 }
 
 /// Earliest meeting from what is known at the time of the reports. Begins with the parts that would have met
@@ -622,9 +494,9 @@ double meeting(const RigidPair<Other>& pair, double from, double until, double d
       [&](const GapNow& gap) { return start >= limit() || gap.exceeds(distance, limit() - start); },
       [&](const PartBound& part, const auto& partner) {
         const double time = meeting(part, partner, start, limit(), distance);
-        if (!(time < first)) return;
-        first = time;
-        if constexpr (std::is_same_v<Other, RigidExtent>) parts = {&part.part(), &partner.part()};
+        if (time < first) parts = parts_of(part, partner);
+        first = std::min(first, time);
+        return first > start;
       });
   return first;
 }
@@ -662,10 +534,10 @@ double earliest_separation(const Bound&, const RigidPair<Other>& pair, double fr
                            double distance) {
   double last = from;
   for_each_part(
-      foreseen(pair, from), from, {},
-      [&](const GapNow& gap) { return last == infinity || gap.least > distance; },
+      foreseen(pair, from), from, {}, [&](const GapNow& gap) { return gap.least > distance; },
       [&](const PartBound& part, const auto& partner) {
         last = std::max(last, separation(part, partner, from, until, distance));
+        return last < infinity;
       });
   return last;
 }
@@ -678,14 +550,27 @@ GapLimits gap_limits(const Bound&, const RigidPair<Other>& pair, double t) {
       [&](const PartBound& part, const auto& partner) {
         const GapLimits own = gap(part, partner, t);
         limits = {std::min(limits.lower, own.lower), std::min(limits.upper, own.upper)};
+        return true;
       });
   return limits;
+}
+
+template <class Other>
+bool is_beyond(const RigidPair<Other>& pair, double t, double distance) {
+  bool beyond = true;
+  for_each_part(
+      foreseen(pair, t), t, {}, [&](const GapNow& gap) { return gap.least > distance; },
+      [&](const PartBound& part, const auto& partner) {
+        return beyond = gap(part, partner, t).lower > distance;
+      });
+  return beyond;
 }
 
 #define KINESPHERE_RIGID_PAIR(Other)                                                                  \
   template double earliest_meeting(const Bound&, const RigidPair<Other>&, double, double, double);    \
   template double earliest_separation(const Bound&, const RigidPair<Other>&, double, double, double); \
-  template GapLimits gap_limits(const Bound&, const RigidPair<Other>&, double);
+  template GapLimits gap_limits(const Bound&, const RigidPair<Other>&, double);                       \
+  template bool is_beyond(const RigidPair<Other>&, double, double);
 KINESPHERE_RIGID_PAIR(RigidExtent)
 KINESPHERE_RIGID_PAIR(HalfSpace)
 KINESPHERE_RIGID_PAIR(Box)

@@ -21,5 +21,8 @@ double earliest_separation(const Bound& bound, const RigidPair<Other>& pair, dou
                            double distance);
 template <class Other>
 GapLimits gap_limits(const Bound& bound, const RigidPair<Other>& pair, double t);
+/// Returns gap_limits(...).lower > distance, for less.
+template <class Other>
+bool is_beyond(const RigidPair<Other>& pair, double t, double distance);
 
 }  // namespace kinesphere

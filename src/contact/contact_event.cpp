@@ -55,16 +55,21 @@ State second_at_point(const Event& event) {
           point_velocity(event.second_state, event.second_angular_velocity, event.point)};
 }
 
-RigidPose pose_of(const Sphere& body, std::span<const RigidPart> parts) {
-  return {body.state.position, body.rigid ? body.rigid->rotation.orientation : Quaternion{}, parts};
+/// Precondition: the body is rigid.
+RigidPose pose_of(const Sphere& body, const Vec3& origin = {}) {
+  return {body.state.position - origin, body.rigid->rotation.orientation, body.rigid->parts,
+          body.rigid->balls};
 }
 
 /// Returns the nearest parts of a rigid body and any other body.
 NearestParts nearest_to(const Sphere& rigid, const Sphere& other) {
-  const RigidPose body = pose_of(rigid, rigid.rigid->parts);
-  if (other.rigid) return nearest_parts(body, pose_of(other, other.rigid->parts));
+  const RigidPose body = pose_of(rigid);
+  if (other.rigid) return nearest_parts(body, pose_of(other));
   const RigidPart ball{.radius = other.radius};
-  const auto to_ball = [&] { return nearest_parts(body, pose_of(other, std::span(&ball, 1))); };
+  const PartBall around = ball_around(ball);
+  const auto to_ball = [&] {
+    return nearest_parts(body, {other.state.position, {}, std::span(&ball, 1), std::span(&around, 1)});
+  };
   if (!other.shape) return to_ball();
   const Vec3 origin = other.carries_shape ? other.state.position : Vec3{};
   return std::visit(
@@ -72,7 +77,7 @@ NearestParts nearest_to(const Sphere& rigid, const Sphere& other) {
         if constexpr (std::is_same_v<Solid, Ball>) {
           return to_ball();
         } else {
-          NearestParts found = nearest_parts({body.position - origin, body.orientation, body.parts}, solid);
+          NearestParts found = nearest_parts(pose_of(rigid, origin), solid);
           found.point += origin;
           return found;
         }
@@ -174,7 +179,7 @@ void describe(Event& event, const Sphere& sphere, const Box& box) {
   event.second_mass = infinity;
   event.normal = -inside.normal;
   if (sphere.rigid) {
-    const NearestParts nearest = nearest_parts(pose_of(sphere, sphere.rigid->parts), inside);
+    const NearestParts nearest = nearest_parts(pose_of(sphere), inside);
     event.gap = nearest.gap;
     event.point = nearest.point + event.normal * (0.5 * nearest.gap);
     event.first_part = nearest.first_part;

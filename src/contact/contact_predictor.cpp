@@ -54,6 +54,9 @@ double ContactPredictor<Partner>::until_reports() const {
   double time = may_begin ? meeting(0.0) : infinity;
   if (threshold_.within && time > now_) time = std::min(time, separation(rule_.release_gap()));
   if (time == infinity || time <= now_) return time;
+  if constexpr (is_rigid_pair<Partner>)
+    if (!threshold_.within)
+      return is_beyond(partner_, now_, rule_.tolerance() + threshold_.distance) ? time : now_;
   const GapLimits gap = gap_limits(bound_, partner_, now_);
   const bool far = (!may_begin || gap.lower > rule_.tolerance() + threshold_.distance) &&
                    (!threshold_.within || gap.upper < rule_.separation_distance() + threshold_.distance);
@@ -82,7 +85,8 @@ std::optional<double> ContactPredictor<Partner>::next_check_if_apart() const {
   } else if constexpr (std::is_same_v<Partner, HalfSpace>) {
     gap = dot(partner_.normal, centre) - partner_.offset - bound_.radius;
   } else if constexpr (is_rigid_pair<Partner>) {
-    gap = gap_limits(bound_, partner_, now_).lower;
+    if (!is_beyond(partner_, now_, rule_.tolerance() + threshold_.distance)) return std::nullopt;
+    return std::max(meeting(0.0), just_after(now_));
   }
   if (!(gap - threshold_.distance > rule_.tolerance())) return std::nullopt;
   return std::max(meeting(0.0), just_after(now_));
