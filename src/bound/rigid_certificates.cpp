@@ -477,27 +477,48 @@ PartPair parts_of(const PartBound& own, const Other&) {
   return {&own.part()};
 }
 
-/// Earliest meeting from what is known at the time of the reports. Begins with the parts that would have met
-/// first before, and replaces them by those that do now.
+double meeting_of(const RigidPair<RigidExtent>& pair, const PartPair& parts, double from, double until,
+                  double distance) {
+  return meeting(PartBound(pair.body, *parts.own), PartBound(pair.other, *parts.other), from, until,
+                 distance);
+}
 template <class Other>
-double meeting(const RigidPair<Other>& pair, double from, double until, double distance, PartPair& parts) {
+double meeting_of(const RigidPair<Other>& pair, const PartPair& parts, double from, double until,
+                  double distance) {
+  return meeting(PartBound(pair.body, *parts.own), pair.other, from, until, distance);
+}
+
+/// The earliest meeting of two bodies, step by step.
+struct FirstParts {
+  PartPair parts{};          ///< that may meet first
+  double others = infinity;  ///< before which no others meet
+};
+
+/// Earliest meeting from what is known at the time of the reports. Begins with `known`, the parts that would
+/// have met first before, and replaces them by those that do now.
+template <class Other>
+double meeting(const RigidPair<Other>& pair, double from, double until, double distance, FirstParts& known) {
   double start = from;
   // Before the balls around two bodies meet, the parts inside do not.
   if constexpr (std::is_same_v<Other, RigidExtent>)
     start = earliest_meeting(pair.body.bound, pair.other.bound, from, until, distance);
   double first = infinity;
   if (start == infinity) return first;
-  // Meetings later than the first one so far do not matter.
-  const auto limit = [&] { return std::min(first, until); };
+  // Other parts are asked for somewhat longer than until the first meeting so far, so that the next steps
+  // need not ask them again.
+  const auto limit = [&] { return std::min(until, first + 0.5 * (first - start)); };
+  const PartPair before = known.parts;
+  double others = infinity;
   for_each_part(
-      pair, start, parts,
-      [&](const GapNow& gap) { return start >= limit() || gap.exceeds(distance, limit() - start); },
+      pair, start, before, [&](const GapNow& gap) { return gap.exceeds(distance, limit() - start); },
       [&](const PartBound& part, const auto& partner) {
         const double time = meeting(part, partner, start, limit(), distance);
-        if (time < first) parts = parts_of(part, partner);
+        others = std::min(others, std::max(first, time));
+        if (time < first) known.parts = parts_of(part, partner);
         first = std::min(first, time);
         return first > start;
       });
+  known.others = std::min(others, limit());
   return first;
 }
 
@@ -512,8 +533,8 @@ RigidPair<Other> foreseen(const RigidPair<Other>& pair, double time) {
 template <class Other>
 double earliest_meeting(const Bound&, const RigidPair<Other>& pair, double from, double until,
                         double distance) {
-  PartPair parts;
-  double time = meeting(foreseen(pair, from), from, until, distance, parts);
+  FirstParts first;
+  double time = meeting(foreseen(pair, from), from, until, distance, first);
   if (!pair.is_exact()) return time;
   // Where the two will be is known, so that the next step needs no report.
   double gain = time - from;
@@ -521,7 +542,10 @@ double earliest_meeting(const Bound&, const RigidPair<Other>& pair, double from,
   for (int round = 1; round < most_rounds && time < infinity; ++round) {
     // The next step gains less than this one by the same factor or more, as this one did.
     if (!(gain * gain > last * (time - from) * negligible_gain)) break;
-    const double next = meeting(pair.at(time), time, until, distance, parts);
+    const RigidPair<Other> then = pair.at(time);
+    const double next = time < first.others
+                            ? std::min(meeting_of(then, first.parts, time, until, distance), first.others)
+                            : meeting(then, time, until, distance, first);
     last = gain;
     gain = next - time;
     time = next;
