@@ -506,7 +506,7 @@ double meeting(const RigidPair<Other>& pair, double from, double until, double d
   if (start == infinity) return first;
   // Other parts are asked for somewhat longer than until the first meeting so far, so that the next steps
   // need not ask them again.
-  const auto limit = [&] { return std::min(until, first + 0.5 * (first - start)); };
+  const auto limit = [&] { return std::min(until, first + 0.125 * (first - start)); };
   const PartPair before = known.parts;
   double others = infinity;
   for_each_part(

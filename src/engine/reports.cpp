@@ -29,15 +29,15 @@ inline void move_to_nearest_image(const Space& space, const Bound& bound, double
   bound.velocity = report.velocity;
 }
 
-/// Returns true if the world knows how the rigid body turns.
-bool turns_by_itself(const Bodies& bodies, const Body& body) {
-  return !bodies.rigid.probe && bodies.rigid[body].keeps_spin();
-}
-
 std::optional<BoundViolation> sum_of(const std::optional<BoundViolation>& a,
                                      const std::optional<BoundViolation>& b) {
   if (!a || !b) return a ? a : b;
   return BoundViolation{a->position_excess + b->position_excess, a->velocity_excess + b->velocity_excess};
+}
+
+/// Returns true if the world knows how the rigid body turns.
+bool turns_by_itself(const Bodies& bodies, const Body& body) {
+  return !bodies.rigid.probe && bodies.rigid[body].keeps_spin();
 }
 
 Rotation normalized(const Rotation& rotation) {
