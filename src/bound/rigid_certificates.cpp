@@ -507,10 +507,9 @@ double meeting(const RigidPair<Other>& pair, double from, double until, double d
   // Other parts are asked for somewhat longer than until the first meeting so far, so that the next steps
   // need not ask them again.
   const auto limit = [&] { return std::min(until, first + 0.125 * (first - start)); };
-  const PartPair before = known.parts;
   double others = infinity;
   for_each_part(
-      pair, start, before, [&](const GapNow& gap) { return gap.exceeds(distance, limit() - start); },
+      pair, start, known.parts, [&](const GapNow& gap) { return gap.exceeds(distance, limit() - start); },
       [&](const PartBound& part, const auto& partner) {
         const double time = meeting(part, partner, start, limit(), distance);
         others = std::min(others, std::max(first, time));
@@ -543,9 +542,13 @@ double earliest_meeting(const Bound&, const RigidPair<Other>& pair, double from,
     // The next step gains less than this one by the same factor or more, as this one did.
     if (!(gain * gain > last * (time - from) * negligible_gain)) break;
     const RigidPair<Other> then = pair.at(time);
-    const double next = time < first.others
-                            ? std::min(meeting_of(then, first.parts, time, until, distance), first.others)
-                            : meeting(then, time, until, distance, first);
+    const bool is_near = time < first.others && (round == 1 || gain * gain < last * (first.others - time));
+    const double next = is_near ? meeting_of(then, first.parts, time, until, distance)
+                                : meeting(then, time, until, distance, first);
+    if (is_near && next > first.others) {
+      time = first.others;
+      continue;
+    }
     last = gain;
     gain = next - time;
     time = next;

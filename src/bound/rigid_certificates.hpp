@@ -21,7 +21,8 @@ double earliest_separation(const Bound& bound, const RigidPair<Other>& pair, dou
                            double distance);
 template <class Other>
 GapLimits gap_limits(const Bound& bound, const RigidPair<Other>& pair, double t);
-/// Returns gap_limits(...).lower > distance, for less.
+/// Returns true if the gap certainly is larger than `distance`, as it is if gap_limits(...).lower is, for
+/// less.
 template <class Other>
 bool is_beyond(const RigidPair<Other>& pair, double t, double distance);
 
