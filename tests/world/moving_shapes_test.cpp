@@ -218,7 +218,7 @@ TEST_P(RandomMovingShapes, MeetWhatTheyTouch) {
     check_gaps();
     if (stop % 8 == 0) check_queries();
   }
-  EXPECT_GT(begins, 50u);
+  EXPECT_GT(begins, 20u);
   const Counters& counters = p.world.counters();
   EXPECT_LE(counters.pair_checks, 2 * counters.probes);
 }
