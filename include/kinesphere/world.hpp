@@ -196,11 +196,11 @@ class World {
   /// Adds a rigid body (RigidBody): balls and capsules that move and turn together. Its parts meet other
   /// bodies, rigid ones and those with shapes included, and walls. It is one body: it has one id, one filter
   /// and one state in a probe; events name the parts, the angular velocities and what an impulse does to
-  /// these, so that bounce() turns bodies. Queries treat a rigid body as its parts or as the ball around them,
-  /// always to the safe side. Errors: as add(), but for the ball around the body, which may reach beyond a
-  /// wall; not_finite or out_of_range for parts, rotation, inertia and limits. Cost: as add() with the radius
-  /// of that ball; a check of two bodies that are near looks at all their parts, and closely at the few pairs
-  /// of parts that face each other.
+  /// these, so that bounce() turns bodies. Queries treat a rigid body as its parts or as the ball around
+  /// them, always to the safe side. Errors: as add(), but for the ball around the body, which may reach
+  /// beyond a wall; not_finite or out_of_range for parts, rotation, inertia and limits. Cost: as add() with
+  /// the radius of that ball; a check of two bodies that are near looks at all their parts, and closely at
+  /// the few pairs of parts that face each other.
   Result<BodyId> add_rigid_body(const RigidBody& body);
   /// Sets the function that gives rotations of rigid bodies; an empty one removes it. Without one, only
   /// bodies that keep their angular velocity (angular_acceleration_limit 0) can be probed. Snapshots do not
