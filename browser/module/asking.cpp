@@ -42,7 +42,6 @@ class MotionOfBodies final : public MotionSource {
   void states(std::span<const BodyId> ids, double time, std::span<State> states) override {
     for (std::size_t k = 0; k < ids.size(); ++k) {
       states[k] = {{nan, nan, nan}, {nan, nan, nan}};
-      if (interrupted_) continue;
       const auto moved = find(ids[k]);
       auto reason = moved ? why_unknown(*moved->motion, moved->number, time) : unknown(ids[k]);
       if (reason) {
@@ -63,7 +62,6 @@ class MotionOfBodies final : public MotionSource {
 
   /// Returns the response, or NaNs for a body that cannot be changed.
   Response possible(const Event& event, const Response& answer) {
-    if (interrupted_) return {Vec3{nan, nan, nan}, std::nullopt};
     if (!(answer.first_velocity && is_fixed(event.first)) &&
         !(answer.second_velocity && is_fixed(event.second)))
       return answer;
@@ -72,9 +70,6 @@ class MotionOfBodies final : public MotionSource {
     return {Vec3{nan, nan, nan}, std::nullopt};
   }
 
-  /// Makes the run fail at the next event of a body that is there, or probe: what a function threw at a stop
-  /// cannot pass through the module.
-  void interrupt() { interrupted_ = true; }
   /// Removes what a response has removed from the world from the map and its motions, too.
   void forget_gone(World& world, const Event& event, const Response& response) {
     if (map_ == nullptr) return;
@@ -100,7 +95,6 @@ class MotionOfBodies final : public MotionSource {
   Motion* motion_;
   BodyMap* map_;
   std::optional<Error> refused_;
-  bool interrupted_ = false;
 };
 
 /// Reads a vector, and whether there is one.
@@ -194,7 +188,8 @@ bool world_run(World* world, double until, const MotionHandle* motion, BodyMapHa
     reported.resize(reported.size() + event_numbers);
     double* const numbers = reported.data() + reported.size() - event_numbers;
     put(event, numbers);
-    if (last.stop && !javascript_stop(numbers)) mover.interrupt();
+    // What the function threw cannot pass through the module.
+    if (last.stop && !javascript_stop(numbers)) world->end_run();
   };
   const auto done = world->run(until, mover, respond, sink);
   answer() = std::move(reported);

@@ -112,7 +112,8 @@ class Simulation {
   // Time: as the functions of World with these names, where each body moves as its motion does.
 
   Result<std::optional<Event>> advance(double until);
-  [[nodiscard]] EventRange events(double until);
+  [[nodiscard]] EventRange events(double until) &;
+  EventRange events(double until) && = delete;
   /// A body that a response removes leaves its motion, too, before the sink receives the event.
   Result<void> run(double until, const ResponseFn& respond, const EventFn& sink, Workers* workers = nullptr);
   /// Returns a probe for the predictions and queries of the world. It stays valid until the simulation is

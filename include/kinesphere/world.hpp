@@ -306,7 +306,9 @@ class World {
   /// The world advances as the loop does, with one advance() for each event. After the loop has finished,
   /// time() == until; after an early exit, time() is that of the last event. The loop may change bodies.
   /// Errors of advance() are thrown as BadResult.
-  [[nodiscard]] EventRange events(double until, Probe probe);
+  [[nodiscard]] EventRange events(double until, Probe probe) &;
+  /// A temporary world would be gone before the loop began.
+  EventRange events(double until, Probe probe) && = delete;
 
   /// Advances to the next event, at most to time `until`. Returns the event, with time() at its time, or
   /// nothing, with time() == until. Events are ordered by (time, kind, first, second, wall, distance).
@@ -314,7 +316,10 @@ class World {
   /// contacts that other changes caused come first. Errors: time_backwards or not_finite for `until`;
   /// probe_in_progress; null_probe; not_finite or out_of_range, naming the body, for an invalid state from
   /// the probe. In that last case the state is discarded, time() is the time of the probe, no event or
-  /// certificate is lost, and the call may be repeated. This also holds when the probe throws.
+  /// certificate is lost, and the call may be repeated. This also holds when the probe throws. And
+  /// out_of_range, naming the body, if a promise of it is so loose that time would need more steps to reach
+  /// `until` than a double can count: an acceleration limit of 1e30 in place of "any". That is known after
+  /// about a million steps without an event; change() the limit, and repeat the call.
   [[nodiscard]] Result<std::optional<Event>> advance(double until, Probe probe);
 
   /// Advances to time `until`. For each event, run() calls `respond`, passes the velocities of the response
@@ -353,6 +358,10 @@ class World {
   /// Advances to time `until` and calls `sink` for each event, without responses: the state of every body
   /// comes from `probe`. Errors and interruptions: as the run() above.
   Result<void> run(double until, const Probe& probe, const EventFn& sink, Workers* workers = nullptr);
+  /// For the sink of run(): makes run() return without an error as soon as the sink does, also before `until`.
+  /// Then all is as if the sink had thrown ("Interruptions"): at an event whose response has Response::stop
+  /// the world stands at that event. No effect outside the sink.
+  void end_run();
 
   /// Return the current time, the number of bodies that have not been removed, and the definition.
   double time() const;

@@ -771,6 +771,7 @@ class World:
         respond: Optional[Response] = None,
         *,
         sink: Optional[Callable[[Event], object]] = None,
+        at_stop: Optional[Callable[[Event], object]] = None,
         threads: Union[int, Workers] = 1,
         progress: Union[bool, Callable[[float], object], None] = None,
     ) -> Events: ...

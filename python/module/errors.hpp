@@ -16,6 +16,9 @@ namespace py = pybind11;
 /// Registers exceptions: BadResult, which Result::value() throws, becomes an exception of
 /// kinesphere.errors.
 void bind_errors(py::module_& module);
+/// Makes all functions that have been bound so far name the argument that is wrong: a misspelled keyword, a
+/// missing one, another type.
+void bind_arguments(py::module_& module);
 
 /// Throws an error that exists in this package alone.
 [[noreturn]] void throw_state_error(std::string_view code, std::string_view argument,

@@ -76,8 +76,9 @@ class EventIterator {
 /// Responds to the events of a run.
 class Responding {
  public:
-  Responding(const py::object& given, const WorldHandle& handle, Interruptions& interruptions)
+  Responding(const py::object& given, const WorldHandle& handle, bool may_stop, Interruptions& interruptions)
       : interruptions_(interruptions),
+        may_stop_(may_stop),
         plane_(handle.is_plane()),
         given_(py::reinterpret_borrow<py::object>(given)) {
     if (given.is_none()) return;
@@ -100,7 +101,12 @@ class Responding {
       check_known(event.second);
       return scene_answer(*scene_, event);
     }
-    return interruptions_.call([&] { return answer_of(given_(event), plane_); });
+    return interruptions_.call([&] {
+      const Response response = answer_of(given_(event), plane_);
+      if (response.stop && !may_stop_)
+        throw py::type_error("run: respond: 'stop' needs at_stop, a function that is called there");
+      return response;
+    });
   }
 
  private:
@@ -111,6 +117,7 @@ class Responding {
   }
 
   Interruptions& interruptions_;
+  bool may_stop_;
   bool plane_;
   py::object given_;
   const Bouncing* bouncing_ = nullptr;
@@ -153,11 +160,15 @@ class Progress {
 };
 
 py::object run(WorldHandle& handle, double until, const py::object& motion, const py::object& respond,
-               const py::object& sink, const py::object& threads, const py::object& progress) {
+               const py::object& sink, const py::object& at_stop, const py::object& threads,
+               const py::object& progress) {
   const auto turn = handle.take("run");
   require_added(handle, motion, "run");
   Asked asked(motion, "run", handle.is_plane());
-  const Responding responding(respond, handle, asked.interruptions());
+  if (!at_stop.is_none() && PyCallable_Check(at_stop.ptr()) == 0)
+    throw py::type_error("run: at_stop must be a function of an event, but is " +
+                         py::repr(at_stop).cast<std::string>());
+  const Responding responding(respond, handle, !at_stop.is_none(), asked.interruptions());
   if (responding && asked.mover() == nullptr) {
     throw py::type_error(
         "run: motion must be a Motion, a BodyMap or a MotionSource where there is a respond, as bodies are "
@@ -166,17 +177,21 @@ py::object run(WorldHandle& handle, double until, const py::object& motion, cons
   Threads shared(threads);
   const Progress tell(progress, handle.world.time(), until);
   asked.interruptions().at_each_look([&] { tell(handle.reached = handle.world.time()); });
-  const auto note = [&](const Event& event) {
-    handle.undelivered.push_back(record_of(event));
-    asked.interruptions().look();
+  const auto answer = [&](const Event& event) { return responding(event); };
+  const auto receive = [&](const Event& event) {
+    if (responding && asked.map() != nullptr) require(asked.map()->remove_gone(handle.world, event, answer));
+    if (sink.is_none()) {
+      handle.undelivered.push_back(record_of(event));
+      asked.interruptions().look();
+    } else {
+      asked.interruptions().call([&] { sink(event); });
+    }
+    // Inside the sink the world may be changed at a stop alone.
+    if (!at_stop.is_none() && handle.world.reserve(0)) asked.call_at_stop([&] { at_stop(event); });
   };
-  const auto deliver = [&](const Event& event) { asked.interruptions().call([&] { sink(event); }); };
-  const EventFn receive = sink.is_none() ? EventFn(note) : EventFn(deliver);
   const Result<void> done = without_gil(handle, [&] {
     if (!responding) return handle.world.run(until, asked.probe(), receive, shared.workers());
-    return handle.world.run(
-        until, *asked.mover(), [&](const Event& event) { return responding(event); }, receive,
-        shared.workers());
+    return handle.world.run(until, *asked.mover(), answer, receive, shared.workers());
   });
   require(done);
   tell(handle.world.time());
@@ -221,7 +236,8 @@ argument and body, is dropped, and the call may be repeated. The same holds when
 In the loop bodies may be changed, added and removed. When it has run to its end, world.time == until; when
 it is left early, the world stands at the last event. Each step is an advance().)")
       .def("run", run, py::arg("until"), py::arg("motion"), py::arg("respond") = py::none(), py::kw_only(),
-           py::arg("sink") = py::none(), py::arg("threads") = 1, py::arg("progress") = py::none(),
+           py::arg("sink") = py::none(), py::arg("at_stop") = py::none(), py::arg("threads") = 1,
+           py::arg("progress") = py::none(),
            R"(Goes on to time `until` by itself and returns all Events, in order.
 
 motion: a Motion or BodyMap, and then no Python is called for states; a MotionSource; without respond any
@@ -229,9 +245,12 @@ probe.
 respond: what gives bodies new velocities at an event: a Bouncing, a Scene, or a function of the Event that
 returns None or (first velocity or None, second velocity or None); for a rigid body a tuple (velocity or None,
 angular velocity or None), as bounce_rigid() makes it, may take the place of its velocity; for any body so may
-'remove', 'disable' or 'sleep', which do to it what the methods of the world do. It must depend on the event
-alone, and may not call the world.
+'remove', 'disable' or 'sleep', which do to it what the methods of the world do. (first, second, 'stop') stops the
+world at this event. It must depend on the event alone, and may not call the world. Removed bodies leave a BodyMap
+and its motions, too.
 sink: a function that is told each Event, in order; then no Events are returned.
+at_stop: a function that is told each Event at which the world stops, after the sink. It may change the world, the
+motion and the map as a loop over events() may: add bodies, teleport them. It may not advance the world.
 threads: how many share the work, or Workers; the outcome is the same.
 progress: a function that is told the time that the run has reached, at most 20 times a second and at the end; or
 True for a bar by tqdm, in notebooks too. It may not change the world.

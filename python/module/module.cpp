@@ -34,6 +34,7 @@ PYBIND11_MODULE(_kinesphere, module) {
   bind_tracks(module);
   bind_paths(module);
   bind_monitor(module);
+  bind_arguments(module);
   // Users see the names of the package.
   for (const auto& [name, member] : py::reinterpret_borrow<py::dict>(module.attr("__dict__")))
     if (py::isinstance<py::type>(member)) py::setattr(member, "__module__", py::str("kinesphere"));

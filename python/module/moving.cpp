@@ -51,22 +51,32 @@ Asked::Asked(const py::object& given, std::string_view call, bool plane)
   if (given.is_none()) {
     refuse({call, "probe"}, "must be a motion or a function of (ids, t)", "is None", ErrorCode::null_probe);
   } else if (py::isinstance<MotionHandle>(given)) {
-    auto& handle = given.cast<MotionHandle&>();
-    keep_to_itself(handle.in_use, "motion");
-    mover_ = interruptible(SingleMotionSource(*handle.motion), interruptions_);
+    mover_ = interruptible(SingleMotionSource(*given.cast<MotionHandle&>().motion), interruptions_);
   } else if (py::isinstance<BodyMapHandle>(given)) {
-    auto& handle = given.cast<BodyMapHandle&>();
-    keep_to_itself(handle.in_use, "body map");
-    for (const py::object& motion : handle.motions)
-      keep_to_itself(motion.cast<MotionHandle&>().in_use, "motion");
-    mover_ = interruptible(handle.map->source(), interruptions_);
+    map_ = given.cast<BodyMapHandle&>().map.get();
+    mover_ = interruptible(map_->source(), interruptions_);
   } else if (py::isinstance<MoverHandle>(given)) {
-    auto& handle = given.cast<MoverHandle&>();
-    keep_to_itself(handle.in_use, "mover");
-    mover_ = std::make_unique<FunctionMover>(handle, interruptions_, call_, plane_);
+    mover_ =
+        std::make_unique<FunctionMover>(given.cast<MoverHandle&>(), interruptions_, call_, plane_);
   } else if (PyCallable_Check(given.ptr()) == 0) {
     throw py::type_error(call_ + ": probe must be a motion or a function of (ids, t), but is " +
                          py::repr(given).cast<std::string>());
+  }
+  take_turns();
+}
+
+void Asked::take_turns() {
+  const auto take = [this](InUse& in_use, std::string_view what) {
+    turns_.push_back(in_use.take_alone(call_, what));
+  };
+  if (py::isinstance<MotionHandle>(given_)) {
+    take(given_.cast<MotionHandle&>().in_use, "motion");
+  } else if (py::isinstance<BodyMapHandle>(given_)) {
+    auto& handle = given_.cast<BodyMapHandle&>();
+    take(handle.in_use, "body map");
+    for (const py::object& motion : handle.motions) take(motion.cast<MotionHandle&>().in_use, "motion");
+  } else if (py::isinstance<MoverHandle>(given_)) {
+    take(given_.cast<MoverHandle&>().in_use, "mover");
   }
 }
 
@@ -145,12 +155,14 @@ BodyAction action_of(py::handle given, const char* body) {
 
 Response answer_of(const py::object& returned, bool plane) {
   if (returned.is_none()) return {};
-  const bool is_pair = (PyTuple_Check(returned.ptr()) != 0 || PyList_Check(returned.ptr()) != 0) &&
-                       PySequence_Fast_GET_SIZE(returned.ptr()) == 2;
-  if (!is_pair)
-    refuse({"run", "respond"}, "must return None or (first velocity, second velocity)",
-           "returned " + py::repr(returned).cast<std::string>());
+  const bool is_sequence = PyTuple_Check(returned.ptr()) != 0 || PyList_Check(returned.ptr()) != 0;
+  const Py_ssize_t size = is_sequence ? PySequence_Fast_GET_SIZE(returned.ptr()) : 0;
   Response response;
+  response.stop = size == 3 && py::str("stop").equal(PySequence_Fast_ITEMS(returned.ptr())[2]);
+  if (size != 2 && !response.stop)
+    refuse({"run", "respond"},
+           "must return None, (first velocity, second velocity) or (first velocity, second velocity, 'stop')",
+           "returned " + py::repr(returned).cast<std::string>());
   const auto set = [&](py::handle given, const char* name, bool in_plane, std::optional<Vec3>& value) {
     if (!given.is_none()) value = vector_of(given, {"run: respond", name}, in_plane);
   };

@@ -30,19 +30,30 @@ class Asked {
   Probe probe();
   /// Null for a Python function.
   MotionSource* mover() { return mover_.get(); }
+  /// Null unless the source is a map.
+  BodyMap* map() { return map_; }
+  /// Calls a Python function, under the GIL, that may use the ready-made ones.
+  template <class Function>
+  void call_at_stop(const Function& function) {
+    interruptions_.call([&] {
+      turns_.clear();
+      function();
+      take_turns();
+    });
+  }
   /// Returns the interruptions for the other callbacks of this call.
   Interruptions& interruptions() { return interruptions_; }
 
  private:
   void ask(std::span<const BodyId> ids, double time, std::span<State> states);
-  void keep_to_itself(InUse& in_use, std::string_view what) {
-    turns_.push_back(in_use.take_alone(call_, what));
-  }
+  /// Marks what gives the states as in use.
+  void take_turns();
 
   std::string call_;
   bool plane_;
   py::object given_;
   std::unique_ptr<MotionSource> mover_;
+  BodyMap* map_ = nullptr;
   std::vector<InUse::Use> turns_;
   Interruptions interruptions_;
 };
@@ -65,7 +76,7 @@ class Bouncing {
 };
 
 /// Converts the result of a Python function for an event: None, or for each of the two bodies a velocity, a
-/// tuple (velocity, angular velocity), the name of a BodyAction, or None.
+/// tuple (velocity, angular velocity), the name of a BodyAction, or None, and possibly "stop" behind them.
 Response answer_of(const py::object& returned, bool plane);
 
 void bind_moving(py::module_& module);

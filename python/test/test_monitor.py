@@ -484,7 +484,7 @@ wrong: list[Wrong] = [
     (lambda m: Separation("cube", 1.0, 1.0), ks.InvalidValue, "shape must be .*but is \"cube\""),  # type: ignore[arg-type]
     (lambda m: ks.Monitor(classes=[TrackClass(1.0)], separations=[SeparationRule(0, 7, [])]), ks.InvalidValue, "must be less than the number of classes"),
     (lambda m: watching(tolerance=0.0), ks.InvalidValue, "tolerance must be > 0"),
-    (lambda m: watching(tolerence=1.0), TypeError, "incompatible constructor arguments"),
+    (lambda m: watching(tolerence=1.0), TypeError, "Monitor: there is no argument tolerence; the nearest is tolerance"),
     (lambda m: watching(shard=ks.Shard(2, 2)), ks.InvalidValue, "shard, first, must be"),
     (lambda m: m.report(three, 1.0, places, still, track_classes=[0, 0, 5]), ks.InvalidValue, "report: row 2, report of track 3, track_class, must be less than"),
     (lambda m: m.report(three, [1.0, nan, 1.0], places, still), ks.InvalidValue, "row 1, report of track 2, timestamp, must be finite, but is nan"),
@@ -505,7 +505,7 @@ wrong: list[Wrong] = [
     (lambda m: m.report(np.array([1.0, 2, 3]), 1.0, places, still), TypeError, "ids must be whole numbers"),
     (lambda m: m.report(["a", "b", "c"], 1.0, places, still), TypeError, r"ids\[0\] must be a whole number, but is 'a'"),  # type: ignore[list-item]
     (lambda m: m.report(three, "now", places, still), TypeError, "timestamps must be real numbers"),
-    (lambda m: m.report(three, 1.0, places, still, speed=3.0), TypeError, "incompatible function arguments"),  # type: ignore[call-arg]
+    (lambda m: m.report(three, 1.0, places, still, speed=3.0), TypeError, "report: there is no argument speed; "),  # type: ignore[call-arg]
     (lambda m: m.feed(three, [3.0, 2.0, 4.0], places, still), ks.InvalidValue, "arrivals must be given where timestamps are not in ascending order, but is 2.0 in row 1"),
     (lambda m: m.feed(three, 1.0, places, still, arrivals=[1.0, nan, 2.0]), ks.InvalidValue, "arrivals must be finite, but is nan in row 1"),
     (lambda m: m.feed(three, 1.0, places, still, arrivals=-5.0), ks.InvalidValue, "until must not lie before the time of the monitor"),
@@ -522,7 +522,7 @@ wrong: list[Wrong] = [
     (lambda m: m.run(-1.0), ks.InvalidValue, "until must not lie before"),
     (lambda m: m.advance(nan), ks.InvalidValue, "until must be finite"),
     (lambda m: m.needed(nan), ks.InvalidValue, "until must be a number"),
-    (lambda m: m.crowd(-1), TypeError, "incompatible function arguments"),
+    (lambda m: m.crowd(-1), TypeError, "crowd: pairs must be a whole number in its range, but is -1"),
     (lambda m: ks.Monitor.restore(m.save()[:-20]), ks.InvalidValue, "Monitor::restore"),
     (lambda m: ks.Monitor.restore(5), TypeError, "snapshot must be bytes"),  # type: ignore[arg-type]
     (lambda m: "a" in m, TypeError, "id must be a whole number"),  # type: ignore[operator]

@@ -2,6 +2,7 @@
 
 import copy
 import pickle
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -70,6 +71,71 @@ def test_a_response_removes_disables_and_puts_to_sleep(threads: int) -> None:
         world.run(10.0, motion, lambda event: (name if event.kind == EventKind.contact_begin else None, None))
         assert len(world) == 2
         assert world.body(0).enabled == (name == "sleep") and world.body(0).sleeping == (name == "sleep")
+
+
+Answer = tuple[str, str, str] | None
+
+
+def shooting() -> tuple[ks.World, ks.Ballistic, ks.BodyMap, Callable[[ks.Event], Answer], Callable[[ks.Event], None]]:
+    """A bullet flies at a rock, and both burst into fragments; the world, the motion, the map, and what is done."""
+    motion = ks.Ballistic([(0, 0, 0), (5, 0, 0), (0, 20, 0)], [(10, 0, 0), (0, 0, 0), (1, 0, 0)])
+    world, bodies = ks.World(), ks.BodyMap()
+    bullet, *_ = bodies.add_all(world, motion, 0.5)
+
+    def respond(event: ks.Event) -> Answer:
+        hit = event.kind == EventKind.contact_begin and event.first == bullet
+        return ("remove", "remove", "stop") if hit else None
+
+    def burst(event: ks.Event) -> None:
+        assert world.time == event.time and bullet not in world
+        for turn in np.arange(4) * np.pi / 2:
+            away = np.array([0, np.cos(turn), np.sin(turn)])
+            bodies.add(world, motion, motion.add(world.time, event.point + away, away), 0.1)
+
+    return world, motion, bodies, respond, burst
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_a_run_stops_so_that_bodies_can_be_added(threads: int) -> None:
+    world, motion, bodies, respond, burst = shooting()
+    events = world.run(3.0, bodies, respond, at_stop=burst, threads=threads)
+    assert [str(event.kind) for event in events] == ["contact_begin", "contact_end"]
+    assert len(world) == 5 and len(motion) == 5, "the two that burst have left the motion, too"
+    assert all(bodies.find(body) is not None for body in world.bodies())
+
+    looped, motion_there, bodies_there, _, burst_there = shooting()
+    for event in looped.events(3.0, bodies_there):
+        if respond(event) is None:
+            continue
+        bodies_there.remove(looped, event.first)
+        assert event.second is not None
+        bodies_there.remove(looped, event.second)
+        burst_there(event)
+    assert (world.bodies() == looped.bodies()).all()
+    assert (np.asarray(motion.states(3.0)) == np.asarray(motion_there.states(3.0))).all()
+
+
+def test_what_at_stop_raises_comes_out_at_the_stop() -> None:
+    world, motion, bodies, respond, burst = shooting()
+    told: list[float] = []
+
+    def fail(event: ks.Event) -> None:
+        motion.add(world.time, (0, 50, 0), (0, 0, 0))
+        with pytest.raises(ks.StateError, match="run"):
+            world.run(9.0, lambda ids, t: (np.zeros((len(ids), 3)), np.zeros((len(ids), 3))))
+        told.append(event.time)
+        raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        world.run(3.0, bodies, respond, at_stop=fail)
+    assert told == [world.time]
+    bodies.set_velocity(world, 2, (0, 0, 0))  # neither map nor motion is in use any more
+    assert [str(event.kind) for event in world.run(3.0, bodies, respond, at_stop=burst)] == [
+        "contact_begin",
+        "contact_end",
+    ]
+    with pytest.raises(TypeError, match="at_stop must be a function of an event, but is 5"):
+        world.run(4.0, bodies, respond, at_stop=5)  # type: ignore[arg-type]
 
 
 def test_an_event_says_what_happened() -> None:

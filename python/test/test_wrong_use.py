@@ -203,7 +203,7 @@ def test_a_probe_may_return_views_lists_float32_and_read_only_arrays() -> None:
 
 
 respond_answers: list[tuple[Any, type[Exception], str]] = [
-    (5, ks.InvalidValue, r"respond must return None or \(first velocity, second velocity\), but returned 5"),
+    (5, ks.InvalidValue, r"respond must return None, \(first velocity, second velocity\) or .*, but returned 5"),
     (((1, 2), None), ks.InvalidValue, r"first_velocity must have shape \(3,\)"),
     (((nan, 0, 0), None), ks.InvalidValue, "first_velocity"),
     (
@@ -212,6 +212,8 @@ respond_answers: list[tuple[Any, type[Exception], str]] = [
         "first_velocity must be a velocity, None, 'remove', 'disable' or 'sleep'",
     ),
     ((None, None, None), ks.InvalidValue, "respond must return"),
+    ((None, None, "halt"), ks.InvalidValue, "respond must return .*'stop'.*, but returned .*halt"),
+    ((None, None, "stop"), TypeError, "'stop' needs at_stop"),
 ]
 
 
@@ -267,6 +269,36 @@ def test_wrong_kinds_of_things_are_named() -> None:
     for call, kind, message in wrong:
         with pytest.raises(kind, match=message):
             call()
+
+
+def test_calls_that_fit_no_function_name_the_argument() -> None:
+    things = Things()
+    w, motion = things.w, things.motion
+    frames = ks.FrameMotion([(0, 0, 0)])
+    wrong: list[tuple[Callable[[], Any], str]] = [
+        (lambda: ks.World(contact_tolerence=1e-3), "World: there is no argument contact_tolerence; the nearest is contact_tolerance"),  # type: ignore[call-arg]
+        (lambda: w.add((0, 0, 0), radius=1.0), "add: there is no argument radius; the nearest is radii"),  # type: ignore[call-overload]
+        (lambda: ks.Ball((0, 0, 0), r=1.0), "Ball: there is no argument r; the nearest is radius"),  # type: ignore[call-arg]
+        (lambda: ks.Scene("paper1", colour=1), "Scene: there is no argument colour; "),  # type: ignore[call-arg]
+        (lambda: ks.Separation.sphere(dist=3.0), "sphere: there is no argument dist; the nearest is distance"),  # type: ignore[call-arg]
+        (lambda: ks.place_spheres(0.5, ((0, 0, 0), (9, 9, 9)), pack=0.2), "place_spheres: there is no argument pack; the nearest is packing"),  # type: ignore[call-arg]
+        (lambda: frames.push(positons=[(0, 0, 0)]), "push: there is no argument positons; the nearest is positions"),  # type: ignore[call-overload]
+        (lambda: w.run(1.0), "run: motion is missing"),  # type: ignore[call-arg]
+        (lambda: w.run(1.0, motion, until=2.0), "run: until is given twice"),  # type: ignore[misc]
+        (lambda: w.run(1.0, motion, None, 2), "run: takes at most 3 arguments without a name, but has 4; .*threads.* need theirs"),  # type: ignore[misc]
+        (lambda: w.run(motion, 1.0), "run: until must be a number, but is <"),  # type: ignore[arg-type]
+        (lambda: ks.Ball(1.0, (0, 0, 0)), r"Ball: radius must be a number, but is \(0, 0, 0\)"),  # type: ignore[arg-type]
+        (lambda: w.add_motion(w), "add_motion: motion must be a Motion, but is <"),  # type: ignore[arg-type]
+        (lambda: w.add_zone(ks.Ball((0, 0, 0), 1.0), -1), "add_zone: user_data must be a whole number in its range, but is -1"),
+        (lambda: w.set_solid(0, "no"), "set_solid: solid must be True or False, but is 'no'"),  # type: ignore[arg-type]
+        (lambda: ks.World(dimensions=2.5), "World: dimensions must be a whole number, but is 2.5"),  # type: ignore[arg-type]
+    ]  # fmt: skip
+    for call, message in wrong:
+        with pytest.raises(TypeError, match=message) as raised:
+            call()
+        assert "\n" not in str(raised.value) and len(str(raised.value)) < 400
+    with pytest.raises(TypeError, match="supported"):  # which of the two was meant is not known
+        frames.push(1, 2, 3, 4)  # type: ignore[call-overload]
 
 
 def test_a_motion_that_nobody_added_is_not_a_run_without_events() -> None:

@@ -46,7 +46,7 @@ class Bodies {
   void reserve(std::size_t bodies);
   /// Adds a body with its definition at time `now`, except for its state and motion limits. Returns its
   /// number.
-  std::uint32_t add(const BodyDefinition& definition, double now = 0.0);
+  std::uint32_t add(const BodyDefinition& definition, double now);
   /// Adds a body as above, with a name (BodyTable).
   std::uint32_t add_named(const BodyDefinition& definition, double now, std::uint32_t name);
   /// Gives the body a shape: a carried one, or else one at rest, which makes the body static.

@@ -27,6 +27,7 @@ Result<std::optional<Event>> World::Engine::advance(double until, const Probe& p
       return std::optional<Event>();
     }
     main_.begin_instant(next);
+    if (auto noted = main_.note_instant(); !noted) return noted.error();
   }
 }
 
@@ -35,6 +36,7 @@ Result<bool> World::Engine::prepare_batch(const Probe& probe, PoolLease& lease) 
   main_.note_response();
   if (main_.is_gathering() || !main_.events().is_quiet()) return false;
   if (main_.pause() <= time()) {
+    if (auto noted = main_.note_instant(); !noted) return noted.error();
     if (auto ended = end_epoch(lease); !ended) return ended.error();
     if (!main_.events().is_quiet()) {
       // As in advance(), all events of an instant are known before the first is delivered.

@@ -31,6 +31,7 @@
 #include "contact/contact_predictor.hpp"
 #include "contact/pending_events.hpp"
 #include "engine/dirty_list.hpp"
+#include "engine/pace.hpp"
 #include "engine/pair_certifier.hpp"
 #include "engine/reports.hpp"
 #include "engine/speculation_log.hpp"
@@ -44,7 +45,7 @@ namespace kinesphere {
 
 class alignas(128) EventProcessor {
  public:
-  EventProcessor(WorldState& state, double time) : state_(&state), time_(time) {}
+  EventProcessor(WorldState& state, double time) : state_(&state), time_(time) { pace_.restart(time); }
   /// Copies a processor, to work on `state`, a copy of the other's world state.
   EventProcessor(EventProcessor other, WorldState& state) : EventProcessor(std::move(other)) {
     state_ = &state;
@@ -86,9 +87,13 @@ class alignas(128) EventProcessor {
     advance_clock(std::max(time, time_));
     gathering_ = true;
   }
+  /// Begins to measure how far time goes without an event.
+  void restart_pace() { pace_.restart(time_); }
+  /// Counts an instant. Errors: out_of_range if time will practically never reach `until`.
+  Result<void> note_instant(double until) { return pace_.note_instant(bodies(), time_, until); }
   /// Rechecks all certificates that are due, so that every event of this instant is known before the first is
   /// delivered. While no event is known, continues with the next instants, up to `until` and before the epoch
-  /// ends. Errors: those of probe().
+  /// ends. Errors: those of probe() and note_instant().
   Result<void> gather(double until);
   /// Certifies again the pairs whose contacts were changed by delivered events. Pairs of dirty bodies are
   /// skipped, since recertify() finds them.
@@ -210,6 +215,7 @@ class alignas(128) EventProcessor {
   PendingEvents events_;
   DirtyList dirty_;
   bool gathering_ = false;
+  Pace pace_;
   WorkCounters work_;
   Reports reports_;
   SpeculationLog* log_ = nullptr;  ///< nullptr for the processor with all bodies

@@ -20,7 +20,7 @@ BodyId World::WorldEditor::add(const BodyDefinition& definition) {
 
 BodyId World::WorldEditor::add_static(const StaticDefinition& definition) {
   const BodyDefinition at_rest = body_of(definition);
-  const std::uint32_t number = state_.bodies.add(at_rest);
+  const std::uint32_t number = state_.bodies.add(at_rest, time());
   state_.bodies.give_shape(number, definition.shape, false);
   state_.contacts.add(number, 0.0);
   state_.contacts.set_shape(number, true);
@@ -30,7 +30,7 @@ BodyId World::WorldEditor::add_static(const StaticDefinition& definition) {
 
 BodyId World::WorldEditor::add_moving_shape(const MovingShape& definition) {
   const BodyDefinition body = body_of(definition, bodies().definition());
-  const std::uint32_t number = state_.bodies.add(body);
+  const std::uint32_t number = state_.bodies.add(body, time());
   state_.bodies.give_shape(number, definition.shape, true);
   state_.contacts.add(number, bodies()[number].largest_acceleration());
   state_.contacts.set_shape(number, false);
@@ -40,7 +40,7 @@ BodyId World::WorldEditor::add_moving_shape(const MovingShape& definition) {
 
 BodyId World::WorldEditor::add_rigid_body(const RigidBody& definition) {
   const BodyDefinition body = body_of(definition);
-  const std::uint32_t number = state_.bodies.add(body);
+  const std::uint32_t number = state_.bodies.add(body, time());
   state_.bodies.make_rigid(number, record_of(definition, time()));
   insert_at(number, bound_now(body, time()));
   state_.contacts.add(number, bodies().largest_acceleration(number));

@@ -160,7 +160,7 @@ Result<std::optional<Event>> Simulation::advance(double until) {
   return world_.advance(until, bodies_->probe());
 }
 
-EventRange Simulation::events(double until) { return world_.events(until, known_bodies("events").probe()); }
+EventRange Simulation::events(double until) & { return world_.events(until, known_bodies("events").probe()); }
 
 Result<void> Simulation::run(double until, const ResponseFn& respond, const EventFn& sink, Workers* workers) {
   if (const auto error = moved_from("run")) return *error;

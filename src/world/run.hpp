@@ -16,6 +16,8 @@ namespace kinesphere {
 struct World::UndeliveredEvents {
   std::deque<Event> events{};         ///< responses applied, not yet delivered to the sink; in order
   std::optional<Event> unanswered{};  ///< response not applied; comes after `events`
+  bool delivering = false;            ///< true inside the sink
+  bool ended = false;                 ///< the sink has called World::end_run()
 
   bool empty() const { return events.empty() && !unanswered; }
   /// Removes and returns the first event, or nullopt if there is none.
@@ -42,7 +44,7 @@ class World::Run final : private ResponseHandler {
   Result<bool> work();
   Result<bool> step_batch();
   Result<bool> step(double until);
-  void deliver();
+  bool deliver();
   bool shares_work() const;
   bool stands_back();
   Result<std::optional<Event>> next(double until);

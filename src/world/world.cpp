@@ -265,7 +265,7 @@ Result<std::optional<Event>> World::engine_advance(double until, const Probe& pr
   return profiling_ ? timed_advance(until, probe) : recorded_advance(until, probe);
 }
 
-EventRange World::events(double until, Probe probe) { return {*this, until, std::move(probe)}; }
+EventRange World::events(double until, Probe probe) & { return {*this, until, std::move(probe)}; }
 
 void EventRange::go_on() { event_ = world_->advance(until_, probe_).value(); }
 

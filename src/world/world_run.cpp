@@ -75,27 +75,35 @@ Result<void> World::Run::go() {
                  "run: workers must not be at work in another run, but are"};
   }
   if (!world_.undelivered_) world_.undelivered_ = std::make_unique<UndeliveredEvents>();
+  world_.undelivered_->ended = false;
   world_.running_ = true;
   const ScopeGuard stop([&] { world_.running_ = false; });
-  deliver();
+  if (!deliver()) return {};
   gain_ = lease_.gain();
   for (;;) {
     const auto done = work();
     if (!done) return done.error();
-    deliver();
+    if (!deliver()) return {};
     if (*done) return {};
   }
 }
 
-void World::Run::deliver() {
-  std::deque<Event>& events = world_.undelivered_->events;
-  while (!events.empty()) {
-    const Event event = events.front();
-    events.pop_front();
+void World::end_run() {
+  if (undelivered_ && undelivered_->delivering) undelivered_->ended = true;
+}
+
+/// Passes the events to the sink. Returns false if the sink ends the run.
+bool World::Run::deliver() {
+  UndeliveredEvents& undelivered = *world_.undelivered_;
+  while (!undelivered.events.empty() && !undelivered.ended) {
+    const Event event = undelivered.events.front();
+    undelivered.events.pop_front();
     world_.open_ = std::exchange(stops_, false);
-    const ScopeGuard close([this] { world_.open_ = false; });
+    undelivered.delivering = true;
+    const ScopeGuard close([&] { world_.open_ = undelivered.delivering = false; });
     on_event_(event);
   }
+  return !undelivered.ended;
 }
 
 Result<bool> World::Run::work() {
@@ -244,13 +252,12 @@ Result<void> World::Run::check_action(const Event& event, BodyId body, BodyActio
 Result<void> World::Run::check_spin(const Event& event, BodyId body, const std::optional<Vec3>& spin,
                                     std::string_view argument) const {
   if (!spin) return {};
-  const std::string call =
-      "run: respond: " + std::string(argument) + " at " + std::string(name_of(event.kind));
-  auto valid = Preconditions(world_, call).can_spin(body, *spin);
-  if (valid && world_.engine_->bodies().rigid.probe)
-    valid = Error{ErrorCode::unsupported, std::string(argument), body,
-                  call + ": must be given by the rotation probe of the world"};
-  return valid;
+  return check_argument(event, argument, [&](std::string_view call) -> Result<void> {
+    auto valid = Preconditions(world_, call).can_spin(body, *spin);
+    if (!valid || !world_.engine_->bodies().rigid.probe) return valid;
+    return Error{ErrorCode::unsupported, std::string(argument), body,
+                 std::string(call) + ": must be given by the rotation probe of the world"};
+  });
 }
 
 Result<void> World::Run::check_velocity_change(const Event& event, BodyId body,

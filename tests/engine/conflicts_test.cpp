@@ -35,7 +35,7 @@ struct Kicked {
     const double edge = 3.0 + 9.0 * random.uniform();
     for (std::uint32_t number = 0; number < bodies; ++number) {
       const double radius = random.uniform() < 0.05 ? 1.0 : 0.1;
-      tables.bodies.add({.radius = radius});
+      tables.bodies.add({.radius = radius}, 0.0);
       const auto group = static_cast<std::uint32_t>(random.uniform() * bodies);
       for (int update = random.uniform() < 0.2 ? 2 : 1; update > 0; --update) {
         const double time = begin + random.uniform() * 0.2;
@@ -133,7 +133,7 @@ TEST(Conflicts, AreThoseOfEachPairAlone) {
 
 TEST(Conflicts, AreUnknownOfKicksAtOneInstantAndInEndlessWindows) {
   WorldState tables(WorldDefinition{.start_time = begin});
-  for (int body = 0; body < 2; ++body) tables.bodies.add({.radius = 1.0});
+  for (int body = 0; body < 2; ++body) tables.bodies.add({.radius = 1.0}, 0.0);
   PoolLease alone;
   const auto meeting_of = [&](double second_time, const Window& window) {
     SweptSphereUpdate updates[2];

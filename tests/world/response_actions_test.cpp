@@ -67,14 +67,6 @@ struct Game {
         [this](const Event& event) { tell(event, respond(event)); }, workers);
   }
 
- private:
-  bool enabled(BodyId id) const { return world.contains(id) && world.body(id).value().enabled; }
-  bool awake(BodyId id) const { return enabled(id) && !world.body(id).value().sleeping; }
-  void act(BodyId id, BodyAction action) {
-    if (action == BodyAction::remove && world.contains(id)) world.remove(id).value();
-    if (action == BodyAction::disable && enabled(id)) world.disable(id).value();
-    if (action == BodyAction::sleep && awake(id)) world.sleep(id).value();
-  }
   void tell(const Event& event, const Response& given) {
     EventHash one;
     one.add(event);
@@ -84,6 +76,15 @@ struct Game {
     ++stops;
     EXPECT_EQ(world.time(), event.time);
     change(event);
+  }
+
+ private:
+  bool enabled(BodyId id) const { return world.contains(id) && world.body(id).value().enabled; }
+  bool awake(BodyId id) const { return enabled(id) && !world.body(id).value().sleeping; }
+  void act(BodyId id, BodyAction action) {
+    if (action == BodyAction::remove && world.contains(id)) world.remove(id).value();
+    if (action == BodyAction::disable && enabled(id)) world.disable(id).value();
+    if (action == BodyAction::sleep && awake(id)) world.sleep(id).value();
   }
 };
 
@@ -490,6 +491,55 @@ TEST(ResponseActions, LeaveTheRestToTheMap) {
   EXPECT_FALSE(few.bodies.find({1, 0}));
   EXPECT_FALSE(few.motion.contains(1));
   EXPECT_EQ(few.world.bodies(), (std::vector{BodyId{0, 0}})) << "the static ball as well";
+}
+
+/// A sink that ends the run at each stop leaves the world at that event, and another run goes on behind it.
+TEST(EndRun, AtEachStopHasTheCourseOfOneRun) {
+  for (const int threads : {1, 3}) {
+    Workers workers = eager_workers(threads).value();
+    const Kind kind{.name = "stops", .stop = 50};
+    Shooting whole(kind), parts(kind);
+    ASSERT_TRUE(whole.run(kind.end, &workers));
+    auto source = parts.bodies.source();
+    std::size_t runs = 0;
+    for (; parts.world.time() < kind.end && !HasFailure(); ++runs) {
+      double ended_at = kind.end;
+      const auto sink = [&](const Event& event) {
+        parts.tell(event, parts.respond(event));
+        if (!parts.respond(event).stop) return;
+        parts.world.end_run();
+        ended_at = event.time;
+      };
+      ASSERT_TRUE(parts.world.run(
+          kind.end, source, [&](const Event& event) { return parts.respond(event); }, sink, &workers));
+      EXPECT_EQ(parts.world.time(), ended_at);
+    }
+    EXPECT_GT(runs, 10u);
+    expect_same_course(parts, whole);
+  }
+}
+
+TEST(EndRun, ElsewhereKeepsTheEventsThatAreStillToCome) {
+  Shooting whole({.name = "whole"}), parts({.name = "parts"});
+  Workers workers = eager_workers(3).value();
+  whole.world.end_run();  // no effect outside a sink
+  ASSERT_TRUE(whole.run(2.0, &workers));
+  EXPECT_EQ(whole.world.time(), 2.0);
+  auto source = parts.bodies.source();
+  std::size_t runs = 0;
+  for (std::size_t before = 1; before != parts.told; ++runs) {
+    before = parts.told;
+    std::size_t in_this = 0;
+    const auto sink = [&](const Event& event) {
+      parts.tell(event, parts.respond(event));
+      if (++in_this == 100) parts.world.end_run();
+    };
+    ASSERT_TRUE(parts.world.run(
+        2.0, source, [&](const Event& event) { return parts.respond(event); }, sink, &workers));
+    EXPECT_LE(in_this, 100u);
+  }
+  EXPECT_GT(runs, 5u);
+  expect_same_course(parts, whole);
 }
 
 }  // namespace

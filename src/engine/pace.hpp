@@ -1,0 +1,37 @@
+// Pace notices that time will practically never reach the end of a call.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/bodies.hpp"
+#include "kinesphere/result.hpp"
+
+namespace kinesphere {
+
+/// Measures how far time goes in each block of instants without an event. Bodies are probed at least once in
+/// each of their windows, which are the shorter the larger their limits are: a limit of 1e30 in place of "any"
+/// makes windows of 1e-17.
+class Pace {
+ public:
+  void restart(double time) {
+    begin_ = time;
+    instants_ = 0;
+  }
+  /// Counts an instant. Returns an error that names the body with the shortest windows if, at the pace of the
+  /// last block, `until` is more instants away than a double can count.
+  Result<void> note_instant(const Bodies& bodies, double time, double until) {
+    return ++instants_ < block ? Result<void>() : check(bodies, time, until);
+  }
+
+ private:
+  /// Large enough that a crowded moment is no pace; a second or two even where each instant calls a slow probe.
+  static constexpr std::uint32_t block = 1u << 20;
+  static constexpr double most_instants = 0x1p53;
+
+  [[gnu::cold]] Result<void> check(const Bodies& bodies, double time, double until);
+
+  double begin_ = 0.0;
+  std::uint32_t instants_ = 0;
+};
+
+}  // namespace kinesphere
