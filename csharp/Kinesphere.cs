@@ -248,11 +248,13 @@ namespace Kinesphere
             return next;
         }
 
-        /// <summary>Advances to time `until` and answers all events by bouncing, or by `respond`. Motions must move all
+        /// <summary>Advances to time `until` and answers all events by bouncing, which with a resting speed lets heaps come
+        /// to rest, or by `respond`. Motions must move all
         /// bodies; one that a response removes leaves its motion, too. The sink receives each event, in order, and may read
         /// the world. At an event whose response has Stop the world is at the time of the event, and the sink may change it;
         /// elsewhere such calls throw "run_in_progress", as Advance and Run always do.</summary>
-        public void Run(double until, double restitution = 1, Respond respond = null, Action<Event> sink = null, int threads = 1)
+        public void Run(double until, double restitution = 1, Respond respond = null, Action<Event> sink = null, int threads = 1,
+            double restingSpeed = 0)
         {
             Native.RunDefinition definition;
             Native.Check(Native.ks_run_definition_init(out definition, Native.SizeOf<Native.RunDefinition>()));
@@ -261,6 +263,7 @@ namespace Kinesphere
             Native.Sink tell = (happened, user) => caught.Call(() => sink(*happened));
             definition.Threads = threads;
             definition.Restitution = restitution;
+            definition.RestingSpeed = restingSpeed;
             if (respond != null) definition.Respond = Marshal.GetFunctionPointerForDelegate(answer);
             if (sink != null) definition.Sink = Marshal.GetFunctionPointerForDelegate(tell);
             int status = Native.ks_world_run(handle, until, ref definition);

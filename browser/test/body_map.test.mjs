@@ -263,19 +263,29 @@ test("wrong answers are refused, and what atStop throws comes out", () => {
   refused({ firstActon: "remove" }, /nearest is firstAction/);
   assert.throws(() => world.run(10, { motion: bodies, respond }), /stop needs atStop/);
   assert.throws(() => world.run(10, { motion: bodies, respond, atStop: true }), /atStop must be a function/);
-  let told = 0;
-  const atStop = () => {
+  let told = 0, stopped = 0;
+  const atStop = (event) => {
+    stopped = event.time;
     throw new Error("no fragments");
   };
   const sink = (events) => {
     told += events.length;
   };
   assert.throws(() => world.run(10, { motion: bodies, respond, atStop }, sink), /no fragments/);
-  assert.ok(told === 2 && world.time < 10, "the contact and its end");
+  assert.ok(told === 1 && world.time === stopped && stopped < 10, "the world stands at the stop");
   // The run goes on behind the stop.
   add([5, 15, 15], 10);
   world.run(10, { motion: bodies, respond, atStop }, sink);
   assert.ok(told > 3 && world.time === 10);
+
+  // Also where nothing is left that could be asked or tell of anything.
+  const flights = new Ballistic({ positions: [0, 0, 0, 5, 0, 0], velocities: [1, 0, 0, 0, 0, 0] });
+  const pair = new World();
+  const pairs = new BodyMap();
+  pairs.addAll(pair, flights, { radius: 0.5 });
+  const both = () => ({ firstAction: "remove", secondAction: "remove", stop: true });
+  assert.throws(() => pair.run(100, { motion: pairs, respond: both, atStop }), /no fragments/);
+  assert.ok(pair.time === stopped && stopped < 5 && flights.size === 2);
 
   const box = { lower: [0, 0, 0], upper: [9, 9, 9] };
   const alone = new World({ box });

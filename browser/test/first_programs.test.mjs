@@ -88,6 +88,19 @@ for (const contacts of [undefined, "all", "impacts", "begin_and_end"]) {
   });
 }
 
+test("a stack that hops for ever warns once, and names what lets it settle", (t) => {
+  const warn = t.mock.method(console, "warn", () => {});
+  for (const resting of [{}, { restingSpeed: 0.1 }]) {
+    const positions = [5, 5, 1.2, 5, 5, 3.4, 5, 5, 5.6];
+    const motion = new Ballistic({ positions, velocities: new Array(9).fill(0) }, { gravity: [0, 0, -10] });
+    const world = new World({ box: { lower: [0, 0, 0], upper: [10, 10, 30] } });
+    world.addMotion(motion, 1);
+    for (let step = 1; step <= 20; ++step) world.run(step / 2, { motion, respond: { restitution: 0, ...resting } });
+  }
+  assert.equal(warn.mock.callCount(), 1);
+  assert.match(warn.mock.calls[0].arguments[0], /contacts followed another one at once.*restingSpeed/);
+});
+
 test("bodies ask for their own events", () => {
   const kinds = (contacts) => {
     const world = new World({ contacts: "impacts" });

@@ -5,7 +5,7 @@ import { test } from "node:test";
 import { kinesphere } from "./package_under_test.mjs";
 
 const {
-  Ballistic, bounce, EventHash, FrameMotion, KinesphereError, load, RandomForces, RecordedTracks, Replay, Scene, SteeredMotion, version,
+  Ballistic, BodyMap, bounce, EventHash, FrameMotion, KinesphereError, load, RandomForces, RecordedTracks, Replay, Scene, SteeredMotion, version,
   World,
 } = kinesphere;
 
@@ -169,6 +169,14 @@ test("wrong input is named", () => {
   assert.throws(() => new Scene("nonsense"), /must be one of paper1/);
   assert.throws(() => new Scene("paper1", { bodies: 1.5 }), /bodies must be a whole number/);
   refuses(() => new Scene("paper1", { bodies: 1e6 }), "out_of_range", "bodies");
+  // The second body of a wall event is null, which is not body 0.
+  for (const nobody of [null, undefined, "0"]) {
+    assert.throws(() => world.setVelocity(nobody, [0, 0, 0]), /setVelocity: ids and times must be numbers, but one is/);
+    assert.throws(() => world.remove(nobody), /remove: ids and times must be numbers/);
+    assert.throws(() => world.setVelocityAll([nobody], [0, 0, 0]), /arrays must hold numbers, but one holds/);
+    assert.throws(() => new BodyMap().remove(world, nobody), /ids and times must be numbers/);
+  }
+  assert.ok(world.contains(first));
 });
 
 test("a misspelled key is named, with the nearest known one", async () => {

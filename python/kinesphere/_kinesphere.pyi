@@ -331,6 +331,8 @@ class BodyMap:
         solid: bool = True,
         sensor_class: int = 0,
         user_data: int = 0,
+        mass: float = 1.0,
+        contacts: Optional[ContactEvents] = None,
     ) -> BodyId: ...
     def add_all(
         self,
@@ -344,6 +346,8 @@ class BodyMap:
         solid: bool = True,
         sensor_class: int = 0,
         user_data: int = 0,
+        mass: float = 1.0,
+        contacts: Optional[ContactEvents] = None,
     ) -> Ids: ...
     def add_moving_shape(
         self,

@@ -1,5 +1,5 @@
-// Errors of calls whose arguments fit no function: pybind11 answers them with a list of signatures. The package
-// says instead which argument is wrong (kinesphere.arguments).
+// Errors of calls whose arguments fit no function: pybind11 answers them with a list of signatures. The
+// package says instead which argument is wrong (kinesphere.arguments).
 #include <pybind11/pybind11.h>
 
 #include <string>
@@ -62,7 +62,8 @@ void explain_errors_of(py::handle member) {
   const py::handle self = PyCFunction_GET_SELF(function.ptr());
   if (!self || !py::isinstance<py::capsule>(self)) return;
   PyMethodDef& definition = *reinterpret_cast<PyCFunctionObject*>(function.ptr())->m_ml;
-  const auto method = reinterpret_cast<PyCFunctionWithKeywords>(reinterpret_cast<void (*)()>(definition.ml_meth));
+  const auto method =
+      reinterpret_cast<PyCFunctionWithKeywords>(reinterpret_cast<void (*)()>(definition.ml_meth));
   if (method == call_and_explain) return;
   pybind_dispatcher = method;
   definition.ml_meth = reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(call_and_explain));
@@ -74,7 +75,8 @@ void bind_arguments(py::module_& module) {
   for (const auto& [name, member] : py::reinterpret_borrow<py::dict>(module.attr("__dict__"))) {
     explain_errors_of(member);
     if (!py::isinstance<py::type>(member)) continue;
-    for (const py::handle inner : py::list(member.attr("__dict__").attr("values")())) explain_errors_of(inner);
+    for (const py::handle inner : py::list(member.attr("__dict__").attr("values")()))
+      explain_errors_of(inner);
   }
 }
 

@@ -1,6 +1,10 @@
 // Worlds with bodies that one motion moves, or several.
+#include <pybind11/stl.h>
+
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <string>
 
 #include "errors.hpp"
 #include "exchange.hpp"
@@ -39,17 +43,25 @@ BodyDefinition like(double radius, std::uint64_t category, std::uint64_t mask, s
           .user_data = user_data};
 }
 
+/// Completes a definition for a ball.
+BodyDefinition with_mass(BodyDefinition body, double mass, const std::optional<std::string>& contacts,
+                         std::string_view call) {
+  body.mass = mass;
+  if (contacts) body.contacts = contact_events_of(*contacts, {call, "contacts"});
+  return body;
+}
+
 py::object add_moved(BodyMapHandle& map, WorldHandle& world, const py::object& moving, std::uint32_t number,
                      double radius, std::uint64_t category, std::uint64_t mask, std::int32_t group,
-                     bool solid, SensorClass sensor_class, std::uint64_t user_data) {
+                     bool solid, SensorClass sensor_class, std::uint64_t user_data, double mass,
+                     const std::optional<std::string>& contacts) {
   auto& motion = moving.cast<MotionHandle&>();
   const auto turn = map.in_use.take_alone("add", map_name);
   const auto turn_of_motion = motion.in_use.take_alone("add", "motion");
   const auto turn_of_world = world.take("add");
-  const BodyId id = map.map
-                        ->add(world.world, *motion.motion, number,
-                              like(radius, category, mask, group, solid, sensor_class, user_data))
-                        .value();
+  const BodyDefinition body =
+      with_mass(like(radius, category, mask, group, solid, sensor_class, user_data), mass, contacts, "add");
+  const BodyId id = map.map->add(world.world, *motion.motion, number, body).value();
   keep(map, moving);
   end_call(world);
   return object_of(id);
@@ -94,7 +106,8 @@ py::object add_moved_rigid_body(BodyMapHandle& map, WorldHandle& world, const py
 
 py::object add_all_moved(BodyMapHandle& map, WorldHandle& world, const py::object& moving,
                          const py::object& radii, std::uint64_t category, std::uint64_t mask,
-                         std::int32_t group, bool solid, SensorClass sensor_class, std::uint64_t user_data) {
+                         std::int32_t group, bool solid, SensorClass sensor_class, std::uint64_t user_data,
+                         double mass, const std::optional<std::string>& contacts) {
   auto& motion = moving.cast<MotionHandle&>();
   const auto turn = map.in_use.take_alone("add_all", map_name);
   const auto turn_of_motion = motion.in_use.take_alone("add_all", "motion");
@@ -103,11 +116,9 @@ py::object add_all_moved(BodyMapHandle& map, WorldHandle& world, const py::objec
   for (std::uint32_t number = 0; number < motion.motion->size(); ++number)
     count += motion.motion->contains(number) ? 1 : 0;
   const std::vector<double> each = each_of(radii, {"add_all", "radii"}, count);
-  const std::vector<BodyId> ids =
-      map.map
-          ->add_all(world.world, *motion.motion, each,
-                    like(1.0, category, mask, group, solid, sensor_class, user_data))
-          .value();
+  const BodyDefinition body =
+      with_mass(like(1.0, category, mask, group, solid, sensor_class, user_data), mass, contacts, "add_all");
+  const std::vector<BodyId> ids = map.map->add_all(world.world, *motion.motion, each, body).value();
   keep(map, moving);
   end_call(world);
   return array_of(ids);
@@ -172,11 +183,13 @@ together, for rollback.)")
       .def("add", add_moved, py::arg("world"), py::arg("motion"), py::arg("number"), py::arg("radius") = 1.0,
            py::kw_only(), py::arg("category") = 1, py::arg("mask") = all_categories, py::arg("group") = 0,
            py::arg("solid") = true, py::arg("sensor_class") = 0, py::arg("user_data") = 0,
+           py::arg("mass") = 1.0, py::arg("contacts") = py::none(),
            "Adds a body of a motion to the world, with the motion's state and promise at world.time. Returns "
            "its BodyId.")
       .def("add_all", add_all_moved, py::arg("world"), py::arg("motion"), py::arg("radii") = 1.0,
            py::kw_only(), py::arg("category") = 1, py::arg("mask") = all_categories, py::arg("group") = 0,
            py::arg("solid") = true, py::arg("sensor_class") = 0, py::arg("user_data") = 0,
+           py::arg("mass") = 1.0, py::arg("contacts") = py::none(),
            "All bodies of the motion, in the order of their numbers; radii is one number, or one of each. "
            "Returns ids, shape (n,).")
       .def("add_moving_shape", add_moved_shape, py::arg("world"), py::arg("motion"), py::arg("number"),

@@ -92,6 +92,7 @@ class Responding {
     }
   }
   explicit operator bool() const { return !given_.is_none(); }
+  bool hops() const { return bouncing_ != nullptr && bouncing_->hops(); }
 
   /// Needs no GIL.
   Response operator()(const Event& event) const {
@@ -123,6 +124,22 @@ class Responding {
   const Bouncing* bouncing_ = nullptr;
   const Scene* scene_ = nullptr;
 };
+
+/// Warns once of a world nearly all of whose contacts were repeated, of bodies that hop upon each other.
+void warn_of_hops(WorldHandle& handle) {
+  constexpr std::uint64_t many = 10'000;
+  const Counters& counters = handle.world.counters();
+  const std::uint64_t contacts =
+      counters.count(EventKind::contact_begin) + counters.count(EventKind::wall_begin);
+  const std::uint64_t repeated = counters.repeated_contacts;
+  if (handle.warned_of_hops || repeated < many || 10 * repeated < 9 * contacts) return;
+  handle.warned_of_hops = true;
+  const std::string text =
+      "run: " + std::to_string(repeated) + " of " + std::to_string(contacts) +
+      " contacts followed another one at once, as those of bodies that lie upon each other, "
+      "and took no energy: Bouncing(restitution=..., resting_speed=...) lets stacks settle";
+  if (PyErr_WarnEx(PyExc_RuntimeWarning, text.c_str(), 1) != 0) throw py::error_already_set();
+}
 
 /// Tells a function, or the bar of the package for True, which time a run has reached.
 class Progress {
@@ -195,6 +212,7 @@ py::object run(WorldHandle& handle, double until, const py::object& motion, cons
   });
   require(done);
   tell(handle.world.time());
+  if (responding.hops()) warn_of_hops(handle);
   const py::object table = table_of(handle.undelivered);
   handle.undelivered = {};
   return table;

@@ -63,6 +63,8 @@ class Bouncing {
  public:
   Bouncing(const py::object& masses, double restitution, double resting_speed);
   Response answer(const Event& event) const;
+  /// True if bodies lose speed in contacts, but not in repeated ones, so that stacks never come to rest.
+  bool hops() const { return restitution_ < 1.0 && resting_speed_ == 0.0; }
   /// Returns the arguments of the constructor.
   py::tuple arguments() const;
 

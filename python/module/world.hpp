@@ -33,6 +33,7 @@ struct WorldHandle {
   /// Set while there is a pair filter.
   std::shared_ptr<FilterTrouble> filter_trouble{};
   bool has_rotation_probe = false;
+  bool warned_of_hops = false;
 
   /// For other threads: a time that the world has reached. The thread that uses the world sets it, and each
   /// thread reads it, under the GIL.

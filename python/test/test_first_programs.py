@@ -2,6 +2,7 @@
 
 import inspect
 import textwrap
+import warnings
 from typing import Any
 
 import numpy as np
@@ -108,3 +109,21 @@ def test_a_motion_of_ones_own_is_asked_once_for_each_instant() -> None:
     }
     alone = [t for t, bodies in calls.items() if bodies == [pairs[t]]]
     assert len(alone) > 0.95 * len(calls)
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.5])
+def test_a_stack_that_hops_for_ever_warns_and_names_what_lets_it_settle(restitution: float) -> None:
+    def run(**resting: float) -> float:
+        motion = ks.Ballistic([(5, 5, 1.2 + 2.2 * k) for k in range(3)], gravity=(0, 0, -10))
+        world = ks.World(box=((0, 0, 0), (10, 10, 30)))
+        world.add_motion(motion, radii=1.0)
+        for step in range(1, 21):  # as a game has it
+            world.run(0.5 * step, motion, ks.Bouncing(restitution=restitution, **resting))
+        return float((np.asarray(motion.states(world.time)[1]) ** 2).sum())
+
+    with pytest.warns(RuntimeWarning, match="contacts followed another one at once.*resting_speed") as told:
+        run()
+    assert len(told) == 1
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert run(resting_speed=0.1) < 0.1

@@ -99,6 +99,20 @@ def test_wrong_bodies_and_times_of_a_motion_are_named() -> None:
         ks.RandomForces(positions, acceleration_limits=-1.0)
 
 
+def test_a_map_adds_bodies_with_masses_and_contacts() -> None:
+    motion = ks.Ballistic([(0, 0, 0), (5, 0, 0)], [(1, 0, 0), (0, 0, 0)])
+    world, bodies = ks.World(), ks.BodyMap()
+    bodies.add(world, motion, 0, mass=2.0, contacts="impacts")
+    bodies.add(world, motion, 1, mass=3.0, contacts="impacts")
+    (hit,) = world.run(9.0, bodies)  # and no contact_end
+    assert (hit.first_mass, hit.second_mass) == (2.0, 3.0)
+    world, bodies = ks.World(), ks.BodyMap()
+    bodies.add_all(world, motion, mass=4.0)
+    assert [event.first_mass for event in world.run(9.0, bodies)] == [4.0, 4.0]
+    with pytest.raises(ks.InvalidValue, match="add_all: contacts must be"):
+        bodies.add_all(world, motion, contacts="some")  # type: ignore[arg-type]
+
+
 def test_a_map_has_several_motions() -> None:
     targets = ks.SteeredMotion([(30, 0, 0), (60, 0, 0)])
     bullets = ks.Ballistic([])

@@ -146,10 +146,7 @@ bool ContactGraph::is_jammed(const Event& current) const {
 
 void ContactGraph::note_contact(Event& begin) {
   std::array<std::uint32_t, 2> buffer{};
-  const auto [repeated, jammed] =
-      rate_.note(counting(begin, buffer), begin.time, [&](double since, double interval) {
-        return rule_.is_repeated(since, interval, begin.approach_speed);
-      });
+  const auto [repeated, jammed] = rate_.note(counting(begin, buffer), begin.time);
   begin.repeated = repeated;
   begin.jammed = jammed;
 }

@@ -24,15 +24,16 @@ void ContactRate::set_zeno_interval(std::uint32_t body, double zeno_interval) {
   bodies_[body].zeno_interval = TruncatedDouble(zeno_interval);
 }
 
-bool ContactRate::are_many_now(std::span<const std::uint32_t> bodies, double time) const {
-  return contacts_now(bodies, time) >= many_at_one_instant;
-}
-
-void ContactRate::count(std::uint32_t body, double time) {
-  Body& one = bodies_[body];
-  if (one.last_contact != time) one.contacts_then = 0;
-  if (one.contacts_then < most_at_one_instant) ++one.contacts_then;
-  one.last_contact = time;
+ContactRate::Marks ContactRate::note(std::span<const std::uint32_t> bodies, double time) {
+  Marks marks{false, contacts_now(bodies, time) >= many_at_one_instant};
+  for (const std::uint32_t body : bodies) {
+    Body& one = bodies_[body];
+    marks.repeated = marks.repeated || time - one.last_contact < one.zeno_interval.value();
+    if (one.last_contact != time) one.contacts_then = 0;
+    if (one.contacts_then < most_at_one_instant) ++one.contacts_then;
+    one.last_contact = time;
+  }
+  return marks;
 }
 
 bool ContactRate::is_jammed(std::span<const std::uint32_t> bodies, double time) const {

@@ -56,19 +56,8 @@ class ContactRate {
   const Body& of(std::uint32_t body) const { return bodies_[body]; }
   void restore(std::uint32_t body, const Body& checkpoint) { bodies_[body] = checkpoint; }
 
-  /// Counts a contact that begins between these bodies, and returns its marks. It is repeated if
-  /// `is_repeated(since, interval)` is true for one of the bodies: the time since its previous contact, and its
-  /// interval.
-  template <class IsRepeated>
-  Marks note(std::span<const std::uint32_t> bodies, double time, const IsRepeated& is_repeated) {
-    Marks marks{false, are_many_now(bodies, time)};
-    for (const std::uint32_t body : bodies) {
-      const Body& one = bodies_[body];
-      marks.repeated = marks.repeated || is_repeated(time - one.last_contact, one.zeno_interval.value());
-      count(body, time);
-    }
-    return marks;
-  }
+  /// Counts a contact that begins between these bodies, and returns its marks.
+  Marks note(std::span<const std::uint32_t> bodies, double time);
   /// True if each of these bodies has reached the limit of contacts at `time`, so that the caller's responses
   /// will not separate them.
   bool is_jammed(std::span<const std::uint32_t> bodies, double time) const;
@@ -79,8 +68,6 @@ class ContactRate {
 
  private:
   std::uint32_t contacts_now(std::span<const std::uint32_t> bodies, double time) const;
-  bool are_many_now(std::span<const std::uint32_t> bodies, double time) const;
-  void count(std::uint32_t body, double time);
 
   std::vector<Body> bodies_;
 };

@@ -75,14 +75,6 @@ class ContactRule {
   /// at most 3/2 of it to the guarded gap. A hop from there and back takes twice that time, sqrt(12 tolerance
   /// / acceleration). The interval is at least that long, so all contacts of such a body count as repeated.
   double zeno_interval(double acceleration) const;
-  /// True for a contact that is repeated: it follows another one of a body after the time `since`, within
-  /// the body's zeno_interval(), and approaches slowly. Hops within the tolerance are slower than 4
-  /// sqrt(tolerance acceleration); a faster approach comes from elsewhere, as that of a stack that falls upon
-  /// a resting body, and loses energy. Within the interval that the caller has set, every contact counts.
-  bool is_repeated(double since, double interval, double approach_speed) const {
-    if (!(since < interval)) return false;
-    return since < zeno_interval_ || approach_speed * interval <= 16.0 * tolerance_;
-  }
 
  private:
   double tolerance_;

@@ -1,7 +1,7 @@
 #include "engine/pace.hpp"
 
-#include <algorithm>
 #include <array>
+#include <cstdio>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -40,18 +40,26 @@ PromisedWay longest_way(const Bodies& bodies, double step) {
   return longest;
 }
 
+/// Returns the number with few digits, which suffice to see what is wrong.
+std::string about(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", number);
+  return text;
+}
+
 }  // namespace
 
 Result<void> Pace::check(const Bodies& bodies, double time, double until) {
   const double step = (time - begin_) / block;
   restart(time);
-  if (until - time <= most_instants * step) return {};
+  const double share = 1.0 + static_cast<double>(bodies.table().live_count()) / 1024.0;
+  if (until - time <= most_instants * share * step) return {};
   const PromisedWay longest = longest_way(bodies, step);
   return Error{ErrorCode::out_of_range, std::string(longest.argument), longest.body,
                "advance: " + std::string(longest.argument) + " of " + text_of(longest.body) +
-                   " must let time reach " + text_of(until) + ", but is " + text_of(longest.promised) +
-                   ": with a contact tolerance of " + text_of(bodies.definition().contact_tolerance) +
-                   ", time goes on in steps of " + text_of(step)};
+                   " must let time reach " + about(until) + ", but is " + about(longest.promised) +
+                   ", for which it goes on in steps of " + about(step) + " (at a contact tolerance of " +
+                   about(bodies.definition().contact_tolerance) + ")"};
 }
 
 }  // namespace kinesphere

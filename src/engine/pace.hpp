@@ -8,9 +8,8 @@
 
 namespace kinesphere {
 
-/// Measures how far time goes in each block of instants without an event. Bodies are probed at least once in
-/// each of their windows, which are the shorter the larger their limits are: a limit of 1e30 in place of "any"
-/// makes windows of 1e-17.
+/// Measures how far time goes in each block of instants without an event. Windows of bodies are the shorter
+/// the larger their limits are: a limit of 1e30 in place of "any" makes windows of 1e-12 to 1e-17.
 class Pace {
  public:
   void restart(double time) {
@@ -18,15 +17,16 @@ class Pace {
     instants_ = 0;
   }
   /// Counts an instant. Returns an error that names the body with the shortest windows if, at the pace of the
-  /// last block, `until` is more instants away than a double can count.
+  /// last block, `until` is more instants away than a processor can work off in a day.
   Result<void> note_instant(const Bodies& bodies, double time, double until) {
     return ++instants_ < block ? Result<void>() : check(bodies, time, until);
   }
 
  private:
-  /// Large enough that a crowded moment is no pace; a second or two even where each instant calls a slow probe.
+  /// A crowded moment has fewer instants. They take a second, or some if each calls a slow probe.
   static constexpr std::uint32_t block = 1u << 20;
-  static constexpr double most_instants = 0x1p53;
+  /// Half a microsecond each for 38 hours. So many for each 1024 bodies: a large crowd has more of them.
+  static constexpr double most_instants = 0x1p38;
 
   [[gnu::cold]] Result<void> check(const Bodies& bodies, double time, double until);
 

@@ -22,7 +22,10 @@ constexpr std::array<ReasonText, 7> reason_texts{{
      "Its acceleration limit is over 4 times the largest acceleration that its reports showed. Lower the "
      "limit, and declare what is known, such as gravity, as planned acceleration."},
     {"contacts",
-     "Its contacts begin often, and each needs probes. There is nothing to gain but fewer contacts."},
+     "Its contacts begin often, and each needs probes. Bodies that hop upon each other come to rest by "
+     "settle() "
+     "in place of bounce(), with a larger resting speed sooner; otherwise there is nothing to gain but fewer "
+     "contacts."},
     {"travel",
      "It moves through space, and reports keep its bound narrow. A lower acceleration limit or velocity "
      "error makes them rarer."},

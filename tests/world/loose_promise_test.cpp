@@ -32,8 +32,8 @@ TEST(LoosePromise, IsNamedAndTimeGoesOnWithATighterOne) {
   for (const double limit : {1e30, 1e90}) {
     Row row({.acceleration_limit = limit}, 40, -1.0);
     const auto stuck = row.world.advance(9.0, &Row::probe);
-    expect_error(stuck, ErrorCode::out_of_range, "acceleration_limit", "advance: acceleration_limit of body 40",
-                 row.body);
+    expect_error(stuck, ErrorCode::out_of_range, "acceleration_limit",
+                 "advance: acceleration_limit of body 40", row.body);
     EXPECT_NE(stuck.error().message.find(limit == 1e30 ? "is 1e+30" : "is 1e+90"), std::string::npos)
         << stuck.error().message;
     EXPECT_LT(row.world.time(), -0.9);
@@ -47,8 +47,8 @@ TEST(LoosePromise, IsNamedInARunToo) {
   Row alone({.acceleration_limit = 1e30}, 0);
   const auto still = [](std::span<const BodyId>, double, std::span<State> states) { states[0] = {}; };
   const auto sink = [](const Event&) {};
-  expect_error(alone.world.run(1.0, still, sink), ErrorCode::out_of_range, "acceleration_limit", "run: ",
-               alone.body);
+  expect_error(alone.world.run(1.0, still, sink), ErrorCode::out_of_range, "acceleration_limit",
+               "run: ", alone.body);
   Workers workers = eager_workers(2).value();
   Row row({.acceleration_limit = 1e30});
   expect_error(row.world.run(1.0, &Row::probe, sink, &workers), ErrorCode::out_of_range, "acceleration_limit",
@@ -57,8 +57,8 @@ TEST(LoosePromise, IsNamedInARunToo) {
 
 TEST(LoosePromise, NamesWhatIsLoose) {
   Row errors({.velocity_error = 1e20});
-  expect_error(errors.world.advance(1.0, &Row::probe), ErrorCode::out_of_range, "velocity_error", "advance: ",
-               errors.body);
+  expect_error(errors.world.advance(1.0, &Row::probe), ErrorCode::out_of_range, "velocity_error",
+               "advance: ", errors.body);
 }
 
 TEST(LoosePromise, IsNoneIfTheEndIsWithinReach) {

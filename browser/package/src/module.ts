@@ -41,7 +41,11 @@ interface Callbacks {
 export class Scratch {
   private readonly taken: number[] = [];
   constructor(private readonly module: Module) {}
+  /** A typed array would take null, as the second body of a wall event is, for 0. */
   numbers(values: ArrayLike<number>): number {
+    if (Array.isArray(values))
+      for (const value of values)
+        if (typeof value !== "number") throw new TypeError(`kinesphere: arrays must hold numbers, but one holds ${value}`);
     const address = this.take(8 * values.length);
     this.module.numbersAt(address, values.length).set(values);
     return address;
@@ -66,6 +70,12 @@ export class Scratch {
   release(): void {
     for (const address of this.taken) this.module.call("release", address);
   }
+}
+
+/** Returns the name of the call that uses this export: setVelocity for world_set_velocity. */
+function callOf(name: string): string {
+  const [, ...words] = name.split("_");
+  return words.map((word, k) => (k === 0 ? word : word[0]!.toUpperCase() + word.slice(1))).join("");
 }
 
 export class Module {
@@ -110,7 +120,10 @@ export class Module {
     this.exports["_initialize"]!();
   }
 
+  /** The module would take null, as the second body of a wall event is, for body 0. */
   call(name: string, ...values: number[]): number {
+    for (const value of values)
+      if (typeof value !== "number") throw new TypeError(`${callOf(name)}: ids and times must be numbers, but one is ${value}`);
     return this.exports[name]!(...values);
   }
 

@@ -366,6 +366,7 @@ const existing = Symbol("existing");
 
 export class World extends WorldView {
   #rotationProbe: RotationProbeFunction | null = null;
+  #warnedOfHops = false;
 
   /** Throws KinesphereError for an invalid definition. */
   constructor(definition?: WorldDefinition);
@@ -662,6 +663,7 @@ export class World extends WorldView {
       const events = new Events(module.answer());
       sink?.(events);
       if (failure !== null) throw failure.value;
+      if ((bounces.restitution ?? 1) < 1 && !bounces.restingSpeed) this.warnOfHops();
       return events;
     });
   }
@@ -686,6 +688,16 @@ export class World extends WorldView {
     return module.bytes();
   }
 
+  /** Warns once of a world nearly all of whose contacts were repeated, of bodies that hop upon each other. */
+  private warnOfHops(): void {
+    if (this.#warnedOfHops) return;
+    const { events, repeatedContacts } = this.counters;
+    const contacts = events.contact_begin + events.wall_begin;
+    if (repeatedContacts < 10000 || 10 * repeatedContacts < 9 * contacts) return;
+    this.#warnedOfHops = true;
+    console.warn(`run: ${repeatedContacts} of ${contacts} contacts followed another one at once, as those of bodies that ` +
+                 "lie upon each other, and took no energy: respond: { restitution, restingSpeed } lets stacks settle");
+  }
   private change(name: string, body: BodyId, numbers?: number[]): void {
     const module = theModule();
     module.with((scratch: Scratch) =>
