@@ -47,7 +47,9 @@ PyObject* call_and_explain(PyObject* self, PyObject* args, PyObject* kwargs) {
   PyObject* const result = pybind_dispatcher(self, args, kwargs);
   if (result != nullptr || PyErr_ExceptionMatches(PyExc_TypeError) == 0) return result;
   try {
-    explain_wrong_call(*py::reinterpret_borrow<py::capsule>(self).get_pointer<Record>(), args, kwargs);
+    // py::capsule would take the error that is set for one of its own.
+    explain_wrong_call(*static_cast<const Record*>(PyCapsule_GetPointer(self, PyCapsule_GetName(self))), args,
+                       kwargs);
   } catch (py::error_already_set& failed) {
     failed.restore();
   }

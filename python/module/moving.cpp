@@ -157,7 +157,7 @@ Response answer_of(const py::object& returned, bool plane) {
   const bool is_sequence = PyTuple_Check(returned.ptr()) != 0 || PyList_Check(returned.ptr()) != 0;
   const Py_ssize_t size = is_sequence ? PySequence_Fast_GET_SIZE(returned.ptr()) : 0;
   Response response;
-  response.stop = size == 3 && py::str("stop").equal(PySequence_Fast_ITEMS(returned.ptr())[2]);
+  response.stop = size == 3 && py::str("stop").equal(py::handle(PySequence_Fast_ITEMS(returned.ptr())[2]));
   if (size != 2 && !response.stop)
     refuse({"run", "respond"},
            "must return None, (first velocity, second velocity) or (first velocity, second velocity, 'stop')",
