@@ -48,7 +48,8 @@ def _expected(kind: str, value: object) -> Optional[str]:
     if kind in ("bool", "str"):
         fits = any(base.__name__ in (kind, kind + "_") for base in type(value).__mro__)
         return None if fits else f"must be {'True or False' if kind == 'bool' else 'a text'}"
-    return None if any(base.__name__ == kind for base in type(value).__mro__) else f"must be a {kind}"
+    article = "an" if kind[0] in "AEIO" else "a"
+    return None if any(base.__name__ == kind for base in type(value).__mro__) else f"must be {article} {kind}"
 
 
 def _in_one(call: str, overload: Overload, args: Sequence[object], kwargs: dict[str, Any]) -> Optional[str]:

@@ -76,7 +76,9 @@ def test_a_response_removes_disables_and_puts_to_sleep(threads: int) -> None:
 Answer = tuple[str, str, str] | None
 
 
-def shooting() -> tuple[ks.World, ks.Ballistic, ks.BodyMap, Callable[[ks.Event], Answer], Callable[[ks.Event], None]]:
+def shooting() -> (
+    tuple[ks.World, ks.Ballistic, ks.BodyMap, Callable[[ks.Event], Answer], Callable[[ks.Event], None]]
+):
     """A bullet flies at a rock, and both burst into fragments; the world, the motion, the map, and what is done."""
     motion = ks.Ballistic([(0, 0, 0), (5, 0, 0), (0, 20, 0)], [(10, 0, 0), (0, 0, 0), (1, 0, 0)])
     world, bodies = ks.World(), ks.BodyMap()

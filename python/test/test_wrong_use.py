@@ -203,7 +203,11 @@ def test_a_probe_may_return_views_lists_float32_and_read_only_arrays() -> None:
 
 
 respond_answers: list[tuple[Any, type[Exception], str]] = [
-    (5, ks.InvalidValue, r"respond must return None, \(first velocity, second velocity\) or .*, but returned 5"),
+    (
+        5,
+        ks.InvalidValue,
+        r"respond must return None, \(first velocity, second velocity\) or .*, but returned 5",
+    ),
     (((1, 2), None), ks.InvalidValue, r"first_velocity must have shape \(3,\)"),
     (((nan, 0, 0), None), ks.InvalidValue, "first_velocity"),
     (
