@@ -282,7 +282,7 @@ test("wrong answers are refused, and what atStop throws comes out", () => {
   const flights = new Ballistic({ positions: [0, 0, 0, 5, 0, 0], velocities: [1, 0, 0, 0, 0, 0] });
   const pair = new World();
   const pairs = new BodyMap();
-  pairs.addAll(pair, flights, { radius: 0.5 });
+  pairs.addAll(pair, flights, 0.5);
   const both = () => ({ firstAction: "remove", secondAction: "remove", stop: true });
   assert.throws(() => pair.run(100, { motion: pairs, respond: both, atStop }), /no fragments/);
   assert.ok(pair.time === stopped && stopped < 5 && flights.size === 2);

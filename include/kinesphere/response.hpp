@@ -29,9 +29,9 @@ struct Bounce {
 
 /// Returns the velocities after a frictionless bounce with restitution in [0, 1], and with the masses of the
 /// event (BodyDefinition::mass). Momentum is conserved, and of rigid bodies also the angular momentum; with
-/// restitution 1, energy is. A static body, a sleeping one and a wall keep
-/// their velocity and turn the other body, whatever its mass. A body of infinite mass keeps its velocity in
-/// all other contacts, so two of them do not turn each other. A `repeated` contact loses no energy
+/// restitution 1, energy is. Bodies that do not approach, as where a contact ends, keep their velocities. A
+/// static body, a sleeping one and a wall keep their velocity and turn the other body, whatever its mass. A
+/// body of infinite mass keeps its velocity in all other contacts, so two of them do not turn each other. A `repeated` contact loses no energy
 /// (restitution 1), which prevents inelastic collapse from stopping time (Luding and McNamara's TC model). In
 /// a stack under gravity nearly all contacts are repeated, since the lowest body hops upon the ground all the
 /// time: such bodies do not come to rest, and their contacts grow more frequent. settle() brings them to

@@ -67,7 +67,7 @@ struct RigidPart {
 };
 
 /// Returns all that is within `radius` of the convex hull of some points, at least one. Three points make a
-/// plate.
+/// plate. Of no point it makes NaN, which World::add_rigid_body() refuses.
 RigidPart hull_part(std::span<const Vec3> points, double radius);
 /// Returns all that is within `radius` of a box. A box without height, lower.z == upper.z, is a rectangle, as
 /// worlds of two dimensions need it.

@@ -289,7 +289,7 @@ def test_calls_that_fit_no_function_name_the_argument() -> None:
         (lambda: frames.push(positons=[(0, 0, 0)]), "push: there is no argument positons; the nearest is positions"),  # type: ignore[call-overload]
         (lambda: w.run(1.0), "run: motion is missing"),  # type: ignore[call-arg]
         (lambda: w.run(1.0, motion, until=2.0), "run: until is given twice"),  # type: ignore[misc]
-        (lambda: w.run(1.0, motion, None, 2), "run: takes at most 3 arguments without a name, but has 4; .*threads.* need theirs"),  # type: ignore[misc]
+        (lambda: w.run(1.0, motion, None, 2), "run: takes at most 3 arguments without a name, but has 4; .*threads.* need theirs"),  # type: ignore[misc, arg-type]
         (lambda: w.run(motion, 1.0), "run: until must be a number, but is <"),  # type: ignore[arg-type]
         (lambda: ks.Ball(1.0, (0, 0, 0)), r"Ball: radius must be a number, but is \(0, 0, 0\)"),  # type: ignore[arg-type]
         (lambda: w.add_motion(w), "add_motion: motion must be a Motion, but is <"),  # type: ignore[arg-type]

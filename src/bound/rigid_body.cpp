@@ -2,6 +2,7 @@
 #include "kinesphere/rigid_body.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "bound/rigid_record.hpp"
 
@@ -44,7 +45,9 @@ Vec3 rotated_back(const Quaternion& rotation, const Vec3& vector) {
 }
 
 RigidPart hull_part(std::span<const Vec3> points, double radius) {
-  RigidPart part{points.front(), points[points.size() > 1 ? 1 : 0], radius};
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const Vec3 first = points.empty() ? Vec3{nan, nan, nan} : points.front();
+  RigidPart part{first, points.size() > 1 ? points[1] : first, radius};
   if (points.size() > 2) part.more.assign(points.begin() + 2, points.end());
   return part;
 }

@@ -22,9 +22,10 @@ double share(double own, double other) {
 bool stays(const BodyTraits& traits) { return traits.is_static || traits.is_sleeping; }
 
 /// Returns the change of relative normal speed: the approach speed plus the rebound speed, which is
-/// `restitution` times the approach speed, or zero if the contact is jammed.
+/// `restitution` times the approach speed, or zero if the contact is jammed. Bodies that do not approach, as
+/// where a contact ends, are not turned.
 double both_speeds(const Event& contact, double restitution) {
-  return (1.0 + (contact.jammed ? 0.0 : restitution)) * contact.approach_speed;
+  return (1.0 + (contact.jammed ? 0.0 : restitution)) * std::max(contact.approach_speed, 0.0);
 }
 
 /// Returns a mass that one can divide by: 0 counts as a mass so small that its share is that of its limit.

@@ -177,5 +177,16 @@ TEST(Settle, LeastRestingSpeedFitsTheTolerance) {
   EXPECT_EQ(least_resting_speed(1e-3, 0.0), 0.0);
 }
 
+/// A response to every event, contact_end included, does not turn bodies back upon each other.
+TEST(Bounce, LeavesBodiesThatDoNotApproachAlone) {
+  for (const double approach : {0.0, -3.0}) {
+    const Event event = head_on(approach, false);
+    for (const Bounce& after : {bounce(event, 0.5), bounce(event, 1.0, 2.0, 1.0), settle(event, 0.5, 0.1)}) {
+      EXPECT_EQ(after.first_velocity, event.first_state.velocity);
+      EXPECT_EQ(after.second_velocity, event.second_state.velocity);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kinesphere::response_test

@@ -155,6 +155,9 @@ TEST(HullErrors, NameTheCulprit) {
   points.pop_back();
   body.parts = {hull_part(points, 0.0)};
   EXPECT_TRUE(world.add_rigid_body(body));
+  body.parts = {hull_part({}, 0.0)};
+  expect_error(world.add_rigid_body(body), ErrorCode::not_finite, "parts", "add_rigid_body");
+  body.parts = {hull_part(points, 0.0)};
   body.parts[0].more[7].y = std::nan("");
   expect_error(world.add_rigid_body(body), ErrorCode::not_finite, "parts", "add_rigid_body");
   const World copy = World::restore(world.save().value()).value();

@@ -41,11 +41,11 @@ interface Callbacks {
 export class Scratch {
   private readonly taken: number[] = [];
   constructor(private readonly module: Module) {}
-  /** A typed array would take null, as the second body of a wall event is, for 0. */
+  /** A typed array would take null, as the second body of a wall event is, for 0; undefined becomes NaN. */
   numbers(values: ArrayLike<number>): number {
     if (Array.isArray(values))
       for (const value of values)
-        if (typeof value !== "number") throw new TypeError(`kinesphere: arrays must hold numbers, but one holds ${value}`);
+        if (!isNumeric(value)) throw new TypeError(`kinesphere: arrays must hold numbers, but one holds ${value}`);
     const address = this.take(8 * values.length);
     this.module.numbersAt(address, values.length).set(values);
     return address;
@@ -76,6 +76,11 @@ export class Scratch {
 function callOf(name: string): string {
   const [, ...words] = name.split("_");
   return words.map((word, k) => (k === 0 ? word : word[0]!.toUpperCase() + word.slice(1))).join("");
+}
+
+/** Returns true for what the library can judge: a number, or undefined, which is NaN for it. */
+function isNumeric(value: unknown): boolean {
+  return typeof value === "number" || value === undefined;
 }
 
 export class Module {
@@ -120,10 +125,10 @@ export class Module {
     this.exports["_initialize"]!();
   }
 
-  /** The module would take null, as the second body of a wall event is, for body 0. */
+  /** The module would take null, as the second body of a wall event is, for body 0; undefined becomes NaN. */
   call(name: string, ...values: number[]): number {
     for (const value of values)
-      if (typeof value !== "number") throw new TypeError(`${callOf(name)}: ids and times must be numbers, but one is ${value}`);
+      if (!isNumeric(value)) throw new TypeError(`${callOf(name)}: ids and times must be numbers, but one is ${value}`);
     return this.exports[name]!(...values);
   }
 
