@@ -358,9 +358,9 @@ class World {
   /// Advances to time `until` and calls `sink` for each event, without responses: the state of every body
   /// comes from `probe`. Errors and interruptions: as the run() above.
   Result<void> run(double until, const Probe& probe, const EventFn& sink, Workers* workers = nullptr);
-  /// For the sink of run(): makes run() return without an error as soon as the sink does, also before `until`.
-  /// Then all is as if the sink had thrown ("Interruptions"): at an event whose response has Response::stop
-  /// the world stands at that event. No effect outside the sink.
+  /// For the sink of run(): makes run() return without an error as soon as the sink does, also before
+  /// `until`. Then all is as if the sink had thrown ("Interruptions"): at an event whose response has
+  /// Response::stop the world stands at that event. No effect outside the sink.
   void end_run();
 
   /// Return the current time, the number of bodies that have not been removed, and the definition.
