@@ -50,6 +50,7 @@ namespace Kinesphere
     {
         static readonly Native.Probe motions = Native.ks_probe_motions;
         ulong handle;
+        bool disposed;
         // The library keeps a pointer to the function, also in clones of this world.
         Native.RotationProbe rotations;
         Caught turning = new Caught();
@@ -57,10 +58,12 @@ namespace Kinesphere
         public World(WorldDefinition definition) { Native.Check(Native.ks_world_create(ref definition, out handle)); }
         internal World(ulong handle) { this.handle = handle; }
         ~World() { Native.ks_world_destroy(handle); }
-        /// <summary>Destroys the world; each later call throws.</summary>
+        /// <summary>Destroys the world; each later call but Dispose throws.</summary>
         public void Dispose()
         {
+            if (disposed) return;
             Native.Check(Native.ks_world_destroy(handle));
+            disposed = true;
             GC.SuppressFinalize(this);
         }
 
@@ -466,6 +469,7 @@ namespace Kinesphere
     public sealed class Replay : IDisposable
     {
         readonly ulong handle;
+        bool disposed;
 
         public Replay(byte[] recording)
         {
@@ -474,7 +478,9 @@ namespace Kinesphere
         ~Replay() { Native.ks_replay_destroy(handle); }
         public void Dispose()
         {
+            if (disposed) return;
             Native.Check(Native.ks_replay_destroy(handle));
+            disposed = true;
             GC.SuppressFinalize(this);
         }
         /// <summary>Repeats everything up to the end of the next recorded advance, or of the recording, and returns what
@@ -608,13 +614,16 @@ namespace Kinesphere
     public sealed class Monitor : IDisposable
     {
         readonly ulong handle;
+        bool disposed;
 
         public Monitor(MonitorDefinition definition) { handle = definition.Create(); }
         ~Monitor() { Native.ks_monitor_destroy(handle); }
-        /// <summary>Destroys the monitor; each later call throws.</summary>
+        /// <summary>Destroys the monitor; each later call but Dispose throws.</summary>
         public void Dispose()
         {
+            if (disposed) return;
             Native.Check(Native.ks_monitor_destroy(handle));
+            disposed = true;
             GC.SuppressFinalize(this);
         }
 
