@@ -19,6 +19,7 @@ TEST(Bounce, KeepsMomentumAndLosesWhatRestitutionSays) {
     const double m = random.uniform(0.01, 10.0), n = random.uniform(0.01, 10.0);
     const double restitution = k % 3 == 0 ? 1.0 : k % 3 == 1 ? 0.0 : random.uniform();
     const Event event = contact_event(EventKind::contact_begin, 0.0, a, b);
+    if (event.approach_speed <= 0.0) continue;
     const Bounce after = bounce(event, m, n, restitution);
     const Vec3 v = after.first_velocity, w = after.second_velocity;
     const Vec3 momentum = a.state.velocity * m + b.state.velocity * n;
