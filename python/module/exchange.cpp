@@ -338,7 +338,8 @@ BodyId id_of(py::handle given, const Argument& argument) {
   if (given.is_none()) return no_body;
   BodyId body = no_body;
   const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(given.ptr()));
-  if (!index) {
+  // A list of truth values is a mask, and no ids 0 and 1.
+  if (!index || PyBool_Check(given.ptr())) {
     PyErr_Clear();
     throw py::type_error(std::string(argument.call) + ": " + std::string(argument.name) +
                          " must be the id of a body, but is " + text_of(py::repr(given)));
