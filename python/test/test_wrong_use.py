@@ -238,7 +238,7 @@ def test_wrong_kinds_of_things_are_named() -> None:
         (lambda: things.w.remove("all"), TypeError, "remove: bodies must be"),  # type: ignore[arg-type]
         (lambda: things.w.remove(1.0), TypeError, "remove: bodies must be"),  # type: ignore[arg-type]
         (lambda: things.w.remove(np.array([0.0])), TypeError, "whole numbers"),
-        (lambda: things.w.remove(np.array([True, False])), TypeError, "whole numbers"),  # type: ignore[arg-type]
+        (lambda: things.w.remove(np.array([True, False])), TypeError, "whole numbers"),
         (lambda: things.w.remove([True, False]), TypeError, "bodies must be the id of a body, but is True"),
         (lambda: things.w.body(True), TypeError, "must be the id of a body, but is True"),
         (lambda: things.w.remove(np.zeros((2, 2), dtype=int)), ks.InvalidValue, r"shape \(n,\)"),
