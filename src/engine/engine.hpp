@@ -31,6 +31,11 @@ class World::Engine {
   Engine(const Engine& other);
 
   // Time.
+  /// Begins a call that advances to `until`, with any number of calls of the functions below. Without it, no
+  /// call fails because its end is out of reach.
+  void begin_call(double until) { main_.begin_call(until); }
+  /// Notes that the call has delivered an event.
+  void note_delivery() { main_.restart_pace(); }
   Result<std::optional<Event>> advance(double until, const Probe& probe, PoolLease& lease);
   /// Does what is due before a batch (speculative_runner.hpp): starts the windows that end now, and
   /// recertifies changed bodies. Returns false if no batch can begin now; the caller then uses advance().

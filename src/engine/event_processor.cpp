@@ -20,7 +20,7 @@ Result<void> EventProcessor::gather(double until) {
     if (next > time_) {
       if (next > until || next >= pause() || !events_.is_quiet()) break;
       advance_clock(next);
-      if (auto noted = note_instant(until); !noted) return noted;
+      if (auto noted = note_instant(); !noted) return noted;
     }
     const PairCertificate pair = queue_.take_first();
     if (certifier().is_stale(pair)) continue;

@@ -45,7 +45,7 @@ namespace kinesphere {
 
 class alignas(128) EventProcessor {
  public:
-  EventProcessor(WorldState& state, double time) : state_(&state), time_(time) { pace_.restart(time); }
+  EventProcessor(WorldState& state, double time) : state_(&state), time_(time) {}
   /// Copies a processor, to work on `state`, a copy of the other's world state.
   EventProcessor(EventProcessor other, WorldState& state) : EventProcessor(std::move(other)) {
     state_ = &state;
@@ -87,10 +87,11 @@ class alignas(128) EventProcessor {
     advance_clock(std::max(time, time_));
     gathering_ = true;
   }
-  /// Begins to measure how far time goes without an event.
+  /// Measures how far time goes in a call that advances to `until`, or from an event on.
+  void begin_call(double until) { pace_.begin_call(time_, until); }
   void restart_pace() { pace_.restart(time_); }
-  /// Counts an instant. Errors: out_of_range if time will practically never reach `until`.
-  Result<void> note_instant(double until) { return pace_.note_instant(bodies(), time_, until); }
+  /// Counts an instant. Errors: out_of_range if time will practically never reach the end of the call.
+  Result<void> note_instant() { return pace_.note_instant(bodies(), time_); }
   /// Rechecks all certificates that are due, so that every event of this instant is known before the first is
   /// delivered. While no event is known, continues with the next instants, up to `until` and before the epoch
   /// ends. Errors: those of probe() and note_instant().

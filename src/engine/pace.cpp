@@ -49,16 +49,17 @@ std::string about(double number) {
 
 }  // namespace
 
-Result<void> Pace::check(const Bodies& bodies, double time, double until) {
+Result<void> Pace::check(const Bodies& bodies, double time) {
   const double step = (time - begin_) / block;
   restart(time);
   const double share = 1.0 + static_cast<double>(bodies.table().live_count()) / 1024.0;
-  if (until - time <= most_instants * share * step) return {};
+  const double left = until_ - time;
+  if (left > longest_call || left <= most_instants * share * step) return {};
   // Where time stands still, any step tells which acceleration is the largest.
   const PromisedWay longest = longest_way(bodies, step > 0.0 ? step : 0x1p-300);
   return Error{ErrorCode::out_of_range, std::string(longest.argument), longest.body,
                "advance: " + std::string(longest.argument) + " of " + text_of(longest.body) +
-                   " must let time reach " + about(until) + ", but is " + about(longest.promised) +
+                   " must let time reach " + about(until_) + ", but is " + about(longest.promised) +
                    ", for which it goes on in steps of " + about(step) + " (at a contact tolerance of " +
                    about(bodies.definition().contact_tolerance) + ")"};
 }

@@ -258,6 +258,7 @@ Result<std::optional<Event>> World::advance(double until, Probe probe) {
   if (valid) valid = check_time(until, engine_->time());
   if (!valid) return valid.error();
   if (undelivered_ && !undelivered_->empty()) return undelivered_->take();
+  changeable().begin_call(until);
   return engine_advance(until, probe);
 }
 

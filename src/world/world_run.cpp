@@ -79,6 +79,7 @@ Result<void> World::Run::go() {
   world_.running_ = true;
   const ScopeGuard stop([&] { world_.running_ = false; });
   if (!deliver()) return {};
+  world_.changeable().begin_call(until_);
   gain_ = lease_.gain();
   for (;;) {
     const auto done = work();
@@ -98,6 +99,7 @@ bool World::Run::deliver() {
   while (!undelivered.events.empty() && !undelivered.ended) {
     const Event event = undelivered.events.front();
     undelivered.events.pop_front();
+    world_.changeable().note_delivery();
     world_.open_ = std::exchange(stops_, false);
     undelivered.delivering = true;
     const ScopeGuard close([&] { world_.open_ = undelivered.delivering = false; });

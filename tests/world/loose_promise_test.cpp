@@ -1,6 +1,8 @@
 // Promises so loose that time would practically never reach the end of a call: an error names the body.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -63,6 +65,15 @@ TEST(LoosePromise, IsNoneIfTheEndIsWithinReach) {
   Row atoms({.acceleration_limit = 1e16}, 2);
   EXPECT_TRUE(atoms.world.advance(1e-9, atoms.probe()));
   EXPECT_EQ(atoms.world.time(), 1e-9);
+  // A call with no end in mind.
+  Row patient({.acceleration_limit = 1e16}, 0);
+  int asked = 0;
+  constexpr int most_asked = 3'000'000;
+  const auto until_tired = [&](std::span<const BodyId>, double, std::span<State> states) {
+    if (++asked > most_asked) throw std::runtime_error("enough");
+    std::fill(states.begin(), states.end(), State{});
+  };
+  EXPECT_THROW((void)patient.world.advance(1e12, until_tired), std::runtime_error);
   // Without limits time may go as far as it can.
   Row still({}, 0);
   EXPECT_TRUE(still.world.advance(1e30, still.probe()));
