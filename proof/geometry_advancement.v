@@ -92,6 +92,15 @@ Proof.
   - contradiction.
 Qed.
 
+(* So until the time that is returned a quadratic stays above zero whose coefficients are not below those given. *)
+Lemma time_of_crossing_is_early (from until k l q : double) (k' l' q' : R) :
+  lowered k k' -> lowered l l' -> lowered q q' -> finite from -> finite until \/ until = infinity ->
+  certified (fun d => 0 < quadratic k' l' q' d) from until (time_of_crossing from until k l q).
+Proof.
+  intros Lk Ll Lq F U. generalize (crossing_is_reached _ _ _ _ _ _ Lk Ll Lq). intros R.
+  unfold time_of_crossing. cbv zeta. destruct (less until _) eqn:E; [eapply beyond|eapply ends]; eauto.
+Qed.
+
 (* A wall: no point p of it has n.p above the offset. If the coefficients are not above those of n.c(d) - rho(d) -
    offset - distance, the gap of body and wall is above the distance until the time that is returned. *)
 Theorem certified_time_is_before_the_wall (b : body) (m : motion) (t0 t1 t : R) (p q n : vector) (offset distance : R)
@@ -105,11 +114,7 @@ Theorem certified_time_is_before_the_wall (b : body) (m : motion) (t0 t1 t : R) 
     from until (time_of_crossing from until k l s).
 Proof.
   intros Hn K Ht T now Lk Ll Ls F U.
-  generalize (crossing_is_reached _ _ _ _ _ _ Lk Ll Ls). intros R.
-  assert (certified (fun d => 0 < quadratic (dot n (start now) - size now - offset - distance)
-            (dot n (speed now) - growth_speed now) (dot n (plan now) - growth now) d) from until
-            (time_of_crossing from until k l s)) as W.
-  { unfold time_of_crossing. cbv zeta. destruct (less until _) eqn:E; [eapply beyond|eapply ends]; eauto. }
+  generalize (time_of_crossing_is_early from until _ _ _ _ _ _ Lk Ll Ls F U). intros W.
   assert (forall d, 0 <= d -> 0 < quadratic (dot n (start now) - size now - offset - distance)
             (dot n (speed now) - growth_speed now) (dot n (plan now) - growth now) d ->
             B from + d <= t1 -> distance < dot n (place m (B from + d)) - offset - r b) as G.

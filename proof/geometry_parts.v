@@ -1,25 +1,24 @@
-(* Certificates of bodies that are made of balls and capsules: in a direction, by a witness, and over all pairs of parts.
-   *)
+(* Certificates of bodies that are made of balls, capsules and convex hulls: in a direction, by a witness, and over all pairs
+   of parts. *)
 From Coq Require Import Reals Lra Psatz List Bool.
 From Flocq Require Import Core BinarySingleNaN.
-From Kinesphere Require Import floats rounding first_crossing safe_steps.
-From Kinesphere Require Import geometry_vectors geometry_motion geometry_bounds geometry_certificates geometry_shapes
-  geometry_knowledge geometry_turning.
+From Kinesphere Require Import floats rounding quadratic first_crossing safe_steps.
+From Kinesphere Require Import geometry_vectors geometry_motion geometry_bounds geometry_certificates geometry_advancement
+  geometry_shapes geometry_knowledge geometry_turning geometry_hulls.
 Open Scope R_scope.
 
-(* The axis between two ends: all their means. A part is all that is within its radius of its axis: a capsule, or a ball
-   if the ends are the same. *)
-Definition segment (a b : vector) : shape := fun p => exists k, 0 <= k <= 1 /\ p = mean k a b.
-Record part : Type := Part { end_a : vector; end_b : vector; thickness : R }.
-Definition on_axis (p : part) : shape := segment (end_a p) (end_b p).
-Definition in_part (p : part) : shape := fun point => exists x, on_axis p x /\ in_ball point x (thickness p).
+(* A part is all that is within its radius of the hull of some points, its core: of a point if it is a ball, of an axis if
+   it is a capsule. *)
+Record part : Type := Part { points : list vector; thickness : R }.
+Definition in_core (p : part) : shape := hull (points p).
+Definition in_part (p : part) : shape := fun point => exists x, in_core p x /\ in_ball point x (thickness p).
 
-(* The gap of two bodies, given by their parts, is the least distance of points of two axes less both radii: it is above
+(* The gap of two bodies, given by their parts, is the least distance of points of two cores less both radii: it is above
    a distance, or below it. *)
 Definition gap_above (distance : R) (P Q : list part) : Prop :=
-  forall p q x y, In p P -> In q Q -> on_axis p x -> on_axis q y -> distance < norm (x - y) - thickness p - thickness q.
+  forall p q x y, In p P -> In q Q -> in_core p x -> in_core q y -> distance < norm (x - y) - thickness p - thickness q.
 Definition gap_below (distance : R) (P Q : list part) : Prop :=
-  exists p q x y, In p P /\ In q Q /\ on_axis p x /\ on_axis q y /\ norm (x - y) - thickness p - thickness q < distance.
+  exists p q x y, In p P /\ In q Q /\ in_core p x /\ in_core q y /\ norm (x - y) - thickness p - thickness q < distance.
 
 (* So all points of the two bodies are farther apart. *)
 Theorem points_of_parts_are_as_far_apart_as_the_gap (P Q : list part) (distance : R) (p q : part) (x y : vector) :
@@ -29,108 +28,45 @@ Proof.
   generalize (norm_by_way_of x k l) (norm_by_way_of y x l). rewrite (norm_symmetric k x). lra.
 Qed.
 
-(* The directional certificate. If both ends of an axis are more than D farther along n than both ends of another, any
-   two points of the two axes are more than D apart: they are means of the ends. *)
-Lemma dot_mean n k a b : dot n (mean k a b) = (1 - k) * dot n a + k * dot n b.
-Proof. unfold mean. by_coordinates. Qed.
-Lemma mean_above (k x y m : R) : 0 <= k <= 1 -> m < x -> m < y -> m < (1 - k) * x + k * y.
-Proof.
-  intros [P Q] Lx Ly. destruct (Rle_lt_or_eq_dec _ _ P) as [S| <-]; [|lra].
-  assert (0 < k * (y - m)) by (apply Rmult_lt_0_compat; lra).
-  assert (0 <= (1 - k) * (x - m)) by (apply Rmult_le_pos; lra). lra.
-Qed.
-Theorem axes_are_apart_along_a_direction (n a b a' b' p q : vector) (D : R) :
-  norm n <= 1 ->
-  D < dot n a - dot n a' -> D < dot n a - dot n b' -> D < dot n b - dot n a' -> D < dot n b - dot n b' ->
-  segment a b p -> segment a' b' q -> D < norm (p - q).
-Proof.
-  intros Hn L1 L2 L3 L4 (k & Hk & ->) (l & Hl & ->). generalize (dot_at_most_norm n (mean k a b - mean l a' b') Hn).
-  rewrite dot_minus, !dot_mean.
-  generalize (mean_above k (dot n a - dot n a') (dot n b - dot n a') D Hk L1 L3)
-    (mean_above k (dot n a - dot n b') (dot n b - dot n b') D Hk L2 L4). intros M1 M2.
-  generalize (mean_above l _ _ D Hl M1 M2). lra.
-Qed.
-
-(* The same with a plane: no point k of a shape has n.k above the offset, so that the shape may be a half-space, a box or
-   a triangle. If both ends are more than D beyond the plane, all points of the axis are, and more than D from the shape.
-   A shape that is carried counts from its carrier, and so do the ends. *)
-Theorem axis_beyond_a_plane_is_apart (K : shape) (n a b carrier p : vector) (offset D : R) :
-  (forall k, K k -> dot n k <= offset) -> norm n <= 1 ->
-  offset + D < dot n (a - carrier) -> offset + D < dot n (b - carrier) -> segment a b p ->
-  offset + D < dot n (p - carrier) /\ forall k, K k -> D < norm (p - (carrier + k)).
-Proof.
-  intros HK Hn La Lb (i & Hi & ->).
-  assert (offset + D < dot n (mean i a b - carrier)) as L.
-  { generalize (mean_above i _ _ _ Hi La Lb). rewrite !dot_minus, dot_mean. lra. }
-  split; [exact L|]. intros k Hk. generalize (HK k Hk) (dot_at_most_norm n (mean i a b - (carrier + k)) Hn).
-  replace (dot n (mean i a b - (carrier + k))) with (dot n (mean i a b - carrier) - dot n k) by by_coordinates. lra.
-Qed.
-
-(* Two bounds in a direction: n.C - R - distance, of which earliest_meeting takes the first root (Lemma 3), is above zero
-   at the time t. *)
-Definition ahead (n : vector) (distance t : R) (a b : body) (x y : report) : Prop :=
-  0 < dot n (c (bound_from a x) (t - at_time x) - c (bound_from b y) (t - at_time y)) -
-        (rho (bound_from a x) (t - at_time x) + rho (bound_from b y) (t - at_time y)) - distance.
-
-Lemma ahead_along (n : vector) (distance t t0 t1 : R) (a b : body) (ma mb : motion) (x y : report) (of_a of_b : list report) :
-  norm n <= 1 -> possible a t0 t1 of_a ma -> possible b t0 t1 of_b mb -> In x of_a -> In y of_b ->
-  at_time x <= t <= t1 -> at_time y <= t -> ahead n distance t a b x y ->
-  r a + r b + distance < dot n (place ma t) - dot n (place mb t).
-Proof.
-  intros Hn [Ka Ra] [Kb Rb] Ix Iy Hx Hy L. destruct (Ra x Ix) as [Hax Ta]. destruct (Rb y Iy) as [Hby Tb].
-  generalize (centre_is_near a ma t0 t1 (at_time x) (at_place x) (with_velocity x) (t - at_time x) Ka)
-    (centre_is_near b mb t0 t1 (at_time y) (at_place y) (with_velocity y) (t - at_time y) Kb).
-  replace (at_time x + (t - at_time x)) with t by ring. replace (at_time y + (t - at_time y)) with t by ring. intros Na Nb.
-  specialize (Na ltac:(lra) ltac:(lra) ltac:(lra) Ta). specialize (Nb ltac:(lra) ltac:(lra) ltac:(lra) Tb).
-  revert L. unfold ahead. fold (bound_from a x) (bound_from b y) in *. rewrite dot_minus.
-  set (ca := c (bound_from a x) (t - at_time x)) in *. set (cb := c (bound_from b y) (t - at_time y)) in *.
-  generalize (dot_at_most_norm n (ca - place ma t) Hn) (dot_at_most_norm n (place mb t - cb) Hn).
-  rewrite (norm_symmetric ca), !dot_minus. lra.
-Qed.
-
-(* So the axes of two capsules with the ends a false and a true, b false and b true, each a body of its own (Lemma T), are
-   apart while each end of the one is ahead of each end of the other; whatever has been reported besides. *)
-Theorem capsules_with_ends_ahead_are_not_met (a b : bool -> body) (ma mb : bool -> motion) (x y : bool -> report)
-  (of_a of_b : bool -> list report) (n : vector) (radius_a radius_b distance t0 t1 t : R) :
+(* The directional certificate of two parts that move. Each of their points is a body of its own (Lemma T), with a bound
+   from one of its reports. While all points of the one are ahead of all points of the other, the two are apart; whatever
+   has been reported besides. *)
+Theorem parts_with_points_ahead_are_not_met {I J : Type} (is : list I) (js : list J) (a : I -> body) (b : J -> body)
+  (ma : I -> motion) (mb : J -> motion) (x : I -> report) (y : J -> report) (of_a : I -> list report) (of_b : J -> list report)
+  (n : vector) (radius_a radius_b distance t0 t1 t : R) :
   norm n <= 1 -> (forall i, r (a i) = radius_a) -> (forall j, r (b j) = radius_b) ->
-  (forall i, possible (a i) t0 t1 (of_a i) (ma i) /\ In (x i) (of_a i) /\ at_time (x i) <= t) ->
-  (forall j, possible (b j) t0 t1 (of_b j) (mb j) /\ In (y j) (of_b j) /\ at_time (y j) <= t) -> t <= t1 ->
-  (forall i j, ahead n distance t (a i) (b j) (x i) (y j)) ->
-  gap_above distance (Part (place (ma false) t) (place (ma true) t) radius_a :: nil)
-                     (Part (place (mb false) t) (place (mb true) t) radius_b :: nil).
+  (forall i, In i is -> possible (a i) t0 t1 (of_a i) (ma i) /\ In (x i) (of_a i) /\ at_time (x i) <= t) ->
+  (forall j, In j js -> possible (b j) t0 t1 (of_b j) (mb j) /\ In (y j) (of_b j) /\ at_time (y j) <= t) -> t <= t1 ->
+  (forall i j, In i is -> In j js ->
+    ahead n distance t (bound_from (a i) (x i)) (bound_from (b j) (y j)) (at_time (x i)) (at_time (y j))) ->
+  gap_above distance (Part (map (fun i => place (ma i) t) is) radius_a :: nil) (Part (map (fun j => place (mb j) t) js) radius_b :: nil).
 Proof.
   intros Hn Ra Rb Ha Hb Ht L p q u v [<-|[]] [<-|[]] Hu Hv. cbn [thickness].
-  assert (forall i j, radius_a + radius_b + distance < dot n (place (ma i) t) - dot n (place (mb j) t)) as W.
-  { intros i j. destruct (Ha i) as (Pa & Ia & Ta). destruct (Hb j) as (Pb & Ib & Tb). rewrite <- (Ra i), <- (Rb j).
-    apply (ahead_along n distance t t0 t1 (a i) (b j) (ma i) (mb j) (x i) (y j) (of_a i) (of_b j)); auto. }
   assert (radius_a + radius_b + distance < norm (u - v)); [|lra].
-  apply (axes_are_apart_along_a_direction n _ _ _ _ u v _ Hn (W false false) (W false true) (W true false) (W true true));
-    assumption.
+  apply (hulls_are_apart_along_a_direction n u v _ _ _ Hn) with (2 := Hu) (3 := Hv). intros p q Ip Iq.
+  apply in_map_iff in Ip. destruct Ip as (i & <- & Ii). apply in_map_iff in Iq. destruct Iq as (j & <- & Ij).
+  destruct (Ha i Ii) as (Pa & Ia & Ta). destruct (Hb j Ij) as (Pb & Ib & Tb). rewrite <- (Ra i), <- (Rb j).
+  apply (ahead_along n distance t t0 t1 (a i) (b j) (ma i) (mb j) (x i) (y j) (of_a i) (of_b j)); auto.
 Qed.
 
-(* The witness: the gap of two bodies is at most that of any two points of their axes. *)
+(* The witness: the gap of two bodies is at most that of any two points of their cores. *)
 Lemma witnesses_are_a_gap (P Q : list part) (p q : part) (x y : vector) (distance : R) :
-  In p P -> In q Q -> on_axis p x -> on_axis q y -> norm (x - y) - thickness p - thickness q < distance ->
+  In p P -> In q Q -> in_core p x -> in_core q y -> norm (x - y) - thickness p - thickness q < distance ->
   gap_below distance P Q.
 Proof. intros. exists p, q, x, y. auto. Qed.
 
-(* A point of an axis that is fixed in a body stays on the axis. *)
-Lemma fixed_point_stays_on_its_axis (m : motion) (w a b p : R -> vector) (radius t0 t1 t : R) :
-  turns w a t0 t1 -> turns w b t0 t1 -> turns w p t0 t1 -> segment (a t0) (b t0) (p t0) -> t0 <= t <= t1 ->
-  on_axis (Part (place m t + a t) (place m t + b t) radius) (place m t + p t)%vector.
-Proof.
-  intros Ta Tb Tp (k & Hk & E) Ht. exists k. split; [exact Hk|]. cbn [end_a end_b].
-  rewrite (fixed_point_keeps_its_place_between_two w a b p k t0 t1 t Ta Tb Tp Ht E). unfold mean. by_coordinates.
-Qed.
+(* A part of a body that turns: the points of its core are fixed in the body. *)
+Definition turned_part (m : motion) (arms : list (R -> vector)) (radius t : R) : part :=
+  Part (map (fun arm => place m t + arm t)%vector arms) radius.
 
 (* While the farthest that the bounds of two fixed points allow is below the distance, so is the gap of the two bodies: of
-   what is reported with errors, it is less than the distance and 2 e0 of each. Wherever the two points are on their axes. *)
-Theorem witnesses_guard_the_contact (a b : body) (ma mb : motion) (wa wb a1 a2 p b1 b2 q : R -> vector)
+   what is reported with errors, it is less than the distance and 2 e0 of each. Wherever the two points are in their cores. *)
+Theorem witnesses_guard_the_contact (a b : body) (ma mb : motion) (wa wb p q : R -> vector) (as_ bs : list (R -> vector))
   (Wa Wb growth_a growth_b da db radius_a radius_b t0 t1 t distance : R) (x y : report) (P Q : list part) :
-  keeps_promise a ma t0 t1 -> keeps_spin Wa growth_a wa t0 t1 -> turns wa a1 t0 t1 -> turns wa a2 t0 t1 -> turns wa p t0 t1 ->
-  keeps_promise b mb t0 t1 -> keeps_spin Wb growth_b wb t0 t1 -> turns wb b1 t0 t1 -> turns wb b2 t0 t1 -> turns wb q t0 t1 ->
-  segment (a1 t0) (a2 t0) (p t0) -> segment (b1 t0) (b2 t0) (q t0) -> norm (p t0) <= da -> norm (q t0) <= db ->
-  In (Part (place ma t + a1 t) (place ma t + a2 t) radius_a) P -> In (Part (place mb t + b1 t) (place mb t + b2 t) radius_b) Q ->
+  keeps_promise a ma t0 t1 -> keeps_spin Wa growth_a wa t0 t1 -> (forall arm, In arm as_ -> turns wa arm t0 t1) -> turns wa p t0 t1 ->
+  keeps_promise b mb t0 t1 -> keeps_spin Wb growth_b wb t0 t1 -> (forall arm, In arm bs -> turns wb arm t0 t1) -> turns wb q t0 t1 ->
+  hull (map (fun arm => arm t0) as_) (p t0) -> hull (map (fun arm => arm t0) bs) (q t0) -> norm (p t0) <= da -> norm (q t0) <= db ->
+  In (turned_part ma as_ radius_a t) P -> In (turned_part mb bs radius_b t) Q ->
   t0 <= at_time x <= t -> t0 <= at_time y <= t -> t <= t1 ->
   let a' := fixed_point a Wa growth_a da radius_a in let b' := fixed_point b Wb growth_b db radius_b in
   true_report a' (motion_of_point ma wa p) (at_time x) (at_place x) (with_velocity x) ->
@@ -140,14 +76,14 @@ Theorem witnesses_guard_the_contact (a b : body) (ma mb : motion) (wa wb a1 a2 p
     (radius_a + e0 a) + (radius_b + e0 b) + distance ->
   gap_below (distance + 2 * e0 a + 2 * e0 b) P Q.
 Proof.
-  intros Ka Sa T1 T2 Tp Kb Sb U1 U2 Uq Hp Hq Da Db IP IQ Hx Hy Ht a' b' Ra Rb L.
+  intros Ka Sa Ta Tp Kb Sb Tb Tq Hp Hq Da Db IP IQ Hx Hy Ht a' b' Ra Rb L.
   apply (witnesses_are_a_gap P Q _ _ (place ma t + p t) (place mb t + q t) _ IP IQ).
-  - apply (fixed_point_stays_on_its_axis ma wa a1 a2 p radius_a t0 t1 t); auto. lra.
-  - apply (fixed_point_stays_on_its_axis mb wb b1 b2 q radius_b t0 t1 t); auto. lra.
+  - apply (fixed_point_stays_in_its_hull _ wa p as_ t0 t1 t); auto. lra.
+  - apply (fixed_point_stays_in_its_hull _ wb q bs t0 t1 t); auto. lra.
   - exact (bodies_have_not_parted a' b' (motion_of_point ma wa p) (motion_of_point mb wb q) t0 t1 (at_time x) (at_time y) t
              (at_place x) (with_velocity x) (at_place y) (with_velocity y) distance
              (fixed_point_keeps_its_promise a ma wa p Wa growth_a da radius_a t0 t1 Ka Sa Tp Da)
-             (fixed_point_keeps_its_promise b mb wb q Wb growth_b db radius_b t0 t1 Kb Sb Uq Db) Hx Hy Ht Ra Rb L).
+             (fixed_point_keeps_its_promise b mb wb q Wb growth_b db radius_b t0 t1 Kb Sb Tq Db) Hx Hy Ht Ra Rb L).
 Qed.
 
 (* A pair of parts is left out that cannot close its gap in the time T: the distance of the centres of two balls, less both
@@ -183,12 +119,9 @@ Qed.
 Definition certain_until (fact : R -> Prop) (from until answer : double) : Prop :=
   (answer = infinity \/ finite answer) /\
   forall t, B from <= t -> (finite until -> t <= B until) -> (finite answer -> t < B answer) -> fact t.
-Lemma certified_is_certain (fact : R -> Prop) (from until answer : double) :
-  certified (fun d => fact (B from + d)) from until answer -> certain_until fact from until answer.
-Proof.
-  assert (forall t, B from + (t - B from) = t) as E by (intros; ring).
-  intros [[-> H]|(F & _ & H)]; (split; [auto|]); intros t Ht Hu Ha; rewrite <- E; apply H; auto.
-Qed.
+Lemma certified_is_certain (apart : R -> Prop) (from until answer : double) :
+  certified apart from until answer -> certain_until (fun t => apart (t - B from)) from until answer.
+Proof. intros [[-> H]|(F & _ & H)]; (split; [auto|]); intros t Ht Hu Ha; apply H; auto. Qed.
 
 (* std::min and std::max. *)
 Definition smaller (a b : double) : double := if less b a then b else a.
@@ -250,6 +183,57 @@ Proof.
       apply Hn; [exact Ht| |exact Hx]. unfold limit, smaller. destruct less; [exact Hu|]. intros F. specialize (Hf F). lra. }
   intros H. destruct (W pairs infinity (or_introl eq_refl) H) as [Ia Ha]. split; [exact Ia|].
   intros t Ht Hu Hans. apply (Ha t Ht Hu Hans).
+Qed.
+
+(* Two hulls that turn, in double precision. In a direction n the code asks some pairs of their points for the time of the
+   root of n.C - R - distance, with coefficients that are not above the exact ones (Lemma 5, about rounding alone, shows it
+   for those of the library). All other pairs are ahead until the answer, the least of these times. So the gap of the two is
+   above the distance until then, whatever they do within their promises (until t1). *)
+Theorem certified_time_is_before_two_hulls_meet (a b : body) (ma mb : motion) (wa wb : R -> vector) (as_ bs : list (R -> vector))
+  (x y : (R -> vector) -> report) (Wa Wb growth_a growth_b radius_a radius_b t0 t1 distance : R) (n : vector)
+  (asked : list ((R -> vector) * (R -> vector))) (certificate : (R -> vector) * (R -> vector) -> double -> double)
+  (from until : double) :
+  norm n <= 1 -> finite from -> infinite_or_finite until ->
+  keeps_promise a ma t0 t1 -> keeps_spin Wa growth_a wa t0 t1 -> keeps_promise b mb t0 t1 -> keeps_spin Wb growth_b wb t0 t1 ->
+  let a' arm := fixed_point a Wa growth_a (norm (arm t0)) radius_a in
+  let b' arm := fixed_point b Wb growth_b (norm (arm t0)) radius_b in
+  let bound_a arm := bound_from (a' arm) (x arm) in let bound_b arm := bound_from (b' arm) (y arm) in
+  (forall arm, In arm as_ -> turns wa arm t0 t1 /\ t0 <= at_time (x arm) <= B from /\
+    true_report (a' arm) (motion_of_point ma wa arm) (at_time (x arm)) (at_place (x arm)) (with_velocity (x arm))) ->
+  (forall arm, In arm bs -> turns wb arm t0 t1 /\ t0 <= at_time (y arm) <= B from /\
+    true_report (b' arm) (motion_of_point mb wb arm) (at_time (y arm)) (at_place (y arm)) (with_velocity (y arm))) ->
+  (forall p, In p asked -> exists k l q,
+    let now_a := moved_on (bound_a (fst p)) (B from - at_time (x (fst p))) in
+    let now_b := moved_on (bound_b (snd p)) (B from - at_time (y (snd p))) in
+    lowered k (constant now_a now_b n distance) /\ lowered l (linear now_a now_b n) /\ lowered q (square now_a now_b n) /\
+    forall limit, certificate p limit = time_of_crossing from limit k l q) ->
+  let answer := first_of (map certificate asked) until in
+  (forall p q, In p as_ -> In q bs -> In (p, q) asked \/
+    forall t, B from <= t -> (finite until -> t <= B until) -> (finite answer -> t < B answer) ->
+      ahead n distance t (bound_a p) (bound_b q) (at_time (x p)) (at_time (y q))) ->
+  certain_until
+    (fun t => t <= t1 -> gap_above distance (turned_part ma as_ radius_a t :: nil) (turned_part mb bs radius_b t :: nil))
+    from until answer.
+Proof.
+  intros Hn Ff Iu Ka Sa Kb Sb a' b' bound_a bound_b Ha Hb Asked answer Other.
+  set (apart := fun p t => ahead n distance t (bound_a (fst p)) (bound_b (snd p)) (at_time (x (fst p))) (at_time (y (snd p)))).
+  destruct (first_of_all_pairs_is_early (map (fun p => (apart p, certificate p)) asked) from until Iu) as [Ia H].
+  { intros fact cert limit I Il. apply in_map_iff in I. destruct I as (p & [= <- <-] & Ip).
+    destruct (Asked p Ip) as (k & l & q & Lk & Ll & Lq & ->). unfold apart.
+    destruct (certified_is_certain _ _ _ _
+      (time_of_crossing_is_early from limit _ _ _ _ _ _ Lk Ll Lq Ff (proj1 (or_comm _ _) Il))) as [If C].
+    split; [exact If|]. intros t Ht Hu Hc. apply (ahead_from (B from)). apply C; assumption. }
+  rewrite map_map in Ia, H. cbn [snd] in Ia, H. fold answer in Ia, H. split; [exact Ia|]. intros t Ht Hu Hans Ht1.
+  apply (parts_with_points_ahead_are_not_met as_ bs a' b' (motion_of_point ma wa) (motion_of_point mb wb) x y
+           (fun arm => x arm :: nil) (fun arm => y arm :: nil) n radius_a radius_b distance t0 t1 t Hn); auto.
+  - intros arm I. destruct (Ha arm I) as (T & Hx & R). split; [|split; [left; reflexivity|lra]]. split.
+    + apply fixed_point_keeps_its_promise; auto. lra.
+    + intros report [<-|[]]. split; [lra|exact R].
+  - intros arm I. destruct (Hb arm I) as (T & Hy & R). split; [|split; [left; reflexivity|lra]]. split.
+    + apply fixed_point_keeps_its_promise; auto. lra.
+    + intros report [<-|[]]. split; [lra|exact R].
+  - intros p q Ip Iq. destruct (Other p q Ip Iq) as [I|O]; [|apply O; assumption].
+    apply (H t Ht Hu Hans (apart (p, q)) (certificate (p, q))). apply in_map_iff. exists (p, q). auto.
 Qed.
 
 (* They are in touch at least until the last certain time of two of their parts. *)

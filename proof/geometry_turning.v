@@ -65,7 +65,7 @@ Proof.
     + intros s Hs _. split; [|lra]. replace 0 with (- 0) by ring. apply (derivable_pt_lim_opp f). apply Df. exact Hs.
 Qed.
 
-(* The way between two fixed points turns as well, and so does every mean of two arms. *)
+(* The way between two fixed points turns as well, and so does every mean of arms. *)
 Lemma differences_turn (w a b : R -> vector) (t0 t1 : R) :
   turns w a t0 t1 -> turns w b t0 t1 -> turns w (fun t => a t - b t)%vector t0 t1.
 Proof.
@@ -73,13 +73,21 @@ Proof.
   replace (cross (w t) (a t - b t)) with (cross (w t) (a t) - cross (w t) (b t))%vector by by_coordinates.
   apply has_derivative_minus; [apply Da|apply Db]; exact Ht.
 Qed.
-Lemma means_turn (w a b : R -> vector) (k t0 t1 : R) :
-  turns w a t0 t1 -> turns w b t0 t1 -> turns w (fun t => mean k (a t) (b t)) t0 t1.
+(* Arms with weights, where they are at a time. *)
+Definition placed (t : R) (arms : list (R * (R -> vector))) : list (R * vector) := map (fun arm => (fst arm, snd arm t)) arms.
+Lemma means_turn (w : R -> vector) (t0 t1 : R) (arms : list (R * (R -> vector))) :
+  (forall k arm, In (k, arm) arms -> turns w arm t0 t1) -> turns w (fun t => weighted (placed t arms)) t0 t1.
 Proof.
-  intros [Ca Da] [Cb Db]. split; [apply continuous_plus; apply continuous_times; assumption|]. intros t Ht. unfold mean.
-  replace (cross (w t) ((1 - k) * a t + k * b t)) with ((1 - k) * cross (w t) (a t) + k * cross (w t) (b t))%vector
-    by by_coordinates.
-  apply has_derivative_plus; apply has_derivative_times; [apply Da|apply Db]; exact Ht.
+  induction arms as [|[k arm] arms IH]; intros H.
+  - assert (forall t, has_derivative (fun _ : R => zero) t zero) as D by (intros; repeat split; apply derivable_pt_lim_const).
+    split; [apply continuous_where_derivable with (x' := fun _ => zero); intros; apply D|].
+    intros t _. cbn [placed map weighted]. replace (cross (w t) zero) with zero by by_coordinates. apply D.
+  - destruct (H k arm (or_introl eq_refl)) as [Ca Da]. destruct IH as [Cr Dr]; [intros; apply (H k0); right; assumption|].
+    change (turns w (fun t => k * arm t + weighted (placed t arms))%vector t0 t1).
+    split; [apply continuous_plus; [apply continuous_times; exact Ca|exact Cr]|]. intros t Ht.
+    replace (cross (w t) (k * arm t + weighted (placed t arms)))
+      with (k * cross (w t) (arm t) + cross (w t) (weighted (placed t arms)))%vector by by_coordinates.
+    apply has_derivative_plus; [apply has_derivative_times, Da|apply Dr]; exact Ht.
 Qed.
 
 (* Points that are fixed in a body keep their distances: the body is rigid. *)
@@ -87,14 +95,14 @@ Theorem fixed_points_keep_their_distance (w a b : R -> vector) (t0 t1 t : R) :
   turns w a t0 t1 -> turns w b t0 t1 -> t0 <= t <= t1 -> norm (a t - b t) = norm (a t0 - b t0).
 Proof. intros Ta Tb Ht. exact (arm_keeps_its_length w _ t0 t1 t (differences_turn w a b t0 t1 Ta Tb) Ht). Qed.
 
-(* A fixed point that is a mean of two others once is so always: a point of the axis of a capsule stays where it is in
-   it. *)
-Theorem fixed_point_keeps_its_place_between_two (w a b p : R -> vector) (k t0 t1 t : R) :
-  turns w a t0 t1 -> turns w b t0 t1 -> turns w p t0 t1 -> t0 <= t <= t1 ->
-  p t0 = mean k (a t0) (b t0) -> p t = mean k (a t) (b t).
+(* A fixed point that is a mean of others once is so always: a point of the axis of a capsule, or of a hull, stays where it
+   is in it. *)
+Theorem fixed_point_keeps_its_place_among_others (w p : R -> vector) (arms : list (R * (R -> vector))) (t0 t1 t : R) :
+  (forall k arm, In (k, arm) arms -> turns w arm t0 t1) -> turns w p t0 t1 -> t0 <= t <= t1 ->
+  p t0 = weighted (placed t0 arms) -> p t = weighted (placed t arms).
 Proof.
-  intros Ta Tb Tp Ht E.
-  generalize (fixed_points_keep_their_distance w p _ t0 t1 t Tp (means_turn w a b k t0 t1 Ta Tb) Ht). cbv beta.
+  intros Ta Tp Ht E.
+  generalize (fixed_points_keep_their_distance w p _ t0 t1 t Tp (means_turn w t0 t1 arms Ta) Ht). cbv beta.
   rewrite <- E. replace (p t0 - p t0)%vector with zero by by_coordinates. rewrite norm_zero. intros N.
   apply at_no_distance. lra.
 Qed.

@@ -1,5 +1,5 @@
 (* Vectors in space: inner product, length, and what the other geometry files need of them. *)
-From Coq Require Import Reals Lra Psatz.
+From Coq Require Import Reals Lra Psatz List.
 Open Scope R_scope.
 
 Record vector : Type := Vector { x_of : R; y_of : R; z_of : R }.
@@ -116,5 +116,24 @@ Proof.
   apply (f_equal3 Vector); apply Rminus_diag_uniq, S;
     generalize (Rle_0_sqr (x - x')) (Rle_0_sqr (y - y')) (Rle_0_sqr (z - z')); unfold Rsqr; lra.
 Qed.
-(* The point a share k of the way from u to v. *)
-Definition mean (k : R) (u v : vector) : vector := ((1 - k) * u + k * v)%vector.
+(* A sum of points with weights, and the sum of its weights: a mean of the points, if no weight is below zero and their sum
+   is 1. *)
+Fixpoint weighted (points : list (R * vector)) : vector :=
+  match points with nil => zero | (k, x) :: rest => (k * x + weighted rest)%vector end.
+Fixpoint total {point : Type} (points : list (R * point)) : R :=
+  match points with nil => 0 | (k, _) :: rest => k + total rest end.
+
+(* A mean lies as far along a direction as one of its points, or farther. *)
+Lemma weighted_beyond (n : vector) (m : R) (points : list (R * vector)) :
+  (forall k x, In (k, x) points -> 0 <= k /\ m < dot n x) ->
+  0 <= total points /\ m * total points <= dot n (weighted points) /\
+  (0 < total points -> m * total points < dot n (weighted points)).
+Proof.
+  induction points as [|[k x] points IH]; intros H; cbn [total weighted].
+  - replace (dot n zero) with 0 by by_coordinates. repeat split; lra.
+  - destruct IH as (P & L & S); [intros; apply H; right; assumption|].
+    destruct (H k x (or_introl eq_refl)) as [Pk Lx]. rewrite dot_plus, dot_times.
+    destruct (Rle_lt_or_eq_dec _ _ Pk) as [K|<-].
+    + assert (k * m < k * dot n x) by (apply Rmult_lt_compat_l; assumption). repeat split; lra.
+    + rewrite Rmult_0_l, !Rplus_0_l. auto.
+Qed.

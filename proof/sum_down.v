@@ -1,4 +1,4 @@
-(* rounding::sum_down is never above the exact sum. *)
+(* rounding::sum_down is never above the exact sum, and rounding::sum_up never below it. *)
 From Coq Require Import ZArith Reals Lra Lia Bool Psatz.
 From Flocq Require Import Core Relative Plus_error BinarySingleNaN.
 From Kinesphere Require Import floats inputs kernels rounding.
@@ -53,4 +53,13 @@ Proof.
       { rewrite <- Rp at 1. apply (rnd_le (prec := 53) (emax := 1024) x). lra. }
       assert (pred radix2 fexp s < s); [|lra].
       apply pred_lt_id. intros Z. rewrite Z, Rabs_R0 in Ls. generalize (bpow_gt_0 radix2 (-1022)). lra.
+Qed.
+
+Theorem sum_up_is_above (a b : double) :
+  finite (sum_up a b) -> finite a /\ finite b /\ B a + B b <= B (sum_up a b).
+Proof.
+  assert (sum_up a b = neg (sum_down (neg a) (neg b))) as ->.
+  { unfold sum_up, sum_down. cbv zeta. destruct (infinite (neg a)); [reflexivity|]. destruct (infinite (neg b)); reflexivity. }
+  rewrite neg_finite. intros F. destruct (sum_down_is_below _ _ F) as (Fa & Fb & L). rewrite !neg_finite in *.
+  rewrite !neg_value in *. split; [exact Fa|]. split; [exact Fb|]. lra.
 Qed.

@@ -17,7 +17,8 @@ Bound bound_of(const BodyDefinition& body, const State& state, double time) {
               .radius = body.radius + body.position_error,
               .growth_speed = body.velocity_error,
               .acceleration_limit = body.acceleration_limit};
-  if (body.radius_rate != 0.0) bound.growth_speed += std::abs(body.radius_rate);
+  if (body.radius_rate != 0.0)
+    bound.growth_speed = rounding::sum_up(body.velocity_error, std::abs(body.radius_rate));
   return bound;
 }
 

@@ -60,10 +60,19 @@ class World::Engine::Audit {
   }
 
   /// True if reports of the body are exact. A noisy report may violate an earlier bound although the true
-  /// body does not. Certificates of a ball that shrinks can be better than its bound.
+  /// body does not.
   bool exact(std::uint32_t number) const {
-    return body(number).position_error == 0.0 && engine_.bodies().velocity_error(number) == 0.0 &&
-           engine_.bodies().radius_rate(number) >= 0.0;
+    return body(number).position_error == 0.0 && engine_.bodies().velocity_error(number) == 0.0;
+  }
+
+  /// Returns the bound of an exact body as it is from now on. Certificates of meetings can know how a ball
+  /// shrinks, and so does this bound, until the ball is a point.
+  Bound shrinking_bound(std::uint32_t number, Bound bound) const {
+    const ChangingRadius* const changing = engine_.bodies().radii.find(number);
+    if (!changing || changing->rate >= 0.0) return bound;
+    bound.growth_speed = changing->rate_at(now_);
+    bound.radius = changing->at(now_) - bound.growth_speed * (now_ - bound.time);
+    return bound;
   }
 
   void check_absence(std::uint32_t number) {
@@ -147,7 +156,7 @@ class World::Engine::Audit {
     const double within = has_ends ? 0.0 : engine_.definition().contact_tolerance;
     const Vec3 margin = Vec3{1.0, 1.0, 1.0} * within;
     const Box box{engine_.bodies().walls()->lower - margin, engine_.bodies().walls()->upper + margin};
-    const double reached = earliest_exit(b.bound, box, now_, end);
+    const double reached = earliest_exit(shrinking_bound(number, b.bound), box, now_, end);
     const double recorded = std::min(certificates_.of(number, PairCertificate::walls), end);
     if (recorded < end && too_late(recorded, reached, now_) && reached > now_)
       find("wall", name(number) + " may reach a wall unseen" + times(recorded, reached));
@@ -194,8 +203,12 @@ class World::Engine::Audit {
     if (!has_narrow_way(a) || !has_narrow_way(b)) return;
     const CollisionShape first = collision_shape_of(engine_.bodies(), a);
     const CollisionShape second = collision_shape_of(engine_.bodies(), b);
-    const PlainGap gap(first, second, engine_.bodies().space().period());
-    check_state(a, b, threshold, gap);
+    const Vec3 period = engine_.bodies().space().period();
+    check_state(a, b, threshold, PlainGap(first, second, period));
+    const Bound one = threshold.within ? first.bound : shrinking_bound(a, first.bound);
+    const Bound other = threshold.within ? second.bound : shrinking_bound(b, second.bound);
+    const PlainGap gap({one, first.is_static, first.shape, first.carried_radius},
+                       {other, second.is_static, second.shape, second.carried_radius}, period);
     // After the window's end the pair may meet in another image, and the next search will have found it.
     const double recorded =
         std::min(certificates_.of(a, b), engine_.main().certifier().earliest_window_end(a, b));

@@ -52,7 +52,9 @@ inline Bound present_bound(const Body& body, const Change* change, double radius
   const Bound& last = body.bound;
   if (!change) return last;
   const MotionLimits& limits = change->limits;
-  const bool is_unchanged = last.growth_speed == limits.velocity_error + std::abs(radius_rate) &&
+  const double growth_speed =
+      bound_of({.velocity_error = limits.velocity_error, .radius_rate = radius_rate}, {}, now).growth_speed;
+  const bool is_unchanged = last.growth_speed == growth_speed &&
                             last.acceleration_limit == limits.acceleration_limit &&
                             last.planned_acceleration == limits.planned_acceleration;
   if (is_unchanged && !change->velocity) return last;
@@ -62,7 +64,7 @@ inline Bound present_bound(const Body& body, const Change* change, double radius
               .velocity = change->velocity.value_or(last.velocity_at(now)),
               .planned_acceleration = limits.planned_acceleration,
               .radius = sphere.outer,
-              .growth_speed = limits.velocity_error + std::abs(radius_rate),
+              .growth_speed = growth_speed,
               .acceleration_limit = limits.acceleration_limit};
   if (!change->velocity) {
     const double s = now - last.time;

@@ -36,7 +36,7 @@ Point centre(const Bound& bound, double time) {
 
 Long size_of_way(const Bound& bound, double time) {
   const Long s = Long(time) - bound.time;
-  return (norm_one(bound.velocity) + bound.growth_speed +
+  return (norm_one(bound.velocity) + std::abs(bound.growth_speed) +
           (norm_one(bound.planned_acceleration) + bound.acceleration_limit) * s) *
          s;
 }
@@ -181,7 +181,7 @@ PlainGap::Limits PlainGap::of_bodies(double time) const {
 
 double PlainGap::largest_speed(double from, double to) const {
   const auto rate = [&](const Bound& bound) {
-    return norm(bound.velocity_at(from)) + bound.growth_speed +
+    return norm(bound.velocity_at(from)) + std::abs(bound.growth_speed) +
            (norm(bound.planned_acceleration) + bound.acceleration_limit) * (to - bound.time);
   };
   return rate(moving_) + rate(other_);

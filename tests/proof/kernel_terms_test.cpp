@@ -66,7 +66,8 @@ Double bound_of_report() {
                          .acceleration_limit = variable("limit"),
                          .planned_acceleration = three("g"),
                          .position_error = variable("e0"),
-                         .velocity_error = variable("e1")},
+                         .velocity_error = variable("e1"),
+                         .radius_rate = variable("k")},
                         {.position = three(""), .velocity = three("v")}, variable("t"));
   const kernels::Vec3 &x = bound.position, &v = bound.velocity, &g = bound.planned_acceleration;
   return call("Build_bound", bound.time, x.x, x.y, x.z, v.x, v.y, v.z, g.x, g.y, g.z, bound.radius,
@@ -133,6 +134,7 @@ std::string kernels_file() {
   add(rounding, "widened (size : double) : double", [&] { return kernels::rounding::widened(size); });
   add(rounding, "capped (size : double) : double", [&] { return kernels::rounding::capped(size); });
   add(rounding, "sum_down (a b : double) : double", [&] { return kernels::rounding::sum_down(a, b); });
+  add(rounding, "sum_up (a b : double) : double", [&] { return kernels::rounding::sum_up(a, b); });
   add(rounding, "first_crossing (c b a : double) : double",
       [&] { return kernels::rounding::first_crossing(c, b, a); });
   add("src/bound/safe_steps.hpp",
@@ -141,7 +143,7 @@ std::string kernels_file() {
   const auto earliest_meeting = [&] {
     return kernels::earliest_meeting(bound("a"), bound("b"), from, until, distance);
   };
-  add("src/bound/bound.cpp", "bound_of (r limit gx gy gz e0 e1 x y z vx vy vz t : double) : bound",
+  add("src/bound/bound.cpp", "bound_of (r limit gx gy gz e0 e1 k x y z vx vy vz t : double) : bound",
       bound_of_report);
   add("src/bound/certificates.cpp: the step of earliest_meeting, d after from",
       "meeting_step (a b : bound) (from distance d : double) : double", earliest_meeting);
@@ -149,6 +151,11 @@ std::string kernels_file() {
   add("src/bound/certificates.cpp", "earliest_meeting (a b : bound) (from until distance : double) : double",
       earliest_meeting);
   kernels::name_of_step.clear();
+  add("src/bound/certificates.cpp: earliest_meeting of a bound and the half-space with this normal and offset",
+      "wall_meeting (a : bound) (x y z offset from until distance : double) : double", [&] {
+        const kernels::HalfSpace wall{{variable("x"), variable("y"), variable("z")}, variable("offset")};
+        return kernels::earliest_meeting(bound("a"), wall, from, until, distance);
+      });
   add("src/bound/rigid_extent.hpp: the growth of RigidExtent::of_point",
       "growth_of_point (limit spin_growth spin x y z : double) : double", growth_of_point);
   add("src/broadphase/swept_sphere_search_plain.cpp: one capsule of a table",

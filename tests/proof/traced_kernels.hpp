@@ -46,6 +46,7 @@ namespace kinesphere::rounding {
 inline double called_widened(double size) { return traced::call("widened", size); }
 inline double called_capped(double size) { return traced::call("capped", size); }
 inline double called_sum_down(double a, double b) { return traced::call("sum_down", a, b); }
+inline double called_sum_up(double a, double b) { return traced::call("sum_up", a, b); }
 inline double called_first_crossing(double c, double b, double a) {
   return traced::call("first_crossing", c, b, a);
 }
@@ -53,6 +54,7 @@ inline double called_first_crossing(double c, double b, double a) {
 #define widened called_widened
 #define capped called_capped
 #define sum_down called_sum_down
+#define sum_up called_sum_up
 #define first_crossing called_first_crossing
 
 #include "bound/safe_steps.hpp"
@@ -78,6 +80,7 @@ double advance_by_a_step(double from, double until, SafeStep step) {
 
 #undef advance_by_safe_steps
 #undef first_crossing
+#undef sum_up
 #undef sum_down
 #undef capped
 #undef widened

@@ -67,8 +67,8 @@ World with_number(const World& world, double old_number, double new_number) {
 std::optional<AuditFinding> audit(const World& world) { return world.inspection().audit(); }
 
 struct Approaching : Playground {
-  Approaching() {
-    a = add({.radius = 1, .acceleration_limit = 0.01, .velocity = {1, 0, 0}});
+  explicit Approaching(double radius_rate = 0.0) {
+    a = add({.radius = 1, .acceleration_limit = 0.01, .velocity = {1, 0, 0}, .radius_rate = radius_rate});
     b = add({.radius = 1, .acceleration_limit = 0.01, .position = {2.5, 0.25, 0}});
     for (double t = 0.01; world.inspection().certificates().empty(); t += 0.01) run(t);
   }
@@ -76,13 +76,17 @@ struct Approaching : Playground {
 };
 
 TEST(Audit, FindsACertificateThatIsTooLate) {
-  Approaching p;
-  const auto certificates = p.world.inspection().certificates();
-  ASSERT_EQ(certificates.size(), 1u);
-  const double until = certificates[0].until;
-  const auto finding = audit(with_number(p.world, until, until + 0.02));
-  ASSERT_TRUE(finding);
-  EXPECT_EQ(finding->where, "certificate") << finding->what;
+  // Also one of a ball that grows or shrinks.
+  for (const double radius_rate : {0.0, 0.25, -0.25}) {
+    Approaching p(radius_rate);
+    const auto certificates = p.world.inspection().certificates();
+    ASSERT_EQ(certificates.size(), 1u);
+    ASSERT_TRUE(is_clean(p.world)) << radius_rate;
+    const double until = certificates[0].until;
+    const auto finding = audit(with_number(p.world, until, until + 0.02));
+    ASSERT_TRUE(finding) << radius_rate;
+    EXPECT_EQ(finding->where, "certificate") << finding->what;
+  }
 }
 
 /// Simulates a missed contact: all records stay valid for a while, but the bodies overlap now.
