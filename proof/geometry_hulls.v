@@ -99,7 +99,7 @@ Proof.
   rewrite Ew, Es, total_placed, T, Et. split; [|split; [reflexivity|by_coordinates]].
   intros k x I. apply in_map_iff in I. destruct I as ((k' & y) & [= <- <-] & I).
   apply in_map_iff in I. destruct I as ((k'' & arm) & [= <- <-] & I). destruct (Ho _ _ I) as [Pk Ia].
-  split; [exact Pk|]. apply in_map_iff. exists arm. auto.
+  split; [exact Pk|]. apply in_map_iff. exists arm. split; [reflexivity|exact Ia].
 Qed.
 
 (* Two bounds in a direction: n.C - R - distance, of which earliest_meeting takes the first root (Lemma 3), is above zero
@@ -143,8 +143,9 @@ Proof.
     assert ((T - d) * e <= (T - d) * f) by (apply Rmult_le_compat_l; lra).
     assert (d * e <= d * g) by (apply Rmult_le_compat_l; lra).
     assert (T * e < (T - d) * f + d * g); [|lra].
-    destruct (Rle_lt_or_eq_dec 0 d ltac:(lra)) as [Pd|<-]; [|rewrite !Rmult_0_l; apply Rmult_lt_compat_l with (r := T) in L0; lra].
-    assert (d * e < d * g) by (apply Rmult_lt_compat_l; assumption). lra.
+    destruct (Rle_lt_or_eq_dec 0 d ltac:(lra)) as [Pd|<-].
+    + assert (d * e < d * g) by (apply Rmult_lt_compat_l; assumption). lra.
+    + assert (T * e < T * f) by (apply Rmult_lt_compat_l; assumption). lra.
   - assert (d = 0) as -> by lra. lra.
 Qed.
 

@@ -82,7 +82,7 @@ Proof.
   - assert (forall t, has_derivative (fun _ : R => zero) t zero) as D by (intros; repeat split; apply derivable_pt_lim_const).
     split; [apply continuous_where_derivable with (x' := fun _ => zero); intros; apply D|].
     intros t _. cbn [placed map weighted]. replace (cross (w t) zero) with zero by by_coordinates. apply D.
-  - destruct (H k arm (or_introl eq_refl)) as [Ca Da]. destruct IH as [Cr Dr]; [intros; apply (H k0); right; assumption|].
+  - destruct (H k arm (or_introl eq_refl)) as [Ca Da]. destruct IH as [Cr Dr]; [intros k' arm' I; apply (H k'); right; exact I|].
     change (turns w (fun t => k * arm t + weighted (placed t arms))%vector t0 t1).
     split; [apply continuous_plus; [apply continuous_times; exact Ca|exact Cr]|]. intros t Ht.
     replace (cross (w t) (k * arm t + weighted (placed t arms)))

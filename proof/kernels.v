@@ -31,6 +31,22 @@ Definition sum_down (a b : double) : double :=
   t1 - ((magnitude t1) * (literal 1 (-52))).
 
 (* src/bound/rounding.hpp *)
+Definition sum_up (a b : double) : double :=
+  let t1 := - a in
+  if infinite t1 then
+    let t2 := - b in
+    let t3 := t1 + t2 in
+    - t3
+  else
+  let t2 := - b in
+  if infinite t2 then
+    let t3 := t1 + t2 in
+    - t3
+  else
+  let t3 := t1 + t2 in
+  - (t3 - ((magnitude t3) * (literal 1 (-52)))).
+
+(* src/bound/rounding.hpp *)
 Definition first_crossing (c b a : double) : double :=
   if (literal 1 (-975)) <? c then
     if (literal 0 0) <=? b then
@@ -277,8 +293,13 @@ Definition advance_by_safe_steps (step : double -> double) (from until : double)
   from.
 
 (* src/bound/bound.cpp *)
-Definition bound_of (r limit gx gy gz e0 e1 x y z vx vy vz t : double) : bound :=
-  Build_bound t x y z vx vy vz gx gy gz (r + e0) e1 limit.
+Definition bound_of (r limit gx gy gz e0 e1 k x y z vx vy vz t : double) : bound :=
+  if k =? (literal 0 0) then
+    let t1 := r + e0 in
+    Build_bound t x y z vx vy vz gx gy gz t1 e1 limit
+  else
+  let t1 := r + e0 in
+  Build_bound t x y z vx vy vz gx gy gz t1 (sum_up e1 (magnitude k)) limit.
 
 (* src/bound/certificates.cpp: the step of earliest_meeting, d after from *)
 Definition meeting_step (a b : bound) (from distance d : double) : double :=
@@ -391,6 +412,29 @@ Definition meeting_step (a b : bound) (from distance d : double) : double :=
 (* src/bound/certificates.cpp *)
 Definition earliest_meeting (a b : bound) (from until distance : double) : double :=
   advance_by_safe_steps (meeting_step a b from distance) from until.
+
+(* src/bound/certificates.cpp: earliest_meeting of a bound and the half-space with this normal and offset *)
+Definition wall_meeting (a : bound) (x y z offset from until distance : double) : double :=
+  let t1 := ((x * a.(velocity_x)) + (y * a.(velocity_y))) + (z * a.(velocity_z)) in
+  let t2 := ((x * a.(plan_x)) + (y * a.(plan_y))) + (z * a.(plan_z)) in
+  let t3 := (literal 1 (-1)) * t2 in
+  let t4 := from - a.(time) in
+  let t5 := t1 + (t3 * t4) in
+  let t6 := (((x * a.(position_x)) + (y * a.(position_y))) + (z * a.(position_z))) + (t5 * t4) in
+  let t7 := (((t6 - offset) - a.(radius)) - ((a.(growth_speed) + (((literal 1 (-1)) * a.(acceleration_limit)) * t4)) * t4)) - distance in
+  let t8 := capped (widened ((((magnitude a.(plan_x)) + (magnitude a.(plan_y))) + (magnitude a.(plan_z))) + a.(acceleration_limit))) in
+  let t9 := t8 * t4 in
+  let t10 := capped ((widened ((((magnitude a.(velocity_x)) + (magnitude a.(velocity_y))) + (magnitude a.(velocity_z))) + a.(growth_speed))) + t9) in
+  let t11 := (widened ((((magnitude a.(position_x)) + (magnitude a.(position_y))) + (magnitude a.(position_z))) + a.(radius))) + (t10 * t4) in
+  let t12 := first_crossing (t7 - ((literal 1 (-47)) * (((capped t11) + (magnitude offset)) + (magnitude distance)))) (((t1 + (t2 * t4)) - (a.(growth_speed) + (a.(acceleration_limit) * t4))) - ((literal 1 (-47)) * t10)) ((t2 - a.(acceleration_limit)) - ((literal 1 (-47)) * t8)) in
+  let t13 := sum_down from t12 in
+  if until <? t13 then
+    infinity
+  else
+  if from <? t13 then
+    t13
+  else
+  from.
 
 (* src/bound/rigid_extent.hpp: the growth of RigidExtent::of_point *)
 Definition growth_of_point (limit spin_growth spin x y z : double) : double :=
