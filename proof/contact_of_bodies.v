@@ -129,7 +129,7 @@ Proof.
   intros Df Dh Sf Sh Ff Fu Hx Hy Ka Kb Ga Gb answer Ht Hr.
   generalize (bounds_are_apart_before_the_answer _ _ x y f h from until distance t Df Dh Sf Sh Ff Fu Hx Hy Ht Hr)
     (changing_ball_near_its_bound a ma ra ka x t Ka Ga ltac:(lra)) (changing_ball_near_its_bound b mb rb kb y t Kb Gb ltac:(lra)).
-  set (ca := c _ (t - at_time x)). set (cb := c _ (t - at_time y)).
+  cbv zeta. set (ca := c _ (t - at_time x)). set (cb := c _ (t - at_time y)).
   generalize (norm_by_way_of (place ma t) ca cb) (norm_by_way_of (place mb t) (place ma t) cb).
   rewrite (norm_symmetric ca (place ma t)). lra.
 Qed.

@@ -51,7 +51,7 @@ Theorem changing_ball_lies_in_its_bound (b : body) (m : motion) (radius : R -> R
   in_ball point (place m (t + s)) (radius (t + s)) ->
   let bound := bound_of (changing b (radius t) k) p q in in_ball point (c bound s) (rho bound s).
 Proof.
-  intros K G Ht Hs Ht1 T I bound. generalize (changing_ball_is_near b m radius k t0 t1 t s p q K G Ht Hs Ht1 T). fold bound.
+  intros K G Ht Hs Ht1 T I bound. generalize (changing_ball_is_near b m radius k t0 t1 t s p q K G Ht Hs Ht1 T). cbv zeta. fold bound.
   unfold in_ball in *. generalize (norm_by_way_of (place m (t + s)) point (c bound s)). lra.
 Qed.
 
@@ -69,7 +69,7 @@ Proof.
     (changing_ball_is_near b mb rb kb t0 t1 tb (t - tb) pb qb Kb Gb).
   replace (ta + (t - ta)) with t by ring. replace (tb + (t - tb)) with t by ring. intros Na Nb.
   specialize (Na ltac:(lra) ltac:(lra) ltac:(lra) Ta). specialize (Nb ltac:(lra) ltac:(lra) ltac:(lra) Tb).
-  fold bound_a in Na. fold bound_b in Nb. set (ca := c bound_a (t - ta)) in *. set (cb := c bound_b (t - tb)) in *.
+  cbv zeta in Na, Nb. fold bound_a in Na. fold bound_b in Nb. set (ca := c bound_a (t - ta)) in *. set (cb := c bound_b (t - tb)) in *.
   generalize (norm_by_way_of (place ma t) ca cb) (norm_by_way_of (place mb t) (place ma t) cb).
   rewrite (norm_symmetric ca (place ma t)). lra.
 Qed.
@@ -87,7 +87,8 @@ Theorem certificate_with_both_rates_is_early (a b : body) (ma mb : motion) (ra r
 Proof.
   intros Ka Kb Ga Gb Ht Hd Ht1 Ta Tb Hn Q.
   apply (changing_balls_are_as_far_apart_as_their_bounds a b ma mb ra rb ka kb t0 t1 t t (t + d) pa qa pb qb); auto; try lra.
-  replace (t + d - t) with d by ring. exact (linearised_is_below _ _ n distance d Hn Q).
+  replace (t + d - t) with d by ring.
+  exact (linearised_is_below (bound_of (changing a (ra t) ka) pa qa) (bound_of (changing b (rb t) kb) pb qb) n distance d Hn Q).
 Qed.
 
 (* The end of a contact: the same of what the radii may have fallen. *)
