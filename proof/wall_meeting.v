@@ -50,7 +50,6 @@ Definition centre_along (t : R) : R :=
 Definition size_now (t : R) : R := moved (B a.(radius)) (B a.(growth_speed)) (B a.(acceleration_limit)) (S + t).
 
 Hypothesis sound_a : sound a from.
-Hypothesis short : Rabs (B x) <= 1 /\ Rabs (B y) <= 1 /\ Rabs (B z) <= 1.
 
 Lemma wall_inputs_finite : finite wall_gap ->
   (all_finite a /\ finite x /\ finite y /\ finite z /\ finite offset /\ finite distance) /\
@@ -73,6 +72,8 @@ Proof.
   unfold all_finite. tauto.
 Qed.
 
+Hypothesis short : Rabs (B x) <= 1 /\ Rabs (B y) <= 1 /\ Rabs (B z) <= 1.
+
 (* With these coefficients the quadratic is below how far the bound is beyond the plane, and the distance. *)
 Lemma wall_quadratic_below (e : R) :
   finite wall_gap -> finite wall_speed -> finite wall_acceleration -> bpow radix2 (-975) < B wall_gap -> 0 <= e ->
@@ -85,13 +86,15 @@ Proof.
      (M & (M1 & M2) & HMx & HMy & HMz & HMs)).
   destruct (elapsed_close from a.(time) ltac:(apply sound_a) Fs) as (_ & _ & PS & Cs). fold s in Cs.
   set (T := S) in *. set (G := B (plan_size a)) in *. set (V := B (speed_size a)) in *. set (P := B (place_size a)) in *.
+  change (B (plan_size a) <> 0 -> tiny <= L) in HLs. change (B (speed_size a) <> 0 -> tiny <= M) in HMs.
   assert (PY := tiny_pos). assert (H2 := half_close). assert (H47 := margin_close).
   assert (Cx : close x (B x) 1 0) by (intros _; rewrite Rminus_diag_eq, Rabs_R0 by reflexivity; split; [lra|tauto]).
   assert (Cy : close y (B y) 1 0) by (intros _; rewrite Rminus_diag_eq, Rabs_R0 by reflexivity; split; [lra|tauto]).
   assert (Cz : close z (B z) 1 0) by (intros _; rewrite Rminus_diag_eq, Rabs_R0 by reflexivity; split; [lra|tauto]).
-  assert (PL2 : 0 <= L + L) by lra. assert (PL3 : 0 <= L + L + L) by lra.
+  assert (PL2 := Rplus_le_le_0_compat _ _ L1 L1). assert (PL3 := Rplus_le_le_0_compat _ _ PL2 L1).
+  assert (PML := Rplus_le_le_0_compat _ _ M1 L1).
   assert (ZG : B plan_along <> 0 -> tiny <= L + L + L).
-  { unfold plan_along, dot. apply zero_sum; try lra; [apply zero_sum; try lra|]; apply zero_product; assumption. }
+  { unfold plan_along, dot. apply zero_sum; [exact PL2|exact L1|apply zero_sum; try exact L1|]; apply zero_product; assumption. }
   assert (ZhG := zero_product half _ _ ZG). assert (ZhC := zero_product half _ _ HL).
   generalize (close_positive _ PR) (close_positive _ PE) (close_positive _ PC) (close_positive _ PP) (close_positive _ PV)
     (close_positive _ PG) (close_exact offset) (close_exact distance) (magnitude_close offset) (magnitude_close distance).
@@ -100,14 +103,15 @@ Proof.
   assert (PVT : 0 <= V * T) by (apply Rmult_le_pos; assumption). assert (PGT : 0 <= G * T) by (apply Rmult_le_pos; assumption).
   assert (PTT : 0 <= T * T) by (apply Rmult_le_pos; assumption).
   assert (PGTT : 0 <= G * (T * T)) by (apply Rmult_le_pos; assumption).
-  assert (LT1 : L * T <= few * (G * T)) by (rewrite <- Rmult_assoc; apply Rmult_le_compat_r; assumption).
-  assert (LTT : L * (T * T) <= few * (G * (T * T))) by (rewrite <- Rmult_assoc; apply Rmult_le_compat_r; assumption).
-  assert (MT : M * T <= few * (V * T)) by (rewrite <- Rmult_assoc; apply Rmult_le_compat_r; assumption).
+  assert (LT1 : L * T <= few * (G * T)) by (rewrite <- (Rmult_assoc few); apply Rmult_le_compat_r; assumption).
+  assert (LTT : L * (T * T) <= few * (G * (T * T))) by (rewrite <- (Rmult_assoc few); apply Rmult_le_compat_r; assumption).
+  assert (MT : M * T <= few * (V * T)) by (rewrite <- (Rmult_assoc few); apply Rmult_le_compat_r; assumption).
   assert (SVT := Rmult_le_compat_r T _ _ PS SV). assert (SGT := Rmult_le_compat_r T _ _ PS SG).
   assert (SGTT := Rmult_le_compat_r (T * T) _ _ PTT SG).
   generalize (Rabs_pos (B offset)) (Rabs_pos (B distance)). intros PO PD.
   set (T1 := P + (V + G * T) * T + Rabs (B offset) + Rabs (B distance)). set (T2 := V + G * T).
-  assert (PT1 : 0 <= T1) by (unfold T1; lra). assert (PT2 : 0 <= T2) by (unfold T2; lra).
+  assert (PT1 : 0 <= T1) by (unfold T1; clear - PP PVT PGTT PO PD; lra).
+  assert (PT2 : 0 <= T2) by (apply Rplus_le_le_0_compat; assumption).
   (* The first coefficient. *)
   assert (Uc : B wall_gap <= centre_along 0 - (size_now 0 + B offset + B distance) - 25 * u * T1 + 20000 * u * tiny /\
     B wall_gap <= 2 * T1 + 1000 * tiny).
@@ -115,7 +119,7 @@ Proof.
     assert (exists Y, close (margin * wall_size)%float (64 * u * T1) Y 1000 /\ Y <= 64 * u * (2 * T1 + 2 * tiny) + tiny) as (Ym & Cm & HYm).
     { unfold wall_size. rewrite EP. eexists. split; [eapply close_as; [find_close| |intros _; apply Rle_refl|hundredths]|].
       - unfold T1. ring.
-      - unfold T1. rewrite few_value in *. rewrite u_value. lra. }
+      - unfold T1. clear - LT PVT PGTT PP PO PD PY. rewrite few_value in LT. rewrite u_value. lra. }
     assert (exists Y, close ((((place_now - offset) - a.(radius)) - grown) - distance)%float
       (centre_along 0 - (size_now 0 + B offset + B distance)) Y 1900 /\ Y <= 3 / 2 * T1 + 200 * tiny) as (Yc & Cc & HYc).
     { unfold place_now, grown, place_along. unfold dot at 1. unfold velocity_along. unfold dot at 1.
@@ -124,24 +128,26 @@ Proof.
         by (unfold plan_along, dot; eapply close_as; [find_close|reflexivity|intros _; apply Rle_refl|hundredths]).
       eexists. split; [eapply close_as; [find_close| |intros _; apply Rle_refl|hundredths]|].
       - unfold centre_along, size_now, moved. fold T. field.
-      - unfold T1. rewrite few_value in *. lra. }
+      - unfold T1. clear - SP SVT SGTT MT LT LTT PVT PGTT PP PO PD PY. rewrite few_value in *. lra. }
     destruct (lowered _ _ _ Yc 1900 T1 (4000 * u * tiny) Fc Cc) as [X1 X2].
     - split; discriminate.
-    - destruct (Cm Fm) as [E _]. eapply Rle_trans; [exact E|]. change (roundoff (prec := 53)) with u. rewrite u_value in *. lra.
+    - destruct (Cm Fm) as [E _]. eapply Rle_trans; [exact E|]. change (roundoff (prec := 53)) with u. clear - HYm PT1 PY.
+      rewrite u_value in *. lra.
     - replace (4000 * u * tiny / (20 * u)) with (200 * tiny) by (rewrite u_value; field). exact HYc.
     - exact PT1.
-    - rewrite u_value. lra.
-    - replace (4000 * u * tiny / (4 * u)) with (1000 * tiny) in X2 by (rewrite u_value; field). split; [|exact X2]. lra. }
+    - clear - PY. rewrite u_value. lra.
+    - replace (4000 * u * tiny / (4 * u)) with (1000 * tiny) in X2 by (rewrite u_value; field). split; [|exact X2].
+      clear - X1. lra. }
   (* The second. *)
   assert (Ub : B wall_speed <= B x * (B a.(velocity_x) + B a.(plan_x) * T) + B y * (B a.(velocity_y) + B a.(plan_y) * T) +
       B z * (B a.(velocity_z) + B a.(plan_z) * T) - (B a.(growth_speed) + B a.(acceleration_limit) * T) - 25 * u * T2 + 20000 * u * L).
   { unfold wall_speed in *. destruct (sub_finite _ _ Fb) as (_ & Fm & _). rewrite EV in *.
-    assert (ZV := zero_sum _ _ M L M1 L1 HMs (zero_product_l _ s L HLs)). assert (PML : 0 <= M + L) by lra.
+    assert (ZV := zero_sum _ _ M L M1 L1 HMs (zero_product_l _ s L HLs)).
     assert (exists Y, close (margin * (speed_size a + plan_size a * s))%float (64 * u * T2) Y 500 /\
       Y <= 64 * u * (T2 + L) + (M + L)) as (Ym & Cm & HYm).
     { eexists. split; [eapply close_as; [find_close| |intros _; apply Rle_refl|hundredths]|].
       - unfold T2. ring.
-      - unfold T2. rewrite u_value. lra. }
+      - unfold T2. clear. rewrite u_value. lra. }
     assert (exists Y, close ((velocity_along + plan_along * s) - (a.(growth_speed) + a.(acceleration_limit) * s))%float
       (B x * (B a.(velocity_x) + B a.(plan_x) * T) + B y * (B a.(velocity_y) + B a.(plan_y) * T) +
        B z * (B a.(velocity_z) + B a.(plan_z) * T) - (B a.(growth_speed) + B a.(acceleration_limit) * T)) Y 1900 /\
@@ -151,33 +157,33 @@ Proof.
         by (unfold plan_along, dot; eapply close_as; [find_close|reflexivity|intros _; apply Rle_refl|hundredths]).
       unfold velocity_along, dot. eexists. split; [eapply close_as; [find_close| |intros _; apply Rle_refl|hundredths]|].
       - ring.
-      - unfold T2. rewrite few_value in *. lra. }
+      - unfold T2. clear - SV SGT M2 L1 LT1 PV PGT. rewrite few_value in *. lra. }
     destruct (lowered _ _ _ Yc 1900 T2 (4000 * u * L) Fb Cc) as [X1 _].
     - split; discriminate.
     - destruct (Cm Fm) as [E _]. eapply Rle_trans; [exact E|]. change (roundoff (prec := 53)) with u.
-      unfold T2 in *. rewrite few_value, u_value in *. lra.
+      unfold T2 in *. clear - HYm M2 L1 PV PGT. rewrite few_value, u_value in *. lra.
     - replace (4000 * u * L / (20 * u)) with (200 * L) by (rewrite u_value; field). exact HYc.
     - exact PT2.
-    - rewrite u_value. lra.
-    - lra. }
+    - clear - L1. rewrite u_value. lra.
+    - clear - X1. lra. }
   (* The third. *)
   assert (Ua : B wall_acceleration <= B x * B a.(plan_x) + B y * B a.(plan_y) + B z * B a.(plan_z) - B a.(acceleration_limit)
       - 25 * u * G).
   { unfold wall_acceleration in *. destruct (sub_finite _ _ Fa) as (_ & Fm & _). rewrite EG in *.
     assert (close (margin * plan_size a)%float (64 * u * G) (64 * u * G + L) 200) as Cm
       by (eapply close_as; [find_close|reflexivity|intros _; apply Rle_refl|hundredths]).
-    destruct (lowered (plan_along - a.(acceleration_limit)) (margin * plan_size a)
+    destruct (lowered (plan_along - a.(acceleration_limit))%float (margin * plan_size a)%float
       (B x * B a.(plan_x) + B y * B a.(plan_y) + B z * B a.(plan_z) - B a.(acceleration_limit))
       (1 * Rabs (B a.(plan_x)) + L + (1 * Rabs (B a.(plan_y)) + L) + (1 * Rabs (B a.(plan_z)) + L) + B a.(acceleration_limit))
       600 G 0 Fa) as [X1 _].
     - unfold plan_along, dot. eapply close_as; [find_close|reflexivity|intros _; apply Rle_refl|hundredths].
     - split; discriminate.
-    - destruct (Cm Fm) as [E _]. eapply Rle_trans; [exact E|]. change (roundoff (prec := 53)) with u.
+    - destruct (Cm Fm) as [E _]. eapply Rle_trans; [exact E|]. change (roundoff (prec := 53)) with u. clear - L3 PG.
       rewrite few_value, u_value in *. lra.
-    - replace (0 / (20 * u)) with 0 by (rewrite u_value; field). rewrite few_value in *. lra.
+    - replace (0 / (20 * u)) with 0 by (rewrite u_value; field). clear - SG L3 PG. rewrite few_value in *. lra.
     - exact PG.
-    - lra.
-    - lra. }
+    - apply Rle_refl.
+    - clear - X1. lra. }
   (* The quadratic. *)
   destruct Uc as [Uc Lower].
   assert (quadratic (centre_along 0 - (size_now 0 + B offset + B distance))
@@ -190,7 +196,7 @@ Proof.
     change (/ 2) with (bpow radix2 (-1)). rewrite <- !bpow_plus. apply bpow_le. lia. }
   assert (RT : 0 <= B a.(radius) <= 9 / 8 * T1).
   { split; [exact PR|]. generalize (Rabs_pos (B a.(position_x))) (Rabs_pos (B a.(position_y))) (Rabs_pos (B a.(position_z))).
-    unfold T1. lra. }
+    unfold T1. clear - SP PVT PGTT PP PO PD. lra. }
   revert RT Uc Lower Ub Ua Lc L1 L2 L3 PT2 PG Tiny PY.
   generalize (centre_along 0 - (size_now 0 + B offset + B distance))
     (B x * (B a.(velocity_x) + B a.(plan_x) * T) + B y * (B a.(velocity_y) + B a.(plan_y) * T) +
