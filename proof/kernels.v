@@ -413,7 +413,7 @@ Definition meeting_step (a b : bound) (from distance d : double) : double :=
 Definition earliest_meeting (a b : bound) (from until distance : double) : double :=
   advance_by_safe_steps (meeting_step a b from distance) from until.
 
-(* src/bound/certificates.cpp: earliest_meeting of a bound and the half-space with this normal and offset *)
+(* src/bound/certificates.cpp: earliest_meeting of a bound and a half-space *)
 Definition wall_meeting (a : bound) (x y z offset from until distance : double) : double :=
   let t1 := ((x * a.(velocity_x)) + (y * a.(velocity_y))) + (z * a.(velocity_z)) in
   let t2 := ((x * a.(plan_x)) + (y * a.(plan_y))) + (z * a.(plan_z)) in

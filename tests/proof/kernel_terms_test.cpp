@@ -151,7 +151,7 @@ std::string kernels_file() {
   add("src/bound/certificates.cpp", "earliest_meeting (a b : bound) (from until distance : double) : double",
       earliest_meeting);
   kernels::name_of_step.clear();
-  add("src/bound/certificates.cpp: earliest_meeting of a bound and the half-space with this normal and offset",
+  add("src/bound/certificates.cpp: earliest_meeting of a bound and a half-space",
       "wall_meeting (a : bound) (x y z offset from until distance : double) : double", [&] {
         const kernels::HalfSpace wall{{variable("x"), variable("y"), variable("z")}, variable("offset")};
         return kernels::earliest_meeting(bound("a"), wall, from, until, distance);
