@@ -2,7 +2,8 @@
    move, whatever they do within their promises. *)
 From Coq Require Import Reals Lra.
 From Flocq Require Import Core BinarySingleNaN.
-From Kinesphere Require floats errors inputs kernels sum_down direction meeting_coefficients earliest_meeting meeting_facts wall_meeting.
+From Kinesphere Require floats errors inputs kernels sum_down direction meeting_coefficients earliest_meeting meeting_parts meeting_errors meeting_facts wall_meeting
+  pair_meeting.
 From Kinesphere Require Import rounding geometry_vectors geometry_motion geometry_bounds geometry_certificates geometry_knowledge
   geometry_radii.
 Open Scope R_scope.
@@ -152,20 +153,55 @@ Theorem answer_is_before_the_wall (b : body) (m : motion) (x : report) (f : inpu
   B distance < dot n (place m t) - B offset - r b.
 Proof.
   intros n Df Sf Hn Ff Fu Hx Kb NI answer Ht Hr.
-  assert (wall_meeting.beyond_wall f nx ny nz offset distance t) as [_ L].
+  assert (wall_meeting.beyond_wall f nx ny nz offset distance t) as [[(_ & _ & _ & _ & Fr & _) _] L].
   { replace t with (B from + (t - B from)) by ring.
     destruct (wall_meeting.wall_meeting_is_early f nx ny nz offset from until distance Sf (coordinates_at_most n Hn) Ff Fu NI)
       as [[E H]|(F & _ & H)]; fold answer in E, H || fold answer in F, H.
     - destruct Hr as [[_ Hu]|[F _]]; [apply H; assumption|]. rewrite E in F. discriminate.
     - destruct Hr as [[E _]|[_ Lt]]; [rewrite E in F; discriminate|]. apply H. lra. }
   generalize (near_its_bound b m x t Kb ltac:(lra)) (radius_of_bound f b x t Df ltac:(lra)).
-  set (y := c (bound_from b x) (t - at_time x)).
+  assert (0 <= B (inputs.radius f)) as Pr by (apply meeting_parts.not_less_0; [exact Fr|apply Sf]).
+  generalize (Rabs_pos (B offset)) (Rabs_pos (B distance)) meeting_errors.tiny_pos.
+  unfold wall_meeting.to_spare in L. set (y := c (bound_from b x) (t - at_time x)).
   assert (dot n y = B nx * meeting_coefficients.moved (B (inputs.position_x f)) (B (inputs.velocity_x f)) (B (inputs.plan_x f)) (t - B (inputs.time f)) +
     B ny * meeting_coefficients.moved (B (inputs.position_y f)) (B (inputs.velocity_y f)) (B (inputs.plan_y f)) (t - B (inputs.time f)) +
     B nz * meeting_coefficients.moved (B (inputs.position_z f)) (B (inputs.velocity_z f)) (B (inputs.plan_z f)) (t - B (inputs.time f))) as E.
   { destruct Df as (T & P & V & G & _). unfold y, n, c, bound_from, bound_of. cbn [start speed plan].
     rewrite <- P, <- V, <- G, <- T. unfold meeting_coefficients.moved. coordinates. field. }
-  generalize (dot_at_most_norm n (y - place m t) Hn). rewrite dot_minus, E, (norm_symmetric y). lra.
+  generalize (dot_at_most_norm n (y - place m t) Hn). rewrite dot_minus, E, (norm_symmetric y). rewrite u_value in *. lra.
+Qed.
+
+(* The same of two points along a direction, each the centre of a ball, as the points of two hulls are (Lemma T): until the
+   answer the one ball is farther along it than the other. So all hulls of such points are apart
+   (hulls_are_apart_along_a_direction). *)
+Theorem answer_is_before_two_points_meet_along (a b : body) (ma mb : motion) (x y : report) (f h : inputs.bound)
+  (nx ny nz from until distance : floats.double) (t : R) :
+  let n := Vector (B nx) (B ny) (B nz) in
+  describes f a x -> describes h b y -> meeting_facts.sound f from -> meeting_facts.sound h from -> norm n <= 1 ->
+  finite from -> finite until \/ until = floats.infinity -> at_time x <= B from -> at_time y <= B from ->
+  keeps_since a ma x t -> keeps_since b mb y t ->
+  let motion := kernels.beside f h from in let farther := floats.add distance (kernels.slack_beside f h from) in
+  wall_meeting.wall_gap motion nx ny nz (floats.literal 0 0) from farther <> floats.infinity ->
+  let answer := kernels.wall_meeting motion nx ny nz (floats.literal 0 0) from until farther in
+  B from <= t -> answer = floats.infinity /\ (finite until -> t <= B until) \/ finite answer /\ t < B answer ->
+  r a + r b + B distance < dot n (place ma t) - dot n (place mb t).
+Proof.
+  intros n Df Dh Sf Sh Hn Ff Fu Hx Hy Ka Kb motion farther NI answer Ht Hr.
+  assert (pair_meeting.apart_along f h nx ny nz distance t) as [_ L].
+  { replace t with (B from + (t - B from)) by ring.
+    destruct (pair_meeting.pair_meeting_is_early f h from Sf Sh nx ny nz distance (coordinates_at_most n Hn) until Ff Fu NI)
+      as [[E H]|(F & _ & H)]; fold motion farther answer in E, H || fold motion farther answer in F, H.
+    - destruct Hr as [[_ Hu]|[F _]]; [apply H; assumption|]. rewrite E in F. discriminate.
+    - destruct Hr as [[E _]|[_ Lt]]; [rewrite E in F; discriminate|]. apply H. lra. }
+  generalize (near_its_bound a ma x t Ka ltac:(lra)) (near_its_bound b mb y t Kb ltac:(lra))
+    (radius_of_bound f a x t Df ltac:(lra)) (radius_of_bound h b y t Dh ltac:(lra)).
+  set (ca := c (bound_from a x) (t - at_time x)). set (cb := c (bound_from b y) (t - at_time y)).
+  assert (dot n ca - dot n cb = pair_meeting.centres_along f h nx ny nz t) as E.
+  { destruct Df as (T & P & V & G & _), Dh as (T' & P' & V' & G' & _). unfold ca, cb, n, c, bound_from, bound_of.
+    cbn [start speed plan]. rewrite <- P, <- V, <- G, <- T, <- P', <- V', <- G', <- T'.
+    unfold pair_meeting.centres_along, meeting_coefficients.moved. coordinates. field. }
+  generalize (dot_at_most_norm n (ca - place ma t) Hn) (dot_at_most_norm n (place mb t - cb) Hn).
+  rewrite !dot_minus, (norm_symmetric ca). lra.
 Qed.
 
 Lemma no_rate (k : floats.double) : floats.equal k (floats.literal 0 0) = true -> B k = 0.

@@ -436,6 +436,33 @@ Definition wall_meeting (a : bound) (x y z offset from until distance : double) 
   else
   from.
 
+(* src/bound/relative_motion.hpp: BoundBesideBound *)
+Definition beside (a b : bound) (from : double) : bound :=
+  let t1 := from - a.(time) in
+  let t2 := (literal 1 (-1)) * t1 in
+  let t3 := from - b.(time) in
+  let t4 := (literal 1 (-1)) * t3 in
+  let t5 := (a.(position_x) + ((a.(velocity_x) + (a.(plan_x) * t2)) * t1)) - (b.(position_x) + ((b.(velocity_x) + (b.(plan_x) * t4)) * t3)) in
+  let t6 := (a.(position_y) + ((a.(velocity_y) + (a.(plan_y) * t2)) * t1)) - (b.(position_y) + ((b.(velocity_y) + (b.(plan_y) * t4)) * t3)) in
+  let t7 := (a.(position_z) + ((a.(velocity_z) + (a.(plan_z) * t2)) * t1)) - (b.(position_z) + ((b.(velocity_z) + (b.(plan_z) * t4)) * t3)) in
+  let t8 := widened ((((magnitude a.(plan_x)) + (magnitude a.(plan_y))) + (magnitude a.(plan_z))) + a.(acceleration_limit)) in
+  let t9 := (widened ((((magnitude a.(velocity_x)) + (magnitude a.(velocity_y))) + (magnitude a.(velocity_z))) + a.(growth_speed))) + (t8 * t1) in
+  let t10 := widened ((((magnitude b.(plan_x)) + (magnitude b.(plan_y))) + (magnitude b.(plan_z))) + b.(acceleration_limit)) in
+  let t11 := (widened ((((magnitude b.(velocity_x)) + (magnitude b.(velocity_y))) + (magnitude b.(velocity_z))) + b.(growth_speed))) + (t10 * t3) in
+  let t12 := ((a.(growth_speed) + (a.(acceleration_limit) * t1)) + (b.(growth_speed) + (b.(acceleration_limit) * t3))) + ((literal 1 (-47)) * (capped (t9 + t11))) in
+  Build_bound from t5 t6 t7 ((a.(velocity_x) + (a.(plan_x) * t1)) - (b.(velocity_x) + (b.(plan_x) * t3))) ((a.(velocity_y) + (a.(plan_y) * t1)) - (b.(velocity_y) + (b.(plan_y) * t3))) ((a.(velocity_z) + (a.(plan_z) * t1)) - (b.(velocity_z) + (b.(plan_z) * t3))) (a.(plan_x) - b.(plan_x)) (a.(plan_y) - b.(plan_y)) (a.(plan_z) - b.(plan_z)) ((a.(radius) + b.(radius)) - (literal 0 0)) t12 ((a.(acceleration_limit) + b.(acceleration_limit)) + ((literal 1 (-47)) * (capped (t8 + t10)))).
+
+(* src/bound/relative_motion.hpp: BoundBesideBound *)
+Definition slack_beside (a b : bound) (from : double) : double :=
+  let t1 := from - a.(time) in
+  let t2 := from - b.(time) in
+  let t3 := ((a.(growth_speed) + (((literal 1 (-1)) * a.(acceleration_limit)) * t1)) * t1) + ((b.(growth_speed) + (((literal 1 (-1)) * b.(acceleration_limit)) * t2)) * t2) in
+  let t4 := (widened ((((magnitude a.(velocity_x)) + (magnitude a.(velocity_y))) + (magnitude a.(velocity_z))) + a.(growth_speed))) + ((widened ((((magnitude a.(plan_x)) + (magnitude a.(plan_y))) + (magnitude a.(plan_z))) + a.(acceleration_limit))) * t1) in
+  let t5 := (widened ((((magnitude a.(position_x)) + (magnitude a.(position_y))) + (magnitude a.(position_z))) + a.(radius))) + (t4 * t1) in
+  let t6 := (widened ((((magnitude b.(velocity_x)) + (magnitude b.(velocity_y))) + (magnitude b.(velocity_z))) + b.(growth_speed))) + ((widened ((((magnitude b.(plan_x)) + (magnitude b.(plan_y))) + (magnitude b.(plan_z))) + b.(acceleration_limit))) * t2) in
+  let t7 := (widened ((((magnitude b.(position_x)) + (magnitude b.(position_y))) + (magnitude b.(position_z))) + b.(radius))) + (t6 * t2) in
+  t3 + ((literal 1 (-47)) * (capped (t5 + t7))).
+
 (* src/bound/rigid_extent.hpp: the growth of RigidExtent::of_point *)
 Definition growth_of_point (limit spin_growth spin x y z : double) : double :=
   let t1 := (literal 1 0) + (literal 1 (-47)) in

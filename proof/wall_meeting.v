@@ -74,11 +74,14 @@ Qed.
 
 Hypothesis short : Rabs (B x) <= 1 /\ Rabs (B y) <= 1 /\ Rabs (B z) <= 1.
 
+(* What is to spare: some roundoffs of the radius, the offset and the distance, and of what underflow may take. *)
+Definition to_spare : R := 6 * u * (B a.(radius) + Rabs (B offset) + Rabs (B distance)) + 1000000 * u * tiny.
+
 (* With these coefficients the quadratic is below how far the bound is beyond the plane, and the distance. *)
 Lemma wall_quadratic_below (e : R) :
   finite wall_gap -> finite wall_speed -> finite wall_acceleration -> bpow radix2 (-975) < B wall_gap -> 0 <= e ->
   quadratic (B wall_gap) (B wall_speed) (B wall_acceleration) e <=
-    centre_along e - (size_now e + B offset + B distance) - 3 * u * B a.(radius).
+    centre_along e - (size_now e + B offset + B distance) - to_spare.
 Proof.
   intros Fc Fb Fa Lc Pe. destruct (wall_inputs_finite Fc) as (_ & (FG & FV & FP) & Fs & EG & EV & EP).
   destruct (bound_sizes a from sound_a FG FV FP) as
@@ -194,17 +197,18 @@ Proof.
   assert (tiny * 70368744177664 <= bpow radix2 (-975) * / 2) as Tiny.
   { unfold least. replace 70368744177664 with (bpow radix2 46) by reflexivity.
     change (/ 2) with (bpow radix2 (-1)). rewrite <- !bpow_plus. apply bpow_le. lia. }
-  assert (RT : 0 <= B a.(radius) <= 9 / 8 * T1).
-  { split; [exact PR|]. generalize (Rabs_pos (B a.(position_x))) (Rabs_pos (B a.(position_y))) (Rabs_pos (B a.(position_z))).
+  assert (RT : 0 <= B a.(radius) + Rabs (B offset) + Rabs (B distance) <= 9 / 8 * T1).
+  { split; [clear - PR PO PD; lra|]. generalize (Rabs_pos (B a.(position_x))) (Rabs_pos (B a.(position_y))) (Rabs_pos (B a.(position_z))).
     unfold T1. clear - SP PVT PGTT PP PO PD. lra. }
   revert RT Uc Lower Ub Ua Lc L1 L2 L3 PT2 PG Tiny PY.
   generalize (centre_along 0 - (size_now 0 + B offset + B distance))
     (B x * (B a.(velocity_x) + B a.(plan_x) * T) + B y * (B a.(velocity_y) + B a.(plan_y) * T) +
       B z * (B a.(velocity_z) + B a.(plan_z) * T) - (B a.(growth_speed) + B a.(acceleration_limit) * T))
     (B x * B a.(plan_x) + B y * B a.(plan_y) + B z * B a.(plan_z) - B a.(acceleration_limit)).
-  generalize (B wall_gap) (B wall_speed) (B wall_acceleration) (B a.(radius)) T1 T2 G L tiny (bpow radix2 (-975)). clear - Pe.
+  unfold to_spare.
+  generalize (B wall_gap) (B wall_speed) (B wall_acceleration) (B a.(radius) + Rabs (B offset) + Rabs (B distance)) T1 T2 G L tiny (bpow radix2 (-975)). clear - Pe.
   intros c0 b0 a0 r T1 T2 G L t q c1 b1 a1 RT Uc Lower Ub Ua Lc L1 L2 L3 PT2 PG Tiny PY. rewrite few_value in L3.
-  assert (c0 <= c1 - 100000000 * u * t - 3 * u * r) as C1 by (rewrite u_value in *; lra).
+  assert (c0 <= c1 - 100000000 * u * t - 6 * u * r) as C1 by (rewrite u_value in *; lra).
   assert (b0 * e <= (b1 + 20000 * u * L) * e) as B1 by (apply Rmult_le_compat_r; [exact Pe|]; rewrite u_value in *; lra).
   assert (0 <= e * e) as Pee by (apply Rmult_le_pos; exact Pe).
   assert (a0 * (e * e) <= (a1 - 25 * u * G) * (e * e)) as A1 by (apply Rmult_le_compat_r; assumption).
@@ -217,11 +221,11 @@ Qed.
 
 End Parts.
 
-(* At the time t the bound is beyond the plane and the distance, and by a little more, so that its radius may be a sum that
-   was rounded. *)
+(* At the time t the bound is beyond the plane and the distance, and by a little more, so that radius and distance may be sums
+   that were rounded. *)
 Definition beyond_wall (a : bound) (x y z offset distance : double) (t : R) : Prop :=
   (all_finite a /\ finite x /\ finite y /\ finite z /\ finite offset /\ finite distance) /\
-  B offset + B distance + radius_at a t + 3 * u * B a.(radius) <
+  B offset + B distance + radius_at a t + to_spare a offset distance <
     B x * moved (B a.(position_x)) (B a.(velocity_x)) (B a.(plan_x)) (t - B a.(time)) +
     B y * moved (B a.(position_y)) (B a.(velocity_y)) (B a.(plan_y)) (t - B a.(time)) +
     B z * moved (B a.(position_z)) (B a.(velocity_z)) (B a.(plan_z)) (t - B a.(time)).

@@ -56,7 +56,14 @@ kernels::SweptSphereQuery query(const std::string& name, const std::string& numb
           .to = variable<Single>("to" + number)};
 }
 
-/// Returns the bound of a report, as the term that builds it.
+/// Returns the term that builds a bound.
+Double term_of_bound(const kernels::Bound& bound) {
+  const kernels::Vec3 &x = bound.position, &v = bound.velocity, &g = bound.planned_acceleration;
+  return call("Build_bound", bound.time, x.x, x.y, x.z, v.x, v.y, v.z, g.x, g.y, g.z, bound.radius,
+              bound.growth_speed, bound.acceleration_limit);
+}
+
+/// Returns the bound of a report.
 Double bound_of_report() {
   const auto three = [](const std::string& name) {
     return kernels::Vec3{variable(name + "x"), variable(name + "y"), variable(name + "z")};
@@ -69,9 +76,7 @@ Double bound_of_report() {
                          .velocity_error = variable("e1"),
                          .radius_rate = variable("k")},
                         {.position = three(""), .velocity = three("v")}, variable("t"));
-  const kernels::Vec3 &x = bound.position, &v = bound.velocity, &g = bound.planned_acceleration;
-  return call("Build_bound", bound.time, x.x, x.y, x.z, v.x, v.y, v.z, g.x, g.y, g.z, bound.radius,
-              bound.growth_speed, bound.acceleration_limit);
+  return term_of_bound(bound);
 }
 
 /// Returns the growth of the bound of a point that is fixed in a turning body.
@@ -156,6 +161,11 @@ std::string kernels_file() {
         const kernels::HalfSpace wall{{variable("x"), variable("y"), variable("z")}, variable("offset")};
         return kernels::earliest_meeting(bound("a"), wall, from, until, distance);
       });
+  const std::string beside = "src/bound/relative_motion.hpp: BoundBesideBound";
+  add(beside, "beside (a b : bound) (from : double) : bound",
+      [&] { return term_of_bound(kernels::BoundBesideBound(bound("a"), bound("b"), from).bound); });
+  add(beside, "slack_beside (a b : bound) (from : double) : double",
+      [&] { return kernels::BoundBesideBound(bound("a"), bound("b"), from).slack; });
   add("src/bound/rigid_extent.hpp: the growth of RigidExtent::of_point",
       "growth_of_point (limit spin_growth spin x y z : double) : double", growth_of_point);
   add("src/broadphase/swept_sphere_search_plain.cpp: one capsule of a table",
