@@ -112,7 +112,9 @@ void BroadPhase::enter(std::uint32_t number, const InflatedBound& bound, double 
   if (!levels_[layer].has_frame) {
     if (!has_base_) base_ = bound.moved.centre;
     has_base_ = true;
-    open(levels_[layer], window.end < infinity ? window.begin() : 0.0);
+    // A window that begins later than now is entered early, as at the last take_over().
+    const double begin = window.end < infinity ? window.begin() : 0.0;
+    open(levels_[layer], begin > now && window.end < infinity ? taken_over_ : begin);
   }
   add(number, layer, bound, now);
 }
@@ -183,11 +185,17 @@ bool BroadPhase::is_valid(std::size_t bodies) const {
       std::isnan(next_end_) || !filling_is_valid() ||
       std::any_of(changes_.begin(), changes_.end(), [=](std::uint32_t number) { return number >= bodies; }))
     return false;
+  if (std::isnan(search_begin_) || std::isnan(taken_over_) || awaiting_.size() > registrations_.size())
+    return false;
   std::size_t registered = 0;
   for (std::uint32_t number = 0; number < registrations_.size(); ++number) {
-    if (!contains(number)) continue;
+    if (!contains(number)) {
+      if (search_of(number) != Search::none) return false;
+      continue;
+    }
     ++registered;
     if (std::isnan(registrations_[number].end) || check(number)) return false;
+    if (search_of(number) != Search::none && !(end_of(number) > search_begin_)) return false;
   }
   std::size_t in_levels = size();
   for (const Opening& opening : filling_.openings) in_levels += opening.unsorted.numbers.size();
@@ -195,6 +203,15 @@ bool BroadPhase::is_valid(std::size_t bodies) const {
          std::all_of(levels_.begin(), levels_.end(), [this](const GridLevel& layer) {
            return layer.is_valid() && (layer.is_empty() || next_end_ <= layer.window.end);
          });
+}
+
+bool BroadPhase::is_valid_copy(std::size_t bodies) const {
+  return std::all_of(levels_.begin(), levels_.end(), [=](const GridLevel& level) {
+    const SweptSphereTable& table = level.spheres.table();
+    for (std::uint32_t slot = 0; slot < table.slots(); ++slot)
+      if (table.number_at(slot) >= bodies && table.number_at(slot) != SweptSphereTable::free_slot) return false;
+    return level.is_valid();
+  });
 }
 
 }  // namespace kinesphere

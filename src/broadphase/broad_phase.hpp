@@ -122,16 +122,30 @@ class BroadPhase {
 
   // A start that is prepared in a broad phase of its own, while the present windows last.
 
-  /// Returns a broad phase that holds what this one will hold at `end` if nothing changes: the bodies whose
-  /// windows last beyond it. Others can start in it at `end`; their levels have spare slots.
-  BroadPhase successor(double end) const;
-  /// Replaces the contents by those of a successor, as if its starters had started here.
-  void take_over(BroadPhase&& successor);
-  /// True if a search for the started slots from `first` on (NeighbourSearch::near_started()) finds the pair.
-  /// Precondition: contains(a), contains(b).
-  bool will_find(std::uint32_t a, std::uint32_t b, std::size_t first) const {
-    return searches_for(a, b, first) || searches_for(b, a, first);
+  /// Returns an empty broad phase in which the next windows of bodies here can start.
+  BroadPhase successor() const;
+  /// Registers the starters of a successor in their windows, `now`, before these begin at `begin`. Bodies
+  /// that have windows beyond `begin` then await a search from `begin` on. Precondition: finish_start() for
+  /// the successor. Returns a copy of the grid levels of these bodies to be searched, without registrations;
+  /// those of the starters are fresh.
+  BroadPhase take_over(BroadPhase&& successor, double now, double begin);
+  /// Time from which pairs that await a search are certified by it; -infinity if none do.
+  double search_begin() const { return search_begin_; }
+  /// True if the pair was registered at take_over() and is unchanged since, and one of the two is a starter:
+  /// they are certified until search_begin() at most, and a search for the starters finds them.
+  bool await_search(std::uint32_t a, std::uint32_t b) const {
+    const auto of_a = search_of(a);
+    const auto of_b = search_of(b);
+    return of_a != Search::none && of_b != Search::none && (of_a == Search::starts || of_b == Search::starts);
   }
+  /// True if the body is a starter of take_over(), unchanged since.
+  bool awaits_search(std::uint32_t number) const { return search_of(number) == Search::starts; }
+  /// No body awaits a search any more.
+  void end_search();
+  /// In a result of take_over(), returns the bodies in the slots first <= k < last below started_slots(),
+  /// without those that is_gone(number) tells, which it takes out.
+  template <class IsGone>
+  std::vector<std::uint32_t> started_bodies(std::size_t first, std::size_t last, IsGone is_gone);
   /// Keeps a list of the bodies that enter or leave from now on, or stops that.
   void record_changes(bool on);
   /// Returns the list so far, each body once in ascending order, and begins a new one.
@@ -146,10 +160,13 @@ class BroadPhase {
   std::optional<std::string> check(std::uint32_t number) const;
   /// True if the deserialized state is consistent in a world with `bodies` bodies.
   bool is_valid(std::size_t bodies) const;
+  /// True if the deserialized result of a take_over() is consistent in a world with `bodies` bodies.
+  bool is_valid_copy(std::size_t bodies) const;
   static void serialize(auto& self, auto& archive) {
     auto& [space, registrations, layers, levels, base, has_base, next_end, many_changes, filling, records,
-           changed] = self;
-    archive(registrations, layers, levels, base, has_base, next_end, many_changes, filling, records, changed);
+           changed, awaiting, search_begin, taken_over] = self;
+    archive(registrations, layers, levels, base, has_base, next_end, many_changes, filling, records, changed,
+            awaiting, search_begin, taken_over);
   }
 
  private:
@@ -182,6 +199,8 @@ class BroadPhase {
       archive(level, unsorted);
     }
   };
+  /// Whether a body awaits a search since take_over(): not; as one that is found; as a starter.
+  enum class Search : std::uint8_t { none, found, starts };
   /// Number of bodies by size class.
   using Sizes = std::map<int, std::size_t>;
   /// What add_starters() has added since the last finish_start().
@@ -205,13 +224,17 @@ class BroadPhase {
   template <class Visit>
   void for_each_ended(double now, bool all, Visit visit) const;
   std::vector<std::uint32_t> choose_levels(std::span<const Starter> starters);
-  bool searches_for(std::uint32_t a, std::uint32_t b, std::size_t first) const;
-  std::size_t index_of(const Registration& started) const;
+  Search search_of(std::uint32_t number) const {
+    return number < awaiting_.size() ? awaiting_[number] : Search::none;
+  }
+  void take_out_starters(const BroadPhase& successor);
+  void note_changes_of_ended(std::uint64_t changes, std::uint64_t bodies);
   const Opening* opening_of(std::uint32_t level) const;
   bool is_in_its_level(std::uint32_t number) const;
   bool filling_is_valid() const;
   void note_change(std::uint32_t number) {
     if (records_changes_) changes_.push_back(number);
+    if (number < awaiting_.size()) awaiting_[number] = Search::none;
   }
   template <class Sort>
   void sort_to_start(GridLevel& layer, Sort sort_layer);
@@ -228,7 +251,32 @@ class BroadPhase {
   Filling filling_;
   bool records_changes_ = false;
   std::vector<std::uint32_t> changes_;  ///< see take_changes(); a body may occur several times
+  std::vector<Search> awaiting_;        ///< by number; empty if no body awaits a search
+  double search_begin_ = -infinity;
+  double taken_over_ = 0.0;  ///< time of the last take_over()
 };
+
+template <class IsGone>
+std::vector<std::uint32_t> BroadPhase::started_bodies(std::size_t first, std::size_t last, IsGone is_gone) {
+  std::vector<std::uint32_t> numbers;
+  std::size_t before = 0;
+  for (GridLevel& level : levels_) {
+    if (!level.fresh) continue;
+    const std::size_t behind = before + level.spheres.sorted_slots();
+    for (std::size_t k = std::max(first, before); k < std::min(last, behind); ++k) {
+      const auto slot = static_cast<std::uint32_t>(k - before);
+      const std::uint32_t number = level.spheres.table().number_at(slot);
+      if (number == SweptSphereTable::free_slot) continue;
+      if (is_gone(number)) {
+        level.spheres.remove(slot);
+      } else {
+        numbers.push_back(number);
+      }
+    }
+    before = behind;
+  }
+  return numbers;
+}
 
 template <class BoundOf>
 void BroadPhase::enter_all(std::span<const Arrival> arrivals, BoundOf bound_of, PoolLease& lease) {

@@ -70,6 +70,11 @@ void BroadPhase::end_windows(double now, bool all) {
       next_end_ = std::min(next_end_, layer.window.end);
     }
   }
+  note_changes_of_ended(changes, bodies);
+}
+
+/// Decides, by the changes of bodies in windows that have ended, whether spare slots pay.
+void BroadPhase::note_changes_of_ended(std::uint64_t changes, std::uint64_t bodies) {
   if (bodies > 0)
     has_many_changes_ = bodies_for_a_change * changes > bodies && changes <= most_changes_of_a_body * bodies;
 }
@@ -157,51 +162,78 @@ void BroadPhase::finish_start(PoolLease& lease) {
   filling_ = {};
 }
 
-BroadPhase BroadPhase::successor(double end) const {
+BroadPhase BroadPhase::successor() const {
   BroadPhase next(space_);
   next.size_classes_ = size_classes_;
   next.size_classes_.use_merged();
-  next.has_many_changes_ = true;
-  next.registrations_.resize(registrations_.size());
-  for (const GridLevel& layer : levels_) {
-    if (layer.is_empty() || layer.window.end <= end) continue;
-    const auto level = static_cast<std::uint32_t>(next.levels_.size());
-    const SweptSphereTable& table = next.levels_.emplace_back(layer).spheres.table();
-    next.levels_.back().fresh = false;
-    next.next_end_ = std::min(next.next_end_, layer.window.end);
-    for (std::uint32_t slot = 0; slot < table.slots(); ++slot)
-      if (table.number_at(slot) != SweptSphereTable::free_slot)
-        next.registrations_[table.number_at(slot)] = {layer.window.end, level, slot};
-  }
+  next.has_many_changes_ = has_many_changes_;
   return next;
 }
 
-void BroadPhase::take_over(BroadPhase&& successor) {
-  *this = std::move(successor);
-  next_end_ = infinity;
-  for (GridLevel& layer : levels_) {
-    layer.fresh = false;
-    if (!layer.is_empty()) next_end_ = std::min(next_end_, layer.window.end);
+/// Takes the starters of a successor out of their grid levels. Levels that only had starters become unused.
+void BroadPhase::take_out_starters(const BroadPhase& successor) {
+  std::vector<std::size_t> starters(levels_.size());
+  const auto for_each_starter = [&](auto visit) {
+    for (std::uint32_t number = 0; number < successor.registrations_.size(); ++number)
+      if (successor.contains(number) && contains(number)) visit(registrations_[number]);
+  };
+  for_each_starter([&](const Registration& here) { ++starters[here.level]; });
+  std::uint64_t changes = 0;
+  std::uint64_t bodies = 0;
+  for (std::size_t k = 0; k < levels_.size(); ++k) {
+    GridLevel& level = levels_[k];
+    level.fresh = false;
+    if (starters[k] < level.spheres.size()) continue;
+    changes += std::exchange(level.changes, 0);
+    bodies += level.spheres.size();
+    level.spheres.clear({});
+    level.window.end = -infinity;
   }
+  note_changes_of_ended(changes, bodies);
+  for_each_starter([&](Registration& here) {
+    if (levels_[here.level].window.end > -infinity) levels_[here.level].spheres.remove(here.slot);
+    here.level = none;
+  });
 }
 
-/// Returns the index of a sorted slot of a fresh level among all such slots.
-std::size_t BroadPhase::index_of(const Registration& started) const {
-  std::size_t index = started.slot;
-  for (std::uint32_t level = 0; level < started.level; ++level)
-    if (levels_[level].fresh) index += levels_[level].spheres.sorted_slots();
-  return index;
+BroadPhase BroadPhase::take_over(BroadPhase&& successor, double now, double begin) {
+  take_out_starters(successor);
+  for (GridLevel& started : successor.levels_) {
+    if (started.is_empty()) continue;
+    const auto unused = std::find_if(levels_.begin(), levels_.end(), [](const GridLevel& level) {
+      return level.window.end == -infinity;
+    });
+    (unused == levels_.end() ? levels_.emplace_back() : *unused) = std::move(started);
+  }
+  registrations_.resize(std::max(registrations_.size(), successor.registrations_.size()));
+  size_classes_ = std::move(successor.size_classes_);
+  base_ = successor.base_;
+  has_base_ = successor.has_base_;
+  taken_over_ = now;
+  search_begin_ = begin;
+  awaiting_.assign(registrations_.size(), Search::none);
+  next_end_ = infinity;
+  BroadPhase copy(space_);
+  for (std::uint32_t index = 0; index < levels_.size(); ++index) {
+    const GridLevel& level = levels_[index];
+    if (level.is_empty()) continue;
+    next_end_ = std::min(next_end_, level.window.end);
+    if (level.window.end <= begin) continue;
+    copy.levels_.push_back(level);
+    const SweptSphereTable& table = level.spheres.table();
+    for (std::uint32_t slot = 0; slot < table.slots(); ++slot) {
+      const std::uint32_t number = table.number_at(slot);
+      if (number == SweptSphereTable::free_slot) continue;
+      if (level.fresh) registrations_[number] = {level.window.end, index, slot};
+      awaiting_[number] = level.fresh ? Search::starts : Search::found;
+    }
+  }
+  return copy;
 }
 
-/// Returns true if `a` has started, in a slot from `first` on, and searches for `b`.
-bool BroadPhase::searches_for(std::uint32_t a, std::uint32_t b, std::size_t first) const {
-  const Registration& one = registrations_[a];
-  const Registration& other = registrations_[b];
-  const GridLevel& own = levels_[one.level];
-  const std::uint32_t sorted = own.spheres.sorted_slots();
-  if (!own.fresh || one.slot >= sorted || index_of(one) < first) return false;
-  if (one.level == other.level) return one.slot < other.slot && other.slot < sorted;
-  return !levels_[other.level].fresh || !levels_[other.level].is_before(own);
+void BroadPhase::end_search() {
+  awaiting_.clear();
+  search_begin_ = -infinity;
 }
 
 void BroadPhase::record_changes(bool on) {

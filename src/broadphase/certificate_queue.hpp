@@ -67,8 +67,9 @@ class CertificateOrder {
 /// Transactions on Modeling and Computer Simulation 15) with a single row of buckets. Most certificates
 /// become stale before they are due, so later buckets are not sorted. A bucket is sorted, without its stale
 /// certificates, when it becomes the current one; certificates that are added to the current bucket
-/// afterwards are kept in a heap. Cost: O(1) for each certificate, and O(log of the size of a bucket) for
-/// each that becomes due.
+/// afterwards are kept in a heap. A bucket that is over is used again for a later time, as in a calendar
+/// queue, so certificates that come little by little are never divided all at once. Cost: O(1) for each
+/// certificate, and O(log of the size of a bucket) for each that becomes due.
 class CertificateQueue {
  public:
   /// Sets the order. Precondition: the queue is empty.
@@ -131,8 +132,11 @@ class CertificateQueue {
   void for_each(Visit visit) const {
     std::for_each(sorted_.begin() + static_cast<std::ptrdiff_t>(next_), sorted_.end(), visit);
     std::for_each(heap_.begin(), heap_.end(), visit);
-    for (const std::uint32_t head : heads_)
+    const auto visit_list = [&](std::uint32_t head) {
       for (std::uint32_t at = head; at != none; at = nodes_[at].next) visit(nodes_[at].pair);
+    };
+    std::for_each(heads_.begin(), heads_.end(), visit_list);
+    visit_list(beyond_);
   }
 
   /// Memory reserved for certificates, in bytes.
@@ -152,32 +156,44 @@ class CertificateQueue {
   bool heap_comes_first() const {
     return !heap_.empty() && (next_ == sorted_.size() || order_(heap_.front(), sorted_[next_]));
   }
-  std::size_t bucket_of(double time) const;
+  std::uint64_t bucket_of(double time) const;
+  std::uint32_t& head_of(std::uint64_t bucket) {
+    return bucket == last_ ? beyond_ : heads_[bucket & (heads_.size() - 1)];
+  }
   void wait(const PairCertificate& pair);
+  void link(std::uint32_t node);
+  void move_last();
   void divide(double first, double last, std::size_t pairs);
+  void divide_all(std::vector<PairCertificate>& pairs);
 
   template <class IsStale>
   void begin_bucket(IsStale is_stale) {
     sorted_.clear();
     next_ = 0;
-    while (heads_[++bucket_] == none) continue;
-    for (std::uint32_t at = heads_[bucket_]; at != none;) {
+    const bool is_last = waiting_ == waiting_beyond_;
+    if (is_last) {
+      bucket_ = last_;
+    } else {
+      while (heads_[++bucket_ & (heads_.size() - 1)] == none) continue;
+    }
+    std::uint32_t& head = head_of(bucket_);
+    for (std::uint32_t at = std::exchange(head, none); at != none; --waiting_) {
       Node& node = nodes_[at];
       if (!is_stale(node.pair)) sorted_.push_back(node.pair);
       const std::uint32_t next = node.next;
       node.next = free_;
       free_ = at;
       at = next;
-      --waiting_;
     }
-    heads_[bucket_] = none;
-    // The last bucket has all that fails after the times of the others. Times that never come cannot be
-    // divided.
+    if (is_last) waiting_beyond_ = 0;
+    // Times that never come cannot be divided.
     const auto never = [](const PairCertificate& pair) { return pair.failure_time == infinity; };
-    if (waiting_ == 0 && sorted_.size() > many && std::none_of(sorted_.begin(), sorted_.end(), never)) {
+    const bool is_crowded = is_last ? sorted_.size() > many : waiting_ > many * heads_.size();
+    if (is_crowded && std::none_of(sorted_.begin(), sorted_.end(), never)) {
       std::vector<PairCertificate> pairs = std::exchange(sorted_, {});
-      return add_all(pairs);
+      return divide_all(pairs);
     }
+    if (!is_last && last_ - bucket_ <= heads_.size() / 2) move_last();
     std::sort(sorted_.begin(), sorted_.end(), order_);
   }
 
@@ -185,14 +201,18 @@ class CertificateQueue {
   std::vector<PairCertificate> sorted_;  ///< the current bucket, in order from next_ on
   std::size_t next_ = 0;
   std::vector<PairCertificate> heap_;  ///< certificates added to the current bucket since it was sorted
-  // The later buckets: a linked list for each.
+  // The later buckets: a linked list for each. They are numbered by time; as many as there are heads, from the
+  // current one on, have one of these each, and all later ones together are the last bucket.
   std::vector<Node> nodes_;
-  std::vector<std::uint32_t> heads_;
+  std::vector<std::uint32_t> heads_;  ///< a power of two
+  std::uint32_t beyond_ = none;       ///< head of the last bucket
   std::uint32_t free_ = none;
   std::size_t waiting_ = 0;
-  std::size_t bucket_ = 0;  ///< index of the current bucket
-  double begin_ = 0.0;      ///< time at which bucket 0 begins
-  double per_time_ = 0.0;   ///< buckets per unit of time; 0 if all are due at once
+  std::size_t waiting_beyond_ = 0;  ///< of these, in the last bucket
+  std::uint64_t bucket_ = 0;        ///< the current bucket
+  std::uint64_t last_ = 0;          ///< the last bucket
+  double begin_ = 0.0;              ///< time at which bucket 0 begins
+  double per_time_ = 0.0;           ///< buckets per unit of time; 0 if all are due at once
 };
 
 /// Failure times of certificates, looked up by their bodies.

@@ -126,10 +126,11 @@ NeighbourSearch::Started NeighbourSearch::started_at(std::span<const GridLevel> 
 }
 
 /// Finds neighbours of the bodies `some` among the later slots of their own grid level.
-void NeighbourSearch::search_behind(const Started& some) {
+void NeighbourSearch::search_behind(const Started& some, double now) {
   const SweptSphereGrid& layer = some.own.spheres;
+  const float from = some.own.time(now);
   searches_.clear();
-  for (std::uint32_t k = 0; k < some.count; ++k) layer.add_search_behind(some.slot + k, searches_);
+  for (std::uint32_t k = 0; k < some.count; ++k) layer.add_search_behind(some.slot + k, searches_, from);
   layer.make(searches_);
   searches_.for_each_found([&](std::uint32_t k, std::uint32_t slot) {
     const std::uint32_t number = layer.table().number_at(slot);

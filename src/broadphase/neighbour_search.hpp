@@ -35,8 +35,9 @@ class NeighbourSearch {
 
   /// Returns the pairs of a started body, in a slot k <= slot < last below BroadPhase::started_slots(), and a
   /// body that near() finds for it. Calls for all slots together yield each pair of two started bodies
-  /// once. bound_of(number) is called only if there are several grid levels or space repeats. Of bodies
-  /// that have entered or left since BroadPhase::start(), those are found that BroadPhase::will_find() tells.
+  /// once. bound_of(number) is called only if there are several grid levels or space repeats. `now` may be
+  /// later than the start; then pairs are found that may touch from `now` on. Of bodies that have entered
+  /// since the start, some are found.
   template <class BoundOf>
   std::span<const BodyPair> near_started(const BroadPhase& windows, std::size_t k, std::size_t last,
                                          double now, BoundOf bound_of) {
@@ -45,7 +46,7 @@ class NeighbourSearch {
     const bool beyond_their_layer = has_several_images(windows);
     while (k < last) {
       const Started some = started_at(windows.levels(), k, std::min(last - k, bodies_at_once));
-      search_behind(some);
+      search_behind(some, now);
       if (beyond_their_layer) {
         bounds_.clear();
         for (std::uint32_t one = 0; one < some.count; ++one)
@@ -74,7 +75,7 @@ class NeighbourSearch {
 
   static bool has_several_images(const BroadPhase& windows);
   static Started started_at(std::span<const GridLevel> layers, std::size_t k, std::size_t most);
-  void search_behind(const Started& some);
+  void search_behind(const Started& some, double now);
   void search_other_levels(const BroadPhase& windows, const Started& some, double now);
   void search_level(const Space& space, const GridLevel& layer, std::uint32_t number,
                     const InflatedBound& bound, double now, double end, const SweptSphere* entered);

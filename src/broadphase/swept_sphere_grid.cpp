@@ -263,8 +263,9 @@ void SweptSphereGrid::add_search(const SweptSphereQuery& query, SweptSphereSearc
         {sorted_, table_.slots(), static_cast<std::uint32_t>(searches.queries.size() - 1)});
 }
 
-void SweptSphereGrid::add_search_behind(std::uint32_t slot, SweptSphereSearches& searches) const {
-  const SweptSphereQuery query{table_.swept_sphere_at(slot), 0.0f, 1.0f};
+void SweptSphereGrid::add_search_behind(std::uint32_t slot, SweptSphereSearches& searches,
+                                        float from) const {
+  const SweptSphereQuery query{table_.swept_sphere_at(slot), from, 1.0f};
   if (is_free(slot)) {
     searches.queries.push_back(query);
   } else {

@@ -99,9 +99,9 @@ class SweptSphereGrid {
   /// too.
   void add_search(const SweptSphereQuery& query, SweptSphereSearches& searches) const;
   /// Adds a search, among the slots behind `slot`, for all that the swept sphere at `slot` may touch from
-  /// time 0 to 1; it may find free slots too. Nothing is searched for a free slot. Searches from all
+  /// time `from` to 1; it may find free slots too. Nothing is searched for a free slot. Searches from all
   /// sorted slots find each pair of them once. Slots that were added since the last sort are not searched.
-  void add_search_behind(std::uint32_t slot, SweptSphereSearches& searches) const;
+  void add_search_behind(std::uint32_t slot, SweptSphereSearches& searches, float from = 0.0f) const;
   /// Runs the searches.
   void make(SweptSphereSearches& searches) const { searches.make(table_.columns()); }
 

@@ -38,23 +38,16 @@ Result<void> World::Engine::start_windows(PoolLease& lease, bool all,
   BroadPhase& windows = state_.broad_phase;
   WindowPolicy& window_policy = state_.window_policy;
   const double now = time();
-  if (prepared_ && (all || prepared_->end() < now)) discard_prepared_start();
-  const PreparedStart::Work work{state_, main_, lease, found_};
-  PreparedStart* const prepared = prepared_ && prepared_->end() == now ? &*prepared_ : nullptr;
   WindowStart starting(state_, main_, lease, found_);
   std::vector<std::uint32_t> numbers = windows.ended(now, all);
-  const bool most = !prepared && 2 * (numbers.size() + joining.size()) > windows.moving();
-  std::vector<std::uint32_t> started;
-  if (prepared) started = prepared->complete(work, numbers);
+  // If most bodies are in windows whose next start is prepared, the others do not count as most.
+  const bool most = (all || !prepared_) && 2 * (numbers.size() + joining.size()) > windows.moving();
   if (auto probed = starting.refresh(numbers); !probed) return probed;
   if (most) window_policy.start_main(now, std::exchange(main_.work().recertified, {}));
   // A body that violated its bound is dirty and is recertified separately.
   std::erase_if(numbers, [this](std::uint32_t number) { return bodies()[number].dirty; });
-  if (prepared) {
-    prepared->take_over(work, std::move(started), numbers);
-  } else {
-    windows.end_windows(now, all);
-  }
+  if (all) discard_prepared_start();
+  windows.end_windows(now, all);
   ++main_.work().counters.window_ends;
   main_.work().counters.starts += numbers.size();
   main_.work().counters.restarts += joining.size();
@@ -68,7 +61,7 @@ Result<void> World::Engine::start_windows(PoolLease& lease, bool all,
   const std::uint64_t near = starting.start(starters);
   window_policy.finish_start(round, near, windows.size());
   main_.begin_epoch(windows.next_end());
-  if (most || prepared) plan_next_start();
+  if (most) plan_next_start();
   return {};
 }
 
@@ -77,6 +70,7 @@ Result<void> World::Engine::end_epoch(PoolLease& lease) {
   while (prepared_ && prepared_->next_slice() <= time()) {
     if (auto done = prepared_->prepare_slice({state_, main_, lease, found_}); !done) return done;
     main_.set_next_slice(prepared_->next_slice());
+    if (prepared_->is_done()) plan_next_start();
   }
   return main_.epoch_end() <= time() ? start_windows(lease, false) : Result<void>();
 }
@@ -93,6 +87,7 @@ void World::Engine::plan_next_start() {
 
 void World::Engine::discard_prepared_start() {
   state_.broad_phase.record_changes(false);
+  state_.broad_phase.end_search();
   prepared_.reset();
   main_.set_next_slice(infinity);
 }

@@ -90,7 +90,7 @@ double PairCertifier::unchanged_until_by_thresholds(std::uint32_t a, std::uint32
 double PairCertifier::walls_unchanged_until(std::uint32_t number) const {
   if (contacts().walls_of(number) != 0) return time_;
   const Bound& bound = bodies()[number].bound;
-  const double end = window_end_of(number);
+  const double end = walls_end_of(number);
   const double outer = until_reports_of_walls(contacts().rule(), bound, *bodies().walls(), time_, end);
   if (outer > time_ || !bodies()[number].is_rigid) return outer;
   // The ball around a rigid body may reach beyond a wall that its parts do not touch.
@@ -158,7 +158,7 @@ void PairCertifier::certify_walls(std::uint32_t number, SearchResults& found) co
   const Body& body = bodies()[number];
   if (!bodies().walls() || body.has_shape()) return;
   const double until = walls_unchanged_until(number);
-  if (until < window_end_of(number))
+  if (until < walls_end_of(number))
     found.certificates.push_back(certificate(until, number, PairCertificate::walls));
 }
 

@@ -68,9 +68,19 @@ class PairCertifier {
     const SweptSphereUpdate* update = log_ ? log_->last_update(number) : nullptr;
     return update != nullptr ? update->window.end : windows_.end_of(number);
   }
-  /// Returns the earliest window end of the two bodies.
+  /// Returns the time at which the two bodies are searched for each other again if nothing changes: the
+  /// earliest end of their windows or, before that, BroadPhase::search_begin().
   double earliest_window_end(std::uint32_t a, std::uint32_t b) const {
-    return std::min(window_end_of(a), window_end_of(b));
+    const double end = std::min(window_end_of(a), window_end_of(b));
+    return time_ < windows_.search_begin() && windows_.await_search(a, b) && !is_updated(a) && !is_updated(b)
+               ? std::min(end, windows_.search_begin())
+               : end;
+  }
+  /// Returns the time at which the body is certified with the walls again if nothing changes.
+  double walls_end_of(std::uint32_t number) const {
+    return time_ < windows_.search_begin() && windows_.awaits_search(number) && !is_updated(number)
+               ? windows_.search_begin()
+               : window_end_of(number);
   }
   /// Returns the window of the body, or nullopt if it has none.
   std::optional<Window> window_of(std::uint32_t number) const;
@@ -123,6 +133,7 @@ class PairCertifier {
   void certify_walls(std::uint32_t number, SearchResults& found) const;
 
  private:
+  bool is_updated(std::uint32_t number) const { return log_ && log_->last_update(number) != nullptr; }
   double apart_until(const BoundRef& a, const BoundRef& b) const;
   bool bounce_apart(std::uint32_t a, std::uint32_t b) const;
   const Bodies& bodies() const { return state_.bodies; }

@@ -1,9 +1,7 @@
 #include "engine/prepared_start.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include "number/infinity.hpp"
@@ -11,23 +9,21 @@
 namespace kinesphere {
 namespace {
 
-/// Part of the present windows in which the next start is prepared. In a longer part more bodies change after
-/// they were prepared; in a shorter one frames differ more.
-constexpr double part_for_preparation = 0.85;
-// Parts of that, about as long as the work takes. Changes cost least before the sort.
-constexpr double part_for_spheres = 0.5;
+// Parts of the present windows.
+constexpr double part_before_slices = 0.02;
+/// Before the sort: about as long as its slices take. An earlier sort makes longer swept spheres; but bodies
+/// that change after it start at once, without another search at the end.
+constexpr double part_before_sort = 0.35;
+/// Without slices, before and after the sort, which takes longer than any of them.
 constexpr double part_for_sort = 0.1;
-/// Smaller slices make frames more even. Each slice also goes through the bodies that have changed.
-constexpr std::size_t bodies_in_a_slice = 256;
+/// Smaller slices make frames more even.
+constexpr std::size_t bodies_in_a_slice = 128;
 constexpr std::size_t least_slices = 4;
-constexpr std::size_t most_slices = 64;
+constexpr std::size_t most_slices = 128;
+/// Minimum pairs of searches per parallel chunk; below this, dispatch costs more than the work.
+constexpr std::size_t searches_at_once = 256;
 
-void sort_unique(std::vector<std::uint32_t>& numbers) {
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
-
-/// While it lives, the world chooses windows by the policy of the prepared ones.
+/// While it lives, the world chooses windows by the policy of the next ones.
 class PolicySwap {
  public:
   PolicySwap(const PreparedStart::Work& work, WindowPolicy& policy)
@@ -48,52 +44,37 @@ class PolicySwap {
 PreparedStart::PreparedStart(const Space& space, const WindowPolicy& policy, const Window& present,
                              double now, std::size_t bodies)
     : present_(present),
-      begin_(present.end - part_for_preparation * (present.end - now)),
+      begin_(now + part_before_slices * (present.end - now)),
       slices_(std::clamp<std::size_t>(bodies / bodies_in_a_slice, least_slices, most_slices)),
       policy_(policy),
       next_(space) {}
 
+double PreparedStart::sort_time() const {
+  return begin_ + (part_before_sort + 0.5 * part_for_sort) * (end() - begin_);
+}
+
 double PreparedStart::next_slice() const {
-  const auto part = [this](std::size_t slices) {
-    return static_cast<double>(slices) / static_cast<double>(slices_);
-  };
-  double done = 0.0;
-  if (slice_ < slices_) {
-    done = part_for_spheres * part(slice_);
-  } else if (slice_ == slices_) {
-    done = part_for_spheres + 0.5 * part_for_sort;
-  } else if (slice_ <= 2 * slices_) {
-    done = part_for_spheres + part_for_sort +
-           (1.0 - part_for_spheres - part_for_sort) * part(slice_ - slices_ - 1);
-  } else {
-    return infinity;
-  }
-  return begin_ + (end() - begin_) * done;
+  if (slice_ == sort_slice()) return sort_time();
+  if (slice_ == last_slice()) return end();
+  if (is_done()) return infinity;
+  const double done =
+      is_sorted() ? part_before_sort + part_for_sort +
+                        (1.0 - part_before_sort - part_for_sort) *
+                            static_cast<double>(slice_ - sort_slice() - 1) / static_cast<double>(slices_)
+                  : part_before_sort * static_cast<double>(slice_) / static_cast<double>(slices_);
+  return begin_ + done * (end() - begin_);
 }
 
 Result<void> PreparedStart::prepare_slice(const Work& work) {
-  if (!has_begun_) policy_ = work.state.window_policy;
-  const PolicySwap swap(work, policy_);
   work.found.resize(work.lease.count());
-  if (!has_begun_) begin(work);
-  return do_slice(work);
-}
-
-Result<void> PreparedStart::do_slice(const Work& work) {
-  update(work);
-  if (slice_ < slices_) {
-    std::vector<std::uint32_t> numbers;
-    for (std::uint32_t number = begun(slice_); number < begun(slice_ + 1); ++number)
-      if (starts(work, number)) numbers.push_back(number);
-    if (auto added = add(work, std::move(numbers)); !added) return added;
-  } else if (slice_ == slices_) {
-    next_.finish_start(work.lease);
-    ++slice_;
-    sort_unique(waiting_);
-    enter(work, std::exchange(waiting_, {}));
-    return {};
+  if (slice_ < sort_slice()) {
+    if (auto added = add_slice(work); !added) return added;
+  } else if (slice_ == sort_slice()) {
+    enter_windows(work);
+  } else if (slice_ < last_slice()) {
+    search_slice(work);
   } else {
-    search_slots(work, next_.started_slots() * (slice_ - slices_) / slices_);
+    finish(work);
   }
   ++slice_;
   return {};
@@ -102,15 +83,9 @@ Result<void> PreparedStart::do_slice(const Work& work) {
 void PreparedStart::begin(const Work& work) {
   work.state.window_policy.start_main(work.main.time(), std::exchange(work.main.work().recertified, {}));
   has_begun_ = true;
-  next_ = work.state.broad_phase.successor(end());
+  next_ = work.state.broad_phase.successor();
   work.state.broad_phase.record_changes(true);
   numbers_ = static_cast<std::uint32_t>(work.state.bodies.numbers());
-}
-
-/// Returns true if the body is in a window that lasts beyond end().
-bool PreparedStart::lasts(const Work& work, std::uint32_t number) const {
-  const BroadPhase& present = work.state.broad_phase;
-  return present.contains(number) && present.end_of(number) > end();
 }
 
 /// Returns true if the body starts at end(), with most. Bodies in windows that are much shorter start when
@@ -124,179 +99,149 @@ bool PreparedStart::starts(const Work& work, std::uint32_t number) const {
   return work.state.window_policy.rung_for(speed_bound) >= work.state.window_policy.main_rung();
 }
 
+/// Returns the rungs of windows that last beyond end() and hold bodies.
+std::vector<int> PreparedStart::lasting_rungs(const Work& work) const {
+  std::vector<int> rungs;
+  for (const GridLevel& level : work.state.broad_phase.levels())
+    if (!level.is_empty() && level.window.end > end()) rungs.push_back(level.window.rung);
+  return rungs;
+}
+
 /// Makes swept spheres, which are sorted later, for the bodies of a slice.
-Result<void> PreparedStart::add(const Work& work, std::vector<std::uint32_t> numbers) {
-  WindowStart starting = start(work);
+Result<void> PreparedStart::add_slice(const Work& work) {
+  if (!has_begun_) policy_ = work.state.window_policy;
+  const PolicySwap swap(work, policy_);
+  if (!has_begun_) begin(work);
+  update(work);
+  std::vector<std::uint32_t> numbers;
+  for (std::uint32_t number = begun(slice_); number < begun(slice_ + 1); ++number)
+    if (starts(work, number)) numbers.push_back(number);
+  WindowStart starting(work.state, work.main, work.lease, work.found, next_, end());
   if (auto probed = starting.refresh(numbers); !probed) return probed;
   std::erase_if(numbers, [&](std::uint32_t number) { return work.state.bodies[number].dirty; });
   work.main.work().counters.starts += numbers.size();
   WindowPolicy::Sample slice(work.state.window_policy, true);
-  starting.add_starters(starting.choose_windows(numbers, next_.held_rungs(), slice));
+  add(work, std::move(numbers), slice);
   work.state.window_policy.add_starters(slice);
-  find_walls(work, numbers);
-  hand_over(work);
   return {};
 }
 
-/// Makes other swept spheres for bodies of earlier slices, which have changed.
-void PreparedStart::add_again(const Work& work, std::vector<std::uint32_t> numbers) {
-  WindowPolicy::Sample uncounted(work.state.window_policy, true);
-  WindowStart starting = start(work);
-  starting.add_starters(starting.choose_windows(numbers, next_.held_rungs(), uncounted));
-  find_walls(work, numbers);
-  hand_over(work);
+void PreparedStart::add(const Work& work, std::vector<std::uint32_t> numbers, WindowPolicy::Sample& sample) {
+  WindowStart choosing(work.state, work.main, work.lease, work.found, next_, end());
+  const auto starters = choosing.choose_windows(numbers, lasting_rungs(work), sample);
+  WindowStart(work.state, work.main, work.lease, work.found, next_, sort_time()).add_starters(starters);
 }
 
-/// Brings the bodies up to date that have changed since the last slice.
+/// Makes other swept spheres for bodies of earlier slices that have changed since the last slice.
 void PreparedStart::update(const Work& work) {
-  std::vector<std::uint32_t> changed = work.state.broad_phase.take_changes();
-  if (is_sorted()) return enter(work, changed);
   std::vector<std::uint32_t> again;
-  for (const std::uint32_t number : changed) {
-    if (next_.is_starter(number)) {
-      next_.remove_starter(number);
-    } else if (next_.contains(number)) {
-      next_.leave(number);
-    }
+  for (const std::uint32_t number : work.state.broad_phase.take_changes()) {
+    if (next_.contains(number)) next_.remove_starter(number);
     // Those of later slices are left to these.
-    if (lasts(work, number)) {
-      waiting_.push_back(number);
-    } else if (starts(work, number) && (number >= numbers_ || number < begun(slice_))) {
-      again.push_back(number);
-    }
+    if (starts(work, number) && (number >= numbers_ || number < begun(slice_))) again.push_back(number);
   }
-  add_again(work, std::move(again));
+  WindowPolicy::Sample uncounted(work.state.window_policy, true);
+  add(work, std::move(again), uncounted);
 }
 
-/// Enters bodies that have changed, and searches for them. Precondition: the others are sorted.
-void PreparedStart::enter(const Work& work, std::span<const std::uint32_t> numbers) {
-  const double now = work.main.time();
-  const WindowChoice choice(work.state, end());
-  std::vector<std::uint32_t> entered;
-  std::vector<std::uint32_t> started;
-  for (const std::uint32_t number : numbers) {
-    if (lasts(work, number)) {
-      next_.enter(number, inflated_bound(work.state.bodies, number, now), now,
-                  work.state.broad_phase.window_of(number));
-      entered.push_back(number);
-    } else if (starts(work, number)) {
-      next_.enter(number, inflated_bound(work.state.bodies, number, end()), end(), choice.window_for(number));
-      entered.push_back(number);
-      started.push_back(number);
-    } else if (next_.contains(number)) {
-      next_.leave(number);
-    }
+/// Sorts the swept spheres, and replaces the present windows.
+void PreparedStart::enter_windows(const Work& work) {
+  BroadPhase& windows = work.state.broad_phase;
+  {
+    const PolicySwap swap(work, policy_);
+    update(work);
   }
-  work.main.work().counters.restarts += started.size();
-  search(work, entered);
-  find_walls(work, started);
-  hand_over(work);
+  windows.record_changes(false);
+  for (const std::uint32_t number : work.main.dirty().numbers())
+    if (work.state.bodies[number].dirty && next_.contains(number)) next_.remove_starter(number);
+  next_.finish_start(work.lease);
+  policy_.keep_fast(work.state.window_policy);
+  work.state.window_policy = policy_;
+  next_ = windows.take_over(std::move(next_), sort_time(), end());
+  ++work.main.work().counters.window_ends;
+  work.main.begin_epoch(windows.next_end());
 }
 
-/// Searches for bodies that have entered one by one, and certifies the pairs that no later slice finds.
-void PreparedStart::search(const Work& work, std::span<const std::uint32_t> entered) {
-  Bodies& bodies = work.state.bodies;
-  const PairCertifier certifier(work.state, end(), next_);
-  SearchResults& found = work.found.front();
-  found.keeps_linked = true;
-  for (const std::uint32_t number : entered) {
-    ++found.searches;
-    const bool is_lasting = lasts(work, number);
-    const InflatedBound bound = inflated_bound(bodies, number, end());
-    for (const std::uint32_t other : found.search.near_entered(next_, number, bound, end()))
-      if (!bodies[other].visited && !(is_lasting && lasts(work, other)) &&
-          !next_.will_find(number, other, searched_))
-        certifier.certify(number, other, found);
-    bodies[number].visited = true;
-  }
-  for (const std::uint32_t number : entered) bodies[number].visited = false;
+/// Returns true if neither of two bodies, or one and its walls, has changed since sort_time(). Those that are
+/// dirty are certified with all others at this instant.
+bool PreparedStart::await_search(const Work& work, std::uint32_t a, std::uint32_t b) const {
+  return work.state.broad_phase.await_search(a, b) && !work.state.bodies[a].dirty &&
+         !work.state.bodies[b].dirty;
 }
 
-/// Searches for the started slots up to `last`.
-void PreparedStart::search_slots(const Work& work, std::size_t last) {
-  for (SearchResults& found : work.found) found.keeps_linked = true;
-  near_ += start(work).find_pairs(searched_, last);
-  searched_ = last;
-  hand_over(work);
-}
-
-/// Certifies bodies with the walls, but for those that touch one.
-void PreparedStart::find_walls(const Work& work, std::span<const std::uint32_t> numbers) {
+/// Searches for a part of the starters, and certifies them.
+void PreparedStart::search_slice(const Work& work) {
+  const std::size_t all = next_.started_slots();
+  const std::size_t part = slice_ - sort_slice();
+  const std::size_t first = all * (part - 1) / slices_;
+  const std::size_t last = all * part / slices_;
+  const std::vector<std::uint32_t> numbers = next_.started_bodies(
+      first, last, [&](std::uint32_t number) { return !await_search(work, number, number); });
+  WindowStart starting(work.state, work.main, work.lease, work.found, work.state.broad_phase, end());
+  const PairCertifier certifier = starting.certifier();
+  const auto bound_of = [&](std::uint32_t number) {
+    return inflated_bound(work.state.bodies, number, end());
+  };
+  work.lease.parallel_for(
+      last - first, searches_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
+        SearchResults& found = work.found[worker];
+        found.keeps_linked = true;
+        for (const auto& [a, b] : found.search.near_started(next_, first + from, first + to, end(), bound_of))
+          if (await_search(work, a, b)) certifier.certify(a, b, found);
+      });
   std::vector<std::uint32_t> apart;
   for (const std::uint32_t number : numbers)
     (work.state.contacts.walls_of(number) != 0 ? at_walls_ : apart).push_back(number);
-  start(work).find_walls(apart);
-}
-
-void PreparedStart::hand_over(const Work& work) {
+  starting.find_walls(apart);
   const auto before = static_cast<std::ptrdiff_t>(linked_.size());
   for (SearchResults& found : work.found) {
+    near_ += found.near;
     linked_.insert(linked_.end(), found.linked.begin(), found.linked.end());
     found.linked.clear();
     found.keeps_linked = false;
   }
   // Sorted, so that the list does not depend on which thread found which pair.
   std::sort(linked_.begin() + before, linked_.end());
-  start(work).hand_over();
+  starting.hand_over();
 }
 
-std::vector<std::uint32_t> PreparedStart::complete(const Work& work, std::vector<std::uint32_t>& numbers) {
-  const PolicySwap swap(work, policy_);
-  work.found.resize(work.lease.count());
-  update(work);
-  search_slots(work, next_.started_slots());
-  // They start with their changes, after the others.
-  for (const std::uint32_t number : work.main.dirty().numbers())
-    if (work.state.bodies[number].dirty && next_.contains(number) && !lasts(work, number))
-      next_.leave(number);
-  const auto others = std::stable_partition(numbers.begin(), numbers.end(),
-                                            [this](std::uint32_t number) { return next_.contains(number); });
-  std::vector<std::uint32_t> started(numbers.begin(), others);
-  numbers.erase(numbers.begin(), others);
-  return started;
-}
-
-void PreparedStart::take_over(const Work& work, std::vector<std::uint32_t> started,
-                              std::vector<std::uint32_t>& numbers) {
-  assert(is_sorted());
-  policy_.keep_fast(work.state.window_policy);
-  work.state.window_policy = policy_;
-  std::vector<std::uint32_t> joining;
-  std::copy_if(numbers.begin(), numbers.end(), std::back_inserter(joining),
-               [&](std::uint32_t number) { return starts(work, number); });
-  enter(work, joining);
-  std::erase_if(numbers, [this](std::uint32_t number) { return next_.contains(number); });
-  started.insert(started.end(), joining.begin(), joining.end());
+/// Certifies what slices have left to the end.
+void PreparedStart::finish(const Work& work) {
   BroadPhase& windows = work.state.broad_phase;
-  windows.take_over(std::move(next_));
   WindowStart starting(work.state, work.main, work.lease, work.found);
+  std::vector<std::uint32_t> started;
+  for (std::uint32_t number = 0; number < work.state.bodies.numbers(); ++number)
+    if (await_search(work, number, number)) started.push_back(number);
   starting.find_links(started);
   const PairCertifier certifier = starting.certifier();
   for (const PairCertificate& pair : linked_)
-    if (!certifier.is_stale(pair) && windows.contains(pair.first) && windows.contains(pair.second) &&
-        !certifier.are_linked(pair.first, pair.second))
+    if (await_search(work, pair.first, pair.second) && !certifier.are_linked(pair.first, pair.second))
       certifier.certify(pair.first, pair.second, work.found.front());
+  std::erase_if(at_walls_, [&](std::uint32_t number) { return !await_search(work, number, number); });
   std::copy_if(started.begin(), started.end(), std::back_inserter(at_walls_),
                [&](std::uint32_t number) { return work.state.contacts.walls_of(number) != 0; });
-  sort_unique(at_walls_);
-  std::erase_if(at_walls_, [&](std::uint32_t number) { return !windows.contains(number); });
+  std::sort(at_walls_.begin(), at_walls_.end());
+  at_walls_.erase(std::unique(at_walls_.begin(), at_walls_.end()), at_walls_.end());
   starting.find_walls(at_walls_);
   starting.hand_over();
+  windows.end_search();
   const WindowPolicy::Sample last(work.state.window_policy, true);
   work.state.window_policy.finish_start(last, near_, windows.size());
 }
 
 bool PreparedStart::is_valid(const WorldState& state) const {
   const std::size_t bodies = state.bodies.numbers();
-  for (std::uint32_t number = 0; number < bodies; ++number)
-    if (next_.contains(number) && !state.bodies[number].present() && !state.broad_phase.has_changed(number))
-      return false;
   const auto is_number = [=](std::uint32_t number) { return number < bodies; };
+  if (!is_sorted()) {
+    for (std::uint32_t number = 0; number < bodies; ++number)
+      if (next_.contains(number) && !state.bodies[number].present() && !state.broad_phase.has_changed(number))
+        return false;
+  }
   return present_.is_valid() && present_.end < infinity && begin_ <= end() && begin_ >= -Window::latest_end &&
-         slices_ > 0 && slices_ <= most_slices && slice_ <= 2 * slices_ + 1 && numbers_ <= bodies &&
-         next_.is_valid(bodies) && (is_sorted() ? !next_.has_starters() : next_.started_slots() == 0) &&
-         searched_ <= next_.started_slots() && (slice_ == 0 || has_begun_) && policy_.is_valid() &&
-         std::all_of(waiting_.begin(), waiting_.end(), is_number) &&
+         slices_ > 0 && slices_ <= most_slices && slice_ <= last_slice() && numbers_ <= bodies &&
+         (is_sorted() ? next_.is_valid_copy(bodies) && state.broad_phase.search_begin() == end()
+                      : next_.is_valid(bodies) && next_.started_slots() == 0) &&
+         (slice_ == 0 || has_begun_) && policy_.is_valid() &&
          std::all_of(at_walls_.begin(), at_walls_.end(), is_number) &&
          std::all_of(linked_.begin(), linked_.end(), [&](const PairCertificate& pair) {
            return is_number(pair.first) && is_number(pair.second);

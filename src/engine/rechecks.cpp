@@ -146,7 +146,7 @@ double EventProcessor::defer(const ContactPredictor<Partner>& predictor, const T
 Result<void> EventProcessor::recheck_walls(std::uint32_t number) {
   ++work_.counters.wall_checks;
   const PairCertifier certifier = this->certifier();
-  const double end = certifier.window_end_of(number);
+  const double end = certifier.walls_end_of(number);
   while (!bodies()[number].dirty) {
     if (bodies()[number].fresh(time_)) {
       const auto next = decide_walls(number);
@@ -168,7 +168,7 @@ Result<void> EventProcessor::recheck_walls(std::uint32_t number) {
 /// other walls cannot matter before its window ends.
 std::optional<double> EventProcessor::decide_walls(std::uint32_t number) {
   const Body& body = bodies()[number];
-  const double end = certifier().window_end_of(number);
+  const double end = certifier().walls_end_of(number);
   RelativeLimits limits{body.bound.growth_speed, bodies().largest_acceleration(number)};
   const double until = bodies().radii.any() ? note_rates(limits, {number}, end) : end;
   const CollisionShape shape = collision_shape_of(bodies(), number);

@@ -60,7 +60,7 @@ Window WindowChoice::next_window(std::uint32_t number, const std::optional<Windo
   const Body& body = bodies()[number];
   if (body.is_static() || body.stands_still()) return Window::endless();
   const Window window = window_for(number);
-  if (!present || body.relocated) return window;
+  if (!present || body.relocated || is_entered_early(window.rung)) return window;
   const bool suits = present->rung >= window.rung - 2 * WindowPolicy::powers_between_rungs &&
                      present->end <= window.end &&
                      (present->rung <= window.rung || !bodies().space().repeats());
@@ -69,7 +69,7 @@ Window WindowChoice::next_window(std::uint32_t number, const std::optional<Windo
 
 Window WindowChoice::longer_window(std::uint32_t number, const Window& ended) const {
   const int suits = state_.window_policy.rung_for(speed_bound_of(BoundAt(bodies()[number].bound, time_)));
-  return Window::at(time_, rung_in_space(number, std::max(suits, ended.rung + 1)));
+  return window_of(rung_in_space(number, std::max(suits, ended.rung + 1)));
 }
 
 bool WindowChoice::needs_report(std::uint32_t number, double report_time) const {
@@ -77,7 +77,7 @@ bool WindowChoice::needs_report(std::uint32_t number, double report_time) const 
   if (body.fresh(report_time)) return false;
   const Bound& bound = body.bound;
   const SpeedBound speed_bound = speed_bound_of(BoundAt(bound, time_));
-  const Window window = Window::at(time_, rung_for(number, speed_bound));
+  const Window window = window_of(rung_for(number, speed_bound));
   const double s = window.end - bound.time;
   const auto growth_after = [&bound](double time) {
     return (bound.growth_speed + 0.5 * bound.acceleration_limit * time) * time;

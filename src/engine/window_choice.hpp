@@ -17,7 +17,7 @@ class WindowChoice {
     return rung_in_space(number, state_.window_policy.rung_for(speed_bound));
   }
   Window window_for(std::uint32_t number) const {
-    return Window::at(time_, rung_for(number, speed_bound_of(BoundAt(bodies()[number].bound, time_))));
+    return window_of(rung_for(number, speed_bound_of(BoundAt(bodies()[number].bound, time_))));
   }
   /// Returns the next window of a body whose window is `present`, if any. It stays in that one, unless it
   /// lasts longer than the window that suits the body, or is much shorter.
@@ -32,6 +32,13 @@ class WindowChoice {
   bool needs_report(std::uint32_t number) const { return needs_report(number, time_); }
 
  private:
+  /// Main windows may be entered before they begin (BroadPhase::take_over).
+  bool is_entered_early(int rung) const {
+    return time_ < state_.broad_phase.search_begin() && rung >= state_.window_policy.main_rung();
+  }
+  Window window_of(int rung) const {
+    return Window::at(is_entered_early(rung) ? state_.broad_phase.search_begin() : time_, rung);
+  }
   int rung_in_space(std::uint32_t number, int rung) const;
   double longest_in_period(std::uint32_t number, double length, double release_gap) const;
   const Bodies& bodies() const { return state_.bodies; }

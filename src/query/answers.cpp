@@ -44,8 +44,8 @@ double World::Engine::Answers::recorded(std::uint32_t a, std::uint32_t b,
 
 double World::Engine::Answers::recorded_of_walls(std::uint32_t number, const CertificateTimes& times) const {
   if (!is_certified(number, number)) return now_;
-  return std::max(now_,
-                  std::min(times.of(number, PairCertificate::walls), engine_.broad_phase().end_of(number)));
+  const double end = engine_.main().certifier().walls_end_of(number);
+  return std::max(now_, std::min(times.of(number, PairCertificate::walls), end));
 }
 
 void World::Engine::Answers::consider_touching(std::uint32_t number, ContactBoundary& first) const {

@@ -152,7 +152,7 @@ class World::Engine::Audit {
     if (!has_ends && until_reports_of_walls(engine_.contacts().rule(), b.bound, *engine_.bodies().walls(),
                                             now_, infinity) <= now_)
       return;
-    const double end = engine_.broad_phase().end_of(number);
+    const double end = engine_.main().certifier().walls_end_of(number);
     const double within = has_ends ? 0.0 : engine_.definition().contact_tolerance;
     const Vec3 margin = Vec3{1.0, 1.0, 1.0} * within;
     const Box box{engine_.bodies().walls()->lower - margin, engine_.bodies().walls()->upper + margin};
