@@ -59,6 +59,8 @@ std::uint32_t BroadPhase::level_for(const Window& window, int level) {
 
 void BroadPhase::open(GridLevel& layer, double origin) {
   layer.open(base_, origin, size_classes_.coarseness(layer.window.rung, layer.size_class));
+  if (origin < search_begin_ && layer.window.end < infinity && layer.window.begin() >= search_begin_)
+    layer.spheres.set_cells_from(layer.time(search_begin_));
   layer.spheres.set_spare_slots(has_many_changes_ && layer.window.end < infinity);
   next_end_ = std::min(next_end_, layer.window.end);
 }
@@ -170,11 +172,13 @@ bool BroadPhase::is_in_its_level(std::uint32_t number) const {
 bool BroadPhase::filling_is_valid() const {
   return std::all_of(filling_.openings.begin(), filling_.openings.end(),
                      [this](const Opening& opening) {
-                       const auto& [level, unsorted] = opening;
+                       const auto& [level, unsorted, cells] = opening;
                        return level < levels_.size() && levels_[level].has_frame && levels_[level].fresh &&
                               levels_[level].window.is_valid() &&
                               levels_[level].spheres.table().slots() == 0 &&
-                              unsorted.spheres.size() == unsorted.numbers.size();
+                              unsorted.spheres.size() == unsorted.numbers.size() &&
+                              (!filling_.has_cells || (cells.size() == unsorted.spheres.size() &&
+                                                       levels_[level].spheres.can_fill(cells)));
                      }) &&
          std::all_of(filling_.sizes.begin(), filling_.sizes.end(),
                      [](const auto& size) { return SizeClasses::is_size_class(size.first); });

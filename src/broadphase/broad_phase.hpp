@@ -110,6 +110,9 @@ class BroadPhase {
   template <class BoundOf>
   void add_starters(std::span<const Starter> starters, double now, BoundOf bound_of, PoolLease& lease);
   void finish_start(PoolLease& lease);
+  /// First half of finish_start(), which may be called before it: chooses the cells. In between no starter may
+  /// be added or taken back.
+  void choose_cells(PoolLease& lease);
   /// True if the body, or any, was added since the last finish_start().
   bool is_starter(std::uint32_t number) const {
     return contains(number) && opening_of(registrations_[number].level) != nullptr;
@@ -122,14 +125,15 @@ class BroadPhase {
 
   // A start that is prepared in a broad phase of its own, while the present windows last.
 
-  /// Returns an empty broad phase in which the next windows of bodies here can start.
-  BroadPhase successor() const;
-  /// Registers the starters of a successor in their windows, `now`, before these begin at `begin`. Bodies
-  /// that have windows beyond `begin` then await a search from `begin` on. Precondition: finish_start() for
+  /// Returns an empty broad phase in which windows that begin at `begin` can start.
+  BroadPhase successor(double begin) const;
+  /// Registers the starters of a successor in their windows, `now`, before these begin. Bodies that have
+  /// windows beyond their begin then await a search from then on. Precondition: finish_start() for
   /// the successor. Returns a copy of the grid levels of these bodies to be searched, without registrations;
   /// those of the starters are fresh.
-  BroadPhase take_over(BroadPhase&& successor, double now, double begin);
-  /// Time from which pairs that await a search are certified by it; -infinity if none do.
+  BroadPhase take_over(BroadPhase&& successor, double now);
+  /// Time from which pairs that await a search are certified by it; -infinity if none do. Begin of the windows
+  /// of a successor.
   double search_begin() const { return search_begin_; }
   /// True if the pair was registered at take_over() and is unchanged since, and one of the two is a starter:
   /// they are certified until search_begin() at most, and a search for the starters finds them.
@@ -193,10 +197,11 @@ class BroadPhase {
   struct Opening {
     std::uint32_t level = none;
     UnsortedSweptSpheres unsorted{};
+    std::vector<std::uint32_t> cells{};  ///< of the swept spheres, since choose_cells()
 
     static void serialize(auto& self, auto& archive) {
-      auto& [level, unsorted] = self;
-      archive(level, unsorted);
+      auto& [level, unsorted, cells] = self;
+      archive(level, unsorted, cells);
     }
   };
   /// Whether a body awaits a search since take_over(): not; as one that is found; as a starter.
@@ -207,10 +212,11 @@ class BroadPhase {
   struct Filling {
     std::vector<Opening> openings;
     Sizes sizes;
+    bool has_cells = false;
 
     static void serialize(auto& self, auto& archive) {
-      auto& [openings, sizes] = self;
-      archive(openings, sizes);
+      auto& [openings, sizes, has_cells] = self;
+      archive(openings, sizes, has_cells);
     }
   };
 

@@ -96,7 +96,8 @@ std::size_t BroadPhase::started_slots() const {
 /// Assigns each starter a grid level and an index among those that start in it, and counts the starters by
 /// size class. Returns the first starter of each level that is opened.
 std::vector<std::uint32_t> BroadPhase::choose_levels(std::span<const Starter> starters) {
-  auto& [openings, sizes] = filling_;
+  auto& [openings, sizes, has_cells] = filling_;
+  assert(!has_cells);
   std::vector<std::uint32_t> first_bodies;
   // Most starters go where the previous one went, so that level and size class are tried first.
   std::size_t at = 0;
@@ -125,14 +126,14 @@ std::vector<std::uint32_t> BroadPhase::choose_levels(std::span<const Starter> st
     numbers.push_back(starter.number);
     note_change(starter.number);
   }
-  for (auto& [level, unsorted] : openings) unsorted.spheres.resize(unsorted.numbers.size());
+  for (Opening& opening : openings) opening.unsorted.spheres.resize(opening.unsorted.numbers.size());
   return first_bodies;
 }
 
 void BroadPhase::remove_starter(std::uint32_t number) {
-  assert(is_starter(number));
+  assert(is_starter(number) && !filling_.has_cells);
   Registration& here = registrations_[number];
-  for (auto& [level, unsorted] : filling_.openings) {
+  for (auto& [level, unsorted, cells] : filling_.openings) {
     if (level != here.level) continue;
     auto& [numbers, spheres] = unsorted;
     registrations_[numbers.back()].slot = here.slot;
@@ -144,17 +145,22 @@ void BroadPhase::remove_starter(std::uint32_t number) {
   here.level = none;
 }
 
+void BroadPhase::choose_cells(PoolLease& lease) {
+  for (Opening& opening : filling_.openings) {
+    GridLevel& layer = levels_[opening.level];
+    sort_to_start(layer, [&] { layer.spheres.choose_cells(opening.unsorted, opening.cells, lease); });
+  }
+  filling_.has_cells = true;
+}
+
 /// Fills the grid levels in which bodies start, which are empty, and sorts the lasting levels that have
 /// changed much.
 void BroadPhase::finish_start(PoolLease& lease) {
-  for (const Opening& opening : filling_.openings) {
-    GridLevel& layer = levels_[opening.level];
-    sort_to_start(layer, [&] {
-      layer.spheres.fill(opening.unsorted, lease, [&](std::uint32_t number, std::uint32_t slot) {
-        registrations_[number].slot = slot;
-      });
-    });
-  }
+  if (!filling_.has_cells) choose_cells(lease);
+  for (const Opening& opening : filling_.openings)
+    levels_[opening.level].spheres.fill(
+        opening.unsorted, opening.cells, lease,
+        [&](std::uint32_t number, std::uint32_t slot) { registrations_[number].slot = slot; });
   for (GridLevel& layer : levels_)
     if (!layer.fresh && layer.changes > least_changes + layer.spheres.size() / 2)
       sort_to_start(layer, [&] { sort(layer, lease); });
@@ -162,15 +168,18 @@ void BroadPhase::finish_start(PoolLease& lease) {
   filling_ = {};
 }
 
-BroadPhase BroadPhase::successor() const {
+BroadPhase BroadPhase::successor(double begin) const {
   BroadPhase next(space_);
+  next.search_begin_ = begin;
+  next.registrations_.resize(registrations_.size());
   next.size_classes_ = size_classes_;
   next.size_classes_.use_merged();
   next.has_many_changes_ = has_many_changes_;
   return next;
 }
 
-/// Takes the starters of a successor out of their grid levels. Levels that only had starters become unused.
+/// Takes the starters of a successor out of their grid levels, but not out of registrations_. Levels that only
+/// had starters become unused.
 void BroadPhase::take_out_starters(const BroadPhase& successor) {
   std::vector<std::size_t> starters(levels_.size());
   const auto for_each_starter = [&](auto visit) {
@@ -178,25 +187,29 @@ void BroadPhase::take_out_starters(const BroadPhase& successor) {
       if (successor.contains(number) && contains(number)) visit(registrations_[number]);
   };
   for_each_starter([&](const Registration& here) { ++starters[here.level]; });
+  bool are_all = true;
   std::uint64_t changes = 0;
   std::uint64_t bodies = 0;
   for (std::size_t k = 0; k < levels_.size(); ++k) {
     GridLevel& level = levels_[k];
     level.fresh = false;
-    if (starters[k] < level.spheres.size()) continue;
+    if (starters[k] < level.spheres.size()) {
+      are_all = are_all && starters[k] == 0;
+      continue;
+    }
     changes += std::exchange(level.changes, 0);
     bodies += level.spheres.size();
     level.spheres.clear({});
     level.window.end = -infinity;
   }
   note_changes_of_ended(changes, bodies);
-  for_each_starter([&](Registration& here) {
+  if (are_all) return;
+  for_each_starter([&](const Registration& here) {
     if (levels_[here.level].window.end > -infinity) levels_[here.level].spheres.remove(here.slot);
-    here.level = none;
   });
 }
 
-BroadPhase BroadPhase::take_over(BroadPhase&& successor, double now, double begin) {
+BroadPhase BroadPhase::take_over(BroadPhase&& successor, double now) {
   take_out_starters(successor);
   for (GridLevel& started : successor.levels_) {
     if (started.is_empty()) continue;
@@ -210,7 +223,7 @@ BroadPhase BroadPhase::take_over(BroadPhase&& successor, double now, double begi
   base_ = successor.base_;
   has_base_ = successor.has_base_;
   taken_over_ = now;
-  search_begin_ = begin;
+  search_begin_ = successor.search_begin_;
   awaiting_.assign(registrations_.size(), Search::none);
   next_end_ = infinity;
   BroadPhase copy(space_);
@@ -218,7 +231,7 @@ BroadPhase BroadPhase::take_over(BroadPhase&& successor, double now, double begi
     const GridLevel& level = levels_[index];
     if (level.is_empty()) continue;
     next_end_ = std::min(next_end_, level.window.end);
-    if (level.window.end <= begin) continue;
+    if (level.window.end <= search_begin_) continue;
     copy.levels_.push_back(level);
     const SweptSphereTable& table = level.spheres.table();
     for (std::uint32_t slot = 0; slot < table.slots(); ++slot) {

@@ -106,6 +106,8 @@ class alignas(128) EventProcessor {
   bool is_recertified() const {
     return events_.changed().empty() && dirty_.empty() && !events_.awaits_response();
   }
+  /// Gives bodies, none of which is dirty, new swept spheres and certificates in place of the present ones.
+  void restart(std::span<const std::uint32_t> numbers);
   /// Returns the next event of this instant, or nullopt if there is none.
   std::optional<Event> pop();
   /// Takes note of the response to the last event. Call it before windows start.

@@ -13,8 +13,8 @@ namespace {
 constexpr double part_before_slices = 0.02;
 /// Before the sort: about as long as its slices take. An earlier sort makes longer swept spheres; but bodies
 /// that change after it start at once, without another search at the end.
-constexpr double part_before_sort = 0.35;
-/// Without slices, before and after the sort, which takes longer than any of them.
+constexpr double part_before_cells = 0.35;
+/// For the choice of cells and the sort, which take longer than any slice.
 constexpr double part_for_sort = 0.1;
 /// Smaller slices make frames more even.
 constexpr std::size_t bodies_in_a_slice = 128;
@@ -49,27 +49,31 @@ PreparedStart::PreparedStart(const Space& space, const WindowPolicy& policy, con
       policy_(policy),
       next_(space) {}
 
-double PreparedStart::sort_time() const {
-  return begin_ + (part_before_sort + 0.5 * part_for_sort) * (end() - begin_);
+double PreparedStart::entry_time() const {
+  return begin_ + (part_before_cells + 0.75 * part_for_sort) * (end() - begin_);
 }
 
 double PreparedStart::next_slice() const {
-  if (slice_ == sort_slice()) return sort_time();
+  if (slice_ == entry_slice()) return entry_time();
   if (slice_ == last_slice()) return end();
   if (is_done()) return infinity;
-  const double done =
-      is_sorted() ? part_before_sort + part_for_sort +
-                        (1.0 - part_before_sort - part_for_sort) *
-                            static_cast<double>(slice_ - sort_slice() - 1) / static_cast<double>(slices_)
-                  : part_before_sort * static_cast<double>(slice_) / static_cast<double>(slices_);
+  const auto part = [this](std::size_t slices) {
+    return static_cast<double>(slices) / static_cast<double>(slices_);
+  };
+  constexpr double part_sorted = part_before_cells + part_for_sort;
+  double done = part_before_cells * part(slice_);
+  if (slice_ == cells_slice()) done = part_before_cells + 0.25 * part_for_sort;
+  if (have_entered()) done = part_sorted + (1.0 - part_sorted) * part(slice_ - entry_slice() - 1);
   return begin_ + done * (end() - begin_);
 }
 
 Result<void> PreparedStart::prepare_slice(const Work& work) {
   work.found.resize(work.lease.count());
-  if (slice_ < sort_slice()) {
+  if (slice_ < cells_slice()) {
     if (auto added = add_slice(work); !added) return added;
-  } else if (slice_ == sort_slice()) {
+  } else if (slice_ == cells_slice()) {
+    choose_cells(work);
+  } else if (slice_ == entry_slice()) {
     enter_windows(work);
   } else if (slice_ < last_slice()) {
     search_slice(work);
@@ -83,7 +87,7 @@ Result<void> PreparedStart::prepare_slice(const Work& work) {
 void PreparedStart::begin(const Work& work) {
   work.state.window_policy.start_main(work.main.time(), std::exchange(work.main.work().recertified, {}));
   has_begun_ = true;
-  next_ = work.state.broad_phase.successor();
+  next_ = work.state.broad_phase.successor(end());
   work.state.broad_phase.record_changes(true);
   numbers_ = static_cast<std::uint32_t>(work.state.bodies.numbers());
 }
@@ -129,7 +133,9 @@ Result<void> PreparedStart::add_slice(const Work& work) {
 void PreparedStart::add(const Work& work, std::vector<std::uint32_t> numbers, WindowPolicy::Sample& sample) {
   WindowStart choosing(work.state, work.main, work.lease, work.found, next_, end());
   const auto starters = choosing.choose_windows(numbers, lasting_rungs(work), sample);
-  WindowStart(work.state, work.main, work.lease, work.found, next_, sort_time()).add_starters(starters);
+  WindowStart entering(work.state, work.main, work.lease, work.found, next_, entry_time());
+  entering.add_starters(starters);
+  entering.hand_over();
 }
 
 /// Makes other swept spheres for bodies of earlier slices that have changed since the last slice.
@@ -144,27 +150,41 @@ void PreparedStart::update(const Work& work) {
   add(work, std::move(again), uncounted);
 }
 
-/// Sorts the swept spheres, and replaces the present windows.
-void PreparedStart::enter_windows(const Work& work) {
-  BroadPhase& windows = work.state.broad_phase;
-  {
-    const PolicySwap swap(work, policy_);
-    update(work);
-  }
-  windows.record_changes(false);
-  for (const std::uint32_t number : work.main.dirty().numbers())
-    if (work.state.bodies[number].dirty && next_.contains(number)) next_.remove_starter(number);
-  next_.finish_start(work.lease);
-  policy_.keep_fast(work.state.window_policy);
-  work.state.window_policy = policy_;
-  next_ = windows.take_over(std::move(next_), sort_time(), end());
-  ++work.main.work().counters.window_ends;
-  work.main.begin_epoch(windows.next_end());
+/// Chooses cells for the swept spheres of all starters.
+void PreparedStart::choose_cells(const Work& work) {
+  const PolicySwap swap(work, policy_);
+  update(work);
+  next_.choose_cells(work.lease);
 }
 
-/// Returns true if neither of two bodies, or one and its walls, has changed since sort_time(). Those that are
-/// dirty are certified with all others at this instant.
-bool PreparedStart::await_search(const Work& work, std::uint32_t a, std::uint32_t b) const {
+/// Sorts the swept spheres, and replaces the present windows. Bodies that have changed since choose_cells()
+/// enter one by one.
+void PreparedStart::enter_windows(const Work& work) {
+  BroadPhase& windows = work.state.broad_phase;
+  std::vector<std::uint32_t> changed = windows.take_changes();
+  windows.record_changes(false);
+  next_.finish_start(work.lease);
+  for (const std::uint32_t number : changed)
+    if (next_.contains(number)) next_.leave(number);
+  for (const std::uint32_t number : work.main.dirty().numbers())
+    if (work.state.bodies[number].dirty && next_.contains(number)) next_.leave(number);
+  policy_.keep_fast(work.state.window_policy);
+  work.state.window_policy = policy_;
+  next_ = windows.take_over(std::move(next_), entry_time());
+  ++work.main.work().counters.window_ends;
+  work.main.begin_epoch(windows.next_end());
+  std::erase_if(changed, [&](std::uint32_t number) { return !starts(work, number); });
+  work.main.restart(changed);
+}
+
+/// Returns true if the body has started at entry_time(), and not changed since. A dirty one is certified with
+/// all others at this instant.
+bool PreparedStart::awaits_search(const Work& work, std::uint32_t number) {
+  return work.state.broad_phase.awaits_search(number) && !work.state.bodies[number].dirty;
+}
+
+/// As awaits_search(), of a pair one of which has started.
+bool PreparedStart::await_search(const Work& work, std::uint32_t a, std::uint32_t b) {
   return work.state.broad_phase.await_search(a, b) && !work.state.bodies[a].dirty &&
          !work.state.bodies[b].dirty;
 }
@@ -172,11 +192,11 @@ bool PreparedStart::await_search(const Work& work, std::uint32_t a, std::uint32_
 /// Searches for a part of the starters, and certifies them.
 void PreparedStart::search_slice(const Work& work) {
   const std::size_t all = next_.started_slots();
-  const std::size_t part = slice_ - sort_slice();
+  const std::size_t part = slice_ - entry_slice();
   const std::size_t first = all * (part - 1) / slices_;
   const std::size_t last = all * part / slices_;
   const std::vector<std::uint32_t> numbers = next_.started_bodies(
-      first, last, [&](std::uint32_t number) { return !await_search(work, number, number); });
+      first, last, [&](std::uint32_t number) { return !awaits_search(work, number); });
   WindowStart starting(work.state, work.main, work.lease, work.found, work.state.broad_phase, end());
   const PairCertifier certifier = starting.certifier();
   const auto bound_of = [&](std::uint32_t number) {
@@ -211,13 +231,13 @@ void PreparedStart::finish(const Work& work) {
   WindowStart starting(work.state, work.main, work.lease, work.found);
   std::vector<std::uint32_t> started;
   for (std::uint32_t number = 0; number < work.state.bodies.numbers(); ++number)
-    if (await_search(work, number, number)) started.push_back(number);
+    if (awaits_search(work, number)) started.push_back(number);
   starting.find_links(started);
   const PairCertifier certifier = starting.certifier();
   for (const PairCertificate& pair : linked_)
     if (await_search(work, pair.first, pair.second) && !certifier.are_linked(pair.first, pair.second))
       certifier.certify(pair.first, pair.second, work.found.front());
-  std::erase_if(at_walls_, [&](std::uint32_t number) { return !await_search(work, number, number); });
+  std::erase_if(at_walls_, [&](std::uint32_t number) { return !awaits_search(work, number); });
   std::copy_if(started.begin(), started.end(), std::back_inserter(at_walls_),
                [&](std::uint32_t number) { return work.state.contacts.walls_of(number) != 0; });
   std::sort(at_walls_.begin(), at_walls_.end());
@@ -232,14 +252,14 @@ void PreparedStart::finish(const Work& work) {
 bool PreparedStart::is_valid(const WorldState& state) const {
   const std::size_t bodies = state.bodies.numbers();
   const auto is_number = [=](std::uint32_t number) { return number < bodies; };
-  if (!is_sorted()) {
+  if (!have_entered()) {
     for (std::uint32_t number = 0; number < bodies; ++number)
       if (next_.contains(number) && !state.bodies[number].present() && !state.broad_phase.has_changed(number))
         return false;
   }
   return present_.is_valid() && present_.end < infinity && begin_ <= end() && begin_ >= -Window::latest_end &&
          slices_ > 0 && slices_ <= most_slices && slice_ <= last_slice() && numbers_ <= bodies &&
-         (is_sorted() ? next_.is_valid_copy(bodies) && state.broad_phase.search_begin() == end()
+         (have_entered() ? next_.is_valid_copy(bodies) && state.broad_phase.search_begin() == end()
                       : next_.is_valid(bodies) && next_.started_slots() == 0) &&
          (slice_ == 0 || has_begun_) && policy_.is_valid() &&
          std::all_of(at_walls_.begin(), at_walls_.end(), is_number) &&

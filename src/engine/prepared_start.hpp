@@ -2,21 +2,22 @@
 // has all of it.
 //
 // Most windows end together, at end(). The bodies in them get their next windows earlier than that, all at
-// one instant, sort_time(). Until then their next swept spheres are made, for one part of the bodies after
-// the other; these hold from sort_time() until the next windows end. At sort_time() they are sorted into grid
-// levels, which replace those of the present windows (BroadPhase::take_over). From then on they are searched,
-// one part after the other, and pairs are certified from end() on.
+// one instant, entry_time(). Until then their next swept spheres are made, for one part of the bodies after
+// the other; these hold from entry_time() until the next windows end. Then cells are chosen for them. At
+// entry_time() they are sorted into grid levels, which replace those of the present windows
+// (BroadPhase::take_over). From then on they are searched, one part after the other, and pairs are certified
+// from end() on.
 //
 // A bound holds at all later times. So a swept sphere and a certificate that were made from an earlier bound
-// are right until a discontinuity of their bodies. A body that changes before sort_time() gets another swept
-// sphere in its present window at once (EventProcessor::recertify), and another next one with the next slice.
-// A body that changes later enters its next window at once, and is certified with all others until that
-// ends: slices pass it over. A certificate also presumes what two bodies are to each other. So those that
+// are right until a discontinuity of their bodies. A body that changes before entry_time() gets another swept
+// sphere in its present window at once (EventProcessor::recertify), and another next one with the next slice
+// or, if cells have been chosen, at entry_time(). A body that changes later enters its next window at once,
+// and is certified with all others until that ends: slices pass it over. A certificate also presumes what two bodies are to each other. So those that
 // touch or sense each other, or walls, are certified at end().
 //
-// Invariant from sort_time() to end(), of any two bodies in windows that last beyond end(), one of which
+// Invariant from entry_time() to end(), of any two bodies in windows that last beyond end(), one of which
 // starts:
-// - one has changed since sort_time(), and was then certified with the other, or
+// - one has changed since entry_time(), and was then certified with the other, or
 // - BroadPhase::await_search(): they are certified until end(), and
 //   - a slice has certified them from end() on, or a later one will, or
 //   - the two touched or sensed each other when a slice found them, and are in the list linked_.
@@ -64,22 +65,26 @@ class PreparedStart {
  private:
   /// Time at which the present windows end and the next ones begin.
   double end() const { return present_.end; }
-  double sort_time() const;
-  /// Slices in their order: parts of the bodies, the sort, parts of the sorted slots, the end.
-  std::size_t sort_slice() const { return slices_; }
-  std::size_t last_slice() const { return 2 * slices_ + 1; }
-  bool is_sorted() const { return slice_ > sort_slice(); }
+  double entry_time() const;
+  // Slices in their order: parts of the bodies, the choice of cells, the entry, parts of the sorted slots, the
+  // end.
+  std::size_t cells_slice() const { return slices_; }
+  std::size_t entry_slice() const { return slices_ + 1; }
+  std::size_t last_slice() const { return 2 * slices_ + 2; }
+  bool have_entered() const { return slice_ > entry_slice(); }
   /// Returns the number of the first body of a slice.
   std::uint32_t begun(std::size_t slice) const {
     return static_cast<std::uint32_t>(numbers_ * slice / slices_);
   }
-  bool await_search(const Work& work, std::uint32_t a, std::uint32_t b) const;
+  static bool awaits_search(const Work& work, std::uint32_t number);
+  static bool await_search(const Work& work, std::uint32_t a, std::uint32_t b);
   std::vector<int> lasting_rungs(const Work& work) const;
   bool starts(const Work& work, std::uint32_t number) const;
   void begin(const Work& work);
   Result<void> add_slice(const Work& work);
   void add(const Work& work, std::vector<std::uint32_t> numbers, WindowPolicy::Sample& sample);
   void update(const Work& work);
+  void choose_cells(const Work& work);
   void enter_windows(const Work& work);
   void search_slice(const Work& work);
   void finish(const Work& work);
@@ -92,7 +97,7 @@ class PreparedStart {
   bool has_begun_ = false;
   std::uint64_t near_ = 0;  ///< near pairs found
   WindowPolicy policy_;     ///< of the next windows, until these are entered
-  /// The next swept spheres; once sorted, a copy of the grid levels that are searched.
+  /// The next swept spheres; once these have entered, a copy of the grid levels that are searched.
   BroadPhase next_;
   // Found in touch or sensing each other, or at walls; certified at end().
   std::vector<PairCertificate> linked_;

@@ -20,6 +20,11 @@ Result<void> EventProcessor::recertify_dirty() {
   return {};
 }
 
+void EventProcessor::restart(std::span<const std::uint32_t> numbers) {
+  for (const std::uint32_t number : numbers) ++bodies()[number].revision;
+  recertify(numbers);
+}
+
 void EventProcessor::recertify(std::span<const std::uint32_t> numbers) {
   entered_.clear();
   for (const std::uint32_t number : numbers)

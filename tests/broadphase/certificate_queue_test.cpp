@@ -236,6 +236,31 @@ TEST(CertificateQueue, ForgetsVoidPairsOfASliceWhenItBegins) {
   EXPECT_EQ(queue.next_time(), infinity);
 }
 
+/// Certificates that come little by little are looked at once, whenever times were divided.
+TEST(CertificateQueue, LooksOnceAtPairsThatComeLittleByLittle) {
+  Random random(seed);
+  CertificateQueue queue;
+  std::vector<PairCertificate> pairs;
+  for (int k = 0; k < 1000; ++k) pairs.push_back({.failure_time = random.uniform()});
+  queue.add_all(pairs);
+  std::size_t asked = 0;
+  const auto is_stale = [&](const PairCertificate&) {
+    ++asked;
+    return false;
+  };
+  constexpr std::size_t steps = 20000;
+  double before = 0.0;
+  for (std::size_t k = 0; k < steps; ++k) {
+    queue.open(is_stale);
+    ASSERT_GE(queue.next_time(), before);
+    before = queue.take_first().failure_time;
+    queue.add({.failure_time = before + 2.0 * random.uniform()});
+  }
+  EXPECT_EQ(queue.size(), 1000u);
+  EXPECT_LE(asked, steps + 1000u);
+  EXPECT_GT(before, 15.0);
+}
+
 /// Those that fail after all that were there when times were divided share the last slice, until it begins.
 TEST(CertificateQueue, KeepsTheOrderOfThoseBeyondTheLastSlice) {
   Random random(seed);

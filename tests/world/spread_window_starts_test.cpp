@@ -12,6 +12,7 @@
 #include "kinesphere/kinesphere.hpp"
 #include "kinesphere/limits.hpp"
 #include "support/playground.hpp"
+#include "world/bouncing_world.hpp"
 
 namespace kinesphere::spread_window_starts_test {
 namespace {
@@ -272,6 +273,60 @@ TEST_P(SpreadWindowStarts, DoNotDependOnFrames) {
 
 std::string kind_name(const testing::TestParamInfo<Kind>& info) { return info.param.name; }
 INSTANTIATE_TEST_SUITE_P(Kinds, SpreadWindowStarts, testing::ValuesIn(kinds), kind_name);
+
+/// Bodies that bounce and are pushed about.
+struct Bouncing : BouncingWorld<RandomForces> {
+  explicit Bouncing(ContactEvents contacts)
+      : BouncingWorld(
+            RandomForces::create({.start = start(), .acceleration_limits = std::vector<double>(count, 3.0)})
+                .value(),
+            World::create({.box = Box{{0, 0, 0}, {21, 21, 21}},
+                           .contacts = contacts,
+                           .spread_window_starts = true})
+                .value(),
+            1.0) {
+    for (std::size_t number = 0; number < count; ++number) {
+      BodyDefinition body = next();
+      body.radius = 0.4;
+      if (number % 4 == 0) body.sensor_class = 1;
+      add(body, 1.0);
+    }
+    world.set_sensor(1, {.distances = {0.5}}).value();
+    world.add_static({.shape = Ball{{6, 6, 6}, 1.5}}).value();
+  }
+
+ private:
+  static constexpr std::size_t count = 1000;
+  static std::vector<State> start() {
+    Random random(seed);
+    std::vector<State> states;
+    for (std::size_t k = 0; k < count; ++k) {
+      const Vec3 place{double(k % 10), double(k / 10 % 10), double(k / 100)};
+      states.push_back({Vec3{1, 1, 1} + 2.0 * place, 4.0 * random.point_in_ball()});
+    }
+    return states;
+  }
+};
+
+/// World::run, on threads too, tells the events of World::advance.
+TEST(SpreadWindowStartsOfMany, AreTheSameOnThreads) {
+  for (const ContactEvents contacts : {ContactEvents::all, ContactEvents::impacts}) {
+    constexpr double until = 3.0;
+    Bouncing looped(contacts);
+    looped.loop(until);
+    for (const int threads : {1, 2}) {
+      SCOPED_TRACE(testing::Message() << threads << " threads");
+      Bouncing found(contacts);
+      Workers workers = Workers::create(threads).value();
+      for (double time = 0.0; time < until; time += 0.3) found.run(time, &workers).value();
+      found.run(until, &workers).value();
+      expect_same_course(found, looped);
+      EXPECT_TRUE(is_clean(found.world));
+    }
+    EXPECT_GT(looped.reported, 1000u);
+    EXPECT_GT(looped.world.counters().window_ends, 8u);
+  }
+}
 
 /// Returns the most starts and restarts of bodies in a frame, after the first second.
 std::uint64_t most_in_a_frame(bool spreads, std::size_t bodies) {
