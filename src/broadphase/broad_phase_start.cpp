@@ -193,12 +193,12 @@ void BroadPhase::take_out_starters(const BroadPhase& successor) {
   for (std::size_t k = 0; k < levels_.size(); ++k) {
     GridLevel& level = levels_[k];
     level.fresh = false;
+    if (starters[k] > 0) changes += std::exchange(level.changes, 0);
+    bodies += starters[k];
     if (starters[k] < level.spheres.size()) {
       are_all = are_all && starters[k] == 0;
       continue;
     }
-    changes += std::exchange(level.changes, 0);
-    bodies += level.spheres.size();
     level.spheres.clear({});
     level.window.end = -infinity;
   }

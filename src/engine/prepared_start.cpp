@@ -166,6 +166,8 @@ void PreparedStart::enter_windows(const Work& work) {
   next_.finish_start(work.lease);
   for (const std::uint32_t number : changed)
     if (next_.contains(number)) next_.leave(number);
+  std::erase_if(changed, [&](std::uint32_t number) { return !starts(work, number); });
+  for (const std::uint32_t number : changed) windows.leave(number);
   for (const std::uint32_t number : work.main.dirty().numbers())
     if (work.state.bodies[number].dirty && next_.contains(number)) next_.leave(number);
   policy_.keep_fast(work.state.window_policy);
@@ -173,7 +175,6 @@ void PreparedStart::enter_windows(const Work& work) {
   next_ = windows.take_over(std::move(next_), entry_time());
   ++work.main.work().counters.window_ends;
   work.main.begin_epoch(windows.next_end());
-  std::erase_if(changed, [&](std::uint32_t number) { return !starts(work, number); });
   work.main.restart(changed);
 }
 
