@@ -59,8 +59,6 @@ std::uint32_t BroadPhase::level_for(const Window& window, int level) {
 
 void BroadPhase::open(GridLevel& layer, double origin) {
   layer.open(base_, origin, size_classes_.coarseness(layer.window.rung, layer.size_class));
-  if (origin < search_begin_ && layer.window.end < infinity && layer.window.begin() >= search_begin_)
-    layer.spheres.set_cells_from(layer.time(search_begin_));
   layer.spheres.set_spare_slots(has_many_changes_ && layer.window.end < infinity);
   next_end_ = std::min(next_end_, layer.window.end);
 }
@@ -172,7 +170,7 @@ bool BroadPhase::is_in_its_level(std::uint32_t number) const {
 bool BroadPhase::filling_is_valid() const {
   return std::all_of(filling_.openings.begin(), filling_.openings.end(),
                      [this](const Opening& opening) {
-                       const auto& [level, unsorted, cells] = opening;
+                       const auto& [level, unsorted, spread, cells] = opening;
                        return level < levels_.size() && levels_[level].has_frame && levels_[level].fresh &&
                               levels_[level].window.is_valid() &&
                               levels_[level].spheres.table().slots() == 0 &&
@@ -184,7 +182,8 @@ bool BroadPhase::filling_is_valid() const {
                      [](const auto& size) { return SizeClasses::is_size_class(size.first); });
 }
 
-bool BroadPhase::is_valid(std::size_t bodies) const {
+bool BroadPhase::is_valid_successor(std::size_t bodies, bool is_surveyed, bool has_cells) const {
+  if (filling_.is_surveyed != is_surveyed || filling_.has_cells != has_cells) return false;
   if (registrations_.size() > bodies || !size_classes_.is_valid() || !is_finite(base_) ||
       std::isnan(next_end_) || !filling_is_valid() ||
       std::any_of(changes_.begin(), changes_.end(), [=](std::uint32_t number) { return number >= bodies; }))
@@ -213,7 +212,8 @@ bool BroadPhase::is_valid_copy(std::size_t bodies) const {
   return std::all_of(levels_.begin(), levels_.end(), [=](const GridLevel& level) {
     const SweptSphereTable& table = level.spheres.table();
     for (std::uint32_t slot = 0; slot < table.slots(); ++slot)
-      if (table.number_at(slot) >= bodies && table.number_at(slot) != SweptSphereTable::free_slot) return false;
+      if (table.number_at(slot) >= bodies && table.number_at(slot) != SweptSphereTable::free_slot)
+        return false;
     return level.is_valid();
   });
 }

@@ -110,9 +110,15 @@ class BroadPhase {
   template <class BoundOf>
   void add_starters(std::span<const Starter> starters, double now, BoundOf bound_of, PoolLease& lease);
   void finish_start(PoolLease& lease);
-  /// First half of finish_start(), which may be called before it: chooses the cells. In between no starter may
-  /// be added or taken back.
+  // The first steps of finish_start(), which may be called before it, in this order. From survey() on no
+  // starter may be added or taken back.
+  void survey(PoolLease& lease);
   void choose_cells(PoolLease& lease);
+  /// True if searches for the started slots find all about the body: it is in one of them.
+  bool has_started(std::uint32_t number) const {
+    return contains(number) && level_of(number).fresh &&
+           registrations_[number].slot < level_of(number).spheres.sorted_slots();
+  }
   /// True if the body, or any, was added since the last finish_start().
   bool is_starter(std::uint32_t number) const {
     return contains(number) && opening_of(registrations_[number].level) != nullptr;
@@ -132,8 +138,8 @@ class BroadPhase {
   /// the successor. Returns a copy of the grid levels of these bodies to be searched, without registrations;
   /// those of the starters are fresh.
   BroadPhase take_over(BroadPhase&& successor, double now);
-  /// Time from which pairs that await a search are certified by it; -infinity if none do. Begin of the windows
-  /// of a successor.
+  /// Time from which pairs that await a search are certified by it; -infinity if none do. Begin of the
+  /// windows of a successor.
   double search_begin() const { return search_begin_; }
   /// True if the pair was registered at take_over() and is unchanged since, and one of the two is a starter:
   /// they are certified until search_begin() at most, and a search for the starters finds them.
@@ -162,8 +168,13 @@ class BroadPhase {
   /// Returns a description of what is wrong with the body's registration, or nothing. Precondition:
   /// contains(number).
   std::optional<std::string> check(std::uint32_t number) const;
-  /// True if the deserialized state is consistent in a world with `bodies` bodies.
-  bool is_valid(std::size_t bodies) const;
+  /// True if the deserialized state is consistent in a world with `bodies` bodies, and has no starters.
+  bool is_valid(std::size_t bodies) const {
+    return !has_starters() && is_valid_successor(bodies, false, false);
+  }
+  /// True if the deserialized state of a successor is consistent, survey() and choose_cells() having been
+  /// called or not.
+  bool is_valid_successor(std::size_t bodies, bool is_surveyed, bool has_cells) const;
   /// True if the deserialized result of a take_over() is consistent in a world with `bodies` bodies.
   bool is_valid_copy(std::size_t bodies) const;
   static void serialize(auto& self, auto& archive) {
@@ -197,11 +208,12 @@ class BroadPhase {
   struct Opening {
     std::uint32_t level = none;
     UnsortedSweptSpheres unsorted{};
+    SweptSphereSpread spread{};          ///< of the swept spheres, since survey()
     std::vector<std::uint32_t> cells{};  ///< of the swept spheres, since choose_cells()
 
     static void serialize(auto& self, auto& archive) {
-      auto& [level, unsorted, cells] = self;
-      archive(level, unsorted, cells);
+      auto& [level, unsorted, spread, cells] = self;
+      archive(level, unsorted, spread, cells);
     }
   };
   /// Whether a body awaits a search since take_over(): not; as one that is found; as a starter.
@@ -212,11 +224,12 @@ class BroadPhase {
   struct Filling {
     std::vector<Opening> openings;
     Sizes sizes;
+    bool is_surveyed = false;
     bool has_cells = false;
 
     static void serialize(auto& self, auto& archive) {
-      auto& [openings, sizes, has_cells] = self;
-      archive(openings, sizes, has_cells);
+      auto& [openings, sizes, is_surveyed, has_cells] = self;
+      archive(openings, sizes, is_surveyed, has_cells);
     }
   };
 
@@ -265,6 +278,7 @@ class BroadPhase {
 template <class IsGone>
 std::vector<std::uint32_t> BroadPhase::started_bodies(std::size_t first, std::size_t last, IsGone is_gone) {
   std::vector<std::uint32_t> numbers;
+  numbers.reserve(last - first);
   std::size_t before = 0;
   for (GridLevel& level : levels_) {
     if (!level.fresh) continue;

@@ -96,8 +96,8 @@ std::size_t BroadPhase::started_slots() const {
 /// Assigns each starter a grid level and an index among those that start in it, and counts the starters by
 /// size class. Returns the first starter of each level that is opened.
 std::vector<std::uint32_t> BroadPhase::choose_levels(std::span<const Starter> starters) {
-  auto& [openings, sizes, has_cells] = filling_;
-  assert(!has_cells);
+  auto& [openings, sizes, is_surveyed, has_cells] = filling_;
+  assert(!is_surveyed && !has_cells);
   std::vector<std::uint32_t> first_bodies;
   // Most starters go where the previous one went, so that level and size class are tried first.
   std::size_t at = 0;
@@ -131,9 +131,9 @@ std::vector<std::uint32_t> BroadPhase::choose_levels(std::span<const Starter> st
 }
 
 void BroadPhase::remove_starter(std::uint32_t number) {
-  assert(is_starter(number) && !filling_.has_cells);
+  assert(is_starter(number) && !filling_.is_surveyed);
   Registration& here = registrations_[number];
-  for (auto& [level, unsorted, cells] : filling_.openings) {
+  for (auto& [level, unsorted, spread, cells] : filling_.openings) {
     if (level != here.level) continue;
     auto& [numbers, spheres] = unsorted;
     registrations_[numbers.back()].slot = here.slot;
@@ -145,10 +145,18 @@ void BroadPhase::remove_starter(std::uint32_t number) {
   here.level = none;
 }
 
+void BroadPhase::survey(PoolLease& lease) {
+  for (Opening& opening : filling_.openings)
+    opening.spread = SweptSphereGrid::spread_of(opening.unsorted, lease);
+  filling_.is_surveyed = true;
+}
+
 void BroadPhase::choose_cells(PoolLease& lease) {
+  if (!filling_.is_surveyed) survey(lease);
   for (Opening& opening : filling_.openings) {
     GridLevel& layer = levels_[opening.level];
-    sort_to_start(layer, [&] { layer.spheres.choose_cells(opening.unsorted, opening.cells, lease); });
+    sort_to_start(
+        layer, [&] { layer.spheres.choose_cells(opening.unsorted, opening.spread, opening.cells, lease); });
   }
   filling_.has_cells = true;
 }
@@ -178,8 +186,8 @@ BroadPhase BroadPhase::successor(double begin) const {
   return next;
 }
 
-/// Takes the starters of a successor out of their grid levels, but not out of registrations_. Levels that only
-/// had starters become unused.
+/// Takes the starters of a successor out of their grid levels, but not out of registrations_. Levels that
+/// only had starters become unused.
 void BroadPhase::take_out_starters(const BroadPhase& successor) {
   std::vector<std::size_t> starters(levels_.size());
   const auto for_each_starter = [&](auto visit) {
@@ -213,9 +221,8 @@ BroadPhase BroadPhase::take_over(BroadPhase&& successor, double now) {
   take_out_starters(successor);
   for (GridLevel& started : successor.levels_) {
     if (started.is_empty()) continue;
-    const auto unused = std::find_if(levels_.begin(), levels_.end(), [](const GridLevel& level) {
-      return level.window.end == -infinity;
-    });
+    const auto unused = std::find_if(levels_.begin(), levels_.end(),
+                                     [](const GridLevel& level) { return level.window.end == -infinity; });
     (unused == levels_.end() ? levels_.emplace_back() : *unused) = std::move(started);
   }
   registrations_.resize(std::max(registrations_.size(), successor.registrations_.size()));

@@ -9,31 +9,11 @@
 namespace kinesphere {
 namespace {
 
-/// Limit of the absolute values of cell coordinates, so that sums of several do not overflow.
-constexpr float most_cells = 0x1p29f;
 constexpr std::int32_t most_along_an_axis = 1 << 20;
 /// A grid for at most this number of swept spheres has a single cell; a search tests all of them.
 constexpr std::size_t few = 32;
 
 }  // namespace
-
-SweptSphereSpread::SweptSphereSpread()
-    : lower_{most_cells, most_cells, most_cells}, upper_{-most_cells, -most_cells, -most_cells} {}
-
-void SweptSphereSpread::add(const FloatAabb& aabb) {
-  largest_ = std::max(largest_, aabb.widest());
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const float middle = aabb.middle(axis);
-    if (!(std::abs(middle) < most_cells)) {
-      exceeded_ = true;
-      continue;
-    }
-    lower_[axis] = std::min(lower_[axis], middle);
-    upper_[axis] = std::max(upper_[axis], middle);
-    const float width = aabb.width(axis);
-    if (width < most_cells) widest_ = std::max(widest_, width);
-  }
-}
 
 void SweptSphereSpread::add(const SweptSphereSpread& more) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -81,7 +61,9 @@ Grid::Grid(const SweptSphereSpread& spread, std::size_t spheres, float coarsenes
 
 std::int32_t Grid::cell_of(float coordinate, std::size_t axis) const {
   const float cells = coordinate * per_edge_[axis];
-  const float within = !(cells > -most_cells) ? -most_cells : cells < most_cells ? cells : most_cells;
+  const float within = !(cells > -SweptSphereSpread::limit) ? -SweptSphereSpread::limit
+                       : cells < SweptSphereSpread::limit   ? cells
+                                                            : SweptSphereSpread::limit;
   const auto cut = static_cast<std::int32_t>(within);
   return cut - (within < static_cast<float>(cut) ? 1 : 0);
 }
@@ -160,7 +142,7 @@ std::optional<Grid::CellRange> Grid::cells_near(const FloatAabb& aabb, float rea
     std::int32_t begin = 0;
     std::int32_t count = all;
     // Otherwise all cells of the axis, also if a coordinate is infinite or NaN.
-    if (cells < most_cells) {
+    if (cells < SweptSphereSpread::limit) {
       if (folded_[axis]) {
         count = std::min(last - first + 1, all);
         begin = count == all ? 0 : wrapped(first, axis);
@@ -180,7 +162,7 @@ std::optional<Grid::CellRange> Grid::cells_near(const FloatAabb& aabb, float rea
 }
 
 bool Grid::is_valid() const {
-  constexpr auto most = static_cast<std::int32_t>(most_cells);
+  constexpr auto most = static_cast<std::int32_t>(SweptSphereSpread::limit);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const float size = edge_[axis];
     if (!(size > 0.0f && size < std::numeric_limits<float>::infinity() && per_edge_[axis] == 1.0f / size) ||

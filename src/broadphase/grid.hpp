@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -15,8 +16,21 @@ namespace kinesphere {
 /// large for cell coordinates.
 class SweptSphereSpread {
  public:
-  SweptSphereSpread();
-  void add(const FloatAabb& aabb);
+  SweptSphereSpread() : lower_{limit, limit, limit}, upper_{-limit, -limit, -limit} {}
+  void add(const FloatAabb& aabb) {
+    largest_ = std::max(largest_, aabb.widest());
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float middle = aabb.middle(axis);
+      if (!(std::abs(middle) < limit)) {
+        exceeded_ = true;
+        continue;
+      }
+      lower_[axis] = std::min(lower_[axis], middle);
+      upper_[axis] = std::max(upper_[axis], middle);
+      const float width = aabb.width(axis);
+      if (width < limit) widest_ = std::max(widest_, width);
+    }
+  }
   void add(const SweptSphereSpread& more);
 
   const std::array<float, 3>& lower() const { return lower_; }
@@ -29,7 +43,16 @@ class SweptSphereSpread {
   /// Returns the longest edge of the box around the centres, but no less than widest().
   float extent() const;
 
+  static void serialize(auto& self, auto& archive) {
+    auto& [lower, upper, widest, largest, exceeded] = self;
+    archive(lower, upper, widest, largest, exceeded);
+  }
+
  private:
+  friend class Grid;
+  /// Of the absolute values of cell coordinates, so that sums of several do not overflow.
+  static constexpr float limit = 0x1p29f;
+
   std::array<float, 3> lower_;
   std::array<float, 3> upper_;
   float widest_ = 0.0f;

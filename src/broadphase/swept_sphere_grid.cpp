@@ -27,12 +27,11 @@ void SweptSphereGrid::clear(const SweptSphereFrame& frame) {
   sorted_ = 0;
   reach_ = 0.0f;
   widest_ = 0.0f;
-  cells_from_ = 0.0f;
   most_behind_ = least_behind;
 }
 
 std::uint32_t SweptSphereGrid::add(std::uint32_t number, const SweptSphere& sphere, float from) {
-  const FloatAabb aabb = aabb_for_cell(sphere, from);
+  const FloatAabb aabb = float_aabb_of(sphere, from, 1.0f);
   widest_ = std::max(widest_, aabb.widest());
   const std::optional<std::uint32_t> spare = spare_slot_for(aabb);
   if (!spare) return table_.add(number, sphere);
@@ -63,7 +62,7 @@ std::optional<float> SweptSphereGrid::looseness_at(std::uint32_t slot, const Swe
   assert(!is_free(slot));
   // Swept spheres added since the last sort have no cell.
   if (slot >= sorted_) return 0.0f;
-  const FloatAabb aabb = aabb_for_cell(sphere, from);
+  const FloatAabb aabb = float_aabb_of(sphere, from, 1.0f);
   const Grid::Cell here = grid_.nearest_image(cells_[slot], grid_.cell_around(aabb));
   const float out = grid_.looseness(here, aabb);
   return out <= (has_spare_slots_ ? reach_ : grid_.edge()) ? std::optional(out) : std::nullopt;
@@ -72,16 +71,16 @@ std::optional<float> SweptSphereGrid::looseness_at(std::uint32_t slot, const Swe
 void SweptSphereGrid::replace(std::uint32_t slot, const SweptSphere& sphere, float from, float looseness,
                               Growth& growth) {
   growth.reach = std::max(growth.reach, looseness);
-  growth.widest = std::max(growth.widest, aabb_for_cell(sphere, from).widest());
+  growth.widest = std::max(growth.widest, float_aabb_of(sphere, from, 1.0f).widest());
   ++growth.replaced;
   table_.replace(slot, sphere);
 }
 
-SweptSphereSpread SweptSphereGrid::spread_of(const UnsortedSweptSpheres& all, PoolLease& lease) const {
+SweptSphereSpread SweptSphereGrid::spread_of(const UnsortedSweptSpheres& all, PoolLease& lease) {
   std::vector<SweptSphereSpread> spreads(lease.count());
   lease.parallel_for(all.spheres.size(), many, [&](std::size_t begin, std::size_t end, std::size_t worker) {
     SweptSphereSpread spread;
-    for (std::size_t k = begin; k < end; ++k) spread.add(aabb_for_cell(all.spheres[k], 0.0f));
+    for (std::size_t k = begin; k < end; ++k) spread.add(float_aabb_of(all.spheres[k], 0.0f, 1.0f));
     spreads[worker].add(spread);
   });
   SweptSphereSpread spread;
@@ -143,7 +142,7 @@ void SweptSphereGrid::count_by_cells(const UnsortedSweptSpheres& all, std::vecto
   lease.parallel_for(all.spheres.size(), many, [&](std::size_t begin, std::size_t end, std::size_t worker) {
     float reach = 0.0f;
     for (std::size_t k = begin; k < end; ++k) {
-      const FloatAabb aabb = aabb_for_cell(all.spheres[k], 0.0f);
+      const FloatAabb aabb = float_aabb_of(all.spheres[k], 0.0f, 1.0f);
       const Grid::Cell cell = grid_.cell_around(aabb);
       cells[k] = grid_.index_of(cell);
       reach = std::max(reach, grid_.looseness(cell, aabb));
@@ -198,10 +197,9 @@ void SweptSphereGrid::choose_slots(const std::vector<std::uint32_t>& cells, std:
   });
 }
 
-void SweptSphereGrid::choose_cells(const UnsortedSweptSpheres& all, std::vector<std::uint32_t>& cells,
-                                   PoolLease& lease) {
+void SweptSphereGrid::choose_cells(const UnsortedSweptSpheres& all, const SweptSphereSpread& spread,
+                                   std::vector<std::uint32_t>& cells, PoolLease& lease) {
   cells.resize(all.numbers.size());
-  const SweptSphereSpread spread = spread_of(all, lease);
   choose_grid(all, spread, cells, lease);
   widest_ = spread.largest();
 }
@@ -229,22 +227,13 @@ void SweptSphereGrid::arrange(const UnsortedSweptSpheres& all, const std::vector
   }
 }
 
-/// Returns how far out of its cell a sorted swept sphere may be from a time on; slightly enlarged for rounding.
-float SweptSphereGrid::reach_from(float time) const {
-  if (!(time < cells_from_)) return reach_;
-  // A way of width 1 - cells_from_ follows, which the widest box has room for.
-  const float speed = widest_ / (1.0f - cells_from_);
-  return (reach_ + speed * (cells_from_ - time)) * (1.0f + 0x1p-20f);
-}
-
 /// Adds a query, and ranges of sorted slots from `first_slot` on that hold all swept spheres which may meet
 /// the query's own.
 void SweptSphereGrid::add_ranges(const SweptSphereQuery& query, std::uint32_t first_slot,
                                  SweptSphereSearches& searches) const {
   const auto number = static_cast<std::uint32_t>(searches.queries.size());
   searches.queries.push_back(query);
-  const auto cells =
-      grid_.cells_near(float_aabb_of(query.sphere, query.from, query.to), reach_from(query.from));
+  const auto cells = grid_.cells_near(float_aabb_of(query.sphere, query.from, query.to), reach_);
   if (!cells) return;
   // Two ranges become one, with all slots between them, if that takes no more vectors than reading them
   // separately. Cells must come in ascending order, or the slots between may have been read already.
@@ -278,8 +267,7 @@ void SweptSphereGrid::add_search(const SweptSphereQuery& query, SweptSphereSearc
         {sorted_, table_.slots(), static_cast<std::uint32_t>(searches.queries.size() - 1)});
 }
 
-void SweptSphereGrid::add_search_behind(std::uint32_t slot, SweptSphereSearches& searches,
-                                        float from) const {
+void SweptSphereGrid::add_search_behind(std::uint32_t slot, SweptSphereSearches& searches, float from) const {
   const SweptSphereQuery query{table_.swept_sphere_at(slot), from, 1.0f};
   if (is_free(slot)) {
     searches.queries.push_back(query);
@@ -304,7 +292,6 @@ bool SweptSphereGrid::is_valid() const {
       !is_positive(frame_.per_time))
     return false;
   if (!(reach_ >= 0.0f && widest_ >= 0.0f && coarseness_ >= 1.0f && coarseness_ <= coarsest)) return false;
-  if (!(cells_from_ >= 0.0f && cells_from_ < 1.0f)) return false;
   if (!table_.is_valid() || sorted_ > table_.slots()) return false;
   if (sorted_ == 0) return true;
   if (!grid_.is_valid() || starts_.size() != grid_.cells() + 1 || cells_.size() < sorted_) return false;

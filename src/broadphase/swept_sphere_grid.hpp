@@ -35,8 +35,8 @@ class SweptSphereGrid {
   std::size_t size() const { return table_.bodies(); }
   /// Number of slots that are sorted by cell; those added since are behind them.
   std::uint32_t sorted_slots() const { return sorted_; }
-  /// Upper limit of the widths, on any axis, of all swept spheres from the times at which they start to hold,
-  /// but no earlier than set_cells_from() says (in units of the frame).
+  /// Upper limit of the widths, on any axis, of all swept spheres from the times at which they start to hold
+  /// (in units of the frame).
   float widest() const { return widest_; }
   /// Empties the grid, for swept spheres of another frame.
   void clear(const SweptSphereFrame& frame);
@@ -44,9 +44,6 @@ class SweptSphereGrid {
   /// hold few swept spheres, and halves it for the next sort where they hold many.
   float coarseness() const { return coarseness_; }
   void set_coarseness(float coarseness) { coarseness_ = coarseness; }
-  /// Chooses cells by where swept spheres are from `time` on, 0 <= time < 1; at first from 0 on. Fewer swept
-  /// spheres are then in reach of a search from that time on, more of one from an earlier time on.
-  void set_cells_from(float time) { cells_from_ = time; }
   /// Decides whether fill() and sort() make spare slots from now on. They pay if many swept spheres change.
   void set_spare_slots(bool on) { has_spare_slots_ = on; }
 
@@ -79,11 +76,21 @@ class SweptSphereGrid {
   bool is_untidy() const {
     return table_.slots() - sorted_ > most_behind_ || table_.free_slots() > 64 + table_.slots() / 2;
   }
-  /// Chooses cells for `all`, and writes the cell of each to `cells`. The swept spheres hold from time 0 of the
-  /// frame until 1. Precondition: the grid is empty. Cost: linear.
-  void choose_cells(const UnsortedSweptSpheres& all, std::vector<std::uint32_t>& cells, PoolLease& lease);
-  /// Fills the grid with `all`, sorted by `cells`. Precondition: choose_cells() came last. moved(number, slot)
-  /// is called for each body, by several threads concurrently. Cost: linear.
+  /// Replaces the contents by `all`, sorted by cell. The swept spheres hold from time 0 of the frame until 1.
+  /// moved(number, slot) is called for each body, by several threads concurrently. Cost: linear.
+  template <class Moved>
+  void fill(const UnsortedSweptSpheres& all, PoolLease& lease, Moved moved) {
+    std::vector<std::uint32_t> cells;
+    choose_cells(all, spread_of(all, lease), cells, lease);
+    fill(all, cells, lease, moved);
+  }
+  // The steps of fill().
+  static SweptSphereSpread spread_of(const UnsortedSweptSpheres& all, PoolLease& lease);
+  /// Chooses cells for `all`, of this spread, and writes the cell of each to `cells`. Precondition: the grid
+  /// is empty.
+  void choose_cells(const UnsortedSweptSpheres& all, const SweptSphereSpread& spread,
+                    std::vector<std::uint32_t>& cells, PoolLease& lease);
+  /// Precondition: choose_cells() came last.
   template <class Moved>
   void fill(const UnsortedSweptSpheres& all, const std::vector<std::uint32_t>& cells, PoolLease& lease,
             Moved moved) {
@@ -93,12 +100,6 @@ class SweptSphereGrid {
         if (!is_free(slot)) moved(table_.number_at(slot), slot);
     });
   }
-  template <class Moved>
-  void fill(const UnsortedSweptSpheres& all, PoolLease& lease, Moved moved) {
-    std::vector<std::uint32_t> cells;
-    choose_cells(all, cells, lease);
-    fill(all, cells, lease, moved);
-  }
   /// Sorts all swept spheres by cell and removes free slots but for spare ones. Slots change: moved(number,
   /// slot) is called for each body. Cost: linear.
   template <class Moved>
@@ -106,7 +107,7 @@ class SweptSphereGrid {
     const UnsortedSweptSpheres all = table_.all();
     const float widest = widest_;
     std::vector<std::uint32_t> cells;
-    choose_cells(all, cells, lease);
+    choose_cells(all, spread_of(all, lease), cells, lease);
     widest_ = widest;
     arrange(all, cells, lease);
     for (std::uint32_t slot = 0; slot < table_.slots(); ++slot)
@@ -130,7 +131,7 @@ class SweptSphereGrid {
     std::map<Grid::Cell, std::size_t> filled;
     for (std::uint32_t slot = 0; slot < table_.slots(); ++slot)
       if (!is_free(slot))
-        ++filled[grid_.cell_around(aabb_for_cell(table_.swept_sphere_at(slot), 0.0f))];
+        ++filled[grid_.cell_around(float_aabb_of(table_.swept_sphere_at(slot), 0.0f, 1.0f))];
     for (const auto& [cell, count] : filled) visit(grid_.box_of(cell), count);
   }
   /// Returns the number of swept spheres per unit of volume (of area, if `flat`) in the cubes that hold any.
@@ -142,10 +143,9 @@ class SweptSphereGrid {
   bool can_fill(const std::vector<std::uint32_t>& cells) const;
 
   static void serialize(auto& self, auto& archive) {
-    auto& [frame, table, cells, starts, sorted, grid, reach, widest, most_behind, filled, coarseness,
-           cells_from, spare] = self;
-    archive(frame, table, cells, starts, sorted, grid, reach, widest, most_behind, filled, coarseness,
-            cells_from, spare);
+    auto& [frame, table, cells, starts, sorted, grid, reach, widest, most_behind, filled, coarseness, spare] =
+        self;
+    archive(frame, table, cells, starts, sorted, grid, reach, widest, most_behind, filled, coarseness, spare);
   }
 
  private:
@@ -158,12 +158,6 @@ class SweptSphereGrid {
     std::uint32_t cell;
   };
 
-  /// Returns the box by which a swept sphere that holds from time `from` on gets its cell.
-  FloatAabb aabb_for_cell(const SweptSphere& sphere, float from) const {
-    return float_aabb_of(sphere, std::max(from, cells_from_), 1.0f);
-  }
-  float reach_from(float time) const;
-  SweptSphereSpread spread_of(const UnsortedSweptSpheres& all, PoolLease& lease) const;
   void choose_grid(const UnsortedSweptSpheres& all, const SweptSphereSpread& spread,
                    std::vector<std::uint32_t>& cells, PoolLease& lease);
   void count_by_cells(const UnsortedSweptSpheres& all, std::vector<std::uint32_t>& cells, PoolLease& lease);
@@ -189,7 +183,6 @@ class SweptSphereGrid {
   std::uint32_t most_behind_ = least_behind;
   std::uint32_t filled_ = 0;  ///< cubes that held any swept sphere at the last sort
   float coarseness_ = 1.0f;
-  float cells_from_ = 0.0f;
   bool has_spare_slots_ = false;
 };
 

@@ -13,8 +13,8 @@ namespace {
 constexpr double part_before_slices = 0.02;
 /// Before the sort: about as long as its slices take. An earlier sort makes longer swept spheres; but bodies
 /// that change after it start at once, without another search at the end.
-constexpr double part_before_cells = 0.35;
-/// For the choice of cells and the sort, which take longer than any slice.
+constexpr double part_before_survey = 0.35;
+/// For the survey, the choice of cells and the sort, which take longer than any other slice.
 constexpr double part_for_sort = 0.1;
 /// Smaller slices make frames more even.
 constexpr std::size_t bodies_in_a_slice = 128;
@@ -50,7 +50,7 @@ PreparedStart::PreparedStart(const Space& space, const WindowPolicy& policy, con
       next_(space) {}
 
 double PreparedStart::entry_time() const {
-  return begin_ + (part_before_cells + 0.75 * part_for_sort) * (end() - begin_);
+  return begin_ + (part_before_survey + 0.85 * part_for_sort) * (end() - begin_);
 }
 
 double PreparedStart::next_slice() const {
@@ -60,19 +60,22 @@ double PreparedStart::next_slice() const {
   const auto part = [this](std::size_t slices) {
     return static_cast<double>(slices) / static_cast<double>(slices_);
   };
-  constexpr double part_sorted = part_before_cells + part_for_sort;
-  double done = part_before_cells * part(slice_);
-  if (slice_ == cells_slice()) done = part_before_cells + 0.25 * part_for_sort;
-  if (have_entered()) done = part_sorted + (1.0 - part_sorted) * part(slice_ - entry_slice() - 1);
+  constexpr double part_entered = part_before_survey + part_for_sort;
+  double done = part_before_survey * part(slice_);
+  if (slice_ == survey_slice()) done = part_before_survey + 0.15 * part_for_sort;
+  if (slice_ == cells_slice()) done = part_before_survey + 0.5 * part_for_sort;
+  if (have_entered()) done = part_entered + (1.0 - part_entered) * part(slice_ - entry_slice() - 1);
   return begin_ + done * (end() - begin_);
 }
 
 Result<void> PreparedStart::prepare_slice(const Work& work) {
   work.found.resize(work.lease.count());
-  if (slice_ < cells_slice()) {
+  if (slice_ < survey_slice()) {
     if (auto added = add_slice(work); !added) return added;
+  } else if (slice_ == survey_slice()) {
+    survey(work);
   } else if (slice_ == cells_slice()) {
-    choose_cells(work);
+    next_.choose_cells(work.lease);
   } else if (slice_ == entry_slice()) {
     enter_windows(work);
   } else if (slice_ < last_slice()) {
@@ -150,24 +153,38 @@ void PreparedStart::update(const Work& work) {
   add(work, std::move(again), uncounted);
 }
 
-/// Chooses cells for the swept spheres of all starters.
-void PreparedStart::choose_cells(const Work& work) {
+/// Takes stock of all next swept spheres.
+void PreparedStart::survey(const Work& work) {
   const PolicySwap swap(work, policy_);
   update(work);
-  next_.choose_cells(work.lease);
+  next_.survey(work.lease);
 }
 
-/// Sorts the swept spheres, and replaces the present windows. Bodies that have changed since choose_cells()
-/// enter one by one.
+/// Enters bodies that have changed since survey() among the sorted ones. Returns those for which there is no
+/// slot.
+std::vector<std::uint32_t> PreparedStart::enter_changed(const Work& work) {
+  const PolicySwap swap(work, policy_);
+  const WindowChoice choice(work.state, end());
+  std::vector<std::uint32_t> others;
+  for (const std::uint32_t number : work.state.broad_phase.take_changes()) {
+    const bool has_started = starts(work, number);
+    if (has_started)
+      next_.enter(number, inflated_bound(work.state.bodies, number, entry_time()), entry_time(),
+                  choice.window_for(number));
+    if (has_started && next_.has_started(number)) continue;
+    if (next_.contains(number)) next_.leave(number);
+    if (has_started) others.push_back(number);
+  }
+  return others;
+}
+
+/// Sorts the swept spheres, and replaces the present windows.
 void PreparedStart::enter_windows(const Work& work) {
   BroadPhase& windows = work.state.broad_phase;
-  std::vector<std::uint32_t> changed = windows.take_changes();
-  windows.record_changes(false);
   next_.finish_start(work.lease);
-  for (const std::uint32_t number : changed)
-    if (next_.contains(number)) next_.leave(number);
-  std::erase_if(changed, [&](std::uint32_t number) { return !starts(work, number); });
-  for (const std::uint32_t number : changed) windows.leave(number);
+  const std::vector<std::uint32_t> others = enter_changed(work);
+  windows.record_changes(false);
+  for (const std::uint32_t number : others) windows.leave(number);
   for (const std::uint32_t number : work.main.dirty().numbers())
     if (work.state.bodies[number].dirty && next_.contains(number)) next_.leave(number);
   policy_.keep_fast(work.state.window_policy);
@@ -175,7 +192,7 @@ void PreparedStart::enter_windows(const Work& work) {
   next_ = windows.take_over(std::move(next_), entry_time());
   ++work.main.work().counters.window_ends;
   work.main.begin_epoch(windows.next_end());
-  work.main.restart(changed);
+  work.main.restart(others);
 }
 
 /// Returns true if the body has started at entry_time(), and not changed since. A dirty one is certified with
@@ -196,8 +213,8 @@ void PreparedStart::search_slice(const Work& work) {
   const std::size_t part = slice_ - entry_slice();
   const std::size_t first = all * (part - 1) / slices_;
   const std::size_t last = all * part / slices_;
-  const std::vector<std::uint32_t> numbers = next_.started_bodies(
-      first, last, [&](std::uint32_t number) { return !awaits_search(work, number); });
+  const std::vector<std::uint32_t> numbers =
+      next_.started_bodies(first, last, [&](std::uint32_t number) { return !awaits_search(work, number); });
   WindowStart starting(work.state, work.main, work.lease, work.found, work.state.broad_phase, end());
   const PairCertifier certifier = starting.certifier();
   const auto bound_of = [&](std::uint32_t number) {
@@ -211,6 +228,7 @@ void PreparedStart::search_slice(const Work& work) {
           if (await_search(work, a, b)) certifier.certify(a, b, found);
       });
   std::vector<std::uint32_t> apart;
+  apart.reserve(numbers.size());
   for (const std::uint32_t number : numbers)
     (work.state.contacts.walls_of(number) != 0 ? at_walls_ : apart).push_back(number);
   starting.find_walls(apart);
@@ -231,6 +249,7 @@ void PreparedStart::finish(const Work& work) {
   BroadPhase& windows = work.state.broad_phase;
   WindowStart starting(work.state, work.main, work.lease, work.found);
   std::vector<std::uint32_t> started;
+  started.reserve(work.state.bodies.numbers());
   for (std::uint32_t number = 0; number < work.state.bodies.numbers(); ++number)
     if (awaits_search(work, number)) started.push_back(number);
   starting.find_links(started);
@@ -260,8 +279,10 @@ bool PreparedStart::is_valid(const WorldState& state) const {
   }
   return present_.is_valid() && present_.end < infinity && begin_ <= end() && begin_ >= -Window::latest_end &&
          slices_ > 0 && slices_ <= most_slices && slice_ <= last_slice() && numbers_ <= bodies &&
-         (have_entered() ? next_.is_valid_copy(bodies) && state.broad_phase.search_begin() == end()
-                      : next_.is_valid(bodies) && next_.started_slots() == 0) &&
+         (have_entered()
+              ? next_.is_valid_copy(bodies) && state.broad_phase.search_begin() == end()
+              : next_.is_valid_successor(bodies, slice_ > survey_slice(), slice_ > cells_slice()) &&
+                    next_.started_slots() == 0) &&
          (slice_ == 0 || has_begun_) && policy_.is_valid() &&
          std::all_of(at_walls_.begin(), at_walls_.end(), is_number) &&
          std::all_of(linked_.begin(), linked_.end(), [&](const PairCertificate& pair) {

@@ -3,7 +3,7 @@
 //
 // Most windows end together, at end(). The bodies in them get their next windows earlier than that, all at
 // one instant, entry_time(). Until then their next swept spheres are made, for one part of the bodies after
-// the other; these hold from entry_time() until the next windows end. Then cells are chosen for them. At
+// the other; these hold from entry_time() until the next windows end. Then their cells are chosen. At
 // entry_time() they are sorted into grid levels, which replace those of the present windows
 // (BroadPhase::take_over). From then on they are searched, one part after the other, and pairs are certified
 // from end() on.
@@ -11,9 +11,9 @@
 // A bound holds at all later times. So a swept sphere and a certificate that were made from an earlier bound
 // are right until a discontinuity of their bodies. A body that changes before entry_time() gets another swept
 // sphere in its present window at once (EventProcessor::recertify), and another next one with the next slice
-// or, if cells have been chosen, at entry_time(). A body that changes later enters its next window at once,
-// and is certified with all others until that ends: slices pass it over. A certificate also presumes what two bodies are to each other. So those that
-// touch or sense each other, or walls, are certified at end().
+// or, after the last of these, at entry_time(). A body that changes later enters its next window at once,
+// and is certified with all others until that ends: slices pass it over. A certificate also presumes what two
+// bodies are to each other. So those that touch or sense each other, or walls, are certified at end().
 //
 // Invariant from entry_time() to end(), of any two bodies in windows that last beyond end(), one of which
 // starts:
@@ -66,11 +66,12 @@ class PreparedStart {
   /// Time at which the present windows end and the next ones begin.
   double end() const { return present_.end; }
   double entry_time() const;
-  // Slices in their order: parts of the bodies, the choice of cells, the entry, parts of the sorted slots, the
-  // end.
-  std::size_t cells_slice() const { return slices_; }
-  std::size_t entry_slice() const { return slices_ + 1; }
-  std::size_t last_slice() const { return 2 * slices_ + 2; }
+  // Slices in their order: parts of the bodies, the survey, the choice of cells, the entry, parts of the
+  // sorted slots, the end.
+  std::size_t survey_slice() const { return slices_; }
+  std::size_t cells_slice() const { return slices_ + 1; }
+  std::size_t entry_slice() const { return slices_ + 2; }
+  std::size_t last_slice() const { return 2 * slices_ + 3; }
   bool have_entered() const { return slice_ > entry_slice(); }
   /// Returns the number of the first body of a slice.
   std::uint32_t begun(std::size_t slice) const {
@@ -84,7 +85,8 @@ class PreparedStart {
   Result<void> add_slice(const Work& work);
   void add(const Work& work, std::vector<std::uint32_t> numbers, WindowPolicy::Sample& sample);
   void update(const Work& work);
-  void choose_cells(const Work& work);
+  void survey(const Work& work);
+  std::vector<std::uint32_t> enter_changed(const Work& work);
   void enter_windows(const Work& work);
   void search_slice(const Work& work);
   void finish(const Work& work);

@@ -123,10 +123,9 @@ const std::vector<Crowd> crowds{
 /// A grid level, and its bodies in a plain map by their numbers.
 class Mirrored {
  public:
-  explicit Mirrored(const SweptSphereFrame& frame, bool has_spare_slots = false, float cells_from = 0.0f)
-      : layer(frame), has_spare_slots_(has_spare_slots), cells_from_(cells_from) {
+  explicit Mirrored(const SweptSphereFrame& frame, bool has_spare_slots = false)
+      : layer(frame), has_spare_slots_(has_spare_slots) {
     layer.set_spare_slots(has_spare_slots);
-    layer.set_cells_from(cells_from);
   }
 
   SweptSphereGrid layer;
@@ -277,9 +276,8 @@ class Mirrored {
   }
   bool within_widest(const SweptSphere& sphere) const {
     float widest = 2.0f * sphere.radius;
-    const float time = 1.0f - std::max(layer.frame().time(now), cells_from_);
     for (const float speed : sphere.velocity)
-      widest = std::max(widest, 2.0f * sphere.radius + std::abs(speed) * time);
+      widest = std::max(widest, 2.0f * sphere.radius + std::abs(speed) * (1.0f - layer.frame().time(now)));
     // A float represents the two sides of a small one far from the base to about 2^-6 of its width.
     return widest <= layer.widest() * 1.05f;
   }
@@ -315,7 +313,6 @@ class Mirrored {
   }
 
   bool has_spare_slots_;
-  float cells_from_;
   std::map<std::uint32_t, Entry> bodies_;
   std::uint32_t next_number_ = 0;
   SweptSphereSearches searches_;
@@ -344,7 +341,7 @@ TEST_P(GridSearch, FindsAllThatTouchWhateverHappenedBefore) {
   std::size_t touching = 0;
   for (std::uint64_t stream = 0; stream < 4; ++stream) {
     Random random = Random::at(seed, stream, 0);
-    Mirrored mirrored(draw_frame(random), stream % 2 == 1, stream >= 2 ? 0.4f : 0.0f);
+    Mirrored mirrored(draw_frame(random), stream % 2 == 1);
     for (int action = 0; action < 600; ++action) {
       SCOPED_TRACE(testing::Message() << "seed " << seed << ", stream " << stream << ", action " << action);
       act(mirrored, random, GetParam(), action < 300);
@@ -369,7 +366,7 @@ TEST_P(GridSearch, FindsEachPairOnce) {
   for (const int bodies : {1, 2, 31, 33, 100, 400}) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", " << bodies << " bodies");
     Random random = Random::at(seed, static_cast<std::uint64_t>(bodies), 1);
-    Mirrored mirrored(draw_frame(random), bodies % 2 == 1 || bodies == 400, bodies > 100 ? 0.4f : 0.0f);
+    Mirrored mirrored(draw_frame(random), bodies % 2 == 1 || bodies == 400);
     for (int k = 0; k < bodies; ++k) mirrored.add(GetParam().draw(random));
     mirrored.sort();
     ASSERT_TRUE(mirrored.same_places());
@@ -386,7 +383,7 @@ TEST_P(GridSearch, FindsEachPairOnce) {
 
 TEST_P(GridSearch, GoesOnAsBeforeAfterItWasBytes) {
   Random random = Random::at(seed, 0, 2);
-  Mirrored mirrored(draw_frame(random), true, 0.25f);
+  Mirrored mirrored(draw_frame(random), true);
   for (int action = 0; action < 300; ++action) {
     act(mirrored, random, GetParam(), true);
     if (action == 200) mirrored.sort();

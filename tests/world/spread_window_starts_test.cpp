@@ -280,9 +280,8 @@ struct Bouncing : BouncingWorld<RandomForces> {
       : BouncingWorld(
             RandomForces::create({.start = start(), .acceleration_limits = std::vector<double>(count, 3.0)})
                 .value(),
-            World::create({.box = Box{{0, 0, 0}, {21, 21, 21}},
-                           .contacts = contacts,
-                           .spread_window_starts = true})
+            World::create(
+                {.box = Box{{0, 0, 0}, {21, 21, 21}}, .contacts = contacts, .spread_window_starts = true})
                 .value(),
             1.0) {
     for (std::size_t number = 0; number < count; ++number) {
