@@ -25,6 +25,17 @@ namespace {
 
 }  // namespace
 
+/// Returns BroadPhase::search_begin() if two bodies, or one and its walls, await that search, otherwise
+/// `end`.
+[[gnu::noinline]] double PairCertifier::until_search(std::uint32_t a, std::uint32_t b, double end) const {
+  const auto is_updated = [this](std::uint32_t number) {
+    return log_ && log_->last_update(number) != nullptr;
+  };
+  return windows_.await_search(a, b) && !is_updated(a) && !is_updated(b)
+             ? std::min(end, windows_.search_begin())
+             : end;
+}
+
 std::optional<Window> PairCertifier::window_of(std::uint32_t number) const {
   if (const SweptSphereUpdate* update = log_ ? log_->last_update(number) : nullptr) return update->window;
   if (!windows_.contains(number)) return std::nullopt;

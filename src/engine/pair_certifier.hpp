@@ -72,15 +72,12 @@ class PairCertifier {
   /// earliest end of their windows or, before that, BroadPhase::search_begin().
   double earliest_window_end(std::uint32_t a, std::uint32_t b) const {
     const double end = std::min(window_end_of(a), window_end_of(b));
-    return time_ < windows_.search_begin() && windows_.await_search(a, b) && !is_updated(a) && !is_updated(b)
-               ? std::min(end, windows_.search_begin())
-               : end;
+    return time_ < windows_.search_begin() ? until_search(a, b, end) : end;
   }
   /// Returns the time at which the body is certified with the walls again if nothing changes.
   double walls_end_of(std::uint32_t number) const {
-    return time_ < windows_.search_begin() && windows_.awaits_search(number) && !is_updated(number)
-               ? windows_.search_begin()
-               : window_end_of(number);
+    const double end = window_end_of(number);
+    return time_ < windows_.search_begin() ? until_search(number, number, end) : end;
   }
   /// Returns the window of the body, or nullopt if it has none.
   std::optional<Window> window_of(std::uint32_t number) const;
@@ -133,7 +130,7 @@ class PairCertifier {
   void certify_walls(std::uint32_t number, SearchResults& found) const;
 
  private:
-  bool is_updated(std::uint32_t number) const { return log_ && log_->last_update(number) != nullptr; }
+  double until_search(std::uint32_t a, std::uint32_t b, double end) const;
   double apart_until(const BoundRef& a, const BoundRef& b) const;
   bool bounce_apart(std::uint32_t a, std::uint32_t b) const;
   const Bodies& bodies() const { return state_.bodies; }
