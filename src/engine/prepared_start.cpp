@@ -13,9 +13,9 @@ namespace {
 constexpr double part_before_slices = 0.02;
 /// Before the sort: about as long as its slices take. An earlier sort makes longer swept spheres; but bodies
 /// that change after it start at once, without another search at the end.
-constexpr double part_before_survey = 0.35;
+constexpr double part_before_survey = 0.34;
 /// For the survey, the choice of cells and the sort, which take longer than any other slice.
-constexpr double part_for_sort = 0.1;
+constexpr double part_for_sort = 0.12;
 /// Smaller slices make frames more even.
 constexpr std::size_t bodies_in_a_slice = 128;
 constexpr std::size_t least_slices = 4;
