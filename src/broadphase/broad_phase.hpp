@@ -152,10 +152,10 @@ class BroadPhase {
   bool awaits_search(std::uint32_t number) const { return search_of(number) == Search::starts; }
   /// No body awaits a search any more.
   void end_search();
-  /// In a result of take_over(), returns the bodies in the slots first <= k < last below started_slots(),
-  /// without those that is_gone(number) tells, which it takes out.
+  /// In a result of take_over(), takes those out of the slots first <= k < last below started_slots() that
+  /// is_gone(number) tells.
   template <class IsGone>
-  std::vector<std::uint32_t> started_bodies(std::size_t first, std::size_t last, IsGone is_gone);
+  void take_out_started(std::size_t first, std::size_t last, IsGone is_gone);
   /// Keeps a list of the bodies that enter or leave from now on, or stops that.
   void record_changes(bool on);
   /// Returns the list so far, each body once in ascending order, and begins a new one.
@@ -276,9 +276,7 @@ class BroadPhase {
 };
 
 template <class IsGone>
-std::vector<std::uint32_t> BroadPhase::started_bodies(std::size_t first, std::size_t last, IsGone is_gone) {
-  std::vector<std::uint32_t> numbers;
-  numbers.reserve(last - first);
+void BroadPhase::take_out_started(std::size_t first, std::size_t last, IsGone is_gone) {
   std::size_t before = 0;
   for (GridLevel& level : levels_) {
     if (!level.fresh) continue;
@@ -286,16 +284,10 @@ std::vector<std::uint32_t> BroadPhase::started_bodies(std::size_t first, std::si
     for (std::size_t k = std::max(first, before); k < std::min(last, behind); ++k) {
       const auto slot = static_cast<std::uint32_t>(k - before);
       const std::uint32_t number = level.spheres.table().number_at(slot);
-      if (number == SweptSphereTable::free_slot) continue;
-      if (is_gone(number)) {
-        level.spheres.remove(slot);
-      } else {
-        numbers.push_back(number);
-      }
+      if (number != SweptSphereTable::free_slot && is_gone(number)) level.spheres.remove(slot);
     }
     before = behind;
   }
-  return numbers;
 }
 
 template <class BoundOf>

@@ -88,6 +88,7 @@ class World::Engine {
 
   // epochs.cpp and engine.cpp
   Result<void> end_epoch(PoolLease& lease);
+  std::vector<std::uint32_t> take_slow(std::vector<std::uint32_t>& numbers);
   void plan_next_start();
   void discard_prepared_start();
   bool may_prepare_starts() const { return definition().spread_window_starts && !bodies().space().repeats(); }

@@ -48,6 +48,7 @@ Result<void> World::Engine::start_windows(PoolLease& lease, bool all,
   std::erase_if(numbers, [this](std::uint32_t number) { return bodies()[number].dirty; });
   if (all) discard_prepared_start();
   windows.end_windows(now, all);
+  const std::vector<std::uint32_t> slow = prepared_ ? take_slow(numbers) : std::vector<std::uint32_t>();
   ++main_.work().counters.window_ends;
   main_.work().counters.starts += numbers.size();
   main_.work().counters.restarts += joining.size();
@@ -61,8 +62,21 @@ Result<void> World::Engine::start_windows(PoolLease& lease, bool all,
   const std::uint64_t near = starting.start(starters);
   window_policy.finish_start(round, near, windows.size());
   main_.begin_epoch(windows.next_end());
+  if (!slow.empty()) main_.restart(slow);
   if (most) plan_next_start();
   return {};
+}
+
+/// Takes the bodies that suit main windows out of `numbers`, and returns them. While the start of these is
+/// prepared, they enter them one by one.
+std::vector<std::uint32_t> World::Engine::take_slow(std::vector<std::uint32_t>& numbers) {
+  const WindowPolicy& policy = state_.window_policy;
+  const auto slow = std::stable_partition(numbers.begin(), numbers.end(), [&](std::uint32_t number) {
+    return policy.rung_for(speed_bound_of(BoundAt(bodies()[number].bound, time()))) < policy.main_rung();
+  });
+  std::vector<std::uint32_t> taken(slow, numbers.end());
+  numbers.erase(slow, numbers.end());
+  return taken;
 }
 
 /// Does what is due of the preparation of the next start, and starts windows at the end of the epoch.

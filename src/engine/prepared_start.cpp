@@ -95,11 +95,12 @@ void PreparedStart::begin(const Work& work) {
   numbers_ = static_cast<std::uint32_t>(work.state.bodies.numbers());
 }
 
-/// Returns true if the body starts at end(), with most. Bodies in windows that are much shorter start when
-/// these end: from now to the end of the next one, their bounds might grow too much.
+/// Returns true if the body starts at end(), with most. Those whose windows end earlier, until which alone they
+/// are certified, start by themselves. So do those in windows that are much shorter: from now to the end of the
+/// next one, their bounds might grow too much.
 bool PreparedStart::starts(const Work& work, std::uint32_t number) const {
   const BroadPhase& present = work.state.broad_phase;
-  if (!present.contains(number) || present.end_of(number) > end() || work.state.bodies[number].dirty)
+  if (!present.contains(number) || present.end_of(number) != end() || work.state.bodies[number].dirty)
     return false;
   if (present.window_of(number) == present_) return true;
   const SpeedBound speed_bound = speed_bound_of(BoundAt(work.state.bodies[number].bound, end()));
@@ -207,14 +208,26 @@ bool PreparedStart::await_search(const Work& work, std::uint32_t a, std::uint32_
          !work.state.bodies[b].dirty;
 }
 
+/// Certifies a part of the starters with the walls, by number, but for those that touch one.
+void PreparedStart::find_walls(const Work& work, std::size_t part) {
+  if (!work.state.bodies.walls()) return;
+  const std::uint32_t last =
+      part < slices_ ? begun(part) : static_cast<std::uint32_t>(work.state.bodies.numbers());
+  std::vector<std::uint32_t> apart;
+  for (std::uint32_t number = begun(part - 1); number < last; ++number)
+    if (awaits_search(work, number))
+      (work.state.contacts.walls_of(number) != 0 ? at_walls_ : apart).push_back(number);
+  WindowStart(work.state, work.main, work.lease, work.found, work.state.broad_phase, end()).find_walls(apart);
+}
+
 /// Searches for a part of the starters, and certifies them.
 void PreparedStart::search_slice(const Work& work) {
   const std::size_t all = next_.started_slots();
   const std::size_t part = slice_ - entry_slice();
   const std::size_t first = all * (part - 1) / slices_;
   const std::size_t last = all * part / slices_;
-  const std::vector<std::uint32_t> numbers =
-      next_.started_bodies(first, last, [&](std::uint32_t number) { return !awaits_search(work, number); });
+  const BroadPhase& windows = work.state.broad_phase;
+  next_.take_out_started(first, last, [&](std::uint32_t number) { return !windows.awaits_search(number); });
   WindowStart starting(work.state, work.main, work.lease, work.found, work.state.broad_phase, end());
   const PairCertifier certifier = starting.certifier();
   const auto bound_of = [&](std::uint32_t number) {
@@ -227,11 +240,7 @@ void PreparedStart::search_slice(const Work& work) {
         for (const auto& [a, b] : found.search.near_started(next_, first + from, first + to, end(), bound_of))
           if (await_search(work, a, b)) certifier.certify(a, b, found);
       });
-  std::vector<std::uint32_t> apart;
-  apart.reserve(numbers.size());
-  for (const std::uint32_t number : numbers)
-    (work.state.contacts.walls_of(number) != 0 ? at_walls_ : apart).push_back(number);
-  starting.find_walls(apart);
+  find_walls(work, part);
   const auto before = static_cast<std::ptrdiff_t>(linked_.size());
   for (SearchResults& found : work.found) {
     near_ += found.near;

@@ -88,6 +88,7 @@ class PreparedStart {
   void survey(const Work& work);
   std::vector<std::uint32_t> enter_changed(const Work& work);
   void enter_windows(const Work& work);
+  void find_walls(const Work& work, std::size_t part);
   void search_slice(const Work& work);
   void finish(const Work& work);
 
