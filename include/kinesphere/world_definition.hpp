@@ -56,7 +56,7 @@ struct WorldDefinition {
   /// For games: spreads the work that the world does for most bodies together, when their windows start
   /// (docs/architecture.md), over the time before, so that frames of equal length cost about the same. Events
   /// are the same but for the last digits of their times. Has no effect on fewer than 16 bodies and in
-  /// periodic space. Cost: a fifth to a half more time in total (docs/performance.md), and memory for a
+  /// periodic space. Cost: up to a third more time in total (docs/performance.md), and memory for a
   /// second swept sphere of each body. A DistributedWorld refuses it.
   bool spread_window_starts = false;
 
