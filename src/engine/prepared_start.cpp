@@ -95,9 +95,9 @@ void PreparedStart::begin(const Work& work) {
   numbers_ = static_cast<std::uint32_t>(work.state.bodies.numbers());
 }
 
-/// Returns true if the body starts at end(), with most. Those whose windows end earlier, until which alone they
-/// are certified, start by themselves. So do those in windows that are much shorter: from now to the end of the
-/// next one, their bounds might grow too much.
+/// Returns true if the body starts at end(), with most. Those whose windows end earlier, until which alone
+/// they are certified, start by themselves. So do those in windows that are much shorter: from now to the end
+/// of the next one, their bounds might grow too much.
 bool PreparedStart::starts(const Work& work, std::uint32_t number) const {
   const BroadPhase& present = work.state.broad_phase;
   if (!present.contains(number) || present.end_of(number) != end() || work.state.bodies[number].dirty)
