@@ -18,8 +18,7 @@ int run_kinesphere(int argc, char** argv) {
   CLI::App app("Kinesphere: every collision among moving spheres, without time steps.", "kinesphere");
   app.footer(
       "Exit status: 0, whether there are approaches and alerts or not; 1 if two answers differ that should "
-      "not "
-      "(--verify, verify, replay); 2 on wrong input, with one line that says what was expected.");
+      "not (--verify, verify, replay); 2 on wrong input, with one line that says what was expected.");
   RunOptions run_options;
   ReplayOptions replay_options;
   TracksOptions tracks_options;

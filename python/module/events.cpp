@@ -262,8 +262,7 @@ cannot be changed.)")
       .def_property_readonly(
           "first_spin_gain", [](const Event& event) { return array_of(event.first_spin_gain); },
           "Change of the angular velocity of a rigid body by a unit impulse along the normal (radians / "
-          "(mass "
-          "length)), shape (3,).")
+          "(mass length)), shape (3,).")
       .def_property_readonly("second_spin_gain",
                              [](const Event& event) { return array_of(event.second_spin_gain); })
       .def_property_readonly(

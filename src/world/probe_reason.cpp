@@ -23,9 +23,8 @@ constexpr std::array<ReasonText, 7> reason_texts{{
      "limit, and declare what is known, such as gravity, as planned acceleration."},
     {"contacts",
      "Its contacts begin often, and each needs probes. Bodies that hop upon each other come to rest by "
-     "settle() "
-     "in place of bounce(), with a larger resting speed sooner; otherwise there is nothing to gain but fewer "
-     "contacts."},
+     "settle() in place of bounce(), with a larger resting speed sooner; otherwise there is nothing to gain "
+     "but fewer contacts."},
     {"travel",
      "It moves through space, and reports keep its bound narrow. A lower acceleration limit or velocity "
      "error makes them rarer."},

@@ -22,8 +22,7 @@ constexpr std::string_view as_rows_of_vicon =
 constexpr std::string_view pdb = "a PDB file: write it as XYZ, with VMD or MDAnalysis";
 constexpr std::string_view mode_s =
     "raw messages of Mode S (Beast or AVR): decode them with readsb or dump1090, and read port 30003 (SBS) "
-    "or "
-    "aircraft.json";
+    "or aircraft.json";
 constexpr std::string_view vtk =
     "data of VTK: write the points of all steps as CSV, with ParaView: save data, all time steps";
 constexpr std::string_view sp3 = "an ephemeris (SP3): write it as CSV, with columns id, time, x, y, z";
@@ -171,8 +170,7 @@ std::string other_file_kind(std::string_view beginning) {
     return "GeoJSON: write its points as CSV, with ogr2ogr -f CSV FILE.csv FILE -lco GEOMETRY=AS_XY";
   if (is_json)
     return "JSON of none of the formats that are read (docs/tables.md): write it as CSV, for example with jq "
-           "-r "
-           "'[.id,.time,.x,.y]|@csv'";
+           "-r '[.id,.time,.x,.y]|@csv'";
   if (!has_begin(beginning, "<")) return {};
   const std::string_view head = beginning.substr(0, 4000);
   for (const FileKind& kind : kinds_of_xml)

@@ -510,8 +510,7 @@ std::string missing_columns_text(const TableHead& head, const TableColumns& colu
                                  bool has_time, bool has_place) {
   const std::string text = fmt::format(
       "{}: expected columns for id, time, x and y (or lon and lat) by their usual names, --columns or "
-      "--format; it "
-      "has {}",
+      "--format; it has {}",
       head.file, head.text());
   if (!has_id && !has_time && !has_place) {
     constexpr std::size_t fewest = 4;

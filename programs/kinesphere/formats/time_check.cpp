@@ -40,8 +40,7 @@ std::string TimeCheck::day_suspicion(std::size_t samples) const {
     return {};
   return fmt::format(
       "the times {} to {} may be days, as spreadsheets, MATLAB and astronomers have them: say --time-unit d, "
-      "or "
-      "s if they are seconds",
+      "or s if they are seconds",
       least_, largest_);
 }
 

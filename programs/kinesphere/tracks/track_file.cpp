@@ -128,8 +128,7 @@ std::optional<std::string> warning_about_order(const RawRecording& raw) {
   if (first == nullptr) return std::nullopt;
   return fmt::format(
       "{}: this row and {} others are earlier than the row of their id before (id '{}'): rows are taken in "
-      "the order "
-      "of their times, so that a clock that was set back, or begins again, mixes two courses",
+      "the order of their times, so that a clock that was set back, or begins again, mixes two courses",
       raw.name(first->first_backward), rows - 1, first->id);
 }
 

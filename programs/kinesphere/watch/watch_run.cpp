@@ -336,8 +336,7 @@ void WatchRun::warn_of_doubtful_reports() {
   if (monitor.reports >= least && counts.with_velocity == 0 && looks_ahead)
     warn_once(has_warned_of_velocities_,
               "reports have no velocities (vx and vy, or speed and course), without which encounters are not "
-              "predicted "
-              "before they are near");
+              "predicted before they are near");
   if (counts.ahead >= least)
     warn_once(
         has_warned_of_ahead_,

@@ -177,8 +177,7 @@ class NmeaFormat final : public ReportFormat {
     throw UnusableStream(
         "expected the time at which each sentence was received, but there is none: record it in a tag block "
         "(\\c:1700000000*5F\\!AIVDM...) or before the sentence; what comes from a receiver right now can be "
-        "read "
-        "from udp://, a device, or standard input with --clock arrival");
+        "read from udp://, a device, or standard input with --clock arrival");
   }
 
   /// `received`: the time of receipt, or at most `earlier` seconds after it.
