@@ -318,8 +318,8 @@ class World {
   /// the probe. In that last case the state is discarded, time() is the time of the probe, no event or
   /// certificate is lost, and the call may be repeated. This also holds when the probe throws. And
   /// out_of_range, naming the body, if a promise of it is so loose that time would reach `until` only after
-  /// months of work: an acceleration limit of 1e30 in place of "any". That is known after a million steps
-  /// without an event, unless `until` is more than 1e9 away. change() the limit, or advance to a nearer time,
+  /// days of work: an acceleration limit of 1e30 in place of "any". That is known after a million steps
+  /// without an event, unless `until` is more than 1e6 away. change() the limit, or advance to a nearer time,
   /// and repeat the call.
   [[nodiscard]] Result<std::optional<Event>> advance(double until, Probe probe);
 

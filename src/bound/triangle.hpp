@@ -48,8 +48,8 @@ struct TriangleSide {
 
 /// The origin is one end of the longest side. Coordinates of points and vectors have errors up to 24 * 2^-53
 /// times their length (for a point: its distance from the origin); those of corners, up to this times the
-/// longest side. A triangle with collinear corners has height 0. One with three equal corners has NaN
-/// coordinates.
+/// longest side. A triangle with collinear corners has height 0, or one of the size of these errors.
+/// One with three equal corners has NaN coordinates.
 class TriangleFrame {
  public:
   explicit TriangleFrame(const Triangle& t) {
@@ -115,7 +115,7 @@ class TriangleFrame {
   std::array<TriangleSide, 3> sides_;
 };
 
-/// Height over the longest side, divided by its length; 0 if the corners are collinear.
+/// Height over the longest side, divided by its length; 0 or hardly more if the corners are collinear.
 inline double thickness(const Triangle& triangle) {
   const TriangleFrame frame(triangle);
   return frame.length() > 0.0 ? frame.height() / frame.length() : 0.0;

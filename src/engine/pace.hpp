@@ -24,7 +24,7 @@ class Pace {
     instants_ = 0;
   }
   /// Counts an instant. Returns an error that names the body with the shortest windows if, at the pace of the
-  /// last block, the end of the call is more instants away than a processor can work off in some months. A
+  /// last block, the end of the call is more instants away than a processor can work off in a day. A
   /// call that ends later than any real one is to go on until an event, and gets no error.
   Result<void> note_instant(const Bodies& bodies, double time) {
     return ++instants_ < block ? Result<void>() : check(bodies, time);
@@ -33,11 +33,11 @@ class Pace {
  private:
   /// A crowded moment has fewer instants. They take a second, or some if each calls a slow probe.
   static constexpr std::uint32_t block = 1u << 20;
-  /// Half a microsecond each for a hundred days. So many for each 1024 bodies: a large crowd has more of
+  /// Half a microsecond each for 38 hours. So many for each 1024 bodies: a large crowd has more of
   /// them.
-  static constexpr double most_instants = 0x1p44;
+  static constexpr double most_instants = 0x1p38;
   /// Longer calls have no end in mind (time).
-  static constexpr double longest_call = 1e9;
+  static constexpr double longest_call = 1e6;
 
   [[gnu::cold]] Result<void> check(const Bodies& bodies, double time);
 

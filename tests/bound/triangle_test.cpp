@@ -74,7 +74,8 @@ TEST(NearestOnSides, NoOtherPointOfTheSidesIsNearer) {
 }
 
 TEST(TriangleFrame, KnowsTrianglesWithoutHeight) {
-  EXPECT_EQ(thickness({{0, 0, 0}, {1, 1, 1}, {3, 3, 3}}), 0.0);
+  EXPECT_EQ(thickness({{0, 0, 0}, {1, 0, 0}, {3, 0, 0}}), 0.0);
+  EXPECT_LT(thickness({{0, 0, 0}, {1, 1, 1}, {3, 3, 3}}), 1e-15 * least_thickness);
   EXPECT_EQ(thickness({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}), 0.0);
   EXPECT_EQ(thickness({{0, 0, 0}, {4, 0, 0}, {1, 1, 0}}), 0.25);
 }
