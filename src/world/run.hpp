@@ -43,11 +43,11 @@ class World::Run final : private ResponseHandler {
   /// delivered to the sink.
   Result<bool> work();
   Result<bool> step_batch();
-  Result<bool> step(double until);
+  Result<bool> step(double until, PoolLease* sharing);
   bool deliver();
   bool shares_work() const;
   bool stands_back();
-  Result<std::optional<Event>> next(double until);
+  Result<std::optional<Event>> next(double until, PoolLease* sharing);
   Result<void> answer_one(const Event& event);
   void act(BodyId body, BodyAction action);
   Result<Response> respond(const Event& event) override;

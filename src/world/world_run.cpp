@@ -109,11 +109,12 @@ bool World::Run::deliver() {
 }
 
 Result<bool> World::Run::work() {
-  if (exclusive_) return step(*exclusive_);
-  if (!shares_work()) return step(until_);
+  if (exclusive_) return step(*exclusive_, nullptr);
+  if (!shares_work()) return step(until_, nullptr);
   // Each epoch is tried anew.
   const double epoch_end = world_.engine_->epoch_end();
-  if (stands_back() || epoch_end == one_by_one_) return step(std::min(until_, epoch_end));
+  if (stands_back()) return step(std::min(until_, epoch_end), nullptr);
+  if (epoch_end == one_by_one_) return step(std::min(until_, epoch_end), &lease_);
   return step_batch();
 }
 
@@ -150,13 +151,14 @@ Result<bool> World::Run::step_batch() {
     }
     one_by_one_ = engine.epoch_end();
   }
-  return step(std::min(until_, engine.epoch_end()));
+  return step(std::min(until_, engine.epoch_end()), &lease_);
 }
 
-/// Processes one event, or advances to `until` if there is none before.
-Result<bool> World::Run::step(double until) {
+/// Processes one event, or advances to `until` if there is none before. The threads of `sharing` share window
+/// starts; without it, one thread does all.
+Result<bool> World::Run::step(double until, PoolLease* sharing) {
   UndeliveredEvents& undelivered = *world_.undelivered_;
-  const auto event = next(until);
+  const auto event = next(until, sharing);
   if (!event) return renamed(event.error());
   if (!*event) {
     exclusive_.reset();
@@ -172,10 +174,10 @@ Result<bool> World::Run::step(double until) {
   return false;
 }
 
-Result<std::optional<Event>> World::Run::next(double until) {
+Result<std::optional<Event>> World::Run::next(double until, PoolLease* sharing) {
   if (auto event = world_.undelivered_->take()) return event;
-  if (!shares_work() || stands_back()) return world_.engine_advance(until, probe_);
-  return world_.changeable().advance(until, probe_, lease_);
+  if (sharing == nullptr) return world_.engine_advance(until, probe_);
+  return world_.changeable().advance(until, probe_, *sharing);
 }
 
 Result<void> World::Run::answer_one(const Event& event) {

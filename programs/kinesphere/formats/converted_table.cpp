@@ -22,6 +22,11 @@ std::optional<ConvertedTable> convert_to_table(std::string_view text, const std:
   return std::nullopt;
 }
 
+ProgramError without_expat(const std::string& file, std::string_view kind) {
+  return ProgramError(
+      fmt::format("{}: {} needs expat, and this program was built without it (libexpat1-dev)", file, kind));
+}
+
 std::string warning_of_heights(const std::string& file, std::string_view height) {
   return fmt::format("{}: some points have no height ({}), so that none is used", file, height);
 }

@@ -10,6 +10,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "program_error.hpp"
+
 namespace kinesphere::program {
 
 struct ConvertedTable {
@@ -39,6 +41,9 @@ std::optional<ConvertedTable> convert_oem(std::string_view text, const std::stri
 std::optional<ConvertedTable> convert_json_records(std::string_view text, const std::string& file);
 std::optional<ConvertedTable> convert_json_trace(std::string_view text, const std::string& file,
                                                  bool geometric);
+
+/// Returns the error for a file of a kind of XML in a program without expat.
+ProgramError without_expat(const std::string& file, std::string_view kind);
 
 /// Returns the warning of a file in which only some places have the height of this name.
 std::string warning_of_heights(const std::string& file, std::string_view height);

@@ -3,7 +3,6 @@
 
 #include "formats/converted_table.hpp"
 #include "formats/xml_elements.hpp"
-#include "program_error.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -54,8 +53,7 @@ std::optional<ConvertedTable> convert_fcd(std::string_view text, const std::stri
 #ifdef KINESPHERE_WITH_EXPAT
   return FcdReader(text, file).read();
 #else
-  throw ProgramError(
-      fmt::format("{}: XML needs expat, and this program was built without it (libexpat1-dev)", file));
+  throw without_expat(file, "XML");
 #endif
 }
 

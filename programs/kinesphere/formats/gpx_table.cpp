@@ -3,7 +3,6 @@
 
 #include "formats/converted_table.hpp"
 #include "formats/xml_elements.hpp"
-#include "program_error.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -63,8 +62,7 @@ std::optional<ConvertedTable> convert_gpx(std::string_view text, const std::stri
 #ifdef KINESPHERE_WITH_EXPAT
   return GpxReader(text, file).read();
 #else
-  throw ProgramError(
-      fmt::format("{}: GPX needs expat, and this program was built without it (libexpat1-dev)", file));
+  throw without_expat(file, "GPX");
 #endif
 }
 

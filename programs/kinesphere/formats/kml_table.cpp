@@ -88,8 +88,7 @@ std::optional<ConvertedTable> convert_kml(std::string_view text, const std::stri
 #ifdef KINESPHERE_WITH_EXPAT
   return KmlReader(text, file).read();
 #else
-  throw ProgramError(
-      fmt::format("{}: KML needs expat, and this program was built without it (libexpat1-dev)", file));
+  throw without_expat(file, "KML");
 #endif
 }
 
