@@ -5,6 +5,15 @@ if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES ccache)
   set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
 endif()
 
+# g++ collects garbage from 128 MB on, which takes a tenth of its time. Where there are 4 GB for each processor, it does
+# so from 4 GB on: the largest compilation then takes 2.9 GB instead of 1.9.
+cmake_host_system_information(RESULT memory QUERY TOTAL_PHYSICAL_MEMORY)
+cmake_host_system_information(RESULT processors QUERY NUMBER_OF_LOGICAL_CORES)
+math(EXPR megabytes_each "${memory} / ${processors}")
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND megabytes_each GREATER_EQUAL 4096)
+  add_compile_options($<$<COMPILE_LANGUAGE:CXX>:--param=ggc-min-heapsize=4000000>)
+endif()
+
 function(kinesphere_compile target)
   # On machines with a fused multiply-add, compilers may contract a * b + c into one rounding. Results would then depend
   # on compiler, optimisation level and machine. Users of the library need no such flag: nothing that they compile from
