@@ -187,10 +187,10 @@ class World {
   /// Adds a body that carries a shape (MovingShape). It moves, is probed and is changed like any body of
   /// add(), and does not turn. Bodies meet its surface; events of the two have the surface's velocity, and
   /// bounce() uses it. It meets no walls and no body with a shape, static ones included, and may be anywhere,
-  /// so that a piston slides in the box of the world. While there is one, run() uses one thread. Errors: as
-  /// add(), but for outside_domain, and as add_static() for the shape; unsupported for a shape that is
-  /// neither a Box nor a Triangle, and where an axis is periodic. Cost: as add(), with the radius of the ball
-  /// around the position that contains the shape.
+  /// so that a piston slides in the box of the world. Errors: as add(), but for outside_domain, and as
+  /// add_static() for the shape; unsupported for a shape that is neither a Box nor a Triangle, and where an
+  /// axis is periodic. Cost: as add(), with the radius of the ball around the position that contains the
+  /// shape.
   Result<BodyId> add_moving_shape(const MovingShape& body);
 
   /// Adds a rigid body (RigidBody): balls and capsules that move and turn together. Its parts meet other

@@ -425,7 +425,7 @@ It may reach out of the box of the world; it is never probed. Where space repeat
           R"(Adds a body that carries a Box or a Triangle, given relative to its position: a lift, a door, a piston.
 
 It moves like a body of add(), without turning, and is probed. It meets no walls and no other shapes. A mass of
-inf makes a body that no contact turns. While there is one, run() uses one thread. Returns its BodyId.)")
+inf makes a body that no contact turns. Returns its BodyId.)")
       .def("add_zone", add_zone, py::arg("shape"), py::arg("user_data") = 0,
            R"(Adds a zone: it touches nobody and tells who comes in and goes.
 

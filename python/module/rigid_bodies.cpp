@@ -218,8 +218,7 @@ inertia (mass length^2, each >= 0): moments about the axes of the body, which mu
 do not turn it about an axis with moment 0 or inf.
 
 The others are those of add(); position_error and velocity_error hold for every point of the body. It is one body,
-with one state in a probe. Events name its parts. While there is one, run() uses one thread. Raises InvalidValue
-that names the argument.)")
+with one state in a probe. Events name its parts. Raises InvalidValue that names the argument.)")
       .def(
           "rotations", rotations, py::arg("bodies"),
           R"(Rotations of rigid bodies at their last reports: orientations and angular velocities (radians / time).

@@ -79,10 +79,7 @@ bool each_has_one_owner(std::size_t count, const std::vector<std::uint32_t>& fre
 }  // namespace
 
 bool Shapes::is_valid(const BodyTable& bodies) const {
-  const auto carried =
-      std::count_if(bodies.begin(), bodies.end(), [](const Body& body) { return body.carries_shape; });
-  return carried == carried_ &&
-         each_has_one_owner(shapes_.size(), free_, bodies, [](const Body& body) { return body.has_shape(); });
+  return each_has_one_owner(shapes_.size(), free_, bodies, [](const Body& body) { return body.has_shape(); });
 }
 
 bool RigidBodies::is_valid(const BodyTable& bodies) const {

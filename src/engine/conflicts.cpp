@@ -16,7 +16,9 @@ double conflict_of(const Bodies& bodies, const SweptSphereUpdate& earlier, const
   const double now = later.time;
   const double end = std::min(earlier.window.end, later.window.end);
   if (!(now < end) || !bodies.may_meet(earlier.number, later.number)) return infinity;
-  if (end == infinity) return Conflict::unknown;
+  // apart_until() knows the balls around shapes that move, not the shapes.
+  if (end == infinity || bodies[earlier.number].has_shape() || bodies[later.number].has_shape())
+    return Conflict::unknown;
   const auto known = [](const SweptSphereUpdate& update) {
     return BoundRef{update.number, &update.bound, update.window.end, &update.middle};
   };

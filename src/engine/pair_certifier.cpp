@@ -81,7 +81,10 @@ double PairCertifier::apart_until(std::uint32_t a, std::uint32_t b) const {
 
 bool PairCertifier::needs_thresholds(std::uint32_t a, std::uint32_t b) const {
   if (earliest_window_end(a, b) == infinity) return true;
-  return (bodies()[a].is_shaped() || bodies()[b].is_shaped()) && bodies().may_meet(a, b) &&
+  const Body& one = bodies()[a];
+  const Body& other = bodies()[b];
+  if ((!one.is_shaped() && !other.is_shaped()) || !bodies().may_meet(a, b)) return false;
+  return one.has_shape() || other.has_shape() ||
          !(kinesphere::apart_until(bodies(), bound_ref(a), bound_ref(b), time_) > time_);
 }
 

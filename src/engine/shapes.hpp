@@ -15,14 +15,11 @@ class Shapes {
   bool empty() const { return shapes_.empty(); }
   /// Returns true if there is a body with a shape now.
   bool any() const { return shapes_.size() > free_.size(); }
-  /// Returns true if a body carries a shape now.
-  bool any_carried() const { return carried_ > 0; }
   /// Returns the shape of a body that has one.
   const Shape& of(const Body& body) const { return shapes_[body.shape_number]; }
   /// Gives a body a shape at rest, or one that it carries.
   void add(Body& body, const Shape& shape, bool carried) {
     body.carries_shape = carried;
-    if (carried) ++carried_;
     if (free_.empty()) {
       body.shape_number = static_cast<std::uint32_t>(shapes_.size());
       shapes_.push_back(shape);
@@ -37,20 +34,18 @@ class Shapes {
   /// Removes the shape of a body that is being removed, if it has one.
   void remove(const Body& body) {
     if (body.has_shape()) free_.push_back(body.shape_number);
-    if (body.carries_shape) --carried_;
   }
 
   /// Returns true if each shape belongs to one body or is free. Call after reading.
   bool is_valid(const BodyTable& bodies) const;
   static void serialize(auto& self, auto& archive) {
-    auto& [shapes, free, carried] = self;
-    archive(shapes, free, carried);
+    auto& [shapes, free] = self;
+    archive(shapes, free);
   }
 
  private:
   std::vector<Shape> shapes_;
   std::vector<std::uint32_t> free_;
-  std::uint32_t carried_ = 0;  ///< number of bodies that carry a shape
 };
 
 }  // namespace kinesphere

@@ -119,15 +119,13 @@ Result<bool> World::Run::work() {
 }
 
 /// Returns false if one thread does all, however many there are. What few bodies need is done before other
-/// threads have begun. Recording and profiling require events to be
-/// processed one at a time, and a rotation probe has to be called in the order of time. Clusters know of no
-/// shapes that move.
+/// threads have begun. Recording and profiling require events to be processed one at a time, and a rotation
+/// probe has to be called in the order of time.
 bool World::Run::shares_work() const {
   constexpr std::size_t fewest_bodies = 1024;
   if (gain_ != nullptr && world_.engine_->bodies().table().live_count() < fewest_bodies) return false;
   return lease_.count() > 1 && !world_.recorder_ && !world_.profiling_ &&
-         !world_.engine_->bodies().shapes.any_carried() && !world_.engine_->bodies().rigid.probe &&
-         world_.undelivered_->empty();
+         !world_.engine_->bodies().rigid.probe && world_.undelivered_->empty();
 }
 
 /// Returns true if one thread does all for some time, because the processors are busy.

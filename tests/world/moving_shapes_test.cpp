@@ -16,6 +16,7 @@
 #include "kinesphere/recording.hpp"
 #include "kinesphere/response.hpp"
 #include "number/infinity.hpp"
+#include "support/eager_workers.hpp"
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
 #include "support/scenes_of_each.hpp"
@@ -342,7 +343,7 @@ struct Gas {
 
 TEST(MovingShapes, RunTheSameWithThreadsAndFromSnapshots) {
   Gas alone, threaded;
-  Workers workers = Workers::create(2).value();
+  Workers workers = eager_workers(2).value();
   EXPECT_EQ(alone.run(4.0), threaded.run(4.0, &workers));
   const auto snapshot = alone.world.save().value();
   const std::uint64_t rest = alone.run(8.0);

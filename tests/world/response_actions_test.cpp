@@ -118,6 +118,7 @@ struct Kind {
   bool fixed = false;      ///< there are static bodies and a zone
   bool forces = false;     ///< bodies accelerate at random
   bool rigid = false;      ///< four in five turn, and are no balls
+  bool carried = false;    ///< one in twelve carries a box or a triangle
   bool removes = true;     ///< responses remove and disable bodies
   std::uint64_t stop = 0;  ///< one event in so many stops the world; 0: none
   std::uint64_t sleep = 0;
@@ -153,6 +154,14 @@ RigidBody thing(std::uint32_t number, double size) {
   return body;
 }
 
+/// A box or a triangle.
+Shape carried_shape(std::uint32_t number) {
+  Random random(number + 1);
+  const Vec3 lower = -random.uniform(0.1, 0.8) * Vec3{1.0, 1.0, 0.2};
+  if (number % 24 == 5) return Box{lower, -1.0 * lower};
+  return Triangle{lower, {0.9, -0.3, 0.0}, {-0.2, 0.9, 0.5}};
+}
+
 /// Bodies of three sizes that bounce in a box, and vanish at some contacts.
 struct Shooting : Game {
   explicit Shooting(const Kind& of) : Game(world_of(of), motion_of(of)), kind(of) {
@@ -160,12 +169,15 @@ struct Shooting : Game {
     for (std::uint32_t number = 0; number < crowd->size(); ++number)
       radii.push_back(number % 7 == 0 ? 0.6 : number % 3 == 0 ? 0.4 : 0.2);
     std::vector<BodyId> ids;
-    if (kind.rigid) {
-      for (std::uint32_t number = 0; number < radii.size(); ++number)
-        ids.push_back(
-            number % 5 == 0
-                ? bodies.add(world, *crowd, number, {.radius = radii[number]}).value()
-                : bodies.add_rigid_body(world, *crowd, number, thing(number, 1.5 * radii[number])).value());
+    const auto add = [&](std::uint32_t number) {
+      if (kind.rigid && number % 5 != 0)
+        return bodies.add_rigid_body(world, *crowd, number, thing(number, 1.5 * radii[number]));
+      if (kind.carried && number % 12 == 5)
+        return bodies.add_moving_shape(world, *crowd, number, {{}, carried_shape(number)});
+      return bodies.add(world, *crowd, number, {.radius = radii[number]});
+    };
+    if (kind.rigid || kind.carried) {
+      for (std::uint32_t number = 0; number < radii.size(); ++number) ids.push_back(add(number).value());
     } else {
       ids = bodies.add_all(world, *crowd, radii).value();
     }
@@ -275,23 +287,26 @@ TEST_P(ResponseActions, AreThoseOfALoop) {
 
 INSTANTIATE_TEST_SUITE_P(
     Of, ResponseActions,
-    ::testing::Values(Kind{.name = "vanishing"}, Kind{.name = "impacts", .contacts = ContactEvents::impacts},
-                      Kind{.name = "bullets", .faster = 40.0},
-                      Kind{.name = "forces", .faster = 20.0, .sensors = true, .forces = true},
-                      Kind{.name = "periodic", .faster = 5.0, .periodic = true},
-                      Kind{.name = "sensors", .sensors = true},
-                      Kind{.name = "fixed", .sensors = true, .fixed = true},
-                      Kind{.name = "spawns", .faster = 10.0, .sensors = true, .stop = 64},
-                      Kind{.name = "spawns_alone", .removes = false, .stop = 16, .end = 1.0},
-                      Kind{.name = "sleeping", .sensors = true, .stop = 64, .sleep = 256},
-                      Kind{.name = "turning", .contacts = ContactEvents::impacts, .rigid = true},
-                      Kind{.name = "turning_periodic", .periodic = true, .rigid = true},
-                      Kind{.name = "turning_forces",
-                           .sensors = true,
-                           .fixed = true,
-                           .forces = true,
-                           .rigid = true,
-                           .stop = 64}),
+    ::testing::Values(
+        Kind{.name = "vanishing"}, Kind{.name = "impacts", .contacts = ContactEvents::impacts},
+        Kind{.name = "bullets", .faster = 40.0},
+        Kind{.name = "forces", .faster = 20.0, .sensors = true, .forces = true},
+        Kind{.name = "periodic", .faster = 5.0, .periodic = true}, Kind{.name = "sensors", .sensors = true},
+        Kind{.name = "fixed", .sensors = true, .fixed = true},
+        Kind{.name = "spawns", .faster = 10.0, .sensors = true, .stop = 64},
+        Kind{.name = "spawns_alone", .removes = false, .stop = 16, .end = 1.0},
+        Kind{.name = "sleeping", .sensors = true, .stop = 64, .sleep = 256},
+        Kind{.name = "carried", .sensors = true, .carried = true, .stop = 64},
+        Kind{.name = "carried_impacts", .contacts = ContactEvents::impacts, .carried = true},
+        Kind{.name = "carried_forces", .faster = 5.0, .fixed = true, .forces = true, .carried = true},
+        Kind{.name = "turning", .contacts = ContactEvents::impacts, .rigid = true},
+        Kind{.name = "turning_periodic", .periodic = true, .rigid = true},
+        Kind{.name = "turning_forces",
+             .sensors = true,
+             .fixed = true,
+             .forces = true,
+             .rigid = true,
+             .stop = 64}),
     [](const auto& kind) { return kind.param.name; });
 
 // Many things at one instant.
