@@ -22,17 +22,22 @@ StaticDefinition static_of(std::string_view call, const ks_static_definition& bo
           .user_data = body.user_data};
 }
 
-/// Adds bodies of either kind: `convert` makes the library's definitions, and `add` adds those.
-template <class Definition, class Convert, class Add>
+/// Adds bodies of either kind: `convert` makes the library's definitions. `add` adds one, whose error needs
+/// no number, and `add_all` several.
+template <class Definition, class Convert, class Add, class AddAll>
 ks_status add_bodies(std::string_view call, ks_world world, const Definition* bodies, std::size_t count,
-                     ks_body_id* ids, const Convert& convert, const Add& add) {
+                     ks_body_id* ids, const Convert& convert, const Add& add, const AddAll& add_all) {
   return changing(call, world, [&](WorldObject& object) {
     require_records(call, bodies, count, "bodies");
     require_array(call, ids, count, "ids");
     std::vector<decltype(convert(call, *bodies))> definitions;
     definitions.reserve(count);
     for (std::size_t k = 0; k < count; ++k) definitions.push_back(convert(call, bodies[k]));
-    for (const BodyId id : add(object.world(), definitions).value()) *ids++ = c_id(id);
+    if (count == 1) {
+      *ids = c_id((object.world().*add)(definitions.front()).value());
+      return;
+    }
+    for (const BodyId id : (object.world().*add_all)(definitions).value()) *ids++ = c_id(id);
   });
 }
 
@@ -102,15 +107,13 @@ ks_status ks_static_definition_init(ks_static_definition* definition, uint32_t s
 }
 
 ks_status ks_world_add(ks_world world, const ks_body_definition* bodies, size_t count, ks_body_id* ids) {
-  return add_bodies(__func__, world, bodies, count, ids, body_of,
-                    [](World& to, std::span<const BodyDefinition> added) { return to.add_all(added); });
+  return add_bodies(__func__, world, bodies, count, ids, body_of, &World::add, &World::add_all);
 }
 
 ks_status ks_world_add_static(ks_world world, const ks_static_definition* bodies, size_t count,
                               ks_body_id* ids) {
-  return add_bodies(
-      __func__, world, bodies, count, ids, static_of,
-      [](World& to, std::span<const StaticDefinition> added) { return to.add_static_all(added); });
+  return add_bodies(__func__, world, bodies, count, ids, static_of, &World::add_static,
+                    &World::add_static_all);
 }
 
 ks_status ks_world_add_moving_shape(ks_world world, const ks_body_definition* body, const ks_shape* shape,

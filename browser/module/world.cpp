@@ -110,6 +110,12 @@ KINESPHERE_EXPORT(world_contains) bool world_contains(const World* world, double
 
 KINESPHERE_EXPORT(world_add_all)
 bool world_add_all(World* world, std::size_t count, const double* bodies) {
+  // The error of one body does not number it.
+  if (count == 1) {
+    const auto id = world->add(body_at(bodies));
+    if (is_good(id)) answer_ids({&*id, 1});
+    return id.has_value();
+  }
   std::vector<BodyDefinition> definitions;
   for (std::size_t k = 0; k < count; ++k) definitions.push_back(body_at(bodies + k * body_numbers));
   const auto ids = world->add_all(definitions);

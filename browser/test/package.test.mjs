@@ -148,6 +148,7 @@ test("wrong input is named", () => {
   refuses(() => new World({ box: { lower: [1, 0, 0], upper: [0, 1, 1] } }), "out_of_range", "box");
   refuses(() => world.add({ position: [1, 2, NaN] }), "not_finite", "position");
   refuses(() => world.add({ position: [1, 2, 3], radius: -1 }), "out_of_range", "radius");
+  assert.throws(() => world.add({ position: [1, 2, 3], radius: -1 }), /^add: radius/);
   refuses(() => world.setVelocity(77, [0, 0, 0]), "unknown_body", "body");
   refuses(() => world.setVelocity(0.5, [0, 0, 0]), "unknown_body", "body");
   refuses(() => world.setVelocity(-1, [0, 0, 0]), "unknown_body", "body");

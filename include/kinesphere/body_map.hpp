@@ -13,6 +13,7 @@
 //   }
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -55,10 +56,13 @@ class BodyMap {
   Result<BodyId> add(World& world, Motion& motion, std::uint32_t number, const BodyDefinition& like = {});
   /// Adds all bodies of the motion in the order of their numbers or, on an error, none. Errors: as add().
   Result<std::vector<BodyId>> add_all(World& world, Motion& motion, const BodyDefinition& like = {});
-  /// Adds all bodies of the motion with individual radii (length). Errors: as add(); out_of_range if the
-  /// number of radii differs from the number of bodies.
-  Result<std::vector<BodyId>> add_all(World& world, Motion& motion, std::span<const double> radii,
-                                      const BodyDefinition& like = {});
+  /// Adds all bodies of the motion with individual radii (length), a span or a container. Errors: as add();
+  /// out_of_range if the number of radii differs from the number of bodies.
+  template <std::convertible_to<std::span<const double>> Radii>
+  Result<std::vector<BodyId>> add_all(World& world, Motion& motion, const Radii& radii,
+                                      const BodyDefinition& like = {}) {
+    return add_with_radii(world, motion, radii, like);
+  }
 
   /// Adds a body of a motion that carries a shape. Of `like`, state and motion limits come from the motion.
   /// Errors: unknown_body or stale_body, and those of World::add_moving_shape(). Throws as add().
@@ -137,6 +141,8 @@ class BodyMap {
     std::uint32_t generation = 0;
   };
 
+  Result<std::vector<BodyId>> add_with_radii(World& world, Motion& motion, std::span<const double> radii,
+                                             const BodyDefinition& like);
   /// Returns the entry of the body. Throws BadResult: unknown_body.
   const Entry& known(std::string_view call, BodyId body) const;
   void note(BodyId body, Motion& motion, std::uint32_t number);

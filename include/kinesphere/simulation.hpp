@@ -96,8 +96,11 @@ class Simulation {
 
   Result<BodyId> add(MotionId<> motion, std::uint32_t number, const BodyDefinition& like = {});
   Result<std::vector<BodyId>> add_all(MotionId<> motion, const BodyDefinition& like = {});
-  Result<std::vector<BodyId>> add_all(MotionId<> motion, std::span<const double> radii,
-                                      const BodyDefinition& like = {});
+  template <std::convertible_to<std::span<const double>> Radii>
+  Result<std::vector<BodyId>> add_all(MotionId<> motion, const Radii& radii,
+                                      const BodyDefinition& like = {}) {
+    return add_with_radii(motion, radii, like);
+  }
   Result<void> set_velocity(BodyId body, const Vec3& velocity);
   Result<void> teleport(BodyId body, const State& state);
   Result<void> remove(BodyId body);
@@ -121,6 +124,8 @@ class Simulation {
   auto probe() const { return known_bodies("probe").probe(); }
 
  private:
+  Result<std::vector<BodyId>> add_with_radii(MotionId<> motion, std::span<const double> radii,
+                                             const BodyDefinition& like);
   std::uint32_t own(std::unique_ptr<Motion> motion);
   const Motion& known_motion(std::uint32_t index) const;
   [[noreturn]] void refuse_motion(std::uint32_t index) const;

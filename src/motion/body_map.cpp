@@ -76,11 +76,12 @@ Result<BodyId> BodyMap::add_rigid_body(World& world, Motion& motion, std::uint32
 }
 
 Result<std::vector<BodyId>> BodyMap::add_all(World& world, Motion& motion, const BodyDefinition& like) {
-  return add_all(world, motion, std::vector<double>(motion.size(), like.radius), like);
+  return add_with_radii(world, motion, std::vector<double>(motion.size(), like.radius), like);
 }
 
-Result<std::vector<BodyId>> BodyMap::add_all(World& world, Motion& motion, std::span<const double> radii,
-                                             const BodyDefinition& like) {
+Result<std::vector<BodyId>> BodyMap::add_with_radii(World& world, Motion& motion,
+                                                    std::span<const double> radii,
+                                                    const BodyDefinition& like) {
   InputCheck check("BodyMap::add_all");
   check.require(radii.size() == motion.size(), ErrorCode::out_of_range, {"radii"},
                 "must have one entry per body,", motion.size(), radii.size());

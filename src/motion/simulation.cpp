@@ -105,8 +105,8 @@ Result<std::vector<BodyId>> Simulation::add_all(MotionId<> motion, const BodyDef
   return bodies;
 }
 
-Result<std::vector<BodyId>> Simulation::add_all(MotionId<> motion, std::span<const double> radii,
-                                                const BodyDefinition& like) {
+Result<std::vector<BodyId>> Simulation::add_with_radii(MotionId<> motion, std::span<const double> radii,
+                                                       const BodyDefinition& like) {
   if (const auto error = wrong_motion("add_all", motion)) return *error;
   auto bodies = bodies_->add_all(world_, *motions_[motion.index], radii, like);
   if (bodies) remember(motion, *bodies);

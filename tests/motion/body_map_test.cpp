@@ -74,7 +74,7 @@ TEST(BodyMap, ChangesTheMotionAndTheWorld) {
       SteeredMotion::create({.start = {{}, {{20, 0, 0}, {}}}, .acceleration_limits = {1, 1}}).value();
   World world = World::create({}).value();
   BodyMap map;
-  const auto ids = map.add_all(world, ships).value();
+  const auto ids = map.add_all(world, ships, {}).value();
   EXPECT_FALSE(world.advance(1.0, map.probe()).value());
   map.set_velocity(world, ids[0], {3, 0, 0}).value();
   EXPECT_EQ(ships.state(0, 1.0).velocity, (Vec3{3, 0, 0}));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "ascii_text.hpp"
 #include "formats/field_text.hpp"
@@ -183,18 +184,31 @@ std::optional<ColumnMeaning> meaning_of(std::string_view column_name) {
 }
 
 AxisAndBody axis_and_body(std::string_view column_name) {
+  // A longer word comes before its beginning.
+  constexpr std::pair<std::string_view, Quantity> axes[] = {{"longitude", Quantity::longitude},
+                                                            {"long", Quantity::longitude},
+                                                            {"lon", Quantity::longitude},
+                                                            {"lng", Quantity::longitude},
+                                                            {"latitude", Quantity::latitude},
+                                                            {"lat", Quantity::latitude},
+                                                            {"altitude", Quantity::z},
+                                                            {"alt", Quantity::z},
+                                                            {"x", Quantity::x},
+                                                            {"y", Quantity::y},
+                                                            {"z", Quantity::z}};
   std::string name;
   for (const char c : column_name) name += lower_case(c);
-  for (const bool is_first : {true, false}) {
-    if (name.size() < 2) break;
-    const std::size_t axis = std::string_view("xyz").find(is_first ? name.front() : name.back());
-    if (axis == std::string_view::npos) continue;
-    std::string_view rest = std::string_view(name).substr(is_first ? 1 : 0, name.size() - 1);
-    const bool is_apart =
-        std::string_view(" _-.").find(is_first ? rest.front() : rest.back()) != std::string_view::npos;
-    if (is_apart) rest = rest.substr(is_first ? 1 : 0, rest.size() - 1);
-    const bool is_number = is_first && rest.find_first_not_of("0123456789") == std::string_view::npos;
-    if (!rest.empty() && (is_apart || is_number)) return {axis, std::string(rest)};
+  for (const auto& [word, axis] : axes) {
+    for (const bool is_first : {true, false}) {
+      if (name.size() <= word.size() || !(is_first ? name.starts_with(word) : name.ends_with(word))) continue;
+      std::string_view rest =
+          std::string_view(name).substr(is_first ? word.size() : 0, name.size() - word.size());
+      const bool is_apart =
+          std::string_view(" _-.").find(is_first ? rest.front() : rest.back()) != std::string_view::npos;
+      if (is_apart) rest = rest.substr(is_first ? 1 : 0, rest.size() - 1);
+      const bool is_number = is_first && rest.find_first_not_of("0123456789") == std::string_view::npos;
+      if (!rest.empty() && (is_apart || is_number)) return {axis, std::string(rest)};
+    }
   }
   return {};
 }

@@ -58,10 +58,10 @@ struct ColumnMeaning {
 /// Knows the usual names in any case, with or without blanks, - and _ between words; returns nothing for
 /// others.
 std::optional<ColumnMeaning> meaning_of(std::string_view column_name);
-/// An axis, 0 to 2 for x, y and z, and the body that the rest of a name tells: x1, fish_2.y, z_head.
+/// What a column has of a body, and the body that the rest of its name tells: x1, fish_2.y, z_head, lat_a.
 struct AxisAndBody {
-  std::size_t axis = 0;
-  std::string body;  ///< in lower case; empty for another name
+  Quantity axis = Quantity::x;  ///< x, y, z, longitude or latitude
+  std::string body;             ///< in lower case; empty for another name
 };
 AxisAndBody axis_and_body(std::string_view column_name);
 /// Returns the unit of this measure at the end of a name such as east_cm or "up [ft]"; empty if there is

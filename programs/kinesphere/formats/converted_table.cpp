@@ -16,8 +16,10 @@ std::optional<ConvertedTable> convert_to_table(std::string_view text, const std:
                                                bool geometric) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   if (auto table = convert_json_trace(text, file, geometric)) return table;
-  for (auto* const convert : {&convert_gpx, &convert_kml, &convert_fcd, &convert_lammps, &convert_xyz,
-                              &convert_oem, &convert_geojson, &convert_json_records})
+  if (auto table = convert_igc(text, file, geometric)) return table;
+  for (auto* const convert : {&convert_gpx, &convert_kml, &convert_fcd, &convert_trackmate, &convert_lammps,
+                              &convert_xyz, &convert_gro, &convert_pdb, &convert_gps, &convert_deeplabcut,
+                              &convert_motion_capture, &convert_oem, &convert_geojson, &convert_json_records})
     if (auto table = convert(text, file)) return table;
   return std::nullopt;
 }
@@ -40,21 +42,33 @@ std::optional<std::string_view> LineCutter::next() {
   if (rest_.empty()) return std::nullopt;
   const std::size_t end = rest_.find('\n');
   has_end_ = end != std::string_view::npos;
-  const std::string_view line = rest_.substr(0, end);
-  rest_.remove_prefix(std::min(line.size() + 1, rest_.size()));
+  whole_ = rest_.substr(0, end);
+  rest_.remove_prefix(std::min(whole_.size() + 1, rest_.size()));
   ++line_;
-  return trimmed(line);
+  return trimmed(whole_);
 }
 
-std::string Unwrapper::position(const std::string& id, std::size_t axis, std::string_view text) {
-  const double size = sizes_[axis];
-  if (!(size > 0.0)) return std::string(text);
-  const auto number = parse_number(text);
-  if (!number) return std::string(text);
-  auto& last = last_[id][axis];
-  const double jumps = last ? std::round((*number - *last) / size) : 0.0;
-  last = *number - jumps * size;
-  return jumps == 0.0 ? std::string(text) : fmt::format("{}", *last);
+std::string Unwrapper::position(const std::string& id, const std::array<std::string_view, 3>& texts) {
+  const std::string as_it_is = fmt::format(",{},{},{}", texts[0], texts[1], texts[2]);
+  if (!is_periodic()) return as_it_is;
+  std::array<double, 3> place{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto number = parse_number(texts[axis]);
+    if (!number) return as_it_is;
+    place[axis] = *number;
+  }
+  const auto [last, is_new] = last_.try_emplace(id, place);
+  bool has_jumped = false;
+  // The last vector alone has a part along z, the first none but along x.
+  for (std::size_t k = 3; !is_new && k-- > 0;) {
+    const auto& vector = cell_[k];
+    if (!(vector[k] > 0.0)) continue;
+    const double jumps = std::round((place[k] - last->second[k]) / vector[k]);
+    has_jumped = has_jumped || jumps != 0.0;
+    for (std::size_t axis = 0; axis <= k; ++axis) place[axis] -= jumps * vector[axis];
+  }
+  last->second = place;
+  return has_jumped ? fmt::format(",{},{},{}", place[0], place[1], place[2]) : as_it_is;
 }
 
 std::string Unwrapper::warning(const std::string& file) {
@@ -70,6 +84,16 @@ std::vector<std::string_view> words_of(std::string_view line) {
     if (line.empty()) return words;
     words.push_back(line.substr(0, line.find_first_of(blanks)));
     line.remove_prefix(words.back().size());
+  }
+}
+
+std::vector<std::string_view> fields_of(std::string_view line, char separator) {
+  std::vector<std::string_view> fields;
+  for (;;) {
+    const std::size_t end = line.find(separator);
+    fields.push_back(trimmed(line.substr(0, end)));
+    if (end == std::string_view::npos) return fields;
+    line.remove_prefix(end + 1);
   }
 }
 

@@ -20,19 +20,29 @@ struct ConvertedTable {
   std::string text;
   /// So many lines more than in the file stand before the rows: a file of JSON has no header.
   std::size_t lines_before = 0;
+  /// So many rows stand for each line of the file.
+  std::size_t rows_per_line = 1;
+  bool is_one_body = false;  ///< all rows are of one body, called like the file
+
+  /// Returns the line of the file for a line of the text.
+  std::size_t line_in_file(std::size_t line) const {
+    return line <= lines_before ? line : (line - lines_before + rows_per_line - 1) / rows_per_line;
+  }
   std::vector<std::string> warnings;
 };
 
-/// Converts GPX (tracks of a GPS receiver), KML, GeoJSON, FCD output of SUMO, orbit ephemeris messages, XYZ
-/// and extended XYZ, dumps of LAMMPS, traces of tar1090, and JSON records; returns nothing for other text.
-/// `geometric`: heights of aircraft are those of satellite navigation. Throws ProgramError naming `file` and
-/// the line for a damaged file.
+/// Converts GPX (tracks of a GPS receiver), KML, GeoJSON, logs of NMEA 0183 and IGC, FCD output of SUMO,
+/// orbit ephemeris messages, XYZ and extended XYZ, GRO, PDB, dumps of LAMMPS, tables of DeepLabCut and of
+/// motion capture, traces of tar1090, and JSON records; returns nothing for other text. `geometric`: heights
+/// of aircraft are those of satellite navigation. Throws ProgramError naming `file` and the line for a
+/// damaged file.
 std::optional<ConvertedTable> convert_to_table(std::string_view text, const std::string& file,
                                                bool geometric);
 
 // One file each. They return nothing for another format.
 std::optional<ConvertedTable> convert_gpx(std::string_view text, const std::string& file);
 std::optional<ConvertedTable> convert_fcd(std::string_view text, const std::string& file);
+std::optional<ConvertedTable> convert_trackmate(std::string_view text, const std::string& file);
 std::optional<ConvertedTable> convert_xyz(std::string_view text, const std::string& file);
 std::optional<ConvertedTable> convert_lammps(std::string_view text, const std::string& file);
 std::optional<ConvertedTable> convert_kml(std::string_view text, const std::string& file);
@@ -41,6 +51,18 @@ std::optional<ConvertedTable> convert_oem(std::string_view text, const std::stri
 std::optional<ConvertedTable> convert_json_records(std::string_view text, const std::string& file);
 std::optional<ConvertedTable> convert_json_trace(std::string_view text, const std::string& file,
                                                  bool geometric);
+std::optional<ConvertedTable> convert_igc(std::string_view text, const std::string& file, bool geometric);
+std::optional<ConvertedTable> convert_gps(std::string_view text, const std::string& file);
+std::optional<ConvertedTable> convert_gro(std::string_view text, const std::string& file);
+std::optional<ConvertedTable> convert_pdb(std::string_view text, const std::string& file);
+std::optional<ConvertedTable> convert_deeplabcut(std::string_view text, const std::string& file);
+std::optional<ConvertedTable> convert_motion_capture(std::string_view text, const std::string& file);
+
+// What a text is by its beginning.
+bool is_igc(std::string_view text);
+bool is_gps_log(std::string_view text);
+bool is_gro(std::string_view text);
+bool is_pdb(std::string_view text);
 
 /// Returns the error for a file of a kind of XML in a program without expat.
 ProgramError without_expat(const std::string& file, std::string_view kind);
@@ -81,11 +103,13 @@ class LineCutter {
   std::optional<std::string_view> next();
   /// Line of the last result of next(), from 1.
   std::size_t line() const { return line_; }
+  /// The last line with its leading blanks, for formats of fixed columns.
+  std::string_view whole() const { return whole_; }
   /// True if the last line had an end: a file that was cut off may lack it.
   bool has_end() const { return has_end_; }
 
  private:
-  std::string_view rest_;
+  std::string_view rest_, whole_;
   std::size_t line_ = 0;
   bool has_end_ = true;
 };
@@ -94,22 +118,29 @@ class LineCutter {
 /// less than half of the box.
 class Unwrapper {
  public:
-  /// Size of the box on each axis; 0 where it is not periodic.
-  void set_box(const std::array<double, 3>& sizes) { sizes_ = sizes; }
-  bool is_periodic() const { return sizes_ != std::array<double, 3>{}; }
-  /// Returns the text of a position on an axis: as it is, unless it jumped. What is no number stays, too, and
-  /// is refused by the reader of the table.
-  std::string position(const std::string& id, std::size_t axis, std::string_view text);
+  /// Vectors along x, in the plane of x and y, and any; 0 where the box is not periodic.
+  using Cell = std::array<std::array<double, 3>, 3>;
+  void set_cell(const Cell& cell) { cell_ = cell; }
+  /// Size of a box with right angles on each axis; 0 where it is not periodic.
+  void set_box(const std::array<double, 3>& sizes) {
+    cell_ = {{{sizes[0], 0.0, 0.0}, {0.0, sizes[1], 0.0}, {0.0, 0.0, sizes[2]}}};
+  }
+  bool is_periodic() const { return cell_ != Cell{}; }
+  /// Returns the three texts of a position, each behind a comma: as they are, unless it jumped. What is no
+  /// number stays, too, and is refused by the reader of the table.
+  std::string position(const std::string& id, const std::array<std::string_view, 3>& texts);
   /// Returns the warning that distances through the faces are not seen.
   static std::string warning(const std::string& file);
 
  private:
-  std::array<double, 3> sizes_{};
-  std::unordered_map<std::string, std::array<std::optional<double>, 3>> last_;
+  Cell cell_{};
+  std::unordered_map<std::string, std::array<double, 3>> last_;
 };
 
 /// Returns the parts between blanks.
 std::vector<std::string_view> words_of(std::string_view line);
+/// Returns the parts between separators, without blanks around them.
+std::vector<std::string_view> fields_of(std::string_view line, char separator);
 /// Returns "3" as a count; nothing for other text.
 std::optional<std::size_t> count_in(std::string_view text);
 

@@ -20,10 +20,11 @@ constexpr bool has_decimal_commas(char separator) { return separator == ';' || s
 std::optional<double> angle_field(std::string_view text, bool decimal_comma, std::string_view letters);
 
 /// True for what stands for no value: nothing, NaN, NaT, inf, NA, N/A, #N/A, <NA>, null, nil, none, nodata,
-/// \N, -,
-/// --, ?, errors of spreadsheets, and the word ground, in any case.
+/// \N, -, --, ?, errors of spreadsheets, and the word ground, in any case.
 bool is_missing(std::string_view field);
 /// Returns the field on one line and shortened, for messages: in quotes, or the word nothing.
 std::string shown_field(std::string_view field);
+/// Returns the text as a quoted field of a table, on one line.
+std::string quoted_field(std::string_view text);
 
 }  // namespace kinesphere::program

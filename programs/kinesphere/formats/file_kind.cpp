@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 
+#include "formats/converted_table.hpp"
+
 namespace kinesphere::program {
 namespace {
 
@@ -17,9 +19,9 @@ struct FileKind {
 };
 
 constexpr std::string_view as_csv = ": write it as CSV, with pandas for example";
-constexpr std::string_view as_rows_of_vicon =
-    "an export of Vicon Nexus, with columns for each marker: write it as rows of id, time, x, y, z";
-constexpr std::string_view pdb = "a PDB file: write it as XYZ, with VMD or MDAnalysis";
+constexpr std::string_view molecular =
+    "a trajectory of molecular dynamics (XTC, TRR or DCD): write it as GRO or PDB, with gmx trjconv or "
+    "mdconvert";
 constexpr std::string_view mode_s =
     "raw messages of Mode S (Beast or AVR): decode them with readsb or dump1090, and read port 30003 (SBS) "
     "or aircraft.json";
@@ -57,24 +59,16 @@ constexpr FileKind kinds_by_bytes[] = {
     {"\x1A\x33"sv, mode_s},
     {"%PDF"sv, "a PDF file"},
     {"{\\rtf"sv, "a document of RTF: save it as text"},
-    {"$GP"sv, "NMEA 0183: write it as CSV or GPX, with gpsbabel"},
-    {"$GN"sv, "NMEA 0183: write it as CSV or GPX, with gpsbabel"},
-    {"Format Version,"sv,
-     "a take of OptiTrack Motive, with columns for each body: write it as rows of id, time, x, y, z"},
-    {"PathFileType"sv,
-     "a .trc file of markers, with columns for each: write it as rows of id, time, x, y, z"},
-    {"NO_OF_FRAMES"sv,
-     "a file of Qualisys, with columns for each marker: write it as rows of id, time, x, y, z"},
-    {"Trajectories\n"sv, as_rows_of_vicon},
-    {"Trajectories\r\n"sv, as_rows_of_vicon},
-    {"scorer,"sv,
-     "a table of DeepLabCut, with columns for each part of a body: write one part of each as rows of id, "
-     "frame, x, y"},
+    {"\0\0\x07\xCB"sv, molecular},
+    {"\0\0\x07\xC9"sv, molecular},
+    {"T\0\0\0CORD"sv, molecular},
+    {"\x02P"sv, "a C3D file of motion capture: write it as CSV, with ezc3d or Mokka"},
+    {"\xB5\x62"sv, "raw data of a u-blox receiver: write it as NMEA or GPX, with gpsbabel or RTKLIB"},
+    {"\x89MCAP0"sv, "a log of ROS 2 (MCAP): write the topic as CSV"},
+    {"\0\0\x27\x0A"sv, "a shapefile: write its points as CSV, with ogr2ogr -lco GEOMETRY=AS_XY"},
     {"track_id; type; traveled_d"sv,
      "a table of pNEUMA, with a whole track in each row: write it as rows of id, time, lat, lon"},
     {"$VISION"sv, "a record of Vissim or Viswalk: write it as CSV, with columns id, time, x and y"},
-    {"CCSDS_OEM_VERS"sv,
-     "an ephemeris (OEM) of one object: write its rows as CSV, with columns id, time, x, y, z"},
     {"stk.v."sv, "an ephemeris of STK: write its rows as CSV, with columns id, time, x, y, z"},
     {"#aP"sv, sp3},
     {"#cP"sv, sp3},
@@ -84,12 +78,6 @@ constexpr FileKind kinds_by_bytes[] = {
     {"\xA3\x95"sv,
      "an ArduPilot log: write its messages GPS as CSV, with mavlogdump.py --types GPS --format csv"},
     {"# vtk DataFile"sv, vtk},
-    {"CRYST1"sv, pdb},
-    {"HEADER    "sv, pdb},
-    {"REMARK "sv, pdb},
-    {"TITLE     "sv, pdb},
-    {"MODEL     "sv, pdb},
-    {"ATOM  "sv, pdb},
 };
 
 /// XML by a word in its beginning.
@@ -100,7 +88,8 @@ constexpr FileKind kinds_of_xml[] = {
     {"<TrainingCenterDatabase",
      "a TCX file: write it as GPX, with gpsbabel -i gtrnctr -f FILE -o gpx -F FILE.gpx"},
     {"<oem", "an ephemeris (OEM): write its rows as CSV, with columns id, time, x, y, z"},
-    {"<TrackMate", "a file of TrackMate: export the spots as CSV"},
+    {"<TrackMate", "a file of TrackMate: export its tracks to XML, or the spots as CSV"},
+    {"<Tracks ", "tracks of TrackMate: export the spots as CSV"},
     {"<VTKFile", vtk},
     {"<html", "a page of HTML: save the table as CSV"},
     {"<!DOCTYPE html", "a page of HTML: save the table as CSV"},
@@ -127,19 +116,26 @@ std::string kind_by_lines(std::string_view text) {
     if (line.ends_with('\r')) line.remove_suffix(1);
   }
   if (are_orbital_elements(lines[0], lines[1]) || are_orbital_elements(lines[1], lines[2]))
-    return "orbital elements (TLE), not positions: propagate them first (docs/satellites.md)";
+    return "orbital elements (TLE), not positions: python/examples/conjunctions.py finds their approaches "
+           "(docs/satellites.md)";
   if (lines[0].starts_with('*') && lines[0].ends_with(';') &&
       lines[0].find_first_not_of("0123456789abcdefABCDEF", 1) == lines[0].size() - 1)
     return std::string(mode_s);
-  const bool is_alone = lines[0].find_first_of(",; \t") == std::string_view::npos;
-  if (is_alone && lines[0].starts_with('A') && (lines[1].starts_with("HF") || lines[2].starts_with("HF")))
-    return "a flight log (IGC): write it as GPX, with gpsbabel -i igc -f FILE -o gpx -F FILE.gpx";
-  const auto is_count = [](std::string_view line) {
-    return !line.empty() && line.find_first_not_of(" 0123456789") == std::string_view::npos;
-  };
-  if (is_count(lines[1]) && lines[2].size() >= 44 && is_count(lines[2].substr(0, 5)) &&
-      is_count(lines[2].substr(15, 5)) && lines[2].substr(20, 24).find('.') != std::string_view::npos)
-    return "a .gro file of GROMACS: write it as XYZ, with VMD or MDAnalysis";
+  return {};
+}
+
+/// Returns what a file is that is read as a recording, but not as a stream; empty for another.
+std::string_view kind_of_recording(std::string_view text) {
+  constexpr FileKind kinds[] = {
+      {"scorer,", "a table of DeepLabCut"},           {"Format Version,", "a take of OptiTrack Motive"},
+      {"PathFileType", "a .trc file of markers"},     {"NO_OF_FRAMES", "a file of Qualisys"},
+      {"Trajectories\n", "an export of Vicon Nexus"}, {"Trajectories\r\n", "an export of Vicon Nexus"},
+      {"CCSDS_OEM_VERS", "an ephemeris (OEM)"}};
+  for (const FileKind& kind : kinds)
+    if (has_begin(text, kind.begins)) return kind.is;
+  if (is_igc(text)) return "a flight log (IGC)";
+  if (is_gro(text)) return "a .gro file of GROMACS";
+  if (is_pdb(text)) return "a PDB file";
   return {};
 }
 
@@ -163,6 +159,9 @@ std::string other_file_kind(std::string_view beginning) {
   if (beginning.size() > place_of_fit && has_begin(beginning.substr(place_of_fit), ".FIT"))
     return "a FIT file: write it as GPX, with gpsbabel -i garmin_fit -f FILE -o gpx -F FILE.gpx";
   if (const std::string kind = kind_by_lines(beginning); !kind.empty()) return kind;
+  if (const std::string_view kind = kind_of_recording(beginning); !kind.empty())
+    return fmt::format("{}, which tracks and view read: watch needs rows of id, time and position, as CSV",
+                       kind);
   if (has_begin(beginning, "\xEF\xBB\xBF")) beginning.remove_prefix(3);
   beginning.remove_prefix(std::min(beginning.find_first_not_of(" \t\r\n"), beginning.size()));
   const bool is_json = has_begin(beginning, "{") || has_begin(beginning, "[");

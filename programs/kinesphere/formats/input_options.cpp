@@ -35,8 +35,10 @@ void add_input_options(CLI::App& command, FormatChoices& choices, const char* po
   add("--unit", hints.unit, "Unit of the file's lengths; all other lengths are then in metres",
       "m|km|cm|mm|um|ft|nmi|yd|mi|deg");
   add_choice<DateOrder>(command, "--dates", hints.dates,
-                        {{"day-first", DateOrder::day_first}, {"month-first", DateOrder::month_first}}, "",
-                        "What dates such as 03/04/2025 begin with");
+                        {{"day-first", DateOrder::day_first},
+                         {"month-first", DateOrder::month_first},
+                         {"year-first", DateOrder::year_first}},
+                        "", "What dates such as 03/04/2025 begin with");
   add("--positions", hints.positions, "Of tables: what x and y are", positions);
   add_choice<FormatChoices::Altitude>(command, "--altitude", choices.altitude,
                                       {{"barometric", FormatChoices::Altitude::barometric},

@@ -14,6 +14,7 @@
 
 #include "ascii_text.hpp"
 #include "formats/converted_table.hpp"
+#include "formats/field_text.hpp"
 #include "formats/json_reading.hpp"
 #include "program_error.hpp"
 
@@ -32,7 +33,7 @@ class JsonRows {
   std::optional<ConvertedTable> table() const {
     if (names_.empty()) return std::nullopt;
     ConvertedTable table{.format = "JSON records"};
-    for (const std::string& name : names_) table.text += (table.text.empty() ? "" : ",") + quoted(name);
+    for (const std::string& name : names_) table.text += (table.text.empty() ? "" : ",") + quoted_field(name);
     table.text += '\n';
     table.lines_before = 1;
     std::size_t row_line = 1;
@@ -44,13 +45,6 @@ class JsonRows {
       ++row_line;
     }
     return table;
-  }
-
-  /// Returns a text as a field of a table.
-  static std::string quoted(std::string_view text) {
-    std::string field = "\"";
-    for (const char c : text) field += c == '"' ? "\"\"" : std::string(1, c == '\n' || c == '\r' ? ' ' : c);
-    return field + '"';
   }
 
   /// Sets what the row that was begun last has of this name.
@@ -68,7 +62,7 @@ class JsonRows {
         return;
       }
       case ondemand::json_type::string:
-        return set(name, quoted(value.get_string()));
+        return set(name, quoted_field(value.get_string()));
       case ondemand::json_type::null:
         return set(name, "");
       default:

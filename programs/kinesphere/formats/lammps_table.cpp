@@ -51,6 +51,7 @@ class LammpsReader {
 
   void read_box(const std::vector<std::string_view>& kinds) {
     std::array<double, 3> periods{};
+    is_tilted_ = kinds.size() == 6;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto line = lines_.next();
       if (!line) return;
@@ -67,10 +68,7 @@ class LammpsReader {
       if (kind < kinds.size() && kinds[kind] == "pp") periods[axis] = size_[axis];
     }
     if (periods == std::array<double, 3>{}) return;
-    if (kinds.size() == 6)
-      throw ProgramError(fmt::format("{}:{}: expected a box with right angles, because it is periodic", file_,
-                                     lines_.line()));
-    unwrapper_.set_box(periods);
+    if (!is_tilted_) unwrapper_.set_box(periods);
     if (table_.warnings.empty()) table_.warnings.push_back(Unwrapper::warning(file_));
   }
 
@@ -83,32 +81,39 @@ class LammpsReader {
     const auto id = column("id");
     // Unwrapped positions first: they do not jump at the faces of the box.
     std::array<std::optional<std::size_t>, 3> places;
-    bool is_scaled = false;
-    for (const auto& [suffix, scaled] : {std::pair{"u", false}, {"", false}, {"su", true}, {"s", true}}) {
+    bool is_scaled = false, is_unwrapped = false;
+    for (const std::string_view suffix : {"u", "", "su", "s"}) {
       places = {column(fmt::format("x{}", suffix)), column(fmt::format("y{}", suffix)),
                 column(fmt::format("z{}", suffix))};
-      is_scaled = scaled;
+      is_scaled = suffix.starts_with('s');
+      is_unwrapped = suffix.ends_with('u');
       if (places[0] && places[1] && places[2]) break;
     }
     if (!id || !places[0] || !places[1] || !places[2])
       throw ProgramError(fmt::format("{}:{}: expected columns id and x y z, xu yu zu or xs ys zs of atoms",
                                      file_, lines_.line()));
+    if (is_tilted_ && (is_scaled || !is_unwrapped))
+      throw ProgramError(
+          fmt::format("{}:{}: expected unwrapped positions, xu yu zu, in a tilted box: dump these, "
+                      "as in: dump 1 all custom 100 FILE id xu yu zu",
+                      file_, lines_.line()));
     for (std::size_t k = 0; k < atoms_; ++k) {
       const auto line = lines_.next();
       // A program that still writes leaves the last frame unfinished.
       if (!line) return;
       const auto words = words_of(*line);
       if (words.size() < names.size() || !lines_.has_end()) fail("a whole line of an atom", *line);
-      table_.text += fmt::format("{},{}", words[*id], time_.empty() ? step_ : time_);
+      const std::string atom(words[*id]);
+      std::array<std::string, 3> position;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::string_view word = words[*places[axis]];
         const auto part = is_scaled ? parse_number(word) : std::nullopt;
         if (is_scaled && !part) fail("a number as a position", word);
-        const std::string place =
-            part ? fmt::format("{}", low_[axis] + *part * size_[axis]) : std::string(word);
-        table_.text += "," + unwrapper_.position(std::string(words[*id]), axis, place);
+        position[axis] = part ? fmt::format("{}", low_[axis] + *part * size_[axis]) : std::string(word);
       }
-      table_.text += '\n';
+      table_.text += fmt::format("{},{}", atom, time_.empty() ? step_ : time_);
+      table_.text += is_unwrapped ? fmt::format(",{},{},{}\n", position[0], position[1], position[2])
+                                  : unwrapper_.position(atom, {position[0], position[1], position[2]}) + "\n";
     }
   }
 
@@ -118,6 +123,7 @@ class LammpsReader {
   std::string step_, time_;
   std::size_t atoms_ = 0;
   std::array<double, 3> low_{}, size_{};
+  bool is_tilted_ = false;  ///< and periodic
   Unwrapper unwrapper_;
 };
 

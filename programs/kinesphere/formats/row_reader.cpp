@@ -49,17 +49,30 @@ bool is_packed_date(std::int64_t number) {
          date % 100 <= 31;
 }
 
+/// True for a number with which files say that they have none.
+bool is_marker(double value) {
+  constexpr double markers[] = {-999.0, -9999.0, -99999.0, -999999.0, 9999.0, 99999.0, 999999.0};
+  return std::find(std::begin(markers), std::end(markers), value) != std::end(markers);
+}
+
 }  // namespace
 
+std::string id_of_file(const std::string& file) {
+  std::string id = std::filesystem::path(file).filename().string();
+  id.resize(std::min(id.find('.', 1), id.size()));
+  return id;
+}
+
 RowReader::RowReader(const TableHead& head, TableColumns columns)
-    : head_(head), columns_(std::move(columns)), filter_(columns_.where, head, columns_) {
-  // a.csv.gz is the body a.
-  file_id_ = std::filesystem::path(head.file).filename().string();
-  file_id_.resize(std::min(file_id_.find('.', 1), file_id_.size()));
+    : head_(head),
+      columns_(std::move(columns)),
+      filter_(columns_.where, head, columns_),
+      file_id_(id_of_file(head.file)) {
   for (const std::size_t place : columns_.unused) {
     if (place >= head.names.size() || filter_.mentions(place)) continue;
     const std::string_view values = void_values_of(head.names[place]);
     if (!values.empty()) void_columns_.push_back({place, values});
+    if (plain_name(head.names[place]) == "likelihood") likelihood_ = place;
   }
 }
 
@@ -68,6 +81,7 @@ void RowReader::set_row(const std::vector<std::string_view>& fields) {
   missing_.reset();
   has_height_ = false;
   check_void_columns();
+  check_likelihood();
 }
 
 /// Asks about rows that their file marks as void.
@@ -81,6 +95,20 @@ void RowReader::check_void_columns() const {
                     "them with --where '{} != none'",
                     field(place), head_.names[place], name, field(place), name));
   }
+}
+
+/// Asks about unlikely places: programs that look for parts of bodies give the best one, however bad.
+void RowReader::check_likelihood() const {
+  constexpr double likely = 0.5;
+  const auto likelihood = likelihood_ && *likelihood_ < fields_->size()
+                              ? number_field(field(*likelihood_), columns_.decimal_comma)
+                              : std::nullopt;
+  if (!likelihood || *likelihood >= likely) return;
+  const std::string name = name_in_filter(head_.names[*likelihood_]);
+  throw OpenQuestion(fmt::format(
+      "the likelihood {0} says that the position may be anywhere: leave such rows out with --where "
+      "'{1} >= 0.6', or keep them with --where '{1} != none'",
+      *likelihood, name));
 }
 
 std::string RowReader::wrong_text(std::size_t column, std::string_view expected) const {
@@ -102,8 +130,8 @@ void RowReader::set_body(std::size_t body) {
   body_ = body;
   missing_.reset();
   if (columns_.bodies.empty()) return;
-  columns_[Quantity::x]->place = columns_.bodies[body].x;
-  columns_[Quantity::y]->place = columns_.bodies[body].y;
+  columns_[columns_.geographic ? Quantity::longitude : Quantity::x]->place = columns_.bodies[body].x;
+  columns_[columns_.geographic ? Quantity::latitude : Quantity::y]->place = columns_.bodies[body].y;
   if (const auto& z = columns_.bodies[body].z) columns_[Quantity::z]->place = *z;
 }
 
@@ -140,34 +168,44 @@ std::string RowReader::where_name(Quantity quantity) const {
                              : name_in_filter(head_.names[columns_[quantity]->place]);
 }
 
-/// Asks about numbers that stand for no position: 0 and 0 as degrees, -999, 9999 and the like, the largest of
-/// a type, and heights such as -9999.
-void RowReader::check_place(double x, double y, std::optional<double> z) const {
-  const auto ask_about_one = [&](Quantity quantity, double value) {
-    if (filter_.mentions(columns_[quantity]->place)) return;
+/// Asks about numbers that stand for no position: 0 and 0 as degrees, -999, 9999 and the like far from all
+/// others, the largest of a type, and heights such as -9999.
+void RowReader::check_place(double x, double y, std::optional<double> z) {
+  const Quantity along = columns_.geographic ? Quantity::longitude : Quantity::x;
+  const Quantity across = columns_.geographic ? Quantity::latitude : Quantity::y;
+  constexpr double no_heights[] = {-9999.0, -99999.0, -999999.0, -32768.0};
+  const bool is_no_height =
+      z && std::find(std::begin(no_heights), std::end(no_heights), *z) != std::end(no_heights);
+  const bool is_none = columns_.geographic ? x == 0.0 : is_marker(x);
+  if (x == y && is_none && !filter_.mentions(columns_[along]->place))
+    throw OpenQuestion(fmt::format(
+        "{0} as {1} and {2} is no position in most files: leave such rows out with --where '{3} != "
+        "{0} or {4} != {0}', or keep them with --where '{3} != none'",
+        x, name_of(along), name_of(across), where_name(along), where_name(across)));
+  if (!columns_.geographic && !(x == y && is_none)) {
+    check_coordinate(along, x, spans_[0]);
+    check_coordinate(across, y, spans_[1]);
+  }
+  if (z) check_coordinate(Quantity::z, *z, spans_[2], is_no_height);
+}
+
+/// Asks about a number that stands for none, and else adds it to those of the file.
+void RowReader::check_coordinate(Quantity quantity, double value, Span& span, bool is_none) const {
+  constexpr double largest = 1e30, least_distance = 100.0;
+  // Heights of aircraft may be 9999.
+  const bool may_be_none = is_marker(value) && (quantity != Quantity::z || value < 0.0);
+  const double distance = std::max(span.least - value, value - span.most);
+  const bool is_far =
+      distance > std::max(span.most - span.least, least_distance) || (value < 0.0 && span.least >= 0.0);
+  if ((is_none || std::abs(value) >= largest || (may_be_none && is_far)) &&
+      !filter_.mentions(columns_[quantity]->place))
     throw OpenQuestion(
         fmt::format("{0} as {1} is no position in most files: leave such rows out with --where '{2} != "
                     "{0}', or keep them with --where '{2} != none'",
                     value, name_of(quantity), where_name(quantity)));
-  };
-  constexpr double largest = 1e30, no_heights[] = {-9999.0, -99999.0, -999999.0, -32768.0};
-  const auto is_too_large = [&](double value) { return std::abs(value) >= largest; };
-  if (z && (is_too_large(*z) ||
-            std::find(std::begin(no_heights), std::end(no_heights), *z) != std::end(no_heights)))
-    ask_about_one(Quantity::z, *z);
-  if (!columns_.geographic && is_too_large(x)) ask_about_one(Quantity::x, x);
-  if (!columns_.geographic && is_too_large(y)) ask_about_one(Quantity::y, y);
-  if (x != y) return;
-  constexpr double none[] = {-999.0, -9999.0, -99999.0, -999999.0, 9999.0, 99999.0, 999999.0};
-  const bool is_none =
-      columns_.geographic ? x == 0.0 : std::find(std::begin(none), std::end(none), x) != std::end(none);
-  const Quantity along = columns_.geographic ? Quantity::longitude : Quantity::x;
-  const Quantity across = columns_.geographic ? Quantity::latitude : Quantity::y;
-  if (!is_none || filter_.mentions(columns_[along]->place)) return;
-  throw OpenQuestion(
-      fmt::format("{0} as {1} and {2} is no position in most files: leave such rows out with --where '{3} != "
-                  "{0} or {4} != {0}', or keep them with --where '{3} != none'",
-                  x, name_of(along), name_of(across), where_name(along), where_name(across)));
+  if (is_marker(value)) return;
+  span.least = std::min(span.least, value);
+  span.most = std::max(span.most, value);
 }
 
 std::optional<TimeField> RowReader::time(Quantity quantity) {
@@ -184,8 +222,9 @@ std::optional<TimeField> RowReader::time(Quantity quantity) {
   if (!time) {
     if (parse_date_time(text, DateOrder::any))
       throw OpenQuestion(
-          fmt::format("{}: say --dates day-first or --dates month-first",
-                      wrong_text(column->place, "a date whose order of day and month is known")));
+          fmt::format("{}: say --dates day-first or --dates month-first{}",
+                      wrong_text(column->place, "a date whose order of day and month is known"),
+                      parse_date_time(text, DateOrder::year_first) ? ", or year-first" : ""));
     if (text.find_first_of("-/:") == std::string_view::npos)
       throw WrongInput(wrong_text(column->place, "a number as time"));
     throw WrongInput(wrong_text(column->place, "a time") +

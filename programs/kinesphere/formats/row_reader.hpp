@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -26,6 +28,9 @@ class OpenQuestion : public std::runtime_error {
  private:
   bool is_about_row_;
 };
+
+/// Returns the id of a file that has one body: a of tracks/a.csv.gz.
+std::string id_of_file(const std::string& file);
 
 /// Numbers have the units of the file; the columns say how large these are. All functions throw WrongInput if
 /// a field is not what its column has to be, and OpenQuestion.
@@ -79,6 +84,7 @@ class RowReader {
   };
 
   void check_void_columns() const;
+  void check_likelihood() const;
   std::string_view field(std::size_t column) const { return (*fields_)[column]; }
   std::string_view name_of(Quantity quantity) const;
   void check_size(const FileTime& time);
@@ -86,18 +92,25 @@ class RowReader {
   void check_date(std::string_view text, const FileTime& time) const;
   std::optional<double> degrees(Quantity quantity, const std::optional<std::size_t>& hemisphere,
                                 std::string_view letters);
-  void check_place(double x, double y, std::optional<double> z) const;
+  /// The numbers of a coordinate in all rows before.
+  struct Span {
+    double least = std::numeric_limits<double>::infinity(), most = -std::numeric_limits<double>::infinity();
+  };
+  void check_place(double x, double y, std::optional<double> z);
+  void check_coordinate(Quantity quantity, double value, Span& span, bool is_none = false) const;
   std::string where_name(Quantity quantity) const;
 
   const TableHead& head_;
   TableColumns columns_;
   RowFilter filter_;
   std::vector<VoidColumn> void_columns_;
+  std::optional<std::size_t> likelihood_;  ///< column
   const std::vector<std::string_view>* fields_ = nullptr;
   std::optional<Missing> missing_;
   bool has_height_ = false;
   bool has_time_ = false;  ///< a row had a time
   std::size_t body_ = 0;
+  std::array<Span, 3> spans_;
   std::string file_id_, id_, buffer_, date_and_clock_;
 };
 

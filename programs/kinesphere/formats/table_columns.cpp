@@ -310,47 +310,58 @@ class UsualColumns {
   std::array<std::vector<std::size_t>, quantity_count> places_;
 };
 
-/// Columns of one body among several: x1 and y1, car_1.x and car_1.y.
-struct AxisColumns {
-  std::string body;
-  std::array<std::optional<std::size_t>, 3> places;
-};
-
-/// Finds the columns that are called after an axis and a body, by bodies.
-std::vector<AxisColumns> axis_columns(const TableHead& head) {
-  std::vector<AxisColumns> all;
+/// Finds the columns that are called after an axis and a body: x1 and y1, car_1.lon and car_1.lat. `axes` are
+/// two of them.
+std::vector<TableColumns::Body> bodies_in_names(const TableHead& head, Quantity along, Quantity across) {
+  struct Named {
+    std::string body;
+    std::optional<std::size_t> x, y, z;
+  };
+  std::vector<Named> all;
   for (std::size_t place = 0; place < head.names.size(); ++place) {
     const auto [axis, body] = axis_and_body(head.names[place]);
     if (body.empty()) continue;
     auto known = std::find_if(all.begin(), all.end(),
-                              [&, &name = body](const auto& each) { return each.body == name; });
-    if (known == all.end()) known = all.insert(all.end(), {.body = body, .places = {}});
-    known->places[axis] = place;
+                              [&, &name = body](const Named& each) { return each.body == name; });
+    if (known == all.end()) known = all.insert(all.end(), {.body = body, .x = {}, .y = {}, .z = {}});
+    if (axis == along) known->x = place;
+    if (axis == across) known->y = place;
+    if (axis == Quantity::z) known->z = place;
   }
-  std::erase_if(all, [](const AxisColumns& each) { return !each.places[0] || !each.places[1]; });
-  return all;
+  std::vector<TableColumns::Body> bodies;
+  for (const Named& each : all)
+    if (each.x && each.y) bodies.push_back({each.body, *each.x, *each.y, each.z});
+  return bodies;
 }
 
 /// True for bodies that are told apart by a number alone: 1 and 2, car_1 and car_2.
-bool are_numbered(const std::vector<AxisColumns>& bodies) {
+bool are_numbered(const std::vector<TableColumns::Body>& bodies) {
   const auto kind_of = [](std::string_view body) {
     return body.substr(0, body.find_last_not_of("0123456789") + 1);
   };
-  return std::all_of(bodies.begin(), bodies.end(), [&](const AxisColumns& each) {
-    return kind_of(each.body).size() < each.body.size() && kind_of(each.body) == kind_of(bodies.front().body);
+  return std::all_of(bodies.begin(), bodies.end(), [&](const TableColumns::Body& each) {
+    return kind_of(each.id).size() < each.id.size() && kind_of(each.id) == kind_of(bodies.front().id);
   });
 }
 
-/// Finds a pair of columns for each body: x1, y1, x2, y2, as idtracker.ai writes them; or three, with z.
+/// Finds a pair of columns for each body: x1, y1, x2, y2, as idtracker.ai writes them, or lon1, lat1 and so
+/// on; or three, with z or alt.
 void find_pairs(const TableHead& head, const ColumnHints& hints, TableColumns& columns) {
   if (columns[Quantity::id] || columns[Quantity::x] || columns[Quantity::longitude]) return;
-  const std::vector<AxisColumns> bodies = axis_columns(head);
+  const auto plane = bodies_in_names(head, Quantity::x, Quantity::y);
+  const auto earth = bodies_in_names(head, Quantity::longitude, Quantity::latitude);
+  const bool is_earth = plane.empty() || (!earth.empty() && hints.positions == "lonlat");
+  if (!plane.empty() && !earth.empty() && hints.positions.empty())
+    throw ProgramError(
+        fmt::format("{}: columns '{}' and '{}' may both be meant: say --positions plane or lonlat", head.file,
+                    head.names[plane[0].x], head.names[earth[0].x]));
+  const std::vector<TableColumns::Body>& bodies = is_earth ? earth : plane;
   const bool numbered = are_numbered(bodies);
   if (bodies.empty() || (!numbered && bodies.size() == 1)) return;
-  const auto heights = std::count_if(bodies.begin(), bodies.end(),
-                                     [](const AxisColumns& each) { return each.places[2].has_value(); });
+  const auto heights =
+      std::count_if(bodies.begin(), bodies.end(), [](const auto& each) { return each.z.has_value(); });
   if (heights != 0 && heights != std::ssize(bodies))
-    throw ProgramError(fmt::format("{}: expected a z for each pair of x and y or for none; it has {}",
+    throw ProgramError(fmt::format("{}: expected a height for each pair of columns or for none; it has {}",
                                    head.file, head.text()));
   // Of the bodies, as x1 is, or the time.
   const auto is_usual = [&](const std::string& name) {
@@ -358,21 +369,19 @@ void find_pairs(const TableHead& head, const ColumnHints& hints, TableColumns& c
     return name.ends_with('1') || name.ends_with('2') ||
            (meaning && (meaning->quantity == Quantity::time || meaning->quantity == Quantity::frame));
   };
-  const bool may_be_corners = bodies.size() == 2 && heights == 0 && parse_number(bodies.front().body) &&
+  const bool may_be_corners = bodies.size() == 2 && heights == 0 && parse_number(bodies.front().id) &&
                               !std::all_of(head.names.begin(), head.names.end(), is_usual);
   if ((!numbered || may_be_corners) && hints.format != "table")
     throw ProgramError(fmt::format(
         "{}: {}, {}, {} and {} may be two bodies or {}: say --format table if each such pair is a "
         "body, else say the columns with --columns",
-        head.file, head.names[*bodies[0].places[0]], head.names[*bodies[0].places[1]],
-        head.names[*bodies[1].places[0]], head.names[*bodies[1].places[1]],
-        numbered ? "the corners of boxes" : "parts of one"));
-  for (const AxisColumns& each : bodies)
-    columns.bodies.push_back({each.body, *each.places[0], *each.places[1], each.places[2]});
+        head.file, head.names[bodies[0].x], head.names[bodies[0].y], head.names[bodies[1].x],
+        head.names[bodies[1].y], numbered ? "the corners of boxes" : "parts of one"));
+  columns.bodies = bodies;
   columns.format = fmt::format("{} {} of columns", bodies.size(), heights == 0 ? "pairs" : "triples");
   const TableColumns::Body& first = columns.bodies.front();
-  columns[Quantity::x] = Column{.place = first.x};
-  columns[Quantity::y] = Column{.place = first.y};
+  columns[is_earth ? Quantity::longitude : Quantity::x] = Column{.place = first.x};
+  columns[is_earth ? Quantity::latitude : Quantity::y] = Column{.place = first.y};
   if (first.z) columns[Quantity::z] = Column{.place = *first.z};
 }
 
@@ -554,7 +563,7 @@ void require_columns(const TableHead& head, const ColumnHints& hints, const Tabl
 
 /// Finds columns of N, S, E and W, each behind that of its degrees.
 void find_hemispheres(const TableHead& head, TableColumns& columns) {
-  if (!columns.geographic) return;
+  if (!columns.geographic || !columns.bodies.empty()) return;
   const auto behind = [&](const Column& angle, std::string_view letters) -> std::optional<std::size_t> {
     const std::size_t place = angle.place + 1;
     if (place >= head.columns() || head.first[place].size() != 1) return std::nullopt;
@@ -759,6 +768,8 @@ TableColumns find_columns(const TableHead& head, const ColumnHints& hints, Colum
   columns.height_advice =
       fmt::format("--columns {} (or :m)", columns_text(head, columns, Quantity::z, ":ft"));
   columns.time_advice = fmt::format("--columns {}", columns_text(head, columns, {}, {}, Quantity::date));
+  columns.file_advice =
+      fmt::format("--columns id=@file,{}", columns_text(head, columns, {}, {}, Quantity::id));
   ask_for_units_of_craft(head, columns);
   find_hemispheres(head, columns);
   if (columns.geographic && columns.z() && !columns.z()->has_unit) columns.format += ", heights in m";

@@ -49,6 +49,7 @@ struct TableColumns {
   std::string time_problem;               ///< not empty: why numbers cannot be taken as times
   std::string height_advice;              ///< how to say the unit of heights
   std::string time_advice;                ///< how to leave the column of dates out
+  std::string file_advice;                ///< how to say that each file is one body
   DateOrder dates = DateOrder::unknown;
   /// Frames are numbers of a film that was sampled 2.5 times a second: every tenth at 25 frames/s (UCY), or
   /// every sixth at 15 or tenth at 25 frames/s (ETH).

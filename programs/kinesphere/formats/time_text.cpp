@@ -126,15 +126,30 @@ std::optional<std::int64_t> read_date(Reader& reader, bool& extended) {
   return days_of(*year, *month, *day);
 }
 
-/// Reads D/M/YYYY or M/D/YYYY. Returns days since 1970-01-01.
+/// Reads a year of four digits, or of two.
+std::optional<int> read_year(Reader& reader) {
+  if (reader.digits_ahead() != 2) return reader.digits(4, 9999);
+  return year_of_two_digits(*reader.digits(2, 99));
+}
+
+/// Reads D/M/YYYY or M/D/YYYY, or a date with a year of two digits. Returns days since 1970-01-01.
 std::optional<std::int64_t> read_ordered_date(Reader& reader, DateOrder order) {
   const auto first = reader.few_digits(2);
   const char between = reader.take('/') ? '/' : reader.take('.') ? '.' : reader.take('-') ? '-' : '\0';
   const auto second = reader.few_digits(2);
-  if (between == '\0' || !reader.take(between)) return std::nullopt;
-  const auto year = reader.digits(4, 9999);
-  if (!first || !second || !year) return std::nullopt;
-  const auto day_first = days_of(*year, *second, *first), month_first = days_of(*year, *first, *second);
+  if (!first || between == '\0' || !second || !reader.take(between)) return std::nullopt;
+  const bool may_be_day = reader.digits_ahead() <= 2;
+  Reader ahead = reader;
+  const auto third = ahead.few_digits(2);
+  const auto year = read_year(reader);
+  const auto day_first = year ? days_of(*year, *second, *first) : std::nullopt;
+  const auto month_first = year ? days_of(*year, *first, *second) : std::nullopt;
+  const auto year_first =
+      third && may_be_day ? days_of(year_of_two_digits(*first), *second, *third) : std::nullopt;
+  if (order == DateOrder::year_first || (order == DateOrder::any && !day_first && !month_first)) {
+    reader = ahead;
+    return year_first;
+  }
   if (order == DateOrder::any) return day_first ? day_first : month_first;
   return order == DateOrder::day_first ? day_first : month_first;
 }
@@ -168,7 +183,7 @@ std::optional<std::int64_t> read_named_date(Reader& reader) {
   }
   if (!day) day = reader.few_digits(2);
   pass_over_signs();
-  const auto year = reader.digits(4, 9999);
+  const auto year = read_year(reader);
   return day && month && year ? days_of(*year, *month, *day) : std::nullopt;
 }
 
@@ -255,7 +270,7 @@ std::optional<FileTime> parse_decimal_time(std::string_view text) {
 
 std::optional<DateTime> parse_date_time(std::string_view text, DateOrder order) {
   // Numbers are most frequent.
-  if (text.size() < 8) return std::nullopt;
+  if (text.size() < 6) return std::nullopt;
   Reader reader(text);
   bool extended = true;
   std::optional<std::int64_t> days;

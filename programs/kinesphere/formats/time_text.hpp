@@ -31,7 +31,8 @@ enum class DateOrder {
   unknown,  ///< such dates are not read
   day_first,
   month_first,
-  any,  ///< whichever exists, to find out whether a text is a date
+  year_first,  ///< with two digits
+  any,         ///< whichever exists, to find out whether a text is a date
 };
 
 /// Parses a decimal number of absolute value below 2^61. The decimals are rounded on their own, so that
@@ -46,6 +47,9 @@ constexpr double seconds_between(const FileTime& earlier, const FileTime& later)
   return static_cast<double>(later.whole - earlier.whole) + (later.fraction - earlier.fraction);
 }
 
+/// Returns the year of which these are the last two digits: 1969 to 2068, as POSIX has it.
+constexpr int year_of_two_digits(int two) { return two + (two < 69 ? 2000 : 1900); }
+
 struct DateTime {
   FileTime time;
   bool has_offset = false;  ///< it ended in Z or an offset such as +02:00; otherwise it is taken as UTC
@@ -54,9 +58,9 @@ struct DateTime {
 /// ISO 8601: a date YYYY-MM-DD, T or one blank, hh:mm[:ss[.fraction]] and perhaps Z, UTC, GMT, +hh, +hhmm or
 /// +hh:mm; also without - and : (YYYYMMDDThhmmss, or _ for T). A date YYYY-MM-DD alone is its midnight. A
 /// second 60 is the first of the next minute. Days must exist. So are YYYY/MM/DD, D-Mon-YYYY, D Mon YYYY and
-/// Mon D, YYYY with English names of months; and D/M/YYYY or M/D/YYYY, also with . or - between them, where
-/// `order` says which of the two. Month, day and hour may have one digit, and AM or PM may stand behind the
-/// clock, but for a time without - and :.
+/// Mon D, YYYY with English names of months; and D/M/YYYY, M/D/YYYY and those with a year of two digits, also
+/// with . or - between them, where `order` says which. Month, day and hour may have one digit, and AM or PM
+/// may stand behind the clock, but for a time without - and :.
 std::optional<DateTime> parse_date_time(std::string_view text, DateOrder order = DateOrder::unknown);
 
 struct TimeField {

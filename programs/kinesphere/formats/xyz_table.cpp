@@ -55,9 +55,9 @@ XyzColumns columns_of_properties(std::string_view properties) {
   return columns;
 }
 
-/// Returns the size of the box on each periodic axis, else 0.
-std::array<double, 3> periods_of(std::string_view comment, const std::string& file, std::size_t line) {
-  std::array<double, 3> periods{};
+/// Returns the vectors of the box, those of periodic axes alone.
+Unwrapper::Cell periodic_cell(std::string_view comment, const std::string& file, std::size_t line) {
+  Unwrapper::Cell cell{};
   const auto flags = words_of(xyz_value(comment, "pbc"));
   const auto lattice = words_of(xyz_value(comment, "Lattice"));
   // Without flags a lattice is periodic, as in ASE and OVITO.
@@ -65,17 +65,18 @@ std::array<double, 3> periods_of(std::string_view comment, const std::string& fi
     return flags.size() == 3 ? flags[axis] == "T" || flags[axis] == "1"
                              : flags.empty() && lattice.size() == 9;
   };
-  if (!is_periodic(0) && !is_periodic(1) && !is_periodic(2)) return periods;
   for (std::size_t k = 0; k < 9; ++k) {
+    const std::size_t vector = k / 3, axis = k % 3;
+    if (!is_periodic(vector)) continue;
     const double number = lattice.size() == 9 ? parse_number(lattice[k]).value_or(-1.0) : -1.0;
-    const bool is_edge = k % 4 == 0;
-    if (is_edge ? !(number > 0.0) : number != 0.0)
-      throw ProgramError(fmt::format(
-          "{}:{}: expected Lattice=\"X 0 0 0 Y 0 0 0 Z\", a box with right angles, because it is periodic",
-          file, line));
-    if (is_edge && is_periodic(k / 4)) periods[k / 4] = number;
+    if (axis == vector ? !(number > 0.0) : axis > vector && number != 0.0)
+      throw ProgramError(
+          fmt::format("{}:{}: expected Lattice=\"X 0 0 XY Y 0 XZ YZ Z\" of a periodic box, with numbers X, Y "
+                      "and Z > 0: turn it so, or write positions that do not jump and pbc=\"F F F\"",
+                      file, line));
+    cell[vector][axis] = number;
   }
-  return periods;
+  return cell;
 }
 
 }  // namespace
@@ -104,7 +105,7 @@ std::optional<ConvertedTable> convert_xyz(std::string_view text, const std::stri
     if (frame > 0) table.text += "#\n";
     const std::string comment(lines.next().value_or(""));
     table.text += "#\n";
-    unwrapper.set_box(periods_of(comment, file, lines.line()));
+    unwrapper.set_cell(periodic_cell(comment, file, lines.line()));
     if (unwrapper.is_periodic() && table.warnings.empty()) table.warnings.push_back(Unwrapper::warning(file));
     const XyzColumns columns = columns_of_properties(xyz_value(comment, "Properties"));
     const std::string time = has_times ? std::string(xyz_value(comment, "Time")) : fmt::format("{}", frame);
@@ -118,10 +119,9 @@ std::optional<ConvertedTable> convert_xyz(std::string_view text, const std::stri
             fmt::format("{}:{}: expected a whole line of an atom with {} columns or more, but got '{}'", file,
                         lines.line(), columns.count, line->substr(0, 60)));
       const std::string id = columns.id ? std::string(words[*columns.id]) : fmt::format("{}", k);
-      table.text += id + "," + time;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        table.text += "," + unwrapper.position(id, axis, words[columns.x + axis]);
-      table.text += '\n';
+      table.text += id + "," + time +
+                    unwrapper.position(id, {words[columns.x], words[columns.x + 1], words[columns.x + 2]}) +
+                    "\n";
     }
   }
   return table;

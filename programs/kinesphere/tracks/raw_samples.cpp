@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <utility>
@@ -38,12 +39,12 @@ TableColumns columns_of_messages(StreamFormat format, bool geographic, bool has_
 /// Takes the reports of one file.
 class RawRecording::FileReader final : public ReportSink {
  public:
-  /// `lines_before`: so many lines of the text are not in the file.
+  /// `converted` says which lines of the file those of the text are; null for the file itself.
   FileReader(RawRecording& recording, StreamFormat format, const FormatChoices& choices,
-             std::size_t lines_before)
+             const ConvertedTable* converted)
       : recording_(recording),
         format_(format),
-        lines_before_(lines_before),
+        converted_(converted),
         reader_(make_format(format, choices)) {}
 
   void read(std::string_view text) {
@@ -56,6 +57,7 @@ class RawRecording::FileReader final : public ReportSink {
     if (const auto record = cutter.rest()) read(*record);
     guarded([&] { reader_->finish(*this); });
     if (is_table(format_)) {
+      note_ids();
       if (reader_->rows()->columns().id_is_file) recording_.add_file_id(reader_->rows()->file_id());
       return recording_.add_columns(reader_->rows()->columns(), file());
     }
@@ -117,7 +119,7 @@ class RawRecording::FileReader final : public ReportSink {
   const std::string& file() const { return recording_.files_.back(); }
 
   void read(Record record) {
-    if (record.line > lines_before_) record.line -= lines_before_;
+    if (converted_ != nullptr) record.line = converted_->line_in_file(record.line);
     place_ = {static_cast<std::uint32_t>(recording_.files_.size() - 1), static_cast<int>(record.line)};
     is_counted_ = false;
     guarded([&] {
@@ -189,6 +191,15 @@ class RawRecording::FileReader final : public ReportSink {
     for (const std::size_t column : *scene_columns_)
       recording_.scenes_.add(names[column], row.fields()[column], time);
   }
+  /// Ids of ships and aircraft are the same in all files, and so are those that an option names.
+  void note_ids() {
+    const RowReader& rows = *reader_->rows();
+    const auto& id = rows.columns()[Quantity::id];
+    if (!id || rows.filter().mentions(id->place)) return;
+    const auto& names = rows.head().names;
+    const bool is_of_craft = !names.empty() && (is_of_aircraft(names[id->place]) || rows.columns().is_ais);
+    if (!is_of_craft) recording_.id_column_ = id->place;
+  }
   /// Counts the rows of a track by their order in time.
   void note_order(RawTrack& track, const FileTime& time) const {
     if (track.samples.empty() || track.samples.back().place.file != place_.file) return;
@@ -214,7 +225,7 @@ class RawRecording::FileReader final : public ReportSink {
 
   RawRecording& recording_;
   StreamFormat format_;
-  std::size_t lines_before_;
+  const ConvertedTable* converted_;
   std::unique_ptr<ReportFormat> reader_;
   Place place_;              ///< of the record
   bool is_counted_ = false;  ///< the row was counted
@@ -238,7 +249,9 @@ StreamFormat RawRecording::format_of(std::string_view text) const {
 void RawRecording::read(std::string text, const std::string& file) {
   const bool geometric = options_.altitude == FormatChoices::Altitude::geometric;
   const auto said = format_named(options_.hints.format, {});
-  auto converted = said && !is_table(*said) ? std::nullopt : convert_to_table(text, file, geometric);
+  // Sentences are messages of AIS, or a log of one receiver.
+  const bool may_be_converted = !said || is_table(*said) || *said == StreamFormat::nmea;
+  auto converted = may_be_converted ? convert_to_table(text, file, geometric) : std::nullopt;
   if (converted) {
     text = std::move(converted->text);
     counts_.warnings.insert(counts_.warnings.end(), converted->warnings.begin(), converted->warnings.end());
@@ -257,7 +270,8 @@ void RawRecording::read(std::string text, const std::string& file) {
     if (text.find('\0') != std::string::npos)
       throw ProgramError(fmt::format("{}: expected a text file, but it has zero bytes", file));
   }
-  FileReader reader(*this, format, choices, converted ? converted->lines_before : 0);
+  if (converted && converted->is_one_body) add_file_id(id_of_file(file));
+  FileReader reader(*this, format, choices, converted ? &*converted : nullptr);
   reader.read(text);
   if (files_.size() == 1) head_ = reader.rows() != nullptr ? reader.rows()->head() : TableHead{.file = file};
 }
@@ -290,6 +304,33 @@ void RawRecording::add_columns(const TableColumns& columns, const std::string& f
   agree(columns.time_kind == columns_.time_kind && columns.time_unit.seconds == columns_.time_unit.seconds &&
             columns.time_unit.rate == columns_.time_unit.rate && columns.film == columns_.film,
         "times of the same unit");
+}
+
+void RawRecording::ask_about_ids() const {
+  if (!several_files_ || !id_column_) return;
+  struct Span {
+    FileTime first, last;
+  };
+  for (const RawTrack& track : tracks_) {
+    std::map<std::uint32_t, Span> of_file;
+    for (const RawSample& sample : track.samples) {
+      Span& span = of_file.try_emplace(sample.place.file, Span{sample.time, sample.time}).first->second;
+      if (is_earlier(sample.time, span.first)) span.first = sample.time;
+      if (is_earlier(span.last, sample.time)) span.last = sample.time;
+    }
+    for (auto one = of_file.begin(); one != of_file.end(); ++one) {
+      const auto other = std::find_if(std::next(one), of_file.end(), [&](const auto& each) {
+        return is_earlier(each.second.first, one->second.last) &&
+               is_earlier(one->second.first, each.second.last);
+      });
+      if (other == of_file.end()) continue;
+      const std::string name = head_.names.empty() ? "id" : name_in_filter(head_.names[*id_column_]);
+      throw ProgramError(fmt::format(
+          "{} and {} both have the id '{}' at the same times: say {} if each file is a body of its own, or "
+          "--where '{} != none' if the id is one body in all files",
+          files_[one->first], files_[other->first], track.id, columns_.file_advice, name));
+    }
+  }
 }
 
 TimeScale RawRecording::time_scale() const {

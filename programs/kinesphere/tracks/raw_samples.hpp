@@ -61,6 +61,8 @@ class RawRecording {
   const ReadCounts& counts() const { return counts_; }
   /// Returns "file:line".
   std::string name(const Place& place) const;
+  /// Throws ProgramError if two files have an id at the same times, which may be two bodies.
+  void ask_about_ids() const;
   /// Throws ProgramError if the files have scenes that may not belong together.
   void ask_about_scenes() const { scenes_.ask(head_.file); }
   /// Increments the tally.
@@ -86,6 +88,7 @@ class RawRecording {
   Place first_time_;
   std::vector<RawTrack> tracks_;
   std::unordered_map<std::string, std::size_t> track_of_;
+  std::optional<std::size_t> id_column_;                  ///< of ids that may be other bodies in other files
   std::unordered_map<std::string, std::string> file_of_;  ///< of the bodies that are called like their file
   ReadCounts counts_;
   SceneCheck scenes_;

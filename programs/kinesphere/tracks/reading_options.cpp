@@ -8,10 +8,10 @@ namespace kinesphere::program {
 CLI::Option* add_reading_options(CLI::App& command, std::vector<std::string>& files, TrackOptions& options) {
   command.footer(
       "Tables with separators ; , tab or blanks, quoted or not, with the usual column names: id (mmsi,\n"
-      "track_id, agent, ...), time (t, timestamp, datetime, ...) or frame, x y z or lon lat; GPX, JSON, XYZ, "
-      "dumps\n"
-      "of LAMMPS, sentences of AIS, and messages of ADS-B. docs/tracks.md explains every option, with an\n"
-      "example of each kind of file.");
+      "track_id, agent, ...), time (t, timestamp, datetime, ...) or frame, x y z or lon lat; GPX, KML, NMEA and "
+      "IGC\n"
+      "logs, JSON, XYZ, GRO, PDB, dumps of LAMMPS, motion capture, DeepLabCut, sentences of AIS, and messages of\n"
+      "ADS-B. docs/tables.md explains every kind of file, docs/tracks.md every option.");
   CLI::Option* const file_option =
       command
           .add_option(

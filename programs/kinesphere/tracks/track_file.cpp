@@ -244,6 +244,7 @@ Recording parse_tracks(std::vector<NamedText> texts, const TrackOptions& options
     raw.read(std::move(text.text), text.file);
   }
   ask_about_row_numbers(raw);
+  raw.ask_about_ids();
   ask_about_times(raw);
   raw.ask_about_scenes();
   Recording recording = Reading(raw, options).run();

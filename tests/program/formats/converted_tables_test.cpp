@@ -162,6 +162,32 @@ TEST(ConvertedTables, ReadsFcdOutputOfSumo) {
       "f:3: expected a number as x (column 3), but got 'one'");
 }
 
+TEST(ConvertedTables, ReadsTracksOfTrackMate) {
+#ifndef KINESPHERE_WITH_EXPAT
+  GTEST_SKIP() << "built without expat";
+#endif
+  const auto tracks = [](const std::string& units, const std::string& second) {
+    return "<?xml version=\"1.0\"?>\n<Tracks nTracks=\"2\" " + units +
+           " from=\"TrackMate v7\">\n<particle nSpots=\"2\">\n"
+           "<detection t=\"0\" x=\"1.5\" y=\"2\" z=\"0.0\"/>\n<detection t=\"3\" x=\"" +
+           second +
+           "\" y=\"2\" z=\"0.0\"/>\n"
+           "</particle>\n<particle nSpots=\"2\">\n<detection t=\"0\" x=\"8\" y=\"2\" z=\"0.0\"/>\n"
+           "<detection t=\"3\" x=\"8\" y=\"2\" z=\"0.0\"/>\n</particle>\n</Tracks>\n";
+  };
+  const std::string said = "spaceUnits=\"micron\" frameInterval=\"250\" timeUnits=\"ms\"";
+  const Recording two = parse(tracks(said, "4.5"));
+  EXPECT_EQ(two.format, "TrackMate tracks");
+  ASSERT_EQ(two.tracks.size(), 2u);
+  EXPECT_EQ(two.tracks[1].id, "2");
+  EXPECT_TRUE(two.in_metres);
+  EXPECT_DOUBLE_EQ(two.tracks[0].samples[1].time, 0.75);
+  EXPECT_EQ(two.coordinates.as_in_file(two.tracks[0].samples[1].position), (Vec3{4.5, 2, 0}));
+  EXPECT_EQ(error_in(tracks(said, "four")), "f:5: expected a number as x (column 3), but got 'four'");
+  EXPECT_EQ(error_in(tracks("spaceUnits=\"pixel\" frameInterval=\"1.0\" timeUnits=\"frame\"", "4.5")),
+            "f: expected --frame-rate, because column 'frame' counts frames");
+}
+
 TEST(ConvertedTables, ReadsJsonRecords) {
   const std::string list =
       R"([{"id": "a, \"b\"", "time": 1700000000.123456, "pose": {"position": {"x": 1, "y": 2}}},)"

@@ -71,8 +71,10 @@ class NmeaFormat final : public ReportFormat {
     untimed_.clear();
     if (!has_sentences_)
       throw UnusableStream(
-          "expected sentences of AIS (!AIVDM or !AIVDO of any talker), but the stream has none (a log of a "
-          "GPS receiver, $GPGGA and $GPRMC, becomes GPX with gpsbabel -i nmea -f FILE -o gpx -F FILE.gpx)");
+          "expected sentences of AIS (!AIVDM or !AIVDO of any talker), but the stream has none (logs of GPS "
+          "receivers, $GPRMC and $GPGGA, are read by tracks and view; for watch write rows of id, time, lon "
+          "and "
+          "lat)");
   }
 
   nlohmann::json save() const override {

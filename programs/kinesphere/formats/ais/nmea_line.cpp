@@ -29,28 +29,6 @@ std::optional<std::size_t> digit_in(std::string_view text, char least, char most
   return static_cast<std::size_t>(text[0] - '0');
 }
 
-/// A text with a checksum, *hh behind it.
-struct CheckedText {
-  std::string_view content, behind;
-  std::optional<unsigned> said;  ///< the checksum as it stands there
-  unsigned sum = 0;              ///< the exclusive or of the content's characters
-  bool is_printable = false;     ///< all of them are printable ASCII characters
-
-  bool is_whole() const { return said == sum && is_printable; }
-};
-
-CheckedText split_checksum(std::string_view text) {
-  const std::size_t star = std::min(text.find('*'), text.size());
-  const std::string_view digits = text.substr(std::min(star + 1, text.size()), 2);
-  CheckedText result{.content = text.substr(0, star), .behind = text.substr(std::min(star + 3, text.size()))};
-  const int high = digits.size() == 2 ? hex_digit(digits[0]) : -1;
-  const int low = digits.size() == 2 ? hex_digit(digits[1]) : -1;
-  if (high >= 0 && low >= 0) result.said = static_cast<unsigned>(16 * high + low);
-  for (const char c : result.content) result.sum ^= static_cast<unsigned char>(c);
-  result.is_printable = std::ranges::all_of(result.content, [](char c) { return ' ' <= c && c <= '~'; });
-  return result;
-}
-
 /// Returns the content of a sentence, and moves `text` behind its checksum. Throws MalformedRecord.
 std::string_view checked_sentence(std::string_view& text) {
   const CheckedText split = split_checksum(text);
@@ -76,33 +54,6 @@ std::optional<TimeField> time_of_receipt(std::string_view text) {
   if (time.whole >= least_milliseconds)
     time = {time.whole / 1000, (static_cast<double>(time.whole % 1000) + time.fraction) / 1000.0};
   return field;
-}
-
-/// Reads what precedes a sentence: a time, and tag blocks. What is damaged or unknown is passed over. Returns
-/// the time, that of a tag block first.
-std::optional<TimeField> read_head(std::string_view head, NmeaLine& line) {
-  std::string_view time = trimmed(head.substr(0, head.find('\\')));
-  while (!time.empty() && (time.back() == ',' || time.back() == ';'))
-    time = trimmed(time.substr(0, time.size() - 1));
-  std::optional<TimeField> received = time_of_receipt(time);
-  for (std::size_t begin = head.find('\\'); begin < head.size();) {
-    const std::size_t end = head.find('\\', begin + 1);
-    if (end == std::string_view::npos) break;
-    const CheckedText tag = split_checksum(head.substr(begin + 1, end - begin - 1));
-    begin = head.find('\\', end + 1);
-    if (!tag.is_whole()) continue;
-    for (std::string_view fields = tag.content; !fields.empty();) {
-      const std::string_view field = fields.substr(0, fields.find(','));
-      fields.remove_prefix(std::min(field.size() + 1, fields.size()));
-      if (field.size() < 2 || field[1] != ':') continue;
-      const std::string_view value = field.substr(2);
-      if (field[0] == 'c') received = time_of_receipt(value);
-      if (field[0] == 's') line.source = value;
-      // Number in the group - lines in the group - identifier of the group.
-      if (field[0] == 'g') line.group = value.substr(value.rfind('-') + 1);
-    }
-  }
-  return received;
 }
 
 AisSentence sentence_of(std::string_view content) {
@@ -203,6 +154,43 @@ NmeaLine line_without_ais(std::string_view text) {
 }
 
 }  // namespace
+
+CheckedText split_checksum(std::string_view text) {
+  const std::size_t star = std::min(text.find('*'), text.size());
+  const std::string_view digits = text.substr(std::min(star + 1, text.size()), 2);
+  CheckedText result{.content = text.substr(0, star), .behind = text.substr(std::min(star + 3, text.size()))};
+  const int high = digits.size() == 2 ? hex_digit(digits[0]) : -1;
+  const int low = digits.size() == 2 ? hex_digit(digits[1]) : -1;
+  if (high >= 0 && low >= 0) result.said = static_cast<unsigned>(16 * high + low);
+  for (const char c : result.content) result.sum ^= static_cast<unsigned char>(c);
+  result.is_printable = std::ranges::all_of(result.content, [](char c) { return ' ' <= c && c <= '~'; });
+  return result;
+}
+
+std::optional<TimeField> read_head(std::string_view head, NmeaLine& line) {
+  std::string_view time = trimmed(head.substr(0, head.find('\\')));
+  while (!time.empty() && (time.back() == ',' || time.back() == ';'))
+    time = trimmed(time.substr(0, time.size() - 1));
+  std::optional<TimeField> received = time_of_receipt(time);
+  for (std::size_t begin = head.find('\\'); begin < head.size();) {
+    const std::size_t end = head.find('\\', begin + 1);
+    if (end == std::string_view::npos) break;
+    const CheckedText tag = split_checksum(head.substr(begin + 1, end - begin - 1));
+    begin = head.find('\\', end + 1);
+    if (!tag.is_whole()) continue;
+    for (std::string_view fields = tag.content; !fields.empty();) {
+      const std::string_view field = fields.substr(0, fields.find(','));
+      fields.remove_prefix(std::min(field.size() + 1, fields.size()));
+      if (field.size() < 2 || field[1] != ':') continue;
+      const std::string_view value = field.substr(2);
+      if (field[0] == 'c') received = time_of_receipt(value);
+      if (field[0] == 's') line.source = value;
+      // Number in the group - lines in the group - identifier of the group.
+      if (field[0] == 'g') line.group = value.substr(value.rfind('-') + 1);
+    }
+  }
+  return received;
+}
 
 NmeaLine parse_nmea_line(std::string_view text) {
   text = trimmed(text);

@@ -30,6 +30,22 @@ struct NmeaLine {
   std::string_view group;   ///< the identifier of the group of lines, from g of a tag block
 };
 
+/// A sentence or tag block, with its checksum *hh behind it.
+struct CheckedText {
+  std::string_view content, behind;
+  std::optional<unsigned> said;  ///< the checksum as it stands there
+  unsigned sum = 0;              ///< the exclusive or of the content's characters
+  bool is_printable = false;     ///< all of them are printable ASCII characters
+
+  bool is_whole() const { return said == sum && is_printable; }
+};
+/// Splits a text that begins behind the sign of its sentence or tag block.
+CheckedText split_checksum(std::string_view text);
+
+/// Reads what precedes a sentence: a time, and tag blocks. What is damaged or unknown is passed over. Returns
+/// the time, that of a tag block first.
+std::optional<TimeField> read_head(std::string_view head, NmeaLine& line);
+
 /// Longest payload of a sentence that is read, in characters. A sentence that keeps the standard has at most
 /// 82 characters.
 inline constexpr std::size_t longest_ais_payload = 1024;

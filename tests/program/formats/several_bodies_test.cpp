@@ -1,0 +1,227 @@
+// Which body a number is of: tables of DeepLabCut, columns for each body, ids of several files, and numbers
+// that are of none.
+#include <cmath>
+
+#include "kinesphere/random.hpp"
+#include "program/support.hpp"
+#include "tracks/track_file.hpp"
+
+namespace kinesphere::program::several_bodies_test {
+namespace {
+
+Recording parse(const std::string& text, const TrackOptions& options = {}) {
+  return parse_tracks({{"f.csv", text}}, options);
+}
+std::string error_in(const std::string& text, const TrackOptions& options = {}) {
+  return error_of([&] { parse(text, options); });
+}
+TrackOptions with(const std::string& where, double frame_rate = 0.0) {
+  TrackOptions options;
+  options.hints.where = where;
+  if (frame_rate > 0.0) options.hints.frame_rate = frame_rate;
+  return options;
+}
+
+TEST(SeveralBodies, OfDeepLabCutAreReadAsTheyWereWritten) {
+  constexpr std::uint64_t seed = 77;
+  Random random(seed);
+  for (const bool has_individuals : {false, true}) {
+    std::string text = "scorer,net,net,net,net,net,net\n";
+    if (has_individuals) text += "individuals,a,a,a,b,b,b\n";
+    text += has_individuals ? "bodyparts,nose,nose,nose,nose,nose,nose\n"
+                            : "bodyparts,nose,nose,nose,tail,tail,tail\n";
+    text += "coords,x,y,likelihood,x,y,likelihood\n";
+    std::vector<std::array<double, 4>> rows;
+    for (int k = 0; k < 50; ++k) {
+      auto& row = rows.emplace_back();
+      for (double& number : row) number = random.uniform(0, 500);
+      text += fmt::format("{},{},{},0.99,{},{},0.75\n", k, row[0], row[1], row[2], row[3]);
+    }
+    const Recording two = parse(text, with("", 25.0));
+    EXPECT_EQ(two.format, "DeepLabCut");
+    ASSERT_EQ(two.tracks.size(), 2u);
+    EXPECT_EQ(two.tracks[0].id, has_individuals ? "a nose" : "nose");
+    EXPECT_EQ(two.tracks[1].id, has_individuals ? "b nose" : "tail");
+    for (std::size_t body = 0; body < 2; ++body) {
+      ASSERT_EQ(two.tracks[body].samples.size(), rows.size());
+      for (std::size_t k = 0; k < rows.size(); ++k) {
+        EXPECT_DOUBLE_EQ(two.tracks[body].samples[k].time, static_cast<double>(k) / 25.0);
+        EXPECT_EQ(two.coordinates.as_in_file(two.tracks[body].samples[k].position),
+                  (Vec3{rows[k][2 * body], rows[k][2 * body + 1], 0}));
+      }
+    }
+  }
+}
+
+TEST(SeveralBodies, OfDeepLabCutNameLineAndColumn) {
+  const std::string head =
+      "scorer,net,net,net,net,net,net\nbodyparts,nose,nose,nose,tail,tail,tail\n"
+      "coords,x,y,likelihood,x,y,likelihood\n0,1,2,0.9,3,4,0.9\n1,1,2,0.9,3,4,0.9\n";
+  EXPECT_EQ(error_in(head), "f.csv: expected --frame-rate, because column 'frame' counts frames");
+  EXPECT_EQ(error_in(head + "2,1,2,0.9,left,4,0.9\n", with("", 25)),
+            "f.csv:6: expected a number as x of tail (column 5), but got 'left'");
+  EXPECT_EQ(error_in(head + "2,1,2,0.9\n", with("", 25)), "f.csv:6: expected 7 columns, but got 4");
+  EXPECT_EQ(error_in(head + "2,1,2,0.9,,4,0.9\n", with("", 25)),
+            "f.csv:6: expected a number as x (column 3), but got nothing (see --missing)");
+  EXPECT_EQ(
+      error_in(head + "2,1,2,0.9,3,4,0.02\n", with("", 25)),
+      "f.csv:6: the likelihood 0.02 says that the position may be anywhere: leave such rows out with --where "
+      "'likelihood >= 0.6', or keep them with --where 'likelihood != none'");
+  EXPECT_EQ(parse(head + "2,1,2,0.9,3,4,0.02\n", with("likelihood >= 0.6", 25)).samples, 5u);
+  EXPECT_EQ(parse(head + "2,1,2,0.9,3,4,0.02\n", with("likelihood != none", 25)).samples, 6u);
+  EXPECT_EQ(
+      error_in("scorer,net\nparts,a\n0,1\n"),
+      "f.csv:3: expected rows scorer, bodyparts and coords above the numbers, as DeepLabCut writes them");
+}
+
+/// Two markers of motion capture, at places in millimetres.
+using Captured = std::vector<std::array<Vec3, 2>>;
+
+std::string captured(const Captured& places, const std::string& head, char separator, int leading) {
+  std::string text = head;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    std::string row;
+    if (leading > 0) row += fmt::format("{}", k);
+    if (leading > 1)
+      row += leading == 2 ? fmt::format("{}{}", separator, static_cast<double>(k) / 100) : ",0";
+    for (const Vec3& at : places[k])
+      row += fmt::format("{}{}{}{}{}{}", row.empty() ? "" : std::string(1, separator), at.x, separator, at.y,
+                         separator, at.z);
+    text += row + "\n";
+  }
+  return text;
+}
+
+TEST(SeveralBodies, OfMotionCaptureAreReadAsTheyWereWritten) {
+  constexpr std::uint64_t seed = 78;
+  Random random(seed);
+  Captured places(40);
+  for (auto& pair : places)
+    for (Vec3& at : pair) at = {random.uniform(-900, 900), random.uniform(-900, 900), random.uniform(1, 900)};
+  const std::string qualisys =
+      "NO_OF_FRAMES\t40\nNO_OF_MARKERS\t2\nFREQUENCY\t100\nDATA_INCLUDED\t3D\nMARKER_NAMES\ta\tb\n";
+  const std::string optitrack =
+      "Format Version,1.23,Take Name,x,Capture Frame Rate,100.000000,Length Units,Millimeters\n\n"
+      ",Type,Rigid Body,Rigid Body,Rigid Body,Rigid Body,Rigid Body,Rigid Body,Rigid Body Marker\n"
+      ",Name,a,a,a,b,b,b,a:Marker1\n,ID,1,1,1,2,2,2,3\n"
+      ",,Position,Position,Position,Position,Position,Position,Position\n"
+      "Frame,Time (Seconds),X,Y,Z,X,Y,Z,X\n";
+  for (const auto& [text, format] : std::initializer_list<std::pair<std::string, std::string>>{
+           {captured(places,
+                     "Trajectories\n100\n,,a,,,b,,\nFrame,Sub Frame,X,Y,Z,X,Y,Z\n,,mm,mm,mm,mm,mm,mm\n", ',',
+                     3),
+            "Vicon Nexus"},
+           {captured(places,
+                     "PathFileType\t4\t(X/Y/Z)\tx.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n"
+                     "100\t100\t40\t2\tmm\nFrame#\tTime\ta\t\t\tb\t\t\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n\n",
+                     '\t', 2),
+            "TRC"},
+           {captured(places, qualisys, '\t', 0), "Qualisys"},
+           {captured(places, qualisys + "Frame\tTime\ta X\ta Y\ta Z\tb X\tb Y\tb Z\n", '\t', 2), "Qualisys"},
+           {captured(places, optitrack, ',', 2), "OptiTrack Motive"}}) {
+    const Recording two = parse(text);
+    EXPECT_EQ(two.format, format);
+    EXPECT_TRUE(two.in_metres);
+    ASSERT_EQ(two.tracks.size(), 2u) << format;
+    for (std::size_t body = 0; body < 2; ++body) {
+      EXPECT_EQ(two.tracks[body].id, body == 0 ? "a" : "b");
+      ASSERT_EQ(two.tracks[body].samples.size(), places.size()) << format;
+      for (std::size_t k = 0; k < places.size(); ++k) {
+        const auto& [time, position] = two.tracks[body].samples[k];
+        EXPECT_NEAR(time, static_cast<double>(k) / 100, 1e-12) << format;
+        EXPECT_LT(norm(two.coordinates.as_in_file(position) - places[k][body]), 1e-9) << format;
+      }
+    }
+  }
+  // Qualisys writes zeros for a marker that it has lost; others leave it out.
+  places[7][1] = {};
+  EXPECT_EQ(error_in(captured(places, qualisys, '\t', 0)),
+            "f.csv:13: expected a number as x (column 3), but got nothing (see --missing)");
+  EXPECT_EQ(error_in(captured(places, qualisys, '\t', 0) + "1\t2\t3\t4\tfive\t6\n"),
+            "f.csv:46: expected a number as y of b (column 5), but got 'five'");
+}
+
+TEST(SeveralBodies, HaveColumnsOfLongitudeAndLatitude) {
+  const std::string rows = "2024-01-01T00:00:00Z,47,8,47,8.001\n2024-01-01T00:00:10Z,47,8.0001,47,8.0011\n";
+  for (const std::string& header : {"time,lat1,lon1,lat2,lon2", "time,lat_1,lon_1,lat_2,lon_2",
+                                    "time,Latitude1,Longitude1,Latitude2,Longitude2",
+                                    "time,drone1_lat,drone1_lng,drone2_lat,drone2_lng"}) {
+    const Recording two = parse(header + ("\n" + rows));
+    ASSERT_EQ(two.tracks.size(), 2u) << header;
+    EXPECT_NEAR(norm(two.tracks[1].samples[0].position - two.tracks[0].samples[0].position), 76.0, 0.5)
+        << header;
+    EXPECT_NEAR(norm(two.tracks[1].samples[1].position - two.tracks[1].samples[0].position), 7.6, 0.1)
+        << header;
+  }
+  const Recording high =
+      parse("time,lat1,lon1,alt1,lat2,lon2,alt2\n0,47,8,100,47,8,130\n1,47,8,100,47,8,130\n");
+  EXPECT_NEAR(norm(high.tracks[1].samples[0].position - high.tracks[0].samples[0].position), 30.0, 1e-3);
+  // A journey has a beginning and an end; so may boxes.
+  EXPECT_NE(
+      error_in("time,lat_from,lon_from,lat_to,lon_to\n" + rows).find("may be two bodies or parts of one"),
+      std::string::npos);
+  EXPECT_NE(error_in("time,kind,lat1,lon1,lat2,lon2\n2024-01-01T00:00:00Z,a,47,8,47,8\n").find("corners"),
+            std::string::npos);
+  EXPECT_EQ(error_in("time,x1,y1,lat1,lon1,x2,y2\n0,1,2,3,4,5,6\n"),
+            "f.csv: columns 'x1' and 'lon1' may both be meant: say --positions plane or lonlat");
+}
+
+TEST(SeveralBodies, OfOneIdInTwoFilesAreAskedAbout) {
+  const auto file = [](const std::string& name, double offset, const std::string& id = "id") {
+    std::string text = id + ",time,x,y\n";
+    for (int k = 0; k < 5; ++k) text += fmt::format("1,{},{},0\n", k + offset, k);
+    return NamedText{name, text};
+  };
+  const auto both = [&](const TrackOptions& options = {}) {
+    return parse_tracks({file("a.csv", 0), file("b.csv", 0.5)}, options);
+  };
+  EXPECT_EQ(error_of([&] { both(); }),
+            "a.csv and b.csv both have the id '1' at the same times: say --columns "
+            "id=@file,time=time,x=x,y=y if each "
+            "file is a body of its own, or --where 'id != none' if the id is one body in all files");
+  TrackOptions apart;
+  apart.hints.columns = "id=@file,time=time,x=x,y=y";
+  EXPECT_EQ(both(apart).tracks.size(), 2u);
+  EXPECT_EQ(both(with("id != none")).ids, 1u);
+  EXPECT_EQ(parse_tracks({file("a.csv", 0), file("b.csv", 10)}, {}).ids, 1u) << "the second goes on";
+  EXPECT_EQ(parse_tracks({file("a.csv", 0, "mmsi"), file("b.csv", 0.5, "mmsi")}, {}).ids, 1u)
+      << "two stations hear one ship";
+}
+
+TEST(SeveralBodies, MarkersOfNoPositionAreAskedAbout) {
+  const std::string head = "id,time,x,y\n1,0,3,50\n1,1,4,50\n2,0,300,200\n2,1,310,200\n";
+  EXPECT_EQ(error_in(head + "1,2,-999,50\n"),
+            "f.csv:6: -999 as x is no position in most files: leave such rows out with --where 'x != -999', "
+            "or keep "
+            "them with --where 'x != none'");
+  EXPECT_NE(error_in(head + "1,2,5,99999\n").find("99999 as y"), std::string::npos);
+  EXPECT_NE(error_in(head + "1,2,-9999,-9999\n").find("-9999 as x and y"), std::string::npos);
+  EXPECT_EQ(parse(head + "1,2,-999,50\n", with("x != -999")).samples, 4u);
+  EXPECT_EQ(parse(head + "1,2,-999,50\n", with("x != none")).samples, 5u);
+  // A walk over such a number is none.
+  std::string walk = "id,time,x,y\n";
+  for (int k = 0; k < 40; ++k) walk += fmt::format("1,{},{},{}\n", k, 9980 + k, -1010 + k);
+  EXPECT_EQ(parse(walk).samples, 40u);
+}
+
+TEST(SeveralBodies, DatesMayHaveYearsOfTwoDigits) {
+  const auto times = [](const std::string& one, const std::string& other, DateOrder order) {
+    TrackOptions options;
+    options.hints.dates = order;
+    const Recording recording = parse("id,time,x,y\n1," + one + ",0,0\n1," + other + ",1,0\n", options);
+    return recording.times.text(recording.tracks[0].samples[0].time);
+  };
+  EXPECT_EQ(times("31/01/24 12:00", "31/01/24 12:01", DateOrder::day_first), "2024-01-31T12:00:00");
+  EXPECT_EQ(times("1/31/24 9:05:00 PM", "1/31/24 9:06:00 PM", DateOrder::month_first), "2024-01-31T21:05:00");
+  EXPECT_EQ(times("24-01-31 12:00", "24-01-31 12:01", DateOrder::year_first), "2024-01-31T12:00:00");
+  EXPECT_EQ(times("31.1.99 12:00", "31.1.99 12:01", DateOrder::day_first), "1999-01-31T12:00:00");
+  EXPECT_EQ(times("31-Jan-24 12:00:00", "31-Jan-24 12:00:01", DateOrder::unknown), "2024-01-31T12:00:00");
+  EXPECT_EQ(error_in("id,time,x,y\n1,31/01/24 12:00,0,0\n"),
+            "f.csv:2: expected a date whose order of day and month is known (column 2), but got '31/01/24 "
+            "12:00': say "
+            "--dates day-first or --dates month-first, or year-first");
+  EXPECT_NE(error_in("id,time,x,y\n1,01/02/2024 12:00,0,0\n").find("--dates month-first"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace kinesphere::program::several_bodies_test
