@@ -13,11 +13,11 @@ namespace kinesphere::program {
 
 struct BodyColumns {
   std::string id;
-  std::vector<std::size_t> columns;  ///< of BodyTable::names
+  std::vector<std::size_t> columns;  ///< of BodyLayout::names
 };
 
 /// Where the columns of a table are, as its header says.
-struct BodyTable {
+struct BodyLayout {
   std::string format;
   char separator = ',';
   std::optional<std::size_t> time, frame;  ///< columns; without both, rows are counted as frames
@@ -28,8 +28,9 @@ struct BodyTable {
   bool zero_is_missing = false;  ///< x = y = z = 0 stands for no position
 };
 
-/// Reads the rows of a table up to a blank line behind them; `lines` stands behind the header. The result has
-/// a row for each body. Throws ProgramError naming the line, the body and the column for what is no number.
-ConvertedTable read_body_rows(const BodyTable& table, LineCutter lines, const std::string& file);
+/// Reads the rows of a table up to a blank line with another section behind it; `lines` stands behind the
+/// header. The result has a row for each body. Throws ProgramError naming the line, the body and the column
+/// for what is no number.
+ConvertedTable read_body_rows(const BodyLayout& layout, LineCutter lines, const std::string& file);
 
 }  // namespace kinesphere::program

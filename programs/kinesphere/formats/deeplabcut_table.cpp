@@ -27,18 +27,18 @@ std::optional<ConvertedTable> convert_deeplabcut(std::string_view text, const st
     throw ProgramError(fmt::format(
         "{}:{}: expected rows scorer, bodyparts and coords above the numbers, as DeepLabCut writes them",
         file, lines.line()));
-  BodyTable table{.format = "DeepLabCut", .frame = 0, .names = {"x", "y"}};
-  if (std::ranges::count(coordinates, "likelihood") > 0) table.names.emplace_back("likelihood");
-  for (std::size_t column = 1; column + table.names.size() <= parts.size(); column += table.names.size()) {
-    if (!std::ranges::equal(table.names, std::span(coordinates).subspan(column, table.names.size())))
+  BodyLayout layout{.format = "DeepLabCut", .frame = 0, .names = {"x", "y"}};
+  if (std::ranges::count(coordinates, "likelihood") > 0) layout.names.emplace_back("likelihood");
+  for (std::size_t column = 1; column + layout.names.size() <= parts.size(); column += layout.names.size()) {
+    if (!std::ranges::equal(layout.names, std::span(coordinates).subspan(column, layout.names.size())))
       throw ProgramError(fmt::format("{}:{}: expected {} of each part (column {})", file, lines.line(),
-                                     fmt::join(table.names, ", "), column + 1));
+                                     fmt::join(layout.names, ", "), column + 1));
     BodyColumns part{.id = std::string(parts[column]), .columns = {}};
     if (!individuals.empty()) part.id = fmt::format("{} {}", individuals[column], part.id);
-    for (std::size_t k = 0; k < table.names.size(); ++k) part.columns.push_back(column + k);
-    table.bodies.push_back(std::move(part));
+    for (std::size_t k = 0; k < layout.names.size(); ++k) part.columns.push_back(column + k);
+    layout.bodies.push_back(std::move(part));
   }
-  return read_body_rows(table, lines, file);
+  return read_body_rows(layout, lines, file);
 }
 
 }  // namespace kinesphere::program

@@ -75,7 +75,7 @@ class GeoJsonReader {
                                         times.size(), places.size()));
     for (std::size_t k = 0; k < places.size(); ++k) {
       rows_.begin_row(line);
-      rows_.set("id", JsonRows::quoted(id));
+      rows_.set("id", quoted_field(id));
       rows_.set("time", times[k]);
       set_place(places[k]);
     }
@@ -108,7 +108,7 @@ class GeoJsonReader {
     std::vector<std::string> fields;
     for (ondemand::value value : list)
       fields.push_back(value.type() == ondemand::json_type::string
-                           ? JsonRows::quoted(value.get_string())
+                           ? quoted_field(value.get_string())
                            : std::string(trimmed(value.raw_json_token())));
     return fields;
   }

@@ -58,10 +58,10 @@ class GpsReader {
     }
     std::vector<GpsFix> fixes = whole_fixes();
     if (fixes.empty())
-      throw ProgramError(
-          fmt::format("{}: expected sentences RMC, GGA or GNS with a valid position, but none "
-                      "has one",
-                      file_));
+      throw ProgramError(fmt::format(
+          "{}: expected sentences RMC, GGA or GNS with a valid position, but of those that it has {} "
+          "have a wrong checksum and {} have no position",
+          file_, damaged_, invalid_));
     return table_of(fixes);
   }
 

@@ -19,21 +19,20 @@ std::size_t gro_width(std::string_view line) {
   return two == std::string_view::npos ? 0 : two - one;
 }
 
-/// Returns the vectors of a box in its line: XX YY ZZ and perhaps XY XZ YX YZ ZX ZY, where the second letter
-/// is that of the axis.
-Unwrapper::Cell gro_cell(const MoleculeFrames& frames) {
-  const auto words = words_of(frames.line());
+/// Returns the vectors of a box in its line, XX YY ZZ and perhaps XY XZ YX YZ ZX ZY, where the second letter
+/// is that of the axis; nothing for other text.
+std::optional<Unwrapper::Cell> gro_cell(std::string_view line) {
+  const auto words = words_of(line);
   std::array<double, 9> numbers{};
-  if (words.size() != 3 && words.size() != 9) frames.fail("the 3 or 9 numbers of the box");
+  if (words.size() != 3 && words.size() != 9) return std::nullopt;
   for (std::size_t k = 0; k < words.size(); ++k) {
     const auto number = parse_number(words[k]);
-    if (!number) frames.fail("the numbers of the box");
+    if (!number) return std::nullopt;
     numbers[k] = *number;
   }
   const auto [xx, yy, zz, xy, xz, yx, yz, zx, zy] = numbers;
-  if (xy != 0.0 || xz != 0.0 || yz != 0.0)
-    frames.fail("a box whose first vector is along x, and its second at z 0");
-  return {{{xx, 0.0, 0.0}, {yx, yy, 0.0}, {zx, zy, zz}}};
+  if (xy != 0.0 || xz != 0.0 || yz != 0.0) return std::nullopt;
+  return Unwrapper::Cell{{{xx, 0.0, 0.0}, {yx, yy, 0.0}, {zx, zy, zz}}};
 }
 
 }  // namespace
@@ -57,6 +56,7 @@ std::optional<ConvertedTable> convert_gro(std::string_view text, const std::stri
     if (!frames.next()) break;
     const auto count = count_in(trimmed(frames.line()));
     if (!count) frames.fail("a number of atoms");
+    if (const auto cell = gro_cell(frames.line_ahead(*count + 1))) frames.set_cell(*cell);
     std::array<ColumnRange, 3> columns{};
     for (std::size_t k = 0; k < *count; ++k) {
       // A program that still writes leaves the last frame unfinished.
@@ -67,7 +67,8 @@ std::optional<ConvertedTable> convert_gro(std::string_view text, const std::stri
         columns[axis] = {first_gro_number + axis * width + 1, first_gro_number + (axis + 1) * width};
       frames.add_atom(columns);
     }
-    if (frames.next()) frames.set_cell(gro_cell(frames));
+    if (frames.next() && !gro_cell(frames.line()))
+      frames.fail("the 3 or 9 numbers of a box whose first vector is along x, and the second at z = 0");
   }
   return frames.table();
 }

@@ -35,6 +35,13 @@ bool MoleculeFrames::next() {
   return lines_.next().has_value();
 }
 
+std::string_view MoleculeFrames::line_ahead(std::size_t lines) const {
+  LineCutter ahead = lines_;
+  for (; lines > 0; --lines)
+    if (!ahead.next()) return {};
+  return ahead.whole();
+}
+
 void MoleculeFrames::begin_frame(std::string_view title) {
   const std::string_view time = time_in_title(title);
   timed_frames_ += time.empty() ? 0 : 1;

@@ -29,6 +29,9 @@ class MoleculeFrames {
   /// True if the line had an end: a file that was cut off may lack it.
   bool line_is_whole() const { return lines_.has_end(); }
 
+  /// The line that comes so many lines later; empty behind the end.
+  std::string_view line_ahead(std::size_t lines) const;
+
   /// Begins a frame. `title` may say its time, as GROMACS does: t= 1.0.
   void begin_frame(std::string_view title);
   void set_cell(const Unwrapper::Cell& cell);

@@ -42,6 +42,9 @@ bool TableHeadReader::row(const std::vector<std::string_view>& fields) {
   });
   if (!has_number && head_.names.empty()) {
     head_.names.assign(fields.begin(), fields.end());
+    for (std::string& name : head_.names)
+      if (name.size() > 2 && name.front() == '\'' && name.back() == '\'')
+        name = name.substr(1, name.size() - 2);
     // Messages contain the names, and are one line.
     for (std::string& name : head_.names)
       std::replace_if(

@@ -103,7 +103,8 @@ std::optional<StreamFormat> format_of(const WatchOptions& options,
   // An option that names columns implies a table.
   if (!options.choices.hints.columns.empty())
     return format == StreamFormat::ais ? *format : StreamFormat::csv;
-  if (format) return *format;
+  // Some other files look like tables.
+  if (format && (kind.empty() || !is_table(*format))) return *format;
   if (stop.asked()) return std::nullopt;
   if (beginning.find_first_not_of(" \t\r\n") == std::string_view::npos)
     throw ProgramError(fmt::format("{}: expected reports, but it is empty", source.name()));

@@ -1,4 +1,6 @@
 // Trajectories of molecules: GRO and PDB, and boxes of any shape.
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "kinesphere/random.hpp"
@@ -107,7 +109,8 @@ TEST(Molecules, WrongOnesNameLineAndColumns) {
             "f:7: expected a number as y (columns 29 to 36), but got '2.00x'");
   EXPECT_EQ(error_in(with(good, "    1\n", "  one\n")), "f:6: expected a number of atoms, but got '  one'");
   EXPECT_EQ(error_in(with(good, " 0 0 0", " 0 0")),
-            "f:8: expected the 3 or 9 numbers of the box, but got ' 0 0'");
+            "f:8: expected the 3 or 9 numbers of a box whose first vector is along x, and the second at z = "
+            "0, but got ' 0 0'");
   EXPECT_EQ(error_in(with(good, "t= ", "q= ")),
             "f: expected a time (t= in the title) for all frames or for none, but 1 of 2 have one");
   EXPECT_EQ(error_in(gro({{{1, 2, 3}}, {{1, 2, 3}}}, 3, false, "0 0 0")),

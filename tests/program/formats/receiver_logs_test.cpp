@@ -1,4 +1,6 @@
 // Logs of receivers: NMEA 0183 and IGC.
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numeric>
 
@@ -91,7 +93,7 @@ TEST(ReceiverLogs, AreReadAsTheyWereWritten) {
     for (const LoggedPlace& place : places)
       log += gga(place, "GN") + (place.second < 86'400 ? rmc(place, "GN") : "");
     const Recording boat = parse({{"boat.nmea", log}});
-    EXPECT_EQ(boat.format, "NMEA 0183, heights in m");
+    EXPECT_EQ(boat.format, "NMEA 0183");
     ASSERT_EQ(boat.tracks.size(), 1u);
     EXPECT_EQ(boat.tracks[0].id, "boat");
     EXPECT_EQ(boat.times.text(boat.tracks[0].samples[0].time), "2024-12-31T23:53:20.5Z");
@@ -109,7 +111,7 @@ TEST(ReceiverLogs, KeepReceiversApart) {
     first += rmc(day_before);
     second += rmc(day_before_other);
     merged += rmc(day_before, "GP") + rmc(day_before_other, "GL");
-    tagged += rmc(day_before, "GP", "\\s:a*5B\\") + rmc(day_before_other, "GP", "\\s:b*58\\");
+    tagged += rmc(day_before, "GP", "\\s:a*28\\") + rmc(day_before_other, "GP", "\\s:b*2B\\");
     handed_over += rmc(day_before, k < 30 ? "GP" : "GN");
   }
   for (const auto& [files, ids, warnings] :
@@ -148,7 +150,7 @@ TEST(ReceiverLogs, WithoutDatesCountSeconds) {
 }
 
 TEST(ReceiverLogs, WrongOnesNameLineAndField) {
-  const std::string good = rmc({0, 0, 10, 0}) + rmc({0, 0, 11, 0});
+  const std::string good = rmc({6000, 0, 10, 0}) + rmc({6000, 0, 11, 0});
   const auto wrong = [&](const std::string& fields) {
     return error_in(good + with_checksum("GPRMC," + fields));
   };
@@ -163,12 +165,13 @@ TEST(ReceiverLogs, WrongOnesNameLineAndField) {
   EXPECT_EQ(wrong("000012,A,0900.0,N,00800.0,E,,,310224,,"),
             "log.nmea:3: expected a date, ddmmyy (field 10 of the sentence), but got '310224'");
   EXPECT_EQ(error_in(with_checksum("GPRMC,,V,,,,,,,,,,N")),
-            "log.nmea: expected sentences RMC, GGA or GNS with a valid position, but none has one");
+            "log.nmea: expected sentences RMC, GGA or GNS with a valid position, but of those that it has 0 "
+            "have a wrong checksum and 1 have no position");
   // What is damaged, or has no fix, is left out and said.
-  std::string damaged = rmc({0, 0, 12, 0});
+  std::string damaged = rmc({6000, 0, 12, 0});
   damaged[20] ^= 1;
   const Recording rest = parse(
-      {{"f", with_checksum("GPRMC,,V,,,,,,,,,,N") + good + damaged + rmc({0, 0, 13, 0}) + "$GPRMC,0000"}});
+      {{"f", with_checksum("GPRMC,,V,,,,,,,,,,N") + good + damaged + rmc({6000, 0, 13, 0}) + "$GPRMC,0000"}});
   ASSERT_EQ(rest.tracks.size(), 1u);
   EXPECT_EQ(rest.tracks[0].samples.size(), 3u);
   EXPECT_EQ(rest.warnings,

@@ -1,5 +1,7 @@
 // Which body a number is of: tables of DeepLabCut, columns for each body, ids of several files, and numbers
 // that are of none.
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "kinesphere/random.hpp"
@@ -143,10 +145,10 @@ TEST(SeveralBodies, OfMotionCaptureAreReadAsTheyWereWritten) {
 
 TEST(SeveralBodies, HaveColumnsOfLongitudeAndLatitude) {
   const std::string rows = "2024-01-01T00:00:00Z,47,8,47,8.001\n2024-01-01T00:00:10Z,47,8.0001,47,8.0011\n";
-  for (const std::string& header : {"time,lat1,lon1,lat2,lon2", "time,lat_1,lon_1,lat_2,lon_2",
-                                    "time,Latitude1,Longitude1,Latitude2,Longitude2",
-                                    "time,drone1_lat,drone1_lng,drone2_lat,drone2_lng"}) {
-    const Recording two = parse(header + ("\n" + rows));
+  for (const std::string_view header : {"time,lat1,lon1,lat2,lon2", "time,lat_1,lon_1,lat_2,lon_2",
+                                        "time,Latitude1,Longitude1,Latitude2,Longitude2",
+                                        "time,drone1_lat,drone1_lng,drone2_lat,drone2_lng"}) {
+    const Recording two = parse(std::string(header) + "\n" + rows);
     ASSERT_EQ(two.tracks.size(), 2u) << header;
     EXPECT_NEAR(norm(two.tracks[1].samples[0].position - two.tracks[0].samples[0].position), 76.0, 0.5)
         << header;

@@ -581,16 +581,13 @@ TEST_F(TablesOfTheField, OtherFilesAreNamed) {
            {std::string("PK\3\4\0\0", 6), "zip archive"},
            {"PAR1\1\2", "Parquet"},
            {"id,t\r1,2\r", "old Macs: convert it with tr '\\r' '\\n'"},
-           {"Format Version,1.23,Take Name,a\n,,\n", "OptiTrack Motive"},
-           {"scorer,a,a\nbodyparts,b,b\n", "DeepLabCut"},
-           {"PathFileType\t4\n", ".trc"},
            {"#cP2024  1  1\n", "SP3"},
-           {"ATOM      1  CA  ALA A   1       0.000   0.000   0.000\n", "PDB"},
-           {"water\n 1\n    1SOL     OW    1   0.000   0.000   0.000\n 1 1 1\n", "GROMACS"},
-           {"AXXX001\nHFDTE010124\nB000000\n", "IGC"},
            {"ISS\n1 25544U 98067A   24001.50000000  .00016717  00000-0  10270-3 0  9009\n"
             "2 25544  51.6400 208.9163 0006703 130.5360 325.0288 15.72125391 10008\n",
             "TLE"},
+           {std::string("\0\0\x07\xCB\0\0", 6), "(XTC, TRR or DCD): write it as GRO"},
+           {std::string("T\0\0\0CORD", 8), "gmx trjconv"},
+           {std::string("\x02P\1\0", 4), "C3D"},
            {"MATLAB 5.0 MAT-file", ".mat file"}}) {
     const std::string message = approaches(text, "--distance 1");
     EXPECT_NE(message.find("expected a table in a text file, but it is "), std::string::npos) << message;
