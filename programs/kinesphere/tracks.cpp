@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -113,6 +114,33 @@ void warn_of_one_place(const std::vector<Approach>& approaches, const Recording&
       grouped(static_cast<std::uint64_t>(std::count_if(approaches.begin(), approaches.end(), is_at_one))),
       recording.tracks[first->first].id, recording.tracks[first->second].id,
       recording.times.text(first->closest.time, 6), at.x, at.y);
+}
+
+/// Warns of a distance without a unit that is larger than a recording in another unit than metres: it may
+/// have been meant in that unit.
+void warn_of_distance(const Closeness& closeness, const Recording& recording) {
+  const Coordinates& coordinates = recording.coordinates;
+  const Vec3 step = coordinates.as_in_file({1, 0, 0}) - coordinates.as_in_file({});
+  if (closeness.has_unit || !recording.in_metres || coordinates.are_geographic() ||
+      std::abs(step.x - 1.0) < 1e-9)
+    return;
+  constexpr double none = std::numeric_limits<double>::infinity();
+  Box extent{{none, none, none}, {-none, -none, -none}};
+  for (const RecordedTrack& track : recording.tracks) {
+    for (const TrackSample& sample : track.samples) {
+      for (int axis = 0; axis < 3; ++axis) {
+        extent.lower[axis] = std::min(extent.lower[axis], sample.position[axis]);
+        extent.upper[axis] = std::max(extent.upper[axis], sample.position[axis]);
+      }
+    }
+  }
+  const double size = norm(extent.upper - extent.lower);
+  if (closeness.distance <= size) return;
+  print_message(
+      "kinesphere: warning: all positions are within {:.4g} m of each other, so that all pairs are close all "
+      "the "
+      "time: {} {} is in metres; another unit is said as in 5mm\n",
+      size, closeness.option, closeness.given);
 }
 
 /// Returns a callback that shows a progress bar over the span of the scene.
@@ -226,6 +254,7 @@ int tracks(const TracksOptions& options) {
   const Scene& searched = scene_and_notes.searched();
   for (const std::string& warning : warnings_of(recording, scene_and_notes))
     print_message("kinesphere: warning: {}\n", warning);
+  warn_of_distance(closeness, recording);
 
   std::vector<Event> events;
   SimulationObserver observer;

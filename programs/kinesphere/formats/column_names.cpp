@@ -183,6 +183,16 @@ std::optional<ColumnMeaning> meaning_of(std::string_view column_name) {
   return std::nullopt;
 }
 
+std::optional<ColumnMeaning> meaning_of_ending(std::string_view column_name) {
+  for (std::size_t at = 0; at < column_name.size(); ++at) {
+    const bool begins_word =
+        at == 0 || std::string_view(" _-./:").find(column_name[at - 1]) != std::string_view::npos;
+    if (begins_word)
+      if (const auto meaning = meaning_of(column_name.substr(at))) return meaning;
+  }
+  return std::nullopt;
+}
+
 AxisAndBody axis_and_body(std::string_view column_name) {
   // A longer word comes before its beginning.
   constexpr std::pair<std::string_view, Quantity> axes[] = {{"longitude", Quantity::longitude},

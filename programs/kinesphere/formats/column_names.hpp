@@ -58,6 +58,9 @@ struct ColumnMeaning {
 /// Knows the usual names in any case, with or without blanks, - and _ between words; returns nothing for
 /// others.
 std::optional<ColumnMeaning> meaning_of(std::string_view column_name);
+/// Returns the meaning of the end of a name, from one of its words on: that of "position.x" in
+/// field.pose.position.x.
+std::optional<ColumnMeaning> meaning_of_ending(std::string_view column_name);
 /// What a column has of a body, and the body that the rest of its name tells: x1, fish_2.y, z_head, lat_a.
 struct AxisAndBody {
   Quantity axis = Quantity::x;  ///< x, y, z, longitude or latitude

@@ -29,8 +29,9 @@ std::optional<ConvertedTable> convert_deeplabcut(std::string_view text, const st
         file, lines.line()));
   BodyLayout layout{.format = "DeepLabCut", .frame = 0, .names = {"x", "y"}};
   if (std::ranges::count(coordinates, "likelihood") > 0) layout.names.emplace_back("likelihood");
-  for (std::size_t column = 1; column + layout.names.size() <= parts.size(); column += layout.names.size()) {
-    if (!std::ranges::equal(layout.names, std::span(coordinates).subspan(column, layout.names.size())))
+  for (std::size_t column = 1; column < parts.size(); column += layout.names.size()) {
+    if (column + layout.names.size() > parts.size() ||
+        !std::ranges::equal(layout.names, std::span(coordinates).subspan(column, layout.names.size())))
       throw ProgramError(fmt::format("{}:{}: expected {} of each part (column {})", file, lines.line(),
                                      fmt::join(layout.names, ", "), column + 1));
     BodyColumns part{.id = std::string(parts[column]), .columns = {}};

@@ -130,7 +130,7 @@ std::string_view kind_of_recording(std::string_view text) {
       {"scorer,", "a table of DeepLabCut"},           {"Format Version,", "a take of OptiTrack Motive"},
       {"PathFileType", "a .trc file of markers"},     {"NO_OF_FRAMES", "a file of Qualisys"},
       {"Trajectories\n", "an export of Vicon Nexus"}, {"Trajectories\r\n", "an export of Vicon Nexus"},
-      {"CCSDS_OEM_VERS", "an ephemeris (OEM)"}};
+      {"CCSDS_OEM_VERS", "an ephemeris (OEM)"},       {"ITEM: ", "a dump of LAMMPS"}};
   for (const FileKind& kind : kinds)
     if (has_begin(text, kind.begins)) return kind.is;
   if (is_igc(text)) return "a flight log (IGC)";

@@ -126,7 +126,16 @@ std::unique_ptr<ReportFormat> make_format(StreamFormat format, const FormatChoic
 }
 
 std::string_view first_line(std::string_view beginning) {
-  beginning.remove_prefix(std::min(beginning.find_first_not_of(" \t\r\n"), beginning.size()));
+  for (;;) {
+    beginning.remove_prefix(std::min(beginning.find_first_not_of(" \t\r\n"), beginning.size()));
+    const std::string_view line = beginning.substr(0, beginning.find('\n'));
+    // A comment with separators may be the header of a table.
+    const bool is_comment = line.starts_with('#') || line.starts_with('%') || line.starts_with("//");
+    if (!is_comment || line.size() == beginning.size() ||
+        line.find_first_of(",;\t|") != std::string_view::npos)
+      break;
+    beginning.remove_prefix(line.size());
+  }
   std::size_t begin = 0;
   if (beginning.starts_with('{')) begin = beginning.find('"');
   const std::size_t end = begin < beginning.size() ? beginning.find('\n', begin) : std::string_view::npos;

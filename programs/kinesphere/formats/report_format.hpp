@@ -82,8 +82,8 @@ struct FormatChoices {
 std::unique_ptr<ReportFormat> make_format(StreamFormat format, const FormatChoices& choices);
 RecordCutter::Kind records_of(StreamFormat format);
 
-/// Returns the first line that says something: of JSON over several lines, the lines up to the first with a
-/// key. Empty if it has not ended yet.
+/// Returns the first line that says something, which comments of one column do not: of JSON over several
+/// lines, the lines up to the first with a key. Empty if it has not ended yet.
 std::string_view first_line(std::string_view beginning);
 /// Returns the format of a stream that begins with this text, its first line or a part of it; nothing if it
 /// is ambiguous.

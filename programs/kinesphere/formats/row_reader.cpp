@@ -176,7 +176,12 @@ void RowReader::check_place(double x, double y, std::optional<double> z) {
   constexpr double no_heights[] = {-9999.0, -99999.0, -999999.0, -32768.0};
   const bool is_no_height =
       z && std::find(std::begin(no_heights), std::end(no_heights), *z) != std::end(no_heights);
-  const bool is_none = columns_.geographic ? x == 0.0 : is_marker(x);
+  // Trackers write 0 or -1 for what they have lost.
+  constexpr double least_of_others = 10.0;
+  const std::size_t fewest_others = x == 0.0 ? 10 : 4;
+  const bool is_lost = (x == 0.0 || x == -1.0) && spans_[0].count >= fewest_others &&
+                       std::min(spans_[0].least, spans_[1].least) >= least_of_others;
+  const bool is_none = columns_.geographic ? x == 0.0 : is_marker(x) || is_lost;
   if (x == y && is_none && !filter_.mentions(columns_[along]->place))
     throw OpenQuestion(fmt::format(
         "{0} as {1} and {2} is no position in most files: leave such rows out with --where '{3} != "
@@ -204,6 +209,7 @@ void RowReader::check_coordinate(Quantity quantity, double value, Span& span, bo
                     "{0}', or keep them with --where '{2} != none'",
                     value, name_of(quantity), where_name(quantity)));
   if (is_marker(value)) return;
+  ++span.count;
   span.least = std::min(span.least, value);
   span.most = std::max(span.most, value);
 }

@@ -95,6 +95,7 @@ class RowReader {
   /// The numbers of a coordinate in all rows before.
   struct Span {
     double least = std::numeric_limits<double>::infinity(), most = -std::numeric_limits<double>::infinity();
+    std::size_t count = 0;
   };
   void check_place(double x, double y, std::optional<double> z);
   void check_coordinate(Quantity quantity, double value, Span& span, bool is_none = false) const;

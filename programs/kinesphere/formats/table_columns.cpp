@@ -41,9 +41,10 @@ std::string column_text(const TableHead& head, std::size_t place) {
                             : fmt::format("column '{}'", head.names[place]);
 }
 
-/// Returns the column's name as --columns takes it: its number where a comma would end it.
+/// Returns the column's name as --columns takes it: its number where a comma would end it, or others have it.
 std::string column_word(const TableHead& head, std::size_t place) {
-  const bool by_name = !head.names.empty() && head.names[place].find_first_of(",\"'") == std::string::npos;
+  const bool by_name = !head.names.empty() && head.names[place].find_first_of(",\"'") == std::string::npos &&
+                       std::count(head.names.begin(), head.names.end(), head.names[place]) == 1;
   return by_name ? head.names[place] : fmt::format("{}", place + 1);
 }
 
@@ -302,8 +303,13 @@ class UsualColumns {
     for (Quantity quantity : forgotten) places_[static_cast<std::size_t>(quantity)].clear();
   }
   [[noreturn]] void ask(std::size_t one, std::size_t other) const {
-    throw ProgramError(fmt::format("{}: columns '{}' and '{}' may both be meant: say which with --columns",
-                                   head_.file, head_.names[one], head_.names[other]));
+    TableColumns example;
+    for (std::size_t k = 0; k < quantity_count; ++k)
+      if (!places_[k].empty()) example.of[k] = Column{.place = places_[k].back()};
+    if (example[Quantity::longitude]) example[Quantity::x] = example[Quantity::y] = std::nullopt;
+    throw ProgramError(
+        fmt::format("{}: columns '{}' and '{}' may both be meant: say which with --columns, as in {}",
+                    head_.file, head_.names[one], head_.names[other], columns_text(head_, example)));
   }
 
   const TableHead& head_;
@@ -514,27 +520,53 @@ void understand_places(const TableHead& head, const ColumnHints& hints, TableCol
   columns.geographic = lon.has_value();
 }
 
+/// Adds columns that may be meant, for messages: vessel_mmsi, OSD.latitude, field.pose.position.x. Of several
+/// that are alike it adds none.
+void add_likely_columns(const TableHead& head, TableColumns& columns) {
+  std::array<std::vector<std::size_t>, quantity_count> likely;
+  for (std::size_t place = 0; place < head.names.size(); ++place) {
+    auto meaning = meaning_of_ending(head.names[place]);
+    for (const Quantity angle : {Quantity::longitude, Quantity::latitude})
+      if (!meaning && looks_like_angle(head.names[place], angle)) meaning = ColumnMeaning{angle, ""};
+    if (meaning && is_position(meaning->quantity))
+      likely[static_cast<std::size_t>(meaning->quantity)].push_back(place);
+  }
+  const bool has_place = columns[Quantity::x] || columns[Quantity::longitude];
+  for (std::size_t k = 0; k < quantity_count; ++k) {
+    const Measure measure = measure_of(static_cast<Quantity>(k));
+    const bool is_place = measure == Measure::length || measure == Measure::angle;
+    if (!columns.of[k] && likely[k].size() == 1 && !(is_place && has_place))
+      columns.of[k] = Column{.place = likely[k].front()};
+  }
+  if (columns[Quantity::time]) columns[Quantity::frame].reset();
+  if (columns[Quantity::longitude] && columns[Quantity::latitude])
+    columns[Quantity::x] = columns[Quantity::y] = std::nullopt;
+}
+
 /// Returns the message about columns that were not found, with those that were.
-std::string missing_columns_text(const TableHead& head, const TableColumns& columns, bool has_id,
-                                 bool has_time, bool has_place) {
+std::string missing_columns_text(const TableHead& head, TableColumns columns) {
   const std::string text = fmt::format(
       "{}: expected columns for id, time, x and y (or lon and lat) by their usual names, --columns or "
       "--format; it has {}",
       head.file, head.text());
-  if (!has_id && !has_time && !has_place) {
-    constexpr std::size_t fewest = 4;
-    const std::string_view above = "lines above the header have to be left out or begin with #";
-    if (!head.names.empty()) return head.names.size() < fewest ? fmt::format("{} ({})", text, above) : text;
+  constexpr std::size_t fewest = 4;
+  const std::string_view above = "lines above the header have to be left out or begin with #";
+  if (head.names.empty())
     return fmt::format("{}: say --columns id=1,time=2,x=3,y=4 with the numbers of its columns ({})", text,
                        above);
-  }
+  add_likely_columns(head, columns);
+  const std::string found = columns_text(head, columns);
+  if (found.empty() && head.names.size() < fewest) return fmt::format("{} ({})", text, above);
+  const auto has = [&](Quantity quantity) { return columns[quantity].has_value(); };
+  const bool has_place =
+      (has(Quantity::x) && has(Quantity::y)) || (has(Quantity::longitude) && has(Quantity::latitude));
   std::vector<std::string> said;
-  if (!has_id) said.emplace_back("id=...");
-  if (!has_time) said.emplace_back("time=...");
-  if (const std::string found = columns_text(head, columns); !found.empty()) said.push_back(found);
+  if (!has(Quantity::id)) said.emplace_back("id=...");
+  if (!has(Quantity::time) && !has(Quantity::frame)) said.emplace_back("time=...");
+  if (!found.empty()) said.push_back(found);
   if (!has_place) said.emplace_back("x=...,y=...");
   return fmt::format("{}: say --columns {}{}", text, fmt::join(said, ","),
-                     has_id ? "" : ", with id=@file where each file is one body");
+                     has(Quantity::id) ? "" : ", with id=@file where each file is one body");
 }
 
 void require_columns(const TableHead& head, const ColumnHints& hints, const TableColumns& columns) {
@@ -552,7 +584,7 @@ void require_columns(const TableHead& head, const ColumnHints& hints, const Tabl
                       "lon=...,lat=...) and "
                       "perhaps z=..., but got '{}'",
                       hints.columns));
-    throw ProgramError(missing_columns_text(head, columns, has_id, has_time, has_place));
+    throw ProgramError(missing_columns_text(head, columns));
   }
   if (has(Quantity::vx) != has(Quantity::vy) || (has(Quantity::course) && !has(Quantity::speed)) ||
       (has(Quantity::vx) && has(Quantity::speed)))

@@ -109,8 +109,9 @@ std::optional<StreamFormat> format_of(const WatchOptions& options,
   if (beginning.find_first_not_of(" \t\r\n") == std::string_view::npos)
     throw ProgramError(fmt::format("{}: expected reports, but it is empty", source.name()));
   if (!kind.empty()) refuse_kind();
-  throw ProgramError(fmt::format("{}: expected one of the formats {}: say which with --format", source.name(),
-                                 format_names()));
+  throw ProgramError(
+      fmt::format("{}: expected one of the formats {}: say which with --format, csv for any table",
+                  source.name(), format_names()));
 }
 
 std::unique_ptr<ReportFormat> reader_of(const WatchOptions& options, StreamFormat format,

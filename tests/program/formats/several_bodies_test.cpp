@@ -179,8 +179,8 @@ TEST(SeveralBodies, OfOneIdInTwoFilesAreAskedAbout) {
   };
   EXPECT_EQ(error_of([&] { both(); }),
             "a.csv and b.csv both have the id '1' at the same times: say --columns "
-            "id=@file,time=time,x=x,y=y if each "
-            "file is a body of its own, or --where 'id != none' if the id is one body in all files");
+            "id=@file,time=time,x=x,y=y if each file is one body, --where 'id != none' if the id is one body "
+            "in both, or read them one by one if they are of different scenes");
   TrackOptions apart;
   apart.hints.columns = "id=@file,time=time,x=x,y=y";
   EXPECT_EQ(both(apart).tracks.size(), 2u);
@@ -200,6 +200,13 @@ TEST(SeveralBodies, MarkersOfNoPositionAreAskedAbout) {
   EXPECT_NE(error_in(head + "1,2,-9999,-9999\n").find("-9999 as x and y"), std::string::npos);
   EXPECT_EQ(parse(head + "1,2,-999,50\n", with("x != -999")).samples, 4u);
   EXPECT_EQ(parse(head + "1,2,-999,50\n", with("x != none")).samples, 5u);
+  std::string pixels = "id,frame,x,y\n";
+  for (int k = 0; k < 12; ++k) pixels += fmt::format("1,{},{},{}\n", k, 200 + k, 100);
+  for (const char* lost : {"0,0", "-1,-1", "-1.0,-1.0"})
+    EXPECT_NE(error_in(pixels + "1,12," + lost + "\n", with("", 25)).find("as x and y is no position"),
+              std::string::npos)
+        << lost;
+  EXPECT_EQ(parse(pixels + "1,12,0,100\n", with("", 25)).samples, 13u);
   // A walk over such a number is none.
   std::string walk = "id,time,x,y\n";
   for (int k = 0; k < 40; ++k) walk += fmt::format("1,{},{},{}\n", k, 9980 + k, -1010 + k);

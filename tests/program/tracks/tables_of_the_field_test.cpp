@@ -569,6 +569,16 @@ TEST_F(TablesOfTheField, TimesComeBackAsTheyWere) {
       << read_text(path("c.csv"));
 }
 
+TEST_F(TablesOfTheField, DistancesInAnotherUnitThanTheFileAreWarnedOf) {
+  const std::string file =
+      write("mm.csv",
+            "id,time,x_mm,y_mm\nu,0,0,0\nu,1,1000,0\nu,2,2000,0\nv,0,0,400\nv,1,1000,400\nv,2,2000,400\n");
+  EXPECT_NE(run("tracks " + file + " --distance 100").err.find("--distance 100 is in metres"),
+            std::string::npos);
+  for (const char* fine : {"100mm", "1", "100m"})
+    EXPECT_EQ(run("tracks " + file + " --distance " + fine).err, "") << fine;
+}
+
 TEST_F(TablesOfTheField, OtherFilesAreNamed) {
   for (const auto& [text, part] : std::initializer_list<std::pair<std::string, std::string>>{
            {std::string("\xFF\xFEi\0d\0", 6), "UTF-16: convert it with iconv"},

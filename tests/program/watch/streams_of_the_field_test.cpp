@@ -287,18 +287,24 @@ TEST_F(StreamsOfTheField, TablesMeanWhatTheySay) {
   EXPECT_EQ(verdicts("id;time;x;y\nu;0,5;0;0\nv;0,5;0,25;0\n", promises).substr(0, 7), "within ");
   EXPECT_EQ(verdicts("# id,time,x,y\nu,0,0,0\nv,0,3,0\n", promises).substr(0, 7), "within ");
   // Rows that end before the last body's column are malformed.
+  EXPECT_EQ(
+      verdicts("# made by hand\n\n# in metres\nid,time,x,y\na,0,0,0\nb,0,3,0\na,1,0,0\nb,1,3,0\n", promises)
+          .substr(0, 7),
+      "within ");
   EXPECT_EQ(verdicts("time,x1,y1,z1,x2,y2,z2\n0,0,0,0,3,0,0\n1,0,0,0,3,0\n", promises).substr(0, 7),
             "within ");
   EXPECT_EQ(summary_["malformed"], 1);
   expect_refused(std::string("\xFF\xFEi\0d\0,\0", 8), promises, {"UTF-16"});
   expect_refused("<?xml version=\"1.0\"?><gpx></gpx>", promises, {"GPX"});
-  const std::string_view as_recording = "which tracks and view read: watch needs rows of id, time and position";
+  const std::string_view as_recording =
+      "which tracks and view read: watch needs rows of id, time and position";
   expect_refused("scorer,a,a\nbodyparts,b,b\n", promises, {"DeepLabCut", as_recording});
   expect_refused("AXXX001\nHFDTE010124\nB000000\n", promises, {"IGC", as_recording});
   expect_refused("Format Version,1.23,Take Name,a\n,,\n", promises, {"OptiTrack", as_recording});
   expect_refused("water\n 1\n    1SOL     OW    1   0.000   0.000   0.000\n 1 1 1\n", promises,
                  {"GROMACS", as_recording});
   expect_refused("ATOM      1  CA  ALA A   1       0.000   0.000   0.000\n", promises, {"PDB", as_recording});
+  expect_refused("ITEM: TIMESTEP\n0\n", promises, {"LAMMPS", as_recording});
   expect_refused("$GPGSV,1,1,00*79\n", promises, {"$GPRMC and $GPGGA, are read by tracks and view"});
   expect_refused("{\"id\":\"a\",\"time\":0,\"x\":0,\"y\":0}\n", promises, {"JSON"});
 }
