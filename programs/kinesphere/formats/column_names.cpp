@@ -284,6 +284,13 @@ bool is_scene(std::string_view column_name) {
       "simulation arena camera cam cameraid sensor tank cage well plate");
 }
 
+bool may_be_id(std::string_view column_name) {
+  return is_word_of(
+      plain_name(column_name),
+      "name label vehicle vessel ship boat car robot player bird fish mouse cell device callsign flight "
+      "subject target who imei serial");
+}
+
 bool is_of_aircraft(std::string_view column_name) {
   return is_word_of(plain_name(column_name),
                     "icao icao24 hex modes squawk callsign flight registration altbaro altgeom");

@@ -81,6 +81,8 @@ bool looks_like_angle(std::string_view column_name, Quantity angle);
 std::string_view void_values_of(std::string_view column_name);
 /// True for a column that says to which scene, trial or match a row belongs: scene_id, case, gameId.
 bool is_scene(std::string_view column_name);
+/// True for a column that may have ids, or kinds of bodies: name, vehicle.
+bool may_be_id(std::string_view column_name);
 /// True for a column that only tables of aircraft have: icao24, callsign, squawk, alt_baro.
 bool is_of_aircraft(std::string_view column_name);
 /// True for a column that says in which zone, map or building the coordinates of its row are.

@@ -1,8 +1,11 @@
 // GPX: the points of its tracks.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "formats/converted_table.hpp"
 #include "formats/xml_elements.hpp"
+#include "program_error.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -15,6 +18,12 @@ class GpxReader final : XmlElements {
 
   ConvertedTable read() {
     read_all();
+    const bool has_time =
+        std::any_of(points_.begin(), points_.end(), [](const Point& point) { return !point.time.empty(); });
+    if (!has_time)
+      throw ProgramError(
+          fmt::format("{}: expected tracks (trk) whose points have times, as receivers log them, but {}",
+                      file(), points_.empty() ? "it has no tracks" : "none has a time"));
     return table_of_places("GPX", file(), "id,time,lon,lat", "ele", points_, [](const Point& point) {
       return fmt::format("{},{},{},{}", point.track, point.time, point.longitude, point.latitude);
     });

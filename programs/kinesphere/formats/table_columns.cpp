@@ -528,6 +528,7 @@ void add_likely_columns(const TableHead& head, TableColumns& columns) {
     auto meaning = meaning_of_ending(head.names[place]);
     for (const Quantity angle : {Quantity::longitude, Quantity::latitude})
       if (!meaning && looks_like_angle(head.names[place], angle)) meaning = ColumnMeaning{angle, ""};
+    if (!meaning && may_be_id(head.names[place])) meaning = ColumnMeaning{Quantity::id, ""};
     if (meaning && is_position(meaning->quantity))
       likely[static_cast<std::size_t>(meaning->quantity)].push_back(place);
   }

@@ -45,6 +45,11 @@ TEST(ConvertedTables, ReadsGpx) {
                          "lon=\"8\"><time>2024-01-01T00:00:00Z</time></trkpt></trkseg></trk>")),
             "f:3: expected a number as latitude (column 4), but got 'north'");
   EXPECT_EQ(error_in("<gpx>\n<trk></gpx>"), "f:2: expected GPX: mismatched tag");
+  const std::string expected =
+      "f: expected tracks (trk) whose points have times, as receivers log them, but ";
+  EXPECT_EQ(error_in(gpx("<wpt lat=\"1\" lon=\"1\"/>")), expected + "it has no tracks");
+  EXPECT_EQ(error_in(gpx("<trk><trkseg><trkpt lat=\"1\" lon=\"1\"/></trkseg></trk>")),
+            expected + "none has a time");
   EXPECT_TRUE(
       error_in("<!DOCTYPE gpx [<!ENTITY a \"aaaa\">]><gpx>&a;</gpx>").starts_with("f:1: expected GPX: "));
 }

@@ -27,7 +27,20 @@ constexpr std::string_view healthy[] = {
     "7 8 2 3\n",
     "ITEM: TIME\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp ff ff\n0 9\n0 9\n0 9\nITEM: ATOMS id xs ys "
     "zs\n"
-    "1 0.9 0 0\nITEM: TIME\n1\nITEM: NUMBER OF ATOMS\n1\nITEM: ATOMS id xs ys zs\n1 0.1 0 0\n"};
+    "1 0.9 0 0\nITEM: TIME\n1\nITEM: NUMBER OF ATOMS\n1\nITEM: ATOMS id xs ys zs\n1 0.1 0 0\n",
+    "$GPRMC,235959,A,4700.1,N,00800.0,E,,,311224,,\n$GPGGA,235959,4700.1,N,00800.0,E,1,8,1,5,M,,,,\n"
+    "$GPRMC,000000,A,4700.1,N,00800.1,E,,,010125,,\n$GPGGA,000000,4700.1,N,00800.1,E,1,8,1,5,M,,,,\n",
+    "AXXX\nHFDTE311224\nB2359594700000N00800000EA0090000950\nB0000004700000N00800100EA0090000950\n",
+    "a t= 0\n1\n    1SOL     OW    1   0.100   0.200   0.300\n 9 9 9 0 0 1 0 1 1\n"
+    "a t= 1\n1\n    1SOL     OW    1   0.200   8.200   0.300\n 9 9 9 0 0 1 0 1 1\n",
+    "TITLE     t= 0\nCRYST1    9.000    9.000    9.000  80.00  90.00 100.00\n"
+    "ATOM      1  OW  SOL A   1       1.000   2.000   3.000\nENDMDL\nTITLE     t= 1\n"
+    "ATOM      1  OW  SOL A   1       8.000   2.000   3.000\nEND\n",
+    "# framerate: 25 fps\nframe,lat1,lon1,lat2,lon2\n0,47,8,47,9\n1,47,8.1,47,9\n",
+    "Trajectories\n100\n,,a,,,b,,\nFrame,Sub Frame,X,Y,Z,X,Y,Z\n,,mm,mm,mm,mm,mm,mm\n1,0,1,2,3,4,5,6\n"
+    "2,0,1,2,3,4,,6\n",
+    "NO_OF_FRAMES\t2\nFREQUENCY\t100\nMARKER_NAMES\ta\tb\n1\t2\t3\t4\t5\t6\n1\t2\t3\t0\t0\t0\n",
+    "scorer,s,s,s\nbodyparts,a,a,a\ncoords,x,y,likelihood\n0,1,2,0.9\n1,2,2,0.9\n"};
 
 /// Bytes with a meaning in tables are drawn often.
 std::string damaged(std::string_view text, Random& random) {
