@@ -167,7 +167,7 @@ TEST_F(TablesOfTheField, HeightsUnderOtherNamesAreAskedAbout) {
       "2021-02-11 17:30:00,8,47,900,v\n2021-02-11 17:31:00,8,47,900,v\n";
   EXPECT_EQ(approaches(movebank, "--distance 100"), "0");
   EXPECT_EQ(approaches("time,x1,y1,z1,x2,y2,z2\n0,0,0,0,0,0,9\n1,0,0,0,0,0,9\n", "--distance 1"), "0");
-  EXPECT_NE(approaches("time,x1,y1,z1,x2,y2\n0,0,0,0,0,0\n", "--distance 1").find("a z for each pair"),
+  EXPECT_NE(approaches("time,x1,y1,z1,x2,y2\n0,0,0,0,0,0\n", "--distance 1").find("a height for each pair"),
             std::string::npos);
 }
 
