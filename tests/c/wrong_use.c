@@ -178,7 +178,7 @@ static void wrong_records(ks_world world) {
   ks_body_definition two[2] = {ks_default_body_definition(), ball};
   ks_body_id both[2];
   REFUSED(ks_world_add(world, two, 2, both), NOT_FINITE);
-  CHECK(strncmp(ks_last_error_message(), "add_all: bodies[1].velocity", 27) == 0);
+  CHECK(strncmp(ks_last_error_message(), "add_all: bodies[1]: velocity", 28) == 0);
   ks_shape shape = ks_ball(vec3(0, 0, 0), 1);
   shape.kind = 9;
   REFUSED(ks_world_add_zone(world, &shape, 0, &id), OUT_OF_RANGE);

@@ -123,7 +123,7 @@ class LammpsReader {
   std::string step_, time_;
   std::size_t atoms_ = 0;
   std::array<double, 3> low_{}, size_{};
-  bool is_tilted_ = false;  ///< and periodic
+  bool is_tilted_ = false;  ///< the box has no right angles
   Unwrapper unwrapper_;
 };
 
