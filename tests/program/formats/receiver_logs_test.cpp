@@ -86,7 +86,7 @@ TEST(ReceiverLogs, AreReadAsTheyWereWritten) {
   Random random(seed);
   for (int trial = 0; trial < 20; ++trial) {
     SCOPED_TRACE(fmt::format("seed {}, trial {}", seed, trial));
-    const auto places = drawn_places(random, 300, static_cast<std::int64_t>(random.uniform(-9e7, 9e7)),
+    const auto places = drawn_places(random, 500, static_cast<std::int64_t>(random.uniform(-9e7, 9e7)),
                                      static_cast<std::int64_t>(random.uniform(-4e7, 4e7)));
     std::string log = "$GPGSV,1,1,00*79\r\n";
     // The date of the second day is that of the first, and a midnight.
