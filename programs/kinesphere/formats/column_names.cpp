@@ -194,7 +194,7 @@ std::optional<ColumnMeaning> meaning_of_ending(std::string_view column_name) {
 }
 
 AxisAndBody axis_and_body(std::string_view column_name) {
-  // A longer word comes before its beginning.
+  // The first that fits counts, so that "longitude" stands before "lon", with which it begins.
   constexpr std::pair<std::string_view, Quantity> axes[] = {{"longitude", Quantity::longitude},
                                                             {"long", Quantity::longitude},
                                                             {"lon", Quantity::longitude},

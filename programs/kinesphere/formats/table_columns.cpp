@@ -316,8 +316,8 @@ class UsualColumns {
   std::array<std::vector<std::size_t>, quantity_count> places_;
 };
 
-/// Finds the columns that are called after an axis and a body: x1 and y1, car_1.lon and car_1.lat. `axes` are
-/// two of them.
+/// Finds the bodies whose columns are called after an axis and the body: x1 and y1, car_1.lon and car_1.lat.
+/// Each has `along` and `across`, and perhaps z.
 std::vector<TableColumns::Body> bodies_in_names(const TableHead& head, Quantity along, Quantity across) {
   struct Named {
     std::string body;
