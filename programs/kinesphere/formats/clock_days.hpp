@@ -1,4 +1,4 @@
-// Days and times of day as loggers write them: ddmmyy and hhmmss.
+// Dates, times of day and angles as loggers write them: ddmmyy, hhmmss, ddmm.mmm.
 #pragma once
 
 #include <chrono>
