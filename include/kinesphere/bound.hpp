@@ -34,7 +34,7 @@ struct Bound {
   Vec3 velocity{};
   Vec3 planned_acceleration{};
   double radius = 0.0;              ///< r + e0
-  double growth_speed = 0.0;        ///< e1, plus the magnitude of the rate at which r changes
+  double growth_speed = 0.0;        ///< e1, plus the magnitude of the rate at which r changes, rounded up
   double acceleration_limit = 0.0;  ///< A
 
   /// Centre and radius at time t >= time; each step is correctly rounded, without a margin.

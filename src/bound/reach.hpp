@@ -1,8 +1,9 @@
-// Support function of boxes and triangles, and the magnitude of their coordinates.
+// Support function of boxes and triangles, the magnitude of their coordinates, and planes beside them.
 #pragma once
 
 #include <algorithm>
 
+#include "bound/rounding.hpp"
 #include "kinesphere/shape.hpp"
 
 namespace kinesphere {
@@ -22,5 +23,12 @@ inline double reach(const Triangle& t, const Vec3& direction) {
 /// Magnitude of a shape's coordinates, for rounding margins. Sums are used, so that any NaN propagates.
 inline double size_of(const Box& box) { return norm_one(box.lower) + norm_one(box.upper); }
 inline double size_of(const Triangle& t) { return norm_one(t.a) + norm_one(t.b) + norm_one(t.c); }
+
+/// Returns a plane, for any normal, with the shape on its far side (n.x <= offset): it is raised by the
+/// possible rounding error.
+template <class Solid>
+HalfSpace supporting_plane(const Solid& solid, const Vec3& normal) {
+  return {normal, reach(solid, normal) + rounding::margin * size_of(solid)};
+}
 
 }  // namespace kinesphere

@@ -379,19 +379,12 @@ struct AxisBesideSolid {
   }
 };
 
-/// Returns a plane along a direction that has the solid on its far side.
-template <class Shape>
-HalfSpace plane_along(const Vec3& normal, const Shape& shape) {
-  const auto& solid = solid_of(shape);
-  return {normal, reach(solid, normal) + rounding::margin * size_of(solid)};
-}
-
 /// Returns the time before which no points of a part come within `distance` of a plane that has the solid on
 /// its far side.
 template <class Shape>
 double meeting_along(const PartBound& part, const Vec3& normal, const Shape& shape, double time, double until,
                      double distance) {
-  const HalfSpace plane = plane_along(normal, shape);
+  const HalfSpace plane = supporting_plane(solid_of(shape), normal);
   double first = infinity;
   part.for_each_point([&](const Bound& point) {
     const BoundBesideBound motion = beside(point, shape, time);
@@ -427,7 +420,7 @@ template <class Shape>
 GapLimits gap(const PartBound& part, const Shape& shape, double t) {
   if (part.is_ball()) return gap_limits(part.ball(), shape, t);
   const auto least = [&](const Vec3& normal) {
-    const HalfSpace plane = plane_along(normal, shape);
+    const HalfSpace plane = supporting_plane(solid_of(shape), normal);
     double lower = infinity;
     part.for_each_point([&](const Bound& point) {
       const BoundBesideBound motion = beside(point, shape, t);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <tuple>
 #include <type_traits>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "kinesphere/rigid_body.hpp"
 
 namespace kinesphere {
+class HeapCounter;
 
 /// A rigid body, but for its position.
 struct RigidRecord {
@@ -67,7 +69,10 @@ struct RigidRecord {
            origin_time, is_changed, kept] = self;
     archive(parts, rotation, angular_acceleration_limit, largest_angular_speed, inertia, origin, origin_time,
             is_changed);
-    if constexpr (!std::is_const_v<std::remove_reference_t<decltype(self)>>) balls = balls_around(parts);
+    if constexpr (std::same_as<std::remove_reference_t<decltype(archive)>, HeapCounter>)
+      archive(balls);
+    else if constexpr (!std::is_const_v<std::remove_reference_t<decltype(self)>>)
+      balls = balls_around(parts);
   }
 
  private:

@@ -10,13 +10,6 @@
 namespace kinesphere {
 namespace {
 
-/// Returns a plane, for any normal, with the shape on its far side (n.x <= offset): it is raised by the
-/// possible rounding error.
-template <class Solid>
-HalfSpace supporting_plane(const Solid& solid, const Vec3& normal) {
-  return {normal, reach(solid, normal) + rounding::margin * size_of(solid)};
-}
-
 template <class Solid>
 double meeting(const Bound& bound, const Solid& solid, double from, double until, double distance) {
   double time = from;

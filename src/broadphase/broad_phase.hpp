@@ -160,10 +160,8 @@ class BroadPhase {
   void record_changes(bool on);
   /// Returns the list so far, each body once in ascending order, and begins a new one.
   std::vector<std::uint32_t> take_changes();
-  /// True if the body is in the list. Cost: linear.
-  bool has_changed(std::uint32_t number) const {
-    return std::find(changes_.begin(), changes_.end(), number) != changes_.end();
-  }
+  /// The list so far, in which a body may occur several times.
+  std::span<const std::uint32_t> changes() const { return changes_; }
 
   /// Returns a description of what is wrong with the body's registration, or nothing. Precondition:
   /// contains(number).
@@ -296,18 +294,15 @@ void BroadPhase::enter_all(std::span<const Arrival> arrivals, BoundOf bound_of, 
   std::vector<std::vector<SweptSphereGrid::Growth>> growth(
       lease.count(), std::vector<SweptSphereGrid::Growth>(levels_.size()));
   std::vector<std::vector<std::size_t>> others(lease.count());
-  lease.parallel_for(arrivals.size(), bodies_at_once,
-                     [&](std::size_t begin, std::size_t end, std::size_t worker) {
-                       for (std::size_t k = begin; k < end; ++k) {
-                         const auto& [number, time, window] = arrivals[k];
-                         const Entry entry = prepare(number, bound_of(k), time, window);
-                         if (entry.level == none) {
-                           others[worker].push_back(k);
-                         } else {
-                           replace(entry, time, growth[worker][entry.level]);
-                         }
-                       }
-                     });
+  lease.for_each(arrivals.size(), bodies_at_once, [&](std::size_t k, std::size_t worker) {
+    const auto& [number, time, window] = arrivals[k];
+    const Entry entry = prepare(number, bound_of(k), time, window);
+    if (entry.level == none) {
+      others[worker].push_back(k);
+    } else {
+      replace(entry, time, growth[worker][entry.level]);
+    }
+  });
   for (const Arrival& arrival : arrivals) note_change(arrival.number);
   for (const std::vector<SweptSphereGrid::Growth>& of_layers : growth)
     for (std::size_t layer = 0; layer < of_layers.size(); ++layer) levels_[layer].grow(of_layers[layer]);
@@ -334,12 +329,10 @@ void BroadPhase::add_starters(std::span<const Starter> starters, double now, Bou
   std::vector<SweptSphere*> spheres(levels_.size());
   for (Opening& opening : filling_.openings) spheres[opening.level] = opening.unsorted.spheres.data();
   constexpr std::size_t bodies_at_once = 512;
-  lease.parallel_for(starters.size(), bodies_at_once, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const std::uint32_t number = starters[k].number;
-      const Registration& here = registrations_[number];
-      spheres[here.level][here.slot] = levels_[here.level].swept_sphere(bound_of(number), now);
-    }
+  lease.for_each(starters.size(), bodies_at_once, [&](std::size_t k, std::size_t) {
+    const std::uint32_t number = starters[k].number;
+    const Registration& here = registrations_[number];
+    spheres[here.level][here.slot] = levels_[here.level].swept_sphere(bound_of(number), now);
   });
 }
 

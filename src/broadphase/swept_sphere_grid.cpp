@@ -168,10 +168,9 @@ void SweptSphereGrid::for_each_range(std::size_t spheres, PoolLease& lease, Visi
   const std::size_t cells = grid_.cells();
   constexpr std::size_t most_ranges = 8;
   const std::size_t ranges = spheres < many ? 1 : std::min(lease.count(), most_ranges);
-  lease.parallel_for(ranges, 1, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t k = begin; k < end; ++k)
-      visit(static_cast<std::uint32_t>(cells * k / ranges),
-            static_cast<std::uint32_t>(cells * (k + 1) / ranges));
+  lease.for_each(ranges, 1, [&](std::size_t k, std::size_t) {
+    visit(static_cast<std::uint32_t>(cells * k / ranges),
+          static_cast<std::uint32_t>(cells * (k + 1) / ranges));
   });
 }
 
@@ -215,11 +214,9 @@ void SweptSphereGrid::arrange(const UnsortedSweptSpheres& all, const std::vector
   sorted_ = count + static_cast<std::uint32_t>(spare.size());
   table_.resize(sorted_, most_behind_ + 2);
   cells_.resize(sorted_);
-  lease.parallel_for(count, many, [&](std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t k = begin; k < end; ++k) {
-      table_.fill(slots[k], all.numbers[k], all.spheres[k]);
-      cells_[slots[k]] = cells[k];
-    }
+  lease.for_each(count, many, [&](std::size_t k, std::size_t) {
+    table_.fill(slots[k], all.numbers[k], all.spheres[k]);
+    cells_[slots[k]] = cells[k];
   });
   for (const auto& [slot, cell] : spare) {
     table_.leave_free(slot);

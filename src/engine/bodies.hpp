@@ -2,9 +2,8 @@
 // masses, periodic images, shapes and sensors.
 //
 // A static body has a shape in a side table and is never probed. Another body may carry a shape, or be rigid:
-// then it has parts in a side table. A sleeping
-// body has a bound that stands still and is otherwise treated like any other; the motion limits that apply
-// after it wakes are in a side table.
+// then it has parts in a side table. A sleeping body has a bound that stands still and is otherwise treated
+// like any other; the motion limits that apply after it wakes are in a side table.
 #pragma once
 
 #include <cstddef>
@@ -18,11 +17,11 @@
 #include "engine/body_table.hpp"
 #include "engine/changing_radii.hpp"
 #include "engine/filters.hpp"
-#include "engine/masses.hpp"
 #include "engine/periodic_image.hpp"
 #include "engine/rigid_bodies.hpp"
 #include "engine/shapes.hpp"
 #include "engine/side_table.hpp"
+#include "engine/sparse_column.hpp"
 #include "kinesphere/world_definition.hpp"
 #include "space/space.hpp"
 
@@ -147,7 +146,7 @@ class Bodies {
   WaitingChanges changes;
   SleepRecords sleep_records;
   Filters filters;
-  Masses masses;
+  SparseColumn<double> masses{BodyDefinition{}.mass};  ///< for events; infinite for static bodies
   ChangingRadii radii;
   std::vector<PeriodicImage> images;  ///< by body number; empty unless space is periodic
   Shapes shapes;

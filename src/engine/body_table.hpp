@@ -51,7 +51,6 @@ class BodyTable {
   BodyId tagged(BodyId id) const { return names_.empty() ? BodyId{id.index, id.generation, tag_} : id; }
   /// Returns names by number; empty if numbers serve as names.
   const std::vector<std::uint32_t>& names() const { return names_; }
-  bool have_names() const { return !names_.empty(); }
   std::uint32_t name_of(std::uint32_t number) const { return names_.empty() ? number : names_[number]; }
   /// Compares two bodies in the order of their names.
   bool comes_before(std::uint32_t a, std::uint32_t b) const { return name_of(a) < name_of(b); }

@@ -6,10 +6,10 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <utility>
-#include <vector>
+
+#include "engine/sparse_column.hpp"
 
 namespace kinesphere {
 
@@ -27,39 +27,25 @@ struct ChangingRadius {
   /// Returns when the radius is 0. Precondition: the rate is negative.
   double end() const { return time - radius / rate; }
 
+  friend bool operator==(const ChangingRadius&, const ChangingRadius&) = default;
   static void serialize(auto& self, auto& archive) {
     auto& [rate, radius, time, velocity_error, is_kept] = self;
     archive(rate, radius, time, velocity_error, is_kept);
   }
 };
 
-class ChangingRadii {
+class ChangingRadii : public SparseColumn<ChangingRadius> {
  public:
   /// Returns false as long as no radius has changed with time.
-  bool any() const { return !records_.empty(); }
+  bool any() const { return !empty(); }
   /// Returns nullptr for a body whose radius has never changed with time.
   const ChangingRadius* find(std::uint32_t number) const {
-    return any() && number < records_.size() && records_[number].is_kept ? &records_[number] : nullptr;
+    const ChangingRadius& record = of(number);
+    return record.is_kept ? &record : nullptr;
   }
   ChangingRadius* find(std::uint32_t number) {
     return const_cast<ChangingRadius*>(std::as_const(*this).find(number));
   }
-  /// Returns a copy of the record of the body, for keep().
-  ChangingRadius of(std::uint32_t number) const { return find(number) ? records_[number] : ChangingRadius{}; }
-  void keep(std::uint32_t number, const ChangingRadius& record) {
-    if (record.is_kept && number >= records_.size()) records_.resize(number + std::size_t{1});
-    if (number < records_.size()) records_[number] = record;
-  }
-
-  /// Validates the table after reading, except for the records themselves.
-  bool is_valid(std::size_t bodies) const { return records_.size() <= bodies; }
-  static void serialize(auto& self, auto& archive) {
-    auto& [records] = self;
-    archive(records);
-  }
-
- private:
-  std::vector<ChangingRadius> records_;  ///< by body number, up to the last body whose radius has changed
 };
 
 }  // namespace kinesphere

@@ -41,12 +41,10 @@ std::vector<Conflict> find_conflicts(const WorldState& state, std::span<const Cl
     return margin_for(bodies, update.number, BoundAt(update.bound, begin));
   };
   std::vector<BroadPhase::Starter> starters(fresh);
-  lease.parallel_for(fresh, updates_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
-    for (std::size_t k = from; k < to; ++k) {
-      const auto number = static_cast<std::uint32_t>(k);
-      const Window& window = updates[k].update->window;
-      starters[k] = {number, SizeClasses::size_class_of(bound_at_begin(number), window), window};
-    }
+  lease.for_each(fresh, updates_at_once, [&](std::size_t k, std::size_t) {
+    const auto number = static_cast<std::uint32_t>(k);
+    const Window& window = updates[k].update->window;
+    starters[k] = {number, SizeClasses::size_class_of(bound_at_begin(number), window), window};
   });
   BroadPhase windows(bodies.space());
   windows.start(starters, begin, bound_at_begin, lease);
@@ -65,14 +63,12 @@ std::vector<Conflict> find_conflicts(const WorldState& state, std::span<const Cl
     for (const auto& [a, b] : searches[worker].near_started(windows, from, to, begin, bound_at_begin))
       compare(a, b, worker);
   });
-  lease.parallel_for(
-      updates.size() - fresh, updates_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
-        for (auto k = static_cast<std::uint32_t>(fresh + from); k < fresh + to; ++k) {
-          const double end = updates[k].update->window.end;
-          for (const std::uint32_t other : searches[worker].near(windows, k, bound_at_begin(k), begin, end))
-            compare(k, other, worker);
-        }
-      });
+  lease.for_each(updates.size() - fresh, updates_at_once, [&](std::size_t later, std::size_t worker) {
+    const auto k = static_cast<std::uint32_t>(fresh + later);
+    const double end = updates[k].update->window.end;
+    for (const std::uint32_t other : searches[worker].near(windows, k, bound_at_begin(k), begin, end))
+      compare(k, other, worker);
+  });
   std::vector<Conflict> all;
   for (const std::vector<Conflict>& some : meeting) all.insert(all.end(), some.begin(), some.end());
   return all;

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <utility>
-#include <vector>
 
 #include "engine/call_state.hpp"
+#include "engine/sparse_column.hpp"
 #include "kinesphere/body.hpp"
 #include "kinesphere/filter.hpp"
 
@@ -21,16 +21,10 @@ class Filters {
   /// solid.
   void set_any() { any_ = true; }
 
-  const Filter& of(std::uint32_t number) const {
-    static constexpr Filter none{};
-    return number < filters_.size() ? filters_[number] : none;
-  }
+  const Filter& of(std::uint32_t number) const { return filters_.of(number); }
   void keep(std::uint32_t number, const Filter& filter) {
-    if (filter != Filter{}) {
-      any_ = true;
-      if (number >= filters_.size()) filters_.resize(number + std::size_t{1});
-    }
-    if (number < filters_.size()) filters_[number] = filter;
+    any_ = any_ || filter != Filter{};
+    filters_.keep(number, filter);
   }
   bool has_pair_filter() const { return static_cast<bool>(pair_filter_); }
   void keep_pair_filter(PairFilter filter) {
@@ -49,7 +43,7 @@ class Filters {
   }
 
   /// Validates the filters after reading.
-  bool is_valid(std::size_t bodies) const { return filters_.size() <= bodies; }
+  bool is_valid(std::size_t bodies) const { return filters_.is_valid(bodies); }
 
  private:
   friend class Bodies;  // Bodies::serialize() archives the fields
@@ -59,7 +53,7 @@ class Filters {
     return pair_filter_(a, b);
   }
 
-  std::vector<Filter> filters_;  ///< by body number, up to the last body whose filter is not the default
+  SparseColumn<Filter> filters_;
   PairFilter pair_filter_;
   bool any_ = false;
 };

@@ -1,7 +1,6 @@
 #include "engine/pace.hpp"
 
 #include <array>
-#include <cstdio>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -41,11 +40,7 @@ PromisedWay longest_way(const Bodies& bodies, double step) {
 }
 
 /// Returns the number with few digits, which suffice to see what is wrong.
-std::string about(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", number);
-  return text;
-}
+std::string about(double number) { return text_of(number, 3); }
 
 }  // namespace
 

@@ -282,9 +282,10 @@ bool PreparedStart::is_valid(const WorldState& state) const {
   const std::size_t bodies = state.bodies.numbers();
   const auto is_number = [=](std::uint32_t number) { return number < bodies; };
   if (!have_entered()) {
+    std::vector<bool> has_changed(bodies);
+    for (const std::uint32_t number : state.broad_phase.changes()) has_changed[number] = true;
     for (std::uint32_t number = 0; number < bodies; ++number)
-      if (next_.contains(number) && !state.bodies[number].present() && !state.broad_phase.has_changed(number))
-        return false;
+      if (next_.contains(number) && !state.bodies[number].present() && !has_changed[number]) return false;
   }
   return present_.is_valid() && present_.end < infinity && begin_ <= end() && begin_ >= -Window::latest_end &&
          slices_ > 0 && slices_ <= most_slices && slice_ <= last_slice() && numbers_ <= bodies &&

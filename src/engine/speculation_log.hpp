@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -152,24 +153,14 @@ struct SpeculationLog {
 
   /// Clears all lists; call at the start of a batch.
   void clear() {
-    events.clear();
-    updates.clear();
-    late_pairs.clear();
-    conflicts.clear();
-    read_set.clear();
-    undo_log.clear();
+    for_each_list([](auto& list) { list.clear(); });
     work.clear();
     failure.reset();
   }
   void begin(BatchState& all, std::uint32_t slot) {
     batch = &all;
     index = slot;
-    events.start();
-    updates.start();
-    late_pairs.start();
-    conflicts.start();
-    read_set.start();
-    undo_log.start();
+    for_each_list([](auto& list) { list.start(); });
     stop = infinity;
   }
   RunRecord end(std::uint32_t worker, const WorkCounters& counters, double time) {
@@ -222,6 +213,10 @@ struct SpeculationLog {
   }
 
  private:
+  void for_each_list(auto visit) {
+    std::apply([&](auto&... lists) { (visit(lists), ...); },
+               std::tie(events, updates, late_pairs, conflicts, read_set, undo_log));
+  }
   std::uint32_t last_revision(std::uint32_t number) const {
     const BatchState::BodySlot& slot = batch->slots[number];
     return slot.update != BatchState::none ? updates.all()[slot.update].revision

@@ -150,17 +150,12 @@ bool SpeculativeRunner::execute_found() {
     sizer_.note_run(cluster.due.size(), std::exchange(cluster.has_run, true));
   }
   try {
-    lease_.parallel_for(to_run_.size(), clusters_at_once,
-                        [this](std::size_t begin, std::size_t end, std::size_t) {
-                          for (std::size_t k = begin; k < end; ++k) checkpoint(clusters_[to_run_[k]]);
-                        });
-    lease_.parallel_for(to_run_.size(), clusters_at_once,
-                        [this](std::size_t begin, std::size_t end, std::size_t worker) {
-                          for (std::size_t k = begin; k < end; ++k) {
-                            Cluster& cluster = clusters_[to_run_[k]];
-                            pool_.run(cluster, due_of(cluster), batch_, static_cast<std::uint32_t>(worker));
-                          }
-                        });
+    lease_.for_each(to_run_.size(), clusters_at_once,
+                    [this](std::size_t k, std::size_t) { checkpoint(clusters_[to_run_[k]]); });
+    lease_.for_each(to_run_.size(), clusters_at_once, [this](std::size_t k, std::size_t worker) {
+      Cluster& cluster = clusters_[to_run_[k]];
+      pool_.run(cluster, due_of(cluster), batch_, static_cast<std::uint32_t>(worker));
+    });
   } catch (const std::exception& thrown) {
     // A callback that throws again does so when events are processed one by one.
     failure_ = Error{ErrorCode::callback_threw, "callback", no_body, thrown.what()};
@@ -281,24 +276,21 @@ bool SpeculativeRunner::merge_conflicts() {
 bool SpeculativeRunner::merge_read_sets() {
   constexpr std::size_t clusters_at_once = 512;
   std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> found(lease_.count());
-  lease_.parallel_for(clusters_.size(), clusters_at_once,
-                      [&](std::size_t begin, std::size_t end, std::size_t worker) {
-                        for (Cluster& cluster : clusters_.all().subspan(begin, end - begin)) {
-                          if (cluster.is_merged()) continue;
-                          cluster.superseded = 0;
-                          for (const auto& [number, time] : read_set_of(cluster)) {
-                            const BodyCheckpoint* const before = checkpoint_of(number);
-                            if (before == nullptr) continue;
-                            // merge_updates() compares the new swept sphere of the body with those of other
-                            // clusters.
-                            if (before->first_change.invalidated < time && sizer_.may_decline()) {
-                              ++cluster.superseded;
-                            } else if (before->first_change.changed <= time) {
-                              found[worker].emplace_back(cluster.index, number);
-                            }
-                          }
-                        }
-                      });
+  lease_.for_each(clusters_.size(), clusters_at_once, [&](std::size_t k, std::size_t worker) {
+    Cluster& cluster = clusters_.all()[k];
+    if (cluster.is_merged()) return;
+    cluster.superseded = 0;
+    for (const auto& [number, time] : read_set_of(cluster)) {
+      const BodyCheckpoint* const before = checkpoint_of(number);
+      if (before == nullptr) continue;
+      // merge_updates() compares the new swept sphere of the body with those of other clusters.
+      if (before->first_change.invalidated < time && sizer_.may_decline()) {
+        ++cluster.superseded;
+      } else if (before->first_change.changed <= time) {
+        found[worker].emplace_back(cluster.index, number);
+      }
+    }
+  });
   bool any = false;
   for (const auto& some : found) {
     for (const auto& [own, number] : some) {

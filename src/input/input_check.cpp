@@ -6,9 +6,10 @@
 
 namespace kinesphere {
 
-std::string text_of(double number) {
+// WebAssembly's standard library has no std::to_chars for numbers with a point.
+std::string text_of(double number, int digits) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.17g", number);
+  std::snprintf(text, sizeof text, "%.*g", digits, number);
   return text;
 }
 

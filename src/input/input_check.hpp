@@ -15,7 +15,8 @@
 
 namespace kinesphere {
 
-std::string text_of(double number);
+/// `digits`: significant ones, up to 17; so many give the number back.
+std::string text_of(double number, int digits = 17);
 std::string text_of(std::unsigned_integral auto number) { return std::to_string(number); }
 /// Returns the text unchanged.
 std::string text_of(std::string_view text);

@@ -143,6 +143,13 @@ class PoolLease {
     pool_->run_timed(shared);
     shared.rethrow();
   }
+  /// Calls f(k, worker) for each item k, as parallel_for() does.
+  template <class F>
+  void for_each(std::size_t items, std::size_t least_range, F f) {
+    parallel_for(items, least_range, [&](std::size_t begin, std::size_t end, std::size_t worker) {
+      for (std::size_t k = begin; k < end; ++k) f(k, worker);
+    });
+  }
 
  private:
   ThreadPool* pool_ = nullptr;

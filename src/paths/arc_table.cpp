@@ -115,13 +115,11 @@ std::optional<Error> first_error(const char* call, const PolynomialPaths& paths,
   if (sizes.error()) return sizes.error();
   const std::size_t arcs = paths.bodies.size();
   std::vector<std::optional<Error>> errors(arcs / arcs_at_once + 1);
-  lease.parallel_for(errors.size(), 1, [&](std::size_t from, std::size_t to, std::size_t) {
-    for (std::size_t k = from; k < to; ++k) {
-      InputCheck check(call);
-      for (std::size_t arc = k * arcs_at_once; arc < std::min(arcs, (k + 1) * arcs_at_once); ++arc)
-        check_arc(check, paths, arc);
-      errors[k] = check.error();
-    }
+  lease.for_each(errors.size(), 1, [&](std::size_t k, std::size_t) {
+    InputCheck check(call);
+    for (std::size_t arc = k * arcs_at_once; arc < std::min(arcs, (k + 1) * arcs_at_once); ++arc)
+      check_arc(check, paths, arc);
+    errors[k] = check.error();
   });
   for (const auto& error : errors)
     if (error) return error;
@@ -134,19 +132,17 @@ ArcTable::ArcTable(const PolynomialPaths& paths, PoolLease& lease)
     firsts_.push_back(static_cast<std::size_t>(
         std::lower_bound(paths.bodies.begin(), paths.bodies.end(), body) - paths.bodies.begin()));
   std::vector<double> extents(lease.count()), speeds(lease.count());
-  lease.parallel_for(bodies(), 16, [&](std::size_t from, std::size_t to, std::size_t worker) {
-    for (std::size_t body = from; body < to; ++body) {
-      double rounding = 0.0;
-      for (std::size_t arc = first_of(body); arc < first_of(body + 1); ++arc) {
-        const ArcBounds bounds = bounds_of(paths, arc);
-        jerks_[arc] = bounds.jerk;
-        extents[worker] = std::max(extents[worker], bounds.size);
-        speeds[worker] = std::max(speeds[worker], bounds.speed);
-        const double time = std::max(std::abs(begin(arc)), std::abs(end(arc)));
-        rounding = std::max(rounding, 0x1p-44 * bounds.size + 0x1p-48 * time * bounds.speed);
-      }
-      errors_[body] = declared_error(body) + rounding;
+  lease.for_each(bodies(), 16, [&](std::size_t body, std::size_t worker) {
+    double rounding = 0.0;
+    for (std::size_t arc = first_of(body); arc < first_of(body + 1); ++arc) {
+      const ArcBounds bounds = bounds_of(paths, arc);
+      jerks_[arc] = bounds.jerk;
+      extents[worker] = std::max(extents[worker], bounds.size);
+      speeds[worker] = std::max(speeds[worker], bounds.speed);
+      const double time = std::max(std::abs(begin(arc)), std::abs(end(arc)));
+      rounding = std::max(rounding, 0x1p-44 * bounds.size + 0x1p-48 * time * bounds.speed);
     }
+    errors_[body] = declared_error(body) + rounding;
   });
   extent_ = *std::max_element(extents.begin(), extents.end());
   largest_speed_ = *std::max_element(speeds.begin(), speeds.end());

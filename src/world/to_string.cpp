@@ -1,23 +1,20 @@
 #include "kinesphere/to_string.hpp"
 
-#include <array>
 #include <concepts>
-#include <cstdio>
 #include <cstdlib>
 #include <type_traits>
+
+#include "input/input_check.hpp"
 
 namespace kinesphere {
 namespace {
 
-/// Returns the number in the fewest digits, of 15 or more, that give it back. WebAssembly's standard library
-/// has no std::to_chars for it.
+/// Returns the number in the fewest digits, of 15 or more, that give it back.
 std::string value_text(double number) {
-  std::array<char, 32> digits;
-  for (int precision = 15; precision <= 17; ++precision) {
-    std::snprintf(digits.data(), digits.size(), "%.*g", precision, number);
-    if (std::strtod(digits.data(), nullptr) == number) break;
-  }
-  return digits.data();
+  std::string text = text_of(number, 15);
+  for (int digits = 16; digits <= 17 && std::strtod(text.c_str(), nullptr) != number; ++digits)
+    text = text_of(number, digits);
+  return text;
 }
 std::string value_text(std::integral auto number) {
   if constexpr (std::same_as<decltype(number), bool>) return number ? "true" : "false";

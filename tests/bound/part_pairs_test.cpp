@@ -7,60 +7,14 @@
 
 #include "bound/nearest_parts.hpp"
 #include "bound/rigid_certificates.hpp"
-#include "bound/rigid_part.hpp"
-#include "kinesphere/random.hpp"
+#include "bound/rigid_thing.hpp"
 #include "number/infinity.hpp"
 
 namespace kinesphere::part_pairs_test {
 namespace {
 
-constexpr double now = 3.0;
+constexpr double now = rigid_thing_now;
 constexpr double until = 5.0;
-
-/// Up to twelve balls, capsules and triangles, which report before `now`.
-struct Thing {
-  std::vector<RigidPart> parts;
-  std::vector<PartBall> balls;
-  RigidExtent extent;
-
-  /// `is_exact`: flies and turns exactly as reported.
-  Thing(Random& random, bool is_exact) {
-    const std::size_t count = 1 + random.bits() % 12;
-    while (parts.size() < count) {
-      const Vec3 place = random.point_in_ball();
-      const Vec3 ways[] = {place, place + 0.3 * random.point_in_ball(), place + 0.3 * random.point_in_ball()};
-      const std::size_t points = 1 + random.bits() % 3;
-      parts.push_back(hull_part(std::span(ways).first(points), 0.3 * random.uniform()));
-    }
-    balls = balls_around(parts);
-    extent = {.bound = {.time = now - random.uniform(),
-                        .position = 2.0 * random.point_in_ball(),
-                        .velocity = 2.0 * random.point_in_ball()},
-              .parts = parts,
-              .balls = balls,
-              .rotation = {rotation_by(3.0 * random.point_in_ball()), 4.0 * random.point_in_ball()}};
-    extent.spin = norm(extent.rotation.angular_velocity);
-    for (const RigidPart& part : parts) extent.radius = std::max(extent.radius, outer_radius(part));
-    extent.bound.radius = extent.radius;
-    if (is_exact) return;
-    extent.bound.acceleration_limit = random.uniform();
-    extent.spin_growth = random.uniform();
-  }
-  Thing(const Thing&) = delete;
-  Thing& operator=(const Thing&) = delete;
-
-  /// The body with one of its parts.
-  RigidExtent with(std::size_t part) const {
-    RigidExtent alone = extent;
-    alone.parts = alone.parts.subspan(part, 1);
-    alone.balls = alone.balls.subspan(part, 1);
-    return alone;
-  }
-  RigidPose pose(std::size_t from, std::size_t count) const {
-    return {extent.bound.position, extent.rotation.orientation, extent.parts.subspan(from, count),
-            extent.balls.subspan(from, count)};
-  }
-};
 
 /// A partner of a thing: another one, or a wall.
 std::size_t parts_in(const Thing& thing) { return thing.parts.size(); }

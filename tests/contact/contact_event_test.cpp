@@ -70,18 +70,5 @@ TEST(DeliveryOrder, IsKindThenFirstThenSecondThenWall) {
       EXPECT_EQ(delivered_before(in_order[a], in_order[b]), a < b);
 }
 
-TEST(Names, AreThoseOfTheEnumerators) {
-  EXPECT_EQ(name_of(EventKind::bound_violation), "bound_violation");
-  EXPECT_EQ(name_of(EventKind::contact_begin), "contact_begin");
-  EXPECT_EQ(name_of(EventKind::contact_end), "contact_end");
-  EXPECT_EQ(name_of(EventKind::wall_begin), "wall_begin");
-  EXPECT_EQ(name_of(EventKind::wall_end), "wall_end");
-  EXPECT_EQ(name_of(EventKind::zeno_guard), "zeno_guard");
-  EXPECT_EQ(name_of(EventKind::woke), "woke");
-  EXPECT_EQ(name_of(Wall::none), "none");
-  EXPECT_EQ(name_of(Wall::x_lower), "x_lower");
-  EXPECT_EQ(name_of(Wall::z_upper), "z_upper");
-}
-
 }  // namespace
 }  // namespace kinesphere::contact_event_test

@@ -30,7 +30,7 @@ inline std::ostream& operator<<(std::ostream& out, const std::vector<Event>& eve
 }
 
 /// The true motion since the last change.
-struct SeparationForecast {
+struct TrueCourse {
   double since = 0.0;
   State state{};
   Vec3 acceleration{};
@@ -134,12 +134,12 @@ class Playground {
 
  private:
   void restart(BodyId id) {
-    SeparationForecast& course = courses_[id.index];
+    TrueCourse& course = courses_[id.index];
     course.state = course.at(world.time());
     course.since = world.time();
   }
 
-  std::vector<SeparationForecast> courses_;  ///< indexed by body
+  std::vector<TrueCourse> courses_;  ///< indexed by body
 };
 
 inline std::vector<Event> of_kind(const std::vector<Event>& events, EventKind kind) {

@@ -64,14 +64,14 @@ class Game {
       : world_(std::move(world)), courses_(from.courses_), hash_(from.hash_), frames_(from.frames_) {}
 
   void set_velocity(BodyId body, const Vec3& velocity) {
-    SeparationForecast& course = courses_[body.index];
+    TrueCourse& course = courses_[body.index];
     course = {world_.time(), {course.at(world_.time()).position, velocity}, course.acceleration};
     world_.set_velocity(body, velocity).value();
   }
 
   World world_ =
       World::create({.box = Box{{0, 0, 0}, {21, 21, 21}}, .contacts = ContactEvents::impacts}).value();
-  std::vector<SeparationForecast> courses_;
+  std::vector<TrueCourse> courses_;
   EventHash hash_;
   int frames_ = 0;
 };

@@ -77,7 +77,7 @@ class Billiards {
     world.set_velocity(id, velocity).value();
   }
 
-  std::vector<SeparationForecast> courses_;
+  std::vector<TrueCourse> courses_;
 };
 
 /// Saves in the middle of an instant: four contacts begin at once, and one of them has been delivered.

@@ -3,7 +3,7 @@
 
 #include "support/bound_checks.hpp"
 
-namespace kinesphere::box_test {
+namespace kinesphere::bound_test {
 namespace {
 
 constexpr std::uint64_t seed = 1564;
@@ -137,4 +137,4 @@ TEST(SweptBox, reaches_to_the_turning_point) {
 }
 
 }  // namespace
-}  // namespace kinesphere::box_test
+}  // namespace kinesphere::bound_test

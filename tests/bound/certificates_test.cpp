@@ -5,7 +5,7 @@
 
 #include "support/bound_checks.hpp"
 
-namespace kinesphere::certificate_properties_test {
+namespace kinesphere::certificates_test {
 namespace {
 
 /// Shrinks towards whole numbers, one and zero.
@@ -41,16 +41,16 @@ rc::Gen<PairCase> any_case() {
 }
 
 }  // namespace
-}  // namespace kinesphere::certificate_properties_test
+}  // namespace kinesphere::certificates_test
 
 namespace rc {
 template <>
 struct Arbitrary<kinesphere::PairCase> {
-  static Gen<kinesphere::PairCase> arbitrary() { return kinesphere::certificate_properties_test::any_case(); }
+  static Gen<kinesphere::PairCase> arbitrary() { return kinesphere::certificates_test::any_case(); }
 };
 }  // namespace rc
 
-namespace kinesphere::certificate_properties_test {
+namespace kinesphere::certificates_test {
 namespace {
 
 RC_GTEST_PROP(CertificateProperty, meeting_is_never_late, (const PairCase& c)) {
@@ -79,4 +79,4 @@ RC_GTEST_PROP(CertificateProperty, gap_limits_enclose_the_gap, (const PairCase& 
 }
 
 }  // namespace
-}  // namespace kinesphere::certificate_properties_test
+}  // namespace kinesphere::certificates_test

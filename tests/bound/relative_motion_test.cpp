@@ -1,0 +1,59 @@
+// The motion of one bound relative to another, against the two seen one by one.
+#include "bound/relative_motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/bound_cases.hpp"
+#include "support/true_balls.hpp"
+
+namespace kinesphere::relative_motion_test {
+namespace {
+
+constexpr std::uint64_t seed = 4109;
+
+class RelativeMotions : public testing::TestWithParam<Family> {};
+
+TEST_P(RelativeMotions, are_those_of_two_bounds_within_their_sizes) {
+  for (std::uint64_t k = 0; k < 500 && !HasFailure(); ++k) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed << ", case " << k);
+    Random random = Random::at(seed, k, 0);
+    const PairCase c = GetParam().draw(random);
+    const RelativeMotion motion(c.a, c.b, c.from);
+    const double d = (c.horizon - c.from) * random.uniform();
+    const Extended time = static_cast<Extended>(c.from) + static_cast<Extended>(d);
+    const TrueBall a = true_ball(c.a, time), b = true_ball(c.b, time);
+    const double errors = rounding::margin * motion.size_at(d);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<std::size_t>(axis);
+      EXPECT_NEAR(motion.centre_at(d)[axis], static_cast<double>(a.centre[i] - b.centre[i]), errors);
+    }
+    EXPECT_NEAR(motion.radii + motion.growth_at(d), static_cast<double>(a.radius + b.radius), errors);
+    EXPECT_GE(motion.size_at(d) * (1.0 + 1e-12),
+              norm_one(motion.centre_at(d)) + motion.radii + motion.growth_at(d));
+    EXPECT_GE(motion.velocity_size * (1.0 + 1e-12), norm_one(motion.velocity) + motion.growth_speed);
+    EXPECT_GE(motion.acceleration_size * (1.0 + 1e-12),
+              norm_one(motion.acceleration) + motion.acceleration_limit);
+  }
+}
+
+TEST_P(RelativeMotions, as_bounds_contain_what_two_bodies_may_do) {
+  for (std::uint64_t k = 0; k < 500 && !HasFailure(); ++k) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed << ", case " << k);
+    Random random = Random::at(seed, k, 1);
+    const PairCase c = GetParam().draw(random);
+    const double ignored = c.b.radius;
+    const BoundBesideBound motion(c.a, c.b, c.from, ignored);
+    const double time = c.from + (c.horizon - c.from) * random.uniform();
+    // Each body is anywhere within what its bound has grown.
+    const Vec3 here = c.a.centre_at(time) + random.point_in_ball() * (c.a.radius_at(time) - c.a.radius);
+    const Vec3 there = c.b.centre_at(time) + random.point_in_ball() * (c.b.radius_at(time) - c.b.radius);
+    const double away = norm(here - there - motion.bound.centre_at(time)) + c.a.radius;
+    const double errors = 0x1p-46 * length_scale(c, time);
+    EXPECT_LE(away, motion.bound.radius_at(time) + motion.slack + errors);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, RelativeMotions, testing::ValuesIn(all_families), family_name);
+
+}  // namespace
+}  // namespace kinesphere::relative_motion_test
