@@ -13,19 +13,12 @@
 namespace kinesphere {
 namespace {
 
-void require_size(InputCheck& check, const Subject& subject, double value, double limit) {
-  check.not_negative(subject, value)
-      .require(value <= limit, ErrorCode::out_of_range, subject, "must be at most", limit, value);
-}
-
 void require_radius(InputCheck& check, double radius, BodyId body, const WorldDefinition& world) {
-  require_size(check, {"radius", body}, radius, coordinate_limit(world));
+  check.from_zero_to({"radius", body}, radius, coordinate_limit(world));
 }
 
 void require_radius_rate(InputCheck& check, double rate, BodyId body) {
-  check.finite({"radius_rate", body}, rate)
-      .require(std::abs(rate) <= limits::largest_speed, ErrorCode::out_of_range, {"radius_rate", body},
-               "must be within +-", limits::largest_speed, rate);
+  check.within({"radius_rate", body}, rate, limits::largest_speed);
 }
 
 /// Ensures that a pair can meet in one image only; space/space.hpp has the limit and the proof.
@@ -46,10 +39,10 @@ void require_fit(InputCheck& check, std::string_view argument, const BodyDefinit
 
 void require_limits(InputCheck& check, const MotionLimits& motion, BodyId body,
                     const WorldDefinition& world) {
-  require_size(check, {"acceleration_limit", body}, motion.acceleration_limit, limits::largest_acceleration);
-  require_size(check, {"position_error", body}, motion.position_error, coordinate_limit(world));
-  require_size(check, {"velocity_error", body}, motion.velocity_error, limits::largest_speed);
-  check.within({"planned_acceleration", body}, motion.planned_acceleration, limits::largest_acceleration);
+  check.from_zero_to({"acceleration_limit", body}, motion.acceleration_limit, limits::largest_acceleration)
+      .from_zero_to({"position_error", body}, motion.position_error, coordinate_limit(world))
+      .from_zero_to({"velocity_error", body}, motion.velocity_error, limits::largest_speed)
+      .within({"planned_acceleration", body}, motion.planned_acceleration, limits::largest_acceleration);
   require_plane(check, {"planned_acceleration", body}, motion.planned_acceleration, world);
 }
 
@@ -102,13 +95,10 @@ void require_shape(InputCheck& check, const Ball& ball, const WorldDefinition& w
 }
 
 void require_shape(InputCheck& check, const HalfSpace& solid, const WorldDefinition& world) {
-  const double limit = coordinate_limit(world);
   check.within({"shape", no_body, "normal"}, solid.normal, 2.0)
       .require(std::abs(norm(solid.normal) - 1.0) <= 1e-6, ErrorCode::out_of_range,
                {"shape", no_body, "normal"}, "must have length 1", solid.normal)
-      .finite({"shape", no_body, "offset"}, solid.offset)
-      .require(std::abs(solid.offset) <= limit, ErrorCode::out_of_range, {"shape", no_body, "offset"},
-               "must be at most", limit, solid.offset);
+      .within({"shape", no_body, "offset"}, solid.offset, coordinate_limit(world));
   require_plane(check, {"shape", no_body, "normal"}, solid.normal, world);
 }
 
@@ -141,9 +131,7 @@ void require_contact_events(InputCheck& check, ContactEvents contacts) {
 
 InputCheck& require_length(InputCheck& check, std::string_view argument, double length,
                            const WorldDefinition& world) {
-  const double limit = limits::largest_query_length * world.contact_tolerance;
-  return check.not_negative({argument}, length)
-      .require(length <= limit, ErrorCode::out_of_range, {argument}, "must be at most", limit, length);
+  return check.from_zero_to({argument}, length, limits::largest_query_length * world.contact_tolerance);
 }
 
 void require_plane(InputCheck& check, const Subject& subject, const Vec3& value,
@@ -162,9 +150,7 @@ Result<void> check_world(const WorldDefinition& definition) {
                {"contact_tolerance"}, "must be at most", limits::largest_contact_tolerance,
                definition.contact_tolerance)
       .not_negative({"zeno_interval"}, definition.zeno_interval)
-      .finite({"start_time"}, definition.start_time)
-      .require(std::abs(definition.start_time) <= limits::largest_time, ErrorCode::out_of_range,
-               {"start_time"}, "must lie within +-", limits::largest_time, definition.start_time);
+      .within({"start_time"}, definition.start_time, limits::largest_time);
   require_contact_events(check, definition.contacts);
   if (!std::isnan(definition.separation_distance)) {
     check.finite({"separation_distance"}, definition.separation_distance)
@@ -264,10 +250,9 @@ Result<void> check_state(const State& state, const BodyDefinition& definition, B
 
 Result<void> check_sensor(const Sensor& sensor, const WorldDefinition& world) {
   InputCheck check("set_sensor");
-  for (std::size_t number = 0; number < sensor.distances.size(); ++number) {
-    require_size(check, {"sensor", no_body, "distance", number}, sensor.distances[number],
-                 coordinate_limit(world));
-  }
+  for (std::size_t number = 0; number < sensor.distances.size(); ++number)
+    check.from_zero_to({"sensor", no_body, "distance", number}, sensor.distances[number],
+                       coordinate_limit(world));
   return check.result();
 }
 

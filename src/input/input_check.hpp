@@ -56,10 +56,21 @@ class InputCheck {
     return finite(subject, value)
         .require(value >= 0, ErrorCode::out_of_range, subject, "must be >= 0", value);
   }
+  /// Requires a finite number from 0 to `most`.
+  [[gnu::always_inline]] InputCheck& from_zero_to(const Subject& subject, double value, double most) {
+    return not_negative(subject, value)
+        .require(value <= most, ErrorCode::out_of_range, subject, "must be at most", most, value);
+  }
   /// Requires a number >= 0, which may be infinite.
   InputCheck& not_negative_or_infinite(const Subject& subject, double value) {
     return require(!std::isnan(value), ErrorCode::not_finite, subject, "must be a number", value)
         .require(value >= 0, ErrorCode::out_of_range, subject, "must be >= 0", value);
+  }
+  /// Requires a finite number in [-limit, limit].
+  [[gnu::always_inline]] InputCheck& within(const Subject& subject, double value, double limit) {
+    return finite(subject, value)
+        .require(std::abs(value) <= limit, ErrorCode::out_of_range, subject, "must lie within +-", limit,
+                 value);
   }
   /// Requires a finite vector with each coordinate in [-limit, limit].
   [[gnu::always_inline]] InputCheck& within(const Subject& subject, const Vec3& value, double limit) {

@@ -100,9 +100,7 @@ Result<std::optional<MonitorEvent>> Monitor::advance(double until, const Poll& p
 Result<std::optional<MonitorEvent>> Monitor::go_on(double until, const Poll* poll) {
   if (const Result<void> idle = check_idle("advance"); !idle) return idle.error();
   const auto check = InputCheck("advance")
-                         .finite({"until"}, until)
-                         .require(std::abs(until) <= limits::largest_time, ErrorCode::out_of_range, {"until"},
-                                  "must lie within +-", limits::largest_time, until)
+                         .within({"until"}, until, limits::largest_time)
                          .require(until >= time() || !engine_->has_started(), ErrorCode::time_backwards,
                                   {"until"}, "must not lie before the time of the monitor,", time(), until);
   if (check.error()) return *check.error();

@@ -42,14 +42,10 @@ Result<void> Monitor::Engine::check(TrackId id, const TrackReport& report, const
   const std::string_view name(text.data(), static_cast<std::size_t>(end - text.data()));
   const auto subject = [&name](std::string_view field) { return Subject{.argument = name, .part = field}; };
   InputCheck check(call);
-  check.finite(subject("timestamp"), report.timestamp)
-      .require(std::abs(report.timestamp) <= limits::largest_time, ErrorCode::out_of_range,
-               subject("timestamp"), "must lie within +-", limits::largest_time, report.timestamp)
+  check.within(subject("timestamp"), report.timestamp, limits::largest_time)
       .within(subject("position"), report.state.position, definition_.tolerance * limits::largest_length)
       .within(subject("velocity"), report.state.velocity, limits::largest_speed)
-      .not_negative(subject("timestamp_error"), report.timestamp_error)
-      .require(report.timestamp_error <= limits::largest_time, ErrorCode::out_of_range,
-               subject("timestamp_error"), "must be at most", limits::largest_time, report.timestamp_error)
+      .from_zero_to(subject("timestamp_error"), report.timestamp_error, limits::largest_time)
       .require(report.track_class < definition_.classes.size(), ErrorCode::out_of_range,
                subject("track_class"), "must be less than the number of classes", definition_.classes.size(),
                report.track_class);
@@ -59,8 +55,7 @@ Result<void> Monitor::Engine::check(TrackId id, const TrackReport& report, const
     if (is_valid(value.horizontal()) && is_valid(value.vertical()) && is_valid(value.total())) return;
     for (const double length : {value.horizontal(), value.vertical(), value.total()}) {
       if (may_be_infinite && length == infinity) continue;
-      check.not_negative(subject(field), length)
-          .require(length <= most, ErrorCode::out_of_range, subject(field), "must be at most", most, length);
+      check.from_zero_to(subject(field), length, most);
     }
   };
   error_bound("position_error", report.position_error, limits::largest_size, false);
@@ -75,7 +70,7 @@ Result<void> Monitor::Engine::check(TrackId id, const TrackReport& report, const
   if (check.error()) return *check.error();
   const TrackClass& track_class = classes_[report.track_class];
   check.require(
-      std::isfinite(track_class.largest_speed.total()) || (std::isfinite(report.velocity_error.total())),
+      std::isfinite(track_class.largest_speed.total()) || std::isfinite(report.velocity_error.total()),
       ErrorCode::out_of_range, subject("velocity_error"),
       "must be finite where the class has no largest speed", report.velocity_error.total());
   return check.result();

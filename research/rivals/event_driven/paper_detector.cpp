@@ -47,12 +47,9 @@ class PaperDetector final : public EventDrivenDetector {
 Result<std::unique_ptr<Detector>> make_paper_detector(const WorldDefinition& definition, const Motion& motion,
                                                       const PaperOptions& options) {
   if (auto valid = check_world(definition); !valid) return valid.error();
-  if (auto valid =
-          InputCheck("make_paper_detector")
-              .not_negative({"options", no_body, "cell_edge"}, options.cell_edge)
-              .require(options.cell_edge <= largest_edge, ErrorCode::out_of_range,
-                       {"options", no_body, "cell_edge"}, "must be at most", largest_edge, options.cell_edge)
-              .result();
+  if (auto valid = InputCheck("make_paper_detector")
+                       .from_zero_to({"options", no_body, "cell_edge"}, options.cell_edge, largest_edge)
+                       .result();
       !valid)
     return valid.error();
   return make_checked<PaperDetector>(definition, motion, options);

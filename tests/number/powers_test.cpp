@@ -1,0 +1,34 @@
+// Powers of two against the math library.
+#include "number/powers.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kinesphere/random.hpp"
+
+namespace kinesphere::powers_test {
+namespace {
+
+TEST(Powers, OfTwoAreExact) {
+  for (int exponent = -1022; exponent <= 1023; ++exponent) {
+    EXPECT_EQ(power_of_two(exponent), std::ldexp(1.0, exponent));
+    EXPECT_EQ(exponent_of(power_of_two(exponent)), exponent);
+  }
+}
+
+TEST(Powers, ExponentsAreThoseOfTheLargestPowerBelow) {
+  Random random(6101);
+  for (int k = 0; k < 5000; ++k) {
+    const double value = std::ldexp(1.0 + random.uniform(), static_cast<int>(random.bits() % 2000) - 1000);
+    EXPECT_EQ(exponent_of(value), std::ilogb(value));
+    EXPECT_EQ(exponent_of(-value), std::ilogb(value));
+  }
+  EXPECT_EQ(exponent_of(0.0), -1023);
+  EXPECT_EQ(exponent_of(std::numeric_limits<double>::denorm_min()), -1023);
+  EXPECT_EQ(exponent_of(std::numeric_limits<double>::infinity()), 1024);
+  EXPECT_EQ(exponent_of(std::numeric_limits<double>::quiet_NaN()), 1024);
+}
+
+}  // namespace
+}  // namespace kinesphere::powers_test
