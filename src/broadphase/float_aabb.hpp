@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "broadphase/swept_sphere.hpp"
-#include "number/infinity.hpp"
 
 namespace kinesphere {
 
@@ -18,12 +17,13 @@ struct FloatAabb {
 
   float middle(std::size_t axis) const { return 0.5f * (lower[axis] + upper[axis]); }
   float width(std::size_t axis) const { return upper[axis] - lower[axis]; }
-  /// Returns the greatest width on any axis; +infinity if the widths are NaN.
+  /// Returns the greatest width on any axis; +infinity if a width is NaN.
   float widest() const {
+    constexpr float infinite = std::numeric_limits<float>::infinity();
     float widest = 0.0f;
     for (std::size_t axis = 0; axis < 3; ++axis)
-      if (!(width(axis) <= widest)) widest = width(axis);
-    return widest < infinity ? widest : std::numeric_limits<float>::infinity();
+      if (!(width(axis) <= widest)) widest = width(axis) < infinite ? width(axis) : infinite;
+    return widest;
   }
 };
 

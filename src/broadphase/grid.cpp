@@ -4,8 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include "number/infinity.hpp"
-
 namespace kinesphere {
 namespace {
 
@@ -108,16 +106,17 @@ Grid::Cell Grid::nearest_image(std::uint32_t index, const Cell& to) const {
 }
 
 float Grid::looseness(const Cell& cell, const FloatAabb& aabb) const {
+  constexpr float infinite = std::numeric_limits<float>::infinity();
   float most = 0.0f;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto here = static_cast<float>(cell[axis]);
     const float below = here * edge_[axis] - aabb.lower[axis];
     const float above = aabb.upper[axis] - (here + 1.0f) * edge_[axis];
-    // A NaN does not compare, and counts as a greater value.
+    // A NaN does not compare, and counts as infinite.
     for (const float out : {below, above})
-      if (!(out <= most)) most = out;
+      if (!(out <= most)) most = out < infinite ? out : infinite;
   }
-  return most < infinity ? most * (1.0f + 0x1p-20f) : std::numeric_limits<float>::infinity();
+  return most * (1.0f + 0x1p-20f);
 }
 
 Box Grid::box_of(const Cell& cell) const {

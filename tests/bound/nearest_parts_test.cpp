@@ -88,7 +88,9 @@ TEST(NearestParts, OfHullsOfTwoPointsAreThoseOfCapsules) {
     const Box box{{-1, -1, -1}, {-0.5, 1, 1}};
     const NearestParts of_hull = nearest_parts(posed, box);
     const NearestParts of_capsule = nearest_parts(other.pose, box);
-    if (of_capsule.gap > -other.part.radius) EXPECT_NEAR(of_hull.gap, of_capsule.gap, 1e-9);
+    if (of_capsule.gap > -other.part.radius) {
+      EXPECT_NEAR(of_hull.gap, of_capsule.gap, 1e-9);
+    }
   }
 }
 
@@ -100,8 +102,12 @@ TEST(NearestParts, OfSolidsAreWhereTheDistanceIsLeast) {
     const auto check = [&](const auto& solid) {
       const double least = least_of([&](double s) { return nearest_point(solid, one.at(s)).distance; });
       const NearestParts found = nearest_parts(one.pose, solid);
-      if (least > 1e-6) EXPECT_NEAR(found.gap, least - one.part.radius, 1e-7);
-      if (found.gap > 1e-6) EXPECT_NEAR(nearest_point(solid, found.point).distance, 0.5 * found.gap, 1e-6);
+      if (least > 1e-6) {
+        EXPECT_NEAR(found.gap, least - one.part.radius, 1e-7);
+      }
+      if (found.gap > 1e-6) {
+        EXPECT_NEAR(nearest_point(solid, found.point).distance, 0.5 * found.gap, 1e-6);
+      }
     };
     check(HalfSpace{random.unit_vector(), random.uniform(-2.0, 0.0)});
     check(Box{{-1, -1, -1}, {0.5, 1, 0.25}});

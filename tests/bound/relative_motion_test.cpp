@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "support/bound_cases.hpp"
-#include "support/true_balls.hpp"
+#include "support/exact_certificates.hpp"
 
 namespace kinesphere::relative_motion_test {
 namespace {
@@ -20,14 +20,16 @@ TEST_P(RelativeMotions, are_those_of_two_bounds_within_their_sizes) {
     const PairCase c = GetParam().draw(random);
     const RelativeMotion motion(c.a, c.b, c.from);
     const double d = (c.horizon - c.from) * random.uniform();
-    const Extended time = static_cast<Extended>(c.from) + static_cast<Extended>(d);
-    const TrueBall a = true_ball(c.a, time), b = true_ball(c.b, time);
+    const exact::Course a(c.a, c.from), b(c.b, c.from);
+    const auto difference = [d](const exact::Polynomial& of_a, const exact::Polynomial& of_b) {
+      return static_cast<double>(of_a.at(d) - of_b.at(d));
+    };
     const double errors = rounding::margin * motion.size_at(d);
     for (int axis = 0; axis < 3; ++axis) {
       const auto i = static_cast<std::size_t>(axis);
-      EXPECT_NEAR(motion.centre_at(d)[axis], static_cast<double>(a.centre[i] - b.centre[i]), errors);
+      EXPECT_NEAR(motion.centre_at(d)[axis], difference(a.centre[i], b.centre[i]), errors);
     }
-    EXPECT_NEAR(motion.radii + motion.growth_at(d), static_cast<double>(a.radius + b.radius), errors);
+    EXPECT_NEAR(motion.growth_at(d), static_cast<double>(a.growth.at(d) + b.growth.at(d)), errors);
     EXPECT_GE(motion.size_at(d) * (1.0 + 1e-12),
               norm_one(motion.centre_at(d)) + motion.radii + motion.growth_at(d));
     EXPECT_GE(motion.velocity_size * (1.0 + 1e-12), norm_one(motion.velocity) + motion.growth_speed);

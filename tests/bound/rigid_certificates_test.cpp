@@ -33,10 +33,18 @@ void expect_certain(const RigidPair<Other>& pair, TrueGap true_gap, Random& rand
     const GapLimits limits = gap_limits(bound, pair, time);
     ASSERT_LE(limits.lower, gap + rounding_errors) << time;
     // Where parts overlap, the nearest ones need not be the deepest.
-    if (gap > 0.0) ASSERT_GE(limits.upper, gap - rounding_errors) << time;
-    if (is_beyond(pair, time, outer)) ASSERT_GT(gap, outer - rounding_errors) << time;
-    if (time < meets) ASSERT_GT(gap, outer - rounding_errors) << time << " before " << meets;
-    if (time < parts) ASSERT_LT(gap, inner + rounding_errors) << time << " before " << parts;
+    if (gap > 0.0) {
+      ASSERT_GE(limits.upper, gap - rounding_errors) << time;
+    }
+    if (is_beyond(pair, time, outer)) {
+      ASSERT_GT(gap, outer - rounding_errors) << time;
+    }
+    if (time < meets) {
+      ASSERT_GT(gap, outer - rounding_errors) << time << " before " << meets;
+    }
+    if (time < parts) {
+      ASSERT_LT(gap, inner + rounding_errors) << time << " before " << parts;
+    }
   }
 }
 

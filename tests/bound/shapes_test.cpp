@@ -32,7 +32,9 @@ TEST(NearestPoint, IsAsFarAsTheExactDistance) {
     const Vec3 from = 3.0 * random.point_in_ball();
     expect_nearest(unit_box, from);
     expect_nearest(Triangle{random.unit_vector(), random.unit_vector(), random.unit_vector()}, from);
-    if (HasFailure()) FAIL() << k << " from " << from;
+    if (HasFailure()) {
+      FAIL() << k << " from " << from;
+    }
   }
 }
 

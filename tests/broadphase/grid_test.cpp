@@ -123,6 +123,9 @@ TEST(Grid, LooksEverywhereForWhatIsNoNumberOrInfinite) {
       EXPECT_EQ(read, grid.cells());
     }
     EXPECT_EQ(grid.looseness({}, cube({0.0f, 0.0f, 0.0f}, odd)), endless);
+    FloatAabb odd_on_one_axis = cube({0.0f, 0.0f, 0.0f}, 100.0f);
+    odd_on_one_axis.upper[1] = odd;
+    EXPECT_EQ(grid.looseness({}, odd_on_one_axis), endless);
   }
 }
 

@@ -95,7 +95,9 @@ TEST(NeighbourSearch, FindsAllThatMeetABodyThatEnters) {
       EXPECT_EQ(found, std::set<std::uint32_t>(again.begin(), again.end()));
       EXPECT_FALSE(found.contains(one.number));
       for (std::uint32_t other = 0; other < one.number; ++other)
-        if (crowd.meet(one.number, other)) EXPECT_TRUE(found.contains(other)) << one.number << ' ' << other;
+        if (crowd.meet(one.number, other)) {
+          EXPECT_TRUE(found.contains(other)) << one.number << ' ' << other;
+        }
     }
   }
 }
@@ -116,7 +118,9 @@ TEST(NeighbourSearch, FindsAllThatAreInABox) {
     for (std::uint32_t number = 0; number < 60; ++number) {
       const bool is_inside = nearest_point(box, crowd.bounds[number].centre_at(now)).distance <
                              crowd.bounds[number].radius_at(now);
-      if (is_inside) EXPECT_TRUE(found.contains(number)) << k << ' ' << number;
+      if (is_inside) {
+        EXPECT_TRUE(found.contains(number)) << k << ' ' << number;
+      }
     }
   }
 }

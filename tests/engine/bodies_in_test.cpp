@@ -37,8 +37,9 @@ TEST(BodiesIn, AreAllThatAreInTheBoxInOrder) {
     EXPECT_LT(found.size(), 60u);
     for (std::uint32_t number = 0; number < 60; ++number) {
       const double distance = nearest_point(box, world.state_of(number, time).position).distance;
-      if (distance < world.state.bodies[number].radius)
+      if (distance < world.state.bodies[number].radius) {
         EXPECT_TRUE(std::binary_search(found.begin(), found.end(), number)) << number << " at " << time;
+      }
     }
   }
 }

@@ -43,8 +43,12 @@ TEST_F(PairCertifierTest, IsNeverLateAndTheSameFromBothSides) {
     EXPECT_EQ(end, 1.0);
     const Bound& a = world.state.bodies[k].bound;
     const Bound& b = world.state.bodies[k + 1].bound;
-    if (until > 0.0) EXPECT_GT(least_true_gap(a, b, 0.0, std::min(until, end) * 0.999999), 0.0) << k;
-    if (until == 0.0) EXPECT_LE(true_gap(true_ball(a, 0.0), true_ball(b, 0.0)), 2e-6) << k;
+    if (until > 0.0) {
+      EXPECT_GT(least_true_gap(a, b, 0.0, std::min(until, end) * 0.999999), 0.0) << k;
+    }
+    if (until == 0.0) {
+      EXPECT_LE(true_gap(true_ball(a, 0.0), true_ball(b, 0.0)), 2e-6) << k;
+    }
   }
 }
 

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "archive/archive.hpp"
 #include "archive/fields.hpp"
 #include "engine/small_world.hpp"
 #include "engine/window_start.hpp"
@@ -102,8 +105,9 @@ TEST_F(PreparedStartTest, CertifiesEachPairFromTheEndOn) {
       if (world.state.contacts.touch(a, b)) continue;
       const double end = std::min(world.state.broad_phase.end_of(a), world.state.broad_phase.end_of(b));
       const double until = std::min(times.of(a, b), end);
-      if (until > now)
+      if (until > now) {
         EXPECT_GE(least_true_gap(bodies[a].bound, bodies[b].bound, now, until), -2e-6) << a << ' ' << b;
+      }
     }
 }
 

@@ -69,7 +69,9 @@ TEST_F(SleepingTest, AContactWakesWhomItHits) {
   std::vector<EventKind> kinds;
   while (const auto event = world.advance(10.0)) {
     kinds.push_back(event->kind);
-    if (event->kind == EventKind::contact_begin) EXPECT_FALSE(event->first_traits.is_sleeping);
+    if (event->kind == EventKind::contact_begin) {
+      EXPECT_FALSE(event->first_traits.is_sleeping);
+    }
     if (event->kind == EventKind::contact_begin) world.set_velocity(4, {1, 0, 0});
     if (kinds.size() == 2) break;
   }

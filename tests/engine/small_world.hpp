@@ -46,7 +46,9 @@ class SmallWorld {
   std::optional<Event> advance(double until) {
     main.note_response();
     for (;;) {
-      if (main.is_gathering()) EXPECT_TRUE(main.gather(until));
+      if (main.is_gathering()) {
+        EXPECT_TRUE(main.gather(until));
+      }
       if (auto event = main.pop()) return event;
       EXPECT_TRUE(main.recertify());
       if (!main.events().pending().empty()) continue;

@@ -51,7 +51,9 @@ TEST_F(WindowStartTest, CertifiesEachPairUntilAWindowEnds) {
     for (std::uint32_t b = a + 1; b < count; ++b) {
       const double end = std::min(world.state.broad_phase.end_of(a), world.state.broad_phase.end_of(b));
       const double until = std::min(times.of(a, b), end);
-      if (until > 0.0) EXPECT_GE(least_true_gap(bodies[a].bound, bodies[b].bound, 0.0, until), -1e-9);
+      if (until > 0.0) {
+        EXPECT_GE(least_true_gap(bodies[a].bound, bodies[b].bound, 0.0, until), -1e-9);
+      }
       if (least_true_gap(bodies[a].bound, bodies[b].bound, 0.0, end) < 0) ++met;
     }
   EXPECT_GE(near, met);

@@ -40,7 +40,9 @@ struct Visitor {
   void falls(double s) { note(s, -1); }
   void stays(double s) { note(s, 0); }
   void note(double s, int sign) {
-    if (!times.empty()) EXPECT_GE(s, times.back());
+    if (!times.empty()) {
+      EXPECT_GE(s, times.back());
+    }
     times.push_back(s);
     signs.push_back(sign);
   }

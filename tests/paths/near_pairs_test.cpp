@@ -58,7 +58,9 @@ TEST(NearPairs, AreAllThatComeNear) {
       for (std::uint32_t b = a + 1; b < 120; ++b) {
         const bool is_near = come_near(paths[a], paths[b], distance);
         near += is_near ? 1 : 0;
-        if (is_near) EXPECT_TRUE(found.contains({a, b})) << a << ' ' << b;
+        if (is_near) {
+          EXPECT_TRUE(found.contains({a, b})) << a << ' ' << b;
+        }
         EXPECT_EQ(of_seven.contains({a, b}), found.contains({a, b}) && (a == 7 || b == 7));
       }
     visited += found.size();

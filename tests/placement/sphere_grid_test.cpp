@@ -39,8 +39,9 @@ TEST(SphereGrid, FindsAllThatAreNear) {
         return true;
       }));
       for (const std::uint32_t other : entered)
-        if (norm(room.offset(centres[sphere], centres[other])) <= ranges[sphere] + ranges[other])
+        if (norm(room.offset(centres[sphere], centres[other])) <= ranges[sphere] + ranges[other]) {
           EXPECT_TRUE(found.contains(other)) << sphere << ' ' << other;
+        }
       grid.enter(sphere, centres[sphere]);
       entered.push_back(sphere);
     }
