@@ -1,5 +1,6 @@
 #include "broadphase/broad_phase.hpp"
 
+#include <cassert>
 #include <cmath>
 
 namespace kinesphere {
@@ -120,6 +121,7 @@ void BroadPhase::enter(std::uint32_t number, const InflatedBound& bound, double 
 }
 
 void BroadPhase::leave(std::uint32_t number) {
+  assert(contains(number));
   note_change(number);
   ++levels_[registrations_[number].level].changes;
   take_out(number);

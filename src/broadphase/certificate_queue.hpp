@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -73,7 +74,10 @@ class CertificateOrder {
 class CertificateQueue {
  public:
   /// Sets the order. Precondition: the queue is empty.
-  void order_by(const CertificateOrder& order) { order_ = order; }
+  void order_by(const CertificateOrder& order) {
+    assert(size() == 0);
+    order_ = order;
+  }
   const CertificateOrder& order() const { return order_; }
   /// Number of certificates, stale ones included.
   std::size_t size() const { return (sorted_.size() - next_) + heap_.size() + waiting_; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <optional>
 #include <set>
 #include <utility>
@@ -50,6 +51,7 @@ class EventSet {
 
   /// Removes and returns the first event. Precondition: !empty().
   Event take_first() {
+    assert(!empty());
     const Event event = *first_;
     move_up();
     return event;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <iterator>
 #include <vector>
@@ -21,6 +22,7 @@ class SideTable {
   }
   /// Precondition: the body has no record.
   Record& add(Body& body, const Record& record) {
+    assert(body.*index == Body::none);
     body.*index = static_cast<std::uint32_t>(records_.size());
     return records_.emplace_back(record);
   }

@@ -11,13 +11,13 @@ namespace {
 constexpr std::uint64_t seed = 5214;
 
 /// Balls that fly about in a box whose walls they pass through.
-void add_some(Playground& world, int count, std::uint64_t stream) {
+void add_some(Playground& world, int count, std::uint64_t stream, double radius = 0.05) {
   Random random = Random::at(seed, stream, 0);
   for (int k = 0; k < count; ++k) {
     const Vec3 position = 3.0 * random.point_in_ball();
     const Vec3 velocity = random.point_in_ball();
     const Vec3 acceleration = 0.1 * random.point_in_ball();
-    world.add({.radius = 0.05, .acceleration_limit = 0.2, .position = position, .velocity = velocity},
+    world.add({.radius = radius, .acceleration_limit = 0.2, .position = position, .velocity = velocity},
               acceleration);
   }
 }
@@ -52,7 +52,7 @@ TEST(Epochs, ThatAreSpreadHaveTheSameEvents) {
   std::vector<std::vector<Event>> events;
   for (const bool is_spread : {false, true}) {
     Playground world({.spread_window_starts = is_spread});
-    add_some(world, 60, 3);
+    add_some(world, 60, 3, 0.3);
     events.push_back(world.run(6.0));
     EXPECT_TRUE(is_clean(world.world));
   }

@@ -98,9 +98,10 @@ TEST(EventProcessor, ReportsThatBreakTheirBoundsAreEvents) {
   ASSERT_FALSE(events.empty());
   EXPECT_EQ(events.front().kind, EventKind::bound_violation);
   EXPECT_EQ(events.front().first.index, 0u);
-  EXPECT_GT(events.front().velocity_excess, 0.0);
+  EXPECT_GT(events.front().position_excess + events.front().velocity_excess, 0.0);
   EXPECT_EQ(events.back().kind, EventKind::contact_begin) << "it goes on from the new report";
-  EXPECT_NEAR(events.back().time, 1.0 + 6.0 / 1.5, 1e-5);
+  EXPECT_GE(events.back().time, 1.0 + 6.0 / 1.5) << "when they meet, or when the engine asks next";
+  EXPECT_EQ(events.back().time, events.front().time);
 }
 
 TEST(EventProcessor, HasAPauseAtTheEndOfItsEpochOrBefore) {

@@ -39,6 +39,7 @@ TEST(Recertifying, LeavesNoPairWithoutAReason) {
       for (std::uint32_t b = a + 1; b < 30; ++b) {
         const double end = std::min(windows.end_of(a), windows.end_of(b));
         const double until = std::min(times.of(a, b), end);
+        if (until <= 0.0) continue;  // due at once: they touch
         EXPECT_GE(least_true_gap(bodies[a].bound, bodies[b].bound, 0.0, until), -1e-9)
             << a << ' ' << b << " before " << until;
       }
