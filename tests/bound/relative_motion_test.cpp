@@ -43,15 +43,20 @@ TEST_P(RelativeMotions, as_bounds_contain_what_two_bodies_may_do) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", case " << k);
     Random random = Random::at(seed, k, 1);
     const PairCase c = GetParam().draw(random);
-    const double ignored = c.b.radius;
-    const BoundBesideBound motion(c.a, c.b, c.from, ignored);
-    const double time = c.from + (c.horizon - c.from) * random.uniform();
-    // Each body is anywhere within what its bound has grown.
-    const Vec3 here = c.a.centre_at(time) + random.point_in_ball() * (c.a.radius_at(time) - c.a.radius);
-    const Vec3 there = c.b.centre_at(time) + random.point_in_ball() * (c.b.radius_at(time) - c.b.radius);
-    const double away = norm(here - there - motion.bound.centre_at(time)) + c.a.radius;
-    const double errors = 0x1p-46 * length_scale(c, time);
-    EXPECT_LE(away, motion.bound.radius_at(time) + motion.slack + errors);
+    const BoundBesideBound motion(c.a, c.b, c.from);
+    using exact::Wide;
+    const Wide d = Wide(c.horizon - c.from) * Wide(random.uniform());
+    const exact::Course a(c.a, c.from), b(c.b, c.from), both(motion.bound, c.from);
+    // What the one may be beside where the other one may be, and still within the bound that is for both.
+    const Wide room = both.growth.at(d) + Wide(motion.bound.radius) + Wide(motion.slack) - a.growth.at(d) -
+                      b.growth.at(d) - Wide(c.a.radius) - Wide(c.b.radius);
+    Wide square = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Wide astray = a.centre[axis].at(d) - b.centre[axis].at(d) - both.centre[axis].at(d);
+      square += astray * astray;
+    }
+    EXPECT_GE(static_cast<double>(room), 0.0);
+    EXPECT_TRUE(square <= room * room);
   }
 }
 

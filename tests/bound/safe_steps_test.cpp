@@ -45,6 +45,7 @@ TEST(SafeSteps, AreLimitedInNumber) {
 TEST(SafeSteps, PastTheEndAreNever) {
   EXPECT_EQ(advance_by_safe_steps(1.0, 2.0, [](double) { return 1.5; }), infinity);
   EXPECT_EQ(advance_by_safe_steps(1.0, 2.0, [](double) { return infinity; }), infinity);
+  EXPECT_EQ(advance_by_safe_steps(1.0, 2.0, [](double d) { return d == 0.0 ? 1.5 : 0.0; }), infinity);
   EXPECT_LE(advance_by_safe_steps(1.0, 2.5, [](double d) { return d == 0.0 ? 1.5 : 0.0; }), 2.5);
 }
 

@@ -13,22 +13,26 @@ namespace {
 
 constexpr std::uint64_t seed = 4110;
 
-/// Points that fly straight on together, of a size.
+/// Points that fly straight on, of a size. As each velocity is a linear function of the place, what is a mean
+/// of points stays that mean.
 struct Hull {
   Hull(Random& random, double size, double speed) {
     points.resize(1 + random.bits() % 7);
     place = random.point_in_ball();
     for (Vec3& point : points) point = place + size * random.point_in_ball();
     velocity = speed * random.point_in_ball();
+    spin = random.point_in_ball();
   }
-  Bound bound(std::size_t k) const { return {.position = points[k], .velocity = velocity}; }
+  Bound bound(std::size_t k) const { return {.position = points[k], .velocity = velocity_of(points[k])}; }
   std::vector<Vec3> at(double time) const {
     std::vector<Vec3> moved = points;
-    for (Vec3& point : moved) point += velocity * time;
+    for (Vec3& point : moved) point += velocity_of(point) * time;
     return moved;
   }
 
-  Vec3 place, velocity;
+  Vec3 velocity_of(const Vec3& point) const { return velocity + cross(spin, point - place); }
+
+  Vec3 place, velocity, spin;
   std::vector<Vec3> points;
 };
 

@@ -7,6 +7,7 @@
 #include <set>
 #include <vector>
 
+#include "kinesphere/shape.hpp"
 #include "number/infinity.hpp"
 #include "parallel/thread_pool.hpp"
 #include "support/bound_cases.hpp"

@@ -25,6 +25,24 @@ TEST(WindowChoice, GivesFasterBodiesNoLongerWindows) {
   EXPECT_LT(last, -5);
 }
 
+TEST(WindowChoice, IsAmongTheNextMainWindowsOnceTheseAreEntered) {
+  SmallWorld world;
+  const std::uint32_t slow = world.add({.velocity = {1, 0, 0}});
+  const std::uint32_t fast = world.add({.velocity = {1000, 0, 0}});
+  BroadPhase& windows = world.state.broad_phase;
+  PoolLease alone;
+  BroadPhase next = windows.successor(8.0);
+  next.finish_start(alone);
+  windows.take_over(std::move(next), 4.0);
+  const WindowChoice choice(world.state, 4.5);
+  const int main_rung = world.state.window_policy.main_rung();
+  const Window main = choice.window_for(slow), own = choice.window_for(fast);
+  EXPECT_GE(main.rung, main_rung);
+  EXPECT_EQ(main, Window::at(8.0, main.rung));
+  EXPECT_LT(own.rung, main_rung);
+  EXPECT_EQ(own, Window::at(4.5, own.rung));
+}
+
 TEST(WindowChoice, HasNoEndForWhatStandsStill) {
   SmallWorld world;
   const std::uint32_t still = world.add({});

@@ -50,6 +50,9 @@ TEST(PlansBeyondClass, IncludeWhatTheyAreJoinedFrom) {
     }
   EXPECT_FALSE(some[1].include(some[3])) << "shorter, but harder";
   EXPECT_TRUE(some[1].include({}));
+  const PlansBeyondClass longer = PlansBeyondClass::of(with_plan({3, 4, -1}, 0.5, 6.0), planes);
+  EXPECT_FALSE(some[1].include(longer));
+  EXPECT_TRUE(longer.include(some[1]));
 }
 
 }  // namespace
