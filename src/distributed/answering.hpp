@@ -5,10 +5,10 @@
 #include <span>
 
 #include "distributed/body_directory.hpp"
+#include "engine/bodies.hpp"
 #include "engine/response_handler.hpp"
 #include "kinesphere/motion/motion.hpp"
 #include "kinesphere/run.hpp"
-#include "kinesphere/world_definition.hpp"
 
 namespace kinesphere {
 
@@ -28,23 +28,25 @@ class RankSource final : public MotionSource {
 };
 
 /// Calls `respond` and validates the response. Errors: unknown_body for a velocity of a body that is not part
-/// of the event; those of check_velocity(); unsupported for an action or a stop.
+/// of the event; those of check_velocity() and check_spin(); unsupported for an action or a stop.
 class RankResponder final : public ResponseHandler {
  public:
-  RankResponder(const ResponseFn& respond, MotionSource& source, const WorldDefinition& definition)
-      : respond_(respond), source_(source), definition_(definition) {}
+  RankResponder(const ResponseFn& respond, MotionSource& source, const Bodies& bodies)
+      : respond_(respond), source_(source), bodies_(bodies) {}
 
   Result<Response> respond(const Event& event) override;
   Result<void> apply(const Event& event, const Response& answer) override {
-    return apply_response(source_, definition_, event, answer);
+    return apply_response(source_, bodies_.definition(), event, answer);
   }
   MotionOrigin origin(BodyId body) override { return source_.origin(body); }
   void set_origin(BodyId body, const MotionOrigin& origin) override { source_.set_origin(body, origin); }
 
  private:
+  Result<void> check(const Event& event, const Response& answer) const;
+
   const ResponseFn& respond_;
   MotionSource& source_;
-  const WorldDefinition& definition_;
+  const Bodies& bodies_;
 };
 
 }  // namespace kinesphere

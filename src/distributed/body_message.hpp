@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "archive/fields.hpp"
@@ -32,6 +33,7 @@ struct BodyMessage {
   Filter filter{};
   double mass = 1.0;
   ChangingRadius radius{};
+  std::optional<RigidRecord> rigid{};  ///< of a rigid body
   ContactCheckpoint contacts{};
   /// Registration in the broad phase and, if registered, the window (`rung`, `end`). `enters`: the receiver
   /// inserts it now, with a new swept sphere. `starts`: it takes part in the bulk window start that is in
@@ -50,10 +52,10 @@ struct BodyMessage {
   Window window() const { return {rung, end}; }
 
   static void serialize(auto& self, auto& archive) {
-    auto& [name, owner, body, image, filter, mass, radius, contacts, is_registered, enters, starts, rung, end,
-           is_stale, due, pending, motion] = self;
-    archive(name, owner, body, image, filter, mass, radius, contacts, is_registered, enters, starts, rung,
-            end, is_stale, due, pending, motion);
+    auto& [name, owner, body, image, filter, mass, radius, rigid, contacts, is_registered, enters, starts,
+           rung, end, is_stale, due, pending, motion] = self;
+    archive(name, owner, body, image, filter, mass, radius, rigid, contacts, is_registered, enters, starts,
+            rung, end, is_stale, due, pending, motion);
   }
 };
 

@@ -42,6 +42,11 @@ Result<void> DistributedWorld::add(std::uint32_t index, const BodyDefinition& bo
   return engine_->add(index, body, number_in_motion);
 }
 
+Result<void> DistributedWorld::add_rigid_body(std::uint32_t index, const RigidBody& body,
+                                              std::uint32_t number_in_motion) {
+  return engine_->add_rigid_body(index, body, number_in_motion);
+}
+
 Result<void> DistributedWorld::set_sensor(SensorClass sensor_class, const Sensor& sensor) {
   return engine_->set_sensor(sensor_class, sensor);
 }

@@ -19,6 +19,7 @@ BodyMessage Migration::pack(std::uint32_t number) const {
   message.filter = bodies.filters.of(number);
   message.mass = bodies.masses.of(number);
   message.radius = bodies.radii.of(number);
+  if (const RigidRecord* const turning = bodies.rigid.find(body)) message.rigid = *turning;
   message.contacts = ContactCheckpoint::of(rank_.state.contacts, number);
   const BroadPhase& windows = rank_.state.broad_phase;
   message.is_registered = windows.contains(number);
@@ -66,6 +67,7 @@ BodyMessage Migration::pack_checkpoint(std::uint32_t number, SpeculativeRunner& 
     rank_.bodies().restore(number, checkpoint->body);
     checkpoint->contacts.restore(rank_.state.contacts, number);
     message = pack(number);
+    if (message.rigid) message.rigid->go_back();
     rank_.bodies().restore(number, now);
     contacts.restore(rank_.state.contacts, number);
   }
@@ -186,10 +188,13 @@ Result<std::uint32_t> Migration::install(BodyMessage& message) {
   Body& body = bodies[number];
   const std::uint32_t generation = body.generation;
   const std::uint32_t new_revision = message.is_stale || !known ? body.revision + 1 : body.revision;
+  bodies.rigid.remove(body);
   body = message.body;
   body.generation = generation;
   body.revision = new_revision;
   body.shape_number = body.change_number = body.sleep_number = Body::none;
+  body.is_rigid = false;
+  if (message.rigid) bodies.make_rigid(number, std::move(*message.rigid));
   bodies.filters.keep(number, message.filter);
   bodies.masses.keep(number, message.mass);
   bodies.radii.keep(number, message.radius);

@@ -1,10 +1,12 @@
 #include "distributed/rank_engine.hpp"
 
 #include <exception>
-#include <optional>
 #include <string>
+#include <utility>
 
 #include "distributed/batch_exchange.hpp"
+#include "engine/overlaps.hpp"
+#include "engine/shaped_body.hpp"
 #include "engine/validation.hpp"
 #include "number/infinity.hpp"
 
@@ -19,43 +21,71 @@ DistributedWorld::RankEngine::RankEngine(const WorldDefinition& definition, Moti
       distribution_(communicator_, consensus_, rank_, migration_, known_),
       starts_(communicator_, consensus_, rank_, distribution_) {}
 
-Result<void> DistributedWorld::RankEngine::check_body_to_add(std::uint32_t name, const BodyDefinition& body,
-                                                             std::uint32_t number_in_motion) const {
-  auto valid = consensus_.check("add");
-  if (valid) valid = check_body(body, definition(), "add");
-  if (valid)
-    valid = check_reach(rank_.bodies().sensors.reach(body.sensor_class), body, no_body, "sensor_class",
-                        definition(), "add");
+/// Checks what balls and rigid bodies have in common.
+Result<void> DistributedWorld::RankEngine::check_addition(std::uint32_t name, const BodyDefinition& body,
+                                                          std::uint32_t number_in_motion,
+                                                          std::string_view call) const {
+  auto valid = check_reach(rank_.bodies().sensors.reach(body.sensor_class), body, no_body, "sensor_class",
+                           definition(), call);
   if (!valid) return valid;
   if (rank_.directory.find(name) || name == no_body.index)
     return Error{ErrorCode::out_of_range,
                  "index",
                  {name, 0, 0},
-                 "add: index must be that of no other body, but is " + std::to_string(name)};
+                 std::string(call) + ": index must be that of no other body, but is " + std::to_string(name)};
   if (!source_.contains(number_in_motion))
     return Error{ErrorCode::unknown_body,
                  "number_in_motion",
                  {name, 0, 0},
-                 "add: number_in_motion must be that of a body of the motion, but is " +
+                 std::string(call) + ": number_in_motion must be that of a body of the motion, but is " +
                      std::to_string(number_in_motion)};
   return {};
 }
 
 Result<void> DistributedWorld::RankEngine::add(std::uint32_t name, const BodyDefinition& body,
                                                std::uint32_t number_in_motion) {
-  auto valid = check_body_to_add(name, body, number_in_motion);
+  auto valid = consensus_.check("add");
+  if (valid) valid = check_body(body, definition(), "add");
+  if (valid) valid = check_addition(name, body, number_in_motion, "add");
+  if (valid) insert(name, body, number_in_motion, std::nullopt);
+  return valid;
+}
+
+Result<void> DistributedWorld::RankEngine::add_rigid_body(std::uint32_t name, const RigidBody& added,
+                                                          std::uint32_t number_in_motion) {
+  constexpr std::string_view call = "add_rigid_body";
+  auto valid = consensus_.check(call);
+  if (valid) valid = check_new_rigid_body(added, definition(), call);
   if (!valid) return valid;
-  const std::uint32_t number = rank_.bodies().add_named(body, time(), name);
-  rank_.state.contacts.add(number, 0.0);
+  if (added.angular_acceleration_limit != 0.0)
+    return Error{ErrorCode::unsupported, "angular_acceleration_limit", no_body,
+                 std::string(call) + ": angular_acceleration_limit must be 0 in a distributed world, which " +
+                     "has no rotation probe, but is " + text_of(added.angular_acceleration_limit)};
+  const BodyDefinition body = body_of(added);
+  valid = check_addition(name, body, number_in_motion, call);
+  if (!valid) return valid;
+  const RigidRecord turning = record_of(added, time());
+  const Bound bound = bound_now(body, time());
+  const Overlaps overlaps(rank_.bodies(), rank_.state.broad_phase, time());
+  if (const auto wall = overlaps.of_wall({bound, false, nullptr, body.radius, &turning}))
+    return wall_error(call, no_body, *wall);
+  insert(name, body, number_in_motion, turning);
+  return {};
+}
+
+void DistributedWorld::RankEngine::insert(std::uint32_t name, const BodyDefinition& body,
+                                          std::uint32_t number_in_motion,
+                                          std::optional<RigidRecord> turning) {
+  Bodies& bodies = rank_.bodies();
+  const std::uint32_t number = bodies.add_named(body, time(), name);
+  if (turning) bodies.make_rigid(number, std::move(*turning));
   rank_.directory.add(name, number, communicator_.rank());
   rank_.directory[number].in_motion = number_in_motion;
   names_.add(name);
-  Body& added = rank_.bodies()[number];
-  added.bound = bound_of(body, {body.position, body.velocity}, time());
-  added.relocated = true;
+  bodies[number].bound = bound_now(body, time());
+  bodies[number].relocated = true;
   rank_.main.invalidate(number);
-  rank_.state.contacts.add(number, added.largest_acceleration());
-  return {};
+  rank_.state.contacts.add(number, bodies.largest_acceleration(number));
 }
 
 Result<void> DistributedWorld::RankEngine::set_sensor(SensorClass sensor_class, const Sensor& sensor) {
@@ -103,7 +133,7 @@ Result<void> DistributedWorld::RankEngine::run(double until, const ResponseFn* r
   };
   rank_.main.reports().ask(probe, "run");
   std::optional<RankResponder> handler;
-  if (respond != nullptr) handler.emplace(*respond, source_, definition());
+  if (respond != nullptr) handler.emplace(*respond, source_, rank_.bodies());
   SpeculativeRunner runner(rank_.state, rank_.main, lease, probe, handler ? &*handler : nullptr);
   runner.require_speculation();
   return go(until, sink, lease, runner);

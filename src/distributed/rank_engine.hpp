@@ -13,7 +13,9 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "distributed/answering.hpp"
@@ -43,6 +45,7 @@ class DistributedWorld::RankEngine {
   Result<void> agree(const Result<void>& here) { return consensus_.agree(here); }
 
   Result<void> add(std::uint32_t name, const BodyDefinition& body, std::uint32_t number_in_motion);
+  Result<void> add_rigid_body(std::uint32_t name, const RigidBody& added, std::uint32_t number_in_motion);
   Result<void> set_sensor(SensorClass sensor_class, const Sensor& sensor);
   Result<void> run(double until, const ResponseFn* respond, const OrderedEventFn& sink, Workers* workers);
 
@@ -57,8 +60,10 @@ class DistributedWorld::RankEngine {
   RankFigures figures() const;
 
  private:
-  Result<void> check_body_to_add(std::uint32_t name, const BodyDefinition& body,
-                                 std::uint32_t number_in_motion) const;
+  Result<void> check_addition(std::uint32_t name, const BodyDefinition& body, std::uint32_t number_in_motion,
+                              std::string_view call) const;
+  void insert(std::uint32_t name, const BodyDefinition& body, std::uint32_t number_in_motion,
+              std::optional<RigidRecord> turning);
   Result<void> check_run(double until, const PoolLease& lease) const;
   Result<void> go(double until, const OrderedEventFn& sink, PoolLease& lease, SpeculativeRunner& runner);
   Result<void> start_arrivals(PoolLease& lease, SpeculativeRunner& runner);

@@ -10,8 +10,11 @@ namespace kinesphere {
 
 Arrivals WindowStarts::count_arrivals() {
   std::vector<std::uint32_t> arrived = rank_.main.dirty().arrivals(rank_.bodies());
-  std::uint64_t sums[] = {arrived.size(), rank_.own_registered(), rank_.own_moving()};
+  std::uint64_t sums[] = {arrived.size(), rank_.own_registered(), rank_.own_moving(),
+                          rank_.bodies().are_balls() ? 0u : 1u};
   communicator_.sum(sums);
+  // What is certified of two balls depends on whether all bodies of the world are balls.
+  if (sums[3] > 0) rank_.bodies().rigid.note_elsewhere();
   return {std::move(arrived), sums[0], sums[1], sums[2]};
 }
 

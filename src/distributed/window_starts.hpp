@@ -34,7 +34,8 @@ class WindowStarts {
   /// get a window in this bulk start.
   Result<void> start(PoolLease& lease, bool all, std::span<const std::uint32_t> joining);
 
-  /// Counts added and registered bodies over all ranks, for start_with().
+  /// Counts added and registered bodies over all ranks, for start_with(), and finds out whether any rank has
+  /// a rigid body.
   Arrivals count_arrivals();
   /// Does what World::Engine::start_with_arrivals() does: if many bodies were added, all windows restart
   /// together with them. Bodies that stand still, and added bodies that are too few, remain dirty.

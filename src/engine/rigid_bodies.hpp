@@ -14,6 +14,12 @@ class RigidBodies {
  public:
   /// Returns true if there has never been a rigid body.
   bool empty() const { return records_.empty(); }
+  /// Makes empty() return false, since another process of this world has rigid bodies.
+  void note_elsewhere() {
+    if (!empty()) return;
+    records_.emplace_back();
+    free_.push_back(0);
+  }
   /// Returns true if there is a rigid body now.
   bool any() const { return records_.size() > free_.size(); }
   const RigidRecord& operator[](const Body& body) const { return records_[body.shape_number]; }

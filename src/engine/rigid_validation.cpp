@@ -2,6 +2,8 @@
 #include <algorithm>
 
 #include "bound/rigid_part.hpp"
+#include "bound/rigid_record.hpp"
+#include "engine/shaped_body.hpp"
 #include "engine/validation.hpp"
 
 namespace kinesphere {
@@ -69,6 +71,38 @@ Result<void> check_rigid_body(const RigidBody& body, const WorldDefinition& worl
   check.require(!(spin > body.largest_angular_speed), ErrorCode::out_of_range,
                 {"rotation", no_body, "angular_velocity"}, "must not exceed largest_angular_speed", spin);
   for (int axis = 0; axis < 3; ++axis) check.not_negative_or_infinite({"inertia"}, body.inertia[axis]);
+  return check.result();
+}
+
+Result<void> check_new_rigid_body(const RigidBody& body, const WorldDefinition& world,
+                                  std::string_view call) {
+  auto valid = check_keeps_size(body.body, call);
+  if (valid) valid = check_rigid_body(body, world, call);
+  if (!valid) return valid;
+  WorldDefinition without_walls = world;
+  without_walls.box.reset();
+  return check_body(body_of(body), without_walls, call);
+}
+
+Result<void> check_keeps_size(const BodyDefinition& body, std::string_view call) {
+  if (body.radius_rate == 0.0) return {};
+  return Error{ErrorCode::unsupported, "radius_rate", no_body,
+               std::string(call) + ": radius_rate must be 0 for a body that is not a ball, but is " +
+                   text_of(body.radius_rate)};
+}
+
+Result<void> check_spin(const Vec3& angular_velocity, const RigidRecord* turning, BodyId body,
+                        const WorldDefinition& world, std::string_view call) {
+  if (turning == nullptr)
+    return Error{ErrorCode::unsupported, "body", body,
+                 std::string(call) + ": body must be rigid, but " + text_of(body) + " is not"};
+  InputCheck check(call);
+  check.within({"angular_velocity", body}, angular_velocity, limits::largest_speed)
+      .require(!(norm(angular_velocity) > turning->largest_angular_speed), ErrorCode::out_of_range,
+               {"angular_velocity", body}, "must not exceed largest_angular_speed", angular_velocity);
+  if (world.dimensions == 2)
+    check.require(angular_velocity.x == 0.0 && angular_velocity.y == 0.0, ErrorCode::out_of_range,
+                  {"angular_velocity", body}, "must be about z alone in two dimensions", angular_velocity);
   return check.result();
 }
 

@@ -305,6 +305,12 @@ Error overlap_error(std::string_view call, BodyId other, const std::string& name
               " must not overlap another body, but the body would overlap " + name_of_other};
 }
 
+Error wall_error(std::string_view call, BodyId body, Wall wall) {
+  return {ErrorCode::outside_domain, "parts", body,
+          std::string(call) + ": parts must lie in the box, but would overlap the wall " +
+              std::string(name_of(wall))};
+}
+
 Error moved_from_error(std::string_view call) {
   return {ErrorCode::moved_from, "world", no_body,
           std::string(call) + ": world must be one that has not been moved from"};

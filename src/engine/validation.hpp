@@ -12,6 +12,8 @@
 
 namespace kinesphere {
 
+struct RigidRecord;
+
 Result<void> check_world(const WorldDefinition& definition);
 /// `call` is the name of the API function, for the message.
 Result<void> check_body(const BodyDefinition& body, const WorldDefinition& world, std::string_view call);
@@ -20,8 +22,15 @@ Result<void> check_shape(const Shape& shape, const WorldDefinition& world, std::
 Result<void> check_carried_shape(const Shape& shape, const WorldDefinition& world, std::string_view call);
 /// Validates what a rigid body adds to its BodyDefinition.
 Result<void> check_rigid_body(const RigidBody& body, const WorldDefinition& world, std::string_view call);
+/// Validates a rigid body that is to be added, except for its sensor reach and the room that it takes.
+Result<void> check_new_rigid_body(const RigidBody& body, const WorldDefinition& world, std::string_view call);
+/// Validates that a body that is not a ball keeps its size.
+Result<void> check_keeps_size(const BodyDefinition& body, std::string_view call);
 Result<void> check_rotation(const Rotation& rotation, BodyId body, const WorldDefinition& world,
                             std::string_view call);
+/// Validates an angular velocity that a body is to get. `turning` is nullptr if the body is not rigid.
+Result<void> check_spin(const Vec3& angular_velocity, const RigidRecord* turning, BodyId body,
+                        const WorldDefinition& world, std::string_view call);
 /// Validates a changed radius or changed motion limits of a body that is in the world already.
 Result<void> check_radius(const BodyDefinition& changed, BodyId body, const WorldDefinition& world,
                           std::string_view call);
@@ -68,6 +77,8 @@ inline bool is_valid_report(const State& state, const WorldDefinition& world) {
 /// Returns the error of a body that would overlap `other`.
 Error overlap_error(std::string_view call, BodyId other, const std::string& name_of_other,
                     std::string_view argument = "position");
+/// Returns the error of a rigid body that would overlap a wall.
+Error wall_error(std::string_view call, BodyId body, Wall wall);
 /// Requires a length of a query to be between 0 and four times the largest coordinate.
 InputCheck& require_length(InputCheck& check, std::string_view argument, double length,
                            const WorldDefinition& world);

@@ -144,41 +144,17 @@ Result<void> World::Preconditions::no_overlap(const MovingShape& added, BodyId i
   return no_overlap(carried_shape_of(bound, added.shape, body.radius), body, id, "shape");
 }
 
-Result<void> World::Preconditions::is_rigid(BodyId body) const {
-  if (engine_->bodies()[body.index].is_rigid) return {};
-  return error_about(ErrorCode::unsupported, body, "body must be rigid, but " + text_of(body) + " is not");
-}
-
 Result<void> World::Preconditions::can_spin(BodyId body, const Vec3& angular_velocity) const {
   auto valid = can_turn(body);
-  if (valid) valid = is_rigid(body);
   if (!valid) return valid;
-  const double largest = engine_->bodies().rigid[engine_->bodies()[body.index]].largest_angular_speed;
-  InputCheck check(call_);
-  check.within({"angular_velocity", body}, angular_velocity, limits::largest_speed)
-      .require(!(norm(angular_velocity) > largest), ErrorCode::out_of_range, {"angular_velocity", body},
-               "must not exceed largest_angular_speed", angular_velocity);
-  if (definition().dimensions == 2)
-    check.require(angular_velocity.x == 0.0 && angular_velocity.y == 0.0, ErrorCode::out_of_range,
-                  {"angular_velocity", body}, "must be about z alone in two dimensions", angular_velocity);
-  return check.result();
+  const RigidRecord* const turning = engine_->bodies().rigid.find(engine_->bodies()[body.index]);
+  return check_spin(angular_velocity, turning, body, definition(), call_);
 }
 
 Result<void> World::Preconditions::new_rigid_body(const RigidBody& added, BodyId id) const {
-  auto valid = keeps_size(added.body);
-  if (valid) valid = check_rigid_body(added, definition(), call_);
-  if (!valid) return valid;
-  const BodyDefinition body = body_of(added);
-  valid = check_body(body, domain_of(true), call_);
-  if (valid) valid = reach(body, no_body, "sensor_class");
+  auto valid = check_new_rigid_body(added, definition(), call_);
+  if (valid) valid = reach(body_of(added), no_body, "sensor_class");
   return valid ? room_for(added, id) : valid;
-}
-
-Result<void> World::Preconditions::keeps_size(const BodyDefinition& body) const {
-  if (body.radius_rate == 0.0) return {};
-  return Error{ErrorCode::unsupported, "radius_rate", no_body,
-               std::string(call_) + ": radius_rate must be 0 for a body that is not a ball, but is " +
-                   text_of(body.radius_rate)};
 }
 
 /// The parts are inside the walls and, if overlaps are forbidden, overlap no other body.
@@ -188,9 +164,7 @@ Result<void> World::Preconditions::room_for(const RigidBody& added, BodyId id) c
   const Bound bound = bound_now(body, engine_->time());
   const CollisionShape shape{bound, false, nullptr, body.radius, &record};
   if (const auto wall = engine_->overlaps().of_wall(shape))
-    return Error{ErrorCode::outside_domain, "parts", is_known(id) ? id : no_body,
-                 std::string(call_) + ": parts must lie in the box, but would overlap the wall " +
-                     std::string(name_of(*wall))};
+    return wall_error(call_, is_known(id) ? id : no_body, *wall);
   return no_overlap(shape, body, id, "position");
 }
 
@@ -294,7 +268,7 @@ Result<StaticDefinition> World::Preconditions::new_static(const StaticDefinition
 }
 
 Result<MovingShape> World::Preconditions::new_moving_shape(const MovingShape& added, BodyId id) const {
-  if (auto valid = keeps_size(added.body); !valid) return valid.error();
+  if (auto valid = check_keeps_size(added.body, call_); !valid) return valid.error();
   if (auto valid = check_carried_shape(added.shape, definition(), call_); !valid) return valid.error();
   const MovingShape accepted{added.body, normalized_carried(added.shape, definition())};
   if (auto valid = check_body(body_of(accepted, definition()), domain_of(true), call_); !valid)

@@ -66,8 +66,6 @@ class World::Preconditions {
   Result<void> room_for(const RigidBody& body, BodyId id) const;
   /// The body is rigid, and may be turned to this rotation at the present time.
   Result<void> turned(BodyId id, const Rotation& rotation) const;
-  /// The body is rigid (ErrorCode::unsupported). Precondition: known().
-  Result<void> is_rigid(BodyId body) const;
   /// Like can_turn(), for a rigid body and its angular velocity.
   Result<void> can_spin(BodyId body, const Vec3& angular_velocity) const;
   /// The body may be changed so.
@@ -97,8 +95,6 @@ class World::Preconditions {
   WorldDefinition domain_of(bool has_shape) const;
   Result<void> no_overlap(const CollisionShape& shape, const BodyDefinition& body, BodyId id,
                           std::string_view argument) const;
-  /// The body, which is no ball, does not change its size (ErrorCode::unsupported).
-  Result<void> keeps_size(const BodyDefinition& body) const;
   bool is_foreign(BodyId body) const;
   // Precondition: the body is known.
   Result<void> is_enabled(BodyId body, bool enabled) const;

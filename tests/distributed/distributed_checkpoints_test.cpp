@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "distributed/one_world.hpp"
+#include "distributed/rigid_scenes.hpp"
 #include "kinesphere/random.hpp"
 #include "simulation/scene/make_scene.hpp"
 #include "support/expect_error.hpp"
@@ -23,6 +23,13 @@ Scene scene_of(const std::string& name, std::uint32_t bodies) {
   parameters.seconds = 1.2;
   if (parameters.packing <= 0.0) parameters.box.upper = {130, 130, 130};
   return make_scene(parameters).value();
+}
+
+/// Rigid bodies among balls that grow and shrink.
+Setting rigid_and_growing() {
+  Setting setting = rigid_setting({.seed = 11, .seconds = 1.2, .acceleration_limit = 1.0});
+  setting.radius_rate = 0.1;
+  return setting;
 }
 
 /// Returns a motion of the scene without bodies.
@@ -52,9 +59,11 @@ std::vector<Part> share_of(const std::vector<Part>& parts, int shift) {
 }
 
 TEST(DistributedCheckpoints, GoOnAsIfNothingHadBeen) {
-  for (const char* name : {"paper1", "gas", "paper2"}) {
+  for (const std::string name : {"paper1", "gas", "paper2", "rigid"}) {
     SCOPED_TRACE(name);
-    const Setting setting{.scene = scene_of(name, 300), .sensors = std::string(name) == "paper1"};
+    const Setting setting = name == "rigid"
+                                ? rigid_and_growing()
+                                : Setting{.scene = scene_of(name, 300), .sensors = name == "paper1"};
     const RunOutcome one = alone(setting);
     Random random(5);
     for (int trial = 0; trial < 3; ++trial) {
@@ -76,21 +85,23 @@ TEST(DistributedCheckpoints, GoOnAsIfNothingHadBeen) {
 
 /// A checkpoint of one rank is restored by many, and the other way round.
 TEST(DistributedCheckpoints, MayBeOfAnotherNumberOfRanks) {
-  const Setting setting{.scene = scene_of("paper1", 250)};
-  const RunOutcome one = alone(setting);
-  std::vector<OrderedEvent> reported;
-  std::vector<Part> parts = parts_at(setting, 0.5, reported);
-  // One rank holds all bodies.
-  const std::unique_ptr<Motion> motion = empty_motion(setting.scene);
-  auto world = DistributedWorld::restore(share_of(parts, 0), *motion);
-  ASSERT_TRUE(world) << world.error().message;
-  Communicator communicator;
-  parts = communicator.gather(world->save().value());
-  const std::unique_ptr<Motion> again = empty_motion(setting.scene);
-  const bool takes_all = communicator.rank() == 0;
-  auto resumed = DistributedWorld::restore(takes_all ? parts : std::vector<Part>(), *again);
-  ASSERT_TRUE(resumed) << resumed.error().message;
-  EXPECT_EQ(finish(setting, *resumed).hash, one.hash);
+  for (const bool is_rigid : {false, true}) {
+    const Setting setting = is_rigid ? rigid_and_growing() : Setting{.scene = scene_of("paper1", 250)};
+    const RunOutcome one = alone(setting);
+    std::vector<OrderedEvent> reported;
+    std::vector<Part> parts = parts_at(setting, 0.5, reported);
+    // One rank holds all bodies.
+    const std::unique_ptr<Motion> motion = empty_motion(setting.scene);
+    auto world = DistributedWorld::restore(share_of(parts, 0), *motion);
+    ASSERT_TRUE(world) << world.error().message;
+    Communicator communicator;
+    parts = communicator.gather(world->save().value());
+    const std::unique_ptr<Motion> again = empty_motion(setting.scene);
+    const bool takes_all = communicator.rank() == 0;
+    auto resumed = DistributedWorld::restore(takes_all ? parts : std::vector<Part>(), *again);
+    ASSERT_TRUE(resumed) << resumed.error().message;
+    EXPECT_EQ(finish(setting, *resumed).hash, one.hash);
+  }
 }
 
 TEST(DistributedCheckpoints, OfAWorldThatHasNotBegun) {

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "archive/archive.hpp"
+#include "engine/shaped_body.hpp"
 #include "kinesphere/motion/ballistic.hpp"
 
 namespace kinesphere::migration_test {
@@ -60,6 +62,35 @@ TEST(Migration, BringsABodyAndItsMotion) {
   EXPECT_EQ(other.local.directory[*found].owner, 0);
   EXPECT_EQ(other.local.bodies()[*found].bound.velocity, state.velocity);
   EXPECT_EQ(other.motion.state(other.local.directory[*found].in_motion, 2.0).position, (Vec3{9, 12, 15}));
+}
+
+TEST(Migration, BringsPartsAndRotationOfARigidBody) {
+  Rank one(0);
+  Rank other(1);
+  const RigidBody definition{.parts = {{{-1, 0, 0}, {1, 0, 0}, 0.5}, box_part({{0, 0, 0}, {1, 2, 3}}, 0.1)},
+                             .rotation = {rotation_by({1, 2, 3}), {4, 5, 6}},
+                             .largest_angular_speed = 100.0,
+                             .inertia = {1, 2, 3}};
+  const std::uint32_t number = one.add(70, {});
+  one.local.bodies().make_rigid(number, record_of(definition, 0.0));
+  other.add(10, {});
+  const auto expect_equal = [&] {
+    const std::uint32_t there = *other.local.directory.find(70);
+    EXPECT_EQ(rigid_body(other.local.bodies(), there).parts, definition.parts);
+    ByteWriter bytes[2];
+    bytes[0](one.local.bodies().rigid[one.local.bodies()[number]]);
+    bytes[1](other.local.bodies().rigid[other.local.bodies()[there]]);
+    EXPECT_EQ(bytes[0].bytes(), bytes[1].bytes());
+  };
+  other.install({one.migration.pack(number)});
+  expect_equal();
+  one.local.main.advance_clock(1.5);
+  one.local.bodies()[number].bound.time = 1.5;
+  one.local.main.set_angular_velocity(number, {0, 7, 0});
+  other.install({one.migration.pack(number)});
+  expect_equal();
+  other.migration.drop(*other.local.directory.find(70));
+  EXPECT_FALSE(other.local.bodies().rigid.any()) << "its record is free again";
 }
 
 TEST(Migration, KeepsLinksToBodiesThatAreNotThereYet) {

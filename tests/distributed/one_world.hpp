@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -40,6 +41,8 @@ struct Setting {
   double position_error = 0.0;
   /// Radii grow at this rate, keep or shrink at it, in turn.
   double radius_rate = 0.0;
+  /// Parts, rotation, limits of turning and inertia of the bodies that are not balls, by number.
+  std::map<std::uint32_t, RigidBody> rigid{};
   /// Factor by which the bodies' limits are too small.
   double broken = 1.0;
   int threads = 1;
@@ -50,6 +53,7 @@ struct Setting {
   BodyDefinition body(std::uint32_t number) const {
     BodyDefinition body = scene.motion->definition(number, scene.world.start_time);
     body.radius = scene.bodies[number].radius;
+    body.mass = body.radius * body.radius * body.radius;
     body.user_data = number;
     if (sensors && number % 3 == 0) body.sensor_class = 1;
     if (number % 2 == 1) body.position_error = position_error;
@@ -57,19 +61,21 @@ struct Setting {
     if (number % 5 == 2) body.acceleration_limit *= broken;
     return body;
   }
+  /// Adds a body by one of two functions, for balls and for rigid bodies.
+  void add(std::uint32_t number, const std::function<void(const BodyDefinition&)>& add_ball,
+           const std::function<void(const RigidBody&)>& add_rigid) const {
+    const auto found = rigid.find(number);
+    if (found == rigid.end()) return add_ball(body(number));
+    RigidBody definition = found->second;
+    definition.body = body(number);
+    definition.body.radius_rate = 0.0;
+    add_rigid(definition);
+  }
   Sensor sensor() const { return {.distances = distances}; }
   Response answer(const Event& event) const {
     const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
     if (scene.response != SceneResponse::bounce || !begins || event.approach_speed <= 0.0) return {};
-    const auto mass = [&](BodyId body) {
-      const double radius = scene.bodies[body.index].radius;
-      return radius * radius * radius;
-    };
-    const double second = event.second == no_body ? 1.0 : mass(event.second);
-    const Bounce after = bounce(event, mass(event.first), second, scene.restitution);
-    Response answer{after.first_velocity, std::nullopt};
-    if (event.second != no_body) answer.second_velocity = after.second_velocity;
-    return answer;
+    return response_of(event, bounce(event, scene.restitution));
   }
 };
 
@@ -78,7 +84,10 @@ inline RunOutcome alone(const Setting& setting) {
   const std::unique_ptr<Motion> motion = scene.motion->clone();
   World world = World::create(scene.world).value();
   if (setting.sensors) world.set_sensor(1, setting.sensor()).value();
-  for (std::uint32_t k = 0; k < scene.bodies.size(); ++k) world.add(setting.body(k)).value();
+  for (std::uint32_t k = 0; k < scene.bodies.size(); ++k)
+    setting.add(
+        k, [&](const BodyDefinition& body) { world.add(body).value(); },
+        [&](const RigidBody& body) { world.add_rigid_body(body).value(); });
   RunOutcome outcome;
   EventHash hash;
   const auto sink = [&](const Event& event) {
@@ -99,7 +108,10 @@ inline DistributedWorld spread(const Setting& setting, Motion& motion) {
   if (setting.sensors) world.set_sensor(1, setting.sensor()).value();
   const auto bodies = static_cast<std::uint32_t>(setting.scene.bodies.size());
   for (std::uint32_t k = 0; k < bodies; ++k)
-    if (setting.bringer(k, bodies, world.ranks()) == world.rank()) world.add(k, setting.body(k), k).value();
+    if (setting.bringer(k, bodies, world.ranks()) == world.rank())
+      setting.add(
+          k, [&](const BodyDefinition& body) { world.add(k, body, k).value(); },
+          [&](const RigidBody& body) { world.add_rigid_body(k, body, k).value(); });
   for (std::uint32_t k = 0; k < bodies; ++k)
     if (setting.bringer(k, bodies, world.ranks()) != world.rank()) motion.remove(k).value();
   return world;

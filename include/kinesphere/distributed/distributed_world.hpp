@@ -25,6 +25,7 @@
 #include "kinesphere/event_hash.hpp"
 #include "kinesphere/motion/motion.hpp"
 #include "kinesphere/result.hpp"
+#include "kinesphere/rigid_body.hpp"
 #include "kinesphere/run.hpp"
 #include "kinesphere/sensor.hpp"
 #include "kinesphere/workers.hpp"
@@ -67,8 +68,8 @@ struct RankFigures {
 /// equal error on all ranks; its message begins with the rank on which the error occurred. After an error of
 /// run() the world cannot continue: every later call fails with rank_failed.
 ///
-/// Features of World that DistributedWorld lacks: static bodies, sleep, changes and removals between events,
-/// pair filters, queries, recordings. `allow_overlap` must be true.
+/// Features of World that DistributedWorld lacks: moving shapes, static bodies, rotation probes, sleep,
+/// changes and removals between events, pair filters, queries, recordings. `allow_overlap` must be true.
 class DistributedWorld {
  public:
   /// Collective. Creates an empty world. `motion` moves the bodies of this rank and must outlive the world.
@@ -84,6 +85,10 @@ class DistributedWorld {
   /// Errors: those of World::add; out_of_range (`index` belongs to a body that this rank holds); unknown_body
   /// (the motion has no such body).
   Result<void> add(std::uint32_t index, const BodyDefinition& body, std::uint32_t number_in_motion);
+  /// Adds a rigid body in the same way, which keeps its angular velocity between contacts. It moves and turns
+  /// as one of World::add_rigid_body(). Errors: those of add() and World::add_rigid_body(); unsupported
+  /// (angular_acceleration_limit: a distributed world has no RotationProbe).
+  Result<void> add_rigid_body(std::uint32_t index, const RigidBody& body, std::uint32_t number_in_motion);
   /// Collective. Sets a sensor class as World::set_sensor does; all ranks pass equal arguments. Precondition:
   /// no rank has added bodies. Errors, equal on all ranks: those of World::set_sensor; unsupported
   /// (sensor_class: there are bodies). After an error the world is unchanged and can continue.
