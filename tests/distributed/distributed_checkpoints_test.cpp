@@ -27,7 +27,7 @@ Scene scene_of(const std::string& name, std::uint32_t bodies) {
 
 /// Rigid bodies among balls that grow and shrink.
 Setting rigid_and_growing() {
-  Setting setting = rigid_setting({.seed = 11, .seconds = 1.2, .acceleration_limit = 1.0});
+  Setting setting = rigid_setting({.seed = 11, .acceleration_limit = 1.0, .seconds = 1.2});
   setting.radius_rate = 0.1;
   return setting;
 }

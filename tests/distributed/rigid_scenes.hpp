@@ -35,7 +35,7 @@ inline std::vector<RigidPart> parts_of(RigidKind kind, Random& random) {
   switch (kind) {
     case RigidKind::capsules: {
       const Vec3 end = 0.7 * random.unit_vector();
-      return {{-1.0 * end, end, random.uniform(0.1, 0.3)}};
+      return {RigidPart{-1.0 * end, end, random.uniform(0.1, 0.3)}};
     }
     case RigidKind::clusters: {
       std::vector<RigidPart> parts;
