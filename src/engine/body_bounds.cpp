@@ -11,17 +11,19 @@ Box cut_box(const Bodies& bodies, const Shape& shape) {
   return bounding_box(shape, 8.0 * coordinate_limit(bodies.definition()));
 }
 
-/// Radius with the position error (length), and rate of the radius (length / time).
+/// Sphere::radius (length), and its rate (length / time).
 struct Size {
   double radius;
   double rate;
 };
 
-/// Returns the size of a body now, if that of any changes with time. Out of line, for worlds where none does.
-[[gnu::noinline]] Size changing_size(const Bodies& bodies, double now, std::uint32_t number) {
+/// Returns the size of a body now, which is `constant` unless its radius changes with time. Out of line, for
+/// worlds where none does.
+[[gnu::noinline]] Size changing_size(const Bodies& bodies, double now, std::uint32_t number,
+                                     const Size& constant) {
   const Body& body = bodies[number];
   const ChangingRadius* const changing = bodies.radii.find(number);
-  if (changing == nullptr) return {body.bound.radius, 0.0};
+  if (changing == nullptr) return constant;
   return {body.bound.radius + (changing->at(now) - body.radius), changing->rate_at(now)};
 }
 
@@ -52,18 +54,20 @@ GapLimits gap_at(const Bodies& bodies, double now, const CollisionShape& a, cons
 }
 
 Sphere sphere_at(const Bodies& bodies, double now, std::uint32_t number) {
-  const Bound& bound = bodies[number].bound;
-  const Size size = bodies.radii.any() ? changing_size(bodies, now, number) : Size{bound.radius, 0.0};
+  const Body& body = bodies[number];
+  const Bound& bound = body.bound;
+  Size size{body.carries_shape || body.is_rigid ? bound.radius - body.radius : bound.radius, 0.0};
+  if (bodies.radii.any()) size = changing_size(bodies, now, number, size);
   Sphere sphere{bodies.id_of(number),
                 size.radius,
                 {bound.centre_at(now), bound.velocity_at(now)},
                 bodies.shapes.empty() ? nullptr : collision_shape_of(bodies, number).shape,
-                bodies[number].carries_shape,
-                bodies[number].user_data,
+                body.carries_shape,
+                body.user_data,
                 bodies.masses.of(number),
-                traits_of(bodies[number]),
-                bodies[number].contact_events,
-                bodies.rigid.find(bodies[number]),
+                traits_of(body),
+                body.contact_events,
+                bodies.rigid.find(body),
                 size.rate};
   const Space& space = bodies.space();
   if (space.repeats()) sphere.state.position = space.wrapped(sphere.state.position).position;

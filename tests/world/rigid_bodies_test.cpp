@@ -762,6 +762,55 @@ TEST(RigidBodyErrors, NeedARotationProbeThatAnswers) {
   EXPECT_FALSE(world.body(ball)->rigid);
 }
 
+/// Flies towards a partner, a wall or a shape. Returns the first contact.
+std::optional<Event> first_contact(std::uint64_t seed, bool has_errors) {
+  constexpr double error = 0.1;
+  Random random(seed);
+  Playground p({.box = Box{{-6, -6, -6}, {6, 6, 6}}, .contact_tolerance = 1e-9});
+  const auto wider = [&](double radius, double by) { return has_errors ? radius : radius + by; };
+  const auto course = [&](const Vec3& position, const Vec3& velocity) {
+    return BodyDefinition{.radius = wider(0.4, error),
+                          .position_error = has_errors ? error : 0.0,
+                          .position = position,
+                          .velocity = velocity};
+  };
+  const auto rigid = [&](const BodyDefinition& body, double by) {
+    RigidBody made{.body = body, .rotation = {rotation_by(random.unit_vector()), 3.0 * random.unit_vector()}};
+    made.parts = {{{-0.5, 0, 0}, {0.5, 0.1, 0}, wider(0.1, by)}, {{0, 0.3, 0}, {0, 0.3, 0}, wider(0.3, by)}};
+    made.parts.push_back(box_part({{-0.2, -0.2, 0.2}, {0.1, 0.2, 0.6}}, wider(0.05, by)));
+    p.add_rigid_body(made);
+  };
+  // A moving shape without an error is not wider instead: the other body is.
+  const bool is_moving_shape = seed % 5 == 4;
+  rigid(course({}, {1, 0.1, 0.2 * random.uniform()}), is_moving_shape ? 2.0 * error : error);
+  const BodyDefinition partner = course({3, 0, 0}, {-1, 0, 0});
+  const Box box{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}};
+  if (seed % 5 == 0) rigid(partner, error);
+  if (seed % 5 == 1) p.add(partner);
+  if (seed % 5 == 2) p.world.add_static({.shape = Box{{3, -1, -1}, {4, 1, 1}}}).value();
+  if (is_moving_shape) {
+    const BodyId id = p.world.add_moving_shape({partner, box}).value();
+    p.start_course(id, partner);
+  }
+  return p.advance(20.0);
+}
+
+TEST(RigidBodies, PositionErrorsCountAsRadiusOfTheirParts) {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    SCOPED_TRACE(seed);
+    const auto with_error = first_contact(seed, true);
+    const auto with_radius = first_contact(seed, false);
+    ASSERT_TRUE(with_error && with_radius);
+    EXPECT_EQ(with_error->second, with_radius->second);
+    EXPECT_EQ(with_error->first_part, with_radius->first_part);
+    EXPECT_EQ(with_error->second_part, with_radius->second_part);
+    EXPECT_NEAR(with_error->time, with_radius->time, 1e-6);
+    EXPECT_NEAR(with_error->gap, 0.0, 2e-9);
+    EXPECT_LT(norm(with_error->normal - with_radius->normal), 1e-5);
+    EXPECT_LT(norm(with_error->point - with_radius->point), seed % 5 == 4 ? 0.101 : 1e-5);
+  }
+}
+
 TEST(RigidBodies, LieOnAFloorThoughTheBallAroundThemReachesBelow) {
   World world = World::create({.box = Box{{-5, -5, 0}, {5, 5, 9}}, .allow_overlap = false}).value();
   const RigidBody plank{.body = {.position = {0, 0, 0.25}}, .parts = {{{-2, 0, 0}, {2, 0, 0}, 0.25}}};
