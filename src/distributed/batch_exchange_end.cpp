@@ -43,7 +43,7 @@ Result<void> BatchExchange::renew_ghosts() {
     for (const Cluster& cluster : runner_.clusters())
       if (!cluster.is_merged() && cluster.executed) renew_ghosts(cluster, buffers);
   }));
-  const auto renewed = migration_.exchange(communicator_, consensus_, buffers);
+  const auto renewed = migration_.exchange(communicator_, consensus_, buffers, &runner_);
   return renewed ? Result<void>() : renewed.error();
 }
 
@@ -84,7 +84,7 @@ BodyMessage BatchExchange::pack_changed(std::uint32_t number, bool is_updated, c
   BodyMessage message = migration_.pack(number);
   message.enters = is_updated;
   message.is_stale = runner_.checkpoint_of(number)->body.body.revision != rank_.bodies()[number].revision;
-  migration_.add_due(message, number, runner_.late_pairs_of(cluster));
+  migration_.add_late_pairs(message, number, cluster, runner_);
   return message;
 }
 

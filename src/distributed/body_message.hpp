@@ -19,10 +19,12 @@ struct BodyMessage {
   struct Due {
     double time;
     std::uint32_t other;
+    /// Made in a batch by a cluster without the other body, from that body's state when the batch began.
+    bool is_of_batch_start = false;
 
     static void serialize(auto& self, auto& archive) {
-      auto& [time, other] = self;
-      archive(time, other);
+      auto& [time, other, is_of_batch_start] = self;
+      archive(time, other, is_of_batch_start);
     }
   };
 

@@ -127,16 +127,36 @@ void Migration::add_due(std::vector<BodyMessage>& messages, std::span<const std:
   }
 }
 
-void Migration::add_due(BodyMessage& message, std::uint32_t number,
-                        std::span<const PairCertificate> pairs) const {
-  for (const PairCertificate& pair : pairs)
-    if (pair.first == number || (pair.has_second() && pair.second == number))
-      message.due.push_back(due_of(pair, number));
+void Migration::add_late_pairs(BodyMessage& message, std::uint32_t number, const Cluster& cluster,
+                               SpeculativeRunner& runner) const {
+  for (const PairCertificate& pair : runner.late_pairs_of(cluster)) {
+    if (pair.first != number && !(pair.has_second() && pair.second == number)) continue;
+    BodyMessage::Due& due = message.due.emplace_back(due_of(pair, number));
+    due.is_of_batch_start =
+        pair.has_second() && runner.cluster_of(pair.first == number ? pair.second : pair.first) != &cluster;
+  }
+}
+
+/// Drops the certificates that a cluster has made with another body that has changed since in a cluster of
+/// its own. That cluster was executed here, or elsewhere; then one of the messages brings the body.
+void Migration::drop_stale_due(std::vector<BodyMessage>& messages, const SpeculativeRunner* runner) const {
+  std::vector<std::uint32_t> changed;
+  for (const BodyMessage& message : messages)
+    if (message.is_stale) changed.push_back(message.name);
+  std::sort(changed.begin(), changed.end());
+  const auto is_stale = [&](const BodyMessage::Due& due) {
+    if (!due.is_of_batch_start) return false;
+    if (std::binary_search(changed.begin(), changed.end(), due.other)) return true;
+    const auto other = rank_.directory.find(due.other);
+    return other && revision_of(*other, runner) != rank_.bodies()[*other].revision;
+  };
+  for (BodyMessage& message : messages) std::erase_if(message.due, is_stale);
 }
 
 Result<InitialWork> Migration::install(std::vector<BodyMessage>& messages, const SpeculativeRunner* runner) {
   InitialWork beginning;
   std::vector<std::uint32_t> numbers;
+  drop_stale_due(messages, runner);
   for (BodyMessage& message : messages) {
     const auto number = install(message);
     if (!number) return number.error();
@@ -240,14 +260,14 @@ void Migration::link(const BodyMessage& message) {
 }
 
 Result<std::vector<BodyMessage>> Migration::exchange(Communicator& communicator, ErrorConsensus& consensus,
-                                                     SendBuffers& buffers) {
+                                                     SendBuffers& buffers, const SpeculativeRunner* runner) {
   std::vector<BodyMessage> messages;
   for (const Communicator::Bytes& bytes : buffers.exchange(communicator)) {
     ByteReader reader(bytes);
     while (reader.remaining() > 0 && !reader.failed()) reader(messages.emplace_back());
   }
   consensus.note(guarded([&]() -> Result<void> {
-    auto beginning = install(messages, nullptr);
+    auto beginning = install(messages, runner);
     if (!beginning) return beginning.error();
     rank_.main.queue().add_all(beginning->due);
     return {};

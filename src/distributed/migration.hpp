@@ -36,16 +36,18 @@ class Migration {
   /// Adds the certificates of bodies numbers[k] to messages[k]. Cost: O(certificates of the rank).
   void add_due(std::vector<BodyMessage>& messages, std::span<const std::uint32_t> numbers,
                SpeculativeRunner* runner);
-  /// Adds to `message` the certificates in `pairs` that involve the body.
-  void add_due(BodyMessage& message, std::uint32_t number, std::span<const PairCertificate> pairs) const;
+  /// Adds to `message` the certificates that the cluster has left for later and that involve the body.
+  void add_late_pairs(BodyMessage& message, std::uint32_t number, const Cluster& cluster,
+                      SpeculativeRunner& runner) const;
 
   /// Installs the bodies: adds unknown ones and replaces the state of known ones. Returns the initial work,
   /// whose certificates may fail at any time. Errors: those of Motion::read_body.
   Result<InitialWork> install(std::vector<BodyMessage>& messages, const SpeculativeRunner* runner);
-  /// Collective; not during a batch. Sends the messages in the outbox and installs and returns those that
-  /// arrive. Errors, equal on all ranks: those that a rank has noted, including those of Motion::read_body.
+  /// Collective; with `runner` after the clusters of its batch have been committed, otherwise not during a
+  /// batch. Sends the messages in the outbox and installs and returns those that arrive. Errors, equal on all
+  /// ranks: those that a rank has noted, including those of Motion::read_body.
   Result<std::vector<BodyMessage>> exchange(Communicator& communicator, ErrorConsensus& consensus,
-                                            SendBuffers& buffers);
+                                            SendBuffers& buffers, const SpeculativeRunner* runner = nullptr);
   /// Removes the body from this rank.
   void drop(std::uint32_t number);
 
@@ -60,6 +62,7 @@ class Migration {
   PairCertificate certificate(const BodyMessage::Due& due, std::uint32_t number, std::uint32_t other,
                               const SpeculativeRunner* runner) const;
   std::uint32_t revision_of(std::uint32_t number, const SpeculativeRunner* runner) const;
+  void drop_stale_due(std::vector<BodyMessage>& messages, const SpeculativeRunner* runner) const;
   Result<std::uint32_t> install(BodyMessage& message);
   void link(const BodyMessage& message);
 

@@ -30,7 +30,7 @@ TEST(DistributedRigidBodies, OfEachKindBounceAsInOneWorld) {
 TEST(DistributedRigidBodies, OfUnknownCourses) {
   for (const std::uint64_t seed : {2, 3})
     expect_the_same_as_alone(rigid_setting({.seed = seed, .acceleration_limit = 4.0, .has_walls = seed == 2}),
-                             200);
+                             100);
 }
 
 TEST(DistributedRigidBodies, InASpaceThatRepeats) {
