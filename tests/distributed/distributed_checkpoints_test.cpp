@@ -78,7 +78,8 @@ TEST(DistributedCheckpoints, GoOnAsIfNothingHadBeen) {
       const RunOutcome rest = finish(setting, *world);
       std::vector<Event> events = merged(reported);
       events.insert(events.end(), rest.events.begin(), rest.events.end());
-      // A part has each certificate once. A world may have that of a rigid body and its walls twice.
+      // A message has each certificate once. A world may have that of a rigid body and its walls twice, and
+      // checks it twice then.
       (name == "rigid" ? expect_same_course : expect_same)(one, {events, rest.counters, rest.hash});
     }
   }

@@ -148,6 +148,26 @@ TEST(Migration, RenewedCopyKeepsHotPairsUnlessTheyAreVoid) {
   EXPECT_TRUE(other.local.main.certifier().is_stale(pair));
 }
 
+/// Clusters of two ranks have changed one body each. One has certified its body with the other as it was when
+/// the batch began.
+TEST(Migration, LeavesOutPairsOfBodiesThatAnotherClusterHasChanged) {
+  Rank one(0);
+  const std::uint32_t a = one.add(70, {});
+  const std::uint32_t b = one.add(60, {});
+  for (const bool is_changed : {false, true}) {
+    Rank other(1);
+    other.install({one.migration.pack(a), one.migration.pack(b)});
+    BodyMessage first = one.migration.pack(a);
+    first.is_stale = true;
+    first.due = {{.time = 1.5, .other = 60, .is_of_batch_start = true}, {.time = 2.5, .other = 60}};
+    BodyMessage second = one.migration.pack(b);
+    second.is_stale = is_changed;
+    other.install({first, second});
+    EXPECT_EQ(other.beginning.due.size(), is_changed ? 1u : 2u);
+    EXPECT_EQ(other.beginning.due.back().failure_time, 2.5);
+  }
+}
+
 /// The third body comes later, from another rank, which needs the certificate: the order of a read
 /// checkpoint.
 TEST(Migration, KeepsLoosePairs) {

@@ -121,7 +121,8 @@ class DistributedWorld {
   /// Collective. Returns the number of bodies of all ranks.
   std::uint64_t size() const;
   /// Collective. Returns the counters summed over all ranks. Counters that depend on how swept spheres are
-  /// stored (searches, candidates, hot_pairs) differ from those of one World.
+  /// stored (searches, candidates, hot_pairs) differ from those of one World, and so may wall_checks where
+  /// rigid bodies meet walls.
   Counters counters() const;
   /// Collective. Returns the hash of all events reported so far, over all ranks.
   EventHash hash() const;
