@@ -8,7 +8,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 seconds=${1:-60}
 # Length of the longest input in bytes, by target.
-declare -A longest=([operations]=2404 [snapshot]=1024 [mended]=121 [monitor]=4096 [http]=20000 [nmea]=4096)
+declare -A longest=([operations]=2404 [snapshot]=1024 [mended]=121 [monitor]=4096 [http]=20000 [nmea]=4096 [tables]=2000)
 scripts/setup.sh test
 cmake --preset fuzz >/dev/null
 cmake --build --preset fuzz --target "${!longest[@]/#/fuzz_}"

@@ -10,16 +10,22 @@ namespace {
 
 class GeoJsonReader {
  public:
-  explicit GeoJsonReader(const std::string& file) : file_(file) {}
+  /// Sets `line` to that of the feature that is being read.
+  GeoJsonReader(const std::string& file, std::size_t& line) : file_(file), line_(line) {}
 
   ConvertedTable read(std::string_view text) {
     JsonDocumentReader reader;
     ondemand::document document = reader.open(text);
     JsonLine line(document);
-    for (ondemand::value feature : document["features"].get_array()) {
-      ++features_;
-      add(feature.get_object(), line.now());
+    for (auto field : document.get_object()) {
+      if (std::string_view(field.unescaped_key()) != "features") continue;
+      for (ondemand::value feature : field.value().get_array()) {
+        ++features_;
+        line_ = line.now();
+        add(feature.get_object());
+      }
     }
+    require_end(document, "one FeatureCollection");
     auto table = rows_.table();
     if (!table)
       throw ProgramError(fmt::format(
@@ -34,17 +40,17 @@ class GeoJsonReader {
   }
 
  private:
-  void add(ondemand::object feature, std::size_t line) {
+  void add(ondemand::object feature) {
     std::string kind;
     if (ondemand::object geometry; !feature["geometry"].get_object().get(geometry))
       kind = std::string_view(geometry["type"].get_string());
     feature.reset();
-    if (kind == "Point") return add_point(feature, line);
-    if (kind != "LineString" || !add_line(feature, line)) ++left_out_;
+    if (kind == "Point") return add_point(feature);
+    if (kind != "LineString" || !add_line(feature)) ++left_out_;
   }
 
-  void add_point(ondemand::object feature, std::size_t line) {
-    rows_.begin_row(line);
+  void add_point(ondemand::object feature) {
+    rows_.begin_row(line_);
     if (ondemand::object properties; !feature["properties"].get_object().get(properties)) {
       for (auto field : properties) {
         const std::string name(std::string_view(field.unescaped_key()));
@@ -60,7 +66,7 @@ class GeoJsonReader {
   }
 
   /// Returns false for a line without times.
-  bool add_line(ondemand::object feature, std::size_t line) {
+  bool add_line(ondemand::object feature) {
     std::string id = fmt::format("feature {}", features_);
     std::vector<std::string> times;
     if (ondemand::object properties; !feature["properties"].get_object().get(properties))
@@ -74,7 +80,7 @@ class GeoJsonReader {
       throw MalformedRecord(fmt::format("expected as many times as places of '{}', but got {} and {}", id,
                                         times.size(), places.size()));
     for (std::size_t k = 0; k < places.size(); ++k) {
-      rows_.begin_row(line);
+      rows_.begin_row(line_);
       rows_.set("id", quoted_field(id));
       rows_.set("time", times[k]);
       set_place(places[k]);
@@ -129,6 +135,7 @@ class GeoJsonReader {
   }
 
   const std::string& file_;
+  std::size_t& line_;
   JsonRows rows_;
   std::size_t features_ = 0, left_out_ = 0;
 };
@@ -140,8 +147,8 @@ std::optional<ConvertedTable> convert_geojson(std::string_view text, const std::
   if (!trimmed(begin).starts_with('{') || begin.find("\"FeatureCollection\"") == std::string_view::npos)
     return std::nullopt;
   std::optional<ConvertedTable> table;
-  const std::size_t first_line = 1;
-  read_json(file, first_line, [&] { table = GeoJsonReader(file).read(text); });
+  std::size_t line = 1;
+  read_json(file, line, [&] { table = GeoJsonReader(file, line).read(text); });
   return table;
 }
 

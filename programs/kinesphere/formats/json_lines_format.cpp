@@ -25,9 +25,7 @@ class JsonLinesFormat final : public ReportFormat {
       const std::string_view key = field.unescaped_key();
       read_field(key, field.value());
     }
-    const char* more = nullptr;
-    if (!document.current_location().get(more))
-      throw MalformedRecord("expected one JSON object in a line, but there is more");
+    require_end(document, "one JSON object in a line");
     hand_over(sink);
   } catch (const simdjson::simdjson_error& error) {
     throw MalformedRecord(std::string("expected a JSON object: ") + error.what());

@@ -35,6 +35,13 @@ class JsonDocumentReader {
   std::string text_;
 };
 
+/// Throws MalformedRecord with `expected` unless the document has been read to its end.
+inline void require_end(ondemand::document& document, std::string_view expected) {
+  const char* more = nullptr;
+  if (!document.current_location().get(more))
+    throw MalformedRecord("expected " + std::string(expected) + ", but there is more");
+}
+
 /// Returns a number; nothing for null. Sets `wrong` to `name` for any other value.
 inline std::optional<double> number_in(ondemand::value value, const char* name, const char*& wrong) {
   const ondemand::json_type type = value.type();

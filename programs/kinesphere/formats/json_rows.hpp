@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -25,7 +26,7 @@ class JsonRows {
  public:
   void add(ondemand::object object, std::size_t line) {
     begin_row(line);
-    add_fields("", object);
+    add_fields("", object, 1);
   }
   void begin_row(std::size_t line) { rows_.push_back({line, {}}); }
 
@@ -37,28 +38,34 @@ class JsonRows {
     table.text += '\n';
     table.lines_before = 1;
     std::size_t row_line = 1;
+    std::vector<std::string_view> texts;
     for (const Row& row : rows_) {
       for (; row_line < row.line; ++row_line) table.text += '\n';
-      for (std::size_t column = 0; column < names_.size(); ++column)
-        table.text += (column == 0 ? "" : ",") + (column < row.fields.size() ? row.fields[column] : "");
-      table.text += '\n';
+      texts.assign(names_.size(), {});
+      for (const auto& [column, text] : row.fields) texts[column] = text;
+      table.text += fmt::format("{}\n", fmt::join(texts, ","));
       ++row_line;
     }
     return table;
   }
 
-  /// Sets what the row that was begun last has of this name.
-  void add_value(const std::string& name, ondemand::value value) {
+  /// Sets what the row that was begun last has of this name. `depth` is the number of objects and lists around
+  /// the value.
+  void add_value(const std::string& name, ondemand::value value, std::size_t depth = 1) {
+    // Each level takes some of the stack.
+    constexpr std::size_t deepest = 64;
+    if (depth > deepest)
+      throw MalformedRecord(fmt::format("expected records nested at most {} deep, but got deeper", deepest));
     switch (value.type()) {
       case ondemand::json_type::object:
-        return add_fields(name + '.', value.get_object());
+        return add_fields(name + '.', value.get_object(), depth + 1);
       case ondemand::json_type::array: {
         // Longer lists are no positions.
         constexpr std::size_t longest = 3;
         ondemand::array list = value.get_array();
         if (list.count_elements() > longest) return;
         std::size_t place = 0;
-        for (ondemand::value element : list) add_value(fmt::format("{}.{}", name, place++), element);
+        for (ondemand::value element : list) add_value(fmt::format("{}.{}", name, place++), element, depth + 1);
         return;
       }
       case ondemand::json_type::string:
@@ -73,25 +80,24 @@ class JsonRows {
   void set(const std::string& name, std::string field) {
     const auto [place, is_new] = columns_.emplace(name, names_.size());
     if (is_new) names_.push_back(name);
-    // Objects whose keys are ids or times would need memory for each of them in each row.
+    // Objects whose keys are ids or times would need a field for each of them in each row.
     constexpr std::size_t most_columns = 1000;
     if (names_.size() > most_columns)
       throw MalformedRecord(fmt::format("expected records of at most {} names, but got more", most_columns));
-    auto& fields = rows_.back().fields;
-    if (fields.size() <= place->second) fields.resize(place->second + 1);
-    fields[place->second] = std::move(field);
+    rows_.back().fields.emplace_back(place->second, std::move(field));
   }
 
  private:
   struct Row {
     std::size_t line;
-    std::vector<std::string> fields;  ///< by column
+    /// Columns and texts; the last text of a column counts. Many rows have few of all columns.
+    std::vector<std::pair<std::size_t, std::string>> fields;
   };
 
-  void add_fields(const std::string& prefix, ondemand::object object) {
+  void add_fields(const std::string& prefix, ondemand::object object, std::size_t depth) {
     for (auto field : object) {
       const std::string name = prefix + std::string(std::string_view(field.unescaped_key()));
-      add_value(name, field.value());
+      add_value(name, field.value(), depth);
     }
   }
 

@@ -26,6 +26,7 @@ std::optional<ConvertedTable> table_of_list(std::string_view text, const std::st
       line = place.now();
       rows.add(value.get_object(), line);
     }
+    require_end(document, "one list of JSON records");
   });
   return rows.table();
 }
@@ -42,6 +43,7 @@ std::optional<ConvertedTable> table_of_lines(std::string_view text, const std::s
       if (line->empty()) continue;
       ondemand::document document = reader.open(*line);
       rows.add(document.get_object(), number);
+      require_end(document, "one JSON object in a line");
     }
   });
   return rows.table();

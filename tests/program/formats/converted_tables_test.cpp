@@ -109,8 +109,11 @@ TEST(ConvertedTables, ReadsGeoJson) {
   EXPECT_EQ(lines.warnings.size(), 1u) << "an area is no track";
   EXPECT_TRUE(
       error_in(collection(area)).starts_with("f: expected points with properties such as id and time"));
-  EXPECT_EQ(error_in(collection(point(0, "8, \"north\""))), "f:1: expected numbers as coordinates");
-  EXPECT_TRUE(error_in(collection("{\"type\": \"Feature\", ")).starts_with("f:1: expected JSON"));
+  EXPECT_EQ(error_in(collection(point(0, "8, 47") + ",\n" + point(5, "8, \"north\""))),
+            "f:3: expected numbers as coordinates");
+  EXPECT_TRUE(error_in(collection("{\"type\": \"Feature\", ")).starts_with("f:2: expected JSON"));
+  EXPECT_EQ(error_in(collection(area) + "\n" + collection(area)),
+            "f:2: expected one FeatureCollection, but there is more");
 }
 
 TEST(ConvertedTables, ReadsEphemerides) {
@@ -127,6 +130,7 @@ TEST(ConvertedTables, ReadsEphemerides) {
   EXPECT_EQ(two.format, "OEM");
   ASSERT_EQ(two.tracks.size(), 2u);
   EXPECT_EQ(two.tracks[0].id, "A 1");
+  EXPECT_EQ(parse(version + segment("A \"1\", B", "GCRF", 7000)).tracks[0].id, "A \"1\", B");
   EXPECT_EQ(two.times.text(two.tracks[0].samples[0].time), "2024-02-29T00:00:00.5");
   EXPECT_DOUBLE_EQ(norm(two.tracks[0].samples[0].position - two.tracks[1].samples[0].position), 1000.0);
   EXPECT_NE(
@@ -219,6 +223,25 @@ TEST(ConvertedTables, ReadsJsonRecords) {
   for (int k = 0; k < 1200; ++k) keys += fmt::format("{{\"{}\":1}}\n", k);
   EXPECT_EQ(error_in(keys), "f:1001: expected records of at most 1000 names, but got more");
   EXPECT_TRUE(error_in(lines + "{\"id\":1,\n", columns).starts_with("f:3: expected JSON records: "));
+  // Nothing is passed over in silence.
+  EXPECT_EQ(error_in(lines + R"({"id":1,"t":2,"at":[1,3]}{"id":1,"t":3,"at":[1,3]})", columns),
+            "f:3: expected one JSON object in a line, but there is more");
+  EXPECT_EQ(error_in(list + "\n" + list), "f:3: expected one list of JSON records, but there is more");
+}
+
+/// Values inside each other without end would exhaust the stack.
+TEST(ConvertedTables, RefusesDeepJson) {
+  constexpr std::size_t deep = 200'000;
+  std::string objects, ends;
+  for (std::size_t k = 0; k < deep; ++k) objects += "{\"a\":", ends += '}';
+  const std::string lists(deep, '['), list_ends(deep, ']');
+  const std::string refusal = "f:1: expected records nested at most 64 deep, but got deeper";
+  EXPECT_EQ(error_in("[" + objects + "1" + ends + "]"), refusal);
+  EXPECT_EQ(error_in(objects + "1" + ends), refusal);
+  EXPECT_EQ(error_in("{\"a\":" + lists + "1" + list_ends + "}"), refusal);
+  EXPECT_EQ(error_in("{\"type\": \"FeatureCollection\", \"features\": [{\"properties\":" + objects + "1" + ends +
+                     ", \"geometry\": {\"type\": \"Point\", \"coordinates\": [1, 2]}}]}"),
+            refusal);
 }
 
 TEST(ConvertedTables, ReadsTracesOfTar1090) {
