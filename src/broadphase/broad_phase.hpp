@@ -114,11 +114,6 @@ class BroadPhase {
   // starter may be added or taken back.
   void survey(PoolLease& lease);
   void choose_cells(PoolLease& lease);
-  /// True if searches for the started slots find all about the body: it is in one of them.
-  bool has_started(std::uint32_t number) const {
-    return contains(number) && level_of(number).fresh &&
-           registrations_[number].slot < level_of(number).spheres.sorted_slots();
-  }
   /// True if the body, or any, was added since the last finish_start().
   bool is_starter(std::uint32_t number) const {
     return contains(number) && opening_of(registrations_[number].level) != nullptr;
@@ -131,25 +126,27 @@ class BroadPhase {
 
   // A start that is prepared in a broad phase of its own, while the present windows last.
 
-  /// Returns an empty broad phase in which windows that begin at `begin` can start.
-  BroadPhase successor(double begin) const;
-  /// Registers the starters of a successor in their windows, `now`, before these begin. Bodies that have
-  /// windows beyond their begin then await a search from then on. Precondition: finish_start() for
-  /// the successor. Returns a copy of the grid levels of these bodies to be searched, without registrations;
-  /// those of the starters are fresh.
-  BroadPhase take_over(BroadPhase&& successor, double now);
+  /// Returns an empty broad phase in which windows that begin at `begin` can start. They are taken over at
+  /// `entry`.
+  BroadPhase successor(double begin, double entry) const;
+  /// Registers the starters of a successor, and the bodies that have entered it since, in their windows before
+  /// these begin, at `entry`. All of them, and bodies that have windows beyond their begin, then await a search
+  /// from then on. Precondition: finish_start() for the successor. Returns a copy of the grid levels of these
+  /// bodies to be searched, without registrations; those of the successor are fresh.
+  BroadPhase take_over(BroadPhase&& successor);
   /// Time from which pairs that await a search are certified by it; -infinity if none do. Begin of the
   /// windows of a successor.
   double search_begin() const { return search_begin_; }
-  /// True if the pair was registered at take_over() and is unchanged since, and one of the two is a starter:
-  /// they are certified until search_begin() at most, and a search for the starters finds them.
+  /// True if the pair was registered at take_over() and is unchanged since, and one of the two came from the
+  /// successor: they are certified until search_begin() at most, and a search for that one finds them.
   bool await_search(std::uint32_t a, std::uint32_t b) const {
-    const auto of_a = search_of(a);
-    const auto of_b = search_of(b);
-    return of_a != Search::none && of_b != Search::none && (of_a == Search::starts || of_b == Search::starts);
+    return search_of(a) != Search::none && search_of(b) != Search::none &&
+           (awaits_search(a) || awaits_search(b));
   }
-  /// True if the body is a starter of take_over(), unchanged since.
-  bool awaits_search(std::uint32_t number) const { return search_of(number) == Search::starts; }
+  /// True if the body came from the successor at take_over(), and is unchanged since.
+  bool awaits_search(std::uint32_t number) const { return search_of(number) >= Search::starts; }
+  /// True if, besides, searches for the started slots do not include it: it is behind the sorted ones.
+  bool awaits_search_alone(std::uint32_t number) const { return search_of(number) == Search::starts_alone; }
   /// No body awaits a search any more.
   void end_search();
   /// In a result of take_over(), takes those out of the slots first <= k < last below started_slots() that
@@ -214,8 +211,9 @@ class BroadPhase {
       archive(level, unsorted, spread, cells);
     }
   };
-  /// Whether a body awaits a search since take_over(): not; as one that is found; as a starter.
-  enum class Search : std::uint8_t { none, found, starts };
+  /// Whether a body awaits a search since take_over(): not; as one that is found; as one that came from the
+  /// successor, in a sorted slot or behind these.
+  enum class Search : std::uint8_t { none, found, starts, starts_alone };
   /// Number of bodies by size class.
   using Sizes = std::map<int, std::size_t>;
   /// What add_starters() has added since the last finish_start().
@@ -270,7 +268,7 @@ class BroadPhase {
   std::vector<std::uint32_t> changes_;  ///< see take_changes(); a body may occur several times
   std::vector<Search> awaiting_;        ///< by number; empty if no body awaits a search
   double search_begin_ = -infinity;
-  double taken_over_ = 0.0;  ///< time of the last take_over()
+  double taken_over_ = 0.0;  ///< time of the last take_over(); of a successor, that of its own
 };
 
 template <class IsGone>

@@ -176,9 +176,10 @@ void BroadPhase::finish_start(PoolLease& lease) {
   filling_ = {};
 }
 
-BroadPhase BroadPhase::successor(double begin) const {
+BroadPhase BroadPhase::successor(double begin, double entry) const {
   BroadPhase next(space_);
   next.search_begin_ = begin;
+  next.taken_over_ = entry;
   next.registrations_.resize(registrations_.size());
   next.size_classes_ = size_classes_;
   next.size_classes_.use_merged();
@@ -217,10 +218,11 @@ void BroadPhase::take_out_starters(const BroadPhase& successor) {
   });
 }
 
-BroadPhase BroadPhase::take_over(BroadPhase&& successor, double now) {
+BroadPhase BroadPhase::take_over(BroadPhase&& successor) {
   take_out_starters(successor);
   for (GridLevel& started : successor.levels_) {
     if (started.is_empty()) continue;
+    started.fresh = true;
     const auto unused = std::find_if(levels_.begin(), levels_.end(),
                                      [](const GridLevel& level) { return level.window.end == -infinity; });
     (unused == levels_.end() ? levels_.emplace_back() : *unused) = std::move(started);
@@ -229,7 +231,7 @@ BroadPhase BroadPhase::take_over(BroadPhase&& successor, double now) {
   size_classes_ = std::move(successor.size_classes_);
   base_ = successor.base_;
   has_base_ = successor.has_base_;
-  taken_over_ = now;
+  taken_over_ = successor.taken_over_;
   search_begin_ = successor.search_begin_;
   awaiting_.assign(registrations_.size(), Search::none);
   next_end_ = infinity;
@@ -245,7 +247,8 @@ BroadPhase BroadPhase::take_over(BroadPhase&& successor, double now) {
       const std::uint32_t number = table.number_at(slot);
       if (number == SweptSphereTable::free_slot) continue;
       if (level.fresh) registrations_[number] = {level.window.end, index, slot};
-      awaiting_[number] = level.fresh ? Search::starts : Search::found;
+      const bool is_sorted = slot < level.spheres.sorted_slots();
+      awaiting_[number] = !level.fresh ? Search::found : is_sorted ? Search::starts : Search::starts_alone;
     }
   }
   return copy;

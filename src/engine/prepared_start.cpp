@@ -90,7 +90,7 @@ Result<void> PreparedStart::prepare_slice(const Work& work) {
 void PreparedStart::begin(const Work& work) {
   work.state.window_policy.start_main(work.main.time(), std::exchange(work.main.work().recertified, {}));
   has_begun_ = true;
-  next_ = work.state.broad_phase.successor(end());
+  next_ = work.state.broad_phase.successor(end(), entry_time());
   work.state.broad_phase.record_changes(true);
   numbers_ = static_cast<std::uint32_t>(work.state.bodies.numbers());
 }
@@ -161,39 +161,34 @@ void PreparedStart::survey(const Work& work) {
   next_.survey(work.lease);
 }
 
-/// Enters bodies that have changed since survey() among the sorted ones. Returns those for which there is no
-/// slot.
-std::vector<std::uint32_t> PreparedStart::enter_changed(const Work& work) {
+/// Enters bodies that have changed since survey() among the sorted ones or, without a spare slot, behind
+/// these.
+void PreparedStart::enter_changed(const Work& work) {
   const PolicySwap swap(work, policy_);
   const WindowChoice choice(work.state, end());
-  std::vector<std::uint32_t> others;
   for (const std::uint32_t number : work.state.broad_phase.take_changes()) {
-    const bool has_started = starts(work, number);
-    if (has_started)
+    if (starts(work, number)) {
       next_.enter(number, inflated_bound(work.state.bodies, number, entry_time()), entry_time(),
                   choice.window_for(number));
-    if (has_started && next_.has_started(number)) continue;
-    if (next_.contains(number)) next_.leave(number);
-    if (has_started) others.push_back(number);
+    } else if (next_.contains(number)) {
+      next_.leave(number);
+    }
   }
-  return others;
 }
 
 /// Sorts the swept spheres, and replaces the present windows.
 void PreparedStart::enter_windows(const Work& work) {
   BroadPhase& windows = work.state.broad_phase;
   next_.finish_start(work.lease);
-  const std::vector<std::uint32_t> others = enter_changed(work);
+  enter_changed(work);
   windows.record_changes(false);
-  for (const std::uint32_t number : others) windows.leave(number);
   for (const std::uint32_t number : work.main.dirty().numbers())
     if (work.state.bodies[number].dirty && next_.contains(number)) next_.leave(number);
   policy_.keep_fast(work.state.window_policy);
   work.state.window_policy = policy_;
-  next_ = windows.take_over(std::move(next_), entry_time());
+  next_ = windows.take_over(std::move(next_));
   ++work.main.work().counters.window_ends;
   work.main.begin_epoch(windows.next_end());
-  work.main.restart(others);
 }
 
 /// Returns true if the body has started at entry_time(), and not changed since. A dirty one is certified with
@@ -208,38 +203,73 @@ bool PreparedStart::await_search(const Work& work, std::uint32_t a, std::uint32_
          !work.state.bodies[b].dirty;
 }
 
-/// Certifies a part of the starters with the walls, by number, but for those that touch one.
-void PreparedStart::find_walls(const Work& work, std::size_t part) {
-  if (!work.state.bodies.walls()) return;
+/// Returns a part of the bodies that await a search, by number.
+std::vector<std::uint32_t> PreparedStart::awaiting_part(const Work& work, std::size_t part) const {
   const std::uint32_t last =
       part < slices_ ? begun(part) : static_cast<std::uint32_t>(work.state.bodies.numbers());
-  std::vector<std::uint32_t> apart;
+  std::vector<std::uint32_t> awaiting;
   for (std::uint32_t number = begun(part - 1); number < last; ++number)
-    if (awaits_search(work, number))
-      (work.state.contacts.walls_of(number) != 0 ? at_walls_ : apart).push_back(number);
+    if (awaits_search(work, number)) awaiting.push_back(number);
+  return awaiting;
+}
+
+/// Certifies a part of the starters with the walls, but for those that touch one.
+void PreparedStart::find_walls(const Work& work, std::size_t part) {
+  if (!work.state.bodies.walls()) return;
+  std::vector<std::uint32_t> apart;
+  for (const std::uint32_t number : awaiting_part(work, part))
+    (work.state.contacts.walls_of(number) != 0 ? at_walls_ : apart).push_back(number);
   WindowStart(work.state, work.main, work.lease, work.found, work.state.broad_phase, end()).find_walls(apart);
 }
 
-/// Searches for a part of the starters, and certifies them.
-void PreparedStart::search_slice(const Work& work) {
+/// Searches for a part of the sorted slots, and certifies their pairs but for those of search_alone().
+void PreparedStart::search_sorted(const Work& work, std::size_t part) {
   const std::size_t all = next_.started_slots();
-  const std::size_t part = slice_ - entry_slice();
   const std::size_t first = all * (part - 1) / slices_;
   const std::size_t last = all * part / slices_;
   const BroadPhase& windows = work.state.broad_phase;
   next_.take_out_started(first, last, [&](std::uint32_t number) { return !windows.awaits_search(number); });
-  WindowStart starting(work.state, work.main, work.lease, work.found, work.state.broad_phase, end());
-  const PairCertifier certifier = starting.certifier();
+  const PairCertifier certifier(work.state, end(), windows);
   const auto bound_of = [&](std::uint32_t number) {
     return inflated_bound(work.state.bodies, number, end());
   };
   work.lease.parallel_for(
       last - first, searches_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
         SearchResults& found = work.found[worker];
-        found.keeps_linked = true;
         for (const auto& [a, b] : found.search.near_started(next_, first + from, first + to, end(), bound_of))
-          if (await_search(work, a, b)) certifier.certify(a, b, found);
+          if (await_search(work, a, b) && !windows.awaits_search_alone(b)) certifier.certify(a, b, found);
       });
+}
+
+/// Searches for a part of the bodies behind the sorted slots, and certifies their pairs. The one with the
+/// lesser number finds two of them.
+void PreparedStart::search_alone(const Work& work, std::size_t part) {
+  const BroadPhase& windows = work.state.broad_phase;
+  std::vector<std::uint32_t> alone = awaiting_part(work, part);
+  std::erase_if(alone, [&](std::uint32_t number) { return !windows.awaits_search_alone(number); });
+  const PairCertifier certifier(work.state, end(), windows);
+  work.lease.parallel_for(
+      alone.size(), searches_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
+        SearchResults& found = work.found[worker];
+        for (std::size_t k = from; k < to; ++k) {
+          const std::uint32_t number = alone[k];
+          ++found.searches;
+          const InflatedBound bound = inflated_bound(work.state.bodies, number, end());
+          for (const std::uint32_t other :
+               found.search.near(next_, number, bound, end(), windows.end_of(number)))
+            if (await_search(work, number, other) && !(windows.awaits_search_alone(other) && other < number))
+              certifier.certify(number, other, found);
+        }
+      });
+}
+
+/// Searches for a part of the starters, and certifies them.
+void PreparedStart::search_slice(const Work& work) {
+  const std::size_t part = slice_ - entry_slice();
+  WindowStart starting(work.state, work.main, work.lease, work.found, work.state.broad_phase, end());
+  for (SearchResults& found : work.found) found.keeps_linked = true;
+  search_sorted(work, part);
+  search_alone(work, part);
   find_walls(work, part);
   const auto before = static_cast<std::ptrdiff_t>(linked_.size());
   for (SearchResults& found : work.found) {

@@ -6,7 +6,7 @@
 // the other; these hold from entry_time() until the next windows end. Then their cells are chosen. At
 // entry_time() they are sorted into grid levels, which replace those of the present windows
 // (BroadPhase::take_over). From then on they are searched, one part after the other, and pairs are certified
-// from end() on.
+// from end() on. Nothing but the cost depends on the slots of swept spheres.
 //
 // A bound holds at all later times. So a swept sphere and a certificate that were made from an earlier bound
 // are right until a discontinuity of their bodies. A body that changes before entry_time() gets another swept
@@ -86,10 +86,13 @@ class PreparedStart {
   void add(const Work& work, std::vector<std::uint32_t> numbers, WindowPolicy::Sample& sample);
   void update(const Work& work);
   void survey(const Work& work);
-  std::vector<std::uint32_t> enter_changed(const Work& work);
+  void enter_changed(const Work& work);
   void enter_windows(const Work& work);
+  std::vector<std::uint32_t> awaiting_part(const Work& work, std::size_t part) const;
   void find_walls(const Work& work, std::size_t part);
   void search_slice(const Work& work);
+  void search_sorted(const Work& work, std::size_t part);
+  void search_alone(const Work& work, std::size_t part);
   void finish(const Work& work);
 
   Window present_;
