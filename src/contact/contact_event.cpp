@@ -39,7 +39,7 @@ void describe_surface(Event& event, const Sphere& sphere, const Sphere& surface)
   const Vec3 origin = surface.carries_shape ? surface.state.position : Vec3{};
   const SurfacePoint nearest = nearest_of(*surface.shape, sphere.state.position - origin);
   event.normal = event.first == sphere.id ? -nearest.normal : nearest.normal;
-  event.gap = nearest.distance - (sphere.radius + surface.radius);
+  event.gap = nearest.distance - sphere.radius - surface.position_error;
   event.point = sphere.state.position - nearest.normal * (sphere.radius + 0.5 * event.gap);
 }
 
@@ -96,9 +96,6 @@ void describe_spins(Event& event, const RigidRecord* first, const RigidRecord* s
   event.second_spin_gain = gain(second, event.second_state);
 }
 
-/// Returns the position error of a body with parts or a shape, by which these are enlarged.
-double enlarged_by(const Sphere& body) { return body.rigid || body.shape ? body.radius : 0.0; }
-
 /// Sets normal, gap, point and parts of an event between two bodies, at least one of which is rigid.
 void describe_parts(Event& event, const Sphere& first, const Sphere& second) {
   NearestParts nearest = first.rigid ? nearest_to(first, second) : nearest_to(second, first);
@@ -107,11 +104,8 @@ void describe_parts(Event& event, const Sphere& first, const Sphere& second) {
     std::swap(nearest.first_part, nearest.second_part);
   }
   event.normal = nearest.normal;
-  const double by_first = enlarged_by(first);
-  const double by_second = enlarged_by(second);
-  event.gap = nearest.gap - (by_first + by_second);
-  event.point = nearest.point;
-  if (by_first != by_second) event.point += event.normal * (0.5 * (by_first - by_second));
+  event.gap = nearest.gap - (first.position_error + second.position_error);
+  event.point = nearest.point + event.normal * (0.5 * (first.position_error - second.position_error));
   event.first_part = nearest.first_part;
   event.second_part = nearest.second_part;
   describe_spins(event, first.rigid, second.rigid);
@@ -186,7 +180,7 @@ void describe(Event& event, const Sphere& sphere, const Box& box) {
   event.normal = -inside.normal;
   if (sphere.rigid) {
     const NearestParts nearest = nearest_parts(pose_of(sphere), inside);
-    event.gap = nearest.gap - sphere.radius;
+    event.gap = nearest.gap - sphere.position_error;
     event.point = nearest.point + event.normal * (0.5 * nearest.gap);
     event.first_part = nearest.first_part;
     describe_spins(event, sphere.rigid, nullptr);
@@ -231,7 +225,7 @@ double approach_error(const Event& event, const Sphere& first, const Sphere& sec
   if (event.wall != Wall::none) return with_arm(infinity);
   const Shape* shape = first.shape ? first.shape : second.shape;
   const auto radius = [](const Sphere& body) {
-    return body.rigid ? least_radius(body.rigid->parts) : body.radius;
+    return body.rigid ? least_radius(body.rigid->parts) + body.position_error : body.radius;
   };
   if (shape == nullptr) return with_arm(event.gap + radius(first) + radius(second));
   if (std::holds_alternative<HalfSpace>(*shape)) return with_arm(infinity);

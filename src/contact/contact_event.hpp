@@ -17,18 +17,19 @@ inline bool begins(EventKind kind) {
 /// State of one body at one time, as far as an event describes it.
 struct Sphere {
   BodyId id;
-  /// Radius of a ball with its position error; of a body with a shape or parts the position error alone.
   double radius;
   State state;
-  /// Shape of a static body that is not a ball, or of a body that carries one, otherwise nullptr.
+  /// Shape of a static body that is not a ball, or of a body that carries one (then `radius` is ignored),
+  /// otherwise nullptr.
   const Shape* shape = nullptr;
   bool carries_shape = false;  ///< the origin of the shape is the position in `state`
   std::uint64_t user_data = 0;
   double mass = 1.0;
   BodyTraits traits{};
   ContactEvents wanted = ContactEvents::all;
-  const RigidRecord* rigid = nullptr;  ///< of a rigid body
+  const RigidRecord* rigid = nullptr;  ///< of a rigid body; then `radius` is ignored
   double radius_rate = 0.0;            ///< at which the radius grows (length / time)
+  double position_error = 0.0;  ///< of a body whose radius is ignored; gaps are smaller by it (length)
 };
 
 /// Bounds the rounding error that radii that change at these rates add to the approach speed.

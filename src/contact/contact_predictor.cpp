@@ -21,9 +21,12 @@ constexpr bool is_rigid_pair<RigidPair<Other>> = true;
 /// Returns a lower bound of the distance between the nearest points of the axes.
 template <class Other>
 double arm_of(const RigidPair<Other>& pair, double gap) {
-  const double own = gap + least_radius(pair.body.parts);
+  const auto radius = [](const RigidExtent& body) {
+    return least_radius(body.parts) + (body.bound.radius - body.radius);
+  };
+  const double own = gap + radius(pair.body);
   if constexpr (std::is_same_v<Other, RigidExtent>)
-    return own + least_radius(pair.other.parts);
+    return own + radius(pair.other);
   else
     return std::is_same_v<Other, HalfSpace> ? infinity : own;
 }

@@ -11,19 +11,17 @@ Box cut_box(const Bodies& bodies, const Shape& shape) {
   return bounding_box(shape, 8.0 * coordinate_limit(bodies.definition()));
 }
 
-/// Sphere::radius (length), and its rate (length / time).
+/// Radius with the position error (length), and rate of the radius (length / time).
 struct Size {
   double radius;
   double rate;
 };
 
-/// Returns the size of a body now, which is `constant` unless its radius changes with time. Out of line, for
-/// worlds where none does.
-[[gnu::noinline]] Size changing_size(const Bodies& bodies, double now, std::uint32_t number,
-                                     const Size& constant) {
+/// Returns the size of a body now, if that of any changes with time. Out of line, for worlds where none does.
+[[gnu::noinline]] Size changing_size(const Bodies& bodies, double now, std::uint32_t number) {
   const Body& body = bodies[number];
   const ChangingRadius* const changing = bodies.radii.find(number);
-  if (changing == nullptr) return constant;
+  if (changing == nullptr) return {body.bound.radius, 0.0};
   return {body.bound.radius + (changing->at(now) - body.radius), changing->rate_at(now)};
 }
 
@@ -56,8 +54,7 @@ GapLimits gap_at(const Bodies& bodies, double now, const CollisionShape& a, cons
 Sphere sphere_at(const Bodies& bodies, double now, std::uint32_t number) {
   const Body& body = bodies[number];
   const Bound& bound = body.bound;
-  Size size{body.carries_shape || body.is_rigid ? bound.radius - body.radius : bound.radius, 0.0};
-  if (bodies.radii.any()) size = changing_size(bodies, now, number, size);
+  const Size size = bodies.radii.any() ? changing_size(bodies, now, number) : Size{bound.radius, 0.0};
   Sphere sphere{bodies.id_of(number),
                 size.radius,
                 {bound.centre_at(now), bound.velocity_at(now)},
@@ -68,7 +65,8 @@ Sphere sphere_at(const Bodies& bodies, double now, std::uint32_t number) {
                 traits_of(body),
                 body.contact_events,
                 bodies.rigid.find(body),
-                size.rate};
+                size.rate,
+                body.carries_shape || body.is_rigid ? bound.radius - body.radius : 0.0};
   const Space& space = bodies.space();
   if (space.repeats()) sphere.state.position = space.wrapped(sphere.state.position).position;
   return sphere;

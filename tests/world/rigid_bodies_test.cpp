@@ -15,6 +15,7 @@
 #include "kinesphere/recording.hpp"
 #include "kinesphere/response.hpp"
 #include "number/infinity.hpp"
+#include "support/eager_workers.hpp"
 #include "support/expect_error.hpp"
 #include "support/scenes_of_each.hpp"
 #include "support/true_hulls.hpp"
@@ -672,7 +673,7 @@ TEST_F(FreeFlight, RunGivesWhatALoopGives) {
       bodies.add_rigid_body(world, motion, k, dumbbell({}, {}, {0, 0.5, 1.0 * k})).value();
     if (&hash == hashes) {
       auto source = bodies.source();
-      Workers workers = Workers::create(2).value();
+      Workers workers = eager_workers(2).value();
       world
           .run(
               20, source, [](const Event& event) { return response_of(event, bounce(event, 1.0)); },
@@ -809,6 +810,39 @@ TEST(RigidBodies, PositionErrorsCountAsRadiusOfTheirParts) {
     EXPECT_LT(norm(with_error->normal - with_radius->normal), 1e-5);
     EXPECT_LT(norm(with_error->point - with_radius->point), seed % 5 == 4 ? 0.101 : 1e-5);
   }
+
+/// Parts and carried shapes may be as much nearer as their positions are wrong: contacts come early, never
+/// late, and time goes on.
+TEST(RigidBodies, CountPositionErrors) {
+  constexpr double error = 1e-3;
+  const RigidPart rod{{0, -1, 0}, {0, 1, 0}, 0.5};
+  const Vec3 far{3, 0, 0};
+  const auto meeting = [&](auto add_partner, double nominal) {
+    Playground p({.box = Box{{-9, -9, -9}, {9, 9, 9}}, .contact_tolerance = eps, .separation_distance = 0.1});
+    p.add_rigid_body(
+        {.body = {.position_error = error, .position = -far, .velocity = {1, 0, 0}}, .parts = {rod}});
+    add_partner(p);
+    const auto begins = of_kind(p.run(5.5), EventKind::contact_begin);
+    ASSERT_EQ(begins.size(), 1u);
+    EXPECT_NEAR(begins[0].time, nominal, eps);
+    EXPECT_LE(begins[0].gap, eps);
+  };
+  const BodyDefinition at_rest{.radius = 0.5, .position_error = 2.0 * error, .position = far};
+  meeting([&](Playground& p) { p.add(at_rest); }, 5.0 - 3.0 * error);
+  const std::vector<RigidPart> box{box_part({{-0.4, -0.4, -0.4}, {0.4, 0.4, 0.4}}, 0.1)};
+  meeting([&](Playground& p) { p.add_rigid_body({.body = at_rest, .parts = box}); }, 5.0 - 3.0 * error);
+  meeting(
+      [&](Playground& p) {
+        const BodyId id = p.world.add_moving_shape({at_rest, Box{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}}).value();
+        p.start_course(id, at_rest);
+      },
+      5.0 - 3.0 * error);
+  meeting([&](Playground& p) { p.world.add_static({.shape = Ball{far, 0.5}}).value(); }, 5.0 - error);
+  Playground p({.box = Box{{-9, -9, -9}, {9, 9, 9}}, .contact_tolerance = eps});
+  p.add_rigid_body({.body = {.position_error = error, .velocity = {1, 0, 0}}, .parts = {rod}});
+  const auto walls = of_kind(p.run(8.6), EventKind::wall_begin);
+  ASSERT_EQ(walls.size(), 1u);
+  EXPECT_NEAR(walls[0].time, 8.5 - error, eps);
 }
 
 TEST(RigidBodies, LieOnAFloorThoughTheBallAroundThemReachesBelow) {

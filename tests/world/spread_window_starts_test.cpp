@@ -11,6 +11,7 @@
 
 #include "kinesphere/kinesphere.hpp"
 #include "kinesphere/limits.hpp"
+#include "support/eager_workers.hpp"
 #include "support/playground.hpp"
 #include "world/bouncing_world.hpp"
 
@@ -316,7 +317,7 @@ TEST(SpreadWindowStartsOfMany, AreTheSameOnThreads) {
     for (const int threads : {1, 2}) {
       SCOPED_TRACE(testing::Message() << threads << " threads");
       Bouncing found(contacts);
-      Workers workers = Workers::create(threads).value();
+      Workers workers = eager_workers(threads).value();
       for (double time = 0.0; time < until; time += 0.3) found.run(time, &workers).value();
       found.run(until, &workers).value();
       expect_same_course(found, looped);
