@@ -75,6 +75,8 @@ double ContactPredictor<Partner>::meeting(double gap) const {
   constexpr double part_kept = 0x1p-44;
   Bound true_growth = bound_;
   true_growth.growth_speed -= (1.0 - part_kept) * excess_growth_;
+  // A body whose state is known without a report at this time stands still.
+  true_growth.time = now_;
   return earliest_meeting(true_growth, partner_, now_, horizons_.meeting, distance);
 }
 
