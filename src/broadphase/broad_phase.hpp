@@ -126,13 +126,14 @@ class BroadPhase {
 
   // A start that is prepared in a broad phase of its own, while the present windows last.
 
-  /// Returns an empty broad phase in which windows that begin at `begin` can start. They are taken over at
-  /// `entry`.
-  BroadPhase successor(double begin, double entry) const;
-  /// Registers the starters of a successor, and the bodies that have entered it since, in their windows before
-  /// these begin, at `entry`. All of them, and bodies that have windows beyond their begin, then await a search
-  /// from then on. Precondition: finish_start() for the successor. Returns a copy of the grid levels of these
-  /// bodies to be searched, without registrations; those of the successor are fresh.
+  /// Returns an empty broad phase in which windows that begin at `begin` can start, to be taken over at
+  /// `entry`. `changes`, the number of bodies that have changed within the last windows, decides whether it
+  /// has spare slots.
+  BroadPhase successor(double begin, double entry, std::uint64_t changes) const;
+  /// Registers the starters of a successor, and the bodies that have entered it since, in their windows
+  /// before these begin, at `entry`. All of them, and bodies that have windows beyond their begin, then await
+  /// a search from then on. Precondition: finish_start() for the successor. Returns a copy of the grid levels
+  /// of these bodies to be searched, without registrations; those of the successor are fresh.
   BroadPhase take_over(BroadPhase&& successor);
   /// Time from which pairs that await a search are certified by it; -infinity if none do. Begin of the
   /// windows of a successor.

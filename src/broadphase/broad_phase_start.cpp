@@ -170,20 +170,24 @@ void BroadPhase::finish_start(PoolLease& lease) {
         opening.unsorted, opening.cells, lease,
         [&](std::uint32_t number, std::uint32_t slot) { registrations_[number].slot = slot; });
   for (GridLevel& layer : levels_)
-    if (!layer.fresh && layer.changes > least_changes + layer.spheres.size() / 2)
-      sort_to_start(layer, [&] { sort(layer, lease); });
+    if (!layer.fresh && layer.changes > least_changes + layer.spheres.size() / 2) {
+      // Which levels are sorted depends on the number of threads, so their coarseness is not recorded.
+      layer.spheres.set_coarseness(size_classes_.coarseness(layer.window.rung, layer.size_class));
+      sort(layer, lease);
+      layer.changes = 0;
+    }
   merge_size_classes(filling_.sizes);
   filling_ = {};
 }
 
-BroadPhase BroadPhase::successor(double begin, double entry) const {
+BroadPhase BroadPhase::successor(double begin, double entry, std::uint64_t changes) const {
   BroadPhase next(space_);
   next.search_begin_ = begin;
   next.taken_over_ = entry;
   next.registrations_.resize(registrations_.size());
   next.size_classes_ = size_classes_;
   next.size_classes_.use_merged();
-  next.has_many_changes_ = has_many_changes_;
+  next.note_changes_of_ended(changes, size());
   return next;
 }
 

@@ -29,7 +29,7 @@ struct Sphere {
   ContactEvents wanted = ContactEvents::all;
   const RigidRecord* rigid = nullptr;  ///< of a rigid body; then `radius` is ignored
   double radius_rate = 0.0;            ///< at which the radius grows (length / time)
-  double position_error = 0.0;  ///< of a body whose radius is ignored; gaps are smaller by it (length)
+  double position_error = 0.0;         ///< of a body whose radius is ignored; gaps are smaller by it (length)
 };
 
 /// Bounds the rounding error that radii that change at these rates add to the approach speed.

@@ -88,9 +88,10 @@ Result<void> PreparedStart::prepare_slice(const Work& work) {
 }
 
 void PreparedStart::begin(const Work& work) {
-  work.state.window_policy.start_main(work.main.time(), std::exchange(work.main.work().recertified, {}));
+  const RenewalCounts updates = std::exchange(work.main.work().recertified, {});
+  work.state.window_policy.start_main(work.main.time(), updates);
   has_begun_ = true;
-  next_ = work.state.broad_phase.successor(end(), entry_time());
+  next_ = work.state.broad_phase.successor(end(), entry_time(), updates.bodies);
   work.state.broad_phase.record_changes(true);
   numbers_ = static_cast<std::uint32_t>(work.state.bodies.numbers());
 }

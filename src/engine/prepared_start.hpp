@@ -6,7 +6,8 @@
 // the other; these hold from entry_time() until the next windows end. Then their cells are chosen. At
 // entry_time() they are sorted into grid levels, which replace those of the present windows
 // (BroadPhase::take_over). From then on they are searched, one part after the other, and pairs are certified
-// from end() on. Nothing but the cost depends on the slots of swept spheres.
+// from end() on. When a pair is certified depends on the slots of swept spheres, so these must not depend on
+// the number of threads.
 //
 // A bound holds at all later times. So a swept sphere and a certificate that were made from an earlier bound
 // are right until a discontinuity of their bodies. A body that changes before entry_time() gets another swept

@@ -833,7 +833,8 @@ TEST(RigidBodies, CountPositionErrors) {
   meeting([&](Playground& p) { p.add_rigid_body({.body = at_rest, .parts = box}); }, 5.0 - 3.0 * error);
   meeting(
       [&](Playground& p) {
-        const BodyId id = p.world.add_moving_shape({at_rest, Box{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}}).value();
+        const BodyId id =
+            p.world.add_moving_shape({at_rest, Box{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}}).value();
         p.start_course(id, at_rest);
       },
       5.0 - 3.0 * error);

@@ -275,11 +275,12 @@ TEST_P(SpreadWindowStarts, DoNotDependOnFrames) {
 std::string kind_name(const testing::TestParamInfo<Kind>& info) { return info.param.name; }
 INSTANTIATE_TEST_SUITE_P(Kinds, SpreadWindowStarts, testing::ValuesIn(kinds), kind_name);
 
-/// Bodies that bounce and are pushed about.
+/// Bodies that bounce and are pushed about; one in twenty is so many times as fast.
 struct Bouncing : BouncingWorld<RandomForces> {
-  explicit Bouncing(ContactEvents contacts)
+  explicit Bouncing(ContactEvents contacts, double radius = 0.4, double faster = 1.0)
       : BouncingWorld(
-            RandomForces::create({.start = start(), .acceleration_limits = std::vector<double>(count, 3.0)})
+            RandomForces::create(
+                {.start = start(faster), .acceleration_limits = std::vector<double>(count, 3.0)})
                 .value(),
             World::create(
                 {.box = Box{{0, 0, 0}, {21, 21, 21}}, .contacts = contacts, .spread_window_starts = true})
@@ -287,7 +288,7 @@ struct Bouncing : BouncingWorld<RandomForces> {
             1.0) {
     for (std::size_t number = 0; number < count; ++number) {
       BodyDefinition body = next();
-      body.radius = 0.4;
+      body.radius = radius;
       if (number % 4 == 0) body.sensor_class = 1;
       add(body, 1.0);
     }
@@ -297,26 +298,28 @@ struct Bouncing : BouncingWorld<RandomForces> {
 
  private:
   static constexpr std::size_t count = 1000;
-  static std::vector<State> start() {
+  static std::vector<State> start(double faster) {
     Random random(seed);
     std::vector<State> states;
     for (std::size_t k = 0; k < count; ++k) {
       const Vec3 place{double(k % 10), double(k / 10 % 10), double(k / 100)};
-      states.push_back({Vec3{1, 1, 1} + 2.0 * place, 4.0 * random.point_in_ball()});
+      const double speed = k % 20 == 7 ? 4.0 * faster : 4.0;
+      states.push_back({Vec3{1, 1, 1} + 2.0 * place, speed * random.point_in_ball()});
     }
     return states;
   }
 };
 
-/// World::run, on threads too, tells the events of World::advance.
+/// World::run, on threads too, tells the events of World::advance. Threads count other changes of windows
+/// than one thread does; where these are about a third of the bodies, some starts have spare slots there
+/// alone.
 TEST(SpreadWindowStartsOfMany, AreTheSameOnThreads) {
-  for (const ContactEvents contacts : {ContactEvents::all, ContactEvents::impacts}) {
-    constexpr double until = 3.0;
-    Bouncing looped(contacts);
+  const auto compare = [](const auto& make, double until) {
+    Bouncing looped = make();
     looped.loop(until);
     for (const int threads : {1, 2}) {
       SCOPED_TRACE(testing::Message() << threads << " threads");
-      Bouncing found(contacts);
+      Bouncing found = make();
       Workers workers = eager_workers(threads).value();
       for (double time = 0.0; time < until; time += 0.3) found.run(time, &workers).value();
       found.run(until, &workers).value();
@@ -325,7 +328,10 @@ TEST(SpreadWindowStartsOfMany, AreTheSameOnThreads) {
     }
     EXPECT_GT(looped.reported, 1000u);
     EXPECT_GT(looped.world.counters().window_ends, 8u);
-  }
+  };
+  compare([] { return Bouncing(ContactEvents::all); }, 3.0);
+  compare([] { return Bouncing(ContactEvents::impacts); }, 3.0);
+  compare([] { return Bouncing(ContactEvents::impacts, 0.3, 25.0); }, 2.0);
 }
 
 /// Returns the most starts and restarts of bodies in a frame, after the first second.

@@ -49,8 +49,8 @@ class JsonRows {
     return table;
   }
 
-  /// Sets what the row that was begun last has of this name. `depth` is the number of objects and lists around
-  /// the value.
+  /// Sets what the row that was begun last has of this name. `depth` is the number of objects and lists
+  /// around the value.
   void add_value(const std::string& name, ondemand::value value, std::size_t depth = 1) {
     // Each level takes some of the stack.
     constexpr std::size_t deepest = 64;
@@ -65,7 +65,8 @@ class JsonRows {
         ondemand::array list = value.get_array();
         if (list.count_elements() > longest) return;
         std::size_t place = 0;
-        for (ondemand::value element : list) add_value(fmt::format("{}.{}", name, place++), element, depth + 1);
+        for (ondemand::value element : list)
+          add_value(fmt::format("{}.{}", name, place++), element, depth + 1);
         return;
       }
       case ondemand::json_type::string:

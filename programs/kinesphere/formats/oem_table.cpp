@@ -35,10 +35,9 @@ std::optional<ConvertedTable> convert_oem(std::string_view text, const std::stri
       throw ProgramError(
           fmt::format("{}:{}: expected a time and a position, but got '{}'", file, lines.line(), *line));
     for (; row_line < lines.line(); ++row_line) table.text += '\n';
-    table.text +=
-        fmt::format("{},{},{},{},{},{},{},{}\n", quoted_field(values[0].second), words[0], words[1], words[2],
-                    words[3], quoted_field(values[1].second), quoted_field(values[2].second),
-                    quoted_field(values[3].second));
+    table.text += fmt::format("{},{},{},{},{},{},{},{}\n", quoted_field(values[0].second), words[0], words[1],
+                              words[2], words[3], quoted_field(values[1].second),
+                              quoted_field(values[2].second), quoted_field(values[3].second));
     ++row_line;
   }
   return table;

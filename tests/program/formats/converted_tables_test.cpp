@@ -239,8 +239,8 @@ TEST(ConvertedTables, RefusesDeepJson) {
   EXPECT_EQ(error_in("[" + objects + "1" + ends + "]"), refusal);
   EXPECT_EQ(error_in(objects + "1" + ends), refusal);
   EXPECT_EQ(error_in("{\"a\":" + lists + "1" + list_ends + "}"), refusal);
-  EXPECT_EQ(error_in("{\"type\": \"FeatureCollection\", \"features\": [{\"properties\":" + objects + "1" + ends +
-                     ", \"geometry\": {\"type\": \"Point\", \"coordinates\": [1, 2]}}]}"),
+  EXPECT_EQ(error_in("{\"type\": \"FeatureCollection\", \"features\": [{\"properties\":" + objects + "1" +
+                     ends + ", \"geometry\": {\"type\": \"Point\", \"coordinates\": [1, 2]}}]}"),
             refusal);
 }
 

@@ -51,11 +51,13 @@ constexpr std::string_view healthy[] = {
 {"geometry": {"type": "Point", "coordinates": [8.1, 47]}, "properties": {"id": 1, "time": "2024-01-01T00:00:10Z"}},
 {"geometry": {"type": "LineString", "coordinates": [[8, 47], [8, 47.1]]}, "properties": {"name": "b", "coordTimes":
 ["2024-01-01T00:00:00Z", "2024-01-01T00:00:10Z"]}}]})",
-    "CCSDS_OEM_VERS = 2.0\nMETA_START\nOBJECT_NAME = A \"1\"\nREF_FRAME = GCRF\nTIME_SYSTEM = UTC\nMETA_STOP\n"
+    "CCSDS_OEM_VERS = 2.0\nMETA_START\nOBJECT_NAME = A \"1\"\nREF_FRAME = GCRF\nTIME_SYSTEM = "
+    "UTC\nMETA_STOP\n"
     "2024-060T00:00:00 7000 0 0 1 0 0\n2024-060T00:01:00 7000 9 0 1 0 0\nCOVARIANCE_START\n1e-4\n",
     "[{\"id\": \"a\", \"time\": 0, \"pose\": {\"position\": {\"x\": 1, \"y\": 2}}},\n"
     "{\"time\": 1, \"id\": \"a\", \"pose\": {\"position\": {\"x\": 3, \"y\": 2}}}]",
-    "{\"id\":1,\"time\":0,\"x\":1,\"y\":2}\n{\"id\":1,\"time\":1,\"x\":1,\"y\":[3]}\n{\"id\":1,\"time\":2,\"x\":1,\"y\":4}\n",
+    "{\"id\":1,\"time\":0,\"x\":1,\"y\":2}\n{\"id\":1,\"time\":1,\"x\":1,\"y\":[3]}\n{\"id\":1,\"time\":2,"
+    "\"x\":1,\"y\":4}\n",
     R"({"icao":"4ca1fa","timestamp":1600000000.5,"trace":[[10,47.1,8.1,1000,100,90,0,64,{"flight":"A"},"adsb_icao",1],)"
     R"([20,47.2,8.2,2000,100,90,1,64,null]]})"};
 
