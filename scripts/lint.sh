@@ -28,7 +28,7 @@ if grep -rn '#include ["<]kinesphere\.h[">]' include src simulation programs res
   exit 1
 fi
 
-if grep -rnE '#include "(archive|parallel|bound|space|broadphase|contact|engine|query|monitor|recording|world|motion)/' c; then
+if grep -rnE '#include "(archive|parallel|bound|space|broadphase|contact|bodies|processor|speculation|engine|query|monitor|recording|world|motion)/' c; then
   echo "lint: of src, c/ may include number/ and input/ alone" >&2
   exit 1
 fi

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "bodies/validation.hpp"
 #include "bound/bound_violation.hpp"
-#include "engine/validation.hpp"
 
 namespace kinesphere {
 

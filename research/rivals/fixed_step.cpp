@@ -2,9 +2,9 @@
 // contacts.
 #include <vector>
 
+#include "bodies/validation.hpp"
 #include "contact/contact_predictor.hpp"
 #include "contact/pending_events.hpp"
-#include "engine/validation.hpp"
 #include "input/input_check.hpp"
 #include "number/infinity.hpp"
 #include "research/grid/hash_grid.hpp"

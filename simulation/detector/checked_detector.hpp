@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "engine/validation.hpp"
+#include "bodies/validation.hpp"
 #include "simulation/detector/detector.hpp"
 
 namespace kinesphere {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "engine/validation.hpp"
+#include "bodies/validation.hpp"
 #include "input/input_check.hpp"
 
 namespace kinesphere {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/validation.hpp"
+#include "bodies/validation.hpp"
 
 namespace kinesphere {
 

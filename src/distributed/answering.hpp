@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <span>
 
+#include "bodies/bodies.hpp"
 #include "distributed/body_directory.hpp"
-#include "engine/bodies.hpp"
-#include "engine/response_handler.hpp"
 #include "kinesphere/motion/motion.hpp"
 #include "kinesphere/run.hpp"
+#include "processor/response_handler.hpp"
 
 namespace kinesphere {
 

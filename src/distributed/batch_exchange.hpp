@@ -11,8 +11,8 @@
 #include "distributed/halo_region.hpp"
 #include "distributed/migration.hpp"
 #include "distributed/round.hpp"
-#include "engine/speculative_runner.hpp"
 #include "kinesphere/distributed/distributed_world.hpp"
+#include "speculation/speculative_runner.hpp"
 
 namespace kinesphere {
 

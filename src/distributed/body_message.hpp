@@ -9,7 +9,7 @@
 #include "archive/fields.hpp"
 #include "broadphase/certificate_queue.hpp"
 #include "contact/contact_checkpoint.hpp"
-#include "engine/world_state.hpp"
+#include "processor/world_state.hpp"
 
 namespace kinesphere {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "archive/envelope.hpp"
-#include "engine/validation.hpp"
+#include "bodies/validation.hpp"
 
 namespace kinesphere {
 namespace {

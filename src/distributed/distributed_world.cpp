@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "archive/archive.hpp"
+#include "bodies/validation.hpp"
 #include "distributed/rank_engine.hpp"
-#include "engine/validation.hpp"
 
 namespace kinesphere {
 

@@ -13,8 +13,8 @@
 #include "distributed/pending_links.hpp"
 #include "distributed/rank_state.hpp"
 #include "distributed/send_buffers.hpp"
-#include "engine/speculative_runner.hpp"
 #include "kinesphere/motion/motion.hpp"
+#include "speculation/speculative_runner.hpp"
 
 namespace kinesphere {
 

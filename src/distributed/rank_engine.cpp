@@ -4,11 +4,11 @@
 #include <string>
 #include <utility>
 
+#include "bodies/shaped_body.hpp"
+#include "bodies/validation.hpp"
 #include "distributed/batch_exchange.hpp"
-#include "engine/overlaps.hpp"
-#include "engine/shaped_body.hpp"
-#include "engine/validation.hpp"
 #include "number/infinity.hpp"
+#include "processor/overlaps.hpp"
 
 namespace kinesphere {
 

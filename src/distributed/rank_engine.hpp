@@ -27,8 +27,8 @@
 #include "distributed/rank_state.hpp"
 #include "distributed/unique_names.hpp"
 #include "distributed/window_starts.hpp"
-#include "engine/speculative_runner.hpp"
 #include "kinesphere/distributed/distributed_world.hpp"
+#include "speculation/speculative_runner.hpp"
 
 namespace kinesphere {
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "distributed/body_directory.hpp"
-#include "engine/event_processor.hpp"
-#include "engine/world_state.hpp"
 #include "kinesphere/vec3.hpp"
 #include "kinesphere/world_definition.hpp"
+#include "processor/event_processor.hpp"
+#include "processor/world_state.hpp"
 
 namespace kinesphere {
 

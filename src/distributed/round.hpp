@@ -9,7 +9,7 @@
 #include "archive/archive.hpp"
 #include "archive/fields.hpp"
 #include "distributed/body_message.hpp"
-#include "engine/speculation_log.hpp"
+#include "processor/speculation_log.hpp"
 
 namespace kinesphere {
 

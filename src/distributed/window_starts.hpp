@@ -8,7 +8,7 @@
 
 #include "distributed/distribution.hpp"
 #include "distributed/error_consensus.hpp"
-#include "engine/window_start.hpp"
+#include "processor/window_start.hpp"
 
 namespace kinesphere {
 

@@ -12,16 +12,16 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/bodies_in.hpp"
-#include "engine/call_state.hpp"
-#include "engine/event_processor.hpp"
-#include "engine/overlaps.hpp"
+#include "bodies/call_state.hpp"
 #include "engine/prepared_start.hpp"
-#include "engine/speculative_runner.hpp"
-#include "engine/window_choice.hpp"
 #include "engine/world_editor.hpp"
-#include "engine/world_state.hpp"
 #include "kinesphere/world.hpp"
+#include "processor/bodies_in.hpp"
+#include "processor/event_processor.hpp"
+#include "processor/overlaps.hpp"
+#include "processor/window_choice.hpp"
+#include "processor/world_state.hpp"
+#include "speculation/speculative_runner.hpp"
 
 namespace kinesphere {
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "engine/engine.hpp"
-#include "engine/window_start.hpp"
 #include "number/infinity.hpp"
+#include "processor/window_start.hpp"
 
 namespace kinesphere {
 

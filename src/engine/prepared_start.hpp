@@ -28,7 +28,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/window_start.hpp"
+#include "processor/window_start.hpp"
 
 namespace kinesphere {
 

@@ -1,6 +1,6 @@
 #include "engine/world_editor.hpp"
 
-#include "engine/shaped_body.hpp"
+#include "bodies/shaped_body.hpp"
 
 namespace kinesphere {
 

@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <functional>
 
-#include "engine/event_processor.hpp"
-#include "engine/sleeping.hpp"
-#include "engine/world_state.hpp"
 #include "kinesphere/shape.hpp"
 #include "kinesphere/world.hpp"
+#include "processor/event_processor.hpp"
+#include "processor/sleeping.hpp"
+#include "processor/world_state.hpp"
 
 namespace kinesphere {
 

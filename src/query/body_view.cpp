@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/shaped_body.hpp"
+#include "bodies/shaped_body.hpp"
 
 namespace kinesphere {
 

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
+#include "bodies/bodies.hpp"
 #include "broadphase/broad_phase.hpp"
-#include "engine/bodies.hpp"
 #include "kinesphere/world.hpp"
 
 namespace kinesphere {

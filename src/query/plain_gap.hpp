@@ -2,7 +2,7 @@
 // everything is computed in long double, where that has more digits.
 #pragma once
 
-#include "engine/collision_shape.hpp"
+#include "bodies/collision_shape.hpp"
 #include "kinesphere/bound.hpp"
 #include "kinesphere/shape.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "engine/validation.hpp"
+#include "bodies/validation.hpp"
 #include "number/infinity.hpp"
 #include "query/shape_queries.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "engine/shaped_body.hpp"
-#include "engine/validation.hpp"
+#include "bodies/shaped_body.hpp"
+#include "bodies/validation.hpp"
 #include "input/input_check.hpp"
 #include "world/run.hpp"
 

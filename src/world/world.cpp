@@ -7,9 +7,9 @@
 #include <set>
 #include <utility>
 
+#include "bodies/shaped_body.hpp"
+#include "bodies/validation.hpp"
 #include "engine/engine.hpp"
-#include "engine/shaped_body.hpp"
-#include "engine/validation.hpp"
 #include "input/input_check.hpp"
 #include "kinesphere/inspection.hpp"
 #include "query/body_view.hpp"

@@ -1,7 +1,7 @@
 // Certified predictions: checks the calls, and probes if the facet has a probe.
 #include <limits>
 
-#include "engine/validation.hpp"
+#include "bodies/validation.hpp"
 #include "input/input_check.hpp"
 #include "kinesphere/certificates.hpp"
 #include "query/answers.hpp"

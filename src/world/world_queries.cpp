@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/validation.hpp"
+#include "bodies/validation.hpp"
 #include "input/input_check.hpp"
 #include "kinesphere/limits.hpp"
 #include "kinesphere/queries.hpp"

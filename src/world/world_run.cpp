@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "bodies/validation.hpp"
 #include "engine/engine.hpp"
-#include "engine/validation.hpp"
 #include "number/scope_guard.hpp"
 #include "world/changing.hpp"
 #include "world/preconditions.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "archive/archive.hpp"
-#include "engine/shaped_body.hpp"
+#include "bodies/shaped_body.hpp"
 #include "kinesphere/motion/ballistic.hpp"
 
 namespace kinesphere::migration_test {

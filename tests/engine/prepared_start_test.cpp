@@ -7,9 +7,9 @@
 
 #include "archive/archive.hpp"
 #include "archive/fields.hpp"
-#include "engine/small_world.hpp"
-#include "engine/window_start.hpp"
 #include "kinesphere/random.hpp"
+#include "processor/window_start.hpp"
+#include "support/small_world.hpp"
 #include "support/true_balls.hpp"
 
 namespace kinesphere::prepared_start_test {

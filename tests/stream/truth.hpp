@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "bodies/collision_shape.hpp"
 #include "contact/contact_event.hpp"
-#include "engine/collision_shape.hpp"
 #include "kinesphere/event.hpp"
 #include "kinesphere/motion/trajectory.hpp"
 #include "kinesphere/shape.hpp"

@@ -77,12 +77,6 @@ std::string Unwrapper::warning(const std::string& file) {
       file);
 }
 
-std::string quoted_field(std::string_view text) {
-  std::string field = "\"";
-  for (const char c : text) field += c == '"' ? "\"\"" : std::string(1, c == '\n' || c == '\r' ? ' ' : c);
-  return field + '"';
-}
-
 std::vector<std::string_view> words_of(std::string_view line) {
   std::vector<std::string_view> words;
   for (;;) {

@@ -137,8 +137,6 @@ class Unwrapper {
   std::unordered_map<std::string, std::array<double, 3>> last_;
 };
 
-/// Returns a text as a field of a table.
-std::string quoted_field(std::string_view text);
 /// Returns the parts between blanks.
 std::vector<std::string_view> words_of(std::string_view line);
 /// Returns the parts between separators, without blanks around them.

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "formats/column_names.hpp"
+#include "formats/field_text.hpp"
 #include "formats/json_rows.hpp"
 
 namespace kinesphere::program {

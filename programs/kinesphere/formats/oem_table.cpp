@@ -8,6 +8,7 @@
 
 #include "ascii_text.hpp"
 #include "formats/converted_table.hpp"
+#include "formats/field_text.hpp"
 #include "program_error.hpp"
 
 namespace kinesphere::program {

@@ -1,0 +1,122 @@
+#include "bodies/bodies.hpp"
+
+#include "bodies/body_bounds.hpp"
+
+namespace kinesphere {
+
+Bodies::Bodies(const WorldDefinition& definition)
+    : definition_(definition), space_(definition), walls_(walls_of(definition)) {}
+
+void Bodies::reserve(std::size_t bodies) {
+  table_.reserve(bodies);
+  if (space_.repeats()) images.reserve(bodies);
+}
+
+std::uint32_t Bodies::add(const BodyDefinition& definition, double now) {
+  return describe(table_.take(), definition, now);
+}
+
+std::uint32_t Bodies::add_named(const BodyDefinition& definition, double now, std::uint32_t name) {
+  return describe(table_.take(name), definition, now);
+}
+
+std::uint32_t Bodies::describe(std::uint32_t number, const BodyDefinition& definition, double now) {
+  if (space_.repeats()) images.resize(numbers());
+  Body& body = table_[number];
+  body.radius = definition.radius;
+  body.position_error = definition.position_error;
+  body.contact_events = definition.contacts.value_or(definition_.contacts);
+  body.sensor_class = definition.sensor_class;
+  body.user_data = definition.user_data;
+  filters.keep(number, definition.filter);
+  masses.keep(number, definition.mass);
+  if (definition.radius_rate != 0.0)
+    radii.keep(number, {definition.radius_rate, definition.radius, now, definition.velocity_error, true});
+  set_solid(number, definition.solid);
+  return number;
+}
+
+void Bodies::give_shape(std::uint32_t number, const Shape& shape, bool carried) {
+  shapes.add(table_[number], shape, carried);
+  filters.set_any();
+}
+
+void Bodies::remove(std::uint32_t number) {
+  shapes.remove(table_[number]);
+  rigid.remove(table_[number]);
+  forget_change(number);
+  filters.keep(number, {});
+  masses.keep(number, BodyDefinition{}.mass);
+  radii.keep(number, {});
+  count_images_anew(number);
+  table_.give_back(number);
+}
+
+BodyDefinition Bodies::definition_of(std::uint32_t number) const {
+  const Body& body = table_[number];
+  const Bound& bound = body.bound;
+  BodyDefinition definition{.radius = body.radius,
+                            .acceleration_limit = bound.acceleration_limit,
+                            .planned_acceleration = bound.planned_acceleration,
+                            .position_error = body.position_error,
+                            .velocity_error = velocity_error(number),
+                            .position = bound.position,
+                            .velocity = bound.velocity,
+                            .filter = filters.of(number),
+                            .solid = body.solid,
+                            .contacts = body.contact_events,
+                            .sensor_class = body.sensor_class,
+                            .user_data = body.user_data,
+                            .mass = masses.of(number),
+                            .radius_rate = radius_rate(number)};
+  if (const Change* change = changes.find(body)) {
+    definition = with_motion_limits(definition, change->limits);
+    definition.velocity = change->velocity.value_or(bound.velocity);
+  }
+  if (const SleepRecord* record = sleep_records.find(body))
+    definition = with_motion_limits(definition, record->limits);
+  return definition;
+}
+
+void Bodies::forget_change(std::uint32_t number) {
+  if (ChangingRadius* const changing = radii.find(number))
+    if (const Change* const change = changes.find(table_[number]))
+      changing->velocity_error = change->limits.velocity_error;
+  changes.remove(table_, number);
+}
+
+void Bodies::set_radius_law(std::uint32_t number, double radius, double rate, double now) {
+  if (rate != 0.0 || radii.find(number))
+    radii.keep(number, {rate, radius, now, velocity_error(number), true});
+}
+
+void Bodies::set_solid(std::uint32_t number, bool solid) {
+  table_[number].solid = solid;
+  if (!solid) filters.set_any();
+}
+
+/// Evaluates may_meet() in a world with filters.
+bool Bodies::filters_allow(std::uint32_t a, std::uint32_t b) const {
+  return !(table_[a].has_shape() && table_[b].has_shape()) &&
+         filters.may_meet(id_of(a), filters.of(a), id_of(b), filters.of(b));
+}
+
+Change& Bodies::change_of(std::uint32_t number) {
+  Body& body = table_[number];
+  if (changes.find(body)) return changes[body];
+  return changes.add(body, {number, std::nullopt, motion_limits_of(definition_of(number))});
+}
+
+void Bodies::wrap_to_primary(std::uint32_t number, double now, double length) {
+  Body& body = table_[number];
+  // The centre of a box is rounded and can lie on the other side of the border. The centre of a static ball
+  // was wrapped when the ball was added.
+  if (body.is_static()) {
+    images[number] = {.middle = body.bound.position};
+    return;
+  }
+  const Box way = inflated_bound(*this, number, now).box_of_way(length);
+  body.bound.position -= images[number].wrap(space_, way);
+}
+
+}  // namespace kinesphere

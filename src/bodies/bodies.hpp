@@ -1,0 +1,174 @@
+// Bodies holds all bodies of a world: their table, and side tables for changes, sleep records, filters,
+// masses, periodic images, shapes and sensors.
+//
+// A static body has a shape in a side table and is never probed. Another body may carry a shape, or be rigid:
+// then it has parts in a side table. A sleeping body has a bound that stands still and is otherwise treated
+// like any other; the motion limits that apply after it wakes are in a side table.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <type_traits>
+#include <vector>
+
+#include "bodies/body_table.hpp"
+#include "bodies/changing_radii.hpp"
+#include "bodies/filters.hpp"
+#include "bodies/periodic_image.hpp"
+#include "bodies/rigid_bodies.hpp"
+#include "bodies/shapes.hpp"
+#include "bodies/side_table.hpp"
+#include "bodies/sparse_column.hpp"
+#include "contact/contact_event.hpp"
+#include "contact/sensor_table.hpp"
+#include "kinesphere/world_definition.hpp"
+#include "space/space.hpp"
+
+namespace kinesphere {
+
+class Bodies {
+ public:
+  explicit Bodies(const WorldDefinition& definition);
+
+  const WorldDefinition& definition() const { return definition_; }
+  const Space& space() const { return space_; }
+  /// Returns walls_of(definition()).
+  const std::optional<Box>& walls() const { return walls_; }
+
+  const BodyTable& table() const { return table_; }
+  Body& operator[](std::uint32_t number) { return table_[number]; }
+  const Body& operator[](std::uint32_t number) const { return table_[number]; }
+  BodyId id_of(std::uint32_t number) const { return table_.id_of(number); }
+  std::uint32_t numbers() const { return table_.numbers(); }
+
+  void reserve(std::size_t bodies);
+  /// Adds a body with its definition at time `now`, except for its state and motion limits. Returns its
+  /// number.
+  std::uint32_t add(const BodyDefinition& definition, double now);
+  /// Adds a body as above, with a name (BodyTable).
+  std::uint32_t add_named(const BodyDefinition& definition, double now, std::uint32_t name);
+  /// Gives the body a shape: a carried one, or else one at rest, which makes the body static.
+  void give_shape(std::uint32_t number, const Shape& shape, bool carried);
+  /// Gives a body with a shape another one. Its bound must follow.
+  void reshape(std::uint32_t number, const Shape& shape) { shapes.replace(table_[number], shape); }
+  /// Gives the body the parts and the rotation of a rigid body.
+  void make_rigid(std::uint32_t number, RigidRecord record) { rigid.add(table_[number], std::move(record)); }
+  void remove(std::uint32_t number);
+  /// Returns true if there has never been a body that is not a ball.
+  bool are_balls() const { return shapes.empty() && rigid.empty(); }
+
+  /// Returns the definition with the state of the last report and all pending changes.
+  BodyDefinition definition_of(std::uint32_t number) const;
+  void set_solid(std::uint32_t number, bool solid);
+  /// Returns the pending change of the body, and creates it if there is none.
+  Change& change_of(std::uint32_t number);
+  /// Removes the pending change: it has taken effect, or the body is being removed.
+  void forget_change(std::uint32_t number);
+
+  // Radii that change with time. Body::radius is that at the last report.
+  /// Returns the radius that the body has at time `now`.
+  double radius_at(std::uint32_t number, double now) const {
+    const ChangingRadius* const changing = radii.find(number);
+    return changing ? changing->at(now) : table_[number].radius;
+  }
+  double radius_rate(std::uint32_t number) const {
+    const ChangingRadius* const changing = radii.find(number);
+    return changing ? changing->rate : 0.0;
+  }
+  /// Returns the growth speed of the body's bound without the rate of its radius.
+  double velocity_error(std::uint32_t number) const {
+    const ChangingRadius* const changing = radii.find(number);
+    return changing ? changing->velocity_error : table_[number].bound.growth_speed;
+  }
+  /// From time `now`, when the body has this radius, its radius changes at this rate. Body::radius and the
+  /// bound must follow.
+  void set_radius_law(std::uint32_t number, double radius, double rate, double now);
+  /// Gives the body in the table the radius that it has at time `now`. Its bound must follow.
+  void update_radius(std::uint32_t number, double now) { table_[number].radius = radius_at(number, now); }
+
+  /// Returns true if the filters allow two bodies to touch or sense each other.
+  bool may_meet(std::uint32_t a, std::uint32_t b) const { return !filters.any() || filters_allow(a, b); }
+  bool may_touch(std::uint32_t a, std::uint32_t b) const {
+    return table_[a].solid && table_[b].solid && may_meet(a, b);
+  }
+
+  /// Returns the largest acceleration of a point of the body (length / time^2).
+  double largest_acceleration(std::uint32_t number) const {
+    const Body& body = table_[number];
+    const RigidRecord* const turning = rigid.find(body);
+    return body.largest_acceleration() + (turning ? turning->surface_acceleration(body.radius) : 0.0);
+  }
+
+  /// Returns the contact events that a pair reports; for a body and its walls, `b` is the body again.
+  ContactEvents wanted_of(std::uint32_t a, std::uint32_t b) const {
+    return table_[a].contact_events | table_[b].contact_events;
+  }
+
+  /// Resets the image count of the body; call when the caller sets its position.
+  void count_images_anew(std::uint32_t number) {
+    if (space_.repeats()) images[number].image = {};
+  }
+  /// Moves the body to the image in which the centre of its path during `length` lies in the primary box.
+  /// Requires periodic space.
+  void wrap_to_primary(std::uint32_t number, double now, double length);
+
+  /// A copy of a body, to be restored later. Precondition: the body has no pending change.
+  struct Checkpoint {
+    Body body;
+    PeriodicImage image;
+  };
+  Checkpoint checkpoint(std::uint32_t number) const {
+    return {table_[number], space_.repeats() ? images[number] : PeriodicImage{}};
+  }
+  void restore(std::uint32_t number, const Checkpoint& checkpoint) {
+    table_[number] = checkpoint.body;
+    if (space_.repeats()) images[number] = checkpoint.image;
+  }
+
+  /// Serializes all fields except the definition and what follows from it, the tag, and the pair filter.
+  /// Bodies that are read get ids with tag 0.
+  template <class Self, class Archive>
+  static void serialize(Self& self, Archive& archive) {
+    auto& [changes, sleep_records, filters, masses, radii, images, shapes, rigid, sensors, definition, space,
+           enclosure, table] = self;
+    auto& [bodies, live_count, free, tag, names] = table;
+    auto& [by_number, pair_filter, any] = filters;
+    archive(bodies, live_count, changes, sleep_records, by_number, masses, radii, images, free, shapes, rigid,
+            sensors, any);
+    if constexpr (!std::is_const_v<Self>) tag = 0;
+  }
+  /// Returns the name of the part that no sequence of calls could have produced, or nullptr if there is none.
+  /// Call after reading; `now` is the time of the world.
+  const char* first_invalid_part(double now, const std::vector<std::uint32_t>& dirty) const;
+
+  // Side tables. The member functions above make the changes that concern the body table too.
+  WaitingChanges changes;
+  SleepRecords sleep_records;
+  Filters filters;
+  SparseColumn<double> masses{BodyDefinition{}.mass};  ///< for events; infinite for static bodies
+  ChangingRadii radii;
+  std::vector<PeriodicImage> images;  ///< by body number; empty unless space is periodic
+  Shapes shapes;
+  RigidBodies rigid;
+  SensorTable sensors;
+
+ private:
+  std::uint32_t describe(std::uint32_t number, const BodyDefinition& definition, double now);
+  bool filters_allow(std::uint32_t a, std::uint32_t b) const;
+  bool bodies_are_valid(double now, const std::vector<std::uint32_t>& dirty) const;
+  bool is_valid(std::uint32_t number, double now) const;
+  bool is_valid_static(std::uint32_t number, double now) const;
+  bool carried_shape_is_valid(const Body& body, const BodyDefinition& definition) const;
+  bool rigid_body_is_valid(std::uint32_t number, double now) const;
+  bool sleep_is_valid(const Body& body) const;
+  bool radius_is_valid(std::uint32_t number, double now) const;
+  bool limits_are_valid(const Body& body, BodyDefinition definition) const;
+
+  WorldDefinition definition_;
+  Space space_;
+  std::optional<Box> walls_;
+  BodyTable table_;
+};
+
+}  // namespace kinesphere

@@ -1,0 +1,89 @@
+// CollisionShape decides when two bodies touch and separate: the bound of a body, a shape at rest, a shape
+// that a body carries, or the parts of a rigid body.
+#pragma once
+
+#include <variant>
+
+#include "bodies/rigid_bodies.hpp"
+#include "bound/carried_shape.hpp"
+#include "bound/rigid_certificates.hpp"
+#include "kinesphere/shape.hpp"
+
+namespace kinesphere {
+
+/// Volume of a body. A static ball is represented by a bound that stands still.
+struct CollisionShape {
+  const Bound& bound;
+  bool is_static = false;
+  /// Shape of a static body that is not a ball (`bound` then is one point of it), or a carried one, whose
+  /// origin is the centre of `bound`.
+  const Shape* shape = nullptr;
+  double carried_radius = 0.0;         ///< CarriedShape::radius, RigidExtent::radius
+  const RigidRecord* rigid = nullptr;  ///< of a rigid body
+
+  bool is_carried() const { return shape != nullptr && !is_static; }
+  /// Returns true if the body meets bodies with a shape.
+  bool meets_shapes() const { return shape == nullptr && !is_static; }
+  /// Precondition: the body is rigid.
+  RigidExtent extent() const {
+    return {bound,
+            carried_radius,
+            rigid->parts,
+            rigid->balls,
+            rigid->rotation,
+            rigid->spin(),
+            rigid->angular_acceleration_limit};
+  }
+};
+
+/// Calls visit(bound, pair) for two bodies, at least one of which is rigid, with their RigidPair.
+template <class Visit>
+auto visit_rigid(const CollisionShape& a, const CollisionShape& b, Visit visit) {
+  const CollisionShape& own = a.rigid ? a : b;
+  const CollisionShape& other = a.rigid ? b : a;
+  const RigidExtent body = own.extent();
+  const auto with = [&]<class Other>(const Other& partner) {
+    return visit(own.bound, RigidPair<Other>{body, partner});
+  };
+  if (other.rigid) return with(other.extent());
+  const RigidPart ball{.radius = other.bound.radius};
+  const PartBall same = ball_around(ball);
+  const RigidExtent alone{other.bound, other.bound.radius, std::span(&ball, 1), std::span(&same, 1)};
+  if (!other.shape) return with(alone);
+  return std::visit(
+      [&]<class Solid>(const Solid& solid) {
+        if constexpr (std::is_same_v<Solid, Ball>) {
+          return with(alone);
+        } else {
+          if constexpr (!std::is_same_v<Solid, HalfSpace>)
+            if (other.is_carried())
+              return with(CarriedShape<Solid>{solid, other.bound, other.carried_radius});
+          return with(solid);
+        }
+      },
+      *other.shape);
+}
+
+/// Calls visit(bound, partner), where `partner` is another bound, a HalfSpace, Box or Triangle at rest, a
+/// CarriedShape or a RigidPair. Precondition: at most one of the two has a shape.
+template <class Visit>
+auto visit_shapes(const CollisionShape& a, const CollisionShape& b, Visit visit) {
+  if (a.rigid || b.rigid) return visit_rigid(a, b, visit);
+  if (!a.shape && !b.shape) return visit(a.bound, b.bound);
+  const Bound& moving = a.shape ? b.bound : a.bound;
+  const CollisionShape& shaped = a.shape ? a : b;
+  return std::visit(
+      [&]<class Solid>(const Solid& solid) {
+        if constexpr (std::is_same_v<Solid, Ball>) {
+          return visit(moving, shaped.bound);
+        } else {
+          if constexpr (!std::is_same_v<Solid, HalfSpace>)
+            if (shaped.is_carried())
+              return visit(moving, CarriedShape<Solid>{solid, shaped.bound, shaped.carried_radius});
+          return visit(moving, solid);
+        }
+      },
+      *shaped.shape);
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,64 @@
+// SideTable stores a property that few bodies have, without gaps. A body stores the index of its record, and
+// the record the number of its body.
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <cstdint>
+#include <iterator>
+#include <vector>
+
+#include "bodies/body.hpp"
+
+namespace kinesphere {
+
+template <class Record, std::uint32_t Body::*index>
+class SideTable {
+ public:
+  bool empty() const { return records_.empty(); }
+  /// Returns nullptr if the body has no record.
+  const Record* find(const Body& body) const {
+    return body.*index == Body::none ? nullptr : &records_[body.*index];
+  }
+  /// Precondition: the body has no record.
+  Record& add(Body& body, const Record& record) {
+    assert(body.*index == Body::none);
+    body.*index = static_cast<std::uint32_t>(records_.size());
+    return records_.emplace_back(record);
+  }
+  Record& operator[](const Body& body) { return records_[body.*index]; }
+  /// Removes the record of the body, if there is one. The last record takes its index. `bodies` contains the
+  /// bodies of all records, by number.
+  template <class Numbered>
+  void remove(Numbered& bodies, std::uint32_t number) {
+    const std::uint32_t gap = bodies[number].*index;
+    if (gap == Body::none) return;
+    bodies[records_.back().body].*index = gap;
+    bodies[number].*index = Body::none;
+    records_[gap] = records_.back();
+    records_.pop_back();
+  }
+
+  /// Returns true if each record belongs to one body. Call after reading.
+  template <class Numbered>
+  bool is_valid(const Numbered& bodies) const {
+    for (std::uint32_t record = 0; record < records_.size(); ++record) {
+      const std::uint32_t number = records_[record].body;
+      if (number >= bodies.numbers() || bodies[number].*index != record) return false;
+    }
+    return std::count_if(bodies.begin(), bodies.end(),
+                         [](const Body& body) { return body.*index != Body::none; }) == std::ssize(records_);
+  }
+  static void serialize(auto& self, auto& archive) {
+    auto& [records] = self;
+    archive(records);
+  }
+
+ private:
+  std::vector<Record> records_;
+};
+
+using WaitingChanges = SideTable<Change, &Body::change_number>;
+using SleepRecords = SideTable<SleepRecord, &Body::sleep_number>;
+
+}  // namespace kinesphere

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "processor/dirty_list.hpp"
+#include "processor/world_state.hpp"
+
+namespace kinesphere {
+
+/// Returns all bodies that may be in the box now, in ascending order. Cost: one search, plus one step for
+/// each body in the dirty list.
+std::vector<std::uint32_t> bodies_in(const Box& box, const WorldState& state, const DirtyList& dirty,
+                                     double now);
+
+}  // namespace kinesphere

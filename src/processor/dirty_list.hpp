@@ -1,0 +1,61 @@
+// DirtyList lists the bodies that must be recertified before time advances.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bodies/bodies.hpp"
+
+namespace kinesphere {
+
+/// Contains all dirty bodies in the order in which they became dirty, and possibly some that are no longer
+/// dirty.
+class DirtyList {
+ public:
+  void reserve(std::size_t bodies) { numbers_.reserve(bodies); }
+  bool empty() const { return numbers_.empty(); }
+  const std::vector<std::uint32_t>& numbers() const { return numbers_; }
+  void add(Bodies& bodies, std::uint32_t number) {
+    if (bodies[number].dirty) return;
+    bodies[number].dirty = true;
+    numbers_.push_back(number);
+  }
+  void assign(std::span<const std::uint32_t> numbers) { numbers_.assign(numbers.begin(), numbers.end()); }
+  /// Sorts the list in ascending order and removes duplicates and bodies that are not dirty. Returns the
+  /// list. Cost: O(n log n).
+  const std::vector<std::uint32_t>& sort(const Bodies& bodies) {
+    if (numbers_.size() > 1) {
+      std::sort(numbers_.begin(), numbers_.end());
+      numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
+    }
+    std::erase_if(numbers_, [&](std::uint32_t number) { return !bodies[number].dirty; });
+    return numbers_;
+  }
+  /// Returns true if arrivals() has any.
+  bool has_arrivals(const Bodies& bodies) const {
+    return std::any_of(numbers_.begin(), numbers_.end(),
+                       [&](std::uint32_t number) { return is_arrival(bodies[number]); });
+  }
+  /// Returns the dirty bodies that were relocated since the last window start, each once, in ascending order.
+  std::vector<std::uint32_t> arrivals(const Bodies& bodies) const {
+    std::vector<std::uint32_t> arrived;
+    for (const std::uint32_t number : numbers_)
+      if (is_arrival(bodies[number])) arrived.push_back(number);
+    std::sort(arrived.begin(), arrived.end());
+    arrived.erase(std::unique(arrived.begin(), arrived.end()), arrived.end());
+    return arrived;
+  }
+  void clear() { numbers_.clear(); }
+
+  static void serialize(auto& self, auto& archive) { archive(self.numbers_); }
+
+ private:
+  static bool is_arrival(const Body& body) { return body.dirty && body.relocated; }
+
+  std::vector<std::uint32_t> numbers_;
+};
+
+}  // namespace kinesphere

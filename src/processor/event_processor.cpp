@@ -1,0 +1,194 @@
+// Processing of one instant: certificates that are due are rechecked, events are delivered, and bodies that
+// they changed are recertified before time advances.
+#include "processor/event_processor.hpp"
+
+#include <cassert>
+
+#include "archive/heap_counter.hpp"
+#include "processor/sleeping.hpp"
+
+namespace kinesphere {
+
+void EventProcessor::open_queue() {
+  queue_.open([certifier = certifier()](const PairCertificate& pair) { return certifier.is_stale(pair); });
+}
+
+Result<void> EventProcessor::gather(double until) {
+  for (;;) {
+    if (auto recertified = recertify(); !recertified) return recertified;
+    const double next = next_time();
+    if (next > time_) {
+      if (next > until || next >= pause() || !events_.is_quiet()) break;
+      advance_clock(next);
+      if (auto noted = note_instant(); !noted) return noted;
+    }
+    const PairCertificate pair = queue_.take_first();
+    if (certifier().is_stale(pair)) continue;
+    if (auto rechecked = recheck(pair); !rechecked) return rechecked;
+  }
+  gathering_ = false;
+  return {};
+}
+
+Event EventProcessor::contact(EventKind kind, std::uint32_t a, std::uint32_t b) const {
+  return contact_event(kind, time_, sphere(a), sphere(b), bodies().space());
+}
+
+Event EventProcessor::wall_contact(EventKind kind, std::uint32_t number, Wall wall) const {
+  return wall_event(kind, time_, sphere(number), *bodies().walls(), wall);
+}
+
+/// Returns which of the two bodies senses the other at the distance of this event now.
+Senses EventProcessor::senses_in(const Event& event) const {
+  const Sensing first = sensing_of(bodies(), bodies().table().number_of(event.first));
+  const Sensing second = sensing_of(bodies(), bodies().table().number_of(event.second));
+  const bool by_first = bodies().sensors.senses_one_way(first, second, event.distance);
+  const bool by_second = bodies().sensors.senses_one_way(second, first, event.distance);
+  if (by_first && by_second) return Senses::both;
+  return by_first ? Senses::first : by_second ? Senses::second : Senses::neither;
+}
+
+std::optional<Event> EventProcessor::pop() {
+  const auto is_there = [this](BodyId id) {
+    const std::uint32_t number = bodies().table().number_of(id);
+    return id == bodies().id_of(number) && bodies()[number].present();
+  };
+  std::optional<Event> event = events_.pop(
+      contacts(), is_there, [this](std::uint32_t number) { return sphere(number); },
+      [this](const Event& enter) { return senses_in(enter); }, bodies().walls());
+  if (!event) return event;
+  event->first = bodies().table().tagged(event->first);
+  if (event->second != no_body) event->second = bodies().table().tagged(event->second);
+  ++work_.counters.events[static_cast<std::size_t>(event->kind)];
+  if (!bodies().sleep_records.empty()) Sleeping(*state_, *this).wake_by(*event);
+  if (event->repeated) ++work_.counters.repeated_contacts;
+  if (reports_.profile() != nullptr) reports_.profile()->note_event(bodies().table(), *event);
+  return event;
+}
+
+Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers, ProbeCause cause) {
+  PoolLease alone;
+  return probe(numbers, cause, alone);
+}
+
+Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers, ProbeCause cause,
+                                   PoolLease& lease) {
+  // Probes are counted first, so that a probe that throws leaves the same state as one that gives no answer.
+  work_.counters.probes += numbers.size();
+  if (reports_.profile() != nullptr) reports_.profile()->note_probes(bodies().table(), numbers, cause);
+  if (log_)
+    for (const std::uint32_t number : numbers) log_->note_change(number, time_);
+  const auto broken = reports_.take(bodies(), time_, numbers, lease);
+  if (!broken) return broken.error();
+  for (const auto& [k, velocity, violation] : *broken) {
+    Sphere reported = sphere(numbers[k]);
+    reported.state.velocity = velocity;
+    events_.queue(violation_event(time_, reported, violation));
+    invalidate(numbers[k]);
+  }
+  return {};
+}
+
+Result<bool> EventProcessor::probe_stale(std::span<const std::uint32_t> numbers, ProbeCause cause,
+                                         PoolLease& lease) {
+  std::vector<std::uint32_t> stale;
+  for (const std::uint32_t number : numbers)
+    if (bodies()[number].enabled && !bodies()[number].fresh(time_)) stale.push_back(number);
+  if (stale.empty()) return false;
+  if (auto probed = probe(stale, cause, lease); !probed) return probed.error();
+  return true;
+}
+
+void EventProcessor::invalidate(std::uint32_t number) {
+  ++bodies()[number].revision;
+  dirty_.add(bodies(), number);
+}
+
+void EventProcessor::set_velocity(std::uint32_t number, const Vec3& velocity) {
+  Body& body = bodies()[number];
+  if (body.is_sleeping()) Sleeping(*state_, *this).wake(number);
+  if (body.fresh(time_)) {
+    body.bound.velocity = velocity;
+  } else {
+    assert(log_ == nullptr && "clusters share the table of changes");
+    bodies().change_of(number).velocity = velocity;
+  }
+  turn_reported(number);
+}
+
+void EventProcessor::set_angular_velocity(std::uint32_t number, const Vec3& angular_velocity) {
+  Body& body = bodies()[number];
+  RigidRecord& record = bodies().rigid[body];
+  record.change({record.at(time_).orientation, angular_velocity}, time_, body.fresh(time_));
+  if (!body.fresh(time_)) {
+    assert(log_ == nullptr && "clusters share the table of changes");
+    bodies().change_of(number);
+  }
+  contacts().set_largest_acceleration(number, bodies().largest_acceleration(number));
+  turn_reported(number);
+}
+
+/// Makes everything stale that depends on how the body has moved until now.
+void EventProcessor::turn_reported(std::uint32_t number) {
+  if (log_) {
+    note_linked_conflicts(number);
+    if (!log_->conflicts.empty()) return;
+  }
+  contacts().turn_reported(number);
+  invalidate(number);
+}
+
+void EventProcessor::detach(std::uint32_t number) {
+  if (log_) {
+    note_linked_conflicts(number);
+    if (!log_->conflicts.empty()) return;
+  }
+  events_.end_all_contacts(
+      contacts(), number, time_, [this](std::uint32_t other) { return sphere(other); }, bodies().walls());
+  Body& body = bodies()[number];
+  ++body.revision;
+  body.dirty = body.relocated = false;
+  if (log_) {
+    log_->add(SweptSphereUpdate::departure(number, body.revision, time_));
+  } else if (state_->broad_phase.contains(number)) {
+    state_->broad_phase.leave(number);
+  }
+}
+
+void EventProcessor::note_response() {
+  events_.note_response(
+      contacts(), [this](std::uint32_t number) { return sphere(number); }, bodies().walls());
+}
+
+void EventProcessor::recertify_changed() {
+  note_response();
+  auto& changed = events_.changed();
+  while (!changed.empty()) {
+    const auto [a, b] = changed.back();
+    recertify_changed(a, b);
+    changed.pop_back();
+  }
+}
+
+Result<void> EventProcessor::recertify_all() {
+  recertify_changed();
+  // Reports can violate bounds, which makes further bodies dirty.
+  while (!dirty_.empty()) {
+    if (auto recertified = recertify_dirty(); !recertified) return recertified;
+  }
+  return {};
+}
+
+/// Certifies a pair again after its contact changed, since the earlier certificate applied to the earlier
+/// contact state. If a == b, the pair is the body and the walls.
+void EventProcessor::recertify_changed(std::uint32_t a, std::uint32_t b) {
+  if (!bodies()[a].present() || !bodies()[b].present() || bodies()[a].dirty || bodies()[b].dirty) return;
+  queue_.add(certifier().certificate(time_, a, a == b ? PairCertificate::walls : b));
+}
+
+std::size_t EventProcessor::bytes() const {
+  return queue_.bytes() + reports_.bytes() +
+         heap_bytes(events_, dirty_, round_, entered_, found_.certificates);
+}
+
+}  // namespace kinesphere

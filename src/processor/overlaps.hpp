@@ -1,0 +1,35 @@
+// Overlaps finds overlaps that a change by the caller would cause: two bodies that overlap by more than the
+// contact tolerance now, wherever they are in their bounds.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "bodies/body_bounds.hpp"
+#include "broadphase/neighbour_search.hpp"
+
+namespace kinesphere {
+
+class Overlaps {
+ public:
+  Overlaps(const Bodies& bodies, const BroadPhase& windows, double now)
+      : bodies_(bodies), windows_(windows), now_(now) {}
+
+  /// Returns the first other body, in the order of id indices, that certainly overlaps body `id` with this
+  /// shape and definition and may touch it. Cost: one search.
+  std::optional<BodyId> of_body(BodyId id, const CollisionShape& shape,
+                                const BodyDefinition& definition) const;
+  std::optional<Wall> of_wall(const CollisionShape& shape) const;
+  /// Returns the first new body that certainly overlaps an earlier new body and may touch it. The result is a
+  /// pair of indices: the first body that it overlaps, then the body itself. Cost: one search per body.
+  std::optional<std::pair<std::size_t, std::size_t>> first_among(std::span<const BodyDefinition> added) const;
+
+ private:
+  const Bodies& bodies_;
+  const BroadPhase& windows_;
+  double now_;
+};
+
+}  // namespace kinesphere

@@ -1,0 +1,49 @@
+// Pace notices that time will practically never reach the end of a call.
+#pragma once
+
+#include <cstdint>
+
+#include "bodies/bodies.hpp"
+#include "kinesphere/result.hpp"
+#include "number/infinity.hpp"
+
+namespace kinesphere {
+
+/// Measures how far time goes in each block of instants without an event. Windows of bodies are the shorter
+/// the larger their limits are: a limit of 1e30 in place of "any" makes windows of 1e-12 to 1e-17.
+class Pace {
+ public:
+  /// Begins a call that advances from `time` to `until`.
+  void begin_call(double time, double until) {
+    until_ = until;
+    restart(time);
+  }
+  /// Counts anew, from an event on.
+  void restart(double time) {
+    begin_ = time;
+    instants_ = 0;
+  }
+  /// Counts an instant. Returns an error that names the body with the shortest windows if, at the pace of the
+  /// last block, the end of the call is more instants away than a processor can work off in a day. A
+  /// call that ends later than any real one is to go on until an event, and gets no error.
+  Result<void> note_instant(const Bodies& bodies, double time) {
+    return ++instants_ < block ? Result<void>() : check(bodies, time);
+  }
+
+ private:
+  /// A crowded moment has fewer instants. They take a second, or some if each calls a slow probe.
+  static constexpr std::uint32_t block = 1u << 20;
+  /// Half a microsecond each for 38 hours. So many for each 1024 bodies: a large crowd has more of
+  /// them.
+  static constexpr double most_instants = 0x1p38;
+  /// Longer calls have no end in mind (time).
+  static constexpr double longest_call = 1e6;
+
+  [[gnu::cold]] Result<void> check(const Bodies& bodies, double time);
+
+  double until_ = -infinity;  ///< end of the call
+  double begin_ = 0.0;        ///< of the block
+  std::uint32_t instants_ = 0;
+};
+
+}  // namespace kinesphere

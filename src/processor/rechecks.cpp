@@ -1,0 +1,194 @@
+// Rechecks of certificates that are due: the current bounds decide whether a contact can have changed; if so,
+// fresh reports decide whether it has.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "number/infinity.hpp"
+#include "number/scope_guard.hpp"
+#include "processor/event_processor.hpp"
+
+namespace kinesphere {
+
+Result<void> EventProcessor::recheck(const PairCertificate& pair) {
+  // Returns the certificate to the queue unless its recheck completes.
+  ScopeGuard requeue([this, pair] { queue_.add(pair); });
+  auto rechecked = pair.kind() == PairCertificate::Kind::pair         ? recheck_pair(pair.first, pair.second)
+                   : pair.kind() == PairCertificate::Kind::with_walls ? recheck_walls(pair.first)
+                                                                      : renew(pair.first);
+  if (rechecked) requeue.dismiss();
+  return rechecked;
+}
+
+Result<void> EventProcessor::recheck_pair(std::uint32_t a, std::uint32_t b) {
+  ++work_.counters.pair_checks;
+  const PairCertifier certifier = this->certifier();
+  const double end = certifier.earliest_window_end(a, b);
+  // A violated bound makes a body dirty; recertification then creates all its certificates.
+  while (!bodies()[a].dirty && !bodies()[b].dirty) {
+    const bool fresh = bodies()[a].fresh(time_) && bodies()[b].fresh(time_);
+    if (fresh) {
+      const auto next = decide_pair(a, b);
+      if (next && *next < end) queue_.add(certifier.certificate(*next, a, b));
+      return {};
+    }
+    ++work_.counters.certificates;
+    const double until = certifier.are_linked(a, b) ? certifier.unchanged_until_by_thresholds(a, b)
+                                                    : certifier.apart_until(a, b);
+    if (until > time_) {
+      if (until < end) queue_.add(certifier.certificate(until, a, b));
+      return {};
+    }
+    if (auto probed = probe_stale_of(a, b); !probed) return probed;
+  }
+  return {};
+}
+
+/// Probes the body with the older report, or the second one if both are equally old. If neither is fresh and
+/// both bounds are exact, probes both at once: one report would not move the certificate, so the other would
+/// be due at the same time. Precondition: at least one of them is not fresh.
+Result<void> EventProcessor::probe_stale_of(std::uint32_t a, std::uint32_t b) {
+  const Bound& one = bodies()[a].bound;
+  const Bound& other = bodies()[b].bound;
+  const bool a_is_fresh = bodies()[a].fresh(time_);
+  const bool b_is_fresh = bodies()[b].fresh(time_);
+  const bool a_is_first = !a_is_fresh && (one.time < other.time || b_is_fresh);
+  const std::array<std::uint32_t, 2> order = a_is_first ? std::array{a, b} : std::array{b, a};
+  const bool asks_both = one.is_exact() && other.is_exact() && !a_is_fresh && !b_is_fresh;
+  const bool touching = reports_.profile() != nullptr && contacts().touch(a, b);
+  return probe(std::span(order).first(asks_both ? 2 : 1), touching ? ProbeCause::touching : ProbeCause::near);
+}
+
+/// Sets what limits say of radii that change with time. Returns the time until which the excess growth holds:
+/// `end`, or when a ball that shrinks is a point.
+double EventProcessor::note_rates(RelativeLimits& limits, std::initializer_list<std::uint32_t> numbers,
+                                  double end) const {
+  limits.speed_error = 0.0;
+  for (const std::uint32_t number : numbers) {
+    limits.speed_error += bodies().velocity_error(number);
+    const ChangingRadius* const changing = bodies().radii.find(number);
+    if (changing == nullptr) continue;
+    limits.radius_rates += std::abs(changing->rate);
+    limits.excess_growth += std::abs(changing->rate) - changing->rate_at(time_);
+    if (changing->rate < 0.0 && !changing->is_point(time_)) end = std::min(end, changing->end());
+  }
+  return end;
+}
+
+/// Applies the contact rule to the fresh reports of two bodies. Returns the time of the next recheck, or
+/// nullopt if an event must be delivered first.
+std::optional<double> EventProcessor::decide_pair(std::uint32_t a, std::uint32_t b) {
+  const PairCertifier certifier = this->certifier();
+  const double end = certifier.earliest_window_end(a, b);
+  RelativeLimits sum{bodies()[a].bound.growth_speed + bodies()[b].bound.growth_speed,
+                     bodies().largest_acceleration(a) + bodies().largest_acceleration(b)};
+  const double until = bodies().radii.any() ? note_rates(sum, {a, b}, end) : end;
+  std::optional<double> next = infinity;
+  visit_pair(bodies(), a, b, [&](const Bound& bound, const auto& partner) {
+    certifier.for_each_threshold(a, b, [&](const Threshold& threshold) {
+      ++work_.counters.certificates;
+      const ContactPredictor predictor(contacts().rule(), threshold, bound, partner, time_, {until, end},
+                                       sum.excess_growth);
+      const auto known =
+          decide(predictor, threshold, sum, [&] { return contact(EventKind::zeno_guard, a, b); });
+      next = next && known ? std::optional(std::min(*next, *known)) : std::nullopt;
+    });
+  });
+  if (next && until < end) next = std::min(*next, until);
+  return next;
+}
+
+/// Applies the contact rule to fresh reports. Queues the events that result. Returns the time before which
+/// the threshold cannot be crossed, or nullopt if a begin or an end was queued. `event_now` returns an event
+/// that describes the two now.
+template <class Partner, class EventNow>
+std::optional<double> EventProcessor::decide(const ContactPredictor<Partner>& predictor,
+                                             const Threshold& threshold, const RelativeLimits& limits,
+                                             EventNow event_now) {
+  if (const auto next_check = predictor.next_check_if_apart()) return next_check;
+  Event current = event_now();
+  ContactDecision decision = predictor.decide(current, limits);
+  if (decision.change == ContactRule::Change::begin && !threshold.sensed && contacts().is_jammed(current))
+    return defer(predictor, threshold, current, limits);
+  if (decision.is_event()) {
+    current.kind = kind_of(decision.change, threshold.sensed, current.wall);
+    current.distance = threshold.distance;
+    events_.queue(current);
+    return std::nullopt;
+  }
+  if (decision.change == ContactRule::Change::release) contacts().set_touching(current, false);
+  if (decision.zeno_step) ++work_.counters.zeno_steps;
+  if (threshold.sensed) return decision.next_check;
+  const bool stays = threshold.within && decision.change != ContactRule::Change::release;
+  ContactState state = stays ? threshold.state : ContactState{};
+  if (stays) state.approach = decision.approach;
+  if (decision.breaks_tolerance && !state.guard_reported) {
+    events_.queue(current);
+    state.guard_reported = true;
+  }
+  if (stays ? state != threshold.state : state.guard_reported) contacts().set_state(current, state);
+  return decision.next_check;
+}
+
+/// Defers the begin of a jammed contact by a least step or, after too many jams, until the two have
+/// separated.
+template <class Partner>
+double EventProcessor::defer(const ContactPredictor<Partner>& predictor, const Threshold& threshold,
+                             const Event& current, const RelativeLimits& limits) {
+  const ContactDecision decision = predictor.defer(current, limits);
+  ++work_.counters.zeno_steps;
+  const ContactGraph::Jam jam = contacts().note_jam(current, threshold, decision.breaks_tolerance);
+  if (jam.is_news) events_.queue(current);
+  return jam.is_last ? predictor.until_separated() : decision.next_check;
+}
+
+/// Rechecks the certificate of a body and the walls.
+Result<void> EventProcessor::recheck_walls(std::uint32_t number) {
+  ++work_.counters.wall_checks;
+  const PairCertifier certifier = this->certifier();
+  const double end = certifier.walls_end_of(number);
+  while (!bodies()[number].dirty) {
+    if (bodies()[number].fresh(time_)) {
+      const auto next = decide_walls(number);
+      if (next && *next < end) queue_.add(certifier.certificate(*next, number, PairCertificate::walls));
+      return {};
+    }
+    const double until = certifier.walls_unchanged_until(number);
+    if (until > time_) {
+      if (until < end) queue_.add(certifier.certificate(until, number, PairCertificate::walls));
+      return {};
+    }
+    const ProbeCause cause = contacts().walls_of(number) != 0 ? ProbeCause::touching : ProbeCause::near;
+    if (auto probed = probe(std::span(&number, 1), cause); !probed) return probed;
+  }
+  return {};
+}
+
+/// Applies the contact rule to the fresh report of a body, for each wall that it touches or may reach. The
+/// other walls cannot matter before its window ends.
+std::optional<double> EventProcessor::decide_walls(std::uint32_t number) {
+  const Body& body = bodies()[number];
+  const double end = certifier().walls_end_of(number);
+  RelativeLimits limits{body.bound.growth_speed, bodies().largest_acceleration(number)};
+  const double until = bodies().radii.any() ? note_rates(limits, {number}, end) : end;
+  const CollisionShape shape = collision_shape_of(bodies(), number);
+  const Box near = walls_in_reach(contacts().rule(), body.bound, *bodies().walls(), time_, end);
+  double first = infinity;
+  for (const Wall wall : walls) {
+    const bool touches = contacts().touches_wall(number, wall);
+    if (!touches && !stands(near, wall)) continue;
+    const HalfSpace inside = half_space(*bodies().walls(), wall);
+    const Threshold threshold = contacts().wall_threshold(number, wall, body.contact_events);
+    const auto next = visit_wall(shape, inside, [&](const Bound& bound, const auto& partner) {
+      const ContactPredictor predictor(contacts().rule(), threshold, bound, partner, time_, {until, end},
+                                       limits.excess_growth);
+      return decide(predictor, threshold, limits,
+                    [&] { return wall_contact(EventKind::zeno_guard, number, wall); });
+    });
+    if (next) first = std::min(first, *next);
+  }
+  if (until < end) first = std::min(first, until);
+  return first;
+}
+
+}  // namespace kinesphere

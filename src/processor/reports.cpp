@@ -1,0 +1,253 @@
+#include "processor/reports.hpp"
+
+#include <algorithm>
+#include <array>
+#include <mutex>
+#include <optional>
+
+#include "archive/heap_counter.hpp"
+#include "bodies/validation.hpp"
+#include "number/scope_guard.hpp"
+
+namespace kinesphere {
+namespace {
+
+/// Minimum reports per parallel chunk; below this, dispatch costs more than probing.
+constexpr std::size_t reports_at_once = 512;
+
+constexpr std::size_t few_reports = 2;
+
+/// Moves a report to the image that is nearest to where the bound expects its body.
+inline void move_to_nearest_image(const Space& space, const Bound& bound, double time, State& report) {
+  if (space.repeats()) report.position += space.shift_to_nearest(report.position, bound.centre_at(time));
+}
+
+/// Starts a bound anew from a report whose body has the limits that it had.
+[[gnu::always_inline]] inline void restart(Bound& bound, double time, const State& report) {
+  bound.time = time;
+  bound.position = report.position;
+  bound.velocity = report.velocity;
+}
+
+std::optional<BoundViolation> sum_of(const std::optional<BoundViolation>& a,
+                                     const std::optional<BoundViolation>& b) {
+  if (!a || !b) return a ? a : b;
+  return BoundViolation{a->position_excess + b->position_excess, a->velocity_excess + b->velocity_excess};
+}
+
+/// Returns true if the world knows how the rigid body turns.
+bool turns_by_itself(const Bodies& bodies, const Body& body) {
+  return !bodies.rigid.probe && bodies.rigid[body].keeps_spin();
+}
+
+Rotation normalized(const Rotation& rotation) {
+  return {after(rotation.orientation, Quaternion{}), rotation.angular_velocity};
+}
+
+/// Returns the bound of the centre of a body whose radius changes with time.
+Bound centre_bound(const Body& body, double velocity_error) {
+  Bound bound = body.bound;
+  bound.radius -= body.radius;
+  bound.growth_speed = velocity_error;
+  return bound;
+}
+
+Error no_rotation_probe(BodyId body, std::string_view call) {
+  return {ErrorCode::null_probe, "rotation_probe", body,
+          std::string(call) + ": set_rotation_probe() must have given a function that knows how " +
+              text_of(body) + " turns, since its angular_acceleration_limit is not 0"};
+}
+
+}  // namespace
+
+Result<std::span<const Reports::Violation>> Reports::take(Bodies& bodies, double time,
+                                                          std::span<const std::uint32_t> numbers,
+                                                          PoolLease& lease) {
+  if (numbers.size() <= few_reports && profile_ == nullptr) {
+    if (take_few(bodies, time, numbers)) return std::span<const Violation>();
+  } else {
+    ask_for(bodies, time, numbers, lease);
+  }
+  violations_.clear();
+  ask_rotations(bodies, time);
+  const std::size_t bad = first_bad(bodies, time, lease);
+  if (bad < ids_.size()) return check(bodies, time, bad).error();
+  apply_all(bodies, time, lease);
+  return std::span<const Violation>(violations_);
+}
+
+/// Probes one or two bodies, as nearly all calls do. Applies the reports if they are valid, keep the limits
+/// of the bodies, and change nothing but their bounds and known rotations, as nearly all do. Otherwise keeps
+/// them, and returns false.
+[[gnu::always_inline]] inline bool Reports::take_few(Bodies& bodies, double time,
+                                                     std::span<const std::uint32_t> numbers) {
+  std::array<BodyId, few_reports> ids;
+  std::array<State, few_reports> states{no_answer, no_answer};
+  const std::size_t count = numbers.size();
+  for (std::size_t k = 0; k < count; ++k) ids[k] = bodies.id_of(numbers[k]);
+  {
+    asking_ = true;
+    const ScopeGuard answered([&] { asking_ = false; });
+    (*probe_)(std::span(ids).first(count), time, std::span(states).first(count));
+  }
+  bool are_plain = true;
+  for (std::size_t k = 0; k < count && are_plain; ++k) {
+    const Body& body = bodies[numbers[k]];
+    are_plain = body.change_number == Body::none && !body.is_sleeping() &&
+                (!body.is_rigid || turns_by_itself(bodies, body)) &&
+                bodies.radii.find(numbers[k]) == nullptr && is_valid_report(states[k], bodies.definition());
+    // An invalid report stays as it is, for the error message.
+    if (are_plain) move_to_nearest_image(bodies.space(), body.bound, time, states[k]);
+    are_plain = are_plain && certainly_keeps(body.bound, time, states[k], body.radius);
+  }
+  if (!are_plain) {
+    ids_.assign(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(count));
+    states_.assign(states.begin(), states.begin() + static_cast<std::ptrdiff_t>(count));
+    return false;
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    Body& body = bodies[numbers[k]];
+    restart(body.bound, time, states[k]);
+    if (body.is_rigid) bodies.rigid[body].report(bodies.rigid[body].at(time), time);
+  }
+  return true;
+}
+
+void Reports::ask_for(const Bodies& bodies, double time, std::span<const std::uint32_t> numbers,
+                      PoolLease& lease) {
+  ids_.resize(numbers.size());
+  states_.assign(numbers.size(), no_answer);
+  for (std::size_t k = 0; k < numbers.size(); ++k) ids_[k] = bodies.id_of(numbers[k]);
+  asking_ = true;
+  const ScopeGuard answered([&] { asking_ = false; });
+  lease.parallel_for(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
+    const std::size_t count = to - from;
+    (*probe_)(std::span(ids_).subspan(from, count), time, std::span(states_).subspan(from, count));
+  });
+}
+
+/// Asks for the rotations of the rigid bodies among those that were probed.
+void Reports::ask_rotations(const Bodies& bodies, double time) {
+  rotations_.clear();
+  if (!bodies.rigid.any() || !bodies.rigid.probe) return;
+  std::vector<BodyId> ids;
+  std::vector<std::size_t> places;
+  for (std::size_t k = 0; k < ids_.size(); ++k) {
+    if (!bodies[bodies.table().number_of(ids_[k])].is_rigid) continue;
+    ids.push_back(ids_[k]);
+    places.push_back(k);
+  }
+  if (ids.empty()) return;
+  std::vector<Rotation> answers(ids.size(), no_rotation);
+  asking_ = true;
+  const ScopeGuard answered([&] { asking_ = false; });
+  bodies.rigid.probe(ids, time, answers);
+  rotations_.resize(ids_.size());
+  for (std::size_t k = 0; k < ids.size(); ++k) rotations_[places[k]] = answers[k];
+}
+
+/// Returns the index of the first invalid report, or the number of reports if all are valid.
+std::size_t Reports::first_bad(const Bodies& bodies, double time, PoolLease& lease) const {
+  std::size_t first = ids_.size();
+  std::mutex mutex;
+  lease.parallel_for(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
+    for (std::size_t k = from; k < to; ++k) {
+      if (check(bodies, time, k)) continue;
+      const std::lock_guard lock(mutex);
+      first = std::min(first, k);
+      return;
+    }
+  });
+  return first;
+}
+
+Result<void> Reports::check(const Bodies& bodies, double time, std::size_t k) const {
+  auto valid = check_report(states_[k], ids_[k], time, bodies.definition(), call_);
+  const std::uint32_t number = bodies.table().number_of(ids_[k]);
+  const Body& body = bodies[number];
+  if (const ChangingRadius* const changing = valid ? bodies.radii.find(number) : nullptr) {
+    const double reach = bodies.sensors.reach(body.sensor_class);
+    return check_grown({.radius = changing->at(time), .position_error = body.position_error}, reach, ids_[k],
+                       bodies.definition(), call_);
+  }
+  if (!valid || !body.is_rigid) return valid;
+  if (rotations_.empty()) return bodies.rigid[body].keeps_spin() ? valid : no_rotation_probe(ids_[k], call_);
+  return check_rotation(rotations_[k], ids_[k], bodies.definition(), call_);
+}
+
+void Reports::apply_all(Bodies& bodies, double time, PoolLease& lease) {
+  PoolLease alone;
+  std::mutex mutex;
+  // Pending changes are in a table shared by all bodies, so applying them is not thread-safe.
+  (bodies.changes.empty() ? lease : alone)
+      .parallel_for(ids_.size(), reports_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
+        std::vector<Violation> some;
+        apply(bodies, time, from, to, some);
+        if (some.empty()) return;
+        const std::lock_guard lock(mutex);
+        violations_.insert(violations_.end(), some.begin(), some.end());
+      });
+  std::sort(violations_.begin(), violations_.end(),
+            [](const Violation& a, const Violation& b) { return a.k < b.k; });
+}
+
+void Reports::apply(Bodies& bodies, double time, std::size_t from, std::size_t to,
+                    std::vector<Violation>& broken) const {
+  for (std::size_t k = from; k < to; ++k) {
+    const std::uint32_t number = bodies.table().number_of(ids_[k]);
+    Body& body = bodies[number];
+    State state = states_[k];
+    move_to_nearest_image(bodies.space(), body.bound, time, state);
+    const bool changes_size = bodies.radii.find(number) != nullptr;
+    const Bound before = changes_size ? centre_bound(body, bodies.velocity_error(number)) : body.bound;
+    if (changes_size) bodies.update_radius(number, time);
+    std::optional<Vec3> new_velocity;
+    if (const Change* change = bodies.changes.find(bodies[number])) {
+      new_velocity = change->velocity;
+      body.bound = bound_of(bodies.definition_of(number), state, time);
+      bodies.forget_change(number);
+    } else {
+      restart(body.bound, time, state);
+      if (changes_size) body.bound.radius = body.radius + body.position_error;
+    }
+    const Bound after = changes_size ? centre_bound(body, bodies.velocity_error(number)) : body.bound;
+    const double radius = changes_size ? 0.0 : body.radius;
+    std::optional<BoundViolation> violation;
+    if (body.is_rigid) violation = turn(bodies.rigid[body], body, before, k);
+    if (new_velocity || before.radius != after.radius ||
+        !certainly_keeps(before, time, {after.position, after.velocity}, radius))
+      violation = sum_of(violation, bound_violation(before, after, radius, new_velocity,
+                                                    bodies.definition().contact_tolerance));
+    if (profile_ != nullptr && !new_velocity) profile_->note_report(number, before, after);
+    if (body.is_sleeping()) body.stand_still();
+    if (violation) broken.push_back({k, states_[k].velocity, *violation});
+  }
+}
+
+/// Takes the rotation of a report. Returns by how much it breaks the limits of the body, as far as its
+/// outermost points are concerned.
+std::optional<BoundViolation> Reports::turn(RigidRecord& record, const Body& body, const Bound& before,
+                                            std::size_t k) const {
+  const double time = body.bound.time;
+  const Rotation last = record.rotation;
+  const double spin = record.spin();
+  const bool is_comparable = !rotations_.empty() && !record.is_changed;
+  record.report(rotations_.empty() ? record.at(time) : normalized(rotations_[k]), time);
+  if (!is_comparable) return std::nullopt;
+  // Rounding of the caller's rotations.
+  constexpr double slack = 0x1p-30;
+  const double s = time - before.time;
+  const double angle = angle_between(last.orientation, record.rotation.orientation) - spin * s;
+  const double largest = record.largest_angular_speed;
+  const double change = std::max(
+      norm(record.rotation.angular_velocity - last.angular_velocity) - record.angular_acceleration_limit * s,
+      record.keeps_spin() ? 0.0 : norm(record.rotation.angular_velocity) - largest);
+  const bool left = angle > slack * (1.0 + spin * s);
+  const bool jumped = change > slack * (spin + norm(record.rotation.angular_velocity));
+  if (!left && !jumped) return std::nullopt;
+  return BoundViolation{left ? angle * body.radius : 0.0, jumped ? change * body.radius : 0.0};
+}
+
+std::size_t Reports::bytes() const { return heap_bytes(ids_, states_, rotations_, violations_); }
+
+}  // namespace kinesphere

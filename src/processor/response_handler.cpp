@@ -1,0 +1,47 @@
+#include "processor/response_handler.hpp"
+
+#include <array>
+#include <optional>
+#include <span>
+
+#include "bodies/validation.hpp"
+
+namespace kinesphere {
+
+Result<void> apply_response(MotionSource& source, const WorldDefinition& world, const Event& event,
+                            const Response& answer) {
+  std::array<BodyId, 2> ids;
+  std::array<Vec3, 2> velocities;
+  std::array<State, 2> states{no_answer, no_answer};
+  std::size_t count = 0;
+  const auto turn = [&](BodyId body, const std::optional<Vec3>& velocity) {
+    if (!velocity) return;
+    ids[count] = body;
+    velocities[count++] = *velocity;
+  };
+  turn(event.first, answer.first_velocity);
+  turn(event.second, answer.second_velocity);
+  if (count == 0) return {};
+  source.states(std::span(ids).first(count), event.time, std::span(states).first(count));
+  // All states are validated before the first origin is set.
+  for (std::size_t k = 0; k < count; ++k)
+    if (auto valid = check_report(states[k], ids[k], event.time, world, "run"); !valid) return valid;
+  const auto set = [&](std::size_t k) {
+    source.set_origin(ids[k], {event.time, {states[k].position, velocities[k]}});
+  };
+  if (count == 1) {
+    set(0);
+    return {};
+  }
+  const MotionOrigin before = source.origin(ids[0]);
+  set(0);
+  try {
+    set(1);
+  } catch (...) {
+    source.set_origin(ids[0], before);
+    throw;
+  }
+  return {};
+}
+
+}  // namespace kinesphere

@@ -1,0 +1,24 @@
+// WorldState is the part of a world that all event processors share.
+#pragma once
+
+#include "bodies/body_bounds.hpp"
+#include "broadphase/broad_phase.hpp"
+#include "broadphase/window_policy.hpp"
+#include "contact/contact_graph.hpp"
+
+namespace kinesphere {
+
+struct WorldState {
+  explicit WorldState(const WorldDefinition& definition)
+      : bodies(definition),
+        contacts(definition),
+        broad_phase(bodies.space()),
+        window_policy(longest_way(bodies.definition()), definition.dimensions) {}
+
+  Bodies bodies;
+  ContactGraph contacts;
+  BroadPhase broad_phase;
+  WindowPolicy window_policy;
+};
+
+}  // namespace kinesphere

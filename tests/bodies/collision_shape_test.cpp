@@ -1,0 +1,75 @@
+// What stands for two bodies in a certificate, by what each of them is.
+#include "bodies/collision_shape.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "bodies/body_bounds.hpp"
+#include "bodies/shaped_body.hpp"
+
+namespace kinesphere::collision_shape_test {
+namespace {
+
+/// Says which kind of partner certificates see, and whether the bound is that of the first body.
+struct Kind {
+  std::string operator()(const Bound& seen, const Bound&) const { return name("bound", seen); }
+  std::string operator()(const Bound& seen, const HalfSpace&) const { return name("half-space", seen); }
+  std::string operator()(const Bound& seen, const Box&) const { return name("box", seen); }
+  std::string operator()(const Bound& seen, const Triangle&) const { return name("triangle", seen); }
+  template <class Solid>
+  std::string operator()(const Bound& seen, const CarriedShape<Solid>&) const {
+    return name("carried", seen);
+  }
+  template <class Other>
+  std::string operator()(const Bound& seen, const RigidPair<Other>& pair) const {
+    std::string partner = "solid";
+    if constexpr (std::is_same_v<Other, RigidExtent>) partner = std::to_string(pair.other.parts.size());
+    if constexpr (requires { pair.other.carrier; }) partner = "carried";
+    return name("rigid with " + partner, seen);
+  }
+  std::string name(const std::string& kind, const Bound& seen) const {
+    return (&seen == first ? "" : "second to ") + kind;
+  }
+  const Bound* first;
+};
+
+TEST(CollisionShape, DecidesWhatCertificatesSee) {
+  const Bound one{.radius = 1.0}, other{.position = {9, 0, 0}, .radius = 1.0};
+  const Shape box = Box{{-1, -1, -1}, {1, 1, 1}}, floor = HalfSpace{{0, 0, 1}, 0.0}, ball = Ball{};
+  const Shape triangle = Triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const RigidBody body{.parts = {{{-1, 0, 0}, {1, 0, 0}, 0.5}, {}}};
+  const RigidRecord record = record_of(body, 0.0);
+  const CollisionShape plain{one}, plain_too{other};
+  const CollisionShape rigid{one, false, nullptr, 1.5, &record},
+      rigid_too{other, false, nullptr, 1.5, &record};
+  const auto kind = [&](const CollisionShape& a, const CollisionShape& b) {
+    return visit_shapes(a, b, Kind{&a.bound});
+  };
+  EXPECT_EQ(kind(plain, plain_too), "bound");
+  EXPECT_EQ(kind(plain, collision_shape_of(other, box)), "box");
+  EXPECT_EQ(kind(collision_shape_of(one, box), plain_too), "second to box");
+  EXPECT_EQ(kind(plain, collision_shape_of(other, floor)), "half-space");
+  EXPECT_EQ(kind(plain, collision_shape_of(other, triangle)), "triangle");
+  EXPECT_EQ(kind(plain, collision_shape_of(other, ball)), "bound") << "a ball at rest";
+  EXPECT_EQ(kind(plain, carried_shape_of(other, box, 2.0)), "carried");
+  EXPECT_EQ(kind(rigid, rigid_too), "rigid with 2");
+  EXPECT_EQ(kind(rigid, plain_too), "rigid with 1") << "a ball is a body of one part";
+  EXPECT_EQ(kind(plain, rigid_too), "second to rigid with 1");
+  EXPECT_EQ(kind(rigid, collision_shape_of(other, floor)), "rigid with solid");
+  EXPECT_EQ(kind(collision_shape_of(one, triangle), rigid_too), "second to rigid with solid");
+  EXPECT_EQ(kind(rigid, carried_shape_of(other, box, 2.0)), "rigid with carried");
+}
+
+TEST(CollisionShape, MeetsShapesIfItHasNone) {
+  const Bound bound{.radius = 1.0};
+  const Shape box = Box{{-1, -1, -1}, {1, 1, 1}};
+  EXPECT_TRUE((CollisionShape{bound}.meets_shapes()));
+  EXPECT_FALSE(collision_shape_of(bound, box).meets_shapes());
+  EXPECT_FALSE(collision_shape_of(bound, Ball{}).meets_shapes()) << "it stands, and they stand";
+  EXPECT_FALSE(carried_shape_of(bound, box, 2.0).meets_shapes());
+  EXPECT_TRUE(carried_shape_of(bound, box, 2.0).is_carried());
+}
+
+}  // namespace
+}  // namespace kinesphere::collision_shape_test

@@ -1,0 +1,56 @@
+// The list of bodies to recertify.
+#include "processor/dirty_list.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace kinesphere::dirty_list_test {
+namespace {
+
+using Numbers = std::vector<std::uint32_t>;
+
+class DirtyListTest : public testing::Test {
+ protected:
+  DirtyListTest() {
+    for (int body = 0; body < 6; ++body) bodies_.add({.radius = 1.0}, 0.0);
+    for (const std::uint32_t number : {4u, 1u, 4u, 5u, 2u, 1u}) list_.add(bodies_, number);
+  }
+
+  Bodies bodies_{WorldDefinition{}};
+  DirtyList list_;
+};
+
+TEST_F(DirtyListTest, HasEachBodyOnceInOrder) {
+  EXPECT_EQ(list_.numbers(), (Numbers{4, 1, 5, 2}));
+  for (const std::uint32_t number : {1u, 2u, 4u, 5u}) EXPECT_TRUE(bodies_[number].dirty);
+  EXPECT_FALSE(bodies_[0].dirty || bodies_[3].dirty);
+}
+
+TEST_F(DirtyListTest, SortsAndDropsBodiesThatAreClean) {
+  bodies_[5].mark_visited();
+  EXPECT_EQ(list_.sort(bodies_), (Numbers{1, 2, 4}));
+  list_.add(bodies_, 5);
+  list_.add(bodies_, 0);
+  EXPECT_EQ(list_.sort(bodies_), (Numbers{0, 1, 2, 4, 5}));
+}
+
+TEST_F(DirtyListTest, ABodyThatBecameCleanAndDirtyAgainIsSortedOnce) {
+  bodies_[4].mark_visited();
+  list_.add(bodies_, 4);
+  EXPECT_EQ(list_.numbers(), (Numbers{4, 1, 5, 2, 4}));
+  EXPECT_EQ(list_.sort(bodies_), (Numbers{1, 2, 4, 5}));
+}
+
+TEST_F(DirtyListTest, ArrivalsAreDirtyAndRelocated) {
+  for (std::uint32_t number = 0; number < 6; ++number) bodies_[number].relocated = false;
+  EXPECT_FALSE(list_.has_arrivals(bodies_));
+  bodies_[3].relocated = true;
+  EXPECT_FALSE(list_.has_arrivals(bodies_)) << "that one is not dirty";
+  bodies_[5].relocated = bodies_[4].relocated = true;
+  EXPECT_TRUE(list_.has_arrivals(bodies_));
+  EXPECT_EQ(list_.arrivals(bodies_), (Numbers{4, 5}));
+}
+
+}  // namespace
+}  // namespace kinesphere::dirty_list_test

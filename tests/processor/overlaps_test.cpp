@@ -1,0 +1,83 @@
+// Overlaps that a change would cause, against a plain look at each pair.
+#include "processor/overlaps.hpp"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "kinesphere/random.hpp"
+#include "support/small_world.hpp"
+
+namespace kinesphere::overlaps_test {
+namespace {
+
+constexpr std::uint64_t seed = 5208;
+
+std::vector<BodyDefinition> random_balls(Random& random, std::size_t count, double size) {
+  std::vector<BodyDefinition> balls(count);
+  for (BodyDefinition& ball : balls) {
+    ball.radius = 0.2 * random.uniform();
+    ball.position = size * random.point_in_ball();
+  }
+  return balls;
+}
+
+bool overlap(const BodyDefinition& a, const BodyDefinition& b) {
+  return norm(a.position - b.position) < a.radius + b.radius - 1e-6;
+}
+
+TEST(Overlaps, OfNewBodiesAreTheFirstPairInOrder) {
+  SCOPED_TRACE(seed);
+  Random random(seed);
+  const SmallWorld world;
+  const Overlaps overlaps(world.state.bodies, world.state.broad_phase, 0.0);
+  int found = 0;
+  for (int k = 0; k < 200; ++k) {
+    const std::vector<BodyDefinition> added = random_balls(random, 12, 1.0);
+    std::optional<std::pair<std::size_t, std::size_t>> expected;
+    for (std::size_t b = 0; b < added.size() && !expected; ++b)
+      for (std::size_t a = 0; a < b && !expected; ++a)
+        if (overlap(added[a], added[b])) expected = {a, b};
+    EXPECT_EQ(overlaps.first_among(added), expected) << k;
+    if (expected) ++found;
+  }
+  EXPECT_GT(found, 20);
+  EXPECT_LT(found, 195);
+}
+
+TEST(Overlaps, OfABodyAreThoseWithTheOthersThatAreThere) {
+  SCOPED_TRACE(seed);
+  Random random(seed + 1);
+  SmallWorld world;
+  const std::vector<BodyDefinition> others = random_balls(random, 40, 2.0);
+  for (const BodyDefinition& ball : others) world.add(ball);
+  ASSERT_TRUE(world.main.recertify());
+  const Overlaps overlaps(world.state.bodies, world.state.broad_phase, 0.0);
+  const BodyId id = world.state.bodies.table().next_id();
+  for (const BodyDefinition& added : random_balls(random, 200, 2.0)) {
+    const auto found = overlaps.of_body(id, {bound_now(added, 0.0)}, added);
+    std::optional<BodyId> expected;
+    for (std::uint32_t k = 0; k < others.size() && !expected; ++k)
+      if (overlap(added, others[k])) expected = world.state.bodies.id_of(k);
+    EXPECT_EQ(found, expected);
+    BodyDefinition zone = added;
+    zone.solid = false;
+    EXPECT_EQ(overlaps.of_body(id, {bound_now(zone, 0.0)}, zone), std::nullopt) << "it touches nothing";
+  }
+}
+
+TEST(Overlaps, OfWallsBeginBeyondTheTolerance) {
+  const SmallWorld world({.box = Box{{0, 0, 0}, {9, 9, 9}}});
+  const Overlaps overlaps(world.state.bodies, world.state.broad_phase, 0.0);
+  const auto wall_at = [&](const Vec3& position) {
+    const Bound bound = bound_now({.radius = 1.0, .position = position}, 0.0);
+    return overlaps.of_wall({bound});
+  };
+  EXPECT_EQ(wall_at({5, 5, 5}), std::nullopt);
+  EXPECT_EQ(wall_at({5, 1.0 - 0.5e-6, 5}), std::nullopt);
+  EXPECT_EQ(wall_at({5, 0.9, 5}), Wall::y_lower);
+  EXPECT_EQ(wall_at({5, 5, 8.5}), Wall::z_upper);
+}
+
+}  // namespace
+}  // namespace kinesphere::overlaps_test
