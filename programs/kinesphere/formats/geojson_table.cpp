@@ -15,6 +15,10 @@ class GeoJsonReader {
   GeoJsonReader(const std::string& file, std::size_t& line) : file_(file), line_(line) {}
 
   ConvertedTable read(std::string_view text) {
+    // Reading on demand goes beyond the end of some damaged documents, so the whole is checked first.
+    simdjson::dom::parser whole;
+    if (const auto error = whole.parse(text.data(), text.size()).error())
+      throw MalformedRecord(std::string("expected JSON: ") + simdjson::error_message(error));
     JsonDocumentReader reader;
     ondemand::document document = reader.open(text);
     JsonLine line(document);

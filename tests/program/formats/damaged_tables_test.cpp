@@ -46,6 +46,11 @@ constexpr std::string_view healthy[] = {
     "<gx:coord>8.1 47 2</gx:coord></gx:Track></Placemark></kml>",
     "<fcd-export>\n<timestep time=\"0\"><vehicle id=\"a\" x=\"1\" y=\"2\"/></timestep>\n"
     "<timestep time=\"1\"><vehicle id=\"a\" x=\"2\" y=\"2\"/></timestep></fcd-export>",
+    R"({"type": "FeatureCollection", "features": [
+{"geometry": {"type": "Point", "coordinates": [8, 47]}, "properties": {"id": 1, "time": "2024-01-01T00:00:00Z"}},
+{"geometry": {"type": "Point", "coordinates": [8.1, 47]}, "properties": {"id": 1, "time": "2024-01-01T00:00:10Z"}},
+{"geometry": {"type": "LineString", "coordinates": [[8, 47], [8, 47.1]]}, "properties": {"name": "b", "coordTimes":
+["2024-01-01T00:00:00Z", "2024-01-01T00:00:10Z"]}}]})",
     "CCSDS_OEM_VERS = 2.0\nMETA_START\nOBJECT_NAME = A \"1\"\nREF_FRAME = GCRF\nTIME_SYSTEM = "
     "UTC\nMETA_STOP\n"
     "2024-060T00:00:00 7000 0 0 1 0 0\n2024-060T00:01:00 7000 9 0 1 0 0\nCOVARIANCE_START\n1e-4\n",
