@@ -379,7 +379,8 @@ class World {
 
   // Current contacts and sensor overlaps, as the events so far have reported them.
 
-  /// Returns the bodies in contact with the body, in the order in which the contacts began.
+  /// Returns the bodies in contact with the body, in the order in which the contacts began; those of a static
+  /// body in no particular order after a run() with several workers.
   Result<std::vector<BodyId>> touching(BodyId body) const;
   /// Returns the sensor distances that the body is within, ordered by partner and, for each partner, from
   /// the largest distance to the smallest.
