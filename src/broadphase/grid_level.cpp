@@ -59,8 +59,9 @@ Box GridLevel::box_at(std::uint32_t slot, double now) const {
 }
 
 bool GridLevel::is_valid() const {
+  const bool is_unused = is_empty() && window.end == -infinity;
   return spheres.is_valid() && SizeClasses::is_size_class(size_class) &&
-         ((window.is_valid() && has_frame) || is_empty());
+         (is_unused || (window.is_valid() && (has_frame || is_empty())));
 }
 
 }  // namespace kinesphere

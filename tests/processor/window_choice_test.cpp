@@ -31,9 +31,9 @@ TEST(WindowChoice, IsAmongTheNextMainWindowsOnceTheseAreEntered) {
   const std::uint32_t fast = world.add({.velocity = {1000, 0, 0}});
   BroadPhase& windows = world.state.broad_phase;
   PoolLease alone;
-  BroadPhase next = windows.successor(8.0);
+  BroadPhase next = windows.successor(8.0, 4.0, 0);
   next.finish_start(alone);
-  windows.take_over(std::move(next), 4.0);
+  windows.take_over(std::move(next));
   const WindowChoice choice(world.state, 4.5);
   const int main_rung = world.state.window_policy.main_rung();
   const Window main = choice.window_for(slow), own = choice.window_for(fast);

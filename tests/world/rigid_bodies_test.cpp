@@ -810,6 +810,7 @@ TEST(RigidBodies, PositionErrorsCountAsRadiusOfTheirParts) {
     EXPECT_LT(norm(with_error->normal - with_radius->normal), 1e-5);
     EXPECT_LT(norm(with_error->point - with_radius->point), seed % 5 == 4 ? 0.101 : 1e-5);
   }
+}
 
 /// Parts and carried shapes may be as much nearer as their positions are wrong: contacts come early, never
 /// late, and time goes on.
