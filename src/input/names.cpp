@@ -22,7 +22,8 @@ std::string_view name_of(ErrorCode code) {
       "not_recording", "not_profiling",     "bad_recording",      "diverged"};
   static_assert(names.size() == static_cast<std::size_t>(ErrorCode::diverged) + 1);
   const auto index = static_cast<std::size_t>(code);
-  return index < names.size() ? names[index] : std::string_view();
+  // Not an empty view without data: the C interface takes the data for a text that ends with a zero.
+  return index < names.size() ? names[index] : "";
 }
 
 }  // namespace kinesphere
