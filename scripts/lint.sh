@@ -33,6 +33,17 @@ if grep -rnE '#include "(archive|parallel|bound|space|broadphase|contact|bodies|
   exit 1
 fi
 
+# The folders of src, in the order of docs/architecture.md: each includes only those before it.
+rooms=(number input archive parallel bound space placement broadphase contact bodies processor speculation engine query
+  monitor paths recording world motion distributed)
+for k in "${!rooms[@]}"; do
+  later=$(IFS='|' && echo "${rooms[*]:k+1}")
+  if [[ -n $later ]] && grep -rnE "#include \"($later)/" "src/${rooms[k]}"; then
+    echo "lint: src/${rooms[k]} may include only folders that docs/architecture.md lists before it" >&2
+    exit 1
+  fi
+done
+
 if grep -rnE '#include .*\.cpp[">]' include src c simulation programs research browser python/module examples; then
   echo "lint: a source includes another" >&2
   exit 1
