@@ -214,11 +214,11 @@ std::vector<std::uint32_t> PreparedStart::awaiting_part(const Work& work, std::s
   return awaiting;
 }
 
-/// Certifies a part of the starters with the walls, but for those that touch one.
-void PreparedStart::find_walls(const Work& work, std::size_t part) {
+/// Certifies these starters with the walls, but for those that touch one.
+void PreparedStart::find_walls(const Work& work, std::span<const std::uint32_t> starters) {
   if (!work.state.bodies.walls()) return;
   std::vector<std::uint32_t> apart;
-  for (const std::uint32_t number : awaiting_part(work, part))
+  for (const std::uint32_t number : starters)
     (work.state.contacts.walls_of(number) != 0 ? at_walls_ : apart).push_back(number);
   WindowStart(work.state, work.main, work.lease, work.found, work.state.broad_phase, end()).find_walls(apart);
 }
@@ -242,26 +242,23 @@ void PreparedStart::search_sorted(const Work& work, std::size_t part) {
       });
 }
 
-/// Searches for a part of the bodies behind the sorted slots, and certifies their pairs. The one with the
-/// lesser number finds two of them.
-void PreparedStart::search_alone(const Work& work, std::size_t part) {
+/// Searches for those of these starters that are behind the sorted slots, and certifies their pairs. The one
+/// with the lesser number finds two of them.
+void PreparedStart::search_alone(const Work& work, std::span<const std::uint32_t> starters) {
   const BroadPhase& windows = work.state.broad_phase;
-  std::vector<std::uint32_t> alone = awaiting_part(work, part);
-  std::erase_if(alone, [&](std::uint32_t number) { return !windows.awaits_search_alone(number); });
+  std::vector<std::uint32_t> alone;
+  std::copy_if(starters.begin(), starters.end(), std::back_inserter(alone),
+               [&](std::uint32_t number) { return windows.awaits_search_alone(number); });
   const PairCertifier certifier(work.state, end(), windows);
-  work.lease.parallel_for(
-      alone.size(), searches_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
-        SearchResults& found = work.found[worker];
-        for (std::size_t k = from; k < to; ++k) {
-          const std::uint32_t number = alone[k];
-          ++found.searches;
-          const InflatedBound bound = inflated_bound(work.state.bodies, number, end());
-          for (const std::uint32_t other :
-               found.search.near(next_, number, bound, end(), windows.end_of(number)))
-            if (await_search(work, number, other) && !(windows.awaits_search_alone(other) && other < number))
-              certifier.certify(number, other, found);
-        }
-      });
+  work.lease.for_each(alone.size(), searches_at_once, [&](std::size_t k, std::size_t worker) {
+    const std::uint32_t number = alone[k];
+    SearchResults& found = work.found[worker];
+    ++found.searches;
+    const InflatedBound bound = inflated_bound(work.state.bodies, number, end());
+    for (const std::uint32_t other : found.search.near(next_, number, bound, end(), windows.end_of(number)))
+      if (await_search(work, number, other) && !(windows.awaits_search_alone(other) && other < number))
+        certifier.certify(number, other, found);
+  });
 }
 
 /// Searches for a part of the starters, and certifies them.
@@ -270,8 +267,9 @@ void PreparedStart::search_slice(const Work& work) {
   WindowStart starting(work.state, work.main, work.lease, work.found, work.state.broad_phase, end());
   for (SearchResults& found : work.found) found.keeps_linked = true;
   search_sorted(work, part);
-  search_alone(work, part);
-  find_walls(work, part);
+  const std::vector<std::uint32_t> starters = awaiting_part(work, part);
+  search_alone(work, starters);
+  find_walls(work, starters);
   const auto before = static_cast<std::ptrdiff_t>(linked_.size());
   for (SearchResults& found : work.found) {
     near_ += found.near;

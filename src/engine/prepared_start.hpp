@@ -26,6 +26,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "processor/window_start.hpp"
@@ -90,10 +91,10 @@ class PreparedStart {
   void enter_changed(const Work& work);
   void enter_windows(const Work& work);
   std::vector<std::uint32_t> awaiting_part(const Work& work, std::size_t part) const;
-  void find_walls(const Work& work, std::size_t part);
+  void find_walls(const Work& work, std::span<const std::uint32_t> starters);
   void search_slice(const Work& work);
   void search_sorted(const Work& work, std::size_t part);
-  void search_alone(const Work& work, std::size_t part);
+  void search_alone(const Work& work, std::span<const std::uint32_t> starters);
   void finish(const Work& work);
 
   Window present_;
