@@ -51,13 +51,15 @@ class BatchSizer {
     constexpr std::size_t too_often = 8;
     return may_decline() && repeats_ > too_often * first_runs_;
   }
-  /// Doubles the batch size if repeats are less than 1/16 of the first runs, halves it if they are more than
-  /// 1/6. Call at the end of a batch. A small batch has few conflicts between clusters; a large batch copies
-  /// each body once for many pairs.
+  /// Doubles the batch size if repeats are less than 1/128 of the first runs, halves it if they are more than
+  /// 1/48. Call at the end of a batch. A small batch has few conflicts between clusters; a large batch has
+  /// its fixed costs, a few percent of the smallest batch, for more pairs. In gases, a repeated execution
+  /// costs three to four times a first one, as it comes in rounds with few clusters and comparisons of their
+  /// own.
   void adapt(std::size_t bodies) {
-    if (16 * repeats_ < first_runs_) {
+    if (128 * repeats_ < first_runs_) {
       most_due_ = std::min(2 * most_due_, std::max(least_due_, bodies));
-    } else if (6 * repeats_ > first_runs_) {
+    } else if (48 * repeats_ > first_runs_) {
       most_due_ = std::max(most_due_ / 2, least_due_);
     }
   }

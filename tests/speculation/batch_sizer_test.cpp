@@ -50,7 +50,9 @@ TEST(BatchSizer, AdaptsTheSizeToTheRepeats) {
   EXPECT_EQ(first, many_bodies / 32);
   execute(sizer, many_bodies, 3000, 0);
   EXPECT_EQ(sizer.most_due(many_bodies), 2 * first);
-  execute(sizer, many_bodies, 3000, 1000);
+  execute(sizer, many_bodies, 3000, 3000 / 100);
+  EXPECT_EQ(sizer.most_due(many_bodies), 2 * first) << "repeats between 1/128 and 1/48 suit the size";
+  execute(sizer, many_bodies, 3000, 3000 / 47);
   EXPECT_EQ(sizer.most_due(many_bodies), first);
   for (int batch = 0; batch < 20; ++batch) execute(sizer, many_bodies, 3000, 1000);
   EXPECT_EQ(sizer.most_due(many_bodies), sizer.fewest_due())
