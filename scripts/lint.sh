@@ -31,6 +31,10 @@ fi
 # The folders of src, in the order of docs/architecture.md: each includes only those before it.
 rooms=(number input archive parallel bound space placement broadphase contact bodies processor speculation engine query
   monitor paths recording world motion distributed)
+if ! diff <(printf '%s\n' "${rooms[@]}" | sort) <(basename -a src/*/ | sort); then
+  echo "lint: scripts/lint.sh and docs/architecture.md must list all folders of src" >&2
+  exit 1
+fi
 for k in "${!rooms[@]}"; do
   later=$(IFS='|' && echo "${rooms[*]:k+1}")
   if [[ -n $later ]] && grep -rnE "#include \"($later)/" "src/${rooms[k]}"; then
