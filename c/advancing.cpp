@@ -1,5 +1,6 @@
 // Time: the next event of a world, and runs.
 #include <cmath>
+#include <limits>
 
 #include "exchange.hpp"
 #include "input/input_check.hpp"
@@ -11,7 +12,8 @@ namespace kinesphere::c {
 void CombinedProbe::ask(std::span<const BodyId> ids, double time, std::span<State> states) const {
   if (probe_ == ks_probe_motions) {
     detail::bad_result({ErrorCode::unknown_body, "probe", ids[0],
-                        "ks_probe_motions: no motion of the world moves " + text_of(ids[0])});
+                        "probe: no motion of the world moves " + text_of(ids[0]) +
+                            ", and ks_probe_motions stands for no function that does"});
   }
   require_success("probe", probe_(c_ids(ids), ids.size(), time, c_states(states), user_));
 }
@@ -29,7 +31,9 @@ void CombinedProbe::operator()(std::span<const BodyId> ids, double time, std::sp
   }
   if (others_.empty()) return;
   if (others_.size() == ids.size()) return ask(ids, time, states);
-  answers_.assign(others_.size(), State{});
+  // A state that the function forgets is refused.
+  constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+  answers_.assign(others_.size(), State{{missing, missing, missing}, {missing, missing, missing}});
   ask(others_, time, answers_);
   for (std::size_t k = 0; k < places_.size(); ++k) states[places_[k]] = answers_[k];
 }

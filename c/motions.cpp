@@ -6,6 +6,7 @@
 #include "kinesphere/motion/ballistic.hpp"
 #include "kinesphere/motion/frame_motion.hpp"
 #include "kinesphere/motion/random_forces.hpp"
+#include "kinesphere/motion/steered_motion.hpp"
 #include "objects.hpp"
 
 namespace kinesphere::c {
@@ -48,16 +49,22 @@ MotionId<> add(std::string_view call, Simulation& simulation, const ks_motion_de
                                      .value());
   }
   require_array(call, definition.acceleration_limits, definition.count, "definition.acceleration_limits");
+  std::vector<double> limits = numbers_of(definition.acceleration_limits, definition.count);
+  if (definition.kind == KS_MOTION_STEERED) {
+    return simulation.add_motion(SteeredMotion::create({.start = states_of(definition),
+                                                        .acceleration_limits = std::move(limits),
+                                                        .start_time = start_time})
+                                     .value());
+  }
   return simulation.add_motion(RandomForces::create({.start = states_of(definition),
-                                                     .acceleration_limits = numbers_of(
-                                                         definition.acceleration_limits, definition.count),
+                                                     .acceleration_limits = std::move(limits),
                                                      .interval = definition.interval,
                                                      .seed = definition.seed,
                                                      .start_time = start_time})
                                    .value());
 }
 
-/// Adds a body to a motion of one of the three kinds, and returns its number there.
+/// Adds a body to a motion of one of the four kinds, and returns its number there.
 std::uint32_t add_one(std::string_view call, Motion& motion, const ks_motion_definition& definition,
                       std::size_t k, double time) {
   const State state = state_of(definition.states[k]);
@@ -68,6 +75,8 @@ std::uint32_t add_one(std::string_view call, Motion& motion, const ks_motion_def
     return frames->add(time, state, limits != nullptr ? limits[k] : unlimited).value();
   }
   require_pointer(call, limits, "definition.acceleration_limits");
+  if (auto* const ships = dynamic_cast<SteeredMotion*>(&motion))
+    return ships->add(time, state, limits[k]).value();
   return dynamic_cast<RandomForces&>(motion).add(time, state, limits[k]).value();
 }
 
@@ -103,7 +112,7 @@ struct AddedMotion {
 };
 
 AddedMotion add_motion(std::string_view call, WorldObject& object, const ks_motion_definition& definition) {
-  require_number(call, "definition.kind", definition.kind, KS_MOTION_BALLISTIC, KS_MOTION_FRAMES);
+  require_number(call, "definition.kind", definition.kind, KS_MOTION_BALLISTIC, KS_MOTION_STEERED);
   const Properties properties = properties_of(call, definition);
   require_idle(object.world());
   const MotionId<> motion = add(call, object.simulation, definition);
@@ -184,6 +193,22 @@ ks_status ks_world_add_to_motion(ks_world world, uint32_t motion, const ks_motio
       *ids++ = c_id(id);
       if (numbers != nullptr) *numbers++ = object.simulation.find(id)->number;
     }
+  });
+}
+
+ks_status ks_world_steer(ks_world world, ks_body_id body, ks_vec3 acceleration) {
+  return changing(__func__, world, [&, call = __func__](WorldObject& object) {
+    const BodyId id = id_of(body);
+    (void)object.world().body(id).value();
+    require_idle(object.world());
+    const auto moved = object.simulation.find(id);
+    auto* const motion =
+        moved ? dynamic_cast<SteeredMotion*>(&object.simulation.motion(moved->motion)) : nullptr;
+    if (motion == nullptr) {
+      detail::bad_result({ErrorCode::unsupported, "body", id,
+                          std::string(call) + ": a motion of kind KS_MOTION_STEERED must move " + text_of(id)});
+    }
+    motion->steer(moved->number, object.world().time(), vector_of(acceleration)).value();
   });
 }
 

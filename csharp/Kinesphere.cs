@@ -1,6 +1,7 @@
 // Worlds and monitors in C#. Methods have the meanings, errors and costs of those of the C++ headers; wrong use throws a
 // KinesphereException. An exception in a callback passes through the call that called it.
 using System;
+using System.Collections.Generic;
 using System.Runtime.ExceptionServices;
 using System.Runtime.InteropServices;
 
@@ -12,6 +13,18 @@ namespace Kinesphere
     public delegate void RotationProbe(BodyId[] bodies, double time, Rotation[] rotations);
     /// <summary>Chooses what an event does to its bodies: the same for the same event, and in any thread.</summary>
     public delegate Response Respond(Event happened);
+    /// <summary>Decides whether two bodies whose filters let them touch may do so: the same for both orders, and until
+    /// World.RefreshFilter. It may read the world.</summary>
+    public delegate bool PairFilter(BodyId first, BodyId second);
+    /// <summary>Sets the latest reports of tracks, no later than the time; null for a track without a newer one.</summary>
+    public delegate void Poll(ulong[] tracks, double time, TrackReport?[] reports);
+
+    /// <summary>The library that has been loaded.</summary>
+    public static class Library
+    {
+        /// <summary>Such as "0.3.0".</summary>
+        public static string Version { get { return Marshal.PtrToStringAnsi(Native.ks_version()); } }
+    }
 
     /// <summary>An exception of a callback, which must not pass through C.</summary>
     sealed class Caught
@@ -31,11 +44,6 @@ namespace Kinesphere
                 return 1;
             }
         }
-        public void Check(int status)
-        {
-            Rethrow(status);
-            Native.Check(status);
-        }
         /// <summary>Throws the exception if there was one, once.</summary>
         public void Rethrow(int status)
         {
@@ -51,11 +59,16 @@ namespace Kinesphere
         static readonly Native.Probe motions = Native.ks_probe_motions;
         ulong handle;
         bool disposed;
-        // The library keeps a pointer to the function, also in clones of this world.
+        // The library keeps pointers to these functions, also in clones of this world, which share `kept`.
         Native.RotationProbe rotations;
-        Caught turning = new Caught();
+        Native.PairFilter pairs;
+        Caught kept = new Caught();
 
-        public World(WorldDefinition definition) { Native.Check(Native.ks_world_create(ref definition, out handle)); }
+        public World(WorldDefinition definition)
+        {
+            definition.Require("definition");
+            Native.Check(Native.ks_world_create(ref definition, out handle));
+        }
         internal World(ulong handle) { this.handle = handle; }
         ~World() { Native.ks_world_destroy(handle); }
         /// <summary>Destroys the world; each later call but Dispose throws.</summary>
@@ -71,35 +84,46 @@ namespace Kinesphere
         public World Clone()
         {
             ulong copy;
-            Native.Check(Native.ks_world_clone(handle, out copy));
-            return new World(copy) { rotations = rotations, turning = turning };
+            Check(Native.ks_world_clone(handle, out copy));
+            return new World(copy) { rotations = rotations, pairs = pairs, kept = kept };
         }
-        /// <summary>Returns a snapshot, without motions.</summary>
+        /// <summary>Returns a snapshot, without motions, rotation probe and pair filter.</summary>
         public byte[] Save()
         {
             return Filled<byte>((byte[] bytes, UIntPtr capacity, out UIntPtr count) =>
                 Native.ks_world_save(handle, bytes, capacity, out count));
         }
-        public static World Restore(byte[] snapshot)
+        /// <summary>The world of a snapshot; `filter` is the pair filter that it had.</summary>
+        public static World Restore(byte[] snapshot, PairFilter filter = null)
         {
             ulong restored;
-            Native.Check(Native.ks_world_restore(snapshot, Count(snapshot), IntPtr.Zero, IntPtr.Zero, out restored));
-            return new World(restored);
+            var caught = new Caught();
+            var callback = PairCallback(filter, caught);
+            int status = Native.ks_world_restore(snapshot, Count(snapshot, "snapshot"), callback, IntPtr.Zero, out restored);
+            caught.Rethrow(status);
+            Native.Check(status);
+            return new World(restored) { pairs = callback, kept = caught };
         }
 
         public BodyId Add(BodyDefinition body) { return AddAll(new[] { body })[0]; }
         /// <summary>Adds all bodies or, on an error, none.</summary>
         public BodyId[] AddAll(BodyDefinition[] bodies)
         {
+            var count = Count(bodies, "bodies");
+            foreach (var body in bodies) body.Require("bodies");
             var ids = new BodyId[bodies.Length];
-            Native.Check(Native.ks_world_add(handle, bodies, Count(bodies), ids));
+            Check(Native.ks_world_add(handle, bodies, count, ids));
             return ids;
         }
-        public BodyId AddStatic(StaticDefinition body)
+        public BodyId AddStatic(StaticDefinition body) { return AddStaticAll(new[] { body })[0]; }
+        /// <summary>Adds all bodies or, on an error, none.</summary>
+        public BodyId[] AddStaticAll(StaticDefinition[] bodies)
         {
-            var ids = new BodyId[1];
-            Native.Check(Native.ks_world_add_static(handle, new[] { body }, Count(ids), ids));
-            return ids[0];
+            var count = Count(bodies, "bodies");
+            foreach (var body in bodies) body.Require("bodies");
+            var ids = new BodyId[bodies.Length];
+            Check(Native.ks_world_add_static(handle, bodies, count, ids));
+            return ids;
         }
         /// <summary>
         /// Adds a body that carries a box or a triangle, relative to its position; the radius is ignored. The probe
@@ -108,7 +132,8 @@ namespace Kinesphere
         public BodyId AddMovingShape(BodyDefinition body, Shape shape)
         {
             BodyId id;
-            Native.Check(Native.ks_world_add_moving_shape(handle, ref body, ref shape, out id));
+            body.Require("body");
+            Check(Native.ks_world_add_moving_shape(handle, ref body, ref shape, out id));
             return id;
         }
         /// <summary>
@@ -122,6 +147,12 @@ namespace Kinesphere
         public BodyId AddRigidBody(BodyDefinition body, RigidDefinition rigid, RigidPart[] parts, RigidHull[] hulls)
         {
             BodyId id;
+            body.Require("body");
+            rigid.Require("rigid");
+            Count(parts, "parts");
+            Count(hulls, "hulls");
+            foreach (var hull in hulls)
+                if (hull == null || hull.Points == null) throw new ArgumentNullException("hulls");
             var found = new Native.Hull[hulls.Length];
             var pinned = new GCHandle[hulls.Length];
             try
@@ -129,7 +160,7 @@ namespace Kinesphere
                 for (int k = 0; k < found.Length; ++k)
                 {
                     pinned[k] = GCHandle.Alloc(hulls[k].Points, GCHandleType.Pinned);
-                    found[k].PointCount = Count(hulls[k].Points);
+                    found[k].PointCount = Count(hulls[k].Points, "hulls");
                     found[k].Points = (Vector*)pinned[k].AddrOfPinnedObject();
                     found[k].Radius = hulls[k].Radius;
                 }
@@ -138,7 +169,7 @@ namespace Kinesphere
                 {
                     rigid.SetParts(first, parts.Length);
                     rigid.SetHulls(firstHull, found.Length);
-                    Native.Check(Native.ks_world_add_rigid_body(handle, ref body, ref rigid, out id));
+                    Check(Native.ks_world_add_rigid_body(handle, ref body, ref rigid, out id));
                 }
             }
             finally
@@ -151,65 +182,117 @@ namespace Kinesphere
         /// <summary>Informs the world that a rigid body turns with this angular velocity from now on.</summary>
         public void SetAngularVelocity(BodyId body, Vector angularVelocity)
         {
-            Native.Check(Native.ks_world_set_angular_velocity(handle, body, angularVelocity));
+            Check(Native.ks_world_set_angular_velocity(handle, body, angularVelocity));
         }
         /// <summary>Turns a rigid body at once, as Teleport moves it.</summary>
         public void SetRotation(BodyId body, Rotation rotation)
         {
-            Native.Check(Native.ks_world_set_rotation(handle, body, ref rotation));
+            Check(Native.ks_world_set_rotation(handle, body, ref rotation));
         }
         /// <summary>The rotation of a rigid body at its last report.</summary>
         public Rotation RotationOf(BodyId body)
         {
             Rotation rotation;
-            Native.Check(Native.ks_world_rotation(handle, body, out rotation));
+            Check(Native.ks_world_rotation(handle, body, out rotation));
             return rotation;
         }
         /// <summary>Sets the function that gives the rotations of rigid bodies, directly after the probe; null removes it.
         /// Clones share it.</summary>
         public void SetRotationProbe(RotationProbe probe)
         {
-            var caught = new Caught();
-            Native.RotationProbe callback = probe == null ? null : RotationCallback(probe, caught);
-            Native.Check(Native.ks_world_set_rotation_probe(handle, callback, IntPtr.Zero));
+            Native.RotationProbe callback = probe == null ? null : RotationCallback(probe, kept);
+            Check(Native.ks_world_set_rotation_probe(handle, callback, IntPtr.Zero));
             rotations = callback;
-            turning = caught;
         }
-        /// <summary>Adds a zone, which reports who enters and leaves it.</summary>
-        public BodyId AddZone(Shape shape, ulong userData = 0)
+        /// <summary>Adds a zone, which reports who enters and leaves it: all bodies, or those that the filter selects.</summary>
+        public BodyId AddZone(Shape shape, ulong userData = 0, Filter? filter = null)
         {
             BodyId id;
-            Native.Check(Native.ks_world_add_zone(handle, ref shape, userData, out id));
+            Check(Native.ks_world_add_zone(handle, ref shape, userData, out id));
+            if (filter.HasValue) SetFilter(id, filter.Value);
             return id;
         }
-        public void Remove(BodyId body) { Native.Check(Native.ks_world_remove(handle, new[] { body }, (UIntPtr)1)); }
+        /// <summary>Makes room for this number of bodies in total.</summary>
+        public void Reserve(int bodies) { Check(Native.ks_world_reserve(handle, NotNegative(bodies, "bodies"))); }
+        public void Remove(BodyId body) { RemoveAll(new[] { body }); }
+        /// <summary>Removes all bodies or, on an error, none.</summary>
+        public void RemoveAll(BodyId[] bodies) { Check(Native.ks_world_remove(handle, bodies, Count(bodies, "bodies"))); }
 
         /// <summary>Informs the world, and the motion of the body if it has one, of a new velocity.</summary>
         public void SetVelocity(BodyId body, Vector velocity)
         {
-            Native.Check(Native.ks_world_set_velocity(handle, body, velocity));
+            Check(Native.ks_world_set_velocity(handle, body, velocity));
         }
-        public void Teleport(BodyId body, State state) { Native.Check(Native.ks_world_teleport(handle, body, ref state)); }
-        public void SetRadius(BodyId body, double radius) { Native.Check(Native.ks_world_set_radius(handle, body, radius)); }
+        /// <summary>Sets the velocities of all these bodies or, on an error, of none.</summary>
+        public void SetVelocities(BodyId[] bodies, Vector[] velocities)
+        {
+            if (Count(bodies, "bodies") != Count(velocities, "velocities"))
+                throw new ArgumentException("there must be one velocity for each body", "velocities");
+            Check(Native.ks_world_set_velocities(handle, bodies, velocities, Count(bodies, "bodies")));
+        }
+        /// <summary>Does what a response to this event says, but for Stop: between two events the world always stands still.</summary>
+        public void Apply(Event happened, Response response)
+        {
+            if (response.First.HasValue) SetVelocity(happened.First, response.First.Value);
+            if (response.Second.HasValue) SetVelocity(happened.Second, response.Second.Value);
+            if (response.FirstAngularVelocity.HasValue) SetAngularVelocity(happened.First, response.FirstAngularVelocity.Value);
+            if (response.SecondAngularVelocity.HasValue) SetAngularVelocity(happened.Second, response.SecondAngularVelocity.Value);
+            Act(happened.First, response.FirstAction);
+            Act(happened.Second, response.SecondAction);
+        }
+        void Act(BodyId body, BodyAction action)
+        {
+            if (action == BodyAction.Remove) Remove(body);
+            if (action == BodyAction.Disable) Disable(body);
+            if (action != BodyAction.Sleep) return;
+            SetVelocity(body, new Vector());
+            Sleep(body);
+        }
+        public void Teleport(BodyId body, State state) { Check(Native.ks_world_teleport(handle, body, ref state)); }
+        public void SetRadius(BodyId body, double radius) { Check(Native.ks_world_set_radius(handle, body, radius)); }
         /// <summary>Lets the radius of a ball change at this rate (length / time); negative for one that shrinks.</summary>
-        public void SetRadiusRate(BodyId body, double rate) { Native.Check(Native.ks_world_set_radius_rate(handle, body, rate)); }
-        public void SetFilter(BodyId body, Filter filter) { Native.Check(Native.ks_world_set_filter(handle, body, ref filter)); }
-        public void Disable(BodyId body) { Native.Check(Native.ks_world_disable(handle, body)); }
-        public void Enable(BodyId body, State state) { Native.Check(Native.ks_world_enable(handle, body, ref state)); }
-        public void Sleep(BodyId body) { Native.Check(Native.ks_world_sleep(handle, body)); }
-        public void Wake(BodyId body) { Native.Check(Native.ks_world_wake(handle, body)); }
+        public void SetRadiusRate(BodyId body, double rate) { Check(Native.ks_world_set_radius_rate(handle, body, rate)); }
+        public void SetMass(BodyId body, double mass) { Check(Native.ks_world_set_mass(handle, body, mass)); }
+        public void SetMotionLimits(BodyId body, MotionLimits limits)
+        {
+            Check(Native.ks_world_set_motion_limits(handle, body, ref limits));
+        }
+        /// <summary>Gives a static body, a zone or a moving shape another shape.</summary>
+        public void SetShape(BodyId body, Shape shape) { Check(Native.ks_world_set_shape(handle, body, ref shape)); }
+        public void SetSolid(BodyId body, bool solid) { Check(Native.ks_world_set_solid(handle, body, solid ? 1 : 0)); }
+        /// <summary>Stores a number for the caller: events have it.</summary>
+        public void SetUserData(BodyId body, ulong data) { Check(Native.ks_world_set_user_data(handle, body, data)); }
+        public void SetFilter(BodyId body, Filter filter) { Check(Native.ks_world_set_filter(handle, body, ref filter)); }
+        public void Disable(BodyId body) { Check(Native.ks_world_disable(handle, body)); }
+        public void Enable(BodyId body, State state) { Check(Native.ks_world_enable(handle, body, ref state)); }
+        public void Sleep(BodyId body) { Check(Native.ks_world_sleep(handle, body)); }
+        public void Wake(BodyId body) { Check(Native.ks_world_wake(handle, body)); }
         /// <summary>Sets the distances at which bodies of a class sense bodies with a category in the mask.</summary>
         public void SetSensor(int sensorClass, double[] distances, ulong mask = ulong.MaxValue)
         {
-            Native.Check(Native.ks_world_set_sensor(handle, sensorClass, distances, Count(distances), mask));
+            Check(Native.ks_world_set_sensor(handle, sensorClass, distances, Count(distances, "distances"), mask));
         }
+        public void SetSensorClass(BodyId body, int sensorClass)
+        {
+            Check(Native.ks_world_set_sensor_class(handle, body, sensorClass));
+        }
+        /// <summary>Sets a predicate for pairs whose filters let them touch; null removes it. Clones share it, and an exception
+        /// passes through the call that asked.</summary>
+        public void SetPairFilter(PairFilter filter)
+        {
+            var callback = PairCallback(filter, kept);
+            Check(Native.ks_world_set_pair_filter(handle, callback, IntPtr.Zero));
+            pairs = callback;
+        }
+        /// <summary>Asks the pair filter again about all pairs of a body.</summary>
+        public void RefreshFilter(BodyId body) { Check(Native.ks_world_refresh_filter(handle, body)); }
 
         public double Time
         {
             get
             {
                 double time;
-                Native.Check(Native.ks_world_time(handle, out time));
+                Check(Native.ks_world_time(handle, out time));
                 return time;
             }
         }
@@ -218,15 +301,43 @@ namespace Kinesphere
             get
             {
                 UIntPtr bodies;
-                Native.Check(Native.ks_world_size(handle, out bodies));
+                Check(Native.ks_world_size(handle, out bodies));
                 return (int)bodies;
             }
         }
         public bool Contains(BodyId body)
         {
             int contains;
-            Native.Check(Native.ks_world_contains(handle, body, out contains));
+            Check(Native.ks_world_contains(handle, body, out contains));
             return contains != 0;
+        }
+        public BodyId[] Bodies()
+        {
+            return Filled<BodyId>((BodyId[] bodies, UIntPtr capacity, out UIntPtr count) =>
+                Native.ks_world_bodies(handle, bodies, capacity, out count));
+        }
+        /// <summary>What the world knows of a body.</summary>
+        public BodyView Body(BodyId body)
+        {
+            var view = BodyView.New;
+            Check(Native.ks_world_body(handle, body, ref view));
+            return view;
+        }
+        /// <summary>The bodies within sensor distances of a body, with these distances.</summary>
+        public SensorOverlap[] SensorOverlaps(BodyId body)
+        {
+            return Filled<SensorOverlap>((SensorOverlap[] overlaps, UIntPtr capacity, out UIntPtr count) =>
+                Native.ks_world_sensor_overlaps(handle, body, overlaps, capacity, out count));
+        }
+        /// <summary>The number of states that the world has asked for so far.</summary>
+        public ulong ProbeCount
+        {
+            get
+            {
+                ulong probes;
+                Check(Native.ks_world_probe_count(handle, out probes));
+                return probes;
+            }
         }
         /// <summary>The bodies in contact with a body.</summary>
         public BodyId[] Touching(BodyId body)
@@ -241,14 +352,30 @@ namespace Kinesphere
         public Event Advance(double until, Probe probe = null)
         {
             var next = Event.New;
+            Ask(probe, callback => Native.ks_world_advance(handle, until, callback ?? motions, IntPtr.Zero, ref next));
+            return next;
+        }
+        /// <summary>Goes through the events up to `until`, for a loop in which bodies may be changed.</summary>
+        public IEnumerable<Event> Events(double until, Probe probe = null)
+        {
+            for (var next = Advance(until, probe); next.Kind != EventKind.None; next = Advance(until, probe)) yield return next;
+        }
+        /// <summary>Makes a call that may ask for states; null: of no body.</summary>
+        void Ask(Probe probe, Func<Native.Probe, int> call)
+        {
             var caught = new Caught();
-            var callback = probe == null ? motions : Callback(probe, caught);
-            int status = Native.ks_world_advance(handle, until, callback, IntPtr.Zero, ref next);
+            var callback = probe == null ? null : Callback(probe, caught);
+            int status = call(callback);
             GC.KeepAlive(callback);
             GC.KeepAlive(this);
-            turning.Rethrow(status);
-            caught.Check(status);
-            return next;
+            caught.Rethrow(status);
+            Check(status);
+        }
+        /// <summary>Throws an exception of a function that the world keeps, or the error of the library, if there is one.</summary>
+        void Check(int status)
+        {
+            kept.Rethrow(status);
+            Native.Check(status);
         }
 
         /// <summary>Advances to time `until` and answers all events by bouncing, which with a resting speed lets heaps come
@@ -273,8 +400,8 @@ namespace Kinesphere
             GC.KeepAlive(answer);
             GC.KeepAlive(tell);
             GC.KeepAlive(this);
-            turning.Rethrow(status);
-            caught.Check(status);
+            caught.Rethrow(status);
+            Check(status);
         }
 
         /// <summary>Adds bodies in free flight.</summary>
@@ -294,11 +421,11 @@ namespace Kinesphere
         /// <summary>Adds more bodies, such as bullets, to a motion. Their numbers there, which are their indices in frames,
         /// are the next ones, or those of removed bodies.</summary>
         public BodyId[] AddToMotion(uint motion, State[] states, BodyDefinition like, out uint[] numbers,
-            double[] accelerationLimits = null)
+            double[] accelerationLimits = null, double[] radii = null, double[] masses = null)
         {
-            var found = new uint[states.Length];
+            var found = new uint[(int)Count(states, "states")];
             numbers = found;
-            return AddMoved(Motion(0), states, like, accelerationLimits, null, null,
+            return AddMoved(Motion(0), states, like, accelerationLimits, radii, masses,
                 (ref Native.MotionDefinition definition, BodyId[] ids) =>
                     Native.ks_world_add_to_motion(handle, motion, ref definition, found, ids));
         }
@@ -312,19 +439,30 @@ namespace Kinesphere
             definition.Seed = seed;
             return AddMotion(definition, states, like, accelerationLimits, radii, masses, out motion);
         }
-        /// <summary>Adds bodies of a game's frames: straight from the position in one frame to that in the next.</summary>
-        public BodyId[] AddFrames(State[] states, BodyDefinition like, double interval, out uint motion)
+        /// <summary>Adds bodies that Steer moves: each keeps its acceleration, at first zero, within its limit.</summary>
+        public BodyId[] AddSteered(State[] states, BodyDefinition like, double[] accelerationLimits, out uint motion,
+            double[] radii = null, double[] masses = null)
+        {
+            return AddMotion(Motion(3), states, like, accelerationLimits, radii, masses, out motion);
+        }
+        /// <summary>Sets the acceleration of a body that AddSteered added, from the current time on.</summary>
+        public void Steer(BodyId body, Vector acceleration) { Check(Native.ks_world_steer(handle, body, acceleration)); }
+        /// <summary>Adds bodies of a game's frames: straight from the position in one frame to that in the next. Without
+        /// limits the world is informed of all new velocities at each frame.</summary>
+        public BodyId[] AddFrames(State[] states, BodyDefinition like, double interval, out uint motion,
+            double[] radii = null, double[] masses = null, double[] accelerationLimits = null, double positionError = 0)
         {
             var definition = Motion(2);
             definition.Interval = interval;
-            return AddMotion(definition, states, like, null, null, null, out motion);
+            definition.PositionError = positionError;
+            return AddMotion(definition, states, like, accelerationLimits, radii, masses, out motion);
         }
         /// <summary>Appends the next frame, and returns its time, to which to advance then.</summary>
         public double PushFrame(uint motion, Vector[] positions)
         {
             double time;
-            Native.Check(Native.ks_world_push_frame(handle, motion, positions, Count(positions)));
-            Native.Check(Native.ks_world_latest_frame_time(handle, motion, out time));
+            Check(Native.ks_world_push_frame(handle, motion, positions, Count(positions, "positions")));
+            Check(Native.ks_world_latest_frame_time(handle, motion, out time));
             return time;
         }
         /// <summary>The positions in the latest frame, with the changes that events made.</summary>
@@ -336,32 +474,97 @@ namespace Kinesphere
         /// <summary>The true states at a time of bodies that motions move.</summary>
         public State[] States(BodyId[] bodies, double time)
         {
+            var count = Count(bodies, "bodies");
             var states = new State[bodies.Length];
-            Native.Check(Native.ks_world_states(handle, bodies, Count(bodies), time, states));
+            Check(Native.ks_world_states(handle, bodies, count, time, states));
             return states;
         }
 
-        public Prediction EarliestContact(BodyId body)
+        // Certified answers at the current time: from what the world knows, or better with a probe.
+
+        /// <summary>No contact of the whole world begins before this time; it names no partner.</summary>
+        public Prediction SafeUntil(Probe probe = null)
         {
-            Prediction prediction;
-            Native.Check(Native.ks_world_earliest_contact(handle, body, null, IntPtr.Zero, out prediction));
-            return prediction;
+            return Predicted(probe, (Native.Probe callback, out Prediction prediction) =>
+                Native.ks_world_safe_until(handle, callback, IntPtr.Zero, out prediction));
+        }
+        public Prediction EarliestContact(BodyId body, Probe probe = null)
+        {
+            return Predicted(probe, (Native.Probe callback, out Prediction prediction) =>
+                Native.ks_world_earliest_contact(handle, body, callback, IntPtr.Zero, out prediction));
+        }
+        /// <summary>The first time at which anything may be within a distance (length, >= 0) of a body.</summary>
+        public Prediction EarliestApproach(BodyId body, double distance, Probe probe = null)
+        {
+            return Predicted(probe, (Native.Probe callback, out Prediction prediction) =>
+                Native.ks_world_earliest_approach(handle, body, distance, callback, IntPtr.Zero, out prediction));
+        }
+        /// <summary>The first time at which two bodies may be within a distance (length, >= 0) of each other.</summary>
+        public Prediction PairSafeUntil(BodyId first, BodyId second, double distance = 0, Probe probe = null)
+        {
+            return Predicted(probe, (Native.Probe callback, out Prediction prediction) =>
+                Native.ks_world_pair_safe_until(handle, first, second, distance, callback, IntPtr.Zero, out prediction));
+        }
+        /// <summary>Limits of the distance between two bodies at a time from now on.</summary>
+        public void DistanceLimits(BodyId first, BodyId second, double time, out double lower, out double upper,
+            Probe probe = null)
+        {
+            double least = 0, most = 0;
+            Ask(probe, callback => Native.ks_world_distance_limits(
+                handle, first, second, time, callback, IntPtr.Zero, out least, out most));
+            lower = least;
+            upper = most;
         }
         /// <summary>All that a ray, or with a radius > 0 a moving sphere, may hit first.</summary>
-        public Hit[] Cast(Vector origin, Vector direction, double length, double radius = 0)
+        public Hit[] Cast(Vector origin, Vector direction, double length, double radius = 0, Probe probe = null)
         {
-            return Filled<Hit>((Hit[] hits, UIntPtr capacity, out UIntPtr count) =>
-                Native.ks_world_cast(handle, origin, direction, length, radius, null, IntPtr.Zero, hits, capacity, out count));
+            return Hits(probe, (Native.Probe callback, Hit[] hits, UIntPtr capacity, out UIntPtr count) => Native.ks_world_cast(
+                handle, origin, direction, length, radius, callback, IntPtr.Zero, hits, capacity, out count));
+        }
+        /// <summary>The bodies that may overlap a sphere.</summary>
+        public Hit[] Overlapping(Vector centre, double radius, Probe probe = null)
+        {
+            return Hits(probe, (Native.Probe callback, Hit[] hits, UIntPtr capacity, out UIntPtr count) =>
+                Native.ks_world_overlapping_sphere(handle, centre, radius, callback, IntPtr.Zero, hits, capacity, out count));
+        }
+        /// <summary>The bodies that may overlap a box.</summary>
+        public Hit[] OverlappingBox(Vector lower, Vector upper, Probe probe = null)
+        {
+            var box = new Native.Box { Lower = lower, Upper = upper };
+            return Hits(probe, (Native.Probe callback, Hit[] hits, UIntPtr capacity, out UIntPtr count) =>
+                Native.ks_world_overlapping_box(handle, ref box, callback, IntPtr.Zero, hits, capacity, out count));
+        }
+        /// <summary>All that may be among the `bodies` nearest to a point.</summary>
+        public Hit[] Nearest(Vector point, int bodies, Probe probe = null)
+        {
+            var most = NotNegative(bodies, "bodies");
+            return Hits(probe, (Native.Probe callback, Hit[] hits, UIntPtr capacity, out UIntPtr count) =>
+                Native.ks_world_nearest(handle, point, most, callback, IntPtr.Zero, hits, capacity, out count));
+        }
+        delegate int Predict(Native.Probe probe, out Prediction prediction);
+        Prediction Predicted(Probe probe, Predict predict)
+        {
+            var prediction = new Prediction();
+            Ask(probe, callback => predict(callback, out prediction));
+            return prediction;
+        }
+        delegate int Find(Native.Probe probe, Hit[] hits, UIntPtr capacity, out UIntPtr count);
+        Hit[] Hits(Probe probe, Find find)
+        {
+            Hit[] found = null;
+            Ask(probe, callback => FillAll((Hit[] hits, UIntPtr capacity, out UIntPtr count) =>
+                find(callback, hits, capacity, out count), out found));
+            return found;
         }
 
         /// <summary>Switches profiling on, from zero, or off.</summary>
-        public void SetProfiling(bool on) { Native.Check(Native.ks_world_set_profiling(handle, on ? 1 : 0)); }
+        public void SetProfiling(bool on) { Check(Native.ks_world_set_profiling(handle, on ? 1 : 0)); }
         public Timings Timings
         {
             get
             {
                 Timings timings;
-                Native.Check(Native.ks_world_timings(handle, out timings));
+                Check(Native.ks_world_timings(handle, out timings));
                 return timings;
             }
         }
@@ -369,15 +572,15 @@ namespace Kinesphere
         public BusyBody[] Busiest(int most)
         {
             return Filled<BusyBody>((BusyBody[] bodies, UIntPtr capacity, out UIntPtr count) =>
-                Native.ks_world_busiest(handle, (UIntPtr)most, bodies, capacity, out count));
+                Native.ks_world_busiest(handle, NotNegative(most, "most"), bodies, capacity, out count));
         }
 
         /// <summary>Starts to record all input and output of the world, in memory.</summary>
-        public void StartRecording() { Native.Check(Native.ks_world_start_recording(handle)); }
+        public void StartRecording() { Check(Native.ks_world_start_recording(handle)); }
         /// <summary>Stops recording and returns the recording, for a Replay.</summary>
         public byte[] StopRecording()
         {
-            Native.Check(Native.ks_world_stop_recording(handle));
+            Check(Native.ks_world_stop_recording(handle));
             return Filled<byte>((byte[] bytes, UIntPtr capacity, out UIntPtr count) =>
                 Native.ks_world_recording(handle, bytes, capacity, out count));
         }
@@ -388,7 +591,11 @@ namespace Kinesphere
             {
                 var ids = new BodyId[(int)count];
                 var answers = new State[ids.Length];
-                for (int k = 0; k < ids.Length; ++k) ids[k] = bodies[k];
+                for (int k = 0; k < ids.Length; ++k)
+                {
+                    ids[k] = bodies[k];
+                    answers[k] = states[k];  // NaN, so that a body that the probe forgets is an error
+                }
                 probe(ids, time, answers);
                 for (int k = 0; k < ids.Length; ++k) states[k] = answers[k];
             });
@@ -400,10 +607,24 @@ namespace Kinesphere
             {
                 var ids = new BodyId[(int)count];
                 var answers = new Rotation[ids.Length];
-                for (int k = 0; k < ids.Length; ++k) ids[k] = bodies[k];
+                for (int k = 0; k < ids.Length; ++k)
+                {
+                    ids[k] = bodies[k];
+                    answers[k] = rotations[k];
+                }
                 probe(ids, time, answers);
                 for (int k = 0; k < ids.Length; ++k) rotations[k] = answers[k];
             });
+        }
+
+        static Native.PairFilter PairCallback(PairFilter filter, Caught caught)
+        {
+            if (filter == null) return null;
+            return (first, second, user) =>
+            {
+                bool may = false;
+                return caught.Call(() => may = filter(first, second)) != 0 ? -1 : may ? 1 : 0;
+            };
         }
 
         static Native.MotionDefinition Motion(int kind)
@@ -426,42 +647,65 @@ namespace Kinesphere
         }
 
         delegate int AddDefined(ref Native.MotionDefinition definition, BodyId[] ids);
-        static BodyId[] AddMoved(Native.MotionDefinition definition, State[] states, BodyDefinition like, double[] limits,
+        BodyId[] AddMoved(Native.MotionDefinition definition, State[] states, BodyDefinition like, double[] limits,
             double[] radii, double[] masses, AddDefined add)
         {
-            foreach (var numbers in new[] { limits, radii, masses })
-                if (numbers != null && numbers.Length != states.Length)
-                    throw new ArgumentException("there must be one entry for each state");
+            like.Require("like");
+            definition.Count = Count(states, "states");
+            RequireOneEach(limits, states, "accelerationLimits");
+            RequireOneEach(radii, states, "radii");
+            RequireOneEach(masses, states, "masses");
             var ids = new BodyId[states.Length];
             fixed (State* fixedStates = states)
             fixed (double* fixedLimits = limits, fixedRadii = radii, fixedMasses = masses)
             {
-                definition.Count = Count(states);
                 definition.States = fixedStates;
                 definition.AccelerationLimits = fixedLimits;
                 definition.Radii = fixedRadii;
                 definition.Masses = fixedMasses;
                 definition.Like = &like;
-                Native.Check(add(ref definition, ids));
+                Check(add(ref definition, ids));
             }
             return ids;
         }
 
-        internal static UIntPtr Count(Array array) { return (UIntPtr)array.Length; }
+        static void RequireOneEach(double[] numbers, State[] states, string name)
+        {
+            if (numbers != null && numbers.Length != states.Length)
+                throw new ArgumentException("there must be one entry for each of " + states.Length + " states", name);
+        }
+
+        static UIntPtr NotNegative(int number, string name)
+        {
+            if (number < 0) throw new ArgumentOutOfRangeException(name, number, "must be >= 0");
+            return (UIntPtr)number;
+        }
+        /// <summary>The number of elements. Throws if there is no array.</summary>
+        internal static UIntPtr Count(Array array, string name)
+        {
+            if (array == null) throw new ArgumentNullException(name);
+            return (UIntPtr)array.Length;
+        }
 
         internal delegate int Fill<T>(T[] elements, UIntPtr capacity, out UIntPtr count);
-        /// <summary>Calls a function that writes all elements if they fit, until they do.</summary>
-        internal static T[] Filled<T>(Fill<T> fill)
+        /// <summary>Calls a function that writes all elements if they fit, until they do; returns its status.</summary>
+        static int FillAll<T>(Fill<T> fill, out T[] elements)
         {
-            var elements = new T[16];
+            elements = new T[16];
             for (;;)
             {
                 UIntPtr count;
-                int status = fill(elements, Count(elements), out count);
-                if (status != Native.BufferTooSmall) Native.Check(status);
+                int status = fill(elements, (UIntPtr)elements.Length, out count);
+                if (status != 0 && status != Native.BufferTooSmall) return status;
                 Array.Resize(ref elements, (int)count);
-                if (status == 0) return elements;
+                if (status == 0) return 0;
             }
+        }
+        internal static T[] Filled<T>(Fill<T> fill)
+        {
+            T[] elements;
+            Native.Check(FillAll(fill, out elements));
+            return elements;
         }
     }
 
@@ -471,9 +715,10 @@ namespace Kinesphere
         readonly ulong handle;
         bool disposed;
 
+        /// <summary>Opens a recording of a world without a pair filter.</summary>
         public Replay(byte[] recording)
         {
-            Native.Check(Native.ks_replay_open(recording, World.Count(recording), IntPtr.Zero, IntPtr.Zero, out handle));
+            Native.Check(Native.ks_replay_open(recording, World.Count(recording, "recording"), null, IntPtr.Zero, out handle));
         }
         ~Replay() { Native.ks_replay_destroy(handle); }
         public void Dispose()
@@ -543,6 +788,7 @@ namespace Kinesphere
         public TrackClass[] Classes = new TrackClass[0];
         public SeparationRule[] Separations = new SeparationRule[0];
         public double Tolerance, TimeResolution, Window, StaleAfter, DropAfter;
+        public double PredictionHold, PredictionConfirmation, PredictionMargin, PredictionErrorPart;
         /// <summary>The monitor watches this many shards of all pairs, from the first one.</summary>
         public ulong ShardOf = 1, ShardFirst, ShardCount = 1;
 
@@ -555,6 +801,10 @@ namespace Kinesphere
             Window = defaults.Window;
             StaleAfter = defaults.StaleAfter;
             DropAfter = defaults.DropAfter;
+            PredictionHold = defaults.PredictionHold;
+            PredictionConfirmation = defaults.PredictionConfirmation;
+            PredictionMargin = defaults.PredictionMargin;
+            PredictionErrorPart = defaults.PredictionErrorPart;
         }
 
         static Native.MonitorDefinition Defaults()
@@ -575,29 +825,36 @@ namespace Kinesphere
             definition.Window = Window;
             definition.StaleAfter = StaleAfter;
             definition.DropAfter = DropAfter;
+            definition.PredictionHold = PredictionHold;
+            definition.PredictionConfirmation = PredictionConfirmation;
+            definition.PredictionMargin = PredictionMargin;
+            definition.PredictionErrorPart = PredictionErrorPart;
             definition.ShardOf = ShardOf;
             definition.ShardFirst = ShardFirst;
             definition.ShardCount = ShardCount;
+            World.Count(Classes, "Classes");
+            World.Count(Separations, "Separations");
             var rules = new Native.SeparationRule[Separations.Length];
             var pinned = new GCHandle[Separations.Length];
             try
             {
                 for (int k = 0; k < rules.Length; ++k)
                 {
+                    if (Separations[k] == null) throw new ArgumentNullException("Separations");
+                    rules[k].LevelCount = World.Count(Separations[k].Levels, "Levels");
                     pinned[k] = GCHandle.Alloc(Separations[k].Levels, GCHandleType.Pinned);
                     rules[k].FirstClass = (UIntPtr)Separations[k].FirstClass;
                     rules[k].SecondClass = (UIntPtr)Separations[k].SecondClass;
                     rules[k].Levels = (Separation*)pinned[k].AddrOfPinnedObject();
-                    rules[k].LevelCount = World.Count(Separations[k].Levels);
                 }
                 ulong monitor;
                 fixed (TrackClass* classes = Classes)
                 fixed (Native.SeparationRule* separations = rules)
                 {
                     definition.Classes = classes;
-                    definition.ClassCount = World.Count(Classes);
+                    definition.ClassCount = World.Count(Classes, "Classes");
                     definition.Separations = separations;
-                    definition.SeparationCount = World.Count(rules);
+                    definition.SeparationCount = World.Count(rules, "Separations");
                     Native.Check(Native.ks_monitor_create(ref definition, out monitor));
                 }
                 return monitor;
@@ -611,12 +868,17 @@ namespace Kinesphere
     }
 
     /// <summary>Tracks, their reports and the verdicts about their pairs.</summary>
-    public sealed class Monitor : IDisposable
+    public sealed unsafe class Monitor : IDisposable
     {
         readonly ulong handle;
         bool disposed;
 
-        public Monitor(MonitorDefinition definition) { handle = definition.Create(); }
+        public Monitor(MonitorDefinition definition)
+        {
+            if (definition == null) throw new ArgumentNullException("definition");
+            handle = definition.Create();
+        }
+        Monitor(ulong handle) { this.handle = handle; }
         ~Monitor() { Native.ks_monitor_destroy(handle); }
         /// <summary>Destroys the monitor; each later call but Dispose throws.</summary>
         public void Dispose()
@@ -627,18 +889,67 @@ namespace Kinesphere
             GC.SuppressFinalize(this);
         }
 
-        /// <summary>Accepts a report that arrives now. The first one of an id adds a track.</summary>
-        public void Report(ulong track, TrackReport report)
+        /// <summary>Returns a snapshot.</summary>
+        public byte[] Save()
         {
-            Native.Check(Native.ks_monitor_report(handle, new[] { track }, new[] { report }, (UIntPtr)1));
+            return World.Filled<byte>((byte[] bytes, UIntPtr capacity, out UIntPtr count) =>
+                Native.ks_monitor_save(handle, bytes, capacity, out count));
+        }
+        public static Monitor Restore(byte[] snapshot)
+        {
+            ulong restored;
+            Native.Check(Native.ks_monitor_restore(snapshot, World.Count(snapshot, "snapshot"), out restored));
+            return new Monitor(restored);
+        }
+
+        /// <summary>Accepts a report that arrives now. The first one of an id adds a track.</summary>
+        public void Report(ulong track, TrackReport report) { ReportAll(new[] { track }, new[] { report }); }
+        /// <summary>Accepts reports, each of the track of the same index, in this order; or, on an error, none.</summary>
+        public void ReportAll(ulong[] tracks, TrackReport[] reports)
+        {
+            var count = World.Count(tracks, "tracks");
+            if (World.Count(reports, "reports") != count)
+                throw new ArgumentException("there must be one report for each track", "reports");
+            foreach (var report in reports) report.Require("reports");
+            Native.Check(Native.ks_monitor_report(handle, tracks, reports, count));
         }
         public void Remove(ulong track) { Native.Check(Native.ks_monitor_remove(handle, track)); }
-        /// <summary>Advances to the next event, at most to time `until`; returns it, or one of kind None.</summary>
-        public MonitorEvent Advance(double until)
+        /// <summary>Advances to the next event, at most to time `until`; returns it, or one of kind None. `poll` is asked for the
+        /// reports without which pairs would turn undecided.</summary>
+        public MonitorEvent Advance(double until, Poll poll = null)
         {
             var next = MonitorEvent.New;
-            Native.Check(Native.ks_monitor_advance(handle, until, IntPtr.Zero, IntPtr.Zero, ref next));
+            var caught = new Caught();
+            var callback = poll == null ? null : Callback(poll, caught);
+            int status = Native.ks_monitor_advance(handle, until, callback, IntPtr.Zero, ref next);
+            GC.KeepAlive(callback);
+            GC.KeepAlive(this);
+            caught.Rethrow(status);
+            Native.Check(status);
             return next;
+        }
+        static Native.Poll Callback(Poll poll, Caught caught)
+        {
+            return (tracks, count, time, reports, hasReport, user) => caught.Call(() =>
+            {
+                var ids = new ulong[(int)count];
+                var answers = new TrackReport?[ids.Length];
+                for (int k = 0; k < ids.Length; ++k) ids[k] = tracks[k];
+                poll(ids, time, answers);
+                for (int k = 0; k < ids.Length; ++k)
+                {
+                    if (!answers[k].HasValue) continue;
+                    answers[k].Value.Require("reports");
+                    reports[k] = answers[k].Value;
+                    hasReport[k] = 1;
+                }
+            });
+        }
+        /// <summary>Goes through the events up to `until`.</summary>
+        public IEnumerable<MonitorEvent> Events(double until, Poll poll = null)
+        {
+            for (var next = Advance(until, poll); next.Kind != MonitorEventKind.None; next = Advance(until, poll))
+                yield return next;
         }
         public double Time
         {
@@ -654,6 +965,24 @@ namespace Kinesphere
             var answer = PairAnswer.New;
             Native.Check(Native.ks_monitor_answer(handle, first, second, level, ref answer));
             return answer;
+        }
+        /// <summary>The ids of all tracks, in ascending order.</summary>
+        public ulong[] Tracks()
+        {
+            return World.Filled<ulong>((ulong[] tracks, UIntPtr capacity, out UIntPtr count) =>
+                Native.ks_monitor_tracks(handle, tracks, capacity, out count));
+        }
+        /// <summary>The places of a track; several only while its reports contradict each other.</summary>
+        public TrackPlace[] Places(ulong track)
+        {
+            return World.Filled<TrackPlace>((TrackPlace[] places, UIntPtr capacity, out UIntPtr count) =>
+                Native.ks_monitor_places(handle, track, places, capacity, out count));
+        }
+        /// <summary>The reports that are needed by `until` for no verdict to turn undecided, in the order of their times.</summary>
+        public ReportRequest[] Needed(double until)
+        {
+            return World.Filled<ReportRequest>((ReportRequest[] requests, UIntPtr capacity, out UIntPtr count) =>
+                Native.ks_monitor_needed(handle, until, requests, capacity, out count));
         }
         /// <summary>The pairs that are not certainly apart.</summary>
         public OpenPair[] OpenPairs()

@@ -29,6 +29,7 @@ namespace Kinesphere
         public static Vector operator +(Vector a, Vector b) { return new Vector(a.X + b.X, a.Y + b.Y, a.Z + b.Z); }
         public static Vector operator -(Vector a, Vector b) { return new Vector(a.X - b.X, a.Y - b.Y, a.Z - b.Z); }
         public static Vector operator *(Vector a, double by) { return new Vector(a.X * by, a.Y * by, a.Z * by); }
+        public override string ToString() { return FormattableString.Invariant($"({X}, {Y}, {Z})"); }
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -36,6 +37,7 @@ namespace Kinesphere
     {
         public Vector Position, Velocity;
         public State(Vector position, Vector velocity) { Position = position; Velocity = velocity; }
+        public override string ToString() { return Position + " at velocity " + Velocity; }
     }
 
     /// <summary>Names a body until it is removed; a later body never has an equal id.</summary>
@@ -67,6 +69,7 @@ namespace Kinesphere
         public static Shape Triangle(Vector a, Vector b, Vector c) { return new Shape { kind = 3, a = a, b = b, c = c }; }
     }
 
+    /// <summary>Begin with Default: a definition that `new` made has no defaults, and is refused.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct WorldDefinition
     {
@@ -83,6 +86,7 @@ namespace Kinesphere
         public bool SpreadWindowStarts { get { return spreadWindowStarts != 0; } set { spreadWindowStarts = value ? 1 : 0; } }
         /// <summary>Gives the world walls, or on periodic axes a period, at the sides of a box.</summary>
         public void SetBox(Vector from, Vector to) { hasBox = 1; lower = from; upper = to; }
+        internal void Require(string name) { Native.RequireDefault(structSize, "WorldDefinition", name); }
         public static WorldDefinition Default
         {
             get
@@ -94,13 +98,32 @@ namespace Kinesphere
         }
     }
 
+    /// <summary>Selects the bodies that a body may touch: the category of each must have a bit in the mask of the other,
+    /// unless both are in one group, which decides by its sign. `new Filter()`, with the mask 0, lets it touch none.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct Filter
     {
         public ulong Category, Mask;
         public int Group;
+        public Filter(ulong category, ulong mask = ulong.MaxValue, int group = 0)
+        {
+            Category = category;
+            Mask = mask;
+            Group = group;
+        }
+        /// <summary>Lets a body touch all others.</summary>
+        public static Filter Default { get { return new Filter(1); } }
     }
 
+    /// <summary>Limits within which a body moves; fields as in BodyDefinition.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct MotionLimits
+    {
+        public double AccelerationLimit, PositionError, VelocityError;
+        public Vector PlannedAcceleration;
+    }
+
+    /// <summary>A sphere and the limits of its motion. Begin with Default.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct BodyDefinition
     {
@@ -113,6 +136,7 @@ namespace Kinesphere
         public Filter Filter;
         public ulong UserData;
         public bool Solid { get { return solid != 0; } set { solid = value ? 1 : 0; } }
+        internal void Require(string name) { Native.RequireDefault(structSize, "BodyDefinition", name); }
         public static BodyDefinition Default
         {
             get
@@ -122,6 +146,34 @@ namespace Kinesphere
                 return made;
             }
         }
+    }
+
+    /// <summary>What a world knows of a body.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct BodyView
+    {
+        uint structSize;
+        int enabled, isStatic, sleeping;
+        public double ReportTime;
+        /// <summary>Corners of a box that contains the body from now until BoxEnd.</summary>
+        public Vector Lower, Upper;
+        public double BoxEnd;
+        /// <summary>Boxes that it has travelled along periodic axes.</summary>
+        public long ImageX, ImageY, ImageZ;
+        /// <summary>Its state is that of the last report.</summary>
+        public BodyDefinition Definition;
+        public bool Enabled { get { return enabled != 0; } }
+        public bool IsStatic { get { return isStatic != 0; } }
+        public bool Sleeping { get { return sleeping != 0; } }
+        internal static BodyView New { get { return new BodyView { structSize = Native.SizeOf<BodyView>() }; } }
+    }
+
+    /// <summary>A body within a sensor distance (length) of another one.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct SensorOverlap
+    {
+        public BodyId Body;
+        public double Distance;
     }
 
     /// <summary>A rotation as a unit quaternion W + X i + Y j + Z k.</summary>
@@ -175,7 +227,7 @@ namespace Kinesphere
         }
     }
 
-    /// <summary>What a rigid body has beside its BodyDefinition and its parts.</summary>
+    /// <summary>What a rigid body has beside its BodyDefinition and its parts. Begin with Default.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct RigidDefinition
     {
@@ -188,6 +240,7 @@ namespace Kinesphere
         public Vector Inertia;
         UIntPtr hullCount;
         Native.Hull* hulls;
+        internal void Require(string name) { Native.RequireDefault(structSize, "RigidDefinition", name); }
         internal void SetParts(RigidPart* first, int count) { parts = first; partCount = (UIntPtr)count; }
         internal void SetHulls(Native.Hull* first, int count) { hulls = first; hullCount = (UIntPtr)count; }
         public static RigidDefinition Default
@@ -201,6 +254,7 @@ namespace Kinesphere
         }
     }
 
+    /// <summary>A body that never moves. Begin with Default.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct StaticDefinition
     {
@@ -211,6 +265,7 @@ namespace Kinesphere
         public Filter Filter;
         public ulong UserData;
         public bool Solid { get { return solid != 0; } set { solid = value ? 1 : 0; } }
+        internal void Require(string name) { Native.RequireDefault(structSize, "StaticDefinition", name); }
         public static StaticDefinition Default
         {
             get
@@ -245,6 +300,11 @@ namespace Kinesphere
         public bool Repeated { get { return repeated != 0; } }
         public bool Jammed { get { return jammed != 0; } }
         public bool AlreadyTouching { get { return alreadyTouching != 0; } }
+        public override string ToString()
+        {
+            var partner = Wall != Wall.None ? ", wall " + Wall : Second.IsNone ? "" : ", " + Second;
+            return FormattableString.Invariant($"{Time} {Kind}") + (Kind == EventKind.None ? "" : " " + First + partner);
+        }
         internal static Event New { get { return new Event { structSize = Native.SizeOf<Event>(), reserved = 0 }; } }
 
         /// <summary>Velocities after a frictionless bounce; events other than begins of contacts turn nobody.</summary>
@@ -347,6 +407,8 @@ namespace Kinesphere
     {
         int kind;
         double horizontal, vertical;
+        public double Horizontal { get { return horizontal; } }
+        public double Vertical { get { return vertical; } }
         public static ErrorBound Ball(double radius) { return new ErrorBound { horizontal = radius, vertical = radius }; }
         public static ErrorBound Cylinder(double horizontal, double vertical)
         {
@@ -372,6 +434,7 @@ namespace Kinesphere
         }
     }
 
+    /// <summary>A reported state of a track. Begin with Default.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct TrackReport
     {
@@ -391,6 +454,7 @@ namespace Kinesphere
             planLimit = limit;
             planValidUntil = validUntil;
         }
+        internal void Require(string name) { Native.RequireDefault(structSize, "TrackReport", name); }
         public static TrackReport Default
         {
             get
@@ -454,6 +518,22 @@ namespace Kinesphere
         public double Since, LikelyTime, ClosestTime, ClosestDistance;
     }
 
+    /// <summary>A report of `Track` is needed by the time `By` for its verdict with `Other` to stay certain.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct ReportRequest
+    {
+        public ulong Track, Other;
+        public double By;
+    }
+
+    /// <summary>Where a track is now: within `Radius` of `Centre`.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct TrackPlace
+    {
+        public Vector Centre, Velocity;
+        public ErrorBound Radius;
+    }
+
     /// <summary>Wall-clock time spent (seconds) since profiling was switched on.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct Timings
@@ -501,6 +581,16 @@ namespace Kinesphere
         public delegate int Respond(Event* happened, Response* response, IntPtr user);
         [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
         public delegate int Sink(Event* happened, IntPtr user);
+        [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+        public delegate int PairFilter(BodyId first, BodyId second, IntPtr user);
+        [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+        public delegate int Poll(ulong* tracks, UIntPtr count, double time, TrackReport* reports, byte* hasReport, IntPtr user);
+
+        [StructLayout(LayoutKind.Sequential)]
+        public struct Box
+        {
+            public Vector Lower, Upper;
+        }
 
         [StructLayout(LayoutKind.Sequential)]
         public struct Hull
@@ -561,6 +651,14 @@ namespace Kinesphere
 
         public static uint SizeOf<T>() { return (uint)Marshal.SizeOf(typeof(T)); }
 
+        /// <summary>Throws unless a definition was made by its property Default, which sets its size.</summary>
+        public static void RequireDefault(uint size, string type, string argument)
+        {
+            if (size != 0) return;
+            throw new ArgumentException(
+                "begin with " + type + ".Default and change its fields: `new " + type + "()` has no defaults", argument);
+        }
+
         /// <summary>Throws what the last call of this thread has to say, unless it succeeded.</summary>
         public static void Check(int status)
         {
@@ -570,6 +668,7 @@ namespace Kinesphere
                 Marshal.PtrToStringAnsi(ks_last_error_message()));
         }
 
+        [DllImport(library)] public static extern IntPtr ks_version();
         [DllImport(library)] public static extern IntPtr ks_status_name(int status);
         [DllImport(library)] public static extern IntPtr ks_last_error_message();
         [DllImport(library)] public static extern IntPtr ks_last_error_argument();
@@ -590,7 +689,7 @@ namespace Kinesphere
         [DllImport(library)]
         public static extern int ks_world_save(ulong world, byte[] bytes, UIntPtr capacity, out UIntPtr count);
         [DllImport(library)]
-        public static extern int ks_world_restore(byte[] bytes, UIntPtr count, IntPtr filter, IntPtr user, out ulong world);
+        public static extern int ks_world_restore(byte[] bytes, UIntPtr count, PairFilter filter, IntPtr user, out ulong world);
         [DllImport(library)]
         public static extern int ks_world_add(ulong world, BodyDefinition[] bodies, UIntPtr count, [Out] BodyId[] ids);
         [DllImport(library)]
@@ -611,9 +710,21 @@ namespace Kinesphere
         public static extern int ks_world_add_zone(ulong world, ref Shape shape, ulong userData, out BodyId id);
         [DllImport(library)] public static extern int ks_world_remove(ulong world, BodyId[] bodies, UIntPtr count);
         [DllImport(library)] public static extern int ks_world_set_velocity(ulong world, BodyId body, Vector velocity);
+        [DllImport(library)]
+        public static extern int ks_world_set_velocities(ulong world, BodyId[] bodies, Vector[] velocities, UIntPtr count);
         [DllImport(library)] public static extern int ks_world_teleport(ulong world, BodyId body, ref State state);
         [DllImport(library)] public static extern int ks_world_set_radius_rate(ulong world, BodyId body, double rate);
         [DllImport(library)] public static extern int ks_world_set_radius(ulong world, BodyId body, double radius);
+        [DllImport(library)] public static extern int ks_world_set_mass(ulong world, BodyId body, double mass);
+        [DllImport(library)]
+        public static extern int ks_world_set_motion_limits(ulong world, BodyId body, ref MotionLimits limits);
+        [DllImport(library)] public static extern int ks_world_set_shape(ulong world, BodyId body, ref Shape shape);
+        [DllImport(library)] public static extern int ks_world_set_solid(ulong world, BodyId body, int solid);
+        [DllImport(library)] public static extern int ks_world_set_user_data(ulong world, BodyId body, ulong data);
+        [DllImport(library)] public static extern int ks_world_set_sensor_class(ulong world, BodyId body, int sensorClass);
+        [DllImport(library)] public static extern int ks_world_set_pair_filter(ulong world, PairFilter filter, IntPtr user);
+        [DllImport(library)] public static extern int ks_world_refresh_filter(ulong world, BodyId body);
+        [DllImport(library)] public static extern int ks_world_reserve(ulong world, UIntPtr bodies);
         [DllImport(library)] public static extern int ks_world_set_filter(ulong world, BodyId body, ref Filter filter);
         [DllImport(library)]
         public static extern int ks_world_set_sensor(ulong world, int sensorClass, double[] distances, UIntPtr count, ulong mask);
@@ -624,6 +735,13 @@ namespace Kinesphere
         [DllImport(library)] public static extern int ks_world_time(ulong world, out double time);
         [DllImport(library)] public static extern int ks_world_size(ulong world, out UIntPtr bodies);
         [DllImport(library)] public static extern int ks_world_contains(ulong world, BodyId body, out int contains);
+        [DllImport(library)] public static extern int ks_world_body(ulong world, BodyId body, ref BodyView view);
+        [DllImport(library)] public static extern int ks_world_probe_count(ulong world, out ulong probes);
+        [DllImport(library)]
+        public static extern int ks_world_bodies(ulong world, [Out] BodyId[] bodies, UIntPtr capacity, out UIntPtr count);
+        [DllImport(library)]
+        public static extern int ks_world_sensor_overlaps(
+            ulong world, BodyId body, [Out] SensorOverlap[] overlaps, UIntPtr capacity, out UIntPtr count);
         [DllImport(library)]
         public static extern int ks_world_touching(ulong world, BodyId body, [Out] BodyId[] partners, UIntPtr capacity, out UIntPtr count);
 
@@ -650,6 +768,27 @@ namespace Kinesphere
         public static extern int ks_world_latest_frame_time(ulong world, uint motion, out double time);
         [DllImport(library)]
         public static extern int ks_world_states(ulong world, BodyId[] bodies, UIntPtr count, double time, [Out] State[] states);
+        [DllImport(library)] public static extern int ks_world_steer(ulong world, BodyId body, Vector acceleration);
+        [DllImport(library)]
+        public static extern int ks_world_safe_until(ulong world, Probe probe, IntPtr user, out Prediction prediction);
+        [DllImport(library)]
+        public static extern int ks_world_earliest_approach(
+            ulong world, BodyId body, double distance, Probe probe, IntPtr user, out Prediction prediction);
+        [DllImport(library)]
+        public static extern int ks_world_pair_safe_until(
+            ulong world, BodyId first, BodyId second, double distance, Probe probe, IntPtr user, out Prediction prediction);
+        [DllImport(library)]
+        public static extern int ks_world_distance_limits(ulong world, BodyId first, BodyId second, double time, Probe probe,
+            IntPtr user, out double lower, out double upper);
+        [DllImport(library)]
+        public static extern int ks_world_overlapping_sphere(ulong world, Vector centre, double radius, Probe probe, IntPtr user,
+            [Out] Hit[] hits, UIntPtr capacity, out UIntPtr count);
+        [DllImport(library)]
+        public static extern int ks_world_overlapping_box(ulong world, ref Box box, Probe probe, IntPtr user, [Out] Hit[] hits,
+            UIntPtr capacity, out UIntPtr count);
+        [DllImport(library)]
+        public static extern int ks_world_nearest(ulong world, Vector point, UIntPtr bodies, Probe probe, IntPtr user,
+            [Out] Hit[] hits, UIntPtr capacity, out UIntPtr count);
         [DllImport(library)]
         public static extern int ks_world_earliest_contact(ulong world, BodyId body, Probe probe, IntPtr user, out Prediction prediction);
         [DllImport(library)]
@@ -667,7 +806,7 @@ namespace Kinesphere
         [DllImport(library)]
         public static extern int ks_world_recording(ulong world, byte[] bytes, UIntPtr capacity, out UIntPtr count);
         [DllImport(library)]
-        public static extern int ks_replay_open(byte[] bytes, UIntPtr count, IntPtr filter, IntPtr user, out ulong replay);
+        public static extern int ks_replay_open(byte[] bytes, UIntPtr count, PairFilter filter, IntPtr user, out ulong replay);
         [DllImport(library)] public static extern int ks_replay_destroy(ulong replay);
         [DllImport(library)] public static extern int ks_replay_advance(ulong replay, ref Event next);
         [DllImport(library)] public static extern int ks_replay_finished(ulong replay, out int finished);
@@ -682,7 +821,18 @@ namespace Kinesphere
         public static extern int ks_monitor_report(ulong monitor, ulong[] tracks, TrackReport[] reports, UIntPtr count);
         [DllImport(library)] public static extern int ks_monitor_remove(ulong monitor, ulong track);
         [DllImport(library)]
-        public static extern int ks_monitor_advance(ulong monitor, double until, IntPtr poll, IntPtr user, ref MonitorEvent next);
+        public static extern int ks_monitor_advance(ulong monitor, double until, Poll poll, IntPtr user, ref MonitorEvent next);
+        [DllImport(library)]
+        public static extern int ks_monitor_save(ulong monitor, byte[] bytes, UIntPtr capacity, out UIntPtr count);
+        [DllImport(library)] public static extern int ks_monitor_restore(byte[] bytes, UIntPtr count, out ulong monitor);
+        [DllImport(library)]
+        public static extern int ks_monitor_tracks(ulong monitor, [Out] ulong[] tracks, UIntPtr capacity, out UIntPtr count);
+        [DllImport(library)]
+        public static extern int ks_monitor_places(
+            ulong monitor, ulong track, [Out] TrackPlace[] places, UIntPtr capacity, out UIntPtr count);
+        [DllImport(library)]
+        public static extern int ks_monitor_needed(
+            ulong monitor, double until, [Out] ReportRequest[] requests, UIntPtr capacity, out UIntPtr count);
         [DllImport(library)] public static extern int ks_monitor_time(ulong monitor, out double time);
         [DllImport(library)]
         public static extern int ks_monitor_answer(ulong monitor, ulong first, ulong second, uint level, ref PairAnswer answer);

@@ -67,6 +67,14 @@
 #define KS_API __attribute__((visibility("default")))
 #endif
 
+/// Begins functions whose failure a caller must not overlook, such as ks_world_advance(): compilers warn where the
+/// status is not used.
+#ifdef __GNUC__
+#define KS_MUST_CHECK __attribute__((warn_unused_result))
+#else
+#define KS_MUST_CHECK
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -362,11 +370,12 @@ typedef struct ks_motion_limits {
 } ks_motion_limits;
 
 /// Decides whether two bodies whose filters let them touch may do so: 0 means no. It must be symmetric, and
-/// its answers must stay the same until ks_world_refresh_filter(). It may make the calls that only read.
+/// its answers must stay the same until ks_world_refresh_filter(). It may make the calls that only read. A
+/// negative number stops the call that asks, which fails with KS_ERROR_CALLBACK_FAILED.
 typedef int32_t (*ks_pair_filter)(ks_body_id first, ks_body_id second, void* user);
 
 /// Creates a world without bodies. Destroy it with ks_world_destroy().
-KS_API ks_status ks_world_create(const ks_world_definition* definition, ks_world* world);
+KS_API KS_MUST_CHECK ks_status ks_world_create(const ks_world_definition* definition, ks_world* world);
 /// Destroys a world; its handle is stale from now on. KS_ERROR_IN_USE inside its own callbacks.
 KS_API ks_status ks_world_destroy(ks_world world);
 /// Creates a copy that continues as the original does, with its motions and ids: for rollback.
@@ -377,11 +386,11 @@ KS_API ks_status ks_world_save(ks_world world, void* bytes, size_t capacity, siz
 /// Creates the world of a snapshot, which continues as the saved one did. It has no motions: a probe moves
 /// its bodies. `filter` is the pair filter that the world had, or NULL. Errors: KS_ERROR_BAD_SNAPSHOT for any
 /// bytes that ks_world_save() did not write.
-KS_API ks_status ks_world_restore(const void* bytes, size_t count, ks_pair_filter filter, void* user,
+KS_API KS_MUST_CHECK ks_status ks_world_restore(const void* bytes, size_t count, ks_pair_filter filter, void* user,
                                   ks_world* world);
 
 /// Adds bodies or, on an error, none, and writes their ids. Errors: those of World::add(), naming the body.
-KS_API ks_status ks_world_add(ks_world world, const ks_body_definition* bodies, size_t count,
+KS_API KS_MUST_CHECK ks_status ks_world_add(ks_world world, const ks_body_definition* bodies, size_t count,
                               ks_body_id* ids);
 KS_API ks_status ks_world_add_static(ks_world world, const ks_static_definition* bodies, size_t count,
                                      ks_body_id* ids);
@@ -683,7 +692,7 @@ KS_API int32_t ks_probe_motions(const ks_body_id* bodies, size_t count, double t
 /// motion moves. Errors: as World::advance(); KS_ERROR_CALLBACK_FAILED; KS_ERROR_UNKNOWN_BODY if the probe is
 /// ks_probe_motions and a body has no motion. After a failure of the probe the world is at the time of the
 /// probe, and the call may be repeated: no event is lost.
-KS_API ks_status ks_world_advance(ks_world world, double until, ks_probe probe, void* user, ks_event* event);
+KS_API KS_MUST_CHECK ks_status ks_world_advance(ks_world world, double until, ks_probe probe, void* user, ks_event* event);
 
 /// Chooses what an event does to its bodies; `response` is ks_new_response() at first. It must give the same
 /// answer for the same event at any time, and must not call the world. With several threads it is called by
@@ -717,7 +726,7 @@ static inline ks_run_definition ks_default_run_definition(void) {
 /// that a response removes leaves its motion, too, before the sink receives the event. After an error the
 /// world is at a stop and can continue; no event is lost. Errors: as World::run(), where the argument of a
 /// wrong response is its field; KS_ERROR_CALLBACK_FAILED.
-KS_API ks_status ks_world_run(ks_world world, double until, const ks_run_definition* definition);
+KS_API KS_MUST_CHECK ks_status ks_world_run(ks_world world, double until, const ks_run_definition* definition);
 
 // Ready-made motions, owned by the world (kinesphere/motion/).
 
@@ -729,7 +738,9 @@ enum {
       1,  ///< random accelerations up to acceleration_limits, new at multiples of `interval`
   /// A game's frames: each body goes straight from its position in one frame to that in the next
   /// (frame_motion.hpp).
-  KS_MOTION_FRAMES = 2
+  KS_MOTION_FRAMES = 2,
+  /// Each body keeps its acceleration, at first zero, until ks_world_steer() (steered_motion.hpp).
+  KS_MOTION_STEERED = 3
 };
 
 /// Bodies that a ready-made motion moves.
@@ -740,7 +751,8 @@ typedef struct ks_motion_definition {
   const ks_state* states;  ///< `count` states at the world's current time
   const double* radii;     ///< `count` radii, or NULL: the radius of `like`
   const double* masses;    ///< `count` masses, or NULL: the mass of `like`
-  /// KS_MOTION_RANDOM_FORCES: `count` limits. KS_MOTION_FRAMES: the same, or NULL for bodies without a limit.
+  /// KS_MOTION_RANDOM_FORCES and KS_MOTION_STEERED: `count` limits. KS_MOTION_FRAMES: the same, or NULL for
+  /// bodies without a limit.
   const double* acceleration_limits;
   ks_vec3 gravity;        ///< KS_MOTION_BALLISTIC
   double interval;        ///< > 0 (time): of forces or frames
@@ -758,20 +770,23 @@ static inline ks_motion_definition ks_default_motion_definition(void) {
 
 /// Adds bodies that the library moves, and writes the number of their motion in the world and their ids.
 /// Their numbers in the motion are 0, 1, 2, ... `motion` may be NULL. Errors: those of the motion and of
-/// World::add(), naming the body.
-KS_API ks_status ks_world_add_motion(ks_world world, const ks_motion_definition* definition, uint32_t* motion,
+/// World::add(), naming the body; after one of World::add() the number of the motion stays unused.
+KS_API KS_MUST_CHECK ks_status ks_world_add_motion(ks_world world, const ks_motion_definition* definition, uint32_t* motion,
                                      ks_body_id* ids);
 /// Adds more bodies to a motion, such as bullets, or on an error none: those of the definition, whose kind,
 /// gravity, interval, position_error and seed do not count. Writes their numbers in the motion, which are
 /// their indices in frames; `numbers` may be NULL. They are the next ones, or those of removed bodies.
 /// Errors: as ks_world_add_motion(); a body that the world refuses then leaves a number of a removed body in
 /// frames.
-KS_API ks_status ks_world_add_to_motion(ks_world world, uint32_t motion,
+KS_API KS_MUST_CHECK ks_status ks_world_add_to_motion(ks_world world, uint32_t motion,
                                         const ks_motion_definition* definition, uint32_t* numbers,
                                         ks_body_id* ids);
+/// Sets the acceleration (length / time^2), within its limit, of a body of kind KS_MOTION_STEERED from the
+/// current time on. Errors: as SteeredMotion::steer(); KS_ERROR_UNSUPPORTED for a body of another kind.
+KS_API ks_status ks_world_steer(ks_world world, ks_body_id body, ks_vec3 acceleration);
 /// Appends the next frame of a motion of kind KS_MOTION_FRAMES: the position of each of its bodies, NaN for a
 /// removed one. The world must be at the time of the latest frame. Errors: as FrameMotion::push().
-KS_API ks_status ks_world_push_frame(ks_world world, uint32_t motion, const ks_vec3* positions, size_t count);
+KS_API KS_MUST_CHECK ks_status ks_world_push_frame(ks_world world, uint32_t motion, const ks_vec3* positions, size_t count);
 /// Writes the positions in the latest frame, with the changes that events made; NaN for removed bodies.
 KS_API ks_status ks_world_latest_frame(ks_world world, uint32_t motion, ks_vec3* positions, size_t capacity,
                                        size_t* count);
@@ -849,13 +864,13 @@ typedef struct ks_replay {
 
 /// Opens a recording; the bytes are copied. Destroy the replay with ks_replay_destroy(). `filter` returns the
 /// results of the pair filter that the world had, or is NULL. Errors: those of Replay::open().
-KS_API ks_status ks_replay_open(const void* bytes, size_t count, ks_pair_filter filter, void* user,
+KS_API KS_MUST_CHECK ks_status ks_replay_open(const void* bytes, size_t count, ks_pair_filter filter, void* user,
                                 ks_replay* replay);
 KS_API ks_status ks_replay_destroy(ks_replay replay);
 /// Repeats everything up to the end of the next recorded advance, or of the recording, and writes what that
 /// advance returned: an event, or one of kind KS_EVENT_NONE. Errors: KS_ERROR_DIVERGED, which names the step
 /// and what differs; every further call returns it again.
-KS_API ks_status ks_replay_advance(ks_replay replay, ks_event* event);
+KS_API KS_MUST_CHECK ks_status ks_replay_advance(ks_replay replay, ks_event* event);
 /// *finished is 1 if no step is left and the world has ended as the recorded one did, to the last bit.
 KS_API ks_status ks_replay_finished(ks_replay replay, int32_t* finished);
 /// The numbers of steps repeated so far and in total.
@@ -1094,18 +1109,18 @@ typedef int32_t (*ks_poll)(const uint64_t* tracks, size_t count, double time, ks
                            uint8_t* has_report, void* user);
 
 /// Create and destroy a monitor; write it to bytes, and restore it from them. Errors: as in C++.
-KS_API ks_status ks_monitor_create(const ks_monitor_definition* definition, ks_monitor* monitor);
+KS_API KS_MUST_CHECK ks_status ks_monitor_create(const ks_monitor_definition* definition, ks_monitor* monitor);
 KS_API ks_status ks_monitor_destroy(ks_monitor monitor);
 KS_API ks_status ks_monitor_save(ks_monitor monitor, void* bytes, size_t capacity, size_t* count);
-KS_API ks_status ks_monitor_restore(const void* bytes, size_t count, ks_monitor* monitor);
+KS_API KS_MUST_CHECK ks_status ks_monitor_restore(const void* bytes, size_t count, ks_monitor* monitor);
 
 /// Takes reports, each of the track of the same index, in this order; or, on an error, none.
-KS_API ks_status ks_monitor_report(ks_monitor monitor, const uint64_t* tracks, const ks_track_report* reports,
+KS_API KS_MUST_CHECK ks_status ks_monitor_report(ks_monitor monitor, const uint64_t* tracks, const ks_track_report* reports,
                                    size_t count);
 KS_API ks_status ks_monitor_remove(ks_monitor monitor, uint64_t track);
 /// Advances to the next event, at most to time `until`, and writes it; or one of kind KS_MONITOR_NONE. `poll`
 /// may be NULL: then no reports are asked for. Errors: as Monitor::advance(); KS_ERROR_CALLBACK_FAILED.
-KS_API ks_status ks_monitor_advance(ks_monitor monitor, double until, ks_poll poll, void* user,
+KS_API KS_MUST_CHECK ks_status ks_monitor_advance(ks_monitor monitor, double until, ks_poll poll, void* user,
                                     ks_monitor_event* event);
 
 KS_API ks_status ks_monitor_time(ks_monitor monitor, double* time);

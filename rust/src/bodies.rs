@@ -1,5 +1,5 @@
 //! Definitions of bodies.
-use crate::geometry::{RigidHull, RigidPart, Rotation, Shape, State, Vec3};
+use crate::geometry::{Box3, RigidHull, RigidPart, Rotation, Shape, State, Vec3};
 use crate::sys;
 use std::mem::size_of;
 
@@ -74,6 +74,23 @@ pub struct BodyDefinition {
 }
 
 impl BodyDefinition {
+    fn of(raw: &sys::ks_body_definition) -> BodyDefinition {
+        BodyDefinition {
+            radius: raw.radius,
+            acceleration_limit: raw.acceleration_limit,
+            planned_acceleration: raw.planned_acceleration,
+            position_error: raw.position_error,
+            velocity_error: raw.velocity_error,
+            position: raw.position,
+            velocity: raw.velocity,
+            filter: Filter::of(raw.filter),
+            solid: raw.solid != 0,
+            contacts: Contacts::of(raw.contacts),
+            sensor_class: raw.sensor_class as u8,
+            user_data: raw.user_data,
+            mass: raw.mass,
+        }
+    }
     pub(crate) fn raw(&self) -> sys::ks_body_definition {
         sys::ks_body_definition {
             struct_size: size_of::<sys::ks_body_definition>() as u32,
@@ -99,20 +116,40 @@ impl Default for BodyDefinition {
     fn default() -> BodyDefinition {
         let mut raw = sys::ks_body_definition::default();
         unsafe { sys::ks_body_definition_init(&mut raw, size_of::<sys::ks_body_definition>() as u32) };
-        BodyDefinition {
-            radius: raw.radius,
-            acceleration_limit: raw.acceleration_limit,
-            planned_acceleration: raw.planned_acceleration,
-            position_error: raw.position_error,
-            velocity_error: raw.velocity_error,
-            position: raw.position,
-            velocity: raw.velocity,
-            filter: Filter::of(raw.filter),
-            solid: raw.solid != 0,
-            contacts: Contacts::of(raw.contacts),
-            sensor_class: raw.sensor_class as u8,
-            user_data: raw.user_data,
-            mass: raw.mass,
+        BodyDefinition::of(&raw)
+    }
+}
+
+/// What a world knows of a body (`BodyView` in C++).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyView {
+    pub enabled: bool,
+    pub is_static: bool,
+    pub sleeping: bool,
+    pub report_time: f64,
+    /// Contain the body from now until `bounds_end`.
+    pub bounds: Box3,
+    pub bounds_end: f64,
+    /// Boxes that it has travelled along periodic axes.
+    pub image: [i64; 3],
+    /// Its state is that of the last report.
+    pub definition: BodyDefinition,
+}
+
+impl BodyView {
+    pub(crate) fn raw() -> sys::ks_body_view {
+        sys::ks_body_view { struct_size: size_of::<sys::ks_body_view>() as u32, ..Default::default() }
+    }
+    pub(crate) fn of(raw: &sys::ks_body_view) -> BodyView {
+        BodyView {
+            enabled: raw.enabled != 0,
+            is_static: raw.is_static != 0,
+            sleeping: raw.sleeping != 0,
+            report_time: raw.report_time,
+            bounds: raw.box_,
+            bounds_end: raw.box_end,
+            image: raw.image,
+            definition: BodyDefinition::of(&raw.definition),
         }
     }
 }

@@ -57,7 +57,7 @@ pub(crate) fn check(status: sys::ks_status) -> Result<()> {
 
 /// Calls `fill(elements, capacity, count)`, which writes all elements if they fit, until they do.
 pub(crate) fn filled<T: Clone + Default>(
-    fill: impl Fn(*mut T, usize, *mut usize) -> sys::ks_status,
+    mut fill: impl FnMut(*mut T, usize, *mut usize) -> sys::ks_status,
 ) -> Result<Vec<T>> {
     let mut elements = vec![T::default(); 16];
     loop {
@@ -106,9 +106,9 @@ impl<F> Guarded<F> {
         let guarded = &*(user as *const Guarded<F>);
         answer(&guarded.panic, || body(&guarded.function))
     }
-    /// Continues the panic of a callback, after C has returned.
-    pub(crate) fn resume(self) {
-        let panic = self.panic.into_inner().unwrap_or_else(PoisonError::into_inner);
+    /// Continues the panic of a callback, once, after C has returned.
+    pub(crate) fn resume(&self) {
+        let panic = self.panic.lock().unwrap_or_else(PoisonError::into_inner).take();
         if let Some(panic) = panic {
             resume_unwind(panic);
         }

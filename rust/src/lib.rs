@@ -29,6 +29,7 @@
 //! called it; the world can then go on, as after an error.
 pub mod sys;
 
+mod answers;
 mod bodies;
 mod error;
 mod events;
@@ -38,17 +39,21 @@ mod profiling;
 mod recording;
 mod world;
 
-pub use bodies::{BodyDefinition, Contacts, Filter, MotionLimits, RigidDefinition, StaticDefinition};
+pub use answers::{Answers, Hit, Prediction};
+pub use bodies::{
+    BodyDefinition, BodyView, Contacts, Filter, MotionLimits, RigidDefinition, StaticDefinition,
+};
 pub use error::{Error, Result};
 pub use events::{BodyAction, Event, EventHash, EventKind, Response, Wall};
 pub use geometry::{BodyId, Box3, Quaternion, RigidHull, RigidPart, Rotation, Shape, State, Vec3};
 pub use monitor::{
-    ErrorBound, Monitor, MonitorDefinition, MonitorEvent, MonitorEventKind, OpenPair, PairAnswer,
-    PredictedPair, ReportRequest, Separation, SeparationRule, Shard, TrackClass, TrackReport, Verdict,
+    ErrorBound, Monitor, MonitorDefinition, MonitorEvent, MonitorEventKind, OpenPair, PairAnswer, Plan,
+    PredictedPair, ReportRequest, Separation, SeparationRule, Shard, TrackClass, TrackPlace, TrackReport,
+    Verdict,
 };
 pub use profiling::{BusyBody, ProbeReason, Timings};
 pub use recording::Replay;
-pub use world::{Hit, Motion, Prediction, Run, World, WorldDefinition};
+pub use world::{Motion, Run, World, WorldDefinition};
 
 /// Returns the version of the library, such as "0.3.0".
 pub fn version() -> &'static str {

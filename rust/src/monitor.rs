@@ -16,6 +16,12 @@ pub enum ErrorBound {
 }
 
 impl ErrorBound {
+    fn of(raw: sys::ks_error_bound) -> ErrorBound {
+        match raw.kind {
+            0 => ErrorBound::Ball(raw.horizontal),
+            _ => ErrorBound::Cylinder { horizontal: raw.horizontal, vertical: raw.vertical },
+        }
+    }
     fn raw(self) -> sys::ks_error_bound {
         match self {
             ErrorBound::Ball(radius) => sys::ks_error_bound { kind: 0, horizontal: radius, vertical: radius },
@@ -168,6 +174,17 @@ pub struct TrackReport {
     pub velocity_error: ErrorBound,
     pub timestamp_error: f64,
     pub track_class: usize,
+    /// In force from the timestamp on.
+    pub plan: Option<Plan>,
+}
+
+/// What a track will do until `valid_until`, in place of what its class says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plan {
+    pub acceleration: Vec3,
+    /// Largest deviation from that acceleration.
+    pub limit: ErrorBound,
+    pub valid_until: f64,
 }
 
 impl Default for TrackReport {
@@ -179,6 +196,7 @@ impl Default for TrackReport {
             velocity_error: ErrorBound::Ball(0.0),
             timestamp_error: 0.0,
             track_class: 0,
+            plan: None,
         }
     }
 }
@@ -193,6 +211,12 @@ impl TrackReport {
         raw.state = self.state;
         raw.position_error = self.position_error.raw();
         raw.velocity_error = self.velocity_error.raw();
+        if let Some(plan) = self.plan {
+            raw.has_plan = 1;
+            raw.plan_acceleration = plan.acceleration;
+            raw.plan_limit = plan.limit.raw();
+            raw.plan_valid_until = plan.valid_until;
+        }
         raw
     }
 }
@@ -305,6 +329,8 @@ pub struct PairAnswer {
     pub upper: f64,
     pub closest_distance: f64,
     pub closest_time: f64,
+    pub closest_horizontal: f64,
+    pub closest_vertical: f64,
     pub relative_speed: f64,
     pub likely_time: f64,
     pub inevitable_by: f64,
@@ -341,6 +367,14 @@ pub struct ReportRequest {
     pub track: u64,
     pub other: u64,
     pub by: f64,
+}
+
+/// Where a track is now: within `radius` of `centre`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrackPlace {
+    pub centre: Vec3,
+    pub velocity: Vec3,
+    pub radius: ErrorBound,
 }
 
 /// Tracks, their reports and the verdicts about their pairs. Methods are those of `Monitor` in C++.
@@ -428,6 +462,10 @@ impl Monitor {
         Ok(Monitor { handle })
     }
 
+    /// The handle of C, for calls of [`crate::sys`]; the monitor still owns it.
+    pub fn handle(&self) -> sys::ks_monitor {
+        self.handle
+    }
     pub fn save(&self) -> Result<Vec<u8>> {
         filled(|bytes, capacity, count| unsafe { sys::ks_monitor_save(self.handle, bytes, capacity, count) })
     }
@@ -478,6 +516,18 @@ impl Monitor {
             sys::ks_monitor_tracks(self.handle, tracks, capacity, count)
         })
     }
+    /// The places of a track; several only while its reports contradict each other.
+    pub fn places(&self, track: u64) -> Result<Vec<TrackPlace>> {
+        let found: Vec<sys::ks_track_place> = filled(|places, capacity, count| unsafe {
+            sys::ks_monitor_places(self.handle, track, places, capacity, count)
+        })?;
+        let of = |raw: &sys::ks_track_place| TrackPlace {
+            centre: raw.centre,
+            velocity: raw.velocity,
+            radius: ErrorBound::of(raw.radius),
+        };
+        Ok(found.iter().map(of).collect())
+    }
     pub fn answer(&self, first: u64, second: u64, level: u32) -> Result<PairAnswer> {
         let mut raw = sys::ks_pair_answer {
             struct_size: size_of::<sys::ks_pair_answer>() as u32,
@@ -493,6 +543,8 @@ impl Monitor {
             upper: raw.upper,
             closest_distance: raw.closest_distance,
             closest_time: raw.closest_time,
+            closest_horizontal: raw.closest_horizontal,
+            closest_vertical: raw.closest_vertical,
             relative_speed: raw.relative_speed,
             likely_time: raw.likely_time,
             inevitable_by: raw.inevitable_by,

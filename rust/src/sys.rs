@@ -82,6 +82,20 @@ pub struct ks_body_definition {
 
 #[repr(C)]
 #[derive(Clone, Copy, Default)]
+pub struct ks_body_view {
+    pub struct_size: u32,
+    pub enabled: i32,
+    pub is_static: i32,
+    pub sleeping: i32,
+    pub report_time: f64,
+    pub box_: Box3,
+    pub box_end: f64,
+    pub image: [i64; 3],
+    pub definition: ks_body_definition,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
 pub struct ks_static_definition {
     pub struct_size: u32,
     pub solid: i32,
@@ -414,6 +428,14 @@ pub struct ks_report_request {
     pub by: f64,
 }
 
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
+pub struct ks_track_place {
+    pub centre: Vec3,
+    pub velocity: Vec3,
+    pub radius: ks_error_bound,
+}
+
 pub type ks_poll =
     unsafe extern "C" fn(*const u64, usize, f64, *mut ks_track_report, *mut u8, *mut c_void) -> i32;
 
@@ -422,11 +444,14 @@ extern "C" {
     pub fn ks_last_error_message() -> *const c_char;
     pub fn ks_last_error_argument() -> *const c_char;
     pub fn ks_last_error_body() -> BodyId;
+    pub fn ks_last_error_callback() -> i32;
     pub fn ks_status_name(status: ks_status) -> *const c_char;
     pub fn ks_version() -> *const c_char;
+    pub fn ks_abi_version() -> u32;
 
     pub fn ks_world_definition_init(definition: *mut ks_world_definition, struct_size: u32) -> ks_status;
     pub fn ks_body_definition_init(definition: *mut ks_body_definition, struct_size: u32) -> ks_status;
+    pub fn ks_rigid_definition_init(definition: *mut ks_rigid_definition, struct_size: u32) -> ks_status;
     pub fn ks_static_definition_init(definition: *mut ks_static_definition, struct_size: u32) -> ks_status;
     pub fn ks_run_definition_init(definition: *mut ks_run_definition, struct_size: u32) -> ks_status;
     pub fn ks_motion_definition_init(definition: *mut ks_motion_definition, struct_size: u32) -> ks_status;
@@ -442,6 +467,7 @@ extern "C" {
     pub fn ks_world_add_moving_shape(world: ks_world, body: *const ks_body_definition, shape: *const ks_shape, id: *mut BodyId) -> ks_status;
     pub fn ks_world_add_static(world: ks_world, bodies: *const ks_static_definition, count: usize, ids: *mut BodyId) -> ks_status;
     pub fn ks_world_add_zone(world: ks_world, shape: *const ks_shape, user_data: u64, id: *mut BodyId) -> ks_status;
+    pub fn ks_world_reserve(world: ks_world, bodies: usize) -> ks_status;
     pub fn ks_world_remove(world: ks_world, bodies: *const BodyId, count: usize) -> ks_status;
     pub fn ks_world_set_velocities(world: ks_world, bodies: *const BodyId, velocities: *const Vec3, count: usize) -> ks_status;
     pub fn ks_world_set_velocity(world: ks_world, body: BodyId, velocity: Vec3) -> ks_status;
@@ -455,6 +481,9 @@ extern "C" {
     pub fn ks_world_enable(world: ks_world, body: BodyId, state: *const State) -> ks_status;
     pub fn ks_world_sleep(world: ks_world, body: BodyId) -> ks_status;
     pub fn ks_world_wake(world: ks_world, body: BodyId) -> ks_status;
+    pub fn ks_world_set_user_data(world: ks_world, body: BodyId, data: u64) -> ks_status;
+    pub fn ks_world_set_solid(world: ks_world, body: BodyId, solid: i32) -> ks_status;
+    pub fn ks_world_refresh_filter(world: ks_world, body: BodyId) -> ks_status;
     pub fn ks_world_set_filter(world: ks_world, body: BodyId, filter: *const ks_filter) -> ks_status;
     pub fn ks_world_set_pair_filter(world: ks_world, filter: Option<ks_pair_filter>, user: *mut c_void) -> ks_status;
     pub fn ks_world_set_sensor(world: ks_world, sensor_class: i32, distances: *const f64, count: usize, mask: u64) -> ks_status;
@@ -468,6 +497,8 @@ extern "C" {
     pub fn ks_world_set_rotation_probe(world: ks_world, probe: Option<ks_rotation_probe>, user: *mut c_void) -> ks_status;
     pub fn ks_world_rotation(world: ks_world, body: BodyId, rotation: *mut Rotation) -> ks_status;
     pub fn ks_world_bodies(world: ks_world, bodies: *mut BodyId, capacity: usize, count: *mut usize) -> ks_status;
+    pub fn ks_world_body(world: ks_world, body: BodyId, view: *mut ks_body_view) -> ks_status;
+    pub fn ks_world_probe_count(world: ks_world, probes: *mut u64) -> ks_status;
     pub fn ks_world_touching(world: ks_world, body: BodyId, partners: *mut BodyId, capacity: usize, count: *mut usize) -> ks_status;
     pub fn ks_world_sensor_overlaps(world: ks_world, body: BodyId, overlaps: *mut ks_sensor_overlap, capacity: usize, count: *mut usize) -> ks_status;
 
@@ -498,6 +529,7 @@ extern "C" {
     pub fn ks_world_run(world: ks_world, until: f64, definition: *const ks_run_definition) -> ks_status;
     pub fn ks_world_add_motion(world: ks_world, definition: *const ks_motion_definition, motion: *mut u32, ids: *mut BodyId) -> ks_status;
     pub fn ks_world_add_to_motion(world: ks_world, motion: u32, definition: *const ks_motion_definition, numbers: *mut u32, ids: *mut BodyId) -> ks_status;
+    pub fn ks_world_steer(world: ks_world, body: BodyId, acceleration: Vec3) -> ks_status;
     pub fn ks_world_push_frame(world: ks_world, motion: u32, positions: *const Vec3, count: usize) -> ks_status;
     pub fn ks_world_latest_frame(world: ks_world, motion: u32, positions: *mut Vec3, capacity: usize, count: *mut usize) -> ks_status;
     pub fn ks_world_latest_frame_time(world: ks_world, motion: u32, time: *mut f64) -> ks_status;
@@ -506,10 +538,14 @@ extern "C" {
     pub fn ks_world_safe_until(world: ks_world, probe: Option<ks_probe>, user: *mut c_void, prediction: *mut ks_prediction) -> ks_status;
     pub fn ks_world_earliest_contact(world: ks_world, body: BodyId, probe: Option<ks_probe>, user: *mut c_void, prediction: *mut ks_prediction) -> ks_status;
     pub fn ks_world_earliest_approach(world: ks_world, body: BodyId, distance: f64, probe: Option<ks_probe>, user: *mut c_void, prediction: *mut ks_prediction) -> ks_status;
+    pub fn ks_world_pair_safe_until(world: ks_world, first: BodyId, second: BodyId, distance: f64, probe: Option<ks_probe>, user: *mut c_void, prediction: *mut ks_prediction) -> ks_status;
+    pub fn ks_world_distance_limits(world: ks_world, first: BodyId, second: BodyId, time: f64, probe: Option<ks_probe>, user: *mut c_void, lower: *mut f64, upper: *mut f64) -> ks_status;
+    pub fn ks_world_overlapping_box(world: ks_world, bounds: *const Box3, probe: Option<ks_probe>, user: *mut c_void, hits: *mut ks_hit, capacity: usize, count: *mut usize) -> ks_status;
     pub fn ks_world_overlapping_sphere(world: ks_world, centre: Vec3, radius: f64, probe: Option<ks_probe>, user: *mut c_void, hits: *mut ks_hit, capacity: usize, count: *mut usize) -> ks_status;
     pub fn ks_world_nearest(world: ks_world, point: Vec3, bodies: usize, probe: Option<ks_probe>, user: *mut c_void, hits: *mut ks_hit, capacity: usize, count: *mut usize) -> ks_status;
     pub fn ks_world_cast(world: ks_world, origin: Vec3, direction: Vec3, length: f64, radius: f64, probe: Option<ks_probe>, user: *mut c_void, hits: *mut ks_hit, capacity: usize, count: *mut usize) -> ks_status;
 
+    pub fn ks_verdict_name(verdict: i32) -> *const c_char;
     pub fn ks_monitor_event_kind_name(kind: i32) -> *const c_char;
     pub fn ks_monitor_create(definition: *const ks_monitor_definition, monitor: *mut ks_monitor) -> ks_status;
     pub fn ks_monitor_destroy(monitor: ks_monitor) -> ks_status;
@@ -520,6 +556,7 @@ extern "C" {
     pub fn ks_monitor_advance(monitor: ks_monitor, until: f64, poll: Option<ks_poll>, user: *mut c_void, event: *mut ks_monitor_event) -> ks_status;
     pub fn ks_monitor_time(monitor: ks_monitor, time: *mut f64) -> ks_status;
     pub fn ks_monitor_tracks(monitor: ks_monitor, tracks: *mut u64, capacity: usize, count: *mut usize) -> ks_status;
+    pub fn ks_monitor_places(monitor: ks_monitor, track: u64, places: *mut ks_track_place, capacity: usize, count: *mut usize) -> ks_status;
     pub fn ks_monitor_answer(monitor: ks_monitor, first: u64, second: u64, level: u32, answer: *mut ks_pair_answer) -> ks_status;
     pub fn ks_monitor_open_pairs(monitor: ks_monitor, pairs: *mut ks_open_pair, capacity: usize, count: *mut usize) -> ks_status;
     pub fn ks_monitor_predicted_pairs(monitor: ks_monitor, pairs: *mut ks_predicted_pair, capacity: usize, count: *mut usize) -> ks_status;

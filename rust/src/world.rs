@@ -1,12 +1,13 @@
 //! Worlds.
-use crate::bodies::{BodyDefinition, Contacts, Filter, MotionLimits, RigidDefinition, StaticDefinition};
+use crate::bodies::{
+    BodyDefinition, BodyView, Contacts, Filter, MotionLimits, RigidDefinition, StaticDefinition,
+};
 use crate::error::{check, filled, Guarded, Result};
-use crate::events::{BodyAction, Event, Response, Wall};
+use crate::events::{BodyAction, Event, Response};
 use crate::geometry::{BodyId, Box3, Rotation, Shape, State, Vec3};
 use crate::sys;
 use std::mem::size_of;
 use std::os::raw::c_void;
-use std::panic::{catch_unwind, AssertUnwindSafe};
 use std::ptr;
 use std::slice;
 use std::sync::Arc;
@@ -71,37 +72,6 @@ impl WorldDefinition {
     }
 }
 
-/// When a contact or an approach may happen first: certainly not before `time`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Prediction {
-    pub time: f64,
-    pub partner: Option<BodyId>,
-    pub wall: Option<Wall>,
-    /// The contact exists, or the partner certainly is within the distance.
-    pub happens: bool,
-}
-
-impl Prediction {
-    fn of(raw: sys::ks_prediction) -> Prediction {
-        Prediction {
-            time: raw.time,
-            partner: raw.partner.some(),
-            wall: Wall::of(raw.wall),
-            happens: raw.happens != 0,
-        }
-    }
-}
-
-/// A body that a query found, at a distance between `lower` and `upper` (both 0 for overlaps).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hit {
-    pub body: BodyId,
-    /// False: possibly.
-    pub certain: bool,
-    pub lower: f64,
-    pub upper: f64,
-}
-
 /// Bodies that the library moves: states at the world's current time, and what moves them.
 #[derive(Clone, Copy, Debug)]
 pub enum Motion<'a> {
@@ -111,6 +81,8 @@ pub enum Motion<'a> {
     RandomForces { acceleration_limits: &'a [f64], interval: f64, seed: u64 },
     /// A game's frames, this much time apart: straight from the position in one to that in the next.
     Frames { interval: f64, position_error: f64 },
+    /// Each body keeps its acceleration, at first zero, until [`World::steer`], within a limit for each body.
+    Steered { acceleration_limits: &'a [f64] },
 }
 
 impl Motion<'_> {
@@ -145,6 +117,11 @@ impl Motion<'_> {
                 raw.interval = interval;
                 raw.seed = seed;
             }
+            Motion::Steered { acceleration_limits } => {
+                assert_eq!(acceleration_limits.len(), states.len(), "one limit for each state");
+                raw.kind = 3;
+                raw.acceleration_limits = acceleration_limits.as_ptr();
+            }
             Motion::Frames { interval, position_error } => {
                 raw.kind = 2;
                 raw.interval = interval;
@@ -176,9 +153,9 @@ type RotationProbe = Box<dyn Fn(&[BodyId], f64, &mut [Rotation]) + Send + Sync>;
 /// A world of moving spheres. Methods have the meanings, errors and costs of those of `World` in C++.
 pub struct World {
     pub(crate) handle: sys::ks_world,
-    /// Keeps alive what the library has a pointer to.
-    filter: Option<Arc<PairFilter>>,
-    rotations: Option<Arc<RotationProbe>>,
+    /// Keep alive what the library has a pointer to; clones share them.
+    filter: Option<Arc<Guarded<PairFilter>>>,
+    rotations: Option<Arc<Guarded<RotationProbe>>>,
 }
 
 impl Drop for World {
@@ -224,11 +201,10 @@ unsafe extern "C" fn sink<F: FnMut(&Event)>(event: *const sys::ks_event, user: *
 }
 
 unsafe extern "C" fn pair_filter(first: BodyId, second: BodyId, user: *mut c_void) -> i32 {
-    let filter = &*(user as *const PairFilter);
-    match catch_unwind(AssertUnwindSafe(|| filter(first, second))) {
-        Ok(passes) => passes as i32,
-        // The library cannot go on without an answer.
-        Err(_) => std::process::abort(),
+    let mut passes = false;
+    match Guarded::<PairFilter>::call_shared(user, |filter| passes = filter(first, second)) {
+        0 => passes as i32,
+        _ => -1,
     }
 }
 
@@ -239,17 +215,38 @@ unsafe extern "C" fn rotation_probe(
     rotations: *mut Rotation,
     user: *mut c_void,
 ) -> i32 {
-    let function = &*(user as *const RotationProbe);
-    let answer = || {
+    Guarded::<RotationProbe>::call_shared(user, |function| {
         let bodies = slice::from_raw_parts(bodies, count);
         function(bodies, time, slice::from_raw_parts_mut(rotations, count))
-    };
-    catch_unwind(AssertUnwindSafe(answer)).is_err() as i32
+    })
 }
 
 impl World {
     pub(crate) fn of(handle: sys::ks_world) -> World {
         World { handle, filter: None, rotations: None }
+    }
+    /// The handle of C, for calls of [`crate::sys`]; the world still owns it.
+    pub fn handle(&self) -> sys::ks_world {
+        self.handle
+    }
+
+    /// Returns the error of a call that has just failed in this thread, or continues the panic of a closure that the
+    /// world keeps.
+    pub(crate) fn check(&self, status: sys::ks_status) -> Result<()> {
+        self.resume(status);
+        check(status)
+    }
+    /// Continues the panic of a closure that the world keeps, if that made a call fail.
+    pub(crate) fn resume(&self, status: sys::ks_status) {
+        if status != sys::KS_ERROR_CALLBACK_FAILED {
+            return;
+        }
+        if let Some(filter) = &self.filter {
+            filter.resume();
+        }
+        if let Some(rotations) = &self.rotations {
+            rotations.resume();
+        }
     }
 
     pub fn new(definition: &WorldDefinition) -> Result<World> {
@@ -281,7 +278,7 @@ impl World {
 
     pub fn add(&mut self, body: &BodyDefinition) -> Result<BodyId> {
         let mut id = BodyId::default();
-        check(unsafe { sys::ks_world_add(self.handle, &body.raw(), 1, &mut id) })?;
+        self.check(unsafe { sys::ks_world_add(self.handle, &body.raw(), 1, &mut id) })?;
         Ok(id)
     }
 
@@ -289,13 +286,13 @@ impl World {
     pub fn add_all(&mut self, bodies: &[BodyDefinition]) -> Result<Vec<BodyId>> {
         let raw: Vec<_> = bodies.iter().map(BodyDefinition::raw).collect();
         let mut ids = vec![BodyId::default(); raw.len()];
-        check(unsafe { sys::ks_world_add(self.handle, raw.as_ptr(), raw.len(), ids.as_mut_ptr()) })?;
+        self.check(unsafe { sys::ks_world_add(self.handle, raw.as_ptr(), raw.len(), ids.as_mut_ptr()) })?;
         Ok(ids)
     }
 
     pub fn add_static(&mut self, body: &StaticDefinition) -> Result<BodyId> {
         let mut id = BodyId::default();
-        check(unsafe { sys::ks_world_add_static(self.handle, &body.raw(), 1, &mut id) })?;
+        self.check(unsafe { sys::ks_world_add_static(self.handle, &body.raw(), 1, &mut id) })?;
         Ok(id)
     }
 
@@ -303,7 +300,7 @@ impl World {
     /// it. It meets no walls and no other body with a shape. An infinite mass makes a body that no contact turns.
     pub fn add_moving_shape(&mut self, body: &BodyDefinition, shape: &Shape) -> Result<BodyId> {
         let mut id = BodyId::default();
-        check(unsafe { sys::ks_world_add_moving_shape(self.handle, &body.raw(), &shape.raw(), &mut id) })?;
+        self.check(unsafe { sys::ks_world_add_moving_shape(self.handle, &body.raw(), &shape.raw(), &mut id) })?;
         Ok(id)
     }
 
@@ -311,24 +308,33 @@ impl World {
     pub fn add_rigid_body(&mut self, body: &BodyDefinition, rigid: &RigidDefinition) -> Result<BodyId> {
         let mut id = BodyId::default();
         let (hulls, body) = (rigid.raw_hulls(), body.raw());
-        check(unsafe { sys::ks_world_add_rigid_body(self.handle, &body, &rigid.raw(&hulls), &mut id) })?;
+        self.check(unsafe { sys::ks_world_add_rigid_body(self.handle, &body, &rigid.raw(&hulls), &mut id) })?;
         Ok(id)
     }
 
     /// Adds a zone, which reports who enters and leaves it.
     pub fn add_zone(&mut self, shape: &Shape, user_data: u64) -> Result<BodyId> {
         let mut id = BodyId::default();
-        check(unsafe { sys::ks_world_add_zone(self.handle, &shape.raw(), user_data, &mut id) })?;
+        self.check(unsafe { sys::ks_world_add_zone(self.handle, &shape.raw(), user_data, &mut id) })?;
         Ok(id)
     }
 
+    /// Makes room for this number of bodies in total.
+    pub fn reserve(&mut self, bodies: usize) -> Result<()> {
+        self.check(unsafe { sys::ks_world_reserve(self.handle, bodies) })
+    }
+
     pub fn remove(&mut self, body: BodyId) -> Result<()> {
-        check(unsafe { sys::ks_world_remove(self.handle, &body, 1) })
+        self.remove_all(&[body])
+    }
+    /// Removes all bodies or, on an error, none.
+    pub fn remove_all(&mut self, bodies: &[BodyId]) -> Result<()> {
+        self.check(unsafe { sys::ks_world_remove(self.handle, bodies.as_ptr(), bodies.len()) })
     }
 
     /// Informs the world, and the motion of the body if it has one, of a new velocity from now on.
     pub fn set_velocity(&mut self, body: BodyId, velocity: Vec3) -> Result<()> {
-        check(unsafe { sys::ks_world_set_velocity(self.handle, body, velocity) })
+        self.check(unsafe { sys::ks_world_set_velocity(self.handle, body, velocity) })
     }
 
     /// Sets the velocities of all these bodies or, on an error, of none.
@@ -337,34 +343,33 @@ impl World {
     /// If the lengths differ.
     pub fn set_velocities(&mut self, bodies: &[BodyId], velocities: &[Vec3]) -> Result<()> {
         assert_eq!(bodies.len(), velocities.len(), "one velocity for each body");
-        check(unsafe {
+        self.check(unsafe {
             sys::ks_world_set_velocities(self.handle, bodies.as_ptr(), velocities.as_ptr(), bodies.len())
         })
     }
 
     /// Informs the world that a rigid body turns with this angular velocity (radians / time) from now on.
     pub fn set_angular_velocity(&mut self, body: BodyId, angular_velocity: Vec3) -> Result<()> {
-        check(unsafe { sys::ks_world_set_angular_velocity(self.handle, body, angular_velocity) })
+        self.check(unsafe { sys::ks_world_set_angular_velocity(self.handle, body, angular_velocity) })
     }
     /// Turns a rigid body at once, as `teleport` moves it.
     pub fn set_rotation(&mut self, body: BodyId, rotation: Rotation) -> Result<()> {
-        check(unsafe { sys::ks_world_set_rotation(self.handle, body, &rotation) })
+        self.check(unsafe { sys::ks_world_set_rotation(self.handle, body, &rotation) })
     }
     /// The rotation of a rigid body at its last report.
     pub fn rotation(&self, body: BodyId) -> Result<Rotation> {
         let mut rotation = Rotation::default();
-        check(unsafe { sys::ks_world_rotation(self.handle, body, &mut rotation) })?;
+        self.check(unsafe { sys::ks_world_rotation(self.handle, body, &mut rotation) })?;
         Ok(rotation)
     }
-    /// Sets the function that gives the rotations of rigid bodies, directly after the probe; clones share it. A panic
-    /// in it is the error callback_failed of the call that asked.
+    /// Sets the function that gives the rotations of rigid bodies, directly after the probe; clones share it.
     pub fn set_rotation_probe(
         &mut self,
         probe: impl Fn(&[BodyId], f64, &mut [Rotation]) + Send + Sync + 'static,
     ) -> Result<()> {
-        let probe: Arc<RotationProbe> = Arc::new(Box::new(probe));
+        let probe: Arc<Guarded<RotationProbe>> = Arc::new(Guarded::new(Box::new(probe)));
         let user = Arc::as_ptr(&probe) as *mut c_void;
-        check(unsafe { sys::ks_world_set_rotation_probe(self.handle, Some(rotation_probe), user) })?;
+        self.check(unsafe { sys::ks_world_set_rotation_probe(self.handle, Some(rotation_probe), user) })?;
         self.rotations = Some(probe);
         Ok(())
     }
@@ -399,56 +404,71 @@ impl World {
     }
 
     pub fn teleport(&mut self, body: BodyId, state: State) -> Result<()> {
-        check(unsafe { sys::ks_world_teleport(self.handle, body, &state) })
+        self.check(unsafe { sys::ks_world_teleport(self.handle, body, &state) })
     }
     pub fn set_radius(&mut self, body: BodyId, radius: f64) -> Result<()> {
-        check(unsafe { sys::ks_world_set_radius(self.handle, body, radius) })
+        self.check(unsafe { sys::ks_world_set_radius(self.handle, body, radius) })
     }
     /// Lets the radius of a ball change at this rate (length / time) from the current time on; negative for one
     /// that shrinks, which stays a point once it is one.
     pub fn set_radius_rate(&mut self, body: BodyId, rate: f64) -> Result<()> {
-        check(unsafe { sys::ks_world_set_radius_rate(self.handle, body, rate) })
+        self.check(unsafe { sys::ks_world_set_radius_rate(self.handle, body, rate) })
     }
     pub fn set_mass(&mut self, body: BodyId, mass: f64) -> Result<()> {
-        check(unsafe { sys::ks_world_set_mass(self.handle, body, mass) })
+        self.check(unsafe { sys::ks_world_set_mass(self.handle, body, mass) })
     }
     pub fn set_motion_limits(&mut self, body: BodyId, limits: &MotionLimits) -> Result<()> {
-        check(unsafe { sys::ks_world_set_motion_limits(self.handle, body, &limits.raw()) })
+        self.check(unsafe { sys::ks_world_set_motion_limits(self.handle, body, &limits.raw()) })
     }
     pub fn set_shape(&mut self, body: BodyId, shape: &Shape) -> Result<()> {
-        check(unsafe { sys::ks_world_set_shape(self.handle, body, &shape.raw()) })
+        self.check(unsafe { sys::ks_world_set_shape(self.handle, body, &shape.raw()) })
     }
     pub fn disable(&mut self, body: BodyId) -> Result<()> {
-        check(unsafe { sys::ks_world_disable(self.handle, body) })
+        self.check(unsafe { sys::ks_world_disable(self.handle, body) })
     }
     pub fn enable(&mut self, body: BodyId, state: State) -> Result<()> {
-        check(unsafe { sys::ks_world_enable(self.handle, body, &state) })
+        self.check(unsafe { sys::ks_world_enable(self.handle, body, &state) })
     }
     pub fn sleep(&mut self, body: BodyId) -> Result<()> {
-        check(unsafe { sys::ks_world_sleep(self.handle, body) })
+        self.check(unsafe { sys::ks_world_sleep(self.handle, body) })
     }
     pub fn wake(&mut self, body: BodyId) -> Result<()> {
-        check(unsafe { sys::ks_world_wake(self.handle, body) })
+        self.check(unsafe { sys::ks_world_wake(self.handle, body) })
     }
 
     pub fn set_filter(&mut self, body: BodyId, filter: Filter) -> Result<()> {
-        check(unsafe { sys::ks_world_set_filter(self.handle, body, &filter.raw()) })
+        self.check(unsafe { sys::ks_world_set_filter(self.handle, body, &filter.raw()) })
     }
-    /// Sets a symmetric predicate for pairs whose filters let them touch. Its answers must not change. A panic in it
-    /// ends the program.
+    /// Sets a symmetric predicate for pairs whose filters let them touch; clones share it. Its answers must stay the
+    /// same until `refresh_filter`.
     pub fn set_pair_filter(
         &mut self,
         filter: impl Fn(BodyId, BodyId) -> bool + Send + Sync + 'static,
     ) -> Result<()> {
-        let filter: Arc<PairFilter> = Arc::new(Box::new(filter));
+        let filter: Arc<Guarded<PairFilter>> = Arc::new(Guarded::new(Box::new(filter)));
         let user = Arc::as_ptr(&filter) as *mut c_void;
-        check(unsafe { sys::ks_world_set_pair_filter(self.handle, Some(pair_filter), user) })?;
+        let status = unsafe { sys::ks_world_set_pair_filter(self.handle, Some(pair_filter), user) };
+        if status == sys::KS_ERROR_CALLBACK_FAILED {
+            filter.resume();
+        }
+        self.check(status)?;
         self.filter = Some(filter);
         Ok(())
     }
+    /// Asks the pair filter again about all pairs of a body.
+    pub fn refresh_filter(&mut self, body: BodyId) -> Result<()> {
+        self.check(unsafe { sys::ks_world_refresh_filter(self.handle, body) })
+    }
+    pub fn set_solid(&mut self, body: BodyId, solid: bool) -> Result<()> {
+        self.check(unsafe { sys::ks_world_set_solid(self.handle, body, solid as i32) })
+    }
+    /// Stores a number for the caller: events have it.
+    pub fn set_user_data(&mut self, body: BodyId, data: u64) -> Result<()> {
+        self.check(unsafe { sys::ks_world_set_user_data(self.handle, body, data) })
+    }
     /// Sets the distances at which bodies of a class sense bodies with a category in the mask.
     pub fn set_sensor(&mut self, sensor_class: u8, distances: &[f64], mask: u64) -> Result<()> {
-        check(unsafe {
+        self.check(unsafe {
             sys::ks_world_set_sensor(
                 self.handle,
                 sensor_class.into(),
@@ -459,7 +479,7 @@ impl World {
         })
     }
     pub fn set_sensor_class(&mut self, body: BodyId, sensor_class: u8) -> Result<()> {
-        check(unsafe { sys::ks_world_set_sensor_class(self.handle, body, sensor_class.into()) })
+        self.check(unsafe { sys::ks_world_set_sensor_class(self.handle, body, sensor_class.into()) })
     }
 
     pub fn time(&self) -> f64 {
@@ -485,6 +505,18 @@ impl World {
         filled(|bodies, capacity, count| unsafe {
             sys::ks_world_bodies(self.handle, bodies, capacity, count)
         })
+    }
+    /// What the world knows of a body.
+    pub fn body(&self, body: BodyId) -> Result<BodyView> {
+        let mut raw = BodyView::raw();
+        self.check(unsafe { sys::ks_world_body(self.handle, body, &mut raw) })?;
+        Ok(BodyView::of(&raw))
+    }
+    /// The number of states that the world has asked for so far.
+    pub fn probe_count(&self) -> u64 {
+        let mut probes = 0;
+        unsafe { sys::ks_world_probe_count(self.handle, &mut probes) };
+        probes
     }
     /// The bodies in contact with a body.
     pub fn touching(&self, body: BodyId) -> Result<Vec<BodyId>> {
@@ -516,7 +548,7 @@ impl World {
     /// Like `advance`, for a world whose bodies are all moved by motions.
     pub fn advance_motions(&mut self, until: f64) -> Result<Option<Event>> {
         let mut event = new_event();
-        check(unsafe {
+        self.check(unsafe {
             let probe: sys::ks_probe = sys::ks_probe_motions;
             sys::ks_world_advance(self.handle, until, Some(probe), ptr::null_mut(), &mut event)
         })?;
@@ -562,10 +594,10 @@ impl World {
             sink: Some(sink_of(&events)),
             sink_user: events.user(),
         };
-        let done = check(unsafe { sys::ks_world_run(handle, until, &definition) });
+        let status = unsafe { sys::ks_world_run(handle, until, &definition) };
         responses.resume();
         events.resume();
-        done
+        self.check(status)
     }
 
     /// Adds bodies that the library moves; their other properties are those of `like`. `radii` and `masses` are empty
@@ -585,7 +617,7 @@ impl World {
         let raw = motion.raw(states, radii, masses, &like);
         let mut number = 0;
         let mut ids = vec![BodyId::default(); states.len()];
-        check(unsafe { sys::ks_world_add_motion(self.handle, &raw, &mut number, ids.as_mut_ptr()) })?;
+        self.check(unsafe { sys::ks_world_add_motion(self.handle, &raw, &mut number, ids.as_mut_ptr()) })?;
         Ok((number, ids))
     }
 
@@ -605,17 +637,22 @@ impl World {
         let raw = motion.raw(states, &[], &[], &like);
         let mut numbers = vec![0; states.len()];
         let mut ids = vec![BodyId::default(); states.len()];
-        check(unsafe {
+        self.check(unsafe {
             sys::ks_world_add_to_motion(self.handle, number, &raw, numbers.as_mut_ptr(), ids.as_mut_ptr())
         })?;
         Ok((numbers, ids))
     }
 
+    /// Sets the acceleration of a body of [`Motion::Steered`], within its limit, from now on.
+    pub fn steer(&mut self, body: BodyId, acceleration: Vec3) -> Result<()> {
+        self.check(unsafe { sys::ks_world_steer(self.handle, body, acceleration) })
+    }
+
     /// Appends the next frame of a motion of frames, and returns its time, to which to advance then.
     pub fn push_frame(&mut self, motion: u32, positions: &[Vec3]) -> Result<f64> {
-        check(unsafe { sys::ks_world_push_frame(self.handle, motion, positions.as_ptr(), positions.len()) })?;
+        self.check(unsafe { sys::ks_world_push_frame(self.handle, motion, positions.as_ptr(), positions.len()) })?;
         let mut time = 0.0;
-        check(unsafe { sys::ks_world_latest_frame_time(self.handle, motion, &mut time) })?;
+        self.check(unsafe { sys::ks_world_latest_frame_time(self.handle, motion, &mut time) })?;
         Ok(time)
     }
 
@@ -629,62 +666,10 @@ impl World {
     /// The true states at a time of bodies that motions move.
     pub fn states(&self, bodies: &[BodyId], time: f64) -> Result<Vec<State>> {
         let mut states = vec![State::default(); bodies.len()];
-        check(unsafe {
+        self.check(unsafe {
             sys::ks_world_states(self.handle, bodies.as_ptr(), bodies.len(), time, states.as_mut_ptr())
         })?;
         Ok(states)
-    }
-
-    /// No contact begins before this time, whatever the bodies do within their limits.
-    pub fn safe_until(&self) -> Result<Prediction> {
-        let mut raw = sys::ks_prediction::default();
-        check(unsafe { sys::ks_world_safe_until(self.handle, None, ptr::null_mut(), &mut raw) })?;
-        Ok(Prediction::of(raw))
-    }
-    pub fn earliest_contact(&self, body: BodyId) -> Result<Prediction> {
-        let mut raw = sys::ks_prediction::default();
-        check(unsafe { sys::ks_world_earliest_contact(self.handle, body, None, ptr::null_mut(), &mut raw) })?;
-        Ok(Prediction::of(raw))
-    }
-    /// The first time at which anything may be within `distance` of a body.
-    pub fn earliest_approach(&self, body: BodyId, distance: f64) -> Result<Prediction> {
-        let mut raw = sys::ks_prediction::default();
-        check(unsafe {
-            sys::ks_world_earliest_approach(self.handle, body, distance, None, ptr::null_mut(), &mut raw)
-        })?;
-        Ok(Prediction::of(raw))
-    }
-
-    /// The bodies that may overlap a sphere.
-    pub fn overlapping(&self, centre: Vec3, radius: f64) -> Result<Vec<Hit>> {
-        hits(|found, capacity, count| unsafe {
-            let user = ptr::null_mut();
-            sys::ks_world_overlapping_sphere(self.handle, centre, radius, None, user, found, capacity, count)
-        })
-    }
-    /// All that may be among the `bodies` nearest to a point.
-    pub fn nearest(&self, point: Vec3, bodies: usize) -> Result<Vec<Hit>> {
-        hits(|found, capacity, count| unsafe {
-            sys::ks_world_nearest(self.handle, point, bodies, None, ptr::null_mut(), found, capacity, count)
-        })
-    }
-    /// All that a ray of this length, or with a radius > 0 a moving sphere, may hit first.
-    pub fn cast(&self, origin: Vec3, direction: Vec3, length: f64, radius: f64) -> Result<Vec<Hit>> {
-        hits(|found, capacity, count| unsafe {
-            let user = ptr::null_mut();
-            sys::ks_world_cast(
-                self.handle,
-                origin,
-                direction,
-                length,
-                radius,
-                None,
-                user,
-                found,
-                capacity,
-                count,
-            )
-        })
     }
 
     fn with_probe<F: FnMut(&[BodyId], f64, &mut [State])>(
@@ -693,9 +678,9 @@ impl World {
         call: impl FnOnce(Option<sys::ks_probe>, *mut c_void) -> sys::ks_status,
     ) -> Result<()> {
         let mut guarded = Guarded::new(function);
-        let done = check(call(Some(probe::<F>), guarded.user()));
+        let status = call(Some(probe_of(&guarded)), guarded.user());
         guarded.resume();
-        done
+        self.check(status)
     }
 }
 
@@ -706,6 +691,11 @@ pub(crate) fn new_event() -> sys::ks_event {
 /// The callback for a function of this type.
 fn respond_of<F: Fn(&Event) -> Response + Sync>(_: F) -> sys::ks_respond {
     respond::<F>
+}
+
+/// The callback for a function that gives states.
+pub(crate) fn probe_of<F: FnMut(&[BodyId], f64, &mut [State])>(_: &Guarded<F>) -> sys::ks_probe {
+    probe::<F>
 }
 
 /// The callback for a function that receives events.
@@ -720,14 +710,4 @@ fn optional(numbers: &[f64], states: &[State]) -> *const f64 {
     }
     assert_eq!(numbers.len(), states.len(), "one entry for each state");
     numbers.as_ptr()
-}
-
-fn hits(fill: impl Fn(*mut sys::ks_hit, usize, *mut usize) -> sys::ks_status) -> Result<Vec<Hit>> {
-    let of = |hit: &sys::ks_hit| Hit {
-        body: hit.body,
-        certain: hit.certain != 0,
-        lower: hit.lower,
-        upper: hit.upper,
-    };
-    Ok(filled(fill)?.iter().map(of).collect())
 }
