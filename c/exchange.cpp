@@ -180,11 +180,7 @@ Event event_of(std::string_view call, const ks_event& event) {
 
 PairFilter pair_filter_of(ks_pair_filter filter, void* user) {
   if (filter == nullptr) return {};
-  return [filter, user](BodyId first, BodyId second) {
-    const std::int32_t answer = filter(c_id(first), c_id(second), user);
-    if (answer < 0) require_success("pair filter", answer);
-    return answer != 0;
-  };
+  return [filter, user](BodyId first, BodyId second) { return filter(c_id(first), c_id(second), user) != 0; };
 }
 
 }  // namespace kinesphere::c

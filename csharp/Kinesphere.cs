@@ -44,8 +44,8 @@ namespace Kinesphere
                 return 1;
             }
         }
-        /// <summary>Throws the exception if there was one, once.</summary>
-        public void Rethrow(int status)
+        /// <summary>Throws the exception, once, if there was one and it made a call fail.</summary>
+        public void Rethrow(int status = Native.CallbackFailed)
         {
             var thrown = exception;
             exception = null;
@@ -100,7 +100,6 @@ namespace Kinesphere
             var caught = new Caught();
             var callback = PairCallback(filter, caught);
             int status = Native.ks_world_restore(snapshot, Count(snapshot, "snapshot"), callback, IntPtr.Zero, out restored);
-            caught.Rethrow(status);
             Native.Check(status);
             return new World(restored) { pairs = callback, kept = caught };
         }
@@ -276,8 +275,8 @@ namespace Kinesphere
         {
             Check(Native.ks_world_set_sensor_class(handle, body, sensorClass));
         }
-        /// <summary>Sets a predicate for pairs whose filters let them touch; null removes it. Clones share it, and an exception
-        /// passes through the call that asked.</summary>
+        /// <summary>Sets a predicate for pairs whose filters let them touch; null removes it. Clones share it. An exception
+        /// passes through the call that asked, which has gone on as if the two might touch.</summary>
         public void SetPairFilter(PairFilter filter)
         {
             var callback = PairCallback(filter, kept);
@@ -374,7 +373,7 @@ namespace Kinesphere
         /// <summary>Throws an exception of a function that the world keeps, or the error of the library, if there is one.</summary>
         void Check(int status)
         {
-            kept.Rethrow(status);
+            kept.Rethrow();
             Native.Check(status);
         }
 
@@ -622,8 +621,9 @@ namespace Kinesphere
             if (filter == null) return null;
             return (first, second, user) =>
             {
-                bool may = false;
-                return caught.Call(() => may = filter(first, second)) != 0 ? -1 : may ? 1 : 0;
+                bool may = true;
+                caught.Call(() => may = filter(first, second));
+                return may ? 1 : 0;
             };
         }
 

@@ -370,8 +370,7 @@ typedef struct ks_motion_limits {
 } ks_motion_limits;
 
 /// Decides whether two bodies whose filters let them touch may do so: 0 means no. It must be symmetric, and
-/// its answers must stay the same until ks_world_refresh_filter(). It may make the calls that only read. A
-/// negative number stops the call that asks, which fails with KS_ERROR_CALLBACK_FAILED.
+/// its answers must stay the same until ks_world_refresh_filter(). It may make the calls that only read.
 typedef int32_t (*ks_pair_filter)(ks_body_id first, ks_body_id second, void* user);
 
 /// Creates a world without bodies. Destroy it with ks_world_destroy().

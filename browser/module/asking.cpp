@@ -133,6 +133,21 @@ Response bounce_off(const Event& event, std::span<const double> masses, double r
                                                 : bounce(event, first, second, restitution));
 }
 
+/// Returns false, and stores an error, for a motion with bodies in a world that never moved any and has none
+/// but static ones: the caller forgot to add them.
+bool were_added(const World& world, const MotionHandle* handle) {
+  const Counters& counters = world.counters();
+  if (handle == nullptr || counters.starts > 0 || counters.restarts > 0) return true;
+  const Motion& motion = *handle->motion;
+  bool any = false;
+  for (std::uint32_t number = 0; number < motion.size() && !any; ++number) any = motion.contains(number);
+  if (!any) return true;
+  for (const BodyId body : world.bodies())
+    if (!world.body(body).value().is_static) return true;
+  return fail({ErrorCode::unknown_body, "motion", no_body,
+               "motion: its bodies must be added to the world (World.addMotion), which has none that moves"});
+}
+
 MotionOfBodies bodies_of(const MotionHandle* motion, BodyMapHandle* map) {
   return {motion != nullptr ? motion->motion.get() : nullptr, map != nullptr ? map->map.get() : nullptr};
 }
@@ -145,6 +160,7 @@ KINESPHERE_EXPORT(world_advance)
 int world_advance(World* world, double until, const MotionHandle* motion, BodyMapHandle* map) {
   if (motion == nullptr && map == nullptr)
     return answer_event(world->advance(until, static_cast<Probe::Function>(ask_javascript)));
+  if (!were_added(*world, motion)) return -1;
   MotionOfBodies mover = bodies_of(motion, map);
   const auto event = world->advance(until, [&](std::span<const BodyId> ids, double time,
                                                std::span<State> states) { mover.states(ids, time, states); });
@@ -161,6 +177,8 @@ KINESPHERE_EXPORT(world_run)
 bool world_run(World* world, double until, const MotionHandle* motion, BodyMapHandle* map,
                Responding responding, const double* masses, std::size_t mass_count, double restitution,
                double resting_speed, const Scene* scene) {
+  answer().clear();
+  if (!were_added(*world, motion)) return false;
   // JavaScript functions may use answer() meanwhile.
   std::vector<double> reported;
   MotionOfBodies mover = bodies_of(motion, map);

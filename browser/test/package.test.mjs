@@ -172,10 +172,10 @@ test("wrong input is named", () => {
   refuses(() => new Scene("paper1", { bodies: 1e6 }), "out_of_range", "bodies");
   // The second body of a wall event is null, which is not body 0.
   for (const nobody of [null, "0"]) {
-    assert.throws(() => world.setVelocity(nobody, [0, 0, 0]), /setVelocity: ids and times must be numbers, but one is/);
-    assert.throws(() => world.remove(nobody), /remove: ids and times must be numbers/);
+    assert.throws(() => world.setVelocity(nobody, [0, 0, 0]), /setVelocity: arguments must be numbers, but one is/);
+    assert.throws(() => world.remove(nobody), /remove: arguments must be numbers/);
     assert.throws(() => world.setVelocityAll([nobody], [0, 0, 0]), /arrays must hold numbers, but one holds/);
-    assert.throws(() => new BodyMap().remove(world, nobody), /ids and times must be numbers/);
+    assert.throws(() => new BodyMap().remove(world, nobody), /arguments must be numbers/);
   }
   assert.ok(world.contains(first));
 });
@@ -220,6 +220,80 @@ test("a misspelled key is named, with the nearest known one", async () => {
   assert.throws(() => world.add({}), /add: position must be an array of three numbers, but is undefined/);
   assert.throws(() => world.addAll({}), /addAll: positions must be an array, but is undefined/);
   assert.throws(() => new SteeredMotion({ positions }, {}), /SteeredMotion: accelerationLimits must be a number or an array, but is undefined/);
+});
+
+test("a value of another kind is named: JavaScript would convert it", async () => {
+  const { world, motion, first } = pair();
+  const position = [1, 2, 3], positions = position;
+  const wrong = [
+    [() => world.add({ position, radius: "1" }), 'add: radius must be a number, but is "1"'],
+    [() => world.add({ position, radius: 1n }), "add: radius must be a number, but is 1n"],
+    [() => world.add({ position, radius: null }), "add: radius must not be null; without it, it has its default"],
+    [() => world.add({ position, solid: 0 }), "add: solid must be a boolean, but is 0"],
+    [() => world.add({ position, filter: { mask: "2" } }), 'add: mask must be a number, but is "2"'],
+    [() => world.add({ position: ["1", 2, 3] }), 'add: position[0] must be a number, but is "1"'],
+    [() => world.add({ position: "123" }), 'add: position[0] must be a number, but is "1"'],
+    [() => world.add({ position: [1, , 3] }), "add: position[1] must be a number, but is undefined"],
+    [() => world.add({ position: { x: 1, y: 2, z: 3 } }), "add: position must be an array of three numbers, but is an object"],
+    [() => world.addAll({ positions: [[1, 2, 3], [4, 5, 6]] }), "addAll: positions[0] must be a number, but is an array: all"],
+    [() => world.addAll({ positions: BigInt64Array.of(1n, 2n, 3n) }), "addAll: positions[0] must be a number, but is 1n"],
+    [() => world.addAll({ positions, velocities: [0, "1", 0] }), 'addAll: velocities[1] must be a number, but is "1"'],
+    [() => world.addAll({ positions, radii: ["1"] }), 'addAll: radii[0] must be a number, but is "1"'],
+    [() => world.addStatic({ ball: { centre: position, radius: "1" } }), 'addStatic: radius must be a number, but is "1"'],
+    [() => world.setRadius(first, "2"), 'setRadius: arguments must be numbers, but one is "2"'],
+    [() => new World({ allowOverlap: 0 }), "World: allowOverlap must be a boolean, but is 0"],
+    [() => new World({ contactTolerance: "1e-3" }), 'World: contactTolerance must be a number, but is "1e-3"'],
+    [() => new World([1]), "World: definition must be an object with the keys box, "],
+    [() => world.run(9, { motion, respond: { restitution: "1" } }), 'run: restitution must be a number, but is "1"'],
+    [() => world.run(9, { motion, respond: { masses: ["1"] } }), 'run: masses[0] must be a number, but is "1"'],
+    [() => bounce(null), "bounce: contact must be an Event, but is null"],
+    [() => new RecordedTracks([{ times: ["0", 1], positions: [0, 0, 0, 1, 1, 1] }]), "RecordedTracks: times of body 0[0] must be"],
+    [() => new RecordedTracks({}), "RecordedTracks: tracks must be an array of objects with times and positions, but is an object"],
+    [() => new RandomForces({ positions }), "RandomForces: options must be an object with the keys accelerationLimits, "],
+    // An object of another kind would be taken for the world or the motion, at its address.
+    [() => new BodyMap().add(motion, world, 0), "BodyMap.add: world must be a World, but is an object of class Ballistic"],
+    [() => new BodyMap().addAll(world, world), "BodyMap.addAll: motion must be a Motion, but is an object of class World"],
+    [() => new BodyMap().remove({}, 0), "BodyMap.remove: world must be a World, but is an object"],
+    [() => new FrameMotion({ positions }).push(motion, positions), "push: world must be a World, but is an object of class Ballistic"],
+    [() => new World().addMotion(positions), "addMotion: motion must be a Motion, but is an array"],
+    // A function that answers later answers nothing.
+    [() => world.clone().run(9, { motion: motion.clone(), respond: async () => ({ first: [0, 0, 0] }) }), "respond must not be an async function"],
+    [() => { const other = new World(); other.addAll({ positions: [0, 0, 0, 9, 0, 0], accelerationLimits: 1 }); other.advance(9, async () => {}); },
+      "probe must not be an async function"],
+  ];
+  for (const [action, message] of wrong)
+    assert.throws(action, (error) => error instanceof TypeError && error.message.startsWith(message), message);
+  const beyond = [
+    [() => world.add({ position, userData: 5n }), "add: userData must be a number, but is 5n", TypeError],
+    [() => world.setUserData(first, 5n), "setUserData: userData must be a whole number from 0 to 9007199254740992, but is 5n"],
+    [() => new World({ dimensions: 2.5 }), "World: dimensions must be 2 or 3, but is 2.5"],
+    [() => new RandomForces({ positions }, { accelerationLimits: 1, seed: -1 }), "RandomForces: seed must be a whole number from 0"],
+    [() => world.run(9, { motion, respond: { restitution: 5 } }), "run: restitution must be from 0 to 1, but is 5"],
+    [() => world.run(9, { motion, respond: { restingSpeed: -1 } }), "run: restingSpeed must be >= 0, but is -1"],
+    [() => bounce(world.clone().advance(100, motion), { restitution: NaN }), "bounce: restitution must be from 0 to 1, but is NaN"],
+  ];
+  for (const [action, message, kind = RangeError] of beyond)
+    assert.throws(action, (error) => error instanceof kind && error.message.startsWith(message), message);
+  assert.equal(world.size, 2);
+});
+
+test("a motion without its bodies, or with other ids than numbers, is refused", () => {
+  const motion = new Ballistic({ positions: [0, 0, 5, 4, 0, 5], velocities: [0, 0, -1, 0, 0, -1] });
+  const floor = { halfSpace: { normal: [0, 0, 1], offset: 0 } };
+  const world = new World();
+  refuses(() => world.run(9, { motion }), "unknown_body", "motion");
+  const first = world.addStatic(floor);
+  refuses(() => world.advance(9, motion), "unknown_body", "motion");
+  assert.throws(() => world.addMotion(motion), /addMotion: motion must be added to a world without bodies.*there are 1 \(a BodyMap/);
+  const bodies = new BodyMap();
+  bodies.addAll(world, motion);
+  const hits = [...world.run(4.5, { motion: bodies, respond: { restitution: 1 } })].filter(({ kind }) => kind === "contact_begin");
+  assert.deepEqual(hits.map(({ first: one, second }) => one === first || second === first), [true, true]);
+  const used = new World();
+  used.remove(used.addStatic(floor));
+  assert.throws(() => used.addMotion(motion), /must be added to a world that never had bodies/);
+  assert.equal(used.size, 0);
+  assert.equal(new World().run(1, { motion: new Ballistic({ positions: [] }) }).length, 0);
 });
 
 test("a removed body's id is stale, and its place is taken again", () => {

@@ -95,6 +95,115 @@ static class SharedScene
         RequireStatus("bad_snapshot", () => World.Restore(new byte[] { 1, 2, 3 }));
     }
 
+    static void RequireArgument(string argument, Action call)
+    {
+        try
+        {
+            call();
+        }
+        catch (ArgumentException refused)
+        {
+            Require(refused.ParamName == argument, refused.ParamName + " instead of " + argument);
+            return;
+        }
+        throw new Exception(argument + " was not refused");
+    }
+
+    // What `new` makes has no defaults, and arrays may be missing.
+    static void WrongArguments()
+    {
+        var one = new[] { new State(new Vector(1, 1, 1), new Vector()) };
+        RequireArgument("definition", () => new World(new WorldDefinition { Dimensions = 3 }));
+        using (var world = new World(WorldDefinition.Default))
+        {
+            RequireArgument("bodies", () => world.Add(new BodyDefinition { Radius = 1 }));
+            RequireArgument("bodies", () => world.AddAll(null));
+            RequireArgument("bodies", () => world.AddStatic(new StaticDefinition { Shape = Shape.Ball(new Vector(), 1) }));
+            RequireArgument("like", () => world.AddBallistic(one, new BodyDefinition(), new Vector()));
+            RequireArgument("states", () => world.AddBallistic(null, BodyDefinition.Default, new Vector()));
+            RequireArgument("accelerationLimits", () => world.AddRandomForces(one, BodyDefinition.Default, new double[2], 1, 1));
+            RequireArgument("rigid", () => world.AddRigidBody(BodyDefinition.Default, new RigidDefinition()));
+            RequireArgument("hulls", () => world.AddRigidBody(BodyDefinition.Default, RigidDefinition.Default, new RigidPart[0], null));
+            RequireArgument("positions", () => world.PushFrame(0, null));
+            RequireArgument("distances", () => world.SetSensor(0, null));
+            RequireArgument("velocities", () => world.SetVelocities(new BodyId[0], one.Select(state => state.Velocity).ToArray()));
+            RequireArgument("bodies", () => world.Nearest(new Vector(), -1));
+        }
+        RequireArgument("snapshot", () => World.Restore(null));
+        RequireArgument("definition", () => new Monitor(null));
+    }
+
+    // What a probe forgets, and what a pair filter throws, comes out of the call that asked.
+    static void Callbacks()
+    {
+        using (var world = new World(WorldDefinition.Default))
+        {
+            var ball = BodyDefinition.Default;
+            ball.AccelerationLimit = 1;
+            var first = world.Add(ball);
+            ball.Position.X = 10;
+            world.Add(ball);
+            RequireStatus("not_finite", () => world.Advance(20, (ids, time, states) => { }));
+            world.SetPairFilter((a, b) => { throw new InvalidOperationException("no filter"); });
+            string said = "";
+            Probe still = (ids, time, states) =>
+            {
+                for (int k = 0; k < ids.Length; ++k) states[k] = new State(new Vector(10 * ids[k].Index, 0, 0), new Vector());
+            };
+            try { world.Advance(20, still); } catch (InvalidOperationException thrown) { said = thrown.Message; }
+            Require(said == "no filter", "the exception of a pair filter");
+            int asked = 0;
+            world.SetPairFilter((a, b) => ++asked < 0);
+            using (var copy = world.Clone())
+            {
+                GC.Collect();
+                Require(copy.Advance(20, still).Kind == EventKind.None && asked > 0, "a pair filter of a clone");
+            }
+            var snapshot = world.Save();
+            RequireStatus("bad_snapshot", () => World.Restore(snapshot));
+            using (var restored = World.Restore(snapshot, (a, b) => true)) Require(restored.Contains(first), "a snapshot with a filter");
+        }
+    }
+
+    // Ships are steered, bodies change, and a world tells what it knows of them.
+    static void Knowledge()
+    {
+        using (var world = new World(WorldDefinition.Default))
+        {
+            uint motion;
+            var start = new[] { new State(), new State(new Vector(10, 0, 0), new Vector()) };
+            var ids = world.AddSteered(start, BodyDefinition.Default, new[] { 2.0, 2.0 }, out motion);
+            world.Steer(ids[0], new Vector(2, 0, 0));
+            RequireStatus("out_of_range", () => world.Steer(ids[0], new Vector(3, 0, 0)));
+            double lower, upper;
+            world.DistanceLimits(ids[0], ids[1], 0, out lower, out upper);
+            Require(lower <= 8 && 8 <= upper && world.PairSafeUntil(ids[0], ids[1], 8).Happens, "distances");
+            Require(world.SafeUntil().Time <= Math.Sqrt(8) && world.EarliestApproach(ids[0], 20).Happens, "predictions");
+            Require(world.Nearest(new Vector(9, 0, 0), 1)[0].Body.Equals(ids[1]), "the nearest");
+            Require(world.Overlapping(new Vector(), 5).Length == 1, "a sphere");
+            Require(world.OverlappingBox(new Vector(9, -1, -1), new Vector(12, 1, 1)).Length == 1, "a box");
+            var met = world.Events(60).First();
+            Require(Math.Abs(met.Time - Math.Sqrt(8)) < 1e-5 && met.ToString().EndsWith("ContactBegin body 0, body 1"), "two ships meet");
+            world.Apply(met, met.Bounce(1));
+            Require(world.States(ids, met.Time)[1].Velocity.X > 5, "the second ship flies on");
+            world.SetUserData(ids[0], 7);
+            world.SetMass(ids[0], 3);
+            world.SetSolid(ids[0], false);
+            world.SetSensorClass(ids[0], 1);
+            world.SetMotionLimits(ids[0], new MotionLimits { AccelerationLimit = 5 });
+            world.Reserve(10);
+            var view = world.Body(ids[0]);
+            Require(view.Enabled && !view.IsStatic && view.Definition.UserData == 7 && view.Definition.Mass == 3, "a body");
+            Require(!view.Definition.Solid && view.Definition.SensorClass == 1 && view.Definition.AccelerationLimit == 5, "its limits");
+            var zone = world.AddZone(Shape.Ball(new Vector(50, 0, 0), 1), 5, new Filter(1, 2));
+            world.SetShape(zone, Shape.Ball(new Vector(60, 0, 0), 1));
+            Require(world.Body(zone).Definition.Filter.Mask == 2 && world.SensorOverlaps(zone).Length == 0, "a zone");
+            Require(world.Bodies().Length == 3 && world.ProbeCount > 0 && Library.Version.Contains("."), "what there is");
+            world.RemoveAll(ids);
+            Require(world.Size == 1, "what is left");
+        }
+    }
+
     static bool IsBurst(Event happened) { return happened.Kind == EventKind.ContactBegin && happened.FirstUserData == 1; }
 
     // A bullet (1) and a rock (2) vanish as they meet, and a fragment appears there, which is disabled at the wall; a tired
@@ -337,6 +446,26 @@ static class SharedScene
             }
             Require(monitor.Advance(1).Kind == MonitorEventKind.Predicted, "two tracks will meet");
             Require(monitor.PredictedPairs().Single().ClosestDistance < 1e-6, "where they will be");
+            Require(monitor.Tracks().Length == 2 && monitor.Places(0).Single().Centre.X == 10, "where they are");
+            RequireArgument("reports", () => monitor.Report(1, new TrackReport()));
+            int asked = 0;
+            Poll poll = (tracks, time, reports) =>
+            {
+                asked += tracks.Length;
+                for (int k = 0; k < tracks.Length; ++k)
+                {
+                    var report = TrackReport.Default;
+                    report.Timestamp = time;
+                    report.State.Position = new Vector(500.0 * tracks[k], 0, 0);
+                    reports[k] = report;
+                }
+            };
+            using (var restored = Monitor.Restore(monitor.Save()))
+            {
+                Require(restored.Needed(30).Length > 0, "what is needed");
+                restored.Events(30, poll).Count();
+                Require(asked > 0 && restored.Time == 30, "a poll");
+            }
         }
     }
 
@@ -362,6 +491,9 @@ static class SharedScene
         AtOnce(NewWorld(start, radii), null, 1);
         AtOnce(NewWorld(start, radii), happened => happened.Bounce(0.9), 2);
         WrongUse();
+        WrongArguments();
+        Callbacks();
+        Knowledge();
         Responses();
         MovingShape();
         RigidBodies();

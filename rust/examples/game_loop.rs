@@ -36,7 +36,7 @@ fn main() -> Result<()> {
         ..Default::default()
     })?;
     let like = BodyDefinition { radius, ..Default::default() };
-    let motion = Motion::Frames { interval: dt, position_error: 0.0 };
+    let motion = Motion::Frames { interval: dt, position_error: 0.0, acceleration_limits: &[] };
     let (motion, _) = world.add_motion(motion, &game, &[], &[], &like)?;
 
     let (mut between_balls, mut off_walls, mut deepest) = (0, 0, 0.0);

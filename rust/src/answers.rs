@@ -184,7 +184,7 @@ impl Answers<'_> {
         let world = self.world;
         let found: Vec<sys::ks_hit> = filled(|hits, capacity, count| {
             let status = self.ask(|world, probe, user| call(world, probe, user, hits, capacity, count));
-            world.resume(status);
+            world.resume();
             status
         })?;
         let of = |hit: &sys::ks_hit| Hit {

@@ -79,8 +79,9 @@ pub enum Motion<'a> {
     Ballistic { gravity: Vec3 },
     /// Random accelerations up to a limit for each body, new at multiples of the interval.
     RandomForces { acceleration_limits: &'a [f64], interval: f64, seed: u64 },
-    /// A game's frames, this much time apart: straight from the position in one to that in the next.
-    Frames { interval: f64, position_error: f64 },
+    /// A game's frames, this much time apart: straight from the position in one to that in the next. There is a limit
+    /// for each body, or, if there are none, all velocities are news at each frame.
+    Frames { interval: f64, position_error: f64, acceleration_limits: &'a [f64] },
     /// Each body keeps its acceleration, at first zero, until [`World::steer`], within a limit for each body.
     Steered { acceleration_limits: &'a [f64] },
 }
@@ -122,8 +123,9 @@ impl Motion<'_> {
                 raw.kind = 3;
                 raw.acceleration_limits = acceleration_limits.as_ptr();
             }
-            Motion::Frames { interval, position_error } => {
+            Motion::Frames { interval, position_error, acceleration_limits } => {
                 raw.kind = 2;
+                raw.acceleration_limits = optional(acceleration_limits, states);
                 raw.interval = interval;
                 raw.position_error = position_error;
             }
@@ -201,11 +203,9 @@ unsafe extern "C" fn sink<F: FnMut(&Event)>(event: *const sys::ks_event, user: *
 }
 
 unsafe extern "C" fn pair_filter(first: BodyId, second: BodyId, user: *mut c_void) -> i32 {
-    let mut passes = false;
-    match Guarded::<PairFilter>::call_shared(user, |filter| passes = filter(first, second)) {
-        0 => passes as i32,
-        _ => -1,
-    }
+    let mut passes = true;
+    Guarded::<PairFilter>::call_shared(user, |filter| passes = filter(first, second));
+    passes as i32
 }
 
 unsafe extern "C" fn rotation_probe(
@@ -233,14 +233,11 @@ impl World {
     /// Returns the error of a call that has just failed in this thread, or continues the panic of a closure that the
     /// world keeps.
     pub(crate) fn check(&self, status: sys::ks_status) -> Result<()> {
-        self.resume(status);
+        self.resume();
         check(status)
     }
-    /// Continues the panic of a closure that the world keeps, if that made a call fail.
-    pub(crate) fn resume(&self, status: sys::ks_status) {
-        if status != sys::KS_ERROR_CALLBACK_FAILED {
-            return;
-        }
+    /// Continues the panic of a closure that the world keeps, if there was one in the last call.
+    pub(crate) fn resume(&self) {
         if let Some(filter) = &self.filter {
             filter.resume();
         }
@@ -440,18 +437,15 @@ impl World {
         self.check(unsafe { sys::ks_world_set_filter(self.handle, body, &filter.raw()) })
     }
     /// Sets a symmetric predicate for pairs whose filters let them touch; clones share it. Its answers must stay the
-    /// same until `refresh_filter`.
+    /// same until `refresh_filter`. A panic in it passes through the call that asked, which has gone on as if the two
+    /// might touch.
     pub fn set_pair_filter(
         &mut self,
         filter: impl Fn(BodyId, BodyId) -> bool + Send + Sync + 'static,
     ) -> Result<()> {
         let filter: Arc<Guarded<PairFilter>> = Arc::new(Guarded::new(Box::new(filter)));
         let user = Arc::as_ptr(&filter) as *mut c_void;
-        let status = unsafe { sys::ks_world_set_pair_filter(self.handle, Some(pair_filter), user) };
-        if status == sys::KS_ERROR_CALLBACK_FAILED {
-            filter.resume();
-        }
-        self.check(status)?;
+        self.check(unsafe { sys::ks_world_set_pair_filter(self.handle, Some(pair_filter), user) })?;
         self.filter = Some(filter);
         Ok(())
     }

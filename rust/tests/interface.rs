@@ -139,7 +139,8 @@ fn a_function_turns_a_rod() {
     };
     assert_eq!(world.advance(10.0, probe).unwrap_err().name, "null_probe");
     world.set_rotation_probe(|_, _, _| panic!("it does not turn")).unwrap();
-    assert_eq!(world.advance(10.0, probe).unwrap_err().name, "callback_failed");
+    let panicked = catch_unwind(AssertUnwindSafe(|| world.advance(10.0, probe)));
+    assert_eq!(panicked.unwrap_err().downcast_ref(), Some(&"it does not turn"));
     world
         .set_rotation_probe(|_, time, rotations| {
             for rotation in rotations {
@@ -293,6 +294,58 @@ fn a_pair_filter_lives_as_long_as_the_last_clone() {
 }
 
 #[test]
+fn a_panic_of_a_pair_filter_passes_through_the_call() {
+    let (mut world, _, probe) = two_balls();
+    world.set_pair_filter(|_, _| panic!("no answer")).unwrap();
+    let panicked = catch_unwind(AssertUnwindSafe(|| world.advance(20.0, &probe)));
+    assert_eq!(panicked.unwrap_err().downcast_ref(), Some(&"no answer"));
+    world.set_pair_filter(|_, _| true).unwrap();
+    assert_eq!(world.advance(20.0, &probe).unwrap().unwrap().kind, EventKind::ContactBegin);
+}
+
+#[test]
+fn ships_are_steered() {
+    let mut world = World::new(&WorldDefinition::default()).unwrap();
+    let start = [State::default(), State { position: Vec3::new(10.0, 0.0, 0.0), ..Default::default() }];
+    let ships = Motion::Steered { acceleration_limits: &[2.0, 2.0] };
+    let (_, ids) = world.add_motion(ships, &start, &[], &[], &BodyDefinition::default()).unwrap();
+    world.steer(ids[0], Vec3::new(2.0, 0.0, 0.0)).unwrap();
+    assert_eq!(world.steer(ids[0], Vec3::new(3.0, 0.0, 0.0)).unwrap_err().argument, "acceleration");
+    let event = world.advance_motions(60.0).unwrap().unwrap();
+    assert!((event.time - 8.0_f64.sqrt()).abs() < 1e-5);
+}
+
+#[test]
+fn a_state_that_the_probe_forgets_is_an_error() {
+    let (mut world, [left, _], _) = two_balls();
+    let limits = MotionLimits { acceleration_limit: 1.0, ..Default::default() };
+    world.set_motion_limits(left, &limits).unwrap();
+    let error = world.advance(20.0, |_, _, _| {}).unwrap_err();
+    assert_eq!((error.name, error.body), ("not_finite", Some(left)));
+}
+
+#[test]
+fn what_a_world_knows_of_a_body() {
+    let (mut world, [left, right], probe) = two_balls();
+    world.reserve(10).unwrap();
+    world.set_user_data(left, 7).unwrap();
+    world.set_solid(right, false).unwrap();
+    world.refresh_filter(left).unwrap();
+    assert!(world.advance(2.0, &probe).unwrap().is_none() && world.probe_count() > 0);
+    let view = world.body(left).unwrap();
+    assert!(view.enabled && !view.is_static && !view.sleeping && view.bounds_end >= 2.0);
+    assert_eq!((view.definition.user_data, view.definition.radius, view.image), (7, 1.0, [0; 3]));
+    assert!(view.bounds.lower.x < 2.0 && view.bounds.upper.x > 2.0);
+    assert!(!world.body(right).unwrap().definition.solid);
+    let handle = world.handle();
+    let mut size = 0;
+    assert_eq!(unsafe { sys::ks_world_size(handle, &mut size) }, sys::KS_OK);
+    assert_eq!(size, 2);
+    world.remove_all(&[left, right]).unwrap();
+    assert!(world.is_empty() && world.remove_all(&[left]).unwrap_err().name == "stale_body");
+}
+
+#[test]
 fn snapshots_queries_and_predictions() {
     let (world, [left, right], probe) = two_balls();
     let mut restored = World::restore(&world.save().unwrap()).unwrap();
@@ -306,6 +359,28 @@ fn snapshots_queries_and_predictions() {
     assert!(hits.len() == 1 && hits[0].body == left && hits[0].certain);
     assert_eq!(world.nearest(Vec3::new(9.0, 0.0, 0.0), 1).unwrap()[0].body, right);
     assert!(world.overlapping(Vec3::new(5.0, 0.0, 0.0), 1.0).unwrap().is_empty());
+    let corner = Box3 { lower: Vec3::new(8.0, -1.0, -1.0), upper: Vec3::new(9.5, 1.0, 1.0) };
+    assert_eq!(world.overlapping_box(&corner).unwrap()[0].body, right);
+    assert!(world.pair_safe_until(left, right, 2.0).unwrap().time <= 3.0);
+    let (lower, upper) = world.distance_limits(left, right, 1.0).unwrap();
+    assert!(lower <= 6.0 && 6.0 <= upper);
+}
+
+#[test]
+fn a_probe_makes_answers_better() {
+    let (mut world, [left, right], probe) = two_balls();
+    let limits = MotionLimits { acceleration_limit: 1.0, ..Default::default() };
+    for body in [left, right] {
+        world.set_motion_limits(body, &limits).unwrap();
+    }
+    assert!(world.advance(1.0, &probe).unwrap().is_none());
+    let known = world.distance_limits(left, right, 1.0).unwrap();
+    let (lower, upper) = world.answers_with(&probe).distance_limits(left, right, 1.0).unwrap();
+    assert!(known.0 <= lower && (upper - lower).abs() < 1e-9 && (lower - 6.0).abs() < 1e-9);
+    assert!(world.answers_with(&probe).nearest(Vec3::default(), 1).unwrap()[0].certain);
+    let mut answers = world.answers_with(|_, _, _| panic!("lost"));
+    let panicked = catch_unwind(AssertUnwindSafe(|| answers.pair_safe_until(left, right, 0.0)));
+    assert_eq!(panicked.unwrap_err().downcast_ref(), Some(&"lost"));
 }
 
 #[test]
@@ -391,6 +466,16 @@ fn a_monitor_polls() {
     let panicked = catch_unwind(AssertUnwindSafe(|| silent.advance_with(61.0, |_, _| panic!("no radar"))));
     assert!(panicked.is_err());
     assert_eq!(silent.tracks().unwrap(), [1, 2]);
+    let places = silent.places(1).unwrap();
+    assert!(places.len() == 1 && places[0].centre.x == 1000.0);
+
+    // A plan to stay makes the same reports enough.
+    let plan = Plan { acceleration: Vec3::default(), limit: ErrorBound::Ball(0.0), valid_until: 60.0 };
+    for track in [1, 2] {
+        let planned = TrackReport { plan: Some(plan), ..report(track, 60.0) };
+        monitor.report(track, &TrackReport { plan: Some(Plan { valid_until: 120.0, ..plan }), ..planned }).unwrap();
+    }
+    assert!(monitor.advance(120.0).unwrap().is_none());
 }
 
 #[test]

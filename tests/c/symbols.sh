@@ -6,7 +6,7 @@ set -euo pipefail
 
 source=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
 listed=$(sed -nE 's/^ +(ks_[a-z0-9_]+);$/\1/p' "$source/c/kinesphere-c.map")
-declared=$(tr '\n' ' ' <"$source/include/kinesphere.h" | grep -oE 'KS_API [a-z0-9_ ]+[ *]+ks_[a-z0-9_]+\(' |
+declared=$(tr '\n' ' ' <"$source/include/kinesphere.h" | grep -oE 'KS_API (KS_MUST_CHECK )?[a-z0-9_ ]+[ *]+ks_[a-z0-9_]+\(' |
   sed -E 's/.*(ks_[a-z0-9_]+)\($/\1/' | sort)
 exported=$(nm -D --defined-only "$1" | sed -nE 's/.* [TDBRWVu] ([^@]*).*/\1/p' | sort)
 diff <(echo "$listed") <(echo "$declared")

@@ -41,6 +41,12 @@ static int32_t answer_nan(const ks_body_id* bodies, size_t count, double time, k
   return 0;
 }
 
+static int32_t answer_nothing(const ks_body_id* bodies, size_t count, double time, ks_state* states,
+                              void* user) {
+  (void)bodies, (void)count, (void)time, (void)states, (void)user;
+  return 0;
+}
+
 static int32_t change_inside(const ks_body_id* bodies, size_t count, double time, ks_state* states,
                              void* user) {
   game* const g = (game*)user;
@@ -359,6 +365,7 @@ static void wrong_motions(void) {
   CHECK_OK(ks_world_add_motion(world, &flight, &motion, &id));
   const ks_vec3 position = {5, 5, 5};
   REFUSED(ks_world_push_frame(world, motion, &position, 1), OUT_OF_RANGE);  // no frames
+  REFUSED(ks_world_steer(world, id, vec3(0, 0, 0)), UNSUPPORTED);
   REFUSED(ks_world_push_frame(world, 99, &position, 1), OUT_OF_RANGE);
   ks_run_definition run = ks_default_run_definition();
   run.sink = refuse_event;
@@ -367,6 +374,40 @@ static void wrong_motions(void) {
   run.sink = NULL;
   run.respond = respond_nan;
   REFUSED(ks_world_run(world, 50.0, &run), NOT_FINITE);
+  CHECK_OK(ks_world_destroy(world));
+}
+
+static void wrong_steering(void) {
+  ks_world_definition definition = ks_default_world_definition();
+  ks_world world;
+  CHECK_OK(ks_world_create(&definition, &world));
+  ks_state states[2] = {{{0, 0, 0}, {0, 0, 0}}, {{10, 0, 0}, {0, 0, 0}}};
+  const double limits[2] = {2, 2};
+  ks_motion_definition ships = ks_default_motion_definition();
+  ships.kind = KS_MOTION_STEERED;
+  ships.count = 2;
+  ships.states = states;
+  ks_body_id ids[2], ball;
+  REFUSED(ks_world_add_motion(world, &ships, NULL, ids), NULL_ARGUMENT);  // without limits
+  ships.acceleration_limits = limits;
+  CHECK_OK(ks_world_add_motion(world, &ships, NULL, ids));
+  REFUSED(ks_world_steer(world, ids[0], vec3(3, 0, 0)), OUT_OF_RANGE);
+  REFUSED(ks_world_steer(world, ids[0], vec3(NAN, 0, 0)), NOT_FINITE);
+  // A body without a motion, which the probe forgets: its state is not that of a place where it might be.
+  ks_body_definition other = ks_default_body_definition();
+  other.position = vec3(0, 4, 0);
+  other.acceleration_limit = 1;
+  CHECK_OK(ks_world_add(world, &other, 1, &ball));
+  REFUSED(ks_world_steer(world, ball, vec3(0, 0, 0)), UNSUPPORTED);
+  ks_event event = ks_new_event();
+  REFUSED(ks_world_advance(world, 60, answer_nothing, NULL, &event), NOT_FINITE);
+  CHECK(ks_same_body(ks_last_error_body(), ball));
+  CHECK_OK(ks_world_remove(world, &ball, 1));
+  CHECK_OK(ks_world_steer(world, ids[0], vec3(2, 0, 0)));
+  CHECK_OK(ks_world_advance(world, 60, ks_probe_motions, NULL, &event));
+  CHECK(event.kind == KS_EVENT_CONTACT_BEGIN && fabs(event.time - sqrt(8)) < 1e-5);
+  CHECK_OK(ks_world_remove(world, &ids[1], 1));
+  REFUSED(ks_world_steer(world, ids[1], vec3(0, 0, 0)), STALE_BODY);
   CHECK_OK(ks_world_destroy(world));
 }
 
@@ -552,6 +593,7 @@ int main(void) {
   wrong_rigid_bodies();
   wrong_time(world);
   wrong_motions();
+  wrong_steering();
   wrong_responses();
   wrong_snapshots(world);
   wrong_recordings();

@@ -3,7 +3,7 @@ import { BodyMap } from "./body_map.js";
 import { Event, eventNumbers, type Vec3 } from "./event.js";
 import type { Module } from "./module.js";
 import { Motion, vector } from "./motion.js";
-import { checkKeys, type Keys } from "./options.js";
+import { checkKeys, type Keys, requireNumbers, shown } from "./options.js";
 import { type RotationProbeFunction, rotationNumbers } from "./rigid_body.js";
 import { Scene } from "./scene.js";
 
@@ -52,6 +52,7 @@ export interface Bounces {
 export interface RunOptions {
   /** The source of states: a motion whose numbers are the indices of the ids, or a map. */
   motion: Motion | BodyMap;
+  /** Without it, bodies pass through each other and through walls: `{ restitution: 1 }` lets them bounce. */
   respond?: RespondFunction | Bounces | Scene;
   /**
    * Is called with each event whose answer has `stop`. The world is at the time of the event, and may be changed, but not
@@ -61,17 +62,19 @@ export interface RunOptions {
 }
 
 export const runKeys: Keys<RunOptions> = { motion: true, respond: true, atStop: true };
-const bounceKeys: Keys<Bounces> = { masses: true, restitution: true, restingSpeed: true };
+const bounceKeys: Keys<Bounces> = { masses: true, restitution: "number", restingSpeed: "number" };
 const answerKeys: Keys<Answer> = {
   first: true, second: true, firstAngularVelocity: true, secondAngularVelocity: true, firstAction: true,
-  secondAction: true, stop: true,
+  secondAction: true, stop: "boolean",
 };
+/** The vectors of an answer, in the order in which the module reads them. */
+const answerVectors = ["first", "second", "firstAngularVelocity", "secondAngularVelocity"] as const;
 const actions: readonly (BodyAction | undefined)[] = [undefined, "remove", "disable", "sleep"];
 
 /** Returns the number of an action in the module. */
 function actionNumber(action: BodyAction | undefined, what: string): number {
   const number = actions.indexOf(action);
-  if (number < 0) throw new TypeError(`respond: ${what} must be "remove", "disable" or "sleep", but is ${action}`);
+  if (number < 0) throw new TypeError(`respond: ${what} must be "remove", "disable" or "sleep", but is ${shown(action)}`);
   return number;
 }
 
@@ -88,7 +91,25 @@ export function responded(respond: RunOptions["respond"]): [number, Bounces, num
   if (respond instanceof Scene) return [respondings.asInScene, {}, respond.address, null];
   if (typeof respond === "function") return [respondings.asksJavaScript, {}, 0, respond];
   checkKeys(respond, bounceKeys, "respond", "run");
+  checkBounce(respond, "run");
+  if (respond.masses !== undefined) requireNumbers(respond.masses, "masses", "run");
   return [respondings.bounces, respond, 0, null];
+}
+
+/** Throws RangeError for numbers with which bodies would gain energy. */
+export function checkBounce({ restitution = 1, restingSpeed = 0 }: Bounces, call: string): void {
+  if (!(restitution >= 0 && restitution <= 1))
+    throw new RangeError(`${call}: restitution must be from 0 to 1, but is ${restitution}`);
+  if (!(restingSpeed >= 0 && restingSpeed < Infinity))
+    throw new RangeError(`${call}: restingSpeed must be >= 0, but is ${restingSpeed}`);
+}
+
+/** Throws TypeError for the answer of an async function: the library needs it at once. */
+export function refusePromise(answer: unknown, what: string): void {
+  if (answer instanceof Promise) {
+    answer.catch(() => {});
+    throw new TypeError(`${what} must not be an async function: its answer is needed at once`);
+  }
 }
 
 /** Callbacks of the module, which pass tables of numbers to these functions. */
@@ -100,26 +121,26 @@ export function asking(
   return {
     rotate(count: number, ids: number, time: number, rotations: number): void {
       const answer = new Float64Array(rotationNumbers * count).fill(NaN);
-      rotate!(module.numbersAt(ids, count).slice(), time, answer);
+      refusePromise(rotate!(module.numbersAt(ids, count).slice(), time, answer), "rotation probe");
       module.numbersAt(rotations, answer.length).set(answer);
     },
     probe(count: number, ids: number, time: number, states: number): void {
       // The function may call the module, so its memory may grow.
       const answer = new Float64Array(6 * count).fill(NaN);
-      probe!(module.numbersAt(ids, count).slice(), time, answer);
+      refusePromise(probe!(module.numbersAt(ids, count).slice(), time, answer), "probe");
       module.numbersAt(states, 6 * count).set(answer);
     },
     respond(event: number, response: number): void {
       const answer = respond!(eventAt(event));
+      refusePromise(answer, "respond");
       if (answer !== undefined) checkKeys(answer, answerKeys, "answer", "respond");
       if (answer?.stop && atStop === undefined) throw new TypeError("respond: stop needs atStop in the options of run");
       const numbers = new Float64Array(19);
-      for (const [velocity, at] of [
-        [answer?.first, 0], [answer?.second, 4], [answer?.firstAngularVelocity, 8], [answer?.secondAngularVelocity, 12],
-      ] as const) {
+      for (const [k, name] of answerVectors.entries()) {
+        const velocity = answer?.[name];
         if (velocity === undefined) continue;
-        numbers.set(vector(velocity, "velocity", "respond"), at);
-        numbers[at + 3] = 1;
+        numbers.set(vector(velocity, name, "respond"), 4 * k);
+        numbers[4 * k + 3] = 1;
       }
       numbers[16] = actionNumber(answer?.firstAction, "firstAction");
       numbers[17] = actionNumber(answer?.secondAction, "secondAction");
@@ -127,7 +148,7 @@ export function asking(
       module.numbersAt(response, numbers.length).set(numbers);
     },
     stop(event: number): void {
-      atStop!(eventAt(event));
+      refusePromise(atStop!(eventAt(event)), "atStop");
     },
   };
 }

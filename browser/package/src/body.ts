@@ -2,7 +2,7 @@
 import { type Box, boxKeys, type ContactEvents, numberOfContacts } from "./definition.js";
 import type { Vec3 } from "./event.js";
 import { type PerBody, type States, vector } from "./motion.js";
-import { checkKeys, type Keys } from "./options.js";
+import { checkKeys, type Keys, shown, whole } from "./options.js";
 
 /** What a body promises: the fields of BodyDefinition with these names. */
 export interface MotionLimits {
@@ -76,20 +76,20 @@ export type Shape =
   | { triangle: readonly [Vec3, Vec3, Vec3] };
 
 export const limitKeys: Keys<MotionLimits> = {
-  accelerationLimit: true, plannedAcceleration: true, positionError: true, velocityError: true,
+  accelerationLimit: "number", plannedAcceleration: true, positionError: "number", velocityError: "number",
 };
 export const movedKeys: Keys<MovedOptions> = {
-  filter: true, solid: true, contacts: true, sensorClass: true, userData: true, mass: true,
+  filter: true, solid: "boolean", contacts: true, sensorClass: "number", userData: "number", mass: "number",
 };
-export const movedBodyKeys: Keys<MovedBodyDefinition> = { ...movedKeys, radius: true };
-export const bodyKeys: Keys<BodyDefinition> = { ...limitKeys, ...movedKeys, position: true, velocity: true, radius: true };
+export const movedBodyKeys: Keys<MovedBodyDefinition> = { ...movedKeys, radius: "number" };
+export const bodyKeys: Keys<BodyDefinition> = { ...limitKeys, ...movedKeys, position: true, velocity: true, radius: "number" };
 const { radius: ___, ...carrierKeys } = bodyKeys;
 export const shapeCarrierKeys: Keys<ShapeCarrier> = carrierKeys;
 const { accelerationLimit: _, ...commonLimitKeys } = limitKeys;
 const { mass: __, ...commonKeys } = movedKeys;
 export const batchKeys: Keys<BodyBatch> = {
   ...commonLimitKeys, ...commonKeys, positions: true, velocities: true, radii: true, accelerationLimits: true,
-  masses: true,
+  userData: true, masses: true,
 };
 /** What a zone has besides its shape. */
 export interface ZoneOptions {
@@ -102,13 +102,13 @@ export interface StaticOptions extends ZoneOptions {
   solid?: boolean;
   sensorClass?: number;
 }
-export const zoneKeys: Keys<ZoneOptions> = { filter: true, userData: true };
-export const staticKeys: Keys<StaticOptions> = { ...zoneKeys, solid: true, sensorClass: true };
-const filterKeys: Keys<Filter> = { category: true, mask: true, group: true };
+export const zoneKeys: Keys<ZoneOptions> = { filter: true, userData: "number" };
+export const staticKeys: Keys<StaticOptions> = { ...zoneKeys, solid: "boolean", sensorClass: "number" };
+const filterKeys: Keys<Filter> = { category: "number", mask: "number", group: "number" };
 type ShapeName = "ball" | "halfSpace" | "box" | "triangle";
 const shapeKeys: Readonly<Record<ShapeName, true>> = { ball: true, halfSpace: true, box: true, triangle: true };
-const ballKeys: Keys<{ centre: Vec3; radius: number }> = { centre: true, radius: true };
-const halfSpaceKeys: Keys<{ normal: Vec3; offset: number }> = { normal: true, offset: true };
+const ballKeys: Keys<{ centre: Vec3; radius: number }> = { centre: true, radius: "number" };
+const halfSpaceKeys: Keys<{ normal: Vec3; offset: number }> = { normal: true, offset: "number" };
 
 /** Size of the table that body_at() in browser/module/world.cpp reads. */
 export const bodyNumbers = 21;
@@ -138,18 +138,12 @@ export function filterNumbers(filter: Filter, call: string): [category: number, 
   checkKeys(filter, filterKeys, "filter", call);
   const { category = 1, mask = -1, group = 0 } = filter;
   if (!Number.isInteger(group) || Math.abs(group) >= 2 ** 31)
-    throw new RangeError(`${call}: filter.group must be a whole number of 32 bits, but is ${group}`);
+    throw new RangeError(`${call}: filter.group must be a whole number of 32 bits, but is ${shown(group)}`);
   return [whole(category, 2 ** 53, "filter.category", call), maskNumber(mask, "filter.mask", call), group];
 }
 
 export function maskNumber(mask: number, what: string, call: string): number {
   return mask === -1 ? -1 : whole(mask, 2 ** 53, what, call);
-}
-
-export function whole(value: number, most: number, what: string, call: string): number {
-  if (!Number.isInteger(value) || value < 0 || value > most)
-    throw new RangeError(`${call}: ${what} must be a whole number from 0 to ${most}, but is ${value}`);
-  return value;
 }
 
 /** Reads a shape from its kind and its numbers. */

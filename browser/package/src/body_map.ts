@@ -41,7 +41,7 @@ export class BodyMap extends Owned {
     checkKeys(body, movedBodyKeys, "body", call);
     const module = theModule();
     const id = module.with((scratch) => module.call(
-      "map_add", this.address, world.address, motion.address, number, scratch.numbers(like(body, call))));
+      "map_add", this.address, ...addressesOf(world, motion, call), number, scratch.numbers(like(body, call))));
     if (id < 0) throw module.error();
     this.keep(motion);
     return id;
@@ -53,7 +53,7 @@ export class BodyMap extends Owned {
     const [kind, parts] = shapeNumbers(shape, call);
     const module = theModule();
     const id = module.with((scratch) => module.call(
-      "map_add_moving_shape", this.address, world.address, motion.address, number, kind, scratch.numbers(parts),
+      "map_add_moving_shape", this.address, ...addressesOf(world, motion, call), number, kind, scratch.numbers(parts),
       scratch.numbers(like(options, call))));
     if (id < 0) throw module.error();
     this.keep(motion);
@@ -63,10 +63,11 @@ export class BodyMap extends Owned {
   addRigidBody(
     world: World, motion: Motion, number: number, parts: readonly RigidPart[], body: MovedRigidBodyDefinition = {},
   ): BodyId {
+    const call = "BodyMap.addRigidBody";
     const module = theModule();
     const id = module.with((scratch) => module.call(
-      "map_add_rigid_body", this.address, world.address, motion.address, number,
-      ...movedRigidArguments(scratch, parts, body, "BodyMap.addRigidBody")));
+      "map_add_rigid_body", this.address, ...addressesOf(world, motion, call), number,
+      ...movedRigidArguments(scratch, parts, body, call)));
     if (id < 0) throw module.error();
     this.keep(motion);
     return id;
@@ -78,10 +79,11 @@ export class BodyMap extends Owned {
   addAll(world: World, motion: Motion, radii: PerBody = 1, options: MovedOptions = {}): Float64Array {
     const call = "BodyMap.addAll";
     checkKeys(options, movedKeys, "options", call);
+    const addresses = addressesOf(world, motion, call);
     const sizes = each(radii, motion.size, "radii", call);
     const module = theModule();
     const ids = module.with((scratch) => {
-      module.require(module.call("map_add_all", this.address, world.address, motion.address, sizes.length,
+      module.require(module.call("map_add_all", this.address, ...addresses, sizes.length,
                                  scratch.numbers(sizes), scratch.numbers(like(options, call))));
       return module.answer();
     });
@@ -90,26 +92,28 @@ export class BodyMap extends Owned {
   }
   /** Sets the velocity at world.time, in the motion and in the world. */
   setVelocity(world: World, body: BodyId, velocity: Vec3): void {
-    this.change("map_set_velocity", world, body, vector(velocity, "velocity", "BodyMap.setVelocity"));
+    const call = "BodyMap.setVelocity";
+    this.change("map_set_velocity", world, body, vector(velocity, "velocity", call), call);
   }
   /** Sets the state at world.time, in the motion and in the world. */
   teleport(world: World, body: BodyId, state: State): void {
-    this.change("map_teleport", world, body, sixOf(state, "BodyMap.teleport"));
+    this.change("map_teleport", world, body, sixOf(state, "BodyMap.teleport"), "BodyMap.teleport");
   }
   /** Removes the body. A motion that does not support removal keeps it, but is no longer asked for it. */
   remove(world: World, body: BodyId): void {
     const module = theModule();
-    module.require(module.call("map_remove", this.address, world.address, body));
+    module.require(module.call("map_remove", this.address, Owned.addressOf(world, "World", "world", "BodyMap.remove"), body));
   }
   /**
    * Adds the next frame of a FrameMotion, three numbers for each of its bodies. The world learns all new velocities, so
    * that no contact is missed; world.time must be frames.latestTime.
    */
   push(world: World, frames: FrameMotion, positions: ArrayLike<number>): void {
-    const count = countOf(positions, "BodyMap.push");
+    const call = "BodyMap.push";
+    const count = countOf(positions, call);
     const module = theModule();
     module.with((scratch) => module.require(module.call(
-      "map_push", this.address, world.address, frames.address, count, scratch.numbers(positions))));
+      "map_push", this.address, ...addressesOf(world, frames, call), count, scratch.numbers(positions))));
   }
   /** Returns the motion and the number of the body there; null if this map does not know it. */
   find(body: BodyId): { motion: Motion; number: number } | null {
@@ -135,7 +139,8 @@ export class BodyMap extends Owned {
       throw new RangeError(`withMotions: to must have as many motions as from, ${from.length}, but has ${to.length}`);
     const module = theModule();
     const address = module.with((scratch) => {
-      const addresses = (motions: readonly Motion[]) => scratch.addresses(motions.map((motion) => motion.address));
+      const addresses = (motions: readonly Motion[]) => scratch.addresses(
+        motions.map((motion) => Owned.addressOf(motion, "Motion", "motion", "withMotions")));
       return module.require(module.call("map_with_motions", this.address, from.length, addresses(from), addresses(to)));
     });
     return new BodyMap(existing, address, to);
@@ -144,11 +149,15 @@ export class BodyMap extends Owned {
   private keep(motion: Motion): void {
     if (!this.#motions.includes(motion)) this.#motions.push(motion);
   }
-  private change(name: string, world: World, body: BodyId, numbers: number[]): void {
+  private change(name: string, world: World, body: BodyId, numbers: number[], call: string): void {
+    const address = Owned.addressOf(world, "World", "world", call);
     const module = theModule();
-    module.with((scratch) =>
-      module.require(module.call(name, this.address, world.address, body, scratch.numbers(numbers))));
+    module.with((scratch) => module.require(module.call(name, this.address, address, body, scratch.numbers(numbers))));
   }
+}
+
+function addressesOf(world: World, motion: Motion, call: string): [world: number, motion: number] {
+  return [Owned.addressOf(world, "World", "world", call), Owned.addressOf(motion, "Motion", "motion", call)];
 }
 
 /** Returns the table of a body whose state and limits come from a motion. */

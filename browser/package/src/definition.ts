@@ -2,7 +2,7 @@
 import type { Vec3 } from "./event.js";
 import type { Module } from "./module.js";
 import { vector } from "./motion.js";
-import { checkKeys, type Keys } from "./options.js";
+import { checkKeys, type Keys, shown } from "./options.js";
 
 /** All points with lower <= p <= upper on every axis. */
 export interface Box {
@@ -45,16 +45,18 @@ export interface WorldDefinition {
 export type Definition = Required<Omit<WorldDefinition, "box">> & Pick<WorldDefinition, "box">;
 
 const definitionKeys: Keys<WorldDefinition> = {
-  box: true, periodic: true, dimensions: true, contactTolerance: true, separationDistance: true, contacts: true,
-  allowOverlap: true, zenoInterval: true, startTime: true, spreadWindowStarts: true,
+  box: true, periodic: true, dimensions: "number", contactTolerance: "number", separationDistance: "number", contacts: true,
+  allowOverlap: "boolean", zenoInterval: "number", startTime: "number", spreadWindowStarts: "boolean",
 };
-const periodicKeys: Keys<NonNullable<WorldDefinition["periodic"]>> = { x: true, y: true, z: true };
+const periodicKeys: Keys<NonNullable<WorldDefinition["periodic"]>> = { x: "boolean", y: "boolean", z: "boolean" };
 export const boxKeys: Keys<Box> = { lower: true, upper: true };
 
 /** Returns numbers in the order of definition_at() in browser/module/world.cpp. */
 export function definitionNumbers(definition: WorldDefinition): number[] {
   checkKeys(definition, definitionKeys, "definition", "World");
-  const { box, periodic } = definition;
+  const { box, periodic, dimensions = 3 } = definition;
+  if (dimensions !== 2 && dimensions !== 3)
+    throw new RangeError(`World: dimensions must be 2 or 3, but is ${shown(dimensions)}`);
   if (box !== undefined) checkKeys(box, boxKeys, "box", "World");
   if (periodic !== undefined) checkKeys(periodic, periodicKeys, "periodic", "World");
   const corners = box === undefined
@@ -66,7 +68,7 @@ export function definitionNumbers(definition: WorldDefinition): number[] {
     periodic?.x ? 1 : 0,
     periodic?.y ? 1 : 0,
     periodic?.z ? 1 : 0,
-    definition.dimensions ?? 3,
+    dimensions,
     definition.contactTolerance ?? 1e-6,
     definition.separationDistance ?? NaN,
     numberOfContacts(definition.contacts ?? "all", "World"),
@@ -79,7 +81,7 @@ export function definitionNumbers(definition: WorldDefinition): number[] {
 
 export function numberOfContacts(contacts: ContactEvents, call: string): number {
   const number = contactEvents.indexOf(contacts);
-  if (number < 1) throw new TypeError(`${call}: contacts must be "all", "begin_and_end" or "impacts", but is "${contacts}"`);
+  if (number < 1) throw new TypeError(`${call}: contacts must be "all", "begin_and_end" or "impacts", but is ${shown(contacts)}`);
   return number;
 }
 

@@ -1,6 +1,6 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 // The WebAssembly module: its memory, its functions, and its errors as exceptions.
-import { checkKeys, type Keys } from "./options.js";
+import { checkKeys, type Keys, shown } from "./options.js";
 
 /** The reason of a failed call: one of the error codes of the library (kinesphere/result.hpp). */
 export type ErrorCode =
@@ -45,7 +45,7 @@ export class Scratch {
   numbers(values: ArrayLike<number>): number {
     if (Array.isArray(values))
       for (const value of values)
-        if (!isNumeric(value)) throw new TypeError(`kinesphere: arrays must hold numbers, but one holds ${value}`);
+        if (!isNumeric(value)) throw new TypeError(`kinesphere: arrays must hold numbers, but one holds ${shown(value)}`);
     const address = this.take(8 * values.length);
     this.module.numbersAt(address, values.length).set(values);
     return address;
@@ -128,7 +128,7 @@ export class Module {
   /** The module would take null, as the second body of a wall event is, for body 0; undefined becomes NaN. */
   call(name: string, ...values: number[]): number {
     for (const value of values)
-      if (!isNumeric(value)) throw new TypeError(`${callOf(name)}: ids and times must be numbers, but one is ${value}`);
+      if (!isNumeric(value)) throw new TypeError(`${callOf(name)}: arguments must be numbers, but one is ${shown(value)}`);
     return this.exports[name]!(...values);
   }
 
@@ -232,7 +232,7 @@ export interface LoadOptions {
   source?: BufferSource | WebAssembly.Module | URL | string;
 }
 
-const loadKeys: Keys<LoadOptions> = { simd: true, source: true };
+const loadKeys: Keys<LoadOptions> = { simd: "boolean", source: true };
 
 async function compiled(source: BufferSource | WebAssembly.Module | URL | string): Promise<WebAssembly.Module> {
   if (source instanceof WebAssembly.Module) return source;
@@ -289,8 +289,17 @@ export abstract class Owned {
   }
   /** @internal */
   get address(): number {
-    if (this.#address === 0) throw new Error("kinesphere: the object has been freed");
+    if (this.#address === 0) throw new Error(`kinesphere: the ${this.constructor.name} has been freed`);
     return this.#address;
+  }
+  /**
+   * @internal Returns the address of an argument, which must be an object of this kind: the module would take the
+   * address of any other for one.
+   */
+  static addressOf(object: Owned, kind: "World" | "Motion", what: string, call: string): number {
+    if (!(object instanceof Owned) || object.#free !== `${kind.toLowerCase()}_free`)
+      throw new TypeError(`${call}: ${what} must be a ${kind}, but is ${shown(object)}`);
+    return object.address;
   }
   /** Frees its memory. The object must not be used afterwards. */
   free(): void {

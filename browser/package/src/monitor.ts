@@ -1,7 +1,8 @@
 // Monitor: certain statements about the separation of tracks that report irregularly, and predictions.
-import { whole } from "./body.js";
+import { refusePromise } from "./asking.js";
 import { type Module, Owned, theModule } from "./module.js";
 import { type FullMonitorDefinition, monitorDefinitionOf, monitorNumbers, type MonitorDefinition } from "./monitor_definition.js";
+import { whole } from "./options.js";
 import { MonitorEvent, MonitorEvents, type TrackId, type Verdict, verdictOf } from "./monitor_event.js";
 import { batchNumbers, putReport, type ReportBatch, reportNumbers, trackId, type TrackReport } from "./report.js";
 
@@ -311,6 +312,7 @@ function polling(module: Module, poll: Poll) {
     poll(count: number, ids: number, time: number, replies: number): void {
       // The function may call the module, so its memory may grow.
       const reports = poll(module.numbersAt(ids, count).slice(), time);
+      refusePromise(reports, "poll");
       if (reports?.length !== count)
         throw new RangeError(`advance: poll must return an array of ${count} reports, but returned ` +
                              (reports?.length === undefined ? `${reports}` : `${reports.length}`));

@@ -1,8 +1,7 @@
 // Definitions of monitors: classes, separations, levels.
-import { whole } from "./body.js";
 import type { Vec3 } from "./event.js";
 import { vector } from "./motion.js";
-import { checkKeys, type Keys } from "./options.js";
+import { checkKeys, type Keys, shown, whole } from "./options.js";
 import { boundNumbers, type ErrorBound } from "./report.js";
 
 /** Motion limits that hold for all tracks of a class. At least one of the two limits has to be finite. */
@@ -99,16 +98,16 @@ export type FullMonitorDefinition =
   };
 
 const monitorKeys: Keys<MonitorDefinition> = {
-  classes: true, separations: true, dimensions: true, startTime: true, tolerance: true, timeResolution: true, window: true,
-  staleAfter: true, dropAfter: true, predictionHold: true, predictionConfirmation: true, predictionMargin: true,
-  predictionErrorPart: true, shard: true,
+  classes: true, separations: true, dimensions: "number", startTime: "number", tolerance: "number", timeResolution: "number", window: "number",
+  staleAfter: "number", dropAfter: "number", predictionHold: "number", predictionConfirmation: "number", predictionMargin: "number",
+  predictionErrorPart: "number", shard: true,
 };
 const classKeys: Keys<TrackClass> = { accelerationLimit: true, plannedAcceleration: true, largestSpeed: true };
-const ruleKeys: Keys<SeparationRule> = { firstClass: true, secondClass: true, levels: true };
-const shardKeys: Keys<Shard> = { of: true, first: true, count: true };
-const sphereKeys: Keys<SphereSeparation> = { distance: true, lookAhead: true };
-const volumeKeys: Keys<VolumeSeparation> = { horizontal: true, vertical: true, lookAhead: true };
-const wellClearKeys: Keys<WellClearSeparation> = { ...volumeKeys, modifiedTau: true };
+const ruleKeys: Keys<SeparationRule> = { firstClass: "number", secondClass: "number", levels: true };
+const shardKeys: Keys<Shard> = { of: "number", first: "number", count: "number" };
+const sphereKeys: Keys<SphereSeparation> = { distance: "number", lookAhead: "number" };
+const volumeKeys: Keys<VolumeSeparation> = { horizontal: "number", vertical: "number", lookAhead: "number" };
+const wellClearKeys: Keys<WellClearSeparation> = { ...volumeKeys, modifiedTau: "number" };
 type ShapeName = "sphere" | "ellipsoid" | "cylinder" | "wellClear";
 const levelKeys: Readonly<Record<ShapeName, true>> = { sphere: true, ellipsoid: true, cylinder: true, wellClear: true };
 /** The shapes of the library, by number. */
@@ -145,7 +144,7 @@ function separationOf(numbers: Float64Array): Separation {
 }
 
 function list<T>(values: readonly T[], what: string): readonly T[] {
-  if (!Array.isArray(values)) throw new TypeError(`Monitor: ${what} must be an array, but is ${values}`);
+  if (!Array.isArray(values)) throw new TypeError(`Monitor: ${what} must be an array, but is ${shown(values)}`);
   return values;
 }
 

@@ -1,7 +1,7 @@
 // Ready-made motions, which move bodies inside the module: their states need no call of JavaScript.
 import type { State, Vec3 } from "./event.js";
 import { Owned, theModule } from "./module.js";
-import { checkKeys, type Keys } from "./options.js";
+import { checkKeys, type Keys, requireNumbers, shown, whole } from "./options.js";
 import type { World } from "./world.js";
 
 /** States of many bodies: three numbers for each in `positions`, and in `velocities` if they move. */
@@ -15,7 +15,8 @@ export type PerBody = number | ArrayLike<number>;
 
 export function countOf(positions: ArrayLike<number>, call: string): number {
   if (typeof positions?.length !== "number")
-    throw new TypeError(`${call}: positions must be an array, but is ${positions}`);
+    throw new TypeError(`${call}: positions must be an array, but is ${shown(positions)}`);
+  requireNumbers(positions, "positions", call);
   if (positions.length % 3 !== 0)
     throw new RangeError(`${call}: positions must have three numbers for each body, but has ${positions.length}`);
   return positions.length / 3;
@@ -24,7 +25,8 @@ export function countOf(positions: ArrayLike<number>, call: string): number {
 export function each(values: PerBody, count: number, what: string, call: string): ArrayLike<number> {
   if (typeof values === "number") return new Float64Array(count).fill(values);
   if (typeof values?.length !== "number")
-    throw new TypeError(`${call}: ${what} must be a number or an array, but is ${values}`);
+    throw new TypeError(`${call}: ${what} must be a number or an array, but is ${shown(values)}`);
+  requireNumbers(values, what, call);
   if (values.length !== count)
     throw new RangeError(`${call}: ${what} must have a number for each of ${count} bodies, but has ${values.length}`);
   return values;
@@ -32,10 +34,20 @@ export function each(values: PerBody, count: number, what: string, call: string)
 
 export function vector(values: Vec3, what: string, call: string): [number, number, number] {
   if (typeof values?.length !== "number")
-    throw new TypeError(`${call}: ${what} must be an array of three numbers, but is ${values}`);
+    throw new TypeError(`${call}: ${what} must be an array of three numbers, but is ${shown(values)}`);
   if (values.length !== 3)
     throw new RangeError(`${call}: ${what} must have three numbers, but has ${values.length}`);
+  requireNumbers(values, what, call);
   return [values[0]!, values[1]!, values[2]!];
+}
+
+/** Throws unless there are no velocities, or three numbers for each body. */
+export function requireAsMany(velocities: ArrayLike<number> | undefined, positions: ArrayLike<number>, call: string): void {
+  if (velocities === undefined) return;
+  if (velocities.length !== positions.length)
+    throw new RangeError(
+      `${call}: velocities must have as many numbers as positions, ${positions.length}, but has ${velocities.length}`);
+  requireNumbers(velocities, "velocities", call);
 }
 
 /** The address of a motion that was made in the module. */
@@ -50,9 +62,7 @@ function sixes(states: States, call: string): Float64Array {
   checkKeys(states, stateKeys, "start", call);
   const count = countOf(states.positions, call);
   const { positions, velocities } = states;
-  if (velocities !== undefined && velocities.length !== positions.length)
-    throw new RangeError(
-      `${call}: velocities must have as many numbers as positions, ${positions.length}, but has ${velocities.length}`);
+  requireAsMany(velocities, positions, call);
   const numbers = new Float64Array(6 * count);
   for (let k = 0; k < count; ++k) {
     for (let axis = 0; axis < 3; ++axis) {
@@ -171,7 +181,7 @@ export interface LimitedMotion {
   startTime?: number;
 }
 
-const limitedKeys: Keys<LimitedMotion> = { accelerationLimits: true, startTime: true };
+const limitedKeys: Keys<LimitedMotion> = { accelerationLimits: true, startTime: "number" };
 
 /** Makes the motion of bodies with limits by the function of this name; `more` are its last arguments. */
 function limited<Options extends LimitedMotion>(name: string, call: string, start: States, options: Options,
@@ -202,7 +212,7 @@ export class Ballistic extends Motion {
   }
 }
 
-const ballisticKeys: Keys<BallisticOptions> = { gravity: true, startTime: true };
+const ballisticKeys: Keys<BallisticOptions> = { gravity: true, startTime: "number" };
 
 function flying(start: States, options: BallisticOptions): Made {
   const call = "Ballistic";
@@ -221,7 +231,7 @@ export interface RandomForcesOptions extends LimitedMotion {
   seed?: number;
 }
 
-const forcesKeys: Keys<RandomForcesOptions> = { ...limitedKeys, interval: true, seed: true };
+const forcesKeys: Keys<RandomForcesOptions> = { ...limitedKeys, interval: "number", seed: "number" };
 
 /** Bodies pushed around by random forces that change at fixed times. */
 export class RandomForces extends Motion {
@@ -230,7 +240,8 @@ export class RandomForces extends Motion {
   constructor(made: Made);
   constructor(start: States | Made, options?: RandomForcesOptions) {
     super(start instanceof Made ? start
-      : limited("motion_random_forces", "RandomForces", start, options!, forcesKeys, options!.interval ?? 0.2, options!.seed ?? 1));
+      : limited("motion_random_forces", "RandomForces", start, options!, forcesKeys, options?.interval ?? 0.2,
+                whole(options?.seed ?? 1, 2 ** 53, "seed", "RandomForces")));
   }
 }
 
@@ -265,7 +276,7 @@ export interface FrameMotionOptions {
   positionError?: number;
 }
 
-const frameKeys: Keys<FrameMotionOptions> = { ...limitedKeys, interval: true, positionError: true };
+const frameKeys: Keys<FrameMotionOptions> = { ...limitedKeys, interval: "number", positionError: "number" };
 
 /** A position with which a body violated its limit; see `FrameViolation` in kinesphere/motion/frame_motion.hpp. */
 export interface FrameViolation {
@@ -310,7 +321,7 @@ export class FrameMotion extends Motion {
   /** Appends the next frame, without a world. */
   push(positions: ArrayLike<number>): void;
   push(first: World | ArrayLike<number>, second?: ArrayLike<number>): void {
-    const world = second === undefined ? 0 : (first as World).address;
+    const world = second === undefined ? 0 : Owned.addressOf(first as World, "World", "world", "push");
     const positions = second ?? (first as ArrayLike<number>);
     const count = countOf(positions, "push");
     const module = theModule();
@@ -378,9 +389,13 @@ export class RecordedTracks extends Motion {
 
 function alongTracks(tracks: readonly Track[]): Made {
   const samples: number[] = [];
-  for (const [body, { times, positions }] of tracks.entries()) {
+  if (!Array.isArray(tracks))
+    throw new TypeError(`RecordedTracks: tracks must be an array of objects with times and positions, but is ${shown(tracks)}`);
+  for (const [body, { times, positions }] of (tracks as readonly Track[]).entries()) {
     if (typeof times?.length !== "number" || typeof positions?.length !== "number")
       throw new TypeError(`RecordedTracks: body ${body} must have arrays of times and positions`);
+    requireNumbers(times, `times of body ${body}`, "RecordedTracks");
+    requireNumbers(positions, `positions of body ${body}`, "RecordedTracks");
     if (positions.length !== 3 * times.length)
       throw new RangeError(`RecordedTracks: positions of body ${body} must have three numbers for each of ` +
                            `${times.length} times, but has ${positions.length}`);

@@ -1,8 +1,49 @@
-// Keys of option objects: a misspelled one is refused, since its value would silently be the default. Data without
-// optional keys, such as states and tracks, may have more.
+// Keys and kinds of values of option objects: a misspelled key is refused, since its value would silently be the default,
+// and so is a text where a number belongs, since JavaScript would convert it. Data without optional keys, such as states
+// and tracks, may have more keys.
 
-/** All keys of an option object. A list that lacks one does not compile. */
-export type Keys<Options> = Readonly<Record<keyof Options, true>>;
+/** What a value must be for `typeof`; true: it is checked where it is used. */
+type Kind = "number" | "boolean" | true;
+type KindOf<Value> = [Value] extends [number] ? "number" : [Value] extends [boolean] ? "boolean" : true;
+/** All keys of an option object, and the kinds of their values. A list that lacks one does not compile. */
+export type Keys<Options> = { readonly [Key in keyof Options]-?: KindOf<NonNullable<Options[Key]>> };
+
+/** Returns a value as an error shows it. */
+export function shown(value: unknown): string {
+  if (typeof value === "string") return JSON.stringify(value);
+  if (typeof value === "bigint") return `${value}n`;
+  if (typeof value === "function") return "a function";
+  if (typeof value !== "object" || value === null) return String(value);
+  if (Array.isArray(value)) return "an array";
+  const name = value.constructor?.name;
+  return name === undefined || name === "Object" ? "an object" : `an object of class ${name}`;
+}
+
+/** Returns the number. Throws TypeError for anything else. */
+export function numberOf(value: number, what: string, call: string): number {
+  if (typeof value !== "number") throw new TypeError(`${call}: ${what} must be a number, but is ${shown(value)}`);
+  return value;
+}
+
+/** Returns the number. Throws RangeError unless it is a whole one from 0 to `most`. */
+export function whole(value: number, most: number, what: string, call: string): number {
+  if (!Number.isInteger(value) || value < 0 || value > most)
+    throw new RangeError(`${call}: ${what} must be a whole number from 0 to ${most}, but is ${shown(value)}`);
+  return value;
+}
+
+/**
+ * Throws TypeError unless all values are numbers, and names the first other one: a typed array of the module would take a
+ * text, null or a list for a number.
+ */
+export function requireNumbers(values: ArrayLike<number>, what: string, call: string): void {
+  const isTyped = ArrayBuffer.isView(values) && !(values instanceof BigInt64Array || values instanceof BigUint64Array);
+  for (let k = 0; !isTyped && k < values.length; ++k) {
+    if (typeof values[k] === "number") continue;
+    const hint = Array.isArray(values[k]) ? ": all numbers stand in one array, x, y and z of one after the other" : "";
+    throw new TypeError(`${call}: ${what}[${k}] must be a number, but is ${shown(values[k])}${hint}`);
+  }
+}
 
 /** Spellings of other languages count as equal: contact_tolerance is contactTolerance. */
 function plain(key: string): string {
@@ -22,16 +63,22 @@ function editDistance(one: string, other: string): number {
 }
 
 /**
- * The one place where option objects are checked. Throws TypeError for a key that is not known, with the nearest known one; and for what is no
- * object.
+ * The one place where option objects are checked. Throws TypeError for a key that is not known, with the nearest known
+ * one; for null and a value of another kind; and for what is no object. A value that is undefined is left out.
  */
 export function checkKeys<Options extends object>(given: Options, known: Keys<Options>, what: string, call: string): void {
-  if (typeof given !== "object" || given === null)
-    throw new TypeError(`${call}: ${what} must be an object with the keys ${Object.keys(known).join(", ")}, but is ${given}`);
-  for (const key of Object.keys(given)) {
-    if (Object.hasOwn(known, key)) continue;
-    const distance = (name: string) => editDistance(plain(key), plain(name));
-    const nearest = Object.keys(known).reduce((best, name) => (distance(name) < distance(best) ? name : best));
-    throw new TypeError(`${call}: ${what} has no key ${key}; the nearest is ${nearest}`);
+  if (typeof given !== "object" || given === null || Array.isArray(given))
+    throw new TypeError(
+      `${call}: ${what} must be an object with the keys ${Object.keys(known).join(", ")}, but is ${shown(given)}`);
+  for (const [key, value] of Object.entries(given)) {
+    if (!Object.hasOwn(known, key)) {
+      const distance = (name: string) => editDistance(plain(key), plain(name));
+      const nearest = Object.keys(known).reduce((best, name) => (distance(name) < distance(best) ? name : best));
+      throw new TypeError(`${call}: ${what} has no key ${key}; the nearest is ${nearest}`);
+    }
+    const kind = (known as Readonly<Record<string, Kind>>)[key];
+    if (value === null) throw new TypeError(`${call}: ${key} must not be null; without it, it has its default`);
+    if (kind !== true && value !== undefined && typeof value !== kind)
+      throw new TypeError(`${call}: ${key} must be a ${kind}, but is ${shown(value)}`);
   }
 }

@@ -1,9 +1,8 @@
 // Reports of tracks, and their tables of numbers for the module.
-import { whole } from "./body.js";
 import type { Vec3 } from "./event.js";
 import type { TrackId } from "./monitor_event.js";
 import { countOf, each, type PerBody, vector } from "./motion.js";
-import { checkKeys, type Keys } from "./options.js";
+import { checkKeys, type Keys, numberOf, requireNumbers, shown, whole } from "./options.js";
 
 /**
  * An upper limit of an error: a number is a ball of that radius; otherwise the limits in the horizontal plane (x, y) and
@@ -74,10 +73,10 @@ export interface PlanBatch {
 }
 
 const reportKeys: Keys<TrackReport> = {
-  timestamp: true, position: true, velocity: true, positionError: true, velocityError: true, timestampError: true,
-  trackClass: true, plan: true,
+  timestamp: "number", position: true, velocity: true, positionError: true, velocityError: true, timestampError: "number",
+  trackClass: "number", plan: true,
 };
-const planKeys: Keys<Plan> = { acceleration: true, accelerationLimit: true, validUntil: true };
+const planKeys: Keys<Plan> = { acceleration: true, accelerationLimit: true, validUntil: "number" };
 const reportBatchKeys: Keys<ReportBatch> = {
   ids: true, timestamps: true, positions: true, velocities: true, positionErrors: true, velocityErrors: true,
   timestampErrors: true, trackClasses: true, plans: true,
@@ -95,8 +94,9 @@ export function trackId(id: TrackId, what: string, call: string): number {
 /** Returns three numbers: 0 and a radius, or 1, the horizontal and the vertical limit. */
 export function boundNumbers(bound: ErrorBound, what: string, call: string): [number, number, number] {
   if (typeof bound === "number") return [0, bound, bound];
+  if (typeof bound !== "object") throw new TypeError(`${call}: ${what} must be a number or an object, but is ${shown(bound)}`);
   checkKeys(bound, boundKeys, what, call);
-  return [1, bound.horizontal, bound.vertical];
+  return [1, numberOf(bound.horizontal, `${what}.horizontal`, call), numberOf(bound.vertical, `${what}.vertical`, call)];
 }
 
 export function putReport(numbers: Float64Array, at: number, report: TrackReport, call: string): void {
@@ -130,6 +130,7 @@ export function batchNumbers(batch: ReportBatch, call: string): Float64Array {
     if (values.length !== 3 * count)
       throw new RangeError(
         `${call}: ${what} must have three numbers for each of ${count} reports, but has ${values.length}`);
+    requireNumbers(values, what, call);
     for (let k = 0; k < count; ++k)
       for (let axis = 0; axis < 3; ++axis) numbers[k * reportNumbers + place + axis] = values[3 * k + axis]!;
   };

@@ -1,7 +1,8 @@
 // Responses of two bodies to a contact.
-import type { Event, Vec3 } from "./event.js";
+import { checkBounce } from "./asking.js";
+import { Event, type Vec3 } from "./event.js";
 import { theModule } from "./module.js";
-import { checkKeys, type Keys } from "./options.js";
+import { checkKeys, type Keys, shown } from "./options.js";
 
 /** The velocities of the two bodies after the contact; that of a wall is zero. */
 export interface Bounce {
@@ -23,14 +24,16 @@ export interface BounceOptions {
   restingSpeed?: number;
 }
 
-const bounceKeys: Keys<BounceOptions> = { firstMass: true, secondMass: true, restitution: true, restingSpeed: true };
+const bounceKeys: Keys<BounceOptions> = { firstMass: "number", secondMass: "number", restitution: "number", restingSpeed: "number" };
 
 /**
  * Returns the response of smooth bodies to a begin, as `bounce` and `settle` of the C++ library do. Momentum is kept, and
  * of rigid bodies angular momentum, too.
  */
 export function bounce(contact: Event, options: BounceOptions = {}): Bounce {
+  if (!(contact instanceof Event)) throw new TypeError(`bounce: contact must be an Event, but is ${shown(contact)}`);
   checkKeys(options, bounceKeys, "options", "bounce");
+  checkBounce(options, "bounce");
   const { firstMass = contact.firstMass, secondMass = contact.secondMass, restitution = 1, restingSpeed = 0 } = options;
   const module = theModule();
   return module.with((scratch) => {

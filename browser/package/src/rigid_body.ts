@@ -3,7 +3,7 @@ import { putBody, bodyNumbers, type MovedOptions, movedKeys, type ShapeCarrier, 
 import type { Vec3 } from "./event.js";
 import type { Scratch } from "./module.js";
 import { vector } from "./motion.js";
-import { checkKeys, type Keys } from "./options.js";
+import { checkKeys, type Keys, requireNumbers, shown } from "./options.js";
 
 /** A rotation as a unit quaternion w, x, y, z. */
 export type Quaternion = ArrayLike<number>;
@@ -57,22 +57,23 @@ export interface MovedRigidBodyDefinition extends MovedOptions, Turning {}
 export type RotationProbeFunction = (ids: Float64Array, time: number, rotations: Float64Array) => void;
 
 const turningKeys: Keys<Turning> = {
-  orientation: true, angularVelocity: true, angularAccelerationLimit: true, largestAngularSpeed: true, inertia: true,
+  orientation: true, angularVelocity: true, angularAccelerationLimit: "number", largestAngularSpeed: "number", inertia: true,
 };
 const rigidBodyKeys: Keys<RigidBodyDefinition> = { ...shapeCarrierKeys, ...turningKeys };
 const movedRigidBodyKeys: Keys<MovedRigidBodyDefinition> = { ...movedKeys, ...turningKeys };
 type AnyPart = { ball?: unknown; capsule?: unknown; hull?: unknown; box?: unknown };
 const partKeys: Keys<AnyPart> = { ball: true, capsule: true, hull: true, box: true };
-const ballKeys: Keys<{ centre: Vec3; radius: number }> = { centre: true, radius: true };
-const capsuleKeys: Keys<{ a: Vec3; b: Vec3; radius: number }> = { a: true, b: true, radius: true };
-const hullKeys: Keys<{ points: readonly Vec3[]; radius?: number }> = { points: true, radius: true };
-const boxKeys: Keys<{ lower: Vec3; upper: Vec3; radius?: number }> = { lower: true, upper: true, radius: true };
+const ballKeys: Keys<{ centre: Vec3; radius: number }> = { centre: true, radius: "number" };
+const capsuleKeys: Keys<{ a: Vec3; b: Vec3; radius: number }> = { a: true, b: true, radius: "number" };
+const hullKeys: Keys<{ points: readonly Vec3[]; radius?: number }> = { points: true, radius: "number" };
+const boxKeys: Keys<{ lower: Vec3; upper: Vec3; radius?: number }> = { lower: true, upper: true, radius: "number" };
 
 /** Size of a rotation in numbers. */
 export const rotationNumbers = 7;
 
 export function numbersOfRotation({ orientation, angularVelocity }: Rotation, call: string): number[] {
   if (orientation?.length !== 4) throw new TypeError(`${call}: orientation must be four numbers w, x, y, z`);
+  requireNumbers(orientation, "orientation", call);
   return [...Array.from(orientation), ...vector(angularVelocity, "angularVelocity", call)];
 }
 
@@ -127,6 +128,7 @@ export function rigidArguments(
   scratch: Scratch, parts: readonly RigidPart[], body: RigidBodyDefinition, call: string,
 ): [body: number, rigid: number, count: number, parts: number] {
   checkKeys(body, rigidBodyKeys, "body", call);
+  if (!Array.isArray(parts)) throw new TypeError(`${call}: parts must be an array, but is ${shown(parts)}`);
   const {
     orientation = [1, 0, 0, 0], angularVelocity = [0, 0, 0], angularAccelerationLimit = 0, largestAngularSpeed = Infinity,
     inertia = [0, 0, 0], ...rest

@@ -24,8 +24,8 @@ export interface SceneSettings {
 
 /** Names of the settings, in the order of scene_create in browser/module/scene.cpp. */
 const sceneKeys: Keys<SceneSettings> = {
-  bodies: true, seed: true, seconds: true, packing: true, radiusMin: true, radiusMax: true, speedMin: true, speedMax: true,
-  limitMin: true, limitMax: true, restitution: true, contactTolerance: true,
+  bodies: "number", seed: "number", seconds: "number", packing: "number", radiusMin: "number", radiusMax: "number", speedMin: "number", speedMax: "number",
+  limitMin: "number", limitMax: "number", restitution: "number", contactTolerance: "number",
 };
 const sceneSettings = Object.keys(sceneKeys) as (keyof SceneSettings)[];
 

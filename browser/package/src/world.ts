@@ -4,18 +4,18 @@ import {
   batchKeys, type BodyBatch, type BodyDefinition, bodyKeys, bodyNumbers, type Filter, filterNumbers, limitKeys, maskNumber,
   type MotionLimits, movedKeys, type MovedOptions, putBody, putOptions, type Shape, type ShapeCarrier,
   shapeCarrierKeys, shapeFrom, shapeNumbers, staticKeys,
-  type StaticOptions, whole, zoneKeys, type ZoneOptions,
+  type StaticOptions, zoneKeys, type ZoneOptions,
 } from "./body.js";
 import { BodyMap } from "./body_map.js";
 import { type Box, boxKeys, type Definition, definitionAt, definitionNumbers, type WorldDefinition } from "./definition.js";
 import { type BodyId, Event, type EventKind, Events, eventKinds, type State, type Vec3, type Wall, wallOf } from "./event.js";
 import { Owned, type Scratch, theModule } from "./module.js";
-import { checkKeys } from "./options.js";
+import { checkKeys, whole } from "./options.js";
 import {
   numbersOfRotation, partsFrom, rigidArguments, type RigidBodyDefinition, type RigidPart, type Rotation, rotationFrom,
   type RotationProbeFunction,
 } from "./rigid_body.js";
-import { countOf, each, Motion, type MotionDefinition, type PerBody, sixOf, vector } from "./motion.js";
+import { countOf, each, Motion, type MotionDefinition, type PerBody, requireAsMany, sixOf, vector } from "./motion.js";
 
 /** What the world knows of a body now. */
 export interface BodyView {
@@ -403,9 +403,7 @@ export class World extends WorldView {
     const userData = each(bodies.userData ?? 0, count, "userData", call);
     const masses = each(bodies.masses ?? 1, count, "masses", call);
     const { positions, velocities } = bodies;
-    if (velocities !== undefined && velocities.length !== positions.length)
-      throw new RangeError(
-        `${call}: velocities must have as many numbers as positions, ${positions.length}, but has ${velocities.length}`);
+    requireAsMany(velocities, positions, call);
     const numbers = new Float64Array(count * bodyNumbers);
     const common = new Float64Array(bodyNumbers);
     const { userData: _, ...options } = bodies;
@@ -425,12 +423,16 @@ export class World extends WorldView {
     return this.addNumbers(numbers);
   }
   /**
-   * Adds all bodies of a motion, with these radii. If the world has had no bodies before, the ids are the numbers in
-   * the motion.
+   * Adds all bodies of a motion, with these radii, to a world that never had bodies: their ids are then their numbers in
+   * the motion, which can be the probe. Static bodies and others come after it, or a BodyMap relates ids to numbers.
    */
   addMotion(motion: Motion, radii: PerBody = 1, options: MovedOptions = {}): Float64Array {
     const call = "addMotion";
     checkKeys(options, movedKeys, "options", call);
+    Owned.addressOf(motion, "Motion", "motion", call);
+    if (this.size > 0)
+      throw new RangeError(`${call}: motion must be added to a world without bodies, so that its numbers are ids; there are ` +
+                           `${this.size} (a BodyMap has no such need)`);
     const count = motion.size;
     const sizes = each(radii, count, "radii", call);
     const numbers = new Float64Array(count * bodyNumbers);
@@ -438,7 +440,11 @@ export class World extends WorldView {
       const known: MotionDefinition = motion.definition(k, this.time);
       putBody(numbers, k * bodyNumbers, { ...options, ...known, radius: sizes[k]! }, call);
     }
-    return this.addNumbers(numbers);
+    const ids = this.addNumbers(numbers);
+    if (ids.every((id, k) => id === k)) return ids;
+    for (const id of ids) this.remove(id);
+    throw new RangeError(`${call}: motion must be added to a world that never had bodies, so that its numbers are ids ` +
+                         "(a BodyMap has no such need)");
   }
   /**
    * Adds a body that carries a box or a triangle, given relative to its position, without turning it: a lift, a door, a
