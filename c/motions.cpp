@@ -113,6 +113,12 @@ struct AddedMotion {
 
 AddedMotion add_motion(std::string_view call, WorldObject& object, const ks_motion_definition& definition) {
   require_number(call, "definition.kind", definition.kind, KS_MOTION_BALLISTIC, KS_MOTION_STEERED);
+  const Vec3 gravity = vector_of(definition.gravity);
+  InputCheck(call)
+      .require(definition.kind == KS_MOTION_BALLISTIC || gravity == Vec3{}, ErrorCode::out_of_range,
+               {"definition.gravity"}, "must be 0 for all kinds but KS_MOTION_BALLISTIC", gravity)
+      .result()
+      .value();
   const Properties properties = properties_of(call, definition);
   require_idle(object.world());
   const MotionId<> motion = add(call, object.simulation, definition);

@@ -2,6 +2,7 @@
 #include "kinesphere/world.hpp"
 
 #include <functional>
+#include <string>
 
 #include "exchange.hpp"
 #include "objects.hpp"
@@ -39,7 +40,13 @@ WorldDefinition world_of(std::string_view call, const ks_world_definition& given
       .zeno_interval = given.zeno_interval,
       .start_time = given.start_time,
       .spread_window_starts = given.spread_window_starts != 0};
-  if (given.has_box) definition.box = box_of(given.box);
+  const Box box = box_of(given.box);
+  if (given.has_box) {
+    definition.box = box;
+  } else if (box != Box{}) {
+    detail::bad_result({ErrorCode::out_of_range, "has_box", no_body,
+                        std::string(call) + ": has_box must be 1 for a world with a box, but is 0"});
+  }
   return definition;
 }
 

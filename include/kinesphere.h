@@ -245,7 +245,7 @@ enum { KS_AXIS_X = 1, KS_AXIS_Y = 2, KS_AXIS_Z = 4 };
 typedef struct ks_world_definition {
   uint32_t struct_size;
   int32_t dimensions;  ///< 2 or 3
-  int32_t has_box;     ///< the world has walls, or repeats, at the sides of `box`
+  int32_t has_box;     ///< 1: the world has walls, or repeats, at the sides of `box`; 0: `box` is all 0
   uint32_t periodic;   ///< sum of KS_AXIS_...: these axes repeat, and have no walls
   ks_box box;
   double contact_tolerance;    ///< > 0 (length)
@@ -753,7 +753,7 @@ typedef struct ks_motion_definition {
   /// KS_MOTION_RANDOM_FORCES and KS_MOTION_STEERED: `count` limits. KS_MOTION_FRAMES: the same, or NULL for
   /// bodies without a limit.
   const double* acceleration_limits;
-  ks_vec3 gravity;        ///< KS_MOTION_BALLISTIC
+  ks_vec3 gravity;        ///< KS_MOTION_BALLISTIC; 0 for the others
   double interval;        ///< > 0 (time): of forces or frames
   double position_error;  ///< KS_MOTION_FRAMES: of the positions in frames
   uint64_t seed;          ///< KS_MOTION_RANDOM_FORCES

@@ -174,7 +174,7 @@ test("wrong input is named", () => {
   for (const nobody of [null, "0"]) {
     assert.throws(() => world.setVelocity(nobody, [0, 0, 0]), /setVelocity: arguments must be numbers, but one is/);
     assert.throws(() => world.remove(nobody), /remove: arguments must be numbers/);
-    assert.throws(() => world.setVelocityAll([nobody], [0, 0, 0]), /arrays must hold numbers, but one holds/);
+    assert.throws(() => world.setVelocityAll([nobody], [0, 0, 0]), /setVelocityAll: bodies\[0\] must be a number, but is/);
     assert.throws(() => new BodyMap().remove(world, nobody), /arguments must be numbers/);
   }
   assert.ok(world.contains(first));
@@ -240,6 +240,10 @@ test("a value of another kind is named: JavaScript would convert it", async () =
     [() => world.addAll({ positions, velocities: [0, "1", 0] }), 'addAll: velocities[1] must be a number, but is "1"'],
     [() => world.addAll({ positions, radii: ["1"] }), 'addAll: radii[0] must be a number, but is "1"'],
     [() => world.addStatic({ ball: { centre: position, radius: "1" } }), 'addStatic: radius must be a number, but is "1"'],
+    [() => world.setSensor(1, 5), "setSensor: distances must be an array, but is 5"],
+    [() => world.enable(first), "enable: state must be an object with position and velocity, but is undefined"],
+    [() => World.restore(new ArrayBuffer(8)), "World.restore: snapshot must be a Uint8Array, but is an object of class ArrayBuffer"],
+    [() => new Replay(undefined), "Replay: recording must be a Uint8Array, but is undefined"],
     [() => world.setRadius(first, "2"), 'setRadius: arguments must be numbers, but one is "2"'],
     [() => new World({ allowOverlap: 0 }), "World: allowOverlap must be a boolean, but is 0"],
     [() => new World({ contactTolerance: "1e-3" }), 'World: contactTolerance must be a number, but is "1e-3"'],

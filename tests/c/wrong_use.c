@@ -175,6 +175,10 @@ static void wrong_records(ks_world world) {
   REFUSED(ks_world_create(&definition, &other), OUT_OF_RANGE);
   definition.periodic = KS_AXIS_X;
   REFUSED(ks_world_create(&definition, &other), OUT_OF_RANGE);  // without a box
+  definition = ks_default_world_definition();
+  definition.box.upper = vec3(10, 10, 10);
+  REFUSED(ks_world_create(&definition, &other), OUT_OF_RANGE);  // it would have no walls
+  CHECK(strcmp(ks_last_error_argument(), "has_box") == 0);
   ball.sensor_class = 300;
   REFUSED(ks_world_add(world, &ball, 1, &id), OUT_OF_RANGE);
   ball = ks_default_body_definition();
@@ -389,6 +393,9 @@ static void wrong_steering(void) {
   ships.states = states;
   ks_body_id ids[2], ball;
   REFUSED(ks_world_add_motion(world, &ships, NULL, ids), NULL_ARGUMENT);  // without limits
+  ships.gravity.z = -10;
+  REFUSED(ks_world_add_motion(world, &ships, NULL, ids), OUT_OF_RANGE);  // it would have no effect
+  ships.gravity.z = 0;
   ships.acceleration_limits = limits;
   CHECK_OK(ks_world_add_motion(world, &ships, NULL, ids));
   REFUSED(ks_world_steer(world, ids[0], vec3(3, 0, 0)), OUT_OF_RANGE);

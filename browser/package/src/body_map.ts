@@ -5,7 +5,7 @@ import {
 } from "./body.js";
 import { Owned, theModule } from "./module.js";
 import { countOf, each, type FrameMotion, type Motion, type PerBody, sixOf, vector } from "./motion.js";
-import { checkKeys } from "./options.js";
+import { checkKeys, requireNumbers } from "./options.js";
 import { type MovedRigidBodyDefinition, movedRigidArguments, type RigidPart } from "./rigid_body.js";
 import type { World } from "./world.js";
 
@@ -124,6 +124,7 @@ export class BodyMap extends Owned {
   }
   /** Returns six numbers for each: position and velocity, as Motion.states() does; NaN for unknown bodies. */
   states(time: number, bodies: ArrayLike<BodyId>): Float64Array {
+    requireNumbers(bodies, "bodies", "BodyMap.states");
     const module = theModule();
     return module.with((scratch) => {
       module.call("map_states", this.address, time, bodies.length, scratch.numbers(bodies));

@@ -2,7 +2,7 @@
 import { refusePromise } from "./asking.js";
 import { type Module, Owned, theModule } from "./module.js";
 import { type FullMonitorDefinition, monitorDefinitionOf, monitorNumbers, type MonitorDefinition } from "./monitor_definition.js";
-import { whole } from "./options.js";
+import { requireBytes, whole } from "./options.js";
 import { MonitorEvent, MonitorEvents, type TrackId, type Verdict, verdictOf } from "./monitor_event.js";
 import { batchNumbers, putReport, type ReportBatch, reportNumbers, trackId, type TrackReport } from "./report.js";
 
@@ -127,6 +127,7 @@ export class Monitor extends Owned {
   }
   /** Restores a monitor from save(), called here or in any other program; it goes on identically. */
   static restore(snapshot: Uint8Array): Monitor {
+    requireBytes(snapshot, "snapshot", "Monitor.restore");
     const module = theModule();
     return new Monitor(existing, module.with((scratch) =>
       module.require(module.call("monitor_restore", scratch.bytes(snapshot), snapshot.length))));

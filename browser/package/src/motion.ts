@@ -14,8 +14,6 @@ export interface States {
 export type PerBody = number | ArrayLike<number>;
 
 export function countOf(positions: ArrayLike<number>, call: string): number {
-  if (typeof positions?.length !== "number")
-    throw new TypeError(`${call}: positions must be an array, but is ${shown(positions)}`);
   requireNumbers(positions, "positions", call);
   if (positions.length % 3 !== 0)
     throw new RangeError(`${call}: positions must have three numbers for each body, but has ${positions.length}`);
@@ -74,6 +72,8 @@ function sixes(states: States, call: string): Float64Array {
 }
 
 export function sixOf(state: State, call: string): number[] {
+  if (typeof state !== "object" || state === null)
+    throw new TypeError(`${call}: state must be an object with position and velocity, but is ${shown(state)}`);
   return [...vector(state.position, "position", call), ...vector(state.velocity, "velocity", call)];
 }
 
@@ -100,6 +100,7 @@ export class Motion extends Owned {
    * the nearest time at which it does; NaN for absent bodies. Without `bodies`, for all.
    */
   states(time: number, bodies?: ArrayLike<number>): Float64Array {
+    if (bodies !== undefined) requireNumbers(bodies, "bodies", "states");
     const module = theModule();
     const count = bodies?.length ?? this.size;
     return module.with((scratch) => {

@@ -37,12 +37,20 @@ export function whole(value: number, most: number, what: string, call: string): 
  * text, null or a list for a number.
  */
 export function requireNumbers(values: ArrayLike<number>, what: string, call: string): void {
+  if (typeof values?.length !== "number")
+    throw new TypeError(`${call}: ${what} must be an array, but is ${shown(values)}`);
   const isTyped = ArrayBuffer.isView(values) && !(values instanceof BigInt64Array || values instanceof BigUint64Array);
   for (let k = 0; !isTyped && k < values.length; ++k) {
     if (typeof values[k] === "number") continue;
     const hint = Array.isArray(values[k]) ? ": all numbers stand in one array, x, y and z of one after the other" : "";
     throw new TypeError(`${call}: ${what}[${k}] must be a number, but is ${shown(values[k])}${hint}`);
   }
+}
+
+/** Throws TypeError for anything but bytes, also for the ArrayBuffer of a file or a response. */
+export function requireBytes(values: Uint8Array, what: string, call: string): void {
+  if (!(values instanceof Uint8Array))
+    throw new TypeError(`${call}: ${what} must be a Uint8Array, but is ${shown(values)}`);
 }
 
 /** Spellings of other languages count as equal: contact_tolerance is contactTolerance. */

@@ -1,6 +1,7 @@
 // Replays of recordings.
 import { Event } from "./event.js";
 import { Owned, theModule } from "./module.js";
+import { requireBytes } from "./options.js";
 import { WorldView } from "./world.js";
 
 /** A recording of a world, made here or by the program (`kinesphere run --record`). */
@@ -10,6 +11,7 @@ export class Replay extends Owned {
   /** Throws KinesphereError for a damaged recording, or bytes that are no recording. */
   constructor(recording: Uint8Array) {
     const module = theModule();
+    requireBytes(recording, "recording", "Replay");
     super(module.with((scratch) =>
       module.require(module.call("replay_open", scratch.bytes(recording), recording.length))), "replay_free");
     this.view = new ReplayedWorld(this);

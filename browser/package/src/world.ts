@@ -10,7 +10,7 @@ import { BodyMap } from "./body_map.js";
 import { type Box, boxKeys, type Definition, definitionAt, definitionNumbers, type WorldDefinition } from "./definition.js";
 import { type BodyId, Event, type EventKind, Events, eventKinds, type State, type Vec3, type Wall, wallOf } from "./event.js";
 import { Owned, type Scratch, theModule } from "./module.js";
-import { checkKeys, whole } from "./options.js";
+import { checkKeys, requireBytes, requireNumbers, whole } from "./options.js";
 import {
   numbersOfRotation, partsFrom, rigidArguments, type RigidBodyDefinition, type RigidPart, type Rotation, rotationFrom,
   type RotationProbeFunction,
@@ -140,6 +140,7 @@ export class WorldView extends Owned {
   }
   /** Without `ids`, for all bodies. */
   bodyViews(ids: ArrayLike<number> = this.bodies()): BodyView[] {
+    requireNumbers(ids, "ids", "bodyViews");
     const module = theModule();
     const all = module.with((scratch) => {
       module.require(module.call("world_views", this.address, ids.length, scratch.numbers(ids)));
@@ -381,6 +382,7 @@ export class World extends WorldView {
   }
   /** Restores a world from save(), called here or in any other program. */
   static restore(snapshot: Uint8Array): World {
+    requireBytes(snapshot, "snapshot", "World.restore");
     const module = theModule();
     return World.at(module.with((scratch) =>
       module.require(module.call("world_restore", scratch.bytes(snapshot), snapshot.length))));
@@ -499,6 +501,8 @@ export class World extends WorldView {
   /** Sets the velocities of all these bodies, three numbers for each, or on an error of none. */
   setVelocityAll(bodies: ArrayLike<BodyId>, velocities: ArrayLike<number>): void {
     const call = "setVelocityAll";
+    requireNumbers(bodies, "bodies", call);
+    requireNumbers(velocities, "velocities", call);
     if (velocities.length !== 3 * bodies.length)
       throw new RangeError(`${call}: velocities must have three numbers for each of ${bodies.length} bodies, ` +
                            `but has ${velocities.length}`);
@@ -603,6 +607,7 @@ export class World extends WorldView {
   setSensor(sensorClass: number, distances: ArrayLike<number>, mask = -1): void {
     const module = theModule();
     const call = "setSensor";
+    requireNumbers(distances, "distances", call);
     const number = whole(sensorClass, 255, "sensorClass", call);
     const sensed = maskNumber(mask, "mask", call);
     module.with((scratch) => module.require(module.call(
