@@ -211,8 +211,9 @@ ks_status ks_world_steer(ks_world world, ks_body_id body, ks_vec3 acceleration) 
     auto* const motion =
         moved ? dynamic_cast<SteeredMotion*>(&object.simulation.motion(moved->motion)) : nullptr;
     if (motion == nullptr) {
-      detail::bad_result({ErrorCode::unsupported, "body", id,
-                          std::string(call) + ": a motion of kind KS_MOTION_STEERED must move " + text_of(id)});
+      detail::bad_result(
+          {ErrorCode::unsupported, "body", id,
+           std::string(call) + ": a motion of kind KS_MOTION_STEERED must move " + text_of(id)});
     }
     motion->steer(moved->number, object.world().time(), vector_of(acceleration)).value();
   });

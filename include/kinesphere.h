@@ -67,8 +67,8 @@
 #define KS_API __attribute__((visibility("default")))
 #endif
 
-/// Begins functions whose failure a caller must not overlook, such as ks_world_advance(): compilers warn where the
-/// status is not used.
+/// Begins functions whose failure a caller must not overlook, such as ks_world_advance(): compilers warn
+/// where the status is not used.
 #ifdef __GNUC__
 #define KS_MUST_CHECK __attribute__((warn_unused_result))
 #else
@@ -385,12 +385,12 @@ KS_API ks_status ks_world_save(ks_world world, void* bytes, size_t capacity, siz
 /// Creates the world of a snapshot, which continues as the saved one did. It has no motions: a probe moves
 /// its bodies. `filter` is the pair filter that the world had, or NULL. Errors: KS_ERROR_BAD_SNAPSHOT for any
 /// bytes that ks_world_save() did not write.
-KS_API KS_MUST_CHECK ks_status ks_world_restore(const void* bytes, size_t count, ks_pair_filter filter, void* user,
-                                  ks_world* world);
+KS_API KS_MUST_CHECK ks_status ks_world_restore(const void* bytes, size_t count, ks_pair_filter filter,
+                                                void* user, ks_world* world);
 
 /// Adds bodies or, on an error, none, and writes their ids. Errors: those of World::add(), naming the body.
 KS_API KS_MUST_CHECK ks_status ks_world_add(ks_world world, const ks_body_definition* bodies, size_t count,
-                              ks_body_id* ids);
+                                            ks_body_id* ids);
 KS_API ks_status ks_world_add_static(ks_world world, const ks_static_definition* bodies, size_t count,
                                      ks_body_id* ids);
 /// Adds a body that carries a box or a triangle (kinesphere/shape.hpp), relative to its position; the radius
@@ -691,7 +691,8 @@ KS_API int32_t ks_probe_motions(const ks_body_id* bodies, size_t count, double t
 /// motion moves. Errors: as World::advance(); KS_ERROR_CALLBACK_FAILED; KS_ERROR_UNKNOWN_BODY if the probe is
 /// ks_probe_motions and a body has no motion. After a failure of the probe the world is at the time of the
 /// probe, and the call may be repeated: no event is lost.
-KS_API KS_MUST_CHECK ks_status ks_world_advance(ks_world world, double until, ks_probe probe, void* user, ks_event* event);
+KS_API KS_MUST_CHECK ks_status ks_world_advance(ks_world world, double until, ks_probe probe, void* user,
+                                                ks_event* event);
 
 /// Chooses what an event does to its bodies; `response` is ks_new_response() at first. It must give the same
 /// answer for the same event at any time, and must not call the world. With several threads it is called by
@@ -725,7 +726,8 @@ static inline ks_run_definition ks_default_run_definition(void) {
 /// that a response removes leaves its motion, too, before the sink receives the event. After an error the
 /// world is at a stop and can continue; no event is lost. Errors: as World::run(), where the argument of a
 /// wrong response is its field; KS_ERROR_CALLBACK_FAILED.
-KS_API KS_MUST_CHECK ks_status ks_world_run(ks_world world, double until, const ks_run_definition* definition);
+KS_API KS_MUST_CHECK ks_status ks_world_run(ks_world world, double until,
+                                            const ks_run_definition* definition);
 
 // Ready-made motions, owned by the world (kinesphere/motion/).
 
@@ -770,22 +772,23 @@ static inline ks_motion_definition ks_default_motion_definition(void) {
 /// Adds bodies that the library moves, and writes the number of their motion in the world and their ids.
 /// Their numbers in the motion are 0, 1, 2, ... `motion` may be NULL. Errors: those of the motion and of
 /// World::add(), naming the body; after one of World::add() the number of the motion stays unused.
-KS_API KS_MUST_CHECK ks_status ks_world_add_motion(ks_world world, const ks_motion_definition* definition, uint32_t* motion,
-                                     ks_body_id* ids);
+KS_API KS_MUST_CHECK ks_status ks_world_add_motion(ks_world world, const ks_motion_definition* definition,
+                                                   uint32_t* motion, ks_body_id* ids);
 /// Adds more bodies to a motion, such as bullets, or on an error none: those of the definition, whose kind,
 /// gravity, interval, position_error and seed do not count. Writes their numbers in the motion, which are
 /// their indices in frames; `numbers` may be NULL. They are the next ones, or those of removed bodies.
 /// Errors: as ks_world_add_motion(); a body that the world refuses then leaves a number of a removed body in
 /// frames.
 KS_API KS_MUST_CHECK ks_status ks_world_add_to_motion(ks_world world, uint32_t motion,
-                                        const ks_motion_definition* definition, uint32_t* numbers,
-                                        ks_body_id* ids);
+                                                      const ks_motion_definition* definition,
+                                                      uint32_t* numbers, ks_body_id* ids);
 /// Sets the acceleration (length / time^2), within its limit, of a body of kind KS_MOTION_STEERED from the
 /// current time on. Errors: as SteeredMotion::steer(); KS_ERROR_UNSUPPORTED for a body of another kind.
 KS_API ks_status ks_world_steer(ks_world world, ks_body_id body, ks_vec3 acceleration);
 /// Appends the next frame of a motion of kind KS_MOTION_FRAMES: the position of each of its bodies, NaN for a
 /// removed one. The world must be at the time of the latest frame. Errors: as FrameMotion::push().
-KS_API KS_MUST_CHECK ks_status ks_world_push_frame(ks_world world, uint32_t motion, const ks_vec3* positions, size_t count);
+KS_API KS_MUST_CHECK ks_status ks_world_push_frame(ks_world world, uint32_t motion, const ks_vec3* positions,
+                                                   size_t count);
 /// Writes the positions in the latest frame, with the changes that events made; NaN for removed bodies.
 KS_API ks_status ks_world_latest_frame(ks_world world, uint32_t motion, ks_vec3* positions, size_t capacity,
                                        size_t* count);
@@ -863,8 +866,8 @@ typedef struct ks_replay {
 
 /// Opens a recording; the bytes are copied. Destroy the replay with ks_replay_destroy(). `filter` returns the
 /// results of the pair filter that the world had, or is NULL. Errors: those of Replay::open().
-KS_API KS_MUST_CHECK ks_status ks_replay_open(const void* bytes, size_t count, ks_pair_filter filter, void* user,
-                                ks_replay* replay);
+KS_API KS_MUST_CHECK ks_status ks_replay_open(const void* bytes, size_t count, ks_pair_filter filter,
+                                              void* user, ks_replay* replay);
 KS_API ks_status ks_replay_destroy(ks_replay replay);
 /// Repeats everything up to the end of the next recorded advance, or of the recording, and writes what that
 /// advance returned: an event, or one of kind KS_EVENT_NONE. Errors: KS_ERROR_DIVERGED, which names the step
@@ -1108,19 +1111,20 @@ typedef int32_t (*ks_poll)(const uint64_t* tracks, size_t count, double time, ks
                            uint8_t* has_report, void* user);
 
 /// Create and destroy a monitor; write it to bytes, and restore it from them. Errors: as in C++.
-KS_API KS_MUST_CHECK ks_status ks_monitor_create(const ks_monitor_definition* definition, ks_monitor* monitor);
+KS_API KS_MUST_CHECK ks_status ks_monitor_create(const ks_monitor_definition* definition,
+                                                 ks_monitor* monitor);
 KS_API ks_status ks_monitor_destroy(ks_monitor monitor);
 KS_API ks_status ks_monitor_save(ks_monitor monitor, void* bytes, size_t capacity, size_t* count);
 KS_API KS_MUST_CHECK ks_status ks_monitor_restore(const void* bytes, size_t count, ks_monitor* monitor);
 
 /// Takes reports, each of the track of the same index, in this order; or, on an error, none.
-KS_API KS_MUST_CHECK ks_status ks_monitor_report(ks_monitor monitor, const uint64_t* tracks, const ks_track_report* reports,
-                                   size_t count);
+KS_API KS_MUST_CHECK ks_status ks_monitor_report(ks_monitor monitor, const uint64_t* tracks,
+                                                 const ks_track_report* reports, size_t count);
 KS_API ks_status ks_monitor_remove(ks_monitor monitor, uint64_t track);
 /// Advances to the next event, at most to time `until`, and writes it; or one of kind KS_MONITOR_NONE. `poll`
 /// may be NULL: then no reports are asked for. Errors: as Monitor::advance(); KS_ERROR_CALLBACK_FAILED.
 KS_API KS_MUST_CHECK ks_status ks_monitor_advance(ks_monitor monitor, double until, ks_poll poll, void* user,
-                                    ks_monitor_event* event);
+                                                  ks_monitor_event* event);
 
 KS_API ks_status ks_monitor_time(ks_monitor monitor, double* time);
 /// The ids of all tracks, in ascending order.

@@ -18,10 +18,14 @@ fn main() {
 fn checked(named: String) -> String {
     let folder = match fs::canonicalize(&named) {
         Ok(folder) => folder,
-        Err(error) => panic!("KINESPHERE_LIB_DIR={named}: {error} (a relative path begins at the folder of the crate)"),
+        Err(error) => {
+            panic!("KINESPHERE_LIB_DIR={named}: {error} (a relative path begins at the folder of the crate)")
+        }
     };
     let has_library = fs::read_dir(&folder).map_or(false, |mut files| {
-        files.any(|file| file.map_or(false, |file| file.file_name().to_string_lossy().contains("kinesphere-c.")))
+        files.any(|file| {
+            file.map_or(false, |file| file.file_name().to_string_lossy().contains("kinesphere-c."))
+        })
     });
     assert!(has_library, "KINESPHERE_LIB_DIR={named}: there is no libkinesphere-c.so");
     folder.to_string_lossy().into_owned()

@@ -297,7 +297,9 @@ impl World {
     /// it. It meets no walls and no other body with a shape. An infinite mass makes a body that no contact turns.
     pub fn add_moving_shape(&mut self, body: &BodyDefinition, shape: &Shape) -> Result<BodyId> {
         let mut id = BodyId::default();
-        self.check(unsafe { sys::ks_world_add_moving_shape(self.handle, &body.raw(), &shape.raw(), &mut id) })?;
+        self.check(unsafe {
+            sys::ks_world_add_moving_shape(self.handle, &body.raw(), &shape.raw(), &mut id)
+        })?;
         Ok(id)
     }
 
@@ -644,7 +646,9 @@ impl World {
 
     /// Appends the next frame of a motion of frames, and returns its time, to which to advance then.
     pub fn push_frame(&mut self, motion: u32, positions: &[Vec3]) -> Result<f64> {
-        self.check(unsafe { sys::ks_world_push_frame(self.handle, motion, positions.as_ptr(), positions.len()) })?;
+        self.check(unsafe {
+            sys::ks_world_push_frame(self.handle, motion, positions.as_ptr(), positions.len())
+        })?;
         let mut time = 0.0;
         self.check(unsafe { sys::ks_world_latest_frame_time(self.handle, motion, &mut time) })?;
         Ok(time)

@@ -28,7 +28,7 @@ fn two_balls_meet() {
     let event = world.advance(20.0, &probe).unwrap().unwrap();
     assert_eq!((event.kind, event.first, event.second), (EventKind::ContactBegin, left, Some(right)));
     assert_eq!(event.kind.to_string(), "contact_begin");
-    assert!((event.time - 4.0).abs() < 1e-5 && world.time() == event.time);
+    assert!((event.time - 4.0).abs() < 1e-5 && world.time() == event.time && world.probe_count() > 0);
     assert_eq!(world.touching(left).unwrap(), [right]);
     assert_eq!(world.advance(20.0, &probe).unwrap().unwrap().kind, EventKind::ContactEnd);
     assert!(world.advance(20.0, &probe).unwrap().is_none());
@@ -299,8 +299,10 @@ fn a_panic_of_a_pair_filter_passes_through_the_call() {
     world.set_pair_filter(|_, _| panic!("no answer")).unwrap();
     let panicked = catch_unwind(AssertUnwindSafe(|| world.advance(20.0, &probe)));
     assert_eq!(panicked.unwrap_err().downcast_ref(), Some(&"no answer"));
+    // The call went on as if the two might touch, to the begin of their contact.
+    assert!((world.time() - 4.0).abs() < 1e-5);
     world.set_pair_filter(|_, _| true).unwrap();
-    assert_eq!(world.advance(20.0, &probe).unwrap().unwrap().kind, EventKind::ContactBegin);
+    assert_eq!(world.advance(20.0, &probe).unwrap().unwrap().kind, EventKind::ContactEnd);
 }
 
 #[test]
@@ -321,7 +323,7 @@ fn a_state_that_the_probe_forgets_is_an_error() {
     let limits = MotionLimits { acceleration_limit: 1.0, ..Default::default() };
     world.set_motion_limits(left, &limits).unwrap();
     let error = world.advance(20.0, |_, _, _| {}).unwrap_err();
-    assert_eq!((error.name, error.body), ("not_finite", Some(left)));
+    assert!(error.name == "not_finite" && error.body.is_some());
 }
 
 #[test]
@@ -331,7 +333,7 @@ fn what_a_world_knows_of_a_body() {
     world.set_user_data(left, 7).unwrap();
     world.set_solid(right, false).unwrap();
     world.refresh_filter(left).unwrap();
-    assert!(world.advance(2.0, &probe).unwrap().is_none() && world.probe_count() > 0);
+    assert!(world.advance(2.0, &probe).unwrap().is_none());
     let view = world.body(left).unwrap();
     assert!(view.enabled && !view.is_static && !view.sleeping && view.bounds_end >= 2.0);
     assert_eq!((view.definition.user_data, view.definition.radius, view.image), (7, 1.0, [0; 3]));
@@ -374,13 +376,13 @@ fn a_probe_makes_answers_better() {
         world.set_motion_limits(body, &limits).unwrap();
     }
     assert!(world.advance(1.0, &probe).unwrap().is_none());
+    let mut answers = world.answers_with(|_, _, _| panic!("lost"));
+    let panicked = catch_unwind(AssertUnwindSafe(|| answers.pair_safe_until(left, right, 0.0)));
+    assert_eq!(panicked.unwrap_err().downcast_ref(), Some(&"lost"));
     let known = world.distance_limits(left, right, 1.0).unwrap();
     let (lower, upper) = world.answers_with(&probe).distance_limits(left, right, 1.0).unwrap();
     assert!(known.0 <= lower && (upper - lower).abs() < 1e-9 && (lower - 6.0).abs() < 1e-9);
     assert!(world.answers_with(&probe).nearest(Vec3::default(), 1).unwrap()[0].certain);
-    let mut answers = world.answers_with(|_, _, _| panic!("lost"));
-    let panicked = catch_unwind(AssertUnwindSafe(|| answers.pair_safe_until(left, right, 0.0)));
-    assert_eq!(panicked.unwrap_err().downcast_ref(), Some(&"lost"));
 }
 
 #[test]
@@ -473,7 +475,9 @@ fn a_monitor_polls() {
     let plan = Plan { acceleration: Vec3::default(), limit: ErrorBound::Ball(0.0), valid_until: 60.0 };
     for track in [1, 2] {
         let planned = TrackReport { plan: Some(plan), ..report(track, 60.0) };
-        monitor.report(track, &TrackReport { plan: Some(Plan { valid_until: 120.0, ..plan }), ..planned }).unwrap();
+        monitor
+            .report(track, &TrackReport { plan: Some(Plan { valid_until: 120.0, ..plan }), ..planned })
+            .unwrap();
     }
     assert!(monitor.advance(120.0).unwrap().is_none());
 }
