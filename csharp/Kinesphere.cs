@@ -7,9 +7,10 @@ using System.Runtime.InteropServices;
 
 namespace Kinesphere
 {
-    /// <summary>Sets the states of bodies at a time.</summary>
+    /// <summary>Sets the states of bodies at a time, position and velocity of each: they are NaN at first, so that one that is
+    /// forgotten is an error.</summary>
     public delegate void Probe(BodyId[] bodies, double time, State[] states);
-    /// <summary>Sets the rotations of rigid bodies at a time.</summary>
+    /// <summary>Sets the rotations of rigid bodies at a time, which are NaN at first.</summary>
     public delegate void RotationProbe(BodyId[] bodies, double time, Rotation[] rotations);
     /// <summary>Chooses what an event does to its bodies: the same for the same event, and in any thread.</summary>
     public delegate Response Respond(Event happened);
