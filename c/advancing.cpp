@@ -125,7 +125,17 @@ void run(std::string_view call, WorldObject& object, double until, const ks_run_
   };
   // Inside a callback the workers of the outer run must stay.
   require_idle(object.world());
-  object.simulation.run(until, respond, sink, workers_for(object, definition.threads)).value();
+  try {
+    object.simulation.run(until, respond, sink, workers_for(object, definition.threads)).value();
+  } catch (const BadResult& bad) {
+    const Error& error = bad.error();
+    if (error.code != ErrorCode::unknown_body || !object.world().contains(error.body) ||
+        object.simulation.find(error.body))
+      throw;
+    detail::bad_result({ErrorCode::unknown_body, "body", error.body,
+                        std::string(call) + ": no motion of the world moves " + text_of(error.body) +
+                            ", as a run needs; a loop over the next events does without"});
+  }
 }
 
 }  // namespace

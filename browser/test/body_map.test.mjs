@@ -259,7 +259,7 @@ test("wrong answers are refused, and what atStop throws comes out", () => {
   const { world, bodies, respond, add } = shooting();
   const refused = (answer, expected) =>
     assert.throws(() => world.run(10, { motion: bodies, respond: () => answer, atStop: () => {} }), expected);
-  refused({ firstAction: "explode" }, /firstAction must be "remove", "disable" or "sleep", but is explode/);
+  refused({ firstAction: "explode" }, /firstAction must be "remove", "disable" or "sleep", but is "explode"/);
   refused({ firstActon: "remove" }, /nearest is firstAction/);
   assert.throws(() => world.run(10, { motion: bodies, respond }), /stop needs atStop/);
   assert.throws(() => world.run(10, { motion: bodies, respond, atStop: true }), /atStop must be a function/);

@@ -445,7 +445,7 @@ test("wrong use of a monitor is named", () => {
   message(() => monitor.advance(1, 5), "advance: poll must be a function");
   message(() => monitor.crowd(-1), "crowd: pairs must be a whole number");
   monitor.free();
-  message(() => monitor.size, "kinesphere: the object has been freed");
+  message(() => monitor.size, "kinesphere: the Monitor has been freed");
 });
 
 test("misspelled keys of a monitor are named, with the nearest known one", () => {

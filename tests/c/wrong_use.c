@@ -331,6 +331,7 @@ static void wrong_time(ks_world world) {
   REFUSED(ks_world_advance(world, 50.0, ks_probe_motions, NULL, &event), UNKNOWN_BODY);
   ks_run_definition run = ks_default_run_definition();
   REFUSED(ks_world_run(world, 50.0, &run), UNKNOWN_BODY);
+  CHECK(strstr(ks_last_error_message(), "no motion of the world moves body") != NULL);
   run.threads = 1000;
   REFUSED(ks_world_run(world, 50.0, &run), OUT_OF_RANGE);
   run.threads = 1;

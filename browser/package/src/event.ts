@@ -1,5 +1,6 @@
 // Events of a world: contacts and the like, each at its exact time.
 import { theModule } from "./module.js";
+import { shown } from "./options.js";
 
 /** Three numbers; a typed array is possible. */
 export type Vec3 = ArrayLike<number>;
@@ -150,6 +151,8 @@ export class EventHash {
 
   /** Adds one event or several. */
   add(events: Event | Events): this {
+    if (!(events instanceof Event || events instanceof Events))
+      throw new TypeError(`EventHash.add: events must be an Event or Events, but is ${shown(events)}`);
     const module = theModule();
     module.with((scratch) => {
       const parts = scratch.numbers(this.parts);

@@ -85,7 +85,7 @@ export function checkKeys<Options extends object>(given: Options, known: Keys<Op
       throw new TypeError(`${call}: ${what} has no key ${key}; the nearest is ${nearest}`);
     }
     const kind = (known as Readonly<Record<string, Kind>>)[key];
-    if (value === null) throw new TypeError(`${call}: ${key} must not be null; without it, it has its default`);
+    if (value === null) throw new TypeError(`${call}: ${key} must not be null: leave it out instead`);
     if (kind !== true && value !== undefined && typeof value !== kind)
       throw new TypeError(`${call}: ${key} must be a ${kind}, but is ${shown(value)}`);
   }

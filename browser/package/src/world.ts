@@ -494,7 +494,10 @@ export class World extends WorldView {
   remove(body: BodyId): void {
     this.change("world_remove", body);
   }
-  /** Sets the velocity from now on; later probes must agree with it. */
+  /**
+   * Sets the velocity from now on; later probes must agree with it. So a Motion that moves the body has to be told, too:
+   * BodyMap.setVelocity() does both.
+   */
   setVelocity(body: BodyId, velocity: Vec3): void {
     this.change("world_set_velocity", body, vector(velocity, "velocity", "setVelocity"));
   }
@@ -536,7 +539,7 @@ export class World extends WorldView {
     copy.#rotationProbe = this.#rotationProbe;
     return copy;
   }
-  /** Puts a body elsewhere. */
+  /** Puts a body elsewhere; later probes must agree with it. BodyMap.teleport() tells the motion, too. */
   teleport(body: BodyId, state: State): void {
     this.change("world_teleport", body, sixOf(state, "teleport"));
   }
