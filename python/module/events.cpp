@@ -11,6 +11,7 @@
 #include "exchange.hpp"
 #include "kinesphere/event_hash.hpp"
 #include "kinesphere/response.hpp"
+#include "moving.hpp"
 
 namespace kinesphere::python {
 namespace {
@@ -356,6 +357,7 @@ sensor distance that differs changes it. str(hash) has the 16 digits that the pr
       [velocities, require_both](const Event& contact, std::optional<double> first_mass,
                                  std::optional<double> second_mass, double restitution) {
         require_both("bounce", first_mass, second_mass);
+        require_bounce("bounce", restitution);
         return velocities(contact, bounce(contact, first_mass.value_or(contact.first_mass),
                                           second_mass.value_or(contact.second_mass), restitution));
       },
@@ -366,13 +368,14 @@ None.
 
 Masses are > 0, both or none; those of the event if not given. A static body keeps its velocity and turns the other one, as a
 wall does; so does a body of infinite mass. The restitution lies in [0, 1]. Momentum is conserved; a repeated
-contact loses no energy. A NaN gives velocities that the world refuses by name.)");
+contact loses no energy.)");
   module.def(
       "settle",
       [velocities, require_both](const Event& contact, std::optional<double> first_mass,
                                  std::optional<double> second_mass, double restitution,
                                  double resting_speed) {
         require_both("settle", first_mass, second_mass);
+        require_bounce("settle", restitution, resting_speed);
         return velocities(contact,
                           settle(contact, first_mass.value_or(contact.first_mass),
                                  second_mass.value_or(contact.second_mass), restitution, resting_speed));

@@ -93,6 +93,19 @@ void Asked::ask(std::span<const BodyId> ids, double time, std::span<State> state
   interruptions_.call([&] { read_states(given_(array_of(ids), time), states, call_, plane_); });
 }
 
+namespace {
+
+std::string shown(double number) { return py::repr(py::float_(number)).cast<std::string>(); }
+
+}  // namespace
+
+void require_bounce(std::string_view call, double restitution, double resting_speed) {
+  if (!(restitution >= 0.0 && restitution <= 1.0))
+    refuse({call, "restitution"}, "must lie in [0, 1]", "is " + shown(restitution));
+  if (!(resting_speed >= 0.0 && std::isfinite(resting_speed)))
+    refuse({call, "resting_speed"}, "must be finite and >= 0", "is " + shown(resting_speed));
+}
+
 Bouncing::Bouncing(const py::object& masses, double restitution, double resting_speed)
     : restitution_(restitution), resting_speed_(resting_speed) {
   const std::string_view call = "Bouncing";
@@ -107,14 +120,9 @@ Bouncing::Bouncing(const py::object& masses, double restitution, double resting_
       refuse({call, "masses"}, "must have shape (n,)", "has shape " + numbers.shape());
     masses_ = each_of(masses, {call, "masses"}, numbers.length(0));
   }
-  const auto check = [call](bool good, std::string_view name, std::string_view expectation, double found) {
-    if (!good) refuse({call, name}, expectation, "is " + py::repr(py::float_(found)).cast<std::string>());
-  };
   for (const double mass : masses_.value_or(std::vector<double>()))
-    check(mass > 0.0, "masses", "must be > 0", mass);
-  check(restitution >= 0.0 && restitution <= 1.0, "restitution", "must lie in [0, 1]", restitution);
-  check(resting_speed >= 0.0 && std::isfinite(resting_speed), "resting_speed", "must be finite and >= 0",
-        resting_speed);
+    if (!(mass > 0.0)) refuse({call, "masses"}, "must be > 0", "is " + shown(mass));
+  require_bounce(call, restitution, resting_speed);
 }
 
 py::tuple Bouncing::arguments() const {

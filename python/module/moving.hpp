@@ -58,6 +58,9 @@ class Asked {
   Interruptions interruptions_;
 };
 
+/// Refuses numbers with which bodies would gain energy.
+void require_bounce(std::string_view call, double restitution, double resting_speed = 0.0);
+
 /// The ready-made response: bodies bounce.
 class Bouncing {
  public:

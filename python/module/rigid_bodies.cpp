@@ -9,6 +9,7 @@
 
 #include "errors.hpp"
 #include "kinesphere/response.hpp"
+#include "moving.hpp"
 #include "shapes.hpp"
 #include "world.hpp"
 
@@ -159,6 +160,7 @@ void set_rotation_probe(WorldHandle& handle, const py::object& function) {
 }
 
 py::tuple bounce_rigid(const Event& contact, double restitution) {
+  require_bounce("bounce_rigid", restitution);
   const Response after = response_of(contact, bounce(contact, restitution));
   const auto vector = [](const std::optional<Vec3>& given) {
     return given ? array_of(*given) : py::object(py::none());

@@ -260,6 +260,9 @@ def test_wrong_kinds_of_things_are_named() -> None:
         (lambda: ks.Bouncing(masses=np.ones((2, 2))), ks.InvalidValue, "masses must have shape"),
         (lambda: things.w.run(20, things.motion, ks.Bouncing(masses=[1.0])), ks.InvalidValue, "masses must have one number for each body"),
         (lambda: ks.bounce(things.w.clone().run(20.0, things.motion, ks.Bouncing())[0], 0.5), ks.InvalidValue, "second_mass must be given with .*restitution=0.5"),
+        (lambda: ks.bounce(things.w.clone().run(20.0, things.motion, ks.Bouncing())[0], restitution=5), ks.InvalidValue, "bounce: restitution must lie in"),
+        (lambda: ks.bounce_rigid(things.w.clone().run(20.0, things.motion, ks.Bouncing())[0], -1), ks.InvalidValue, "bounce_rigid: restitution must lie in"),
+        (lambda: ks.settle(things.w.clone().run(20.0, things.motion, ks.Bouncing())[0], 1, 1, 0.5, np.nan), ks.InvalidValue, "settle: resting_speed must be finite"),
         (lambda: ks.World(periodic="w"), ks.InvalidValue, "letters x, y and z"),
         (lambda: ks.World(box=((0, 0, 0), (9, 9, 9)), periodic="xyz", dimensions=2), ks.InvalidValue, 'such as "xy", but is .xyz.'),
         (lambda: ks.World(periodic=3), TypeError, "periodic"),  # type: ignore[arg-type]
