@@ -8,10 +8,17 @@
 namespace kinesphere::c {
 namespace {
 
-/// Changes one body by a call of the world.
+/// Changes one body by a call of the world. Errors of World::change() begin with the name of `call`.
 template <class Change>
 ks_status change_body(std::string_view call, ks_world world, ks_body_id body, const Change& change) {
-  return changing(call, world, [&](WorldObject& object) { change(object.world(), id_of(body)).value(); });
+  return changing(call, world, [&](WorldObject& object) {
+    const Result<void> changed = change(object.world(), id_of(body));
+    if (changed) return;
+    Error error = changed.error();
+    constexpr std::string_view in_cpp = "change";
+    if (error.message.starts_with(in_cpp)) error.message.replace(0, in_cpp.size(), call);
+    throw BadResult(std::move(error));
+  });
 }
 
 StaticDefinition static_of(std::string_view call, const ks_static_definition& body) {

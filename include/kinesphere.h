@@ -6,7 +6,7 @@
 //   ks_body_definition ball = ks_default_body_definition();
 //   ball.acceleration_limit = 10;
 //   ks_body_id id;
-//   ks_world_add(world, &ball, 1, &id);
+//   if (ks_world_add(world, &ball, 1, &id) != KS_OK) return fail(ks_last_error_message());
 //   // ... more bodies
 //
 //   ks_event event = ks_new_event();

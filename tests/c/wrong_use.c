@@ -221,6 +221,7 @@ static void wrong_bodies(ks_world world) {
   REFUSED(ks_world_set_radius(world, foreign, 1.0), FOREIGN_BODY);
   REFUSED(ks_world_set_radius(world, still, -1.0), OUT_OF_RANGE);
   CHECK(strcmp(ks_last_error_argument(), "radius") == 0);
+  CHECK(strncmp(ks_last_error_message(), "ks_world_set_radius: radius", 27) == 0);
   REFUSED(ks_world_set_velocity(world, fixed, vec3(1, 0, 0)), STATIC_BODY);
   ids[0] = ids[1] = still;
   REFUSED(ks_world_remove(world, ids, 2), STALE_BODY);

@@ -91,6 +91,8 @@ export class Module {
   private readonly asking: { callbacks: Partial<Callbacks>; addresses: readonly number[] }[] = [];
   private thrown: { value: unknown } | null = null;
   private written = "";
+  /** The last called export that is no part of reading an error. */
+  private called = "";
 
   constructor(compiled: WebAssembly.Module, readonly simd: boolean) {
     // Returns whether the callback did not throw: an exception does not pass through the module, and is rethrown behind
@@ -129,6 +131,7 @@ export class Module {
   call(name: string, ...values: number[]): number {
     for (const value of values)
       if (!isNumeric(value)) throw new TypeError(`${callOf(name)}: arguments must be numbers, but one is ${shown(value)}`);
+    if (!name.startsWith("error_") && name !== "release") this.called = name;
     return this.exports[name]!(...values);
   }
 
@@ -153,11 +156,11 @@ export class Module {
     return this.asking.some(({ addresses }) => addresses.includes(address));
   }
 
-  /** Returns the error of the last failed call. */
+  /** Returns the error of the last failed call. World::change() of C++ is several functions here. */
   error(): KinesphereError {
     const body = this.call("error_body");
     return new KinesphereError(
-      this.text(this.call("error_message")),
+      this.text(this.call("error_message")).replace(/^change(?=:)/, callOf(this.called)),
       this.text(this.call("error_code")) as ErrorCode,
       this.text(this.call("error_argument")),
       body < 0 ? null : body,
