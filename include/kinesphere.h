@@ -18,8 +18,8 @@
 //   ks_world_destroy(world);
 //
 // The C++ headers in kinesphere/ state units, ranges and guarantees in full: world.hpp, body.hpp, event.hpp,
-// answers.hpp, queries.hpp, monitor/monitor.hpp. Calls here have the names, meanings, errors and costs of the
-// calls there. docs/c.md is the guide.
+// certificates.hpp, queries.hpp, monitor/monitor.hpp. Calls here have the names, meanings, errors and costs
+// of the calls there. docs/c.md is the guide.
 //
 // Errors. Every call returns a status, KS_OK or a code, and a call that fails has changed nothing, neither
 // its object nor what its pointers point to, except where it says so. The functions ks_last_error_...()
@@ -799,8 +799,8 @@ KS_API ks_status ks_world_states(ks_world world, const ks_body_id* bodies, size_
                                  ks_state* states);
 
 // -----------------------------------------------------------------------------------------------------------
-// Certified answers at the current time (kinesphere/answers.hpp, kinesphere/queries.hpp). A probe makes them
-// as good as fresh reports allow; with NULL they follow from what the world knows.
+// Certified answers at the current time (kinesphere/certificates.hpp, kinesphere/queries.hpp). A probe makes
+// them as good as fresh reports allow; with NULL they follow from what the world knows.
 
 /// When a contact or an approach may happen first. It certainly does not happen before `time`.
 typedef struct ks_prediction {
