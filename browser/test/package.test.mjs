@@ -408,6 +408,28 @@ test("bodies bounce off what is fixed", () => {
   assert.ok(Math.abs(motion.state(ball, 20).velocity[2] - 1) < 1e-12);
 });
 
+test("a run takes bounce itself as its response", () => {
+  const start = () => {
+    const motion = new Ballistic({ positions: [20, 50, 50, 30, 50, 50, 50, 50, 50], velocities: [3, 0, 0, -1, 0, 0, 0, 0, 0] });
+    const world = new World({ box });
+    world.addMotion(motion, 1);
+    world.setMass(2, Infinity);
+    world.addStatic({ ball: { centre: [10, 50, 50], radius: 1 } });
+    world.addZone({ box: { lower: [40, 0, 0], upper: [45, 100, 100] } });
+    return { motion, world };
+  };
+  const ends = [{ restitution: 1 }, bounce, (event) => ({ ...bounce(event), stop: false })].map((respond) => {
+    const { motion, world } = start();
+    world.run(200, { motion, respond });
+    return Array.from(motion.states(200));
+  });
+  assert.deepEqual(ends[1], ends[0]);
+  assert.deepEqual(ends[2], ends[0]);
+  const { motion, world } = start();
+  refuses(() => world.run(200, { motion, respond: ({ kind }) => (kind === "wall_begin" ? { second: [0, 0, 0] } : undefined) }),
+          "unknown_body", "second_velocity");
+});
+
 test("certificates say until when nothing happens", () => {
   const { world, motion, first, second } = pair(10);
   world.run(1, { motion });

@@ -4,6 +4,7 @@ import { Event, eventNumbers, type Vec3 } from "./event.js";
 import type { Module } from "./module.js";
 import { Motion, vector } from "./motion.js";
 import { checkKeys, type Keys, requireNumbers, shown } from "./options.js";
+import { bounced, checkBounce } from "./response.js";
 import { type RotationProbeFunction, rotationNumbers } from "./rigid_body.js";
 import { Scene } from "./scene.js";
 
@@ -34,7 +35,7 @@ export interface Answer {
   /** Calls `atStop` of the run with this event. */
   stop?: boolean;
 }
-/** Precondition: equal events get equal answers. */
+/** Precondition: equal events get equal answers. `bounce` is such a function. */
 export type RespondFunction = (event: Event) => Answer | undefined;
 /**
  * Bodies bounce off each other, static bodies and the walls. Masses are by index, by default those of the bodies; static
@@ -96,20 +97,20 @@ export function responded(respond: RunOptions["respond"]): [number, Bounces, num
   return [respondings.bounces, respond, 0, null];
 }
 
-/** Throws RangeError for numbers with which bodies would gain energy. */
-export function checkBounce({ restitution = 1, restingSpeed = 0 }: Bounces, call: string): void {
-  if (!(restitution >= 0 && restitution <= 1))
-    throw new RangeError(`${call}: restitution must be from 0 to 1, but is ${restitution}`);
-  if (!(restingSpeed >= 0 && restingSpeed < Infinity))
-    throw new RangeError(`${call}: restingSpeed must be >= 0, but is ${restingSpeed}`);
-}
-
 /** Throws TypeError for the answer of an async function: the library needs it at once. */
 export function refusePromise(answer: unknown, what: string): void {
   if (answer instanceof Promise) {
     answer.catch(() => {});
     throw new TypeError(`${what} must not be an async function: its answer is needed at once`);
   }
+}
+
+/** Returns false for what no bounce turns: walls, static and sleeping bodies, infinite masses, and events but begins. */
+function canBeTurned(event: Event, name: (typeof answerVectors)[number]): boolean {
+  const [body, traits, mass] = name.startsWith("first")
+    ? [event.first, event.firstTraits, event.firstMass] : [event.second, event.secondTraits, event.secondMass];
+  return body !== null && !traits.isStatic && !traits.isSleeping && mass !== Infinity &&
+         (event.kind === "contact_begin" || event.kind === "wall_begin");
 }
 
 /** Callbacks of the module, which pass tables of numbers to these functions. */
@@ -131,14 +132,16 @@ export function asking(
       module.numbersAt(states, 6 * count).set(answer);
     },
     respond(event: number, response: number): void {
-      const answer = respond!(eventAt(event));
+      const happened = eventAt(event);
+      const answer = respond!(happened);
       refusePromise(answer, "respond");
       if (answer !== undefined) checkKeys(answer, answerKeys, "answer", "respond");
       if (answer?.stop && atStop === undefined) throw new TypeError("respond: stop needs atStop in the options of run");
       const numbers = new Float64Array(19);
+      const isBounce = answer !== undefined && bounced in answer;
       for (const [k, name] of answerVectors.entries()) {
         const velocity = answer?.[name];
-        if (velocity === undefined) continue;
+        if (velocity === undefined || (isBounce && !canBeTurned(happened, name))) continue;
         numbers.set(vector(velocity, name, "respond"), 4 * k);
         numbers[4 * k + 3] = 1;
       }

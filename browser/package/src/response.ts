@@ -1,13 +1,18 @@
 // Responses of two bodies to a contact.
-import { checkBounce } from "./asking.js";
 import { Event, type Vec3 } from "./event.js";
 import { theModule } from "./module.js";
 import { checkKeys, type Keys, shown } from "./options.js";
+import type { Bounces } from "./asking.js";
 
-/** The velocities of the two bodies after the contact; that of a wall is zero. */
+/** Marks what `bounce` returns: as an answer of a run it turns only the bodies that a contact can turn. */
+export const bounced = Symbol("bounced");
+
+/** The velocities of the two bodies after the contact; that of a wall is zero. The `respond` of a run may return it. */
 export interface Bounce {
   first: Vec3;
   second: Vec3;
+  /** @internal */
+  [bounced]?: true;
   /** Of rigid bodies that the contact turns (radians / time). */
   firstAngularVelocity?: Vec3;
   secondAngularVelocity?: Vec3;
@@ -26,6 +31,14 @@ export interface BounceOptions {
 
 const bounceKeys: Keys<BounceOptions> = { firstMass: "number", secondMass: "number", restitution: "number", restingSpeed: "number" };
 
+/** Throws RangeError for numbers with which bodies would gain energy. */
+export function checkBounce({ restitution = 1, restingSpeed = 0 }: Bounces, call: string): void {
+  if (!(restitution >= 0 && restitution <= 1))
+    throw new RangeError(`${call}: restitution must be from 0 to 1, but is ${restitution}`);
+  if (!(restingSpeed >= 0 && restingSpeed < Infinity))
+    throw new RangeError(`${call}: restingSpeed must be >= 0, but is ${restingSpeed}`);
+}
+
 /**
  * Returns the response of smooth bodies to a begin, as `bounce` and `settle` of the C++ library do. Momentum is kept, and
  * of rigid bodies angular momentum, too.
@@ -43,6 +56,7 @@ export function bounce(contact: Event, options: BounceOptions = {}): Bounce {
     const velocities = module.numbersAt(room, 12).slice();
     const turns = (gain: Float64Array) => gain.some((part) => part !== 0);
     return {
+      [bounced]: true,
       first: velocities.subarray(0, 3),
       second: velocities.subarray(3, 6),
       ...(turns(contact.firstSpinGain) ? { firstAngularVelocity: velocities.subarray(6, 9) } : {}),
