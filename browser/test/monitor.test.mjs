@@ -417,7 +417,7 @@ test("wrong use of a monitor is named", () => {
   refuses(() => new Monitor({ classes, separations: [{ secondClass: 1, levels }] }), "out_of_range", /number of classes/);
   refuses(() => new Monitor({ classes, separations: [{ levels: [{ sphere: { distance: -5 } }] }] }), "out_of_range", /horizontal 0, must be > 0/);
   refuses(() => new Monitor({ classes, separations: [{ levels: [{ cylinder: { horizontal: 5 } }] }] }), "not_finite", /vertical 0, must be finite/);
-  refuses(() => monitor.report(3, { ...good, timestamp: undefined }), "not_finite", /report of track 3, timestamp, must be finite/);
+  refuses(() => monitor.report(3, { ...good, timestamp: NaN }), "not_finite", /report of track 3, timestamp, must be finite/);
   refuses(() => monitor.report(3, { ...good, positionError: -1 }), "out_of_range", /position_error/);
   refuses(() => monitor.report(3, { ...good, trackClass: 1 }), "out_of_range", /track_class/);
   refuses(() => monitor.report(3, { timestamp: 0, position: [0, 0, 0] }), "out_of_range", /velocity_error, must be finite where the class has no largest speed/);
@@ -432,6 +432,7 @@ test("wrong use of a monitor is named", () => {
   refuses(() => Monitor.restore(new Uint8Array(10)), "bad_snapshot", /./);
   const message = (action, text) => assert.throws(action, (error) => error.message.startsWith(text), text);
   message(() => new Monitor(), "Monitor: definition must be an object with the keys classes, separations");
+  message(() => monitor.report(3, { ...good, timestamp: undefined }), "report: timestamp must not be undefined: leave it out instead");
   message(() => new Monitor({ classes: classes[0] }), "Monitor: classes must be an array");
   message(() => new Monitor({ classes, dimensions: 2.5 }), "Monitor: dimensions must be a whole number");
   message(() => new Monitor({ classes, separations: [{ levels: [{}] }] }), "Monitor: separations[0].levels[0] must have exactly one of the keys");

@@ -135,7 +135,7 @@ export function asking(
       const happened = eventAt(event);
       const answer = respond!(happened);
       refusePromise(answer, "respond");
-      if (answer !== undefined) checkKeys(answer, answerKeys, "answer", "respond");
+      if (answer !== undefined) checkKeys(answer, answerKeys, "answer", "respond", true);
       if (answer?.stop && atStop === undefined) throw new TypeError("respond: stop needs atStop in the options of run");
       const numbers = new Float64Array(19);
       const isBounce = answer !== undefined && bounced in answer;

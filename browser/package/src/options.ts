@@ -72,9 +72,11 @@ function editDistance(one: string, other: string): number {
 
 /**
  * The one place where option objects are checked. Throws TypeError for a key that is not known, with the nearest known
- * one; for null and a value of another kind; and for what is no object. A value that is undefined is left out.
+ * one; for a value of another kind; for null and undefined, as of a misspelled `settings.raduis`; and for what is no object.
  */
-export function checkKeys<Options extends object>(given: Options, known: Keys<Options>, what: string, call: string): void {
+export function checkKeys<Options extends object>(
+  given: Options, known: Keys<Options>, what: string, call: string, mayBeUndefined = false,
+): void {
   if (typeof given !== "object" || given === null || Array.isArray(given))
     throw new TypeError(
       `${call}: ${what} must be an object with the keys ${Object.keys(known).join(", ")}, but is ${shown(given)}`);
@@ -85,8 +87,10 @@ export function checkKeys<Options extends object>(given: Options, known: Keys<Op
       throw new TypeError(`${call}: ${what} has no key ${key}; the nearest is ${nearest}`);
     }
     const kind = (known as Readonly<Record<string, Kind>>)[key];
-    if (value === null) throw new TypeError(`${call}: ${key} must not be null: leave it out instead`);
-    if (kind !== true && value !== undefined && typeof value !== kind)
+    if (value === undefined && mayBeUndefined) continue;
+    if (value === null || value === undefined)
+      throw new TypeError(`${call}: ${key} must not be ${value}: leave it out instead`);
+    if (kind !== true && typeof value !== kind)
       throw new TypeError(`${call}: ${key} must be a ${kind}, but is ${shown(value)}`);
   }
 }
