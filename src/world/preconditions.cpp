@@ -53,11 +53,10 @@ bool World::Preconditions::is_foreign(BodyId body) const {
 Result<void> World::Preconditions::known(BodyId body) const {
   if (auto valid = exists(); !valid) return valid;
   if (is_known(body)) return {};
-  if (body == no_body) {
-    return error_about(ErrorCode::unknown_body, body,
-                       "the id is that of no body, as the second one of a wall event");
-  }
   const std::string name = text_of(body);
+  if (body == no_body)
+    return error_about(ErrorCode::unknown_body, body,
+                       name + " stands for none, as for the second body of a wall event");
   if (is_foreign(body)) return error_about(ErrorCode::foreign_body, body, name + " is one of another world");
   const auto& table = engine_->bodies().table();
   // A free slot stores the generation of its next body, so a smaller generation is that of a removed body.
