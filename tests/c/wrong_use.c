@@ -404,7 +404,7 @@ static void wrong_steering(void) {
   REFUSED(ks_world_steer(world, ids[0], vec3(NAN, 0, 0)), NOT_FINITE);
   // A body without a motion, which the probe forgets: its state is not that of a place where it might be.
   ks_body_definition other = ks_default_body_definition();
-  other.position = vec3(0, 4, 0);
+  other.position = vec3(0, 40, 0);  // far away: it is asked for together with the ships
   other.acceleration_limit = 1;
   CHECK_OK(ks_world_add(world, &other, 1, &ball));
   REFUSED(ks_world_steer(world, ball, vec3(0, 0, 0)), UNSUPPORTED);
