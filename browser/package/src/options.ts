@@ -70,6 +70,11 @@ function editDistance(one: string, other: string): number {
   return row[other.length]!;
 }
 
+/** Option objects that are an argument, whose keys need no name before them in an error. */
+const wholes: ReadonlySet<string> = new Set([
+  "answer", "bodies", "body", "definition", "limits", "options", "part", "report", "reports", "settings", "shape", "start",
+]);
+
 /**
  * The one place where option objects are checked. Throws TypeError for a key that is not known, with the nearest known
  * one; for a value of another kind; for null and undefined, as of a misspelled `settings.raduis`; and for what is no object.
@@ -88,9 +93,10 @@ export function checkKeys<Options extends object>(
     }
     const kind = (known as Readonly<Record<string, Kind>>)[key];
     if (value === undefined && mayBeUndefined) continue;
+    const name = wholes.has(what) ? key : `${what}.${key}`;
     if (value === null || value === undefined)
-      throw new TypeError(`${call}: ${key} must not be ${value}: leave it out instead`);
+      throw new TypeError(`${call}: ${name} must not be ${value}: leave it out instead`);
     if (kind !== true && typeof value !== kind)
-      throw new TypeError(`${call}: ${key} must be a ${kind}, but is ${shown(value)}`);
+      throw new TypeError(`${call}: ${name} must be a ${kind}, but is ${shown(value)}`);
   }
 }
