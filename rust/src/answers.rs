@@ -41,8 +41,10 @@ pub struct Hit {
 /// What a world answers: from what it knows, or, with a probe ([`World::answers_with`]), as well as fresh reports allow.
 pub struct Answers<'a> {
     world: &'a World,
-    probe: Option<Box<dyn FnMut(&[BodyId], f64, &mut [State]) + 'a>>,
+    probe: Option<Probe<'a>>,
 }
+
+type Probe<'a> = Box<dyn FnMut(&[BodyId], f64, &mut [State]) + 'a>;
 
 impl World {
     /// The answers of fresh reports: the probe gives the states of the bodies that no motion moves.
