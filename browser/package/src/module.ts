@@ -84,6 +84,7 @@ function isNumeric(value: unknown): boolean {
 }
 
 export class Module {
+  /** @internal */
   readonly memory: WebAssembly.Memory;
   private readonly exports: Exports;
   private readonly decoder = new TextDecoder();
@@ -94,7 +95,11 @@ export class Module {
   /** The last called export that is no part of reading an error. */
   private called = "";
 
-  constructor(compiled: WebAssembly.Module, readonly simd: boolean) {
+  readonly simd: boolean;
+
+  /** @internal */
+  constructor(compiled: WebAssembly.Module, simd: boolean) {
+    this.simd = simd;
     // Returns whether the callback did not throw: an exception does not pass through the module, and is rethrown behind
     // it.
     const asked = <K extends keyof Callbacks>(name: K) => (...values: Parameters<Callbacks[K]>): number => {
@@ -231,8 +236,12 @@ const simdProbe = new Uint8Array([
 export interface LoadOptions {
   /** Whether to use the build with SIMD; by default if the engine supports it. */
   simd?: boolean;
-  /** The module itself, or an address to fetch it from, in place of the package's file. */
-  source?: BufferSource | WebAssembly.Module | URL | string;
+  /**
+   * In place of the package's file: the module itself, a WebAssembly.Module, its bytes, an ArrayBuffer or a typed array, or
+   * an address to fetch it from, a URL or a text. (The types WebAssembly and BufferSource are those of the library `dom`,
+   * which a project for Node.js lacks.)
+   */
+  source?: object | string;
 }
 
 const loadKeys: Keys<LoadOptions> = { simd: "boolean", source: true };
@@ -261,7 +270,8 @@ export async function load(options: LoadOptions = {}): Promise<void> {
   const own = simd
     ? new URL("./kinesphere-simd.wasm", import.meta.url)
     : new URL("./kinesphere.wasm", import.meta.url);
-  const module = new Module(await compiled(options.source ?? own), simd);
+  const source = (options.source ?? own) as BufferSource | WebAssembly.Module | URL | string;
+  const module = new Module(await compiled(source), simd);
   loaded ??= module;
 }
 
