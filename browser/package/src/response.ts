@@ -1,8 +1,8 @@
 // Responses of two bodies to a contact.
+import type { Bounces } from "./asking.js";
 import { Event, type Vec3 } from "./event.js";
 import { theModule } from "./module.js";
 import { checkKeys, type Keys, shown } from "./options.js";
-import type { Bounces } from "./asking.js";
 
 /** Marks what `bounce` returns: as an answer of a run it turns only the bodies that a contact can turn. */
 export const bounced = Symbol("bounced");
