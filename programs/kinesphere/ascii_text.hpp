@@ -22,6 +22,18 @@ inline std::string without_controls(std::string text) {
   return text;
 }
 
+/// Returns the text as a word of a shell's command line: in quotes, if need be.
+inline std::string shell_word(std::string_view text) {
+  const auto is_plain = [](char c) {
+    return (lower_case(c) >= 'a' && lower_case(c) <= 'z') || (c >= '0' && c <= '9') ||
+           std::string_view("_-.,:=/@%+").find(c) != std::string_view::npos;
+  };
+  if (!text.empty() && std::ranges::all_of(text, is_plain)) return std::string(text);
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
+  return word + "'";
+}
+
 /// Returns true if the names are equal, ignoring the case of A to Z.
 constexpr bool same_name(std::string_view a, std::string_view b) {
   return std::ranges::equal(a, b, {}, lower_case, lower_case);

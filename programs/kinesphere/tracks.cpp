@@ -116,14 +116,8 @@ void warn_of_one_place(const std::vector<Approach>& approaches, const Recording&
       recording.times.text(first->closest.time, 6), at.x, at.y);
 }
 
-/// Warns of a distance without a unit that is larger than a recording in another unit than metres: it may
-/// have been meant in that unit.
-void warn_of_distance(const Closeness& closeness, const Recording& recording) {
-  const Coordinates& coordinates = recording.coordinates;
-  const Vec3 step = coordinates.as_in_file({1, 0, 0}) - coordinates.as_in_file({});
-  if (closeness.has_unit || !recording.in_metres || coordinates.are_geographic() ||
-      std::abs(step.x - 1.0) < 1e-9)
-    return;
+/// Returns the diagonal of the box around all samples.
+double size_of(const Recording& recording) {
   constexpr double none = std::numeric_limits<double>::infinity();
   Box extent{{none, none, none}, {-none, -none, -none}};
   for (const RecordedTrack& track : recording.tracks) {
@@ -134,8 +128,24 @@ void warn_of_distance(const Closeness& closeness, const Recording& recording) {
       }
     }
   }
-  const double size = norm(extent.upper - extent.lower);
-  if (closeness.distance <= size) return;
+  return norm(extent.upper - extent.lower);
+}
+
+/// Warns of a distance without a unit that is larger than a recording in another unit than metres, or a few
+/// metres among places that are kilometres apart: it may have been meant in another unit.
+void warn_of_distance(const Closeness& closeness, const Recording& recording) {
+  const Coordinates& coordinates = recording.coordinates;
+  if (closeness.has_unit || !recording.in_metres) return;
+  const double size = size_of(recording);
+  if (coordinates.are_geographic()) {
+    constexpr double few_metres = 10.0, wide = 20e3;
+    if (closeness.distance < few_metres && size > wide)
+      print_message("kinesphere: warning: {} {} is in metres; another unit is said as in 5NM\n",
+                    closeness.option, closeness.given);
+    return;
+  }
+  const Vec3 step = coordinates.as_in_file({1, 0, 0}) - coordinates.as_in_file({});
+  if (closeness.distance <= size || std::abs(step.x - 1.0) < 1e-9) return;
   print_message(
       "kinesphere: warning: all positions are within {:.4g} m of each other, so that all pairs are close all "
       "the "

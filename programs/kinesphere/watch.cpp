@@ -39,7 +39,7 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
   command
       ->add_option("--look-ahead", options.look_ahead,
                    "How far ahead predictions reach where a separation has no time of its own; 60 s when not "
-                   "given, of csv and jsonl 10 s; with 0 nothing is predicted")
+                   "given, of tables, JSON and recordings 10 s; with 0 nothing is predicted")
       ->type_name("TIME");
   command
       ->add_option("--confirm", options.confirm,
@@ -49,7 +49,10 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
       ->add_option("--hold", options.hold,
                    "A prediction ends once it has not held for so long; 60 s when not given")
       ->type_name("TIME");
-  command->add_option("--own", options.own, "Watch only the pairs with the track of this id")
+  command
+      ->add_option(
+          "--own", options.own,
+          "Watch only the pairs with the track of this id; of AIS gps is the receiver's own position (RMC)")
       ->type_name("ID");
   command
       ->add_option(

@@ -19,9 +19,42 @@ std::optional<ConvertedTable> convert_to_table(std::string_view text, const std:
   if (auto table = convert_igc(text, file, geometric)) return table;
   for (auto* const convert : {&convert_gpx, &convert_kml, &convert_fcd, &convert_trackmate, &convert_lammps,
                               &convert_xyz, &convert_gro, &convert_pdb, &convert_gps, &convert_deeplabcut,
-                              &convert_motion_capture, &convert_oem, &convert_geojson, &convert_json_records})
+                              &convert_motion_capture, &convert_vissim, &convert_pneuma, &convert_xvg,
+                              &convert_oem, &convert_geojson, &convert_json_records})
     if (auto table = convert(text, file)) return table;
   return std::nullopt;
+}
+
+std::string_view kind_of_recording(std::string_view beginning) {
+  if (beginning.starts_with("\xEF\xBB\xBF")) beginning.remove_prefix(3);
+  struct RecordingKind {
+    std::string_view name;
+    bool (*is_of_it)(std::string_view text);
+  };
+  constexpr RecordingKind kinds[] = {
+      {"a trace of tar1090", is_json_trace},
+      {"a flight log (IGC)", is_igc},
+      {"GPX", [](std::string_view each) { return is_xml_with(each, "<gpx"); }},
+      {"KML", [](std::string_view each) { return is_xml_with(each, "<kml"); }},
+      {"the FCD output of SUMO", [](std::string_view each) { return is_xml_with(each, "<fcd-export"); }},
+      {"tracks of TrackMate", [](std::string_view each) { return is_xml_with(each, "<Tracks "); }},
+      {"a dump of LAMMPS", [](std::string_view each) { return each.starts_with("ITEM: "); }},
+      {"XYZ", is_xyz},
+      {"a .gro file of GROMACS", is_gro},
+      {"a PDB file", is_pdb},
+      {"a log of a GPS receiver", is_gps_log},
+      {"a table of DeepLabCut", [](std::string_view each) { return each.starts_with("scorer,"); }},
+      {"an export of motion capture", is_motion_capture},
+      {"a record of Vissim", is_vissim},
+      {"a table of pNEUMA", is_pneuma},
+      {"coordinates of GROMACS (.xvg)", is_xvg},
+      {"an ephemeris (OEM)",
+       [](std::string_view each) { return trimmed(each.substr(0, 100)).starts_with("CCSDS_OEM_VERS"); }},
+      {"GeoJSON", is_geojson},
+      {"a list of JSON records", is_json_list}};
+  for (const auto& [name, is_of_it] : kinds)
+    if (is_of_it(beginning)) return name;
+  return {};
 }
 
 ProgramError without_expat(const std::string& file, std::string_view kind) {
@@ -89,6 +122,11 @@ std::vector<std::string_view> words_of(std::string_view line) {
 
 std::vector<std::string_view> fields_of(std::string_view line, char separator) {
   std::vector<std::string_view> fields;
+  if (separator == ' ') {
+    fields = words_of(line);
+    if (fields.empty()) fields.emplace_back();
+    return fields;
+  }
   for (;;) {
     const std::size_t end = line.find(separator);
     fields.push_back(trimmed(line.substr(0, end)));

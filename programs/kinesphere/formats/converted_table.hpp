@@ -22,18 +22,22 @@ struct ConvertedTable {
   std::size_t lines_before = 0;
   /// So many rows stand for each line of the file.
   std::size_t rows_per_line = 1;
-  bool is_one_body = false;  ///< all rows are of one body, called like the file
+  std::vector<std::size_t> row_lines;  ///< of each row the line of the file; empty: see rows_per_line
+  bool is_one_body = false;            ///< all rows are of one body, called like the file
 
   /// Returns the line of the file for a line of the text.
   std::size_t line_in_file(std::size_t line) const {
-    return line <= lines_before ? line : (line - lines_before + rows_per_line - 1) / rows_per_line;
+    if (line <= lines_before) return line;
+    const std::size_t row = line - lines_before - 1;
+    return row < row_lines.size() ? row_lines[row] : row / rows_per_line + 1;
   }
   std::vector<std::string> warnings;
 };
 
 /// Converts GPX (tracks of a GPS receiver), KML, GeoJSON, logs of NMEA 0183 and IGC, FCD output of SUMO,
 /// orbit ephemeris messages, XYZ and extended XYZ, GRO, PDB, dumps of LAMMPS, tables of DeepLabCut and of
-/// motion capture, traces of tar1090, and JSON records; returns nothing for other text. `geometric`: heights
+/// motion capture, records of Vissim, tables of pNEUMA, coordinates of GROMACS, traces of tar1090, and JSON
+/// records; returns nothing for other text. `geometric`: heights
 /// of aircraft are those of satellite navigation. Throws ProgramError naming `file` and the line for a
 /// damaged file.
 std::optional<ConvertedTable> convert_to_table(std::string_view text, const std::string& file,
@@ -57,12 +61,34 @@ std::optional<ConvertedTable> convert_gro(std::string_view text, const std::stri
 std::optional<ConvertedTable> convert_pdb(std::string_view text, const std::string& file);
 std::optional<ConvertedTable> convert_deeplabcut(std::string_view text, const std::string& file);
 std::optional<ConvertedTable> convert_motion_capture(std::string_view text, const std::string& file);
+std::optional<ConvertedTable> convert_vissim(std::string_view text, const std::string& file);
+std::optional<ConvertedTable> convert_pneuma(std::string_view text, const std::string& file);
+std::optional<ConvertedTable> convert_xvg(std::string_view text, const std::string& file);
+
+/// Returns what a text with this beginning is that convert_to_table() turns into a table, as "GPX"; empty for
+/// another text. Sentences of NMEA 0183 are such only if none of AIS follows.
+std::string_view kind_of_recording(std::string_view beginning);
 
 // What a text is by its beginning.
 bool is_igc(std::string_view text);
 bool is_gps_log(std::string_view text);
 bool is_gro(std::string_view text);
 bool is_pdb(std::string_view text);
+bool is_xyz(std::string_view text);
+bool is_vissim(std::string_view text);
+bool is_pneuma(std::string_view text);
+bool is_xvg(std::string_view text);
+bool is_motion_capture(std::string_view text);
+bool is_json_trace(std::string_view text);
+bool is_geojson(std::string_view text);
+/// A list of objects.
+bool is_json_list(std::string_view text);
+/// An object in each line.
+bool are_json_lines(std::string_view text);
+/// Lists of values, one for each name, such as {"time":[0,1],"x":[2,3]}.
+bool is_columnar_json(std::string_view text);
+/// Streams of an activity of Strava, which are such lists.
+bool is_strava(std::string_view text);
 
 /// Returns the error for a file of a kind of XML in a program without expat.
 ProgramError without_expat(const std::string& file, std::string_view kind);
@@ -137,9 +163,23 @@ class Unwrapper {
   std::unordered_map<std::string, std::array<double, 3>> last_;
 };
 
+/// Tells tracks of one name apart: two walks of a day may be called alike, at the same times or not.
+class TrackLabels {
+ public:
+  /// Returns the name for its first track, and "name (2)" and so on for the next.
+  std::string label(const std::string& name) {
+    const std::size_t count = ++counts_[name];
+    return count == 1 ? name : name + " (" + std::to_string(count) + ")";
+  }
+
+ private:
+  std::unordered_map<std::string, std::size_t> counts_;
+};
+
 /// Returns the parts between blanks.
 std::vector<std::string_view> words_of(std::string_view line);
-/// Returns the parts between separators, without blanks around them.
+/// Returns the parts between separators, without blanks around them; between blanks as words_of(), but at
+/// least one.
 std::vector<std::string_view> fields_of(std::string_view line, char separator);
 /// Returns "3" as a count; nothing for other text.
 std::optional<std::size_t> count_in(std::string_view text);

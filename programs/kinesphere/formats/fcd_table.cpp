@@ -16,14 +16,17 @@ class FcdReader final : XmlElements {
 
   ConvertedTable read() {
     read_all();
-    return table_of_places("SUMO FCD", file(), "vehicle_id,time,x,y", "z", places_, [](const Place& place) {
-      return fmt::format("{},{},{},{}", place.id, place.time, place.x, place.y);
-    });
+    return table_of_places("SUMO FCD", file(), "vehicle_id,time,x,y,speed,course", "z", places_,
+                           [](const Place& place) {
+                             return fmt::format("{},{},{},{},{},{}", place.id, place.time, place.x, place.y,
+                                                place.speed, place.course);
+                           });
   }
 
  private:
   struct Place {
     std::string id, time, x, y, height;
+    std::string speed, course;  ///< metres per second, degrees clockwise from north
     std::size_t line = 0;
   };
 
@@ -36,6 +39,8 @@ class FcdReader final : XmlElements {
                        .x = attribute(attributes, "x"),
                        .y = attribute(attributes, "y"),
                        .height = attribute(attributes, "z"),
+                       .speed = attribute(attributes, "speed"),
+                       .course = attribute(attributes, "angle"),
                        .line = line()});
   }
   void end(std::string_view) override {}

@@ -66,9 +66,6 @@ constexpr FileKind kinds_by_bytes[] = {
     {"\xB5\x62"sv, "raw data of a u-blox receiver: write it as NMEA or GPX, with gpsbabel or RTKLIB"},
     {"\x89MCAP0"sv, "a log of ROS 2 (MCAP): write the topic as CSV"},
     {"\0\0\x27\x0A"sv, "a shapefile: write its points as CSV, with ogr2ogr -lco GEOMETRY=AS_XY"},
-    {"track_id; type; traveled_d"sv,
-     "a table of pNEUMA, with a whole track in each row: write it as rows of id, time, lat, lon"},
-    {"$VISION"sv, "a record of Vissim or Viswalk: write it as CSV, with columns id, time, x and y"},
     {"stk.v."sv, "an ephemeris of STK: write its rows as CSV, with columns id, time, x, y, z"},
     {"#aP"sv, sp3},
     {"#cP"sv, sp3},
@@ -82,14 +79,10 @@ constexpr FileKind kinds_by_bytes[] = {
 
 /// XML by a word in its beginning.
 constexpr FileKind kinds_of_xml[] = {
-    {"<gpx", "a GPX file: write it as CSV, with gpsbabel -t -i gpx -f FILE -o unicsv -F FILE.csv"},
-    {"<kml", "a KML file: write it as CSV, with gpsbabel -t -i kml -f FILE -o unicsv -F FILE.csv"},
-    {"<fcd-export", "the FCD output of SUMO: write it as CSV, with SUMO's xml2csv.py"},
     {"<TrainingCenterDatabase",
      "a TCX file: write it as GPX, with gpsbabel -i gtrnctr -f FILE -o gpx -F FILE.gpx"},
     {"<oem", "an ephemeris (OEM): write its rows as CSV, with columns id, time, x, y, z"},
     {"<TrackMate", "a file of TrackMate: export its tracks to XML, or the spots as CSV"},
-    {"<Tracks ", "tracks of TrackMate: export the spots as CSV"},
     {"<VTKFile", vtk},
     {"<html", "a page of HTML: save the table as CSV"},
     {"<!DOCTYPE html", "a page of HTML: save the table as CSV"},
@@ -109,6 +102,10 @@ bool are_orbital_elements(std::string_view first, std::string_view second) {
 
 /// Files that are known by their first lines.
 std::string kind_by_lines(std::string_view text) {
+  constexpr auto elements =
+      "orbital elements ({}), not positions: python/examples/conjunctions.py finds the approaches of a TLE "
+      "(docs/satellites.md)";
+  if (has_orbital_elements(text)) return fmt::format(elements, "OMM");
   std::array<std::string_view, 3> lines;
   for (std::string_view& line : lines) {
     line = text.substr(0, text.find('\n'));
@@ -116,30 +113,19 @@ std::string kind_by_lines(std::string_view text) {
     if (line.ends_with('\r')) line.remove_suffix(1);
   }
   if (are_orbital_elements(lines[0], lines[1]) || are_orbital_elements(lines[1], lines[2]))
-    return "orbital elements (TLE), not positions: python/examples/conjunctions.py finds their approaches "
-           "(docs/satellites.md)";
+    return fmt::format(elements, "TLE");
   if (lines[0].starts_with('*') && lines[0].ends_with(';') &&
       lines[0].find_first_not_of("0123456789abcdefABCDEF", 1) == lines[0].size() - 1)
     return std::string(mode_s);
   return {};
 }
 
-/// Returns what a file is that is read as a recording, but not as a stream; empty for another.
-std::string_view kind_of_recording(std::string_view text) {
-  constexpr FileKind kinds[] = {
-      {"scorer,", "a table of DeepLabCut"},           {"Format Version,", "a take of OptiTrack Motive"},
-      {"PathFileType", "a .trc file of markers"},     {"NO_OF_FRAMES", "a file of Qualisys"},
-      {"Trajectories\n", "an export of Vicon Nexus"}, {"Trajectories\r\n", "an export of Vicon Nexus"},
-      {"CCSDS_OEM_VERS", "an ephemeris (OEM)"},       {"ITEM: ", "a dump of LAMMPS"}};
-  for (const FileKind& kind : kinds)
-    if (has_begin(text, kind.begins)) return kind.is;
-  if (is_igc(text)) return "a flight log (IGC)";
-  if (is_gro(text)) return "a .gro file of GROMACS";
-  if (is_pdb(text)) return "a PDB file";
-  return {};
-}
-
 }  // namespace
+
+bool has_orbital_elements(std::string_view beginning) {
+  const std::string_view head = beginning.substr(0, 4000);
+  return head.find("MEAN_MOTION") != head.npos && head.find("ECCENTRICITY") != head.npos;
+}
 
 std::string other_file_kind(std::string_view beginning) {
   if (beginning.empty()) return {};
@@ -159,14 +145,16 @@ std::string other_file_kind(std::string_view beginning) {
   if (beginning.size() > place_of_fit && has_begin(beginning.substr(place_of_fit), ".FIT"))
     return "a FIT file: write it as GPX, with gpsbabel -i garmin_fit -f FILE -o gpx -F FILE.gpx";
   if (const std::string kind = kind_by_lines(beginning); !kind.empty()) return kind;
-  if (const std::string_view kind = kind_of_recording(beginning); !kind.empty())
-    return fmt::format("{}, which tracks and view read: watch needs rows of id, time and position, as CSV",
-                       kind);
   if (has_begin(beginning, "\xEF\xBB\xBF")) beginning.remove_prefix(3);
   beginning.remove_prefix(std::min(beginning.find_first_not_of(" \t\r\n"), beginning.size()));
   const bool is_json = has_begin(beginning, "{") || has_begin(beginning, "[");
-  if (is_json && beginning.substr(0, 4000).find("\"FeatureCollection\"") != std::string_view::npos)
-    return "GeoJSON: write its points as CSV, with ogr2ogr -f CSV FILE.csv FILE -lco GEOMETRY=AS_XY";
+  if (is_strava(beginning))
+    return "streams of Strava, whose times count from the start of their activity: export the activity as "
+           "GPX, "
+           "which has dates";
+  if (is_columnar_json(beginning))
+    return "JSON with a list for each name: write it as records, with pandas: to_json(orient='records', "
+           "lines=True)";
   if (is_json)
     return "JSON of none of the formats that are read (docs/tables.md): write it as CSV, for example with jq "
            "-r '[.id,.time,.x,.y]|@csv'";

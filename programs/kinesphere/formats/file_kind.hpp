@@ -6,6 +6,9 @@
 
 namespace kinesphere::program {
 
+/// True for the names of a message of orbital elements (OMM, CCSDS 502.0-B) as keywords, CSV or JSON.
+bool has_orbital_elements(std::string_view beginning);
+
 /// Returns what the file is and what to do, for the end of a sentence: "a zip archive: unpack it first".
 /// Empty for a text that may be a table. `beginning` is that of the file; a few hundred bytes are enough.
 std::string other_file_kind(std::string_view beginning);

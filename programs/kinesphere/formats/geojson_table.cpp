@@ -75,7 +75,7 @@ class GeoJsonReader {
     std::string id = fmt::format("feature {}", features_);
     std::vector<std::string> times;
     if (ondemand::object properties; !feature["properties"].get_object().get(properties))
-      read_properties(properties, id, times);
+      if (!read_properties(properties, id, times)) id = labels_.label(id);
     feature.reset();
     std::vector<std::vector<std::string>> places;
     for (ondemand::value place : feature["geometry"]["coordinates"].get_array())
@@ -93,7 +93,8 @@ class GeoJsonReader {
     return true;
   }
 
-  static void read_properties(ondemand::object properties, std::string& id, std::vector<std::string>& times) {
+  /// Returns true if there is an id, which may be that of several lines.
+  static bool read_properties(ondemand::object properties, std::string& id, std::vector<std::string>& times) {
     bool has_id = false;
     for (auto field : properties) {
       const std::string name(std::string_view(field.unescaped_key()));
@@ -112,6 +113,7 @@ class GeoJsonReader {
                                                          : std::string(trimmed(value.raw_json_token()));
       }
     }
+    return has_id;
   }
 
   /// Returns texts and numbers as fields of a table.
@@ -142,15 +144,19 @@ class GeoJsonReader {
   const std::string& file_;
   std::size_t& line_;
   JsonRows rows_;
+  TrackLabels labels_;
   std::size_t features_ = 0, left_out_ = 0;
 };
 
 }  // namespace
 
-std::optional<ConvertedTable> convert_geojson(std::string_view text, const std::string& file) {
+bool is_geojson(std::string_view text) {
   const std::string_view begin = text.substr(0, 4096);
-  if (!trimmed(begin).starts_with('{') || begin.find("\"FeatureCollection\"") == std::string_view::npos)
-    return std::nullopt;
+  return trimmed(begin).starts_with('{') && begin.find("\"FeatureCollection\"") != std::string_view::npos;
+}
+
+std::optional<ConvertedTable> convert_geojson(std::string_view text, const std::string& file) {
+  if (!is_geojson(text)) return std::nullopt;
   std::optional<ConvertedTable> table;
   std::size_t line = 1;
   read_json(file, line, [&] { table = GeoJsonReader(file, line).read(text); });

@@ -22,11 +22,13 @@ namespace {
 /// Where the fields of a sentence are; 0: it has none of the kind.
 struct GpsSentence {
   std::string_view name;
-  std::size_t place, validity, height, date;
+  std::size_t place, validity, height, date, speed;  ///< the course stands behind the speed
   std::string_view invalid;  ///< its place does not count with one of these letters alone
 };
-constexpr GpsSentence gps_sentences[] = {
-    {"RMC", 3, 2, 0, 9, "V"}, {"GGA", 2, 6, 9, 0, "0"}, {"GNS", 2, 6, 9, 0, "N"}, {"ZDA", 0, 0, 0, 2, ""}};
+constexpr GpsSentence gps_sentences[] = {{"RMC", 3, 2, 0, 9, 7, "V"},
+                                         {"GGA", 2, 6, 9, 0, 0, "0"},
+                                         {"GNS", 2, 6, 9, 0, 0, "N"},
+                                         {"ZDA", 0, 0, 0, 2, 0, ""}};
 
 /// Returns the sentence that begins at a $; null for another one.
 const GpsSentence* gps_sentence(std::string_view text) {
@@ -36,12 +38,13 @@ const GpsSentence* gps_sentence(std::string_view text) {
 }
 
 /// What the sentences of one time of day say.
-struct GpsFix {
+struct LoggedFix {
   std::string source, talker;
   std::set<std::string_view> sentences;
   LoggedClock clock{};
   std::optional<std::chrono::sys_days> day;
   std::string longitude, latitude, height;
+  std::string speed, course;  ///< knots, degrees
   std::size_t line = 0;
 };
 
@@ -56,7 +59,7 @@ class GpsReader {
           read_sentence(*sentence, line->substr(0, at), line->substr(at + 1));
       }
     }
-    std::vector<GpsFix> fixes = whole_fixes();
+    std::vector<LoggedFix> fixes = whole_fixes();
     if (fixes.empty())
       throw ProgramError(fmt::format(
           "{}: expected sentences RMC, GGA or GNS with a valid position, but of those that it has {} "
@@ -88,7 +91,7 @@ class GpsReader {
       ++invalid_;
       return;
     }
-    GpsFix fix{.sentences = {sentence.name}, .line = lines_.line()};
+    LoggedFix fix{.sentences = {sentence.name}, .line = lines_.line()};
     fix.talker = fields[0].substr(0, 2);
     const auto clock = logged_clock(fields[1]);
     if (!clock) fail("a time of day, hhmmss", 1, fields[1]);
@@ -96,12 +99,16 @@ class GpsReader {
     read_source(head, fix);
     read_day(sentence, fields, fix);
     read_place(sentence, fields, fix);
+    if (const std::size_t at = sentence.speed; at > 0 && parse_number(fields[at])) {
+      fix.speed = fields[at];
+      if (parse_number(fields[at + 1])) fix.course = fields[at + 1];
+    }
     note_talker(fix);
     fixes_.push_back(std::move(fix));
   }
 
   /// The lines of a group have the source of its first one.
-  void read_source(std::string_view head, GpsFix& fix) {
+  void read_source(std::string_view head, LoggedFix& fix) {
     NmeaLine line;
     if (const auto received = read_head(head, line)) {
       const double since_midnight = static_cast<double>(received->time.whole) - fix.clock.second;
@@ -113,7 +120,8 @@ class GpsReader {
     group_source_ = fix.source;
   }
 
-  void read_day(const GpsSentence& sentence, const std::vector<std::string_view>& fields, GpsFix& fix) const {
+  void read_day(const GpsSentence& sentence, const std::vector<std::string_view>& fields,
+                LoggedFix& fix) const {
     const std::size_t at = sentence.date;
     if (at == 0 || fields[at].empty()) return;
     // The year of ZDA has four digits.
@@ -127,7 +135,7 @@ class GpsReader {
   }
 
   void read_place(const GpsSentence& sentence, const std::vector<std::string_view>& fields,
-                  GpsFix& fix) const {
+                  LoggedFix& fix) const {
     if (const std::size_t at = sentence.place; at > 0) {
       const auto latitude = degrees_and_minutes(fields[at], fields[at + 1]);
       const auto longitude = degrees_and_minutes(fields[at + 2], fields[at + 3]);
@@ -147,25 +155,25 @@ class GpsReader {
 
   /// Two talkers that send one sentence for one time are two receivers; a receiver that begins to use more
   /// satellites goes on as another talker.
-  void note_talker(const GpsFix& fix) {
+  void note_talker(const LoggedFix& fix) {
     auto& [second, talker] = last_of_[{fix.source, *fix.sentences.begin()}];
     if (!talker.empty() && talker != fix.talker && second == fix.clock.second) apart_.insert(fix.source);
     second = fix.clock.second;
     talker = fix.talker;
   }
 
-  std::string id_of(const GpsFix& fix) const {
+  std::string id_of(const LoggedFix& fix) const {
     const std::string source = fix.source.empty() ? id_of_file(file_) : fix.source;
     return apart_.contains(fix.source) ? fmt::format("{} {}", source, fix.talker) : source;
   }
 
   /// Joins the sentences of one time. Sets the days.
-  std::vector<GpsFix> whole_fixes() {
-    std::vector<GpsFix> whole;
+  std::vector<LoggedFix> whole_fixes() {
+    std::vector<LoggedFix> whole;
     std::map<std::string, std::vector<std::size_t>> of_body;
-    for (GpsFix& fix : fixes_) {
+    for (LoggedFix& fix : fixes_) {
       std::vector<std::size_t>& own = of_body[id_of(fix)];
-      GpsFix* const last = own.empty() ? nullptr : &whole[own.back()];
+      LoggedFix* const last = own.empty() ? nullptr : &whole[own.back()];
       const bool is_same_time = last != nullptr && last->clock.second == fix.clock.second;
       const std::string_view sentence = *fix.sentences.begin();
       // The same sentence with another place is that of another receiver, and a duplicate.
@@ -175,6 +183,7 @@ class GpsReader {
         if (last->longitude.empty())
           std::tie(last->longitude, last->latitude) = {fix.longitude, fix.latitude};
         if (last->height.empty()) last->height = fix.height;
+        if (last->speed.empty()) std::tie(last->speed, last->course) = {fix.speed, fix.course};
         if (!last->day || sentence == "RMC") last->day = fix.day ? fix.day : last->day;
         continue;
       }
@@ -182,12 +191,12 @@ class GpsReader {
       whole.push_back(std::move(fix));
     }
     for (const auto& [id, own] : of_body) set_days(id, own, whole);
-    std::erase_if(whole, [](const GpsFix& fix) { return fix.longitude.empty(); });
+    std::erase_if(whole, [](const LoggedFix& fix) { return fix.longitude.empty(); });
     return whole;
   }
 
   /// Gives the fixes of a body the days that others of it say.
-  void set_days(const std::string& id, const std::vector<std::size_t>& own, std::vector<GpsFix>& all) {
+  void set_days(const std::string& id, const std::vector<std::size_t>& own, std::vector<LoggedFix>& all) {
     const auto first = std::ranges::find_if(own, [&](std::size_t k) { return all[k].day.has_value(); });
     const bool has_days = first != own.end();
     if (std::exchange(has_days_, has_days).value_or(has_days) != has_days)
@@ -204,18 +213,19 @@ class GpsReader {
     }
   }
 
-  ConvertedTable table_of(const std::vector<GpsFix>& fixes) const {
-    ConvertedTable table =
-        table_of_places("NMEA 0183", file_, "id,time,lon,lat", "alt", fixes, [this](const GpsFix& fix) {
+  ConvertedTable table_of(const std::vector<LoggedFix>& fixes) const {
+    ConvertedTable table = table_of_places(
+        "NMEA 0183", file_, "id,time,lon,lat,speed_kt,course", "alt", fixes, [this](const LoggedFix& fix) {
           const std::string time =
               *has_days_
                   ? logged_time(*fix.day, fix.clock)
                   : fmt::format("{}", 86'400.0 * static_cast<double>(fix.day->time_since_epoch().count()) +
                                           fix.clock.second);
-          return fmt::format("{},{},{},{}", quoted_field(id_of(fix)), time, fix.longitude, fix.latitude);
+          return fmt::format("{},{},{},{},{},{}", quoted_field(id_of(fix)), time, fix.longitude, fix.latitude,
+                             fix.speed, fix.course);
         });
     table.is_one_body = std::ranges::all_of(
-        fixes, [&](const GpsFix& fix) { return fix.source.empty() && !apart_.contains(""); });
+        fixes, [&](const LoggedFix& fix) { return fix.source.empty() && !apart_.contains(""); });
     if (!*has_days_)
       table.warnings.push_back(fmt::format(
           "{}: its sentences have no date (RMC, ZDA), so that times are seconds since midnight UTC", file_));
@@ -235,7 +245,7 @@ class GpsReader {
 
   LineCutter lines_;
   const std::string& file_;
-  std::vector<GpsFix> fixes_;
+  std::vector<LoggedFix> fixes_;
   std::optional<bool> has_checksums_, has_days_;
   std::size_t damaged_ = 0, first_damaged_ = 0, invalid_ = 0;
   std::string group_, group_source_;

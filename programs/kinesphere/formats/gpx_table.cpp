@@ -53,11 +53,12 @@ class GpxReader final : XmlElements {
     if (name == "trkpt") is_in_point_ = false;
     if (is_in_point_ && name == "ele") points_.back().height = content();
     if (is_in_point_ && name == "time") points_.back().time = content();
-    if (is_in_track_ && !is_in_point_ && name == "name") name_ = content();
+    if (is_in_track_ && !is_in_point_ && name == "name") name_ = labels_.label(content());
   }
 
   std::vector<Point> points_;
   std::string name_;
+  TrackLabels labels_;
   std::size_t tracks_ = 0;
   bool is_in_track_ = false, is_in_point_ = false;
 };

@@ -75,7 +75,8 @@ class JsonLinesFormat final : public ReportFormat {
     } else {
       throw MalformedRecord(fmt::format(
           "expected id, name, stamp, arrival, position, velocity, position_error, velocity_error, "
-          "stamp_error, lat, lon or alt, but got \"{}\"",
+          "stamp_error, lat, lon or alt, but got \"{}\" (--format json takes any names, as columns of a "
+          "table)",
           key.substr(0, 40)));
     }
   }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,9 +15,11 @@
 #include <vector>
 
 #include "ascii_text.hpp"
+#include "formats/column_names.hpp"
 #include "formats/converted_table.hpp"
 #include "formats/field_text.hpp"
 #include "formats/json_reading.hpp"
+#include "formats/time_text.hpp"
 #include "program_error.hpp"
 
 namespace kinesphere::program {
@@ -29,21 +32,43 @@ class JsonRows {
     add_fields("", object, 1);
   }
   void begin_row(std::size_t line) { rows_.push_back({line, {}}); }
+  /// Adds an object, or the objects of a list. Throws MalformedRecord for other documents.
+  void add_document(ondemand::document& document, std::size_t line) {
+    if (document.type() != ondemand::json_type::array) {
+      add(document.get_object(), line);
+    } else {
+      for (ondemand::value value : document.get_array()) add(value.get_object(), line);
+    }
+    require_end(document, "one JSON object, or one list of objects, in a line");
+  }
+
+  const std::vector<std::string>& names() const { return names_; }
+  /// Returns the names as the header of a table.
+  std::string header() const {
+    std::string header;
+    for (const std::string& name : names_) header += (header.empty() ? "" : ",") + quoted_field(name);
+    return header;
+  }
+  /// Returns the rows as those of a table.
+  std::vector<std::string> row_texts() const {
+    std::vector<std::string> texts;
+    for (const Row& row : rows_) texts.push_back(text_of(row));
+    return texts;
+  }
+  /// Forgets all rows, and the names behind the first `count`.
+  void forget(std::size_t count) {
+    rows_.clear();
+    for (; names_.size() > count; names_.pop_back()) columns_.erase(names_.back());
+  }
 
   /// Returns the table; nothing where no column was found.
   std::optional<ConvertedTable> table() const {
     if (names_.empty()) return std::nullopt;
-    ConvertedTable table{.format = "JSON records"};
-    for (const std::string& name : names_) table.text += (table.text.empty() ? "" : ",") + quoted_field(name);
-    table.text += '\n';
-    table.lines_before = 1;
+    ConvertedTable table{.format = "JSON records", .text = header() + '\n', .lines_before = 1};
     std::size_t row_line = 1;
-    std::vector<std::string_view> texts;
     for (const Row& row : rows_) {
       for (; row_line < row.line; ++row_line) table.text += '\n';
-      texts.assign(names_.size(), {});
-      for (const auto& [column, text] : row.fields) texts[column] = text;
-      table.text += fmt::format("{}\n", fmt::join(texts, ","));
+      table.text += text_of(row) + '\n';
       ++row_line;
     }
     return table;
@@ -57,8 +82,11 @@ class JsonRows {
     if (depth > deepest)
       throw MalformedRecord(fmt::format("expected records nested at most {} deep, but got deeper", deepest));
     switch (value.type()) {
-      case ondemand::json_type::object:
-        return add_fields(name + '.', value.get_object(), depth + 1);
+      case ondemand::json_type::object: {
+        ondemand::object object = value.get_object();
+        if (auto time = time_of_ros(object)) return set(name, *std::move(time));
+        return add_fields(name + '.', object, depth + 1);
+      }
       case ondemand::json_type::array: {
         // Longer lists are no positions.
         constexpr std::size_t longest = 3;
@@ -70,7 +98,7 @@ class JsonRows {
         return;
       }
       case ondemand::json_type::string:
-        return set(name, quoted_field(value.get_string()));
+        return set(name, quoted_field(dated_text(name, value.get_string())));
       case ondemand::json_type::null:
         return set(name, "");
       default:
@@ -95,6 +123,37 @@ class JsonRows {
     std::vector<std::pair<std::size_t, std::string>> fields;
   };
 
+  /// Returns a text of 14 digits that is a date by its name and its digits, as rxtime of AIS-catcher is, as
+  /// 20240131T123015; else the text.
+  static std::string dated_text(const std::string& name, std::string_view text) {
+    constexpr std::size_t digits = 14, of_day = 8;
+    const std::string plain = plain_name(name);
+    const bool is_time = plain.find("time") != plain.npos || plain.find("date") != plain.npos;
+    if (!is_time || text.size() != digits) return std::string(text);
+    const std::string date = fmt::format("{}T{}", text.substr(0, of_day), text.substr(of_day));
+    return parse_date_time(date) ? date : std::string(text);
+  }
+  /// Returns the seconds of {"secs": 7, "nsecs": 5000000} and {"sec": 7, "nanosec": 5000000}; nothing for
+  /// another object, which is then at its begin again.
+  static std::optional<std::string> time_of_ros(ondemand::object& object) {
+    constexpr std::pair<std::string_view, std::string_view> names[] = {
+        {"secs", "nsecs"}, {"sec", "nanosec"}, {"sec", "nsec"}};
+    if (object.count_fields() != 2) return std::nullopt;
+    for (const auto& [whole, rest] : names) {
+      std::uint64_t seconds = 0, nanoseconds = 0;
+      const bool are_both =
+          !object[whole].get_uint64().get(seconds) && !object[rest].get_uint64().get(nanoseconds);
+      object.reset();
+      constexpr std::uint64_t second = 1'000'000'000;
+      if (are_both && nanoseconds < second) return fmt::format("{}.{:09}", seconds, nanoseconds);
+    }
+    return std::nullopt;
+  }
+  std::string text_of(const Row& row) const {
+    std::vector<std::string_view> texts(names_.size());
+    for (const auto& [column, text] : row.fields) texts[column] = text;
+    return fmt::format("{}", fmt::join(texts, ","));
+  }
   void add_fields(const std::string& prefix, ondemand::object object, std::size_t depth) {
     for (auto field : object) {
       const std::string name = prefix + std::string(std::string_view(field.unescaped_key()));

@@ -1,6 +1,7 @@
 // KML: tracks with times (gx:Track).
 #include <fmt/format.h>
 
+#include <utility>
 #include <vector>
 
 #include "formats/converted_table.hpp"
@@ -35,8 +36,13 @@ class KmlReader final : XmlElements {
   };
 
   void begin(std::string_view name, const char**) override {
-    if (name == "Placemark") name_ = fmt::format("track {}", ++placemarks_);
+    if (name == "Placemark") {
+      name_ = fmt::format("track {}", ++placemarks_);
+      has_label_ = false;
+    }
     if (name != "Track") return;
+    // All tracks of a placemark are one body.
+    if (!std::exchange(has_label_, true)) name_ = labels_.label(name_);
     is_in_track_ = true;
     has_heights_ = false;
     times_.clear();
@@ -75,8 +81,9 @@ class KmlReader final : XmlElements {
   std::vector<Place> places_;
   std::vector<std::string> times_;  ///< of the track
   std::string name_;                ///< of the placemark
+  TrackLabels labels_;
   std::size_t placemarks_ = 0, places_before_ = 0;
-  bool is_in_track_ = false, has_heights_ = false;
+  bool is_in_track_ = false, has_heights_ = false, has_label_ = false;
 };
 
 #endif

@@ -113,22 +113,30 @@ BodyLayout optitrack_header(LineCutter& lines) {
   return layout;
 }
 
+using CaptureHeader = BodyLayout (*)(LineCutter&);
+
+/// Returns the reader of the header of a text; null for another format.
+CaptureHeader capture_header(std::string_view text) {
+  constexpr std::pair<std::string_view, CaptureHeader> headers[] = {{"Trajectories\n", vicon_header},
+                                                                    {"Trajectories\r\n", vicon_header},
+                                                                    {"PathFileType\t", trc_header},
+                                                                    {"NO_OF_FRAMES\t", qualisys_header},
+                                                                    {"Format Version,", optitrack_header}};
+  const auto* const found =
+      std::ranges::find_if(headers, [&](const auto& header) { return text.starts_with(header.first); });
+  return found == std::end(headers) ? nullptr : found->second;
+}
+
 }  // namespace
 
+bool is_motion_capture(std::string_view text) { return capture_header(text) != nullptr; }
+
 std::optional<ConvertedTable> convert_motion_capture(std::string_view text, const std::string& file) {
-  constexpr std::pair<std::string_view, BodyLayout (*)(LineCutter&)> headers[] = {
-      {"Trajectories\n", vicon_header},
-      {"Trajectories\r\n", vicon_header},
-      {"PathFileType\t", trc_header},
-      {"NO_OF_FRAMES\t", qualisys_header},
-      {"Format Version,", optitrack_header}};
-  for (const auto& [begin, header] : headers) {
-    if (!text.starts_with(begin)) continue;
-    LineCutter lines(text);
-    const BodyLayout layout = header(lines);
-    return read_body_rows(layout, lines, file);
-  }
-  return std::nullopt;
+  const CaptureHeader header = capture_header(text);
+  if (header == nullptr) return std::nullopt;
+  LineCutter lines(text);
+  const BodyLayout layout = header(lines);
+  return read_body_rows(layout, lines, file);
 }
 
 }  // namespace kinesphere::program

@@ -1,5 +1,6 @@
 // Orbit ephemeris messages (OEM, CCSDS 502.0-B) in keywords and values: one object or several.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -16,7 +17,9 @@ namespace kinesphere::program {
 std::optional<ConvertedTable> convert_oem(std::string_view text, const std::string& file) {
   if (!trimmed(text.substr(0, 100)).starts_with("CCSDS_OEM_VERS")) return std::nullopt;
   // Files with other frames or times are asked about by the names of these columns.
-  ConvertedTable table{.format = "OEM", .text = "id,time,x_km,y_km,z_km,center_name,ref_frame,time_system\n"};
+  ConvertedTable table{
+      .format = "OEM",
+      .text = "id,time,x_km,y_km,z_km,vx_km/s,vy_km/s,vz_km/s,center_name,ref_frame,time_system\n"};
   std::array<std::pair<std::string_view, std::string>, 4> values{
       {{"OBJECT_NAME", ""}, {"CENTER_NAME", ""}, {"REF_FRAME", ""}, {"TIME_SYSTEM", ""}}};
   LineCutter lines(text);
@@ -30,15 +33,17 @@ std::optional<ConvertedTable> convert_oem(std::string_view text, const std::stri
         if (key == name) value = trimmed(line->substr(line->find('=') + 1));
       continue;
     }
-    const std::vector<std::string_view> words = words_of(*line);
+    std::vector<std::string_view> words = words_of(*line);
     if (is_covariance || words.empty() || !(words[0][0] >= '0' && words[0][0] <= '9')) continue;
     if (words.size() < 4)
       throw ProgramError(
           fmt::format("{}:{}: expected a time and a position, but got '{}'", file, lines.line(), *line));
     for (; row_line < lines.line(); ++row_line) table.text += '\n';
-    table.text += fmt::format("{},{},{},{},{},{},{},{}\n", quoted_field(values[0].second), words[0], words[1],
-                              words[2], words[3], quoted_field(values[1].second),
-                              quoted_field(values[2].second), quoted_field(values[3].second));
+    constexpr std::size_t with_velocity = 7;
+    words.resize(with_velocity);
+    table.text += fmt::format("{},{},{},{},{}\n", quoted_field(values[0].second), fmt::join(words, ","),
+                              quoted_field(values[1].second), quoted_field(values[2].second),
+                              quoted_field(values[3].second));
     ++row_line;
   }
   return table;

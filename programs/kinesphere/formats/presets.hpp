@@ -25,6 +25,7 @@ struct Preset {
   TableColumns::Film film = TableColumns::Film::none;
   std::size_t least_columns = 0;  ///< of a table without a header
   bool has_own_heights = false;   ///< its heights are those of the bodies themselves, not of their places
+  bool has_own_origin = false;    ///< times or places count from the start of each body
 };
 
 /// Returns the preset of --format; null for another name.

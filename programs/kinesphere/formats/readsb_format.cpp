@@ -1,6 +1,6 @@
 // aircraft.json of readsb, dump1090 and tar1090: all aircraft that a receiver of ADS-B knows at one time.
-// Also in the shapes of dump1090-mutability (keys altitude, speed, vert_rate, nucp) and of ADSBexchange's API
-// v2 (the list "ac", "now" in milliseconds).
+// Also in the shapes of dump1090-mutability (keys altitude, speed, vert_rate, nucp), of ADSBexchange's API v2
+// (the list "ac", "now" in milliseconds), and of readsb's --net-json-port (an aircraft in each line).
 #include <fmt/format.h>
 
 #include <array>
@@ -131,6 +131,7 @@ class ReadsbFormat final : public ReportFormat {
       // Where no aircraft is near.
       if (!error && others.is_null()) return;
       if (!error) error = others.get(list);
+      if (error == simdjson::NO_SUCH_FIELD && hand_over_one(all, arrival, record.line, sink)) return;
     }
     if (error) throw MalformedRecord("expected \"aircraft\": a list");
     for (ondemand::value element : list) {
@@ -145,6 +146,16 @@ class ReadsbFormat final : public ReportFormat {
   }
 
  private:
+  /// Reads an object that is one aircraft; returns false for another one.
+  bool hand_over_one(ondemand::object& object, const FileTime& arrival, std::size_t line, ReportSink& sink) {
+    object.reset();
+    AircraftEntry entry;
+    entry.read(object);
+    if (!entry.hex) return false;
+    hand_over(entry, arrival, line, sink);
+    return true;
+  }
+
   void hand_over(const AircraftEntry& entry, const FileTime& arrival, std::size_t line, ReportSink& sink) {
     if (entry.wrong != nullptr || !entry.hex || entry.hex->empty())
       return sink.refuse(

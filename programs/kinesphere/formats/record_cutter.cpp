@@ -24,7 +24,17 @@ void RecordCutter::feed(std::string_view text) {
 }
 
 std::optional<Record> RecordCutter::next() {
-  return kind_ == Kind::lines ? next_line() : kind_ == Kind::rows ? next_row() : next_document();
+  switch (kind_) {
+    case Kind::lines:
+      return next_line();
+    case Kind::rows:
+      return next_row();
+    case Kind::documents:
+      return next_document();
+    case Kind::whole:
+      break;
+  }
+  return std::nullopt;
 }
 
 Record RecordCutter::cut(std::size_t end, std::size_t next, bool is_whole) {

@@ -23,10 +23,11 @@ struct Record {
 /// Cuts records. In JSON each outermost object is a record; a line end or nothing may separate two. A
 /// truncated document does not swallow the next: no text continues after a line end, and a line that begins
 /// with {"now", {"time", {"ac" or {"aircraft" begins a document. Rows go on behind line ends in quotes, which
-/// a stream, where one damaged quote would take all later lines along, does not allow.
+/// a stream, where one damaged quote would take all later lines along, does not allow. The whole text may be
+/// one record.
 class RecordCutter {
  public:
-  enum class Kind { lines, rows, documents };
+  enum class Kind { lines, rows, documents, whole };
   /// Bytes. Longer lines are dropped, but not longer rows.
   static constexpr std::size_t longest_line = std::size_t{1} << 20;
   static constexpr std::size_t longest_document = std::size_t{1} << 26;

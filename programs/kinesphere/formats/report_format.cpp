@@ -32,7 +32,9 @@ constexpr FormatRow format_rows[] = {
     {"ais", StreamFormat::ais, RecordCutter::Kind::lines, make_ais_format},
     {"nmea", StreamFormat::nmea, RecordCutter::Kind::lines, make_nmea_format},
     {"csv", StreamFormat::csv, RecordCutter::Kind::lines, make_csv_format},
-    {"jsonl", StreamFormat::jsonl, RecordCutter::Kind::lines, make_json_lines_format}};
+    {"jsonl", StreamFormat::jsonl, RecordCutter::Kind::lines, make_json_lines_format},
+    {"json", StreamFormat::json, RecordCutter::Kind::lines, make_json_records_format},
+    {"recording", StreamFormat::recording, RecordCutter::Kind::whole, make_recording_format}};
 
 const FormatRow& row_of(StreamFormat format) { return format_rows[static_cast<std::size_t>(format)]; }
 
@@ -69,14 +71,36 @@ void refuse_table_options(const FormatChoices& choices) {
       throw ProgramError(fmt::format("{}: expected a table, but {} has no columns", option, choices.source));
 }
 
+/// True for the two dates and clocks of a message of BaseStation, with which a stream may begin if it is
+/// joined in the middle of a line.
+bool has_times_of_sbs(std::string_view line) {
+  constexpr std::string_view form = ",0000/00/00,00:00:00.000,0000/00/00,00:00:00.000,";
+  const auto fits = [&](std::string_view part) {
+    return std::ranges::equal(part, form,
+                              [](char c, char of) { return of == '0' ? c >= '0' && c <= '9' : c == of; });
+  };
+  for (std::size_t at = 0; at + form.size() <= line.size(); ++at)
+    if (fits(line.substr(at, form.size()))) return true;
+  return false;
+}
+
 /// True for a message of BaseStation. The third field is the number of a session, which no header has.
 bool is_sbs(std::string_view line) {
-  if (line.starts_with("MSG,")) return true;
+  if (line.starts_with("MSG,") || has_times_of_sbs(line)) return true;
   constexpr std::string_view types[] = {"SEL,", "ID,", "AIR,", "STA,", "CLK,"};
   if (std::none_of(std::begin(types), std::end(types), [line](auto type) { return line.starts_with(type); }))
     return false;
   for (int field = 0; field < 2; ++field) line.remove_prefix(std::min(line.find(',') + 1, line.size()));
   return line.empty() || parse_number(line.substr(0, line.find(','))) || line.starts_with(',');
+}
+
+/// True for state vectors of OpenSky. `line` is the first line of `text`; a document over several lines may
+/// have its time alone in it.
+bool is_opensky(std::string_view line, std::string_view text) {
+  if (has_key(line, "states")) return true;
+  if (!has_key(line, "time")) return false;
+  return text.find("\"states\"") != std::string_view::npos ||
+         (text.size() <= line.size() + 2 && trimmed(line).ends_with(','));
 }
 
 /// True for a header with the number of a ship, a longitude and a latitude.
@@ -92,6 +116,23 @@ bool is_table_of_ships(std::string_view header) {
     has_latitude = has_latitude || (meaning && meaning->quantity == Quantity::latitude);
   }
   return has_number && has_longitude && has_latitude;
+}
+
+/// True for the names of an id, a time and two coordinates between blanks.
+bool has_blank_separated_names(std::string_view line) {
+  bool has_id = false, has_time = false;
+  int coordinates = 0;
+  while (!(line = trimmed(line)).empty()) {
+    const std::string_view name = line.substr(0, line.find_first_of(blanks));
+    line.remove_prefix(name.size());
+    const auto meaning = meaning_of(name);
+    if (!meaning) continue;
+    const Measure measure = measure_of(meaning->quantity);
+    has_id = has_id || meaning->quantity == Quantity::id;
+    has_time = has_time || meaning->quantity == Quantity::time || meaning->quantity == Quantity::frame;
+    coordinates += measure == Measure::length || measure == Measure::angle ? 1 : 0;
+  }
+  return has_id && has_time && coordinates >= 2;
 }
 
 }  // namespace
@@ -154,12 +195,13 @@ std::optional<StreamFormat> recognised_format(std::string_view beginning) {
   if (is_sbs(line)) return StreamFormat::sbs;
   if (line.starts_with('{')) {
     if (has_key(line, "aircraft") || has_key(line, "ac") || has_key(line, "now")) return StreamFormat::readsb;
-    if (has_key(line, "states") || (has_key(line, "time") && !has_key(line, "id")))
+    if (is_opensky(line, beginning.substr(static_cast<std::size_t>(line.data() - beginning.data()))))
       return StreamFormat::opensky;
     if (has_key(line, "stamp")) return StreamFormat::jsonl;
     return std::nullopt;
   }
   if (is_table_of_ships(line)) return StreamFormat::ais;
+  if (has_blank_separated_names(line)) return StreamFormat::csv;
   // A header consists of names.
   const bool has_letters =
       std::any_of(line.begin(), line.end(), [](char c) { return ('a' <= (c | 32) && (c | 32) <= 'z'); });

@@ -35,6 +35,8 @@ class ReportFormat {
   virtual void read(const Record& record, ReportSink& sink) = 0;
   /// Of a table, the reader of its rows; null before the first of them, and for other formats.
   virtual const RowReader* rows() const { return nullptr; }
+  /// Returns what kind of recording was read; empty for other formats.
+  virtual std::string_view title() const { return {}; }
   /// Call it at the end of the stream. Throws UnusableStream.
   virtual void finish(ReportSink& sink);
   /// Returns the state from earlier records, for a run that continues behind them.
@@ -43,10 +45,14 @@ class ReportFormat {
   virtual void restore(const nlohmann::json& state);
 };
 
-/// Tables are `csv`, and `ais` where their tracks are ships; the others are messages.
-enum class StreamFormat { readsb, sbs, opensky, ais, nmea, csv, jsonl };
+/// Tables are `csv`, and `ais` where their tracks are ships. `json` are JSON records in lines, and
+/// `recording` is what convert_to_table() reads as a whole, as rows of a table. The others are messages.
+enum class StreamFormat { readsb, sbs, opensky, ais, nmea, csv, jsonl, json, recording };
+constexpr bool becomes_table(StreamFormat format) {
+  return format == StreamFormat::json || format == StreamFormat::recording;
+}
 constexpr bool is_table(StreamFormat format) {
-  return format == StreamFormat::csv || format == StreamFormat::ais;
+  return format == StreamFormat::csv || format == StreamFormat::ais || becomes_table(format);
 }
 
 /// Returns "readsb" and so on.
@@ -76,6 +82,8 @@ struct FormatChoices {
   /// never only a damaged line. Reports of tables then have no velocity, errors and kind.
   bool is_recording = false;
   std::string title;  ///< of a converted table: its format
+  /// nmea: if not empty, sentences RMC are reports of a track of this id, in place of VDO.
+  std::string own_by_gps{};
 };
 
 /// Throws ProgramError naming a wrong option, also for an option about tables that is given with messages.
@@ -97,5 +105,7 @@ std::unique_ptr<ReportFormat> make_nmea_format(const FormatChoices& choices);
 std::unique_ptr<ReportFormat> make_csv_format(const FormatChoices& choices);
 std::unique_ptr<ReportFormat> make_ais_format(const FormatChoices& choices);
 std::unique_ptr<ReportFormat> make_json_lines_format(const FormatChoices& choices);
+std::unique_ptr<ReportFormat> make_json_records_format(const FormatChoices& choices);
+std::unique_ptr<ReportFormat> make_recording_format(const FormatChoices& choices);
 
 }  // namespace kinesphere::program

@@ -190,7 +190,10 @@ std::string name_in_filter(const std::string& text) {
     return (lower_case(c) >= 'a' && lower_case(c) <= 'z') || (c >= '0' && c <= '9') ||
            std::string_view("_-.:/").find(c) != std::string_view::npos;
   });
-  return is_word ? text : fmt::format("\"{}\"", text);
+  if (is_word) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + '"';
 }
 
 }  // namespace kinesphere::program

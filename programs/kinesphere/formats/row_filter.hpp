@@ -38,7 +38,8 @@ class RowFilter {
   std::vector<std::size_t> mentioned_;
 };
 
-/// Returns the text as an expression has it: in quotes where it has other signs than those of a word.
+/// Returns the text as an expression between the single quotes of a shell has it: in double quotes where it
+/// has other signs than those of a word.
 std::string name_in_filter(const std::string& text);
 
 }  // namespace kinesphere::program

@@ -94,6 +94,8 @@ class ReportSink {
   /// Receives the present time of the stream.
   virtual void time_is(const FileTime& arrival, TimeKind kind) = 0;
   virtual void pass_over(Passed reason) = 0;
+  /// Receives a warning about the whole stream, which names it.
+  virtual void warn(const std::string& /*warning*/) {}
   /// Receives an unreadable part of a record; the other parts are valid.
   virtual void refuse(std::size_t line, const std::string& reason) = 0;
 };

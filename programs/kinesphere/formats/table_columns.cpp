@@ -57,11 +57,15 @@ std::string columns_text(const TableHead& head, const TableColumns& columns,
   for (std::size_t k = 0; k < quantity_count; ++k) {
     const auto each = static_cast<Quantity>(k);
     if (!columns.of[k] || each == without) continue;
+    const std::string said = columns.of[k]->said_unit.empty() ? "" : ":" + columns.of[k]->said_unit;
     text += fmt::format("{}{}={}{}", text.empty() ? "" : ",", key_of(each),
-                        column_word(head, columns.of[k]->place), each == quantity ? unit : "");
+                        column_word(head, columns.of[k]->place), each == quantity ? unit : said);
   }
   return text;
 }
+
+/// Returns the option --columns with this list.
+std::string columns_option(std::string_view list) { return "--columns " + shell_word(list); }
 
 // Units.
 
@@ -161,6 +165,7 @@ class SaidColumns {
     if (!unit.empty() && !set_unit(column, unit, *quantity))
       throw ProgramError(fmt::format("--columns: expected a unit ({}) behind the colon, but got '{}'",
                                      unit_list(measure_of(*quantity)), entry));
+    if (preset_ == nullptr) column.said_unit = unit;
     columns_[*quantity] = column;
   }
 
@@ -233,6 +238,7 @@ TableColumns preset_columns(const TableHead& head, const Preset& preset) {
   TableColumns columns = SaidColumns(head, preset.columns, &preset).read();
   columns.format = preset.title;
   columns.has_own_heights = preset.has_own_heights;
+  columns.has_own_origin = preset.has_own_origin;
   columns.film = preset.film;
   columns.dates = preset.dates;
   columns.where = preset.where;
@@ -306,15 +312,33 @@ class UsualColumns {
     TableColumns example;
     for (std::size_t k = 0; k < quantity_count; ++k)
       if (!places_[k].empty()) example.of[k] = Column{.place = places_[k].back()};
-    if (example[Quantity::longitude]) example[Quantity::x] = example[Quantity::y] = std::nullopt;
-    throw ProgramError(
-        fmt::format("{}: columns '{}' and '{}' may both be meant: say which with --columns, as in {}",
-                    head_.file, head_.names[one], head_.names[other], columns_text(head_, example)));
+    // Beside longitudes, x, y and z are something else, such as accelerations.
+    if (example[Quantity::longitude] && example[Quantity::x]) {
+      example[Quantity::x] = example[Quantity::y] = example[Quantity::z] = std::nullopt;
+      for (std::size_t place = head_.names.size(); place-- > 0;)
+        if (plain_name(head_.names[place]) != "z" && looks_like_height(head_.names[place]))
+          example[Quantity::z] = Column{.place = place};
+    }
+    // Whole seconds have their rest in another column.
+    for (const std::size_t place : places(Quantity::time))
+      if (!plain_name(head_.names[place]).ends_with("sec")) example[Quantity::time] = Column{.place = place};
+    throw ProgramError(fmt::format("{}: columns '{}' and '{}' may both be meant: say which, as in {}",
+                                   head_.file, head_.names[one], head_.names[other],
+                                   columns_option(columns_text(head_, example))));
   }
 
   const TableHead& head_;
   std::array<std::vector<std::size_t>, quantity_count> places_;
 };
+
+/// True for parts of the messages of robots that have axes, but are no places: pose.orientation,
+/// twist.linear.
+bool is_of_no_place(std::string_view body) {
+  constexpr std::string_view words[] = {"orientation", "linear",       "angular",
+                                        "velocity",    "acceleration", "rotation"};
+  return std::any_of(std::begin(words), std::end(words),
+                     [&](std::string_view word) { return body.ends_with(word); });
+}
 
 /// Finds the bodies whose columns are called after an axis and the body: x1 and y1, car_1.lon and car_1.lat.
 /// Each has `along` and `across`, and perhaps z.
@@ -336,7 +360,8 @@ std::vector<TableColumns::Body> bodies_in_names(const TableHead& head, Quantity 
   }
   std::vector<TableColumns::Body> bodies;
   for (const Named& each : all)
-    if (each.x && each.y) bodies.push_back({each.body, *each.x, *each.y, each.z});
+    if (each.x && each.y && !is_of_no_place(each.body))
+      bodies.push_back({each.body, *each.x, *each.y, each.z});
   return bodies;
 }
 
@@ -391,16 +416,22 @@ void find_pairs(const TableHead& head, const ColumnHints& hints, TableColumns& c
   if (first.z) columns[Quantity::z] = Column{.place = *first.z};
 }
 
-/// Asks about a second column of the time: nanoseconds, as ROS has them, or weeks, as GPS has.
+/// Asks about a second column of the time: nanoseconds, as ROS has them, or weeks, as GPS has. Of columns
+/// that are given, those of whole seconds without a unit are asked about.
 void ask_for_parts_of_time(const TableHead& head, const TableColumns& columns) {
   const auto& time = columns[Quantity::time];
-  if (!time) return;
+  if (!time || head.names.empty()) return;
+  const std::string name = plain_name(head.names[time->place]);
+  const bool is_whole = name.ends_with("sec") || name.ends_with("secs");
+  const bool is_given = columns.format == "columns as given" && is_whole && time->said_unit.empty();
+  if (columns.format != "table" && !is_given) return;
   for (std::size_t place = 0; place < head.names.size(); ++place)
     if (place != time->place && is_part_of_time(head.names[place]))
-      throw ProgramError(fmt::format(
-          "{}: {} may be a part of the time, as {} is: write both as one column of times, "
-          "or say --columns {} to use the latter alone",
-          head.file, column_text(head, place), column_text(head, time->place), columns_text(head, columns)));
+      throw ProgramError(
+          fmt::format("{}: {} may be a part of the time, as {} is: write both as one column of times, "
+                      "or say {} to use the latter alone",
+                      head.file, column_text(head, place), column_text(head, time->place),
+                      columns_option(columns_text(head, columns, Quantity::time, is_whole ? ":s" : ""))));
 }
 
 /// True where a column of widths has the same name: height and width, bb_h and bb_w.
@@ -433,10 +464,11 @@ void ask_for_heights(const TableHead& head, const TableColumns& columns) {
   if (heights.empty()) return;
   const std::string others = columns_text(head, columns);
   throw ProgramError(fmt::format(
-      "{}: {} may be {}: say --columns {},z={} to use {}, or --columns {} to leave heights out", head.file,
+      "{}: {} may be {}: say {} to use {}, or {} to leave heights out", head.file,
       heights.size() == 1 ? "column " + heights.front() : fmt::format("columns {}", fmt::join(heights, ", ")),
-      heights.size() == 1 ? "a height" : "heights", others, column_word(head, first),
-      heights.size() == 1 ? "it" : "one", others));
+      heights.size() == 1 ? "a height" : "heights",
+      columns_option(fmt::format("{},z={}", others, column_word(head, first))),
+      heights.size() == 1 ? "it" : "one", columns_option(others)));
 }
 
 /// True for rows of person and frame: frame id x z(=0) y vx vz(=0) vy, without a header.
@@ -525,6 +557,7 @@ void understand_places(const TableHead& head, const ColumnHints& hints, TableCol
 void add_likely_columns(const TableHead& head, TableColumns& columns) {
   std::array<std::vector<std::size_t>, quantity_count> likely;
   for (std::size_t place = 0; place < head.names.size(); ++place) {
+    if (is_of_no_place(axis_and_body(head.names[place]).body)) continue;
     auto meaning = meaning_of_ending(head.names[place]);
     for (const Quantity angle : {Quantity::longitude, Quantity::latitude})
       if (!meaning && looks_like_angle(head.names[place], angle)) meaning = ColumnMeaning{angle, ""};
@@ -566,7 +599,7 @@ std::string missing_columns_text(const TableHead& head, TableColumns columns) {
   if (!has(Quantity::time) && !has(Quantity::frame)) said.emplace_back("time=...");
   if (!found.empty()) said.push_back(found);
   if (!has_place) said.emplace_back("x=...,y=...");
-  return fmt::format("{}: say --columns {}{}", text, fmt::join(said, ","),
+  return fmt::format("{}: say {}{}", text, columns_option(fmt::format("{}", fmt::join(said, ","))),
                      has(Quantity::id) ? "" : ", with id=@file where each file is one body");
 }
 
@@ -608,6 +641,22 @@ void find_hemispheres(const TableHead& head, TableColumns& columns) {
 
 // Lengths.
 
+/// Asks for the units of heights and speeds beside ten-millionths of degrees: in messages of MAVLink and GPS
+/// they are mostly millimetres, and centimetres or millimetres a second.
+void ask_beside_whole_degrees(const TableHead& head, const TableColumns& columns) {
+  if (*unit_named("degE7", Measure::angle) != columns.x().unit) return;
+  for (const auto& [quantity, unit] : {std::pair(Quantity::z, "mm"), std::pair(Quantity::vx, "cm/s"),
+                                       std::pair(Quantity::vy, "cm/s"), std::pair(Quantity::vz, "cm/s")}) {
+    const auto& column = columns[quantity];
+    if (column && !column->has_unit)
+      throw ProgramError(
+          fmt::format("{}: {} does not say its unit, which beside ten-millionths of degrees is mostly {}: "
+                      "say {}, or another unit",
+                      head.file, column_text(head, column->place), unit,
+                      columns_option(columns_text(head, columns, quantity, fmt::format(":{}", unit)))));
+  }
+}
+
 /// Asks for the unit of heights of aircraft, which are in feet as transponders send them, and of speeds of
 /// aircraft and ships, which are in knots.
 void ask_for_units_of_craft(const TableHead& head, const TableColumns& columns) {
@@ -615,6 +664,7 @@ void ask_for_units_of_craft(const TableHead& head, const TableColumns& columns) 
   const auto is_of_ships = [](const std::string& name) {
     return same_name(name, "mmsi") || same_name(name, "sourcemmsi") || same_name(name, "imo");
   };
+  ask_beside_whole_degrees(head, columns);
   const auto craft = std::find_if(head.names.begin(), head.names.end(), [&](const std::string& name) {
     return is_of_aircraft(name) || is_of_ships(name);
   });
@@ -625,9 +675,9 @@ void ask_for_units_of_craft(const TableHead& head, const TableColumns& columns) 
     if (!column || column->has_unit || (quantity == Quantity::z && is_of_ships(*craft))) return;
     throw ProgramError(
         fmt::format("{}: {} does not say its unit, which for {} (column '{}') may be {} or {}: say "
-                    "--columns {} (or :{})",
+                    "{} (or :{})",
                     head.file, column_text(head, column->place), what, *craft, unit, other,
-                    columns_text(head, columns, quantity, fmt::format(":{}", unit)), other));
+                    columns_option(columns_text(head, columns, quantity, fmt::format(":{}", unit))), other));
   };
   ask(Quantity::z, "heights of aircraft", "ft", "m");
   ask(Quantity::speed, "speeds of ships and aircraft", "kt", "m/s");
@@ -658,10 +708,11 @@ void understand_lengths(const TableHead& head, const ColumnHints& hints, TableCo
     Column& column = *columns[quantity];
     if (unit_is_said && column.has_unit && column.unit != said && measure_of(quantity) == Measure::length)
       throw ProgramError(
-          fmt::format("--unit: expected none, or that of {} of {}, but got {}: --columns {}={}:{} says it of "
+          fmt::format("--unit: expected none, or that of {} of {}, but got {}: {} says it of "
                       "one column",
-                      column_text(head, column.place), head.file, hints.unit, key_of(quantity),
-                      column_word(head, column.place), hints.unit));
+                      column_text(head, column.place), head.file, hints.unit,
+                      columns_option(fmt::format("{}={}:{}", key_of(quantity),
+                                                 column_word(head, column.place), hints.unit))));
     const auto meaning = head.names.empty() ? std::nullopt : meaning_of(head.names[column.place]);
     const bool needs_unit = meaning && meaning->needs_unit;
     if (unit_is_said && !column.has_unit && measure_of(quantity) == Measure::length) {
@@ -671,9 +722,9 @@ void understand_lengths(const TableHead& head, const ColumnHints& hints, TableCo
     // Where lengths are metres, speeds are metres a second.
     if (said == 1.0 && measure_of(quantity) == Measure::speed && !needs_unit) column.has_unit = true;
     if (!column.has_unit && needs_unit)
-      throw ProgramError(fmt::format("{}: {} does not say its unit: say --columns {}, or another unit ({})",
-                                     head.file, column_text(head, column.place),
-                                     columns_text(head, columns, quantity, ":kt"),
+      throw ProgramError(fmt::format("{}: {} does not say its unit: say {}, or another unit ({})", head.file,
+                                     column_text(head, column.place),
+                                     columns_option(columns_text(head, columns, quantity, ":kt")),
                                      unit_list(Measure::speed)));
     (column.has_unit ? with : without) = (column.has_unit ? with : without).value_or(quantity);
   }
@@ -793,16 +844,15 @@ TableColumns find_columns(const TableHead& head, const ColumnHints& hints, Colum
   understand_places(head, hints, columns);
   require_columns(head, hints, columns);
   if (hints.columns.empty() && !columns.has_own_heights) ask_for_heights(head, columns);
-  if (columns.format == "table") ask_for_parts_of_time(head, columns);
+  ask_for_parts_of_time(head, columns);
   understand_lengths(head, hints, columns);
   understand_time(head, use, columns);
   apply_time_hints(hints, columns);
   if (hints.dates != DateOrder::unknown) columns.dates = hints.dates;
   columns.height_advice =
-      fmt::format("--columns {} (or :m)", columns_text(head, columns, Quantity::z, ":ft"));
-  columns.time_advice = fmt::format("--columns {}", columns_text(head, columns, {}, {}, Quantity::date));
-  columns.file_advice =
-      fmt::format("--columns id=@file,{}", columns_text(head, columns, {}, {}, Quantity::id));
+      fmt::format("{} (or :m)", columns_option(columns_text(head, columns, Quantity::z, ":ft")));
+  columns.time_advice = columns_option(columns_text(head, columns, {}, {}, Quantity::date));
+  columns.file_advice = columns_option("id=@file," + columns_text(head, columns, {}, {}, Quantity::id));
   ask_for_units_of_craft(head, columns);
   find_hemispheres(head, columns);
   if (columns.geographic && columns.z() && !columns.z()->has_unit) columns.format += ", heights in m";

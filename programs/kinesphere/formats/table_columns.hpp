@@ -33,6 +33,7 @@ struct Column {
   std::size_t place = 0;
   double unit = 1.0;  ///< metres, metres per second, seconds or degrees of one unit of its numbers
   bool has_unit = false;
+  std::string said_unit{};  ///< behind its colon in --columns; empty: none
 };
 
 struct TableColumns {
@@ -62,6 +63,7 @@ struct TableColumns {
   std::string where;             ///< rows that count, by the preset and by --where
   bool id_is_file = false;       ///< the file has one body, called like it
   bool has_own_heights = false;  ///< heights in the file are those of the bodies themselves
+  bool has_own_origin = false;   ///< times or places count from the start of each body
   /// Bodies with a pair of columns each, or three; empty where each row is one body.
   struct Body {
     std::string id;

@@ -41,7 +41,8 @@ constexpr NamedUnit speed_units[] = {{"m/s mps m_s ms-1", 1.0},
                                      {"ft/s fps ft_s", foot},
                                      {"mph", 1609.344 / 3600.0},
                                      {"cm/s cm_s", 0.01},
-                                     {"mm/s mm_s", 0.001}};
+                                     {"mm/s mm_s", 0.001},
+                                     {"km/s km_s", 1e3}};
 constexpr NamedUnit acceleration_units[] = {{"m/s2", 1.0}, {"g", 9.80665}};
 constexpr NamedUnit time_units[] = {{"s sec secs second seconds", 1.0},
                                     {"ms msec millis millisecond milliseconds", 1.0, 1e3},
@@ -113,6 +114,11 @@ double parse_measure(std::string_view text, Measure measure, std::string_view op
   if (!number || size == 0.0 || *number < 0.0)
     throw ProgramError(fmt::format("{}: expected a number >= 0 and perhaps a unit ({}), but got '{}'", option,
                                    unit_list(measure), text));
+  // Reachable sets of such tracks would have no digits left; no recording has 300 years.
+  const double largest = measure == Measure::time ? 1e10 : 1e15;
+  if (*number * size > largest)
+    throw ProgramError(fmt::format("{}: expected at most {:g}{}, but got '{}'", option, largest,
+                                   measure == Measure::time ? " s" : "", text));
   return *number * size;
 }
 

@@ -81,15 +81,20 @@ Unwrapper::Cell periodic_cell(std::string_view comment, const std::string& file,
 
 }  // namespace
 
-std::optional<ConvertedTable> convert_xyz(std::string_view text, const std::string& file) {
+bool is_xyz(std::string_view text) {
   LineCutter lines(text);
   const auto first = lines.next(), second = lines.next(), third = lines.next();
-  if (!first || !second || !third || !count_in(*first)) return std::nullopt;
+  if (!first || !second || !third || !count_in(*first)) return false;
   const auto atom = words_of(*third);
   // A table of one column of numbers is none of atoms.
-  if (atom.size() < 4 || (xyz_value(*second, "Properties").empty() && parse_number(atom[0])))
-    return std::nullopt;
-  const bool has_times = !xyz_value(*second, "Time").empty();
+  return atom.size() >= 4 && (!xyz_value(*second, "Properties").empty() || !parse_number(atom[0]));
+}
+
+std::optional<ConvertedTable> convert_xyz(std::string_view text, const std::string& file) {
+  if (!is_xyz(text)) return std::nullopt;
+  LineCutter lines(text);
+  lines.next();
+  const bool has_times = !xyz_value(lines.next().value_or(""), "Time").empty();
   ConvertedTable table{.format = "XYZ", .text = fmt::format("id,{},x,y,z\n", has_times ? "time" : "frame")};
   lines = LineCutter(text);
   Unwrapper unwrapper;

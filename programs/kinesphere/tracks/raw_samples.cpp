@@ -260,6 +260,12 @@ void RawRecording::read(std::string text, const std::string& file) {
   FormatChoices choices = options_;
   choices.source = file;
   choices.is_recording = true;
+  if (said && becomes_table(*said)) {
+    if (!converted)
+      throw ProgramError(
+          fmt::format("{}: expected a file of --format {}, but it is none", file, choices.hints.format));
+    choices.hints.format.clear();
+  }
   // The errors of positions do not count.
   choices.position_error_is_said = true;
   if (converted) choices.title = converted->format;
@@ -290,6 +296,10 @@ void RawRecording::add_columns(const TableColumns& columns, const std::string& f
     columns_ = columns;
     return;
   }
+  if (columns.has_own_origin && files_.size() == 2)
+    counts_.warnings.push_back(
+        fmt::format("{} and {}: {}: approaches between their bodies mean nothing unless these are the same",
+                    files_[0], files_[1], columns.format));
   const auto agree = [&](bool is_same, std::string_view what) {
     if (!is_same) throw ProgramError(fmt::format("{}: expected {} as in {}", file, what, files_.front()));
   };

@@ -100,6 +100,8 @@ class RuledFormat final : public ReportFormat, private ReportSink {
     sink_ = &sink;
     format_->finish(*this);
   }
+  const RowReader* rows() const override { return format_->rows(); }
+  std::string_view title() const override { return format_->title(); }
   nlohmann::json save() const override { return format_->save(); }
   void restore(const nlohmann::json& state) override { format_->restore(state); }
 
@@ -119,6 +121,7 @@ class RuledFormat final : public ReportFormat, private ReportSink {
   }
   void time_is(const FileTime& arrival, TimeKind kind) override { sink_->time_is(arrival, kind); }
   void pass_over(Passed reason) override { sink_->pass_over(reason); }
+  void warn(const std::string& warning) override { sink_->warn(warning); }
   void refuse(std::size_t line, const std::string& reason) override { sink_->refuse(line, reason); }
 
   std::unique_ptr<ReportFormat> format_;

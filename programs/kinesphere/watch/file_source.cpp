@@ -85,7 +85,7 @@ FileSource::FileSource(const std::string& path, const StopSignals& stop, const S
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) fail("expected a file, but it is a folder");
   if (path == "-" && standard_input_is_closed()) fail("it is closed");
-  descriptor_ = path == "-" ? ::dup(STDIN_FILENO) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  descriptor_ = path == "-" ? ::dup(STDIN_FILENO) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY);
   if (descriptor_ < 0) fail(std::strerror(errno));
   struct stat status {};
   is_file_ = ::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode);

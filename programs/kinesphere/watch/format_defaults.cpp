@@ -74,6 +74,8 @@ FormatDefaults defaults_of(StreamFormat format) {
       return of_stations();
     case StreamFormat::csv:
     case StreamFormat::jsonl:
+    case StreamFormat::json:
+    case StreamFormat::recording:
       break;
   }
   return {.geographic = false};

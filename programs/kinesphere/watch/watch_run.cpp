@@ -8,6 +8,9 @@
 #include <random>
 #include <utility>
 
+#include "ascii_text.hpp"
+#include "formats/ais/nmea_line.hpp"
+#include "formats/converted_table.hpp"
 #include "formats/file_kind.hpp"
 #include "program_error.hpp"
 #include "standard_output.hpp"
@@ -40,6 +43,25 @@ std::optional<WatchSnapshot> snapshot_of(const WatchOptions& options) {
   return snapshot;
 }
 
+/// Says how to read from an address of a kind that other programs read.
+void refuse_address(const std::string& file) {
+  const std::size_t slashes = file.find("://");
+  if (slashes == std::string::npos) return;
+  const std::string scheme = file.substr(0, slashes), rest = file.substr(slashes + 3);
+  const std::size_t colon = std::min(rest.rfind(':'), rest.size());
+  std::string command;
+  if (scheme == "tcp")
+    command = fmt::format("nc {} {}", shell_word(rest.substr(0, colon)),
+                          shell_word(rest.substr(std::min(colon + 1, rest.size()))));
+  if (scheme == "http" || scheme == "https")
+    command = fmt::format("while sleep 1; do curl -s {}; done", shell_word(file));
+  if (!command.empty())
+    throw ProgramError(
+        fmt::format("{}: expected a file, -, or an address udp:// or nats://: say {} | kinesphere watch "
+                    "--clock arrival -",
+                    file, command));
+}
+
 std::unique_ptr<ReportSource> source_of(const WatchOptions& options, const StopSignals& stop,
                                         const std::optional<WatchSnapshot>& snapshot) {
   const StreamPlace* const from = snapshot ? &snapshot->place : nullptr;
@@ -48,6 +70,7 @@ std::unique_ptr<ReportSource> source_of(const WatchOptions& options, const StopS
   if (is_nats_address(options.file))
     return make_nats_source(parse_nats_address(options.file, "FILE"), stop, options.clock == "arrival",
                             options.quiet, from);
+  refuse_address(options.file);
   return std::make_unique<FileSource>(options.file, stop, from);
 }
 
@@ -74,44 +97,72 @@ std::string alerts_origin(const WatchOptions& options, const WatchSettings& sett
   return fmt::format("{:016x}", track_id_of(text));
 }
 
-/// Reads until the first line has arrived, and returns its format; nothing if the program is asked to stop
-/// before.
+/// Returns the format of a stream with this beginning; nothing while more text may tell. `is_enough`: no more
+/// comes, or none is needed. Throws ProgramError for what is no stream of reports.
+std::optional<StreamFormat> format_by(std::string_view beginning, const WatchOptions& options,
+                                      const ReportSource& source, bool is_enough) {
+  if (beginning.starts_with("\xEF\xBB\xBF")) beginning.remove_prefix(3);
+  if (beginning.find_first_not_of(" \t\r\n") == std::string_view::npos) {
+    if (is_enough) throw ProgramError(fmt::format("{}: expected reports, but it is empty", source.name()));
+    return std::nullopt;
+  }
+  if (first_line(beginning).empty() && !is_enough) return std::nullopt;
+  const auto refuse = [&](std::string_view kind) {
+    throw ProgramError(fmt::format("{}: expected a stream of reports, but it is {}", source.name(), kind));
+  };
+  const std::string other_kind = other_file_kind(beginning);
+  const bool is_live = source.nature() == ReportSource::Nature::live;
+  const auto format = recognised_format(beginning);
+  // Noise of a line may have zero bytes, too.
+  const bool has_zeros = beginning.find('\0') != std::string_view::npos;
+  if (has_zeros && (!other_kind.empty() || !format)) refuse(other_kind.empty() ? "not text" : other_kind);
+  if (const std::string_view recording = kind_of_recording(beginning); !recording.empty()) {
+    // Of a service that is asked again and again, each list is read when it comes.
+    const bool is_pipe_of_now =
+        source.nature() == ReportSource::Nature::unknown && options.clock == "arrival";
+    if (is_json_list(beginning) && (is_live || is_pipe_of_now)) return StreamFormat::json;
+    if (!is_live) return StreamFormat::recording;
+    // Sentences of AIS may follow those of a receiver of GPS.
+    if (format != StreamFormat::nmea)
+      refuse(fmt::format("{}, which is read as a whole: from a file, or a pipe that ends", recording));
+  }
+  // An option that names columns implies a table.
+  const bool has_columns = !options.choices.hints.columns.empty();
+  if (format && !is_table(*format) && !has_columns) return format;
+  if (are_json_lines(beginning)) return StreamFormat::json;
+  if (has_columns) return format == StreamFormat::ais ? *format : StreamFormat::csv;
+  // Some other files look like tables.
+  if (!other_kind.empty() && (format || is_enough)) refuse(other_kind);
+  return format || !is_enough ? format : StreamFormat::csv;
+}
+
+/// Reads until the text shows its format, and returns it; nothing if the program is asked to stop before.
 std::optional<StreamFormat> format_of(const WatchOptions& options,
                                       const std::optional<WatchSnapshot>& snapshot, ReportSource& source,
                                       RecordCutter& cutter, const StopSignals& stop) {
   const std::string& said = snapshot ? snapshot->format : options.choices.hints.format;
   if (!said.empty()) return format_named(said).value();
-  bool has_ended = false;
-  std::string_view text;
   // The first line may be one long document; its beginning is sufficient.
   constexpr std::size_t enough = 4096;
-  while (!has_ended && !stop.asked()) {
+  std::size_t examined = 0;
+  for (bool has_ended = false; !stop.asked();) {
     const std::string_view waiting = cutter.waiting();
-    const bool has_begun = waiting.find_first_not_of(" \t\r\n") != std::string_view::npos;
-    if (!first_line(waiting).empty() || (has_begun && waiting.size() > enough)) break;
+    // A log of a receiver of GPS, behind which sentences of AIS may come.
+    const bool may_be_log =
+        source.nature() != ReportSource::Nature::live && is_gps_log(waiting.substr(0, enough));
+    if (may_be_log && !has_ended) {
+      if (has_ais_sentence(waiting.substr(examined))) return StreamFormat::nmea;
+      examined = waiting.rfind('\n') + 1;
+    } else if (const auto format =
+                   format_by(waiting, options, source, has_ended || waiting.size() > enough)) {
+      return format;
+    }
+    std::string_view text;
     const auto outcome = source.next(std::chrono::milliseconds(1000), text);
     has_ended = outcome == ReportSource::Outcome::end;
     if (outcome == ReportSource::Outcome::text) cutter.feed(text);
   }
-  const std::string_view beginning = cutter.waiting();
-  const std::string kind = other_file_kind(beginning);
-  const auto refuse_kind = [&] {
-    throw ProgramError(fmt::format("{}: expected a stream of reports, but it is {}", source.name(), kind));
-  };
-  if (!kind.empty() && beginning.find('\0') != std::string_view::npos) refuse_kind();
-  const auto format = recognised_format(beginning);
-  // An option that names columns implies a table.
-  if (!options.choices.hints.columns.empty())
-    return format == StreamFormat::ais ? *format : StreamFormat::csv;
-  // Some other files look like tables.
-  if (format && (kind.empty() || !is_table(*format))) return *format;
-  if (stop.asked()) return std::nullopt;
-  if (beginning.find_first_not_of(" \t\r\n") == std::string_view::npos)
-    throw ProgramError(fmt::format("{}: expected reports, but it is empty", source.name()));
-  if (!kind.empty()) refuse_kind();
-  throw ProgramError(
-      fmt::format("{}: expected one of the formats {}: say which with --format, csv for any table",
-                  source.name(), format_names()));
+  return std::nullopt;
 }
 
 std::unique_ptr<ReportFormat> reader_of(const WatchOptions& options, StreamFormat format,
@@ -120,6 +171,7 @@ std::unique_ptr<ReportFormat> reader_of(const WatchOptions& options, StreamForma
   FormatChoices choices = options.choices;
   choices.source = source.name();
   choices.position_error_is_said = !options.position_error.empty();
+  if (same_name(options.own, "gps")) choices.own_by_gps = options.own;
   return make_ruled_format(make_format(format, choices), class_rules, is_table(format));
 }
 
@@ -137,6 +189,9 @@ WatchRun::WatchRun(const WatchOptions& options)
       reader_(reader_of(options, format_, *source_, watcher_.settings().class_rules)),
       snapshot_interval_(snapshot_interval(options)) {
   cutter_.set_kind(records_of(format_));
+  if (format_ == StreamFormat::recording && source_->nature() == ReportSource::Nature::unknown &&
+      !options.quiet)
+    print_message("kinesphere: {} is read as a whole: alerts come once it has ended\n", source_->name());
   if (begun_from_) go_on_from(*begun_from_);
   if (options.serve) server_ = std::make_unique<StateServer>(watcher_, *options.serve);
   alerts_ = open_alerts();
@@ -172,7 +227,10 @@ std::unique_ptr<AlertOutput> WatchRun::open_alerts() const {
                                                      .is_told_again = reads_again});
 }
 
-std::string_view WatchRun::format_name() const { return known_format_ ? name_of(format_) : "unknown"; }
+std::string_view WatchRun::format_name() const {
+  if (!known_format_) return "unknown";
+  return reader_->title().empty() ? name_of(format_) : reader_->title();
+}
 
 void WatchRun::run() {
   const bool by_machine = watcher_.settings().clock == WatchSettings::Clock::machine;
@@ -209,6 +267,7 @@ void WatchRun::run() {
     watcher_.finish();
   }
   warn_of_own();
+  if (has_ended) warn_of_one_track();
   alerts_->flush(source_->position(cutter_.waiting().size()));
 }
 
@@ -289,6 +348,11 @@ void WatchRun::warn() {
         has_warned_of_crowds_,
         "there are more tracks than --most-tracks or more open pairs than --most-pairs: some tracks are "
         "not watched");
+  for (const std::string& warning : watcher_.take_warnings())
+    if (!options_.quiet) print_message("kinesphere: warning: {}\n", warning);
+  if (watcher_.ignores_heights())
+    warn_once(has_warned_of_plane_,
+              "heights do not count, because the first report had none: say --dimensions 3, or 2");
   if (counts.no_height > 0)
     warn_once(has_warned_of_heights_,
               "some reports have no height: it counts as any, which leaves their pairs undecided");
@@ -304,6 +368,7 @@ void WatchRun::warn() {
             "was set back, or had been ahead, where a new start goes on with them; or the rows of a file are "
             "not in the order of their times, and have to be sorted",
             least));
+  warn_of_small_separations();
   warn_of_doubtful_reports();
   constexpr std::uint64_t many = 1000;
   if (taken >= many) warn_of_own();
@@ -311,6 +376,20 @@ void WatchRun::warn() {
   if (!has_warned_of_unusable_ && unusable >= least && unusable > taken)
     warn_once(has_warned_of_unusable_,
               fmt::format("most reports cannot be used: {} taken, {}", taken, reasons_text(watcher_)));
+}
+
+/// Warns of a separation on the earth without a unit that is less than positions may be off.
+void WatchRun::warn_of_small_separations() {
+  const auto& bound = watcher_.settings().position_error.bound;
+  if (!watcher_.frame() || !bound) return;
+  for (const NamedSeparation& named : watcher_.settings().separations)
+    if (!named.has_unit && named.separation.horizontal < *bound)
+      warn_once(
+          has_warned_of_small_,
+          fmt::format(
+              "{} is in metres, and less than positions may be off ({:.4g} m), so that no two are certainly "
+              "within it; another unit is said as in sphere:0.5NM",
+              named.name, *bound));
 }
 
 /// Warns, once of each, of reports that make alerts doubtful.
@@ -345,6 +424,16 @@ void WatchRun::warn_of_doubtful_reports() {
         fmt::format("{} reports are stamped ahead of all others by more than --leap, and not taken: the "
                     "clock of their tracks is wrong",
                     counts.ahead));
+}
+
+/// Warns if there was never a second track.
+void WatchRun::warn_of_one_track() {
+  const WatchCounts& counts = watcher_.counts();
+  const bool is_one = watcher_.names().size() == 1 && counts.crowded + counts.groups == 0 &&
+                      counts.events[static_cast<std::size_t>(MonitorEventKind::dropped)] == 0;
+  if (is_one && !options_.quiet)
+    print_message("kinesphere: warning: {}: all reports are of one track, so no pair was watched\n",
+                  source_->name());
 }
 
 /// Warns if the own track is none of the stream's so far.

@@ -46,7 +46,9 @@ class WatchRun {
   void complain();
   void warn();
   void warn_of_doubtful_reports();
+  void warn_of_small_separations();
   void warn_of_own();
+  void warn_of_one_track();
   void warn_once(bool& has_warned, std::string_view warning);
   bool is_time_for_snapshot() const;
   void keep_snapshot();
@@ -63,7 +65,8 @@ class WatchRun {
   std::unique_ptr<StateServer> server_;
   std::size_t complaints_ = 0;
   bool has_warned_of_crowds_ = false, has_warned_of_unusable_ = false, has_warned_of_heights_ = false;
-  bool has_warned_of_own_ = false, has_warned_of_clock_ = false, has_warned_of_order_ = false;
+  bool has_warned_of_small_ = false, has_warned_of_plane_ = false, has_warned_of_own_ = false,
+       has_warned_of_clock_ = false, has_warned_of_order_ = false;
   bool has_warned_of_contradictions_ = false, has_warned_of_ahead_ = false, has_warned_of_velocities_ = false;
   std::uint64_t taken_before_ = 0, stale_before_ = 0;  ///< at the last report that was taken
   std::chrono::duration<double> snapshot_interval_;

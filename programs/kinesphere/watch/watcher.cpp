@@ -447,6 +447,7 @@ void Watcher::deliver(const SourceReport& report) {
   if (report.geographic != is_geographic_)
     return refuse(fmt::format("expected the position of {} in the same words as the first: {}", report.id,
                               is_geographic_ ? "latitude and longitude" : "x and y"));
+  ignores_heights_ = ignores_heights_ || (dimensions_ == 2 && !settings_.dimensions && report.has_height);
   const bool lacks_height = dimensions_ == 3 && !report.has_height;
   if (lacks_height && report.on_ground) {
     ++counts_.on_ground;

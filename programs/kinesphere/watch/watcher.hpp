@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "formats/source_report.hpp"
@@ -35,6 +36,7 @@ class Watcher final : public ReportSink {
   void time_is(const FileTime& arrival, TimeKind kind) override;
   void pass_over(Passed reason) override;
   void refuse(const std::string& reason) { refuse(line_, reason); }
+  void warn(const std::string& warning) override { warnings_.push_back(warning); }
   /// Counts a malformed record. Throws ProgramError if there have been too many.
   void refuse(std::size_t line, const std::string& reason) override;
 
@@ -57,6 +59,10 @@ class Watcher final : public ReportSink {
   const WatchCounts& counts() const { return counts_; }
   /// Counts of reports and so on; zero before there is a monitor.
   MonitorCounters monitor_counters() const { return monitor_ ? monitor_->counters() : MonitorCounters{}; }
+  /// Returns the warnings about the stream since the last call.
+  std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
+  /// True if a report had a height that does not count, since the first report had none.
+  bool ignores_heights() const { return ignores_heights_; }
   /// Empty before the first report has been taken.
   const std::optional<Monitor>& monitor() const { return monitor_; }
   const std::optional<LocalFrame>& frame() const { return frame_; }
@@ -147,6 +153,8 @@ class Watcher final : public ReportSink {
   double next_forgetting_ = 0.0;       ///< time at which the stale members of groups are forgotten
   std::map<TrackId, TrackGroups::Cell> group_tracks_;  ///< the tracks that stand for groups
   WatchCounts counts_;
+  std::vector<std::string> warnings_;
+  bool ignores_heights_ = false;
   std::size_t line_ = 0;
 };
 

@@ -39,6 +39,11 @@ TEST(ConvertedTables, ReadsGpx) {
   EXPECT_EQ(two.tracks[1].id, "track 2");
   EXPECT_TRUE(two.is_plane);
   EXPECT_EQ(two.warnings.size(), 1u) << "one of two points has a height";
+  // Two tracks of one name are no body that is in two places.
+  const std::string walk = "<trk><name>walk</name><trkseg>" + point_a + point_b + "</trkseg></trk>";
+  const Recording walks = parse(gpx(walk + walk));
+  ASSERT_EQ(walks.tracks.size(), 2u);
+  EXPECT_EQ(walks.tracks[1].id, "walk (2)");
   EXPECT_EQ(two.times.text(two.tracks[0].samples[1].time), "2024-01-01T00:00:10Z");
   EXPECT_NEAR(norm(two.tracks[0].samples[1].position - two.tracks[0].samples[0].position), 7.6, 0.1);
   EXPECT_EQ(error_in(gpx("<trk><trkseg>\n\n<trkpt lat=\"north\" "
@@ -224,7 +229,7 @@ TEST(ConvertedTables, ReadsJsonRecords) {
   EXPECT_TRUE(error_in(lines + "{\"id\":1,\n", columns).starts_with("f:3: expected JSON records: "));
   // Nothing is passed over in silence.
   EXPECT_EQ(error_in(lines + R"({"id":1,"t":2,"at":[1,3]}{"id":1,"t":3,"at":[1,3]})", columns),
-            "f:3: expected one JSON object in a line, but there is more");
+            "f:3: expected one JSON object, or one list of objects, in a line, but there is more");
   EXPECT_EQ(error_in(list + "\n" + list), "f:3: expected one list of JSON records, but there is more");
 }
 

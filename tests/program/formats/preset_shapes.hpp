@@ -57,6 +57,10 @@ constexpr PresetShape preset_shapes[] = {
      true, "1{us},1,0,0,0,0\n"},
     {"airdata", "time(millisecond),datetime(utc),latitude,longitude,height_above_takeoff(feet)\n",
      "{ms},{date},{lat},{lon},{alt_ft}\n", 1.0, with_heights, "", true},
+    {"ros",
+     "%time,field.header.seq,field.header.stamp,field.pose.position.x,field.pose.position.y,field.pose."
+     "position.z\n",
+     "{us}000,1,{us}000,{x},{y},0\n", 1.0, no_heights, "", true},
     {"tum", "", "{unix} {x} {y} 0 0 0 0 1\n", 1.0, no_heights, "", true},
     {"mosquito", "object,oldobject,time,XSplined,YSplined,ZSplined\n", "1,{id},{s},{x},{y},0\n"},
     {"movebank", "event-id,visible,timestamp,location-long,location-lat,individual-local-identifier\n",

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/converted_table.hpp"
 #include "formats/report_format.hpp"
 #include "kinesphere/random.hpp"
 #include "program/support.hpp"
@@ -171,13 +172,14 @@ class SampleSink final : public ReportSink {
   bool is_geographic = false;
 };
 
-Samples by_watch(const std::string& text, const ColumnHints& hints) {
-  const auto format = make_format(StreamFormat::csv, {.hints = hints});
-  RecordCutter cutter;
+Samples by_watch(const std::string& text, const ColumnHints& hints, StreamFormat kind = StreamFormat::csv) {
+  const auto format = make_format(kind, {.hints = hints, .source = "t"});
+  RecordCutter cutter(records_of(kind));
   cutter.feed(text);
   SampleSink sink;
   try {
     while (const auto record = cutter.next()) format->read(*record, sink);
+    if (const auto record = cutter.rest()) format->read(*record, sink);
   } catch (const WrongInput& error) {
     throw ProgramError(error.what());
   }
@@ -195,6 +197,19 @@ std::pair<Samples, std::string> read_or_error(Read read) {
   }
 }
 
+void expect_same(const Samples& tracks, const Samples& watch) {
+  ASSERT_EQ(tracks.size(), watch.size());
+  for (const auto& [id, samples] : tracks) {
+    ASSERT_TRUE(watch.contains(id)) << id;
+    const auto& others = watch.at(id);
+    ASSERT_EQ(samples.size(), others.size()) << id;
+    for (std::size_t each = 0; each < samples.size(); ++each) {
+      ASSERT_NEAR(samples[each].time, others[each].time, 1e-5) << id;
+      ASSERT_LT(norm(samples[each].position - others[each].position), 1e-6) << id;
+    }
+  }
+}
+
 TEST(Readers, AgreeOnRandomTables) {
   Random random(42);
   int taken = 0, refused = 0;
@@ -209,18 +224,50 @@ TEST(Readers, AgreeOnRandomTables) {
         fmt::format("table {}:\n{}\ntracks: {}\nwatch: {}", k, table.text(), tracks_error, watch_error));
     ASSERT_EQ(tracks_error.empty(), watch_error.empty());
     ++(tracks_error.empty() ? taken : refused);
-    ASSERT_EQ(tracks.size(), watch.size());
-    for (const auto& [id, samples] : tracks) {
-      const auto& others = watch.at(id);
-      ASSERT_EQ(samples.size(), others.size()) << id;
-      for (std::size_t each = 0; each < samples.size(); ++each) {
-        ASSERT_NEAR(samples[each].time, others[each].time, 1e-5) << id;
-        ASSERT_LT(norm(samples[each].position - others[each].position), 1e-6) << id;
-      }
-    }
+    expect_same(tracks, watch);
+    if (HasFatalFailure()) return;
   }
   EXPECT_GT(taken, 800);
   EXPECT_GT(refused, 800);
+}
+
+TEST(Readers, AgreeOnRecordings) {
+  const std::string recordings[] = {
+      "$GPRMC,120000,A,5400.0000,N,00801.0000,E,10.0,90,010324,,,A\n$GPGGA,120001,5400.1,N,00801.0,E,1,8,1,2."
+      "5,M,,M,,\n",
+      "AXXX001\nHFDTE010124\nB1201025730000N00830000EA0010000120\nB1201035730010N00830000EA0010100121\n",
+      "2\nTime=0.5\nH 1 2 3\nH 4 5 6\n2\nTime=1.0\nH 1 2 4\nH 4 5 7\n",
+      "ITEM: TIMESTEP\n0\nITEM: TIME\n0.5\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS ff ff ff\n0 9\n0 9\n0 "
+      "9\nITEM: ATOMS id x y "
+      "z\n7 1 2 3\nITEM: TIMESTEP\n1\nITEM: TIME\n1.0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS ff ff "
+      "ff\n0 9\n0 9\n0 9\nITEM: ATOMS "
+      "id x y z\n7 1 2 4\n",
+      "w t= 0.0\n    1\n    1SOL     OW    1   0.100   0.200   0.300\n 9 9 9\nw t= 1.0\n    1\n    1SOL     "
+      "OW    1   0.100   0.200   0.400\n 9 9 "
+      "9\n",
+      "$VEHICLE:NO;SIMSEC;COORDFRONT\n1;0;1 2 3\n2;0;4 5 6\n1;1;1 2 4\n2;1;4 5 7\n",
+      "track_id; type; traveled_d; avg_speed; lat; lon; speed; lon_acc; lat_acc; time\n1; Car; 1; 1; 37.9; "
+      "23.7; 1; 0; 0; 0; 37.91; "
+      "23.7; 1; 0; 0; 1;\n2; Car; 1; 1; 37.9; 23.8; 1; 0; 0; 0.5; 37.91; 23.8; 1; 0; 0; 1;\n",
+      "# a\n@ xaxis  label \"Time (ps)\"\n@ s0 legend \"atom 1 X\"\n@ s1 legend \"atom 1 Y\"\n0.0 1.5 "
+      "2.5\n1.0 1.5 3.5\n",
+      "CCSDS_OEM_VERS = 2.0\nMETA_START\nOBJECT_NAME = A\nMETA_STOP\n2024-060T00:00:00.5 7000 0 0 1 0 "
+      "0\n2024-060T00:01:00.5 7001 1 0 1 0 "
+      "0\n",
+      R"([{"id":"b","time":1,"x":5,"y":6},{"id":"a","time":0,"x":1,"y":2},{"id":"a","time":1,"x":1,"y":3},{"id":"b","time":2,"x":5,"y":7}])",
+      R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"id":"a","times":[0,10]},"geometry":{"type":"LineString","coordinates":[[8,47],[8,47.1]]}}]})",
+      "Trajectories\n100\n,,s:A,,,s:B,,\nFrame,Sub "
+      "Frame,X,Y,Z,X,Y,Z\n,,mm,mm,mm,mm,mm,mm\n1,0,1,2,3,4,5,6\n2,0,1,2,4,4,5,7\n"};
+  for (const std::string& text : recordings) {
+    SCOPED_TRACE(text);
+    EXPECT_FALSE(kind_of_recording(text).empty());
+    expect_same(by_tracks(text, {}), by_watch(text, {}, StreamFormat::recording));
+  }
+  const std::string lines =
+      "{\"id\":\"a\",\"time\":0,\"x\":1,\"y\":2}\n{\"id\":\"a\",\"time\":1,\"more\":3,\"x\":1,\"y\":3}\n\n{"
+      "\"x\":1,\"y\":4,\"id\":\"a\",\"time\":2}\n";
+  EXPECT_TRUE(are_json_lines(lines));
+  expect_same(by_tracks(lines, {}), by_watch(lines, {}, StreamFormat::json));
 }
 
 }  // namespace

@@ -231,6 +231,18 @@ TEST_F(TablesOfTheField, TenMillionthsOfDegrees) {
   const std::string columns = " --columns id=id,time=time,lon=lon:degE7,lat=lat:degE7";
   EXPECT_EQ(approaches(text, "--distance 0.45" + columns), "1");
   EXPECT_EQ(approaches(text, "--distance 0.44" + columns), "0");
+  // Heights of such messages are mostly millimetres: 0.2 m are no 200 m.
+  const std::string messages =
+      "id,time,lat,lon,alt\nu,0,470000000,80000000,15000\nu,1,470000000,80000000,15000\n"
+      "v,0,470000000,80000000,15200\nv,1,470000000,80000000,15200\n";
+  const std::string asked = approaches(messages, "--distance 1" + columns + ",z=alt");
+  EXPECT_NE(
+      asked.find("column 'alt' does not say its unit, which beside ten-millionths of degrees is mostly mm: "
+                 "say --columns id=id,time=time,z=alt:mm,lon=lon:degE7,lat=lat:degE7, or another unit"),
+      std::string::npos)
+      << asked;
+  EXPECT_EQ(approaches(messages, "--distance 1" + columns + ",z=alt:mm"), "1");
+  EXPECT_EQ(approaches(messages, "--distance 0.19" + columns + ",z=alt:mm"), "0");
 }
 
 TEST_F(TablesOfTheField, NobodyIsNoTrack) {
@@ -382,6 +394,12 @@ TEST_F(TablesOfTheField, NumbersAndTimesOfOtherHabits) {
   EXPECT_NE(approaches("id,sec,nanosec,x,y\nu,1,900000000,0,0\nu,2,0,0,0\n", "--distance 1")
                 .find("column 'nanosec' may be a part of the time, as column 'sec' is"),
             std::string::npos);
+  const std::string seconds =
+      "id,sec,nanosec,x,y\nu,1,0,0,0\nu,2,0,0,0\nv,1,900000000,0,0.5\nv,2,900000000,0,0.5\n";
+  EXPECT_NE(approaches(seconds, "--distance 1 --columns id=id,time=sec,x=x,y=y")
+                .find("or say --columns id=id,time=sec:s,x=x,y=y to use the latter alone"),
+            std::string::npos);
+  EXPECT_EQ(approaches(seconds, "--distance 1 --columns id=id,time=sec:s,x=x,y=y"), "1");
   const std::string dates =
       "id,time,x,y\nu,03/04/2025 10:00,0,0\nu,03/04/2025 10:01,0,0\nv,04/03/2025 10:00,0,0\n"
       "v,04/03/2025 10:01,0,0\n";
@@ -512,7 +530,7 @@ TEST_F(TablesOfTheField, OneBodyInEachFile) {
   const std::string asked = approaches_in(files("fish1.csv"), "--distance 1");
   EXPECT_NE(
       asked.find(
-          "say --columns id=...,time=time,x=x [cm],y=y [cm], with id=@file where each file is one body"),
+          "say --columns 'id=...,time=time,x=x [cm],y=y [cm]', with id=@file where each file is one body"),
       std::string::npos)
       << asked;
   const std::string said =
@@ -621,6 +639,12 @@ const Shape shapes[] = {
      "3159699{1}.5,0000-{0},OTHERS,{2},{3},MIA\n"},
     {"DJI, by AirData", "time(millisecond),datetime(utc),latitude,longitude,height_above_takeoff(meters)\n",
      "{1}00,2024-01-01 00:00:0{1},{5},{4},10\n", "", 2},
+    {"ROS (rostopic echo -p)",
+     "%time,field.header.seq,field.header.stamp,field.header.frame_id,field.pose.position.x,field.pose."
+     "position.y,"
+     "field.pose.position.z\n",
+     "{1}000000000,{1},{1}000000000,map,{2},{3},0\n", "", 2},
+    {"Vissim (COORDFRONT)", "$VEHICLE:SIMSEC;NO;COORDFRONTX;COORDFRONTY\n", "{1};{0};{2};{3}\n"},
     {"Danish AIS", "# Timestamp,Type of mobile,MMSI,Latitude,Longitude,Navigational status,ROT,SOG,COG\n",
      "03/09/2025 00:00:0{1},Class A,11100000{0},{5},{4},Under way,0,1,90\n"},
     {"AIS of marinecadastre.gov", "MMSI,BaseDateTime,LAT,LON,SOG,COG\n",

@@ -137,14 +137,13 @@ TEST(TrackFile, NamesWhatItDoesNotRecognise) {
       "file is one body");
   EXPECT_NE(error_in("1 2 3\n").find("it has no header and 3 columns"), std::string::npos);
   EXPECT_EQ(error_in("id,mmsi,t,x,y\n0,0,1,2,3\n"),
-            "t.txt: columns 'id' and 'mmsi' may both be meant: say which with --columns, as in "
+            "t.txt: columns 'id' and 'mmsi' may both be meant: say which, as in --columns "
             "id=mmsi,time=t,x=x,y=y");
   EXPECT_EQ(error_in("id,t,x,y,lon,lat\n0,0,1,2,3,4\n"),
-            "t.txt: columns 'x' and 'lon' may both be meant: say which with --columns, as in "
+            "t.txt: columns 'x' and 'lon' may both be meant: say which, as in --columns "
             "id=id,time=t,lon=lon,lat=lat");
-  EXPECT_EQ(
-      error_in("id,t,x,x,y\n0,0,1,2,3\n"),
-      "t.txt: columns 'x' and 'x' may both be meant: say which with --columns, as in id=id,time=t,x=4,y=y");
+  EXPECT_EQ(error_in("id,t,x,x,y\n0,0,1,2,3\n"),
+            "t.txt: columns 'x' and 'x' may both be meant: say which, as in --columns id=id,time=t,x=4,y=y");
 }
 
 TEST(TrackFile, AsksForWhatIsNotCertain) {

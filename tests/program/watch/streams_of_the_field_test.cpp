@@ -65,6 +65,15 @@ TEST_F(StreamsOfTheField, AircraftInOtherShapes) {
                      cylinder),
             "undecided ");
   EXPECT_EQ(summary_["from"], 1717430000.123);
+  // An aircraft in each line, as readsb --net-json-port sends them.
+  std::string one_by_one;
+  for (const auto& [hex, lon, track] : {std::tuple("a1", 8.0, 90), std::tuple("a2", 8.1, 270)})
+    one_by_one += fmt::format(
+        R"({{"now":1566891938.0,"hex":"{}","lat":50.0,"lon":{},"seen_pos":0.5,"track":{},"rc":186,"alt_baro":30000,"gs":450}})"
+        "\n",
+        hex, lon, track);
+  EXPECT_EQ(verdicts(one_by_one, cylinder), "within ");
+  EXPECT_EQ(summary_["reports"], 2);
   // Over several lines, and without an aircraft.
   std::string lines;
   for (const char c : head_on("ac", 1717430001000, R"("rc":186,"alt_baro":30000,"gs":450)",
@@ -295,18 +304,16 @@ TEST_F(StreamsOfTheField, TablesMeanWhatTheySay) {
             "within ");
   EXPECT_EQ(summary_["malformed"], 1);
   expect_refused(std::string("\xFF\xFEi\0d\0,\0", 8), promises, {"UTF-16"});
-  expect_refused("<?xml version=\"1.0\"?><gpx></gpx>", promises, {"GPX"});
-  const std::string_view as_recording =
-      "which tracks and view read: watch needs rows of id, time and position";
-  expect_refused("scorer,a,a\nbodyparts,b,b\n", promises, {"DeepLabCut", as_recording});
-  expect_refused("AXXX001\nHFDTE010124\nB000000\n", promises, {"IGC", as_recording});
-  expect_refused("Format Version,1.23,Take Name,a\n,,\n", promises, {"OptiTrack", as_recording});
+  // Recordings that are wrong are told as by tracks.
+  expect_refused("<?xml version=\"1.0\"?><gpx></gpx>", promises, {"expected tracks (trk) whose points"});
+  expect_refused("scorer,a,a\nbodyparts,b,b\n", promises, {"as DeepLabCut writes them"});
+  expect_refused("AXXX001\nHFDTE010124\nB000000\n", promises, {"a whole B record"});
+  expect_refused("Format Version,1.23,Take Name,a\n,,\n", promises, {"OptiTrack"});
   expect_refused("water\n 1\n    1SOL     OW    1   0.000   0.000   0.000\n 1 1 1\n", promises,
-                 {"GROMACS", as_recording});
-  expect_refused("ATOM      1  CA  ALA A   1       0.000   0.000   0.000\n", promises, {"PDB", as_recording});
-  expect_refused("ITEM: TIMESTEP\n0\n", promises, {"LAMMPS", as_recording});
-  expect_refused("$GPGSV,1,1,00*79\n", promises, {"$GPRMC and $GPGGA, are read by tracks and view"});
-  expect_refused("{\"id\":\"a\",\"time\":0,\"x\":0,\"y\":0}\n", promises, {"JSON"});
+                 {"--frame-rate"});
+  expect_refused("$GPGSV,1,1,00*79\n", promises,
+                 {"$GPRMC and $GPGGA of receivers of GPS are read from a file"});
+  expect_refused("{\"name\":\"a\"}\n", promises, {"say --columns"});
 }
 
 TEST_F(StreamsOfTheField, DegreesAreNoLengthsAndRowNumbersNoIds) {

@@ -10,6 +10,7 @@
 #include "formats/ais/ais_message.hpp"
 #include "formats/ais/nmea_line.hpp"
 #include "formats/ais/sentence_assembler.hpp"
+#include "formats/gps_fix.hpp"
 #include "formats/ground_speed.hpp"
 #include "formats/json_reading.hpp"
 #include "formats/known_names.hpp"
@@ -53,9 +54,15 @@ class NmeaFormat final : public ReportFormat {
   void read(const Record& record, ReportSink& sink) override {
     if (!record.is_whole) throw MalformedRecord("expected a line, but it is too long");
     NmeaLine line = parse_nmea_line(record.text);
+    const auto fix = line.sentence ? std::nullopt : gps_fix_in(record.text);
+    // The clock of a log whose lines have no times.
+    if (fix && !line.received && !record.read_at)
+      line.received = TimeField{fix->time, latest_ ? latest_->kind : TimeKind::utc};
     find_time(line, record, sink);
+    if (fix && !choices_.own_by_gps.empty()) report_own(*fix, *line.received, sink);
     if (!line.sentence) return;
     has_sentences_ = true;
+    if (line.sentence->is_own && !choices_.own_by_gps.empty()) return;
     const auto whole = assembler_.add(line, record.line, sink);
     if (!whole) return;
     if (whole->received)
@@ -71,10 +78,9 @@ class NmeaFormat final : public ReportFormat {
     untimed_.clear();
     if (!has_sentences_)
       throw UnusableStream(
-          "expected sentences of AIS (!AIVDM or !AIVDO of any talker), but the stream has none (logs of GPS "
-          "receivers, $GPRMC and $GPGGA, are read by tracks and view; for watch write rows of id, time, lon "
-          "and "
-          "lat)");
+          "expected sentences of AIS (!AIVDM or !AIVDO of any talker), but the stream has none ($GPRMC and "
+          "$GPGGA of "
+          "receivers of GPS are read from a file, or a pipe that ends, without --format)");
   }
 
   nlohmann::json save() const override {
@@ -218,6 +224,22 @@ class NmeaFormat final : public ReportFormat {
     if (position.is_coarse) report.extent += std::hypot(coarse_step, coarse_step);
     add_velocity(position, report);
     add_class(message, position, report);
+    sink.take(report);
+  }
+
+  void report_own(const GpsFix& fix, const TimeField& received, ReportSink& sink) const {
+    // As those of the others, by the clock of the receipt, which may be wrong by minutes.
+    FileTime stamp = time_with_second(received.time, static_cast<int>(fix.time.whole % 60));
+    stamp.fraction = fix.time.fraction;
+    SourceReport report{.id = choices_.own_by_gps,
+                        .stamp = stamp,
+                        .arrival = received.time,
+                        .time_kind = received.kind,
+                        .geographic = true,
+                        .position = {fix.longitude, fix.latitude, 0.0}};
+    report.sayable = nmea_presets;
+    set_velocity(report, fix.speed ? std::optional(*fix.speed * knot) : std::nullopt, fix.course,
+                 std::nullopt);
     sink.take(report);
   }
 

@@ -88,7 +88,7 @@ AisSentence sentence_of(std::string_view content) {
                                       longest_ais_payload, fields[5].size()));
   if (!is_six_bit_text(fields[5]))
     throw MalformedRecord("expected characters from 0 to W and ` to w as the message (field 6)");
-  return {*of, *number, fields[3], fields[4], fields[5], *fill_bits};
+  return {*of, *number, fields[3], fields[4], fields[5], *fill_bits, fields[0].ends_with("VDO")};
 }
 
 /// Returns the time of PGHP,1,YEAR,MONTH,DAY,HOUR,MINUTE,SECOND,MILLISECOND,...; nothing for other text.
@@ -121,6 +121,13 @@ std::size_t ais_sentence_in(std::string_view text) {
     if (formatter == "VDM" || formatter == "VDO") return at;
   }
   return std::string_view::npos;
+}
+
+/// Returns true for the end of a sentence, with which a stream may begin: fields, and a checksum at the end.
+bool ends_sentence(std::string_view text) {
+  const std::size_t star = text.rfind('*');
+  return star != std::string_view::npos && star + 3 == text.size() && hex_digit(text[star + 1]) >= 0 &&
+         hex_digit(text[star + 2]) >= 0 && text.substr(0, star).find(',') != std::string_view::npos;
 }
 
 /// Returns true if the text begins with $ or !, five capitals or digits or more, and a comma.
@@ -210,7 +217,7 @@ bool has_ais_sentence(std::string_view text) { return ais_sentence_in(text) != s
 
 bool looks_like_nmea(std::string_view line) {
   line = trimmed(line);
-  if (begins_sentence(line) || has_ais_sentence(line)) return true;
+  if (begins_sentence(line) || ends_sentence(line) || has_ais_sentence(line)) return true;
   // A tag block in a line of its own, or before a sentence of another kind.
   const std::size_t end = line.starts_with('\\') ? line.find('\\', 1) : std::string_view::npos;
   return end != std::string_view::npos && line.substr(0, end).find('*') != std::string_view::npos;

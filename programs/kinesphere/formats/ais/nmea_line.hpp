@@ -17,6 +17,7 @@ struct AisSentence {
   std::string_view channel;   ///< of the radio: A, B, 1, 2, or empty
   std::string_view payload;
   std::size_t fill_bits = 0;  ///< number of bits at the end of the payload that do not count, 0 to 5
+  bool is_own = false;        ///< VDO: of the ship that has the receiver
 };
 
 struct NmeaLine {
@@ -55,8 +56,8 @@ inline constexpr std::size_t longest_ais_payload = 1024;
 /// that begins with !, and for a line without sentence and tag block.
 NmeaLine parse_nmea_line(std::string_view line);
 
-/// Returns true if the line looks like one of a stream of sentences: it has VDM or VDO, or begins with a tag
-/// block or another sentence.
+/// Returns true if the line looks like one of a stream of sentences: it has VDM or VDO, begins with a tag
+/// block or another sentence, or is the end of one.
 bool looks_like_nmea(std::string_view line);
 
 /// Returns true if the text has VDM or VDO anywhere.
