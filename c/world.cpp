@@ -23,7 +23,9 @@ ks_world_definition c_world(const WorldDefinition& definition) {
           .start_time = definition.start_time,
           .contacts = static_cast<ks_contacts>(definition.contacts),
           .allow_overlap = definition.allow_overlap,
-          .spread_window_starts = definition.spread_window_starts};
+          .spread_window_starts = definition.spread_window_starts,
+          .has_wall_filter = definition.wall_filter.has_value(),
+          .wall_filter = c_filter(definition.wall_filter.value_or(Filter{}))};
 }
 
 WorldDefinition world_of(std::string_view call, const ks_world_definition& given) {
@@ -47,6 +49,7 @@ WorldDefinition world_of(std::string_view call, const ks_world_definition& given
     detail::bad_result({ErrorCode::out_of_range, "has_box", no_body,
                         std::string(call) + ": has_box must be 1 for a world with a box, but is 0"});
   }
+  if (given.has_wall_filter) definition.wall_filter = filter_of(given.wall_filter);
   return definition;
 }
 

@@ -241,6 +241,13 @@ enum {
 
 enum { KS_AXIS_X = 1, KS_AXIS_Y = 2, KS_AXIS_Z = 4 };
 
+/// Selects the bodies that a body may touch (kinesphere/filter.hpp).
+typedef struct ks_filter {
+  uint64_t category;
+  uint64_t mask;
+  int32_t group;
+} ks_filter;
+
 /// Fields and ranges: kinesphere/world_definition.hpp.
 typedef struct ks_world_definition {
   uint32_t struct_size;
@@ -255,6 +262,8 @@ typedef struct ks_world_definition {
   ks_contacts contacts;
   int32_t allow_overlap;
   int32_t spread_window_starts;  ///< 0, or 1 for frames that cost about the same
+  int32_t has_wall_filter;       ///< 0: the walls meet every body
+  ks_filter wall_filter;         ///< of all walls
 } ks_world_definition;
 KS_API ks_status ks_world_definition_init(ks_world_definition* definition, uint32_t struct_size);
 static inline ks_world_definition ks_default_world_definition(void) {
@@ -262,13 +271,6 @@ static inline ks_world_definition ks_default_world_definition(void) {
   ks_world_definition_init(&definition, (uint32_t)sizeof definition);
   return definition;
 }
-
-/// Selects the bodies that a body may touch (kinesphere/filter.hpp).
-typedef struct ks_filter {
-  uint64_t category;
-  uint64_t mask;
-  int32_t group;
-} ks_filter;
 
 /// Fields and ranges: kinesphere/body.hpp.
 typedef struct ks_body_definition {

@@ -86,32 +86,31 @@ Proof.
              (fixed_point_keeps_its_promise b mb wb q Wb growth_b db radius_b t0 t1 Kb Sb Tq Db) Hx Hy Ht Ra Rb L).
 Qed.
 
-(* A pair of parts is left out that cannot close its gap in the time T: the distance of the centres of two balls, less both
-   radii, is more than the speed of approach and growth and the accelerations can take from it. *)
-Theorem parts_too_far_to_close_are_not_met (a b : bound) (T distance : R) :
-  0 <= growth_speed a + growth_speed b -> 0 <= growth a + growth b ->
-  (norm (speed a - speed b) + growth_speed a + growth_speed b +
-    / 2 * (growth a + norm (plan a) + (growth b + norm (plan b))) * T) * T <
-    norm (start a - start b) - (size a + size b) - distance ->
-  forall d, 0 <= d <= T -> Rs a b d + distance < norm (C a b d).
+(* A pair of parts, or a part and the ball around the other body, is left out if along a direction that is fixed in space, no
+   longer than 1, its gap is above the distance now and at the end of the time T, at which it is at least the quadratic that
+   the speeds along the direction and all accelerations leave. The quadratic is concave, so it is above zero between. *)
+Theorem parts_apart_along_a_direction_are_not_met (a b : bound) (n : vector) (T distance : R) :
+  norm n <= 1 -> 0 <= growth a + growth b ->
+  0 < constant a b n distance ->
+  0 < constant a b n distance +
+    (linear a b n - / 2 * (growth a + norm (plan a) + (growth b + norm (plan b))) * T) * T ->
+  forall d x y, 0 <= d <= T -> in_ball x (c a d) (rho a d) -> in_ball y (c b d) (rho b d) -> distance < norm (x - y).
 Proof.
-  intros P1 P2 L d Hd.
-  set (X := (start a - start b)%vector) in *. set (V := (speed a - speed b)%vector) in *.
-  assert (norm X <= norm (C a b d) + (d * norm V + d * d / 2 * (norm (plan a) + norm (plan b)))) as N.
-  { replace X with (C a b d + ((- d) * V + ((- (d * d / 2)) * plan a + (d * d / 2) * plan b)))%vector at 1
-      by (unfold C, c, X, V; coordinates; apply (f_equal3 Vector); field).
-    apply Rle_trans with (1 := norm_plus _ _).
-    generalize (norm_plus ((- d) * V) ((- (d * d / 2)) * plan a + (d * d / 2) * plan b))
-      (norm_plus ((- (d * d / 2)) * plan a) ((d * d / 2) * plan b)).
-    rewrite !norm_times, !Rabs_Ropp, (Rabs_pos_eq d), (Rabs_pos_eq (d * d / 2)) by nra. lra. }
-  unfold Rs, rho. revert N L. generalize (norm_positive V) (norm_positive (plan a)) (norm_positive (plan b)).
-  set (v := norm V). set (ga := norm (plan a)). set (gb := norm (plan b)). intros Pv Pa Pb N L.
-  assert (d * d <= T * T) as Q by nra.
-  assert ((v + growth_speed a + growth_speed b) * d <= (v + growth_speed a + growth_speed b) * T)
-    by (apply Rmult_le_compat_l; lra).
-  assert ((growth a + growth b + ga + gb) * (d * d) <= (growth a + growth b + ga + gb) * (T * T))
-    by (apply Rmult_le_compat_l; lra).
-  lra.
+  intros Hn Pg L0 LT d x y Hd Ix Iy.
+  set (closing := growth a + norm (plan a) + (growth b + norm (plan b))) in LT.
+  assert (0 <= closing) as Pc by (unfold closing; generalize (norm_positive (plan a)) (norm_positive (plan b)); lra).
+  assert (- closing <= square a b n) as S.
+  { unfold square, closing. rewrite dot_minus.
+    generalize (dot_at_most_norm n (plan b) Hn) (dot_at_most_norm n ((-1) * plan a) Hn).
+    rewrite dot_times, norm_times, Rabs_left by lra. lra. }
+  assert (Rs a b d + distance < norm (C a b d)) as L.
+  { apply (linearised_is_below a b n distance d Hn).
+    apply Rlt_le_trans with (quadratic (constant a b n distance) (linear a b n) (- closing) d).
+    - apply (points_ahead_at_both_ends_are_ahead_between _ _ _ 0 T); try exact Hd; unfold quadratic; lra.
+    - unfold quadratic. assert (0 <= d * d) by nra.
+      assert (- closing * (d * d) <= square a b n * (d * d)) by (apply Rmult_le_compat_r; assumption). lra. }
+  unfold in_ball, Rs, C in *. generalize (norm_by_way_of x (c a d) (c b d)) (norm_by_way_of y x (c b d)).
+  rewrite (norm_symmetric (c a d) x). lra.
 Qed.
 
 (* Bodies of many parts. An answer is +infinity or finite, and until then, or until the end of the span, something is

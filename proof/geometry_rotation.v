@@ -11,6 +11,39 @@ Definition rotation_by (turn : vector) : quaternion :=
 Definition rotated (q : quaternion) (v : vector) : vector :=
   let twice := (2 * cross (vector_of q) v)%vector in (v + scalar_of q * twice + cross (vector_of q) twice)%vector.
 
+(* The rotation `second` after `first`: the product of the two, brought to length 1. *)
+Definition product (second first : quaternion) : quaternion :=
+  Quaternion (scalar_of second * scalar_of first - dot (vector_of second) (vector_of first))
+    (scalar_of second * vector_of first + scalar_of first * vector_of second + cross (vector_of second) (vector_of first)).
+Definition square_of (q : quaternion) : R := scalar_of q * scalar_of q + dot (vector_of q) (vector_of q).
+Definition after (second first : quaternion) : quaternion :=
+  let p := product second first in let length := sqrt (square_of p) in
+  Quaternion (scalar_of p / length) ((/ length) * vector_of p).
+
+Lemma rotated_by_unit (q : quaternion) (v : vector) : square_of q = 1 ->
+  rotated q v = ((scalar_of q * scalar_of q - dot (vector_of q) (vector_of q)) * v +
+                 ((2 * dot (vector_of q) v) * vector_of q + (2 * scalar_of q) * cross (vector_of q) v))%vector.
+Proof.
+  unfold square_of, rotated. destruct q as [s u]. cbn [scalar_of vector_of]. intros E.
+  replace (s * s - dot u u) with (1 - 2 * dot u u) by lra. destruct u, v. by_coordinates.
+Qed.
+
+Theorem after_turns_by_one_after_the_other (second first : quaternion) (v : vector) :
+  square_of second = 1 -> square_of first = 1 ->
+  square_of (after second first) = 1 /\ rotated (after second first) v = rotated second (rotated first v).
+Proof.
+  intros E2 E1.
+  assert (square_of (product second first) = 1) as E.
+  { replace (square_of (product second first)) with (square_of second * square_of first); [rewrite E2, E1; ring|].
+    unfold square_of, product. destruct second as [s u], first as [t w]. cbn [scalar_of vector_of]. coordinates. ring. }
+  assert (after second first = product second first) as ->.
+  { unfold after. rewrite E, sqrt_1. destruct (product second first) as [s [x y z]]. cbn [scalar_of vector_of]. f_equal; [field|].
+    coordinates. apply (f_equal3 Vector); field. }
+  split; [exact E|]. rewrite (rotated_by_unit _ _ E), (rotated_by_unit _ _ E1), (rotated_by_unit _ _ E2).
+  unfold product. destruct second as [s [x2 y2 z2]], first as [t [x1 y1 z1]], v as [x y z]. cbn [scalar_of vector_of].
+  by_coordinates.
+Qed.
+
 (* Turned on for the time s with the angular velocity w. *)
 Lemma rotation_in_time (w : vector) (s : R) : 0 < norm w -> 0 <= s ->
   rotation_by (s * w) = Quaternion (cos (norm w / 2 * s)) ((sin (norm w / 2 * s) / norm w) * w).

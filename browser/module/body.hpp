@@ -16,6 +16,7 @@ Shape shape_at(int kind, const double* numbers);
 
 /// Category, mask and group; -1 is the mask of all.
 Filter filter_at(const double* numbers);
+void put(const Filter& filter, double* numbers);
 std::uint64_t mask_of(double number);
 
 }  // namespace kinesphere::browser

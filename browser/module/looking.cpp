@@ -1,4 +1,5 @@
 // Reading a world: bodies, counters, certificates, answers and queries.
+#include "body.hpp"
 #include "exchange.hpp"
 #include "kinesphere/certificates.hpp"
 #include "kinesphere/inspection.hpp"
@@ -34,10 +35,7 @@ KINESPHERE_EXPORT(world_views) bool world_views(const World* world, std::size_t 
     for (std::size_t axis = 0; axis < 3; ++axis) at[25 + axis] = static_cast<double>(view->image[axis]);
     at[28] = view->definition.solid ? 1.0 : 0.0;
     at[29] = view->definition.mass;
-    const Filter& filter = view->definition.filter;
-    at[30] = static_cast<double>(filter.category);
-    at[31] = filter.mask == Filter{}.mask ? -1.0 : static_cast<double>(filter.mask);
-    at[32] = filter.group;
+    put(view->definition.filter, at + 30);
     at[33] = view->rigid ? 1.0 : 0.0;
   }
   return true;

@@ -19,6 +19,7 @@ WorldDefinition definition_at(const double* numbers) {
   definition.zeno_interval = numbers[15];
   definition.start_time = numbers[16];
   definition.spread_window_starts = numbers[17] != 0.0;
+  if (numbers[18] != 0.0) definition.wall_filter = filter_at(numbers + 19);
   return definition;
 }
 
@@ -32,6 +33,12 @@ std::uint64_t mask_of(double number) {
 
 Filter filter_at(const double* numbers) {
   return {static_cast<std::uint64_t>(numbers[0]), mask_of(numbers[1]), static_cast<std::int32_t>(numbers[2])};
+}
+
+void put(const Filter& filter, double* numbers) {
+  numbers[0] = static_cast<double>(filter.category);
+  numbers[1] = filter.mask == Filter{}.mask ? -1.0 : static_cast<double>(filter.mask);
+  numbers[2] = filter.group;
 }
 
 Shape shape_at(int kind, const double* numbers) {
@@ -84,7 +91,7 @@ KINESPHERE_EXPORT(world_definition) const WorldDefinition* world_definition(cons
 KINESPHERE_EXPORT(definition_numbers) void definition_numbers(const WorldDefinition* written) {
   const WorldDefinition& definition = *written;
   auto& numbers = answer();
-  numbers.assign(18, 0.0);
+  numbers.assign(22, 0.0);
   if (definition.box) {
     numbers[0] = 1.0;
     put(definition.box->lower, numbers.data() + 1);
@@ -100,6 +107,10 @@ KINESPHERE_EXPORT(definition_numbers) void definition_numbers(const WorldDefinit
   numbers[15] = definition.zeno_interval;
   numbers[16] = definition.start_time;
   numbers[17] = definition.spread_window_starts ? 1.0 : 0.0;
+  if (definition.wall_filter) {
+    numbers[18] = 1.0;
+    put(*definition.wall_filter, numbers.data() + 19);
+  }
 }
 
 KINESPHERE_EXPORT(world_time) double world_time(const World* world) { return world->time(); }

@@ -325,6 +325,18 @@ test("a freed object says so, and may be freed twice", () => {
   assert.throws(() => motion.state(0, 0), /has been freed/);
 });
 
+test("walls with a filter let some bodies pass", () => {
+  const motion = new Ballistic({ positions: [5, 5, 5], velocities: [1, 0, 0] });
+  const walls = { category: 2, mask: -1, group: 0 };
+  const world = new World({ box: { lower: [0, 0, 0], upper: [10, 10, 10] }, wallFilter: walls });
+  assert.deepEqual(new World(world.definition).definition.wallFilter, walls);
+  const [ball] = world.addMotion(motion, 1, { filter: { mask: 1 } });
+  assert.equal(world.advance(20, motion), null);
+  world.setFilter(ball, {});
+  assert.equal(world.advance(21, motion).kind, "wall_begin");
+  assert.throws(() => new World({ wallFilter: { masks: 1 } }), /filter has no key masks/);
+});
+
 test("snapshots and clones go on alike", () => {
   const scene = new Scene("paper1", { bodies: 150, seconds: 2 });
   const world = new World({ ...scene.definition, spreadWindowStarts: true });

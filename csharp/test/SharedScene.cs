@@ -282,6 +282,25 @@ static class SharedScene
         }
     }
 
+    static void WallsWithAFilter()
+    {
+        var like = BodyDefinition.Default;
+        var filter = like.Filter;
+        filter.Category = 2;
+        var definition = WorldDefinition.Default;
+        definition.SetBox(new Vector(0, 0, 0), new Vector(20, 20, 20));
+        definition.SetWallFilter(filter);
+        using (var world = new World(definition))
+        {
+            var state = new State { Position = new Vector(10, 10, 10), Velocity = new Vector(1, 0, 0) };
+            like.Filter.Mask = 1;
+            var ball = world.AddBallistic(new[] { state }, like, new Vector(0, 0, 0))[0];
+            Require(world.Advance(15).Kind == EventKind.None, "a wall that lets a ball pass");
+            world.SetFilter(ball, BodyDefinition.Default.Filter);
+            Require(world.Advance(16).Kind == EventKind.WallBegin, "a wall that meets a ball");
+        }
+    }
+
     // A plate rises at 2 towards a ball that falls at 1, from a gap of 2.5.
     static void MovingShape()
     {
@@ -496,6 +515,7 @@ static class SharedScene
         Callbacks();
         Knowledge();
         Responses();
+        WallsWithAFilter();
         MovingShape();
         RigidBodies();
         Hulls();

@@ -13,8 +13,8 @@ namespace kinesphere {
 
 /// Selects the bodies that a body may touch. Two bodies in one non-zero group may touch if the group is
 /// positive, and may not if it is negative. Any other pair may touch if the category of each has a bit in
-/// the mask of the other. By default every pair may touch. Walls are not filtered. Two static bodies never
-/// touch.
+/// the mask of the other. By default every pair may touch. The walls of a world meet every body unless they
+/// have a filter, too (WorldDefinition::wall_filter). Two static bodies never touch.
 struct Filter {
   std::uint64_t category = 1;
   std::uint64_t mask = std::numeric_limits<std::uint64_t>::max();

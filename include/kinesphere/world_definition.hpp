@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "kinesphere/contact_events.hpp"
+#include "kinesphere/filter.hpp"
 #include "kinesphere/vec3.hpp"
 
 namespace kinesphere {
@@ -34,6 +35,10 @@ struct WorldDefinition {
   /// separation_distance + contact_tolerance may be at most 3/8 of the box; a diameter of a third of the
   /// box satisfies this. Cost: a body is probed at least once while it crosses half of the box.
   Axes periodic{};
+  /// The filter of all walls: they meet a body as another body with this filter would. By default they meet
+  /// every body, whatever its filter. Bodies that the walls do not meet may be anywhere. For walls that
+  /// differ from each other, add static half-spaces (World::add_static) instead of a box.
+  std::optional<Filter> wall_filter{};
   /// 2 or 3. With 2, bodies are discs in the plane z = 0: the z of every position, velocity and planned
   /// acceleration must be 0, and the z range of the box is ignored.
   int dimensions = 3;
@@ -63,8 +68,9 @@ struct WorldDefinition {
   /// Two default separation distances (NaN) are equal.
   friend bool operator==(const WorldDefinition& a, const WorldDefinition& b) {
     const auto others = [](const WorldDefinition& world) {
-      return std::tie(world.box, world.periodic, world.dimensions, world.contact_tolerance, world.contacts,
-                      world.allow_overlap, world.zeno_interval, world.start_time, world.spread_window_starts);
+      return std::tie(world.box, world.periodic, world.wall_filter, world.dimensions, world.contact_tolerance,
+                      world.contacts, world.allow_overlap, world.zeno_interval, world.start_time,
+                      world.spread_window_starts);
     };
     return others(a) == others(b) &&
            (a.separation_distance == b.separation_distance ||

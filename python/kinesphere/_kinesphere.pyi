@@ -31,9 +31,15 @@ version: str
 no_body: int
 zone_class: int
 
+class Filter(TypedDict, total=False):
+    category: int
+    mask: int
+    group: int
+
 class WorldDefinition(TypedDict):
     box: Optional[Box]
     periodic: str
+    wall_filter: Optional[Filter]
     dimensions: int
     contact_tolerance: float
     separation_distance: Optional[float]
@@ -570,6 +576,7 @@ class World:
         *,
         box: Optional[BoxLike] = None,
         periodic: Union[bool, str] = False,
+        wall_filter: Optional[Filter] = None,
         dimensions: int = 3,
         contact_tolerance: float = 1e-6,
         separation_distance: Optional[float] = None,

@@ -18,7 +18,39 @@ const char* name_of(ContactEvents contacts) {
   return contacts == ContactEvents::all ? "all" : wants_ends(contacts) ? "begin_and_end" : "impacts";
 }
 
-std::shared_ptr<WorldHandle> create_world(const py::object& box, const py::object& periodic, int dimensions,
+std::optional<Filter> wall_filter_of(const py::object& given) {
+  constexpr Argument argument{"World", "wall_filter"};
+  if (given.is_none()) return std::nullopt;
+  const auto wrong = [&] {
+    return py::type_error(
+        "World: wall_filter must be a dict of whole numbers, such as {\"category\": 2}, but is " +
+        py::repr(given).cast<std::string>());
+  };
+  if (!py::isinstance<py::dict>(given)) throw wrong();
+  Filter filter;
+  for (const auto& [key, value] : py::reinterpret_borrow<py::dict>(given)) try {
+      const auto name = key.cast<std::string>();
+      if (name == "category")
+        filter.category = value.cast<std::uint64_t>();
+      else if (name == "mask")
+        filter.mask = value.cast<std::uint64_t>();
+      else if (name == "group")
+        filter.group = group_of(value, argument);
+      else
+        refuse(argument, "must have no other keys than category, mask and group", "has " + name);
+    } catch (const py::cast_error&) {
+      throw wrong();
+    }
+  return filter;
+}
+
+py::dict dict_of(const Filter& filter) {
+  return py::dict(py::arg("category") = filter.category, py::arg("mask") = filter.mask,
+                  py::arg("group") = filter.group);
+}
+
+std::shared_ptr<WorldHandle> create_world(const py::object& box, const py::object& periodic,
+                                          const py::object& wall_filter, int dimensions,
                                           double contact_tolerance, const py::object& separation_distance,
                                           const std::string& contacts, bool allow_overlap,
                                           double zeno_interval, double start_time,
@@ -26,6 +58,7 @@ std::shared_ptr<WorldHandle> create_world(const py::object& box, const py::objec
   WorldDefinition definition;
   definition.box = box_of(box, {"World", "box"}, dimensions == 2);
   definition.periodic = axes_of(periodic, {"World", "periodic"}, dimensions == 2);
+  definition.wall_filter = wall_filter_of(wall_filter);
   definition.dimensions = dimensions;
   definition.contact_tolerance = contact_tolerance;
   if (!separation_distance.is_none()) {
@@ -97,6 +130,8 @@ py::dict arguments_of(const WorldDefinition& definition) {
   py::dict arguments;
   arguments["box"] = definition.box ? py::cast(*definition.box) : py::none();
   arguments["periodic"] = text_of(definition.periodic);
+  arguments["wall_filter"] =
+      definition.wall_filter ? py::object(dict_of(*definition.wall_filter)) : py::none();
   arguments["dimensions"] = definition.dimensions;
   arguments["contact_tolerance"] = definition.contact_tolerance;
   arguments["separation_distance"] = std::isnan(definition.separation_distance)
@@ -162,12 +197,14 @@ Every call checks what it is handed, and one that raises has changed nothing unl
 at a time may use a world; another one is refused with StateError.)");
   world
       .def(py::init(&create_world), py::kw_only(), py::arg("box") = py::none(), py::arg("periodic") = false,
-           py::arg("dimensions") = 3, py::arg("contact_tolerance") = 1e-6,
-           py::arg("separation_distance") = py::none(), py::arg("contacts") = "all",
-           py::arg("allow_overlap") = true, py::arg("zeno_interval") = 0.0, py::arg("start_time") = 0.0,
-           py::arg("spread_window_starts") = false,
+           py::arg("wall_filter") = py::none(), py::arg("dimensions") = 3,
+           py::arg("contact_tolerance") = 1e-6, py::arg("separation_distance") = py::none(),
+           py::arg("contacts") = "all", py::arg("allow_overlap") = true, py::arg("zeno_interval") = 0.0,
+           py::arg("start_time") = 0.0, py::arg("spread_window_starts") = false,
            R"(box: walls, a Box or a pair of corners; without one the world is unbounded.
 periodic: True, or axes such as "xy", on which the box repeats instead of having walls.
+wall_filter: the filter of all walls, a dict with category, mask and group or some of these (set_filter());
+they meet a body as another body with this filter would. Without one they meet every body.
 dimensions: 3, or 2 for discs in the plane z = 0; corners may then have two numbers, and True means "xy".
 contact_tolerance (length, > 0): a contact begins when the gap is at most this, and no gap falls below minus
 this unreported.

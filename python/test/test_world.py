@@ -398,10 +398,24 @@ def test_space_that_repeats() -> None:
 def test_a_definition_makes_the_same_world_again() -> None:
     settings = dict(box=ks.Box((0, 0, 0), (1, 2, 3)), contact_tolerance=1e-4, zeno_interval=0.1, start_time=5.0,
                     allow_overlap=False, contacts="impacts", separation_distance=0.01, dimensions=3,
-                    spread_window_starts=True)  # fmt: skip
+                    wall_filter={"category": 2, "mask": 5, "group": -1}, spread_window_starts=True)  # fmt: skip
     world = ks.World(**settings)  # type: ignore[arg-type]
     again = ks.World(**world.definition).definition
     assert {name: again[name] for name in settings} == settings and world.time == 5.0  # type: ignore[literal-required]
+
+
+def test_walls_with_a_filter_let_some_bodies_pass() -> None:
+    def escapes(mask: int) -> bool:
+        motion = ks.Ballistic([(5, 5)], [(1, 0)])
+        world = ks.World(dimensions=2, box=((0, 0), (10, 10)), wall_filter={"category": 2})
+        world.add_motion(motion, masks=mask)
+        return world.advance(20.0, motion) is None
+
+    assert escapes(1) and not escapes(3)
+    with pytest.raises(ks.InvalidValue, match="wall_filter must have no other keys .* has masks"):
+        ks.World(wall_filter={"masks": 2})  # type: ignore[typeddict-unknown-key]
+    with pytest.raises(TypeError, match="wall_filter must be a dict of whole numbers"):
+        ks.World(wall_filter={"mask": "all"})  # type: ignore[typeddict-item]
 
 
 def test_a_mesh() -> None:

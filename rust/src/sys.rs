@@ -51,6 +51,8 @@ pub struct ks_world_definition {
     pub contacts: i32,
     pub allow_overlap: i32,
     pub spread_window_starts: i32,
+    pub has_wall_filter: i32,
+    pub wall_filter: ks_filter,
 }
 
 #[repr(C)]

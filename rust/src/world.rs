@@ -32,6 +32,8 @@ pub struct WorldDefinition {
     pub start_time: f64,
     /// For games: frames of equal length cost about the same, and more in total. Has no effect in periodic space.
     pub spread_window_starts: bool,
+    /// The filter of all walls; without one they meet every body.
+    pub wall_filter: Option<Filter>,
 }
 
 impl Default for WorldDefinition {
@@ -49,6 +51,7 @@ impl Default for WorldDefinition {
             zeno_interval: raw.zeno_interval,
             start_time: raw.start_time,
             spread_window_starts: raw.spread_window_starts != 0,
+            wall_filter: None,
         }
     }
 }
@@ -68,6 +71,8 @@ impl WorldDefinition {
             contacts: self.contacts as i32,
             allow_overlap: self.allow_overlap as i32,
             spread_window_starts: self.spread_window_starts as i32,
+            has_wall_filter: self.wall_filter.is_some() as i32,
+            wall_filter: self.wall_filter.unwrap_or_default().raw(),
         }
     }
 }

@@ -275,6 +275,20 @@ fn responses_remove_disable_put_to_sleep_and_stop() {
 }
 
 #[test]
+fn walls_with_a_filter_let_a_ball_pass() {
+    let walls = Filter { category: 2, ..Default::default() };
+    let bounds = Some(Box3 { lower: Vec3::default(), upper: Vec3::new(20.0, 20.0, 20.0) });
+    let mut world = World::new(&WorldDefinition { bounds, wall_filter: Some(walls), ..Default::default() }).unwrap();
+    let start = [State { position: Vec3::new(10.0, 10.0, 10.0), velocity: Vec3::new(1.0, 0.0, 0.0) }];
+    let like = BodyDefinition { filter: Filter { mask: 1, ..Default::default() }, ..Default::default() };
+    let ballistic = Motion::Ballistic { gravity: Vec3::default() };
+    let (_, ids) = world.add_motion(ballistic, &start, &[], &[], &like).unwrap();
+    assert!(world.advance_motions(15.0).unwrap().is_none());
+    world.set_filter(ids[0], Filter::default()).unwrap();
+    assert_eq!(world.advance_motions(16.0).unwrap().unwrap().kind, EventKind::WallBegin);
+}
+
+#[test]
 fn a_pair_filter_lives_as_long_as_the_last_clone() {
     let (mut world, _, probe) = two_balls();
     let calls = Arc::new(AtomicUsize::new(0));

@@ -147,10 +147,10 @@ void serialize(Some<Axes> auto& self, auto& archive) {
 }
 
 void serialize(Some<WorldDefinition> auto& self, auto& archive) {
-  auto& [box, periodic, dimensions, contact_tolerance, separation_distance, contacts, allow_overlap,
-         zeno_interval, start_time, spread_window_starts] = self;
-  archive(box, periodic, dimensions, contact_tolerance, separation_distance, contacts, allow_overlap,
-          zeno_interval, start_time, spread_window_starts);
+  auto& [box, periodic, wall_filter, dimensions, contact_tolerance, separation_distance, contacts,
+         allow_overlap, zeno_interval, start_time, spread_window_starts] = self;
+  archive(box, periodic, wall_filter, dimensions, contact_tolerance, separation_distance, contacts,
+          allow_overlap, zeno_interval, start_time, spread_window_starts);
 }
 
 void serialize(Some<Counters> auto& self, auto& archive) {

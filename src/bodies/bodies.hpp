@@ -92,6 +92,12 @@ class Bodies {
   bool may_touch(std::uint32_t a, std::uint32_t b) const {
     return table_[a].solid && table_[b].solid && may_meet(a, b);
   }
+  /// Returns true if there are walls that the body may touch.
+  bool meets_walls(std::uint32_t number) const {
+    // Most worlds do not need to look up filters here.
+    return walls_ && !table_[number].has_shape() &&
+           (!definition_.wall_filter || kinesphere::meets_walls(definition_, filters.of(number)));
+  }
 
   /// Returns the largest acceleration of a point of the body (length / time^2).
   double largest_acceleration(std::uint32_t number) const {

@@ -25,10 +25,12 @@ inline CollisionShape carried_shape_of(const Bound& bound, const Shape& shape, d
 Bound bound_now(const BodyDefinition& body, double now);
 /// Returns the bound that the body would have with the radius and the errors of `changed`.
 Bound bound_with(const Bodies& bodies, std::uint32_t number, const BodyDefinition& changed, double now);
-/// Returns the collision shape of the body with this bound in place of its own.
+/// Returns the collision shape of the body with this bound in place of its own. That of a rigid body which
+/// has been turned since its last report is the ball around it.
 inline CollisionShape collision_shape_of(const Bodies& bodies, std::uint32_t number, const Bound& bound) {
   const Body& body = bodies[number];
   if (!body.is_shaped()) return {bound};
+  if (body.is_rigid && bodies.rigid[body].is_changed) return {bound};
   if (body.is_rigid) return {bound, false, nullptr, body.radius, &bodies.rigid[body]};
   const Shape& shape = bodies.shapes.of(body);
   return body.carries_shape ? carried_shape_of(bound, shape, body.radius) : collision_shape_of(bound, shape);

@@ -52,7 +52,7 @@ void require_state(InputCheck& check, const State& state, const BodyDefinition& 
       .within({"velocity", body}, state.velocity, limits::largest_speed);
   require_plane(check, {"position", body}, state.position, world);
   require_plane(check, {"velocity", body}, state.velocity, world);
-  if (!world.box) return;
+  if (!world.box || !meets_walls(world, definition.filter)) return;
   const double reach =
       world.allow_overlap ? 0.0 : definition.radius + definition.position_error - world.contact_tolerance;
   for (int axis = 0; axis < world.dimensions; ++axis) {

@@ -166,7 +166,8 @@ class BroadPhase {
   std::optional<std::string> check(std::uint32_t number) const;
   /// True if the deserialized state is consistent in a world with `bodies` bodies, and has no starters.
   bool is_valid(std::size_t bodies) const {
-    return !has_starters() && is_valid_successor(bodies, false, false);
+    return !has_starters() && !(awaiting_.empty() && search_begin_ > -infinity) &&
+           is_valid_successor(bodies, false, false);
   }
   /// True if the deserialized state of a successor is consistent, survey() and choose_cells() having been
   /// called or not.

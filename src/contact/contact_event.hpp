@@ -69,6 +69,11 @@ std::optional<Box> walls_of(const WorldDefinition& definition);
 /// True if a box from walls_of() has this wall. Precondition: wall != Wall::none.
 bool stands(const Box& box, Wall wall);
 
+/// Returns true if the walls, if there are any, meet a body with this filter.
+inline bool meets_walls(const WorldDefinition& world, const Filter& filter) {
+  return !world.wall_filter || passes(*world.wall_filter, filter);
+}
+
 /// Returns the half-space inside a wall of the box. Precondition: stands(box, wall).
 HalfSpace half_space(const Box& box, Wall wall);
 

@@ -30,12 +30,11 @@ class PendingEvents {
   /// Queues an event that has already taken effect. It is delivered unchanged, before all events of queue().
   void queue_first(const Event& event) { ended_.insert(event); }
   const EventSet& pending() const { return pending_; }
-  /// Drops pending events between `body` and another body for which `holds`(Event) is false.
+  /// Drops pending events of `body` for which `holds`(Event) is false.
   template <class Holds>
   void drop_pending(std::uint32_t body, Holds holds) {
     pending_.erase_if([&](const Event& event) {
-      return event.second != no_body && (event.first.index == body || event.second.index == body) &&
-             !holds(event);
+      return (event.first.index == body || event.second.index == body) && !holds(event);
     });
   }
   /// Returns true if ends that the caller has caused wait for delivery: pop() returns the first of them.

@@ -67,7 +67,7 @@ Result<void> DistributedWorld::RankEngine::add_rigid_body(std::uint32_t name, co
   const RigidRecord turning = record_of(added, time());
   const Bound bound = bound_now(body, time());
   const Overlaps overlaps(rank_.bodies(), rank_.state.broad_phase, time());
-  if (const auto wall = overlaps.of_wall({bound, false, nullptr, body.radius, &turning}))
+  if (const auto wall = overlaps.of_wall({bound, false, nullptr, body.radius, &turning}, body.filter))
     return wall_error(call, no_body, *wall);
   insert(name, body, number_in_motion, turning);
   return {};

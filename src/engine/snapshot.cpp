@@ -23,7 +23,7 @@ namespace {
 
 /// Raise the version if the fields change, or if the engine would continue differently from the same fields.
 constexpr Envelope world_envelope{{'K', 'i', 'n', 'e', 's', 'p', '\r', '\n'},
-                                  24,
+                                  25,
                                   "world",
                                   "World::restore",
                                   "snapshot",
@@ -111,9 +111,9 @@ const char* World::Engine::first_invalid_part() const {
     if (body.alive && !contacts().has_form_of(number, body.has_shape(), body.is_static())) return "contacts";
     if (takes_part ? !registered && !bodies()[number].dirty : registered) return "windows";
     if (registered && body.is_static() && broad_phase().end_of(number) != infinity) return "windows";
-    if (!takes_part && (!contacts().partners_of(number).empty() || !contacts().overlaps_of(number).empty() ||
-                        contacts().walls_of(number) != 0))
+    if (!takes_part && (!contacts().partners_of(number).empty() || !contacts().overlaps_of(number).empty()))
       return "contacts";
+    if (!(takes_part && bodies().meets_walls(number)) && contacts().walls_of(number) != 0) return "contacts";
   }
   return nullptr;
 }
@@ -130,7 +130,7 @@ bool World::Engine::queue_is_valid() const {
     if (pair.kind() == PairCertificate::Kind::window_end)
       return !bodies()[pair.first].is_static() && !main_.certifier().is_stale(pair);
     if (pair.kind() == PairCertificate::Kind::with_walls)
-      return bodies().walls() && !bodies()[pair.first].has_shape() && !main_.certifier().is_stale(pair);
+      return bodies().meets_walls(pair.first) && !main_.certifier().is_stale(pair);
     return pair.first < pair.second && takes_part(pair.second) && !main_.certifier().is_stale(pair) &&
            !(bodies()[pair.first].has_shape() && bodies()[pair.second].has_shape());
   };

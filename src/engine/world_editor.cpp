@@ -53,6 +53,7 @@ void World::WorldEditor::set_angular_velocity(BodyId id, const Vec3& angular_vel
 
 void World::WorldEditor::set_rotation(BodyId id, const Rotation& rotation) {
   const std::uint32_t number = id.index;
+  sleeping().wake(number);
   Body& body = state_.bodies[number];
   RigidRecord changed = bodies().rigid[body];
   changed.change({after(rotation.orientation, Quaternion{}), rotation.angular_velocity}, time(),
@@ -255,8 +256,8 @@ void World::WorldEditor::refresh_filter(BodyId id) {
 
 /// Returns true if the filters and sensors permit the contact or overlap of the event.
 bool World::WorldEditor::may_hold(const Event& event) const {
-  if (event.second == no_body) return true;
   const std::uint32_t a = event.first.index;
+  if (event.second == no_body) return event.wall == Wall::none || bodies().meets_walls(a);
   const std::uint32_t b = event.second.index;
   if (!is_of_sensor(event.kind)) return bodies().may_touch(a, b);
   return bodies().may_meet(a, b) &&

@@ -13,8 +13,8 @@ bool certainly_overlap(const Bodies& bodies, double now, const CollisionShape& a
 
 }  // namespace
 
-std::optional<Wall> Overlaps::of_wall(const CollisionShape& shape) const {
-  if (!bodies_.walls()) return std::nullopt;
+std::optional<Wall> Overlaps::of_wall(const CollisionShape& shape, const Filter& filter) const {
+  if (!bodies_.walls() || !meets_walls(bodies_.definition(), filter)) return std::nullopt;
   for (const Wall wall : walls)
     if (stands(*bodies_.walls(), wall) && gap_to_wall(shape, half_space(*bodies_.walls(), wall), now_).upper <
                                               -bodies_.definition().contact_tolerance)
@@ -29,9 +29,10 @@ std::optional<BodyId> Overlaps::of_body(BodyId id, const CollisionShape& shape,
   NeighbourSearch search;
   for (const std::uint32_t other : search.in_box(windows_, box, now_)) {
     const Body& body = bodies_[other];
+    const CollisionShape partner = collision_shape_of(bodies_, other);
     const bool certain =
         other != id.index && (shape.meets_shapes() || !body.has_shape()) &&
-        certainly_overlap(bodies_, now_, shape, collision_shape_of(bodies_, other)) &&
+        body.is_rigid == (partner.rigid != nullptr) && certainly_overlap(bodies_, now_, shape, partner) &&
         bodies_.filters.may_touch(id, definition, bodies_.id_of(other), bodies_.definition_of(other));
     if (certain && (!found || other < found->index)) found = bodies_.id_of(other);
   }

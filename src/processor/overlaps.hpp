@@ -21,7 +21,8 @@ class Overlaps {
   /// shape and definition and may touch it. Cost: one search.
   std::optional<BodyId> of_body(BodyId id, const CollisionShape& shape,
                                 const BodyDefinition& definition) const;
-  std::optional<Wall> of_wall(const CollisionShape& shape) const;
+  /// Returns the first wall that a body with this shape and filter certainly overlaps and may touch.
+  std::optional<Wall> of_wall(const CollisionShape& shape, const Filter& filter) const;
   /// Returns the first new body that certainly overlaps an earlier new body and may touch it. The result is a
   /// pair of indices: the first body that it overlaps, then the body itself. Cost: one search per body.
   std::optional<std::pair<std::size_t, std::size_t>> first_among(std::span<const BodyDefinition> added) const;

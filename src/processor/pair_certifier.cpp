@@ -169,8 +169,7 @@ void PairCertifier::certify_linked(std::uint32_t number, SearchResults& found) c
 }
 
 void PairCertifier::certify_walls(std::uint32_t number, SearchResults& found) const {
-  const Body& body = bodies()[number];
-  if (!bodies().walls() || body.has_shape()) return;
+  if (!bodies().meets_walls(number)) return;
   const double until = walls_unchanged_until(number);
   if (until < walls_end_of(number))
     found.certificates.push_back(certificate(until, number, PairCertificate::walls));

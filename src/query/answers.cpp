@@ -64,7 +64,7 @@ void World::Engine::Answers::consider_touching(std::uint32_t number, ContactBoun
 
 void World::Engine::Answers::consider_walls(std::uint32_t number, const CertificateTimes& times,
                                             ContactBoundary& first) const {
-  if (!engine_.bodies().walls() || !body(number).present() || body(number).has_shape()) return;
+  if (!body(number).present() || !engine_.bodies().meets_walls(number)) return;
   const double known = recorded_of_walls(number, times);
   if (known >= first.time) return;
   const Bound bound = guarded(number);
@@ -270,7 +270,7 @@ void World::Engine::Answers::consider_approach(std::uint32_t a, std::uint32_t b,
 
 void World::Engine::Answers::consider_approach_to_walls(std::uint32_t number, double distance,
                                                         ContactBoundary& first) const {
-  if (!engine_.bodies().walls() || !body(number).present() || body(number).has_shape()) return;
+  if (!body(number).present() || !engine_.bodies().meets_walls(number)) return;
   const Bound bound = present(number);
   for (const Wall wall : walls) {
     if (first.touching || !stands(*engine_.bodies().walls(), wall)) continue;

@@ -144,7 +144,7 @@ class World::Engine::Audit {
 
   void check_walls(std::uint32_t number) {
     const Body& b = body(number);
-    if (!engine_.bodies().walls() || b.is_shaped() || !is_certified(number, number) ||
+    if (!engine_.bodies().meets_walls(number) || b.is_shaped() || !is_certified(number, number) ||
         engine_.contacts().walls_of(number) != 0 || !exact(number))
       return;
     // Bodies without ends follow the contact rule within the tolerance instead, as in checkable().

@@ -166,7 +166,7 @@ Result<void> World::Preconditions::room_for(const RigidBody& added, BodyId id) c
   const RigidRecord record = record_of(added, engine_->time());
   const Bound bound = bound_now(body, engine_->time());
   const CollisionShape shape{bound, false, nullptr, body.radius, &record};
-  if (const auto wall = engine_->overlaps().of_wall(shape))
+  if (const auto wall = engine_->overlaps().of_wall(shape, body.filter))
     return wall_error(call_, is_known(id) ? id : no_body, *wall);
   return no_overlap(shape, body, id, "position");
 }
@@ -239,7 +239,8 @@ Result<void> World::Preconditions::growth(const BodyDefinition& changed, BodyId 
   const Bound bound = bound_with(engine_->bodies(), id.index, changed, engine_->time());
   if (definition().allow_overlap || !body.enabled || bound.radius <= body.bound.radius) return {};
   const CollisionShape shape = collision_shape_of(engine_->bodies(), id.index, bound);
-  if (const auto wall = body.has_shape() ? std::nullopt : engine_->overlaps().of_wall(shape)) {
+  if (const auto wall =
+          body.has_shape() ? std::nullopt : engine_->overlaps().of_wall(shape, changed.filter)) {
     return Error{ErrorCode::outside_domain, std::string(argument), id,
                  std::string(call_) + ": " + std::string(argument) + " of " + text_of(id) +
                      " must keep the whole sphere in the box, but it would overlap the wall " +

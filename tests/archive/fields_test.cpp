@@ -55,6 +55,7 @@ TEST(Fields, AreReadAsTheyWereWritten) {
                              .inertia = c});
   expect_read_back(WorldDefinition{.box = Box{a, b},
                                    .periodic = {.y = true},
+                                   .wall_filter = Filter{.category = 8},
                                    .dimensions = 2,
                                    .contact_tolerance = 1e-3,
                                    .zeno_interval = 0.5,

@@ -718,6 +718,29 @@ static void predictions_and_shards(void) {
   }
 }
 
+/// Walls with a filter let a ball pass whose mask leaves them out.
+static void walls_with_a_filter(void) {
+  ks_world_definition definition = ks_default_world_definition();
+  CHECK(definition.has_wall_filter == 0);
+  definition.has_box = 1;
+  definition.box.upper = vec3(20, 20, 20);
+  definition.has_wall_filter = 1;
+  definition.wall_filter.category = 2;
+  ks_world world;
+  CHECK_OK(ks_world_create(&definition, &world));
+  flight f;
+  memset(&f, 0, sizeof f);
+  const ks_body_id ball = add_ball(world, &f, vec3(10, 10, 10), vec3(1, 0, 0));
+  ks_filter filter = ks_default_body_definition().filter;
+  filter.mask = 1;
+  CHECK_OK(ks_world_set_filter(world, ball, &filter));
+  CHECK(next_event(world, 15, &f).kind == KS_EVENT_NONE);
+  filter.mask = 3;
+  CHECK_OK(ks_world_set_filter(world, ball, &filter));
+  CHECK(next_event(world, 16, &f).kind == KS_EVENT_WALL_BEGIN);
+  CHECK_OK(ks_world_destroy(world));
+}
+
 /// A game moves a ball at 5 frames a unit of time, towards a wall, and takes its place back after each frame.
 static void frames(void) {
   ks_world_definition definition = ks_default_world_definition();
@@ -890,6 +913,7 @@ int main(void) {
   profiling();
   motions_and_runs();
   motions_and_probes();
+  walls_with_a_filter();
   frames();
   responses();
   names();

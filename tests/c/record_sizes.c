@@ -11,7 +11,7 @@ HAS_SIZE(ks_state, 48);
 HAS_SIZE(ks_box, 48);
 HAS_SIZE(ks_shape, 88);
 HAS_SIZE(ks_world, 8);
-HAS_SIZE(ks_world_definition, 112);
+HAS_SIZE(ks_world_definition, 136);
 HAS_SIZE(ks_filter, 24);
 HAS_SIZE(ks_body_definition, 160);
 HAS_SIZE(ks_static_definition, 136);

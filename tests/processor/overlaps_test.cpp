@@ -67,16 +67,17 @@ TEST(Overlaps, OfABodyAreThoseWithTheOthersThatAreThere) {
 }
 
 TEST(Overlaps, OfWallsBeginBeyondTheTolerance) {
-  const SmallWorld world({.box = Box{{0, 0, 0}, {9, 9, 9}}});
+  const SmallWorld world({.box = Box{{0, 0, 0}, {9, 9, 9}}, .wall_filter = Filter{.category = 2}});
   const Overlaps overlaps(world.state.bodies, world.state.broad_phase, 0.0);
-  const auto wall_at = [&](const Vec3& position) {
+  const auto wall_at = [&](const Vec3& position, std::uint64_t mask = 2) {
     const Bound bound = bound_now({.radius = 1.0, .position = position}, 0.0);
-    return overlaps.of_wall({bound});
+    return overlaps.of_wall({bound}, {.mask = mask});
   };
   EXPECT_EQ(wall_at({5, 5, 5}), std::nullopt);
   EXPECT_EQ(wall_at({5, 1.0 - 0.5e-6, 5}), std::nullopt);
   EXPECT_EQ(wall_at({5, 0.9, 5}), Wall::y_lower);
   EXPECT_EQ(wall_at({5, 5, 8.5}), Wall::z_upper);
+  EXPECT_EQ(wall_at({5, 5, 8.5}, 1), std::nullopt) << "filtered out";
 }
 
 }  // namespace

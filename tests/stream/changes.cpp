@@ -75,6 +75,7 @@ void Player::join(BodyId id, const BodyDefinition& body, const Operation& operat
 
 void Player::add(const Operation& operation) {
   if (truth_.ids().size() >= kind_.most_bodies) return;
+  if (kind_.rigid && operation.byte(9) % 2 == 0) return add_rigid(operation);
   const BodyDefinition body = new_body(operation);
   const Bound bound = bound_of(body, {body.position, body.velocity}, truth_.time());
   const bool margin = has_room(no_body, {bound}, body);
@@ -170,7 +171,7 @@ void Player::set_velocity(BodyId id, const Vec3& velocity) {
 void Player::set_velocity(const Operation& operation) {
   const auto id = any_moving(operation);
   if (!id || !truth_.is_present(*id)) return;
-  if (operation.byte(7) % 16 == 15) sprint(*id, operation);
+  if (operation.byte(7) % 16 == 15 && !kind_.rigid) sprint(*id, operation);
   set_velocity(*id, truth_.in_space(operation.velocity()));
 }
 
@@ -187,7 +188,9 @@ void Player::send_back() {
 /// Changes the true acceleration without a call of the world.
 void Player::steer(const Operation& operation) {
   const auto id = any_moving(operation);
-  if (id) truth_.steer(*id, acceleration(operation, motion_limits_of(truth_.at(*id).definition)));
+  if (!id) return;
+  truth_.steer(*id, acceleration(operation, motion_limits_of(truth_.at(*id).definition)));
+  if (is_rigid(*id)) turn(*id, operation);
 }
 
 void Player::teleport(BodyId id, const State& state) {
@@ -195,9 +198,11 @@ void Player::teleport(BodyId id, const State& state) {
   const BodyDefinition& body = truth_.at(id).definition;
   const bool margin = has_room(id, {bound_of(body, state, truth_.time())}, body);
   const auto done = waking(island_of(id), [&](World& world) { return world.teleport(id, state); });
+  if (!done && is_rigid(id) && done.error().code == ErrorCode::outside_domain) return;
   require(static_cast<bool>(done) == margin, "teleport: overlaps are refused wrongly");
   if (!done) return require(done.error().code == ErrorCode::overlapping, "teleport: a wrong reason");
   truth_.move(id, state);
+  go_on_turning(id);
   told_.replaced(world_, id, before);
   told_.redirected(id);
   changed();
@@ -225,9 +230,11 @@ void Player::nudge(const Operation& operation) {
   teleport(*id, state);
 }
 
+/// Turns a rigid body, which keeps its size.
 void Player::set_radius(const Operation& operation) {
   const auto id = any_moving(operation);
   if (!id) return;
+  if (is_rigid(*id)) return turn(*id, operation);
   const double radius = this->radius(operation);
   const auto before = truth_.is_present(*id) ? told_.before(world_, *id) : std::vector<Before>();
   const bool strict = !truth_.definition().allow_overlap;
@@ -284,9 +291,11 @@ void Player::turn_on(const Operation& operation) {
                           ? room_of_fixed(id)
                           : has_room(id, {bound_of(off->definition, state, truth_.time())}, off->definition);
   const auto done = on_world([&](World& world) { return world.enable(id, state); });
+  if (!done && off->rigid && done.error().code == ErrorCode::outside_domain) return;
   require(static_cast<bool>(done) == margin, "enable: overlaps are refused wrongly");
   if (!done) return require(done.error().code == ErrorCode::overlapping, "enable: a wrong reason");
   if (!off->fixed) truth_.move(id, state);
+  go_on_turning(id);
   truth_.at(id).enabled = true;
   told_.appeared(id);
   changed();

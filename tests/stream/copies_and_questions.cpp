@@ -19,6 +19,7 @@ void Player::restore(const Operation& operation) {
   auto restored = operation.byte(1) % 4 == 0 ? world_.clone() : World::restore(bytes);
   if (!restored) throw Disagreement("restore: " + restored.error().message);
   require(restored->save().value() == bytes, "a restored world saves other bytes");
+  give_rotation_probe(*restored);
   if (operation.byte(0) % 2 == 0)
     world_ = std::move(*restored);
   else
@@ -44,7 +45,9 @@ void Player::ask(const Operation& operation) {
                                  : std::as_const(*world).certificates().distance_limits(*id, other, now);
       if (!limits) throw Disagreement("distance_limits: " + limits.error().message);
       const double gap = truth_.gap(id->index < other.index ? Contact{*id, other} : Contact{other, *id});
-      require(limits->lower <= gap + slack && gap <= limits->upper + slack,
+      // Of rigid bodies that overlap the truth does not know how deep.
+      const bool is_deep = gap <= 0.0 && (is_rigid(*id) || is_rigid(other));
+      require(is_deep || (limits->lower <= gap + slack && gap <= limits->upper + slack),
               "distance_limits do not hold the distance");
     }
   }
@@ -62,7 +65,7 @@ void Player::ask(const Operation& operation) {
                                       [=](const OverlapHit& candidate) { return candidate.body == body; });
       if (entry == found->end())
         require(gap >= radius - slack, "overlapping() leaves out a body that overlaps");
-      else if (entry->certainty == Certainty::certainly || probes)
+      else if (entry->certainty == Certainty::certainly || (probes && !is_rigid(body)))
         require(gap <= radius + slack, "overlapping() names a body that does not overlap");
     }
   }
@@ -86,6 +89,7 @@ void Player::call_wrongly(const Operation& operation) {
   }
   const std::vector<BodyId> wrong_batch = id ? std::vector{*id, wrong} : std::vector{wrong};
   const std::vector<BodyDefinition> bad_batch{{.radius = 0, .position = state.position}, {.radius = -1}};
+  if (id && kind_.rigid) turn_wrongly(*id, operation);
   switch (operation.byte(2) % 16) {
     case 0:
       refused(world_.remove(wrong), code);
@@ -139,7 +143,7 @@ void Player::call_wrongly(const Operation& operation) {
         refused(world_.teleport(*id, state), ErrorCode::static_body);
         refused(world_.add_static({.shape = HalfSpace{{1, 1, 0}, 0}}), ErrorCode::out_of_range);
       } else {
-        refused(world_.change(*id, {.radius = -0.5}), ErrorCode::out_of_range);
+        if (!is_rigid(*id)) refused(world_.change(*id, {.radius = -0.5}), ErrorCode::out_of_range);
         refused(world_.change(*id, {.motion_limits = MotionLimits{.acceleration_limit = nan}}),
                 ErrorCode::not_finite);
       }

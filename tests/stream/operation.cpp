@@ -101,6 +101,50 @@ Triangle Operation::needle() const {
   return {to + a * scale, to + b * scale, to + c * scale};
 }
 
+std::vector<RigidPart> Operation::parts(double reach, bool flat) const {
+  Random random = this->random();
+  const auto in_space = [=](Vec3 point) {
+    if (flat) point.z = 0.0;
+    return point;
+  };
+  const Vec3 a = in_space(0.7 * reach * random.point_in_ball());
+  const Vec3 b = in_space(0.7 * reach * random.point_in_ball());
+  const double radius = 0.3 * reach * random.uniform();
+  const RigidPart capsule{a, b, radius};
+  const Vec3 corner = 0.4 * reach * Vec3{random.uniform(), random.uniform(), flat ? 0.0 : random.uniform()};
+  const RigidPart box = box_part({-corner, corner}, random.bits() % 2 == 0 ? 0.0 : radius);
+  switch (random.bits() % 6) {
+    case 0:
+      return {{a, a, radius}, {b, b, radius}};
+    case 1:
+      return {capsule};
+    case 2: {
+      const Vec3 end = 0.99 * reach * (flat ? Vec3{0.6, 0.8, 0} : random.unit_vector());
+      return {{-end, end, 0.001 * reach}};
+    }
+    case 3:
+      return {box};
+    case 4: {
+      std::vector<Vec3> points{a, b};
+      for (auto count = 1 + random.bits() % (flat ? 1 : 3); count > 0; --count)
+        points.push_back(in_space(0.7 * reach * random.point_in_ball()));
+      return {hull_part(points, random.bits() % 2 == 0 ? 0.0 : radius)};
+    }
+    default:
+      return {capsule, box};
+  }
+}
+
+Rotation Operation::rotation(bool flat) const {
+  Random random = this->random();
+  const Vec3 axis = flat ? Vec3{0, 0, 1} : random.unit_vector();
+  static constexpr std::array speeds{0.0, 1.0, 4.0, 10.0, 10.0, 4.0, 1.0, 100.0};
+  const double speed = speeds[random.bits() % speeds.size()] * (random.bits() % 2 == 0 ? 1.0 : -0.7);
+  const Quaternion half_turn{0.0, 0.0, 0.0, -1.0};
+  const Vec3 turn = (3.0 * random.uniform()) * (flat ? axis : random.unit_vector());
+  return {random.bits() % 4 == 0 ? half_turn : rotation_by(turn), speed * axis};
+}
+
 Random Operation::random() const {
   std::uint64_t seed = 0;
   for (const std::uint8_t byte : bytes) seed = seed * 0x100000001b3u + byte;
@@ -130,26 +174,29 @@ WorldKind kind_of(std::span<const std::uint8_t> bytes) {
   const std::uint8_t bodies = header(bytes, 1);
   const std::uint8_t lengths = header(bytes, 2);
   const std::uint8_t features = header(bytes, 4);
-  WorldKind kind;
+  WorldKind kind{};
   WorldDefinition& world = kind.definition;
   world.contacts = choices % 2 == 1  ? ContactEvents::impacts
                    : bodies % 2 == 0 ? ContactEvents::begin_and_end
                                      : ContactEvents::all;
   if (choices / 2 % 2 == 0) world.box = Box{{0, 0, 0}, {world_size, world_size, world_size}};
-  world.allow_overlap = choices / 4 % 4 != 3;
-  world.contact_tolerance = tolerances[choices / 16 % 4];
+  kind.crowd = bodies == 255 && choices / 64 % 2 == 1;
+  kind.rigid = !kind.crowd && features / 4 % 4 == 2;
+  kind.swings = kind.rigid && lengths / 64 % 2 == 1;
+  world.allow_overlap = kind.rigid || choices / 4 % 4 != 3;
+  world.contact_tolerance = std::max(tolerances[choices / 16 % 4], kind.rigid ? 1e-6 : 0.0);
   if (lengths % 4 == 1) world.separation_distance = 1.5 * world.contact_tolerance;
   if (lengths % 4 == 2) world.separation_distance = 0.1;
   if (lengths / 4 % 4 == 1) world.zeno_interval = 0.01;
   world.spread_window_starts = lengths / 4 % 4 >= 2;
   world.start_time = lengths / 16 - 3.0;
-  kind.crowd = bodies == 255 && choices / 64 % 2 == 1;
   kind.most_bodies = kind.crowd ? 240 : bodies >= 252 ? 100 : 3 + bodies % 32;
   const std::size_t first = header(bytes, 3);
   kind.first_bodies = kind.crowd ? std::min(kind.most_bodies, 2 * first) : first % kind.most_bodies;
   kind.sensors = features % 2 == 1;
   kind.fixed = features / 2 % 2 == 1;
-  if (features / 4 % 4 == 1) world.dimensions = 2;
+  if (features / 4 % 4 == 1 || (kind.rigid && choices / 64 == 2)) world.dimensions = 2;
+  if (!kind.crowd && features / 4 % 4 == 3) world.wall_filter = Filter{.category = 2, .mask = 3};
   if (world.box && features / 16 % 2 == 1)
     world.periodic = {true, features / 32 % 2 == 1, features / 64 % 2 == 1 && world.dimensions == 3};
   if (features / 128 == 1 && choices / 128 == 1) move_far(world);
@@ -170,6 +217,11 @@ Bytes crowd_stream(std::uint64_t seed, std::size_t operations) {
   bytes[3] |= 64;
   constexpr std::uint8_t run = 60;
   for (std::size_t k = 0; k < operations; k += 2) bytes[header_size + k * Operation::size] = run;
+  return bytes;
+}
+
+Bytes without_rigid_bodies(Bytes bytes) {
+  if (kind_of(bytes).rigid) bytes[4] ^= 8;
   return bytes;
 }
 

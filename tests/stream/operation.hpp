@@ -13,6 +13,7 @@
 
 #include "kinesphere/body.hpp"
 #include "kinesphere/random.hpp"
+#include "kinesphere/rigid_body.hpp"
 #include "kinesphere/shape.hpp"
 #include "kinesphere/world_definition.hpp"
 
@@ -60,6 +61,10 @@ struct Operation {
   Sensor sensor(double reach) const;
   /// Returns a shape; no triangle in the plane. One in sixteen is a needle, a long and thin triangle.
   Shape shape(bool flat) const;
+  /// Returns parts within `reach` of the position: balls, capsules, hulls, and needles 1:1000.
+  std::vector<RigidPart> parts(double reach, bool flat) const;
+  /// Returns an orientation, one in four by half a turn, and an angular velocity of up to 100.
+  Rotation rotation(bool flat) const;
   /// Returns random numbers that depend on this operation alone.
   Random random() const;
 
@@ -80,6 +85,8 @@ struct WorldKind {
   bool sensors;              ///< some bodies sense others, and some are not solid
   bool fixed;                ///< there are static bodies
   bool crowd;                ///< hundreds of small awake bodies, among which World::run finds clusters
+  bool rigid;                ///< some bodies are rigid
+  bool swings;  ///< angular velocities of rigid bodies change, and a rotation probe tells of them
 };
 /// Returns the kind of world that the header of a stream chooses.
 WorldKind kind_of(std::span<const std::uint8_t> bytes);
@@ -89,6 +96,10 @@ Bytes random_stream(std::uint64_t seed, std::size_t operations);
 
 /// Returns a stream for a crowd of hundreds, in which every other operation is a run.
 Bytes crowd_stream(std::uint64_t seed, std::size_t operations);
+
+/// Returns the stream for a world without rigid bodies. A damaged snapshot of these may turn so fast that
+/// time hardly goes on.
+Bytes without_rigid_bodies(Bytes bytes);
 
 /// Returns the stream without operations [from, to).
 Bytes without(const Bytes& bytes, std::size_t from, std::size_t to);

@@ -67,6 +67,7 @@ Player::Player(const WorldKind& kind)
       told_(kind.definition, truth_),
       world_(World::create(kind.definition).value()),
       asked_at_(kind.definition.start_time) {
+  give_rotation_probe(world_);
   Random random(kind.first_bodies);
   for (int k = 0; k < 2 * sensor_classes; ++k) set_sensor(random_operation(random));
   for (int k = 0; k < 3; ++k) add_static(random_operation(random));
@@ -104,6 +105,7 @@ void Player::check_body(BodyId id) const {
               found.planned_acceleration == expected.planned_acceleration,
           "a body's definition is not what was set");
   require(view.sleeping == body.resting, "a body has come to rest or is awake without a reason");
+  check_rigid(view, body);
   if (!body.enabled) return;
   const Vec3 centre = view.bound.centre_at(truth_.time());
   const Vec3 position = truth_.state(id).position;
@@ -237,6 +239,12 @@ void Player::advance_with_bad_probe(const Operation& operation) {
       probe()(ids, time, states);
       if (left-- != 0) return;
       if (operation.byte(2) % 3 == 0) throw NoAnswer();
+      if (std::any_of(ids.begin(), ids.end(), [this](BodyId id) { return is_rigid(id); })) {
+        const double wrong = operation.byte(2) % 2 == 0 ? nan : 1e300;
+        if (operation.byte(4) % 2 == 0) bad_rotation_ = Rotation{{wrong, 0, 0, 1}, {}};
+        if (operation.byte(4) % 4 == 1) bad_rotation_ = Rotation{{}, {0, 0, wrong}};
+        if (kind_.swings && bad_rotation_) return;
+      }
       const double wrong = operation.byte(2) % 3 == 1 ? std::numeric_limits<double>::quiet_NaN() : 1e300;
       states[operation.byte(3) % states.size()].position.y = wrong;
     };
@@ -247,6 +255,7 @@ void Player::advance_with_bad_probe(const Operation& operation) {
     }
   });
   asked_at_ = world_.time();
+  bad_rotation_.reset();
   move_on();
   if (!result) {
     const ErrorCode code = result.error().code;

@@ -111,6 +111,18 @@ class Player {
   void sprint(BodyId id, const Operation& operation) const;
   void check_touching(const World& world, BodyId id, const Vec3& place) const;
 
+  // rigid.cpp
+  bool is_rigid(BodyId id) const { return truth_.at(id).rigid.has_value(); }
+  void give_rotation_probe(World& world);
+  RigidBody new_rigid_body(const Operation& operation) const;
+  void add_rigid(const Operation& operation);
+  void turn(BodyId id, const Vec3& angular_velocity);
+  void turn(BodyId id, const Rotation& rotation);
+  void turn(BodyId id, const Operation& operation);
+  void go_on_turning(BodyId id);
+  void check_rigid(const BodyView& view, const TrueBody& body) const;
+  void turn_wrongly(BodyId id, const Operation& operation);
+
   // changes.cpp
   BodyDefinition new_body(const Operation& operation) const;
   double radius(const Operation& operation) const;
@@ -146,7 +158,9 @@ class Player {
   std::set<BodyId> woken_;  ///< woken at this instant, without an event so far
   std::size_t events_ = 0;
   std::optional<Event> last_event_;
-  int rounds_ = 0;        ///< ordered rounds of events that may begin at this instant
+  int rounds_ = 0;  ///< ordered rounds of events that may begin at this instant
+  /// The rotation probe gives this instead of a rotation, once.
+  std::optional<Rotation> bad_rotation_;
   bool crossed_ = false;  ///< a crossing came in this round; the pair's next distance has a round of its own
   double asked_at_;       ///< time of the last probe
 };

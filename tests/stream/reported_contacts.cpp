@@ -118,8 +118,9 @@ std::vector<Before> ReportedContacts::before(const World& world, BodyId id) cons
   std::vector<Before> found;
   for_each(id, [&](const Contact& contact) {
     if (!is_open(contact)) return;
-    found.push_back(
-        {contact, end_now(world, contact), truth_.gap(contact) >= rule_.separation_distance() - slack_});
+    found.push_back({contact, end_now(world, contact),
+                     truth_.gap(contact) >= rule_.separation_distance() - slack(contact),
+                     truth_.turns(contact)});
   });
   return found;
 }
@@ -131,7 +132,7 @@ void ReportedContacts::expect_end(const Before& before, bool certain) {
   if (!state.touching) return;
   auto end =
       std::find_if(ends_.begin(), ends_.end(), [&](const End& e) { return e.contact == before.contact; });
-  if (end == ends_.end()) end = ends_.insert(end, {before.contact, {}, false});
+  if (end == ends_.end()) end = ends_.insert(end, {before.contact, {}, false, before.turns});
   if (end->certain) return;
   end->candidates.push_back(before.end);
   end->certain = certain;
@@ -143,10 +144,12 @@ void ReportedContacts::gone(const std::vector<Before>& before) {
 
 void ReportedContacts::replaced(const World& world, BodyId id, const std::vector<Before>& before) {
   for (const Before& b : before) {
+    // Of a rigid body these are the limits of the ball around it, which may be in touch when no part is.
     const bool certain =
         limits(world, b.contact).lower >= b.contact.sensed.value_or(0.0) + rule_.separation_distance();
-    if (certain || b.is_over) expect_end(b, certain);
-    if (truth_.gap(b.contact) >= rule_.separation_distance() - slack_) reported(b.contact).opened = true;
+    const bool opened = truth_.gap(b.contact) >= rule_.separation_distance() - slack(b.contact);
+    if (certain || b.is_over || (opened && truth_.turns(b.contact))) expect_end(b, certain);
+    if (opened) reported(b.contact).opened = true;
   }
   for_each(id, [this](const Contact& contact) { look_again(contact); });
 }
@@ -190,6 +193,11 @@ bool ReportedContacts::is_watched(const Contact& contact, const ReportedState& s
 void ReportedContacts::look_again(const Contact& contact) {
   ReportedState& state = reported(contact);
   if (state.approached || !is_watched(contact, state) || !truth_.may_be_reported(contact)) return;
+  if (truth_.turns(contact)) {
+    // Whether the two approach is not known of overlapping ones.
+    state.approached = state.opened = truth_.gap(contact) < rule_.surface_gap();
+    return;
+  }
   state.due = true;
   // The Zeno guard may use an eighth of the tolerance more.
   state.floor = std::min(0.0, truth_.gap(contact) - 0.125 * rule_.tolerance() + rule_.tolerance());
@@ -231,7 +239,7 @@ bool ReportedContacts::take_end(const Event& event, const Contact& contact) {
       std::find_if(ends_.begin(), ends_.end(), [&](const End& e) { return e.contact == contact; });
   if (end == ends_.end()) return false;
   const bool known = std::any_of(end->candidates.begin(), end->candidates.end(),
-                                 [&](const Event& candidate) { return same(candidate, event); });
+                                 [&](const Event& candidate) { return same(candidate, event, end->turns); });
   if (!known && !end->certain) return false;
   if (!known) fail("the end by a change does not have the states before it", contact, event.gap);
   for (const End& other : ends_)
@@ -264,7 +272,19 @@ bool ReportedContacts::same_state(const State& reported, BodyId id) const {
   return reported.velocity == truth.velocity && norm(reported.position + shift - truth.position) <= rounding_;
 }
 
-bool ReportedContacts::same(const Event& a, const Event& b) const {
+/// The angular velocity of a body that is not rigid is reported as 0.
+bool ReportedContacts::same_spin(const Vec3& reported, BodyId id) const {
+  if (!truth_.at(id).rigid) return reported == Vec3{};
+  const Vec3 truth = truth_.rotation(id, truth_.time()).angular_velocity;
+  return norm(reported - truth) <= 1e-12 * (1.0 + norm(truth));
+}
+
+/// The candidate of a rigid body has the point, normal and gap of the ball around it.
+bool ReportedContacts::same(const Event& a, const Event& b, bool turns) const {
+  if (turns)
+    return a.kind == b.kind && a.time == b.time && contact_of(a) == contact_of(b) &&
+           a.first_state.velocity == b.first_state.velocity &&
+           a.second_state.velocity == b.second_state.velocity;
   EventHash first, second;
   first.add(a);
   second.add(b);
@@ -283,21 +303,27 @@ void ReportedContacts::begin(const Event& event, const Contact& contact) {
   if (!truth_.may_be_reported(contact)) fail("a begin of bodies that may not touch", contact, event.gap);
   const double gap = truth_.gap(contact);
   const double told_gap = event.gap - event.distance;
-  if (std::abs(gap - told_gap) > slack_) fail("a begin with a wrong gap", contact, event.gap);
-  if (std::abs(truth_.exact_gap(contact) - told_gap) > slack_)
+  const bool is_deep = truth_.turns(contact) && gap < -1e-3;
+  if (!is_deep && std::abs(gap - told_gap) > slack(contact))
+    fail("a begin with a wrong gap", contact, event.gap);
+  if (!is_deep && std::abs(truth_.exact_gap(contact) - told_gap) > slack(contact))
     fail("a begin with another gap than the exact one", contact, event.gap);
   if (told_gap > rule_.tolerance()) fail("a begin before the bodies are near", contact, gap);
   const bool pair = contact.wall == Wall::none;
   if (!same_state(event.first_state, contact.first) ||
       (pair && !same_state(event.second_state, contact.second)))
     fail("a begin with wrong states", contact, gap);
+  if (!same_spin(event.first_angular_velocity, contact.first) ||
+      (pair && !same_spin(event.second_angular_velocity, contact.second)))
+    fail("a begin with wrong angular velocities", contact, gap);
   // A world stores the Zeno interval of a body with few digits: near its end either mark is correct.
   constexpr double checkpoint = 1.0 - 0x1p-20;
   const auto comes_within_part = [&](double part) {
     return !contact.sensed &&
            (comes_within(contact.first, part) || (pair && comes_within(contact.second, part)));
   };
-  if (event.repeated ? !comes_within_part(1.0) : comes_within_part(checkpoint))
+  // That of a rigid body depends on when the world heard how it turns.
+  if (!truth_.turns(contact) && (event.repeated ? !comes_within_part(1.0) : comes_within_part(checkpoint)))
     fail("a begin wrongly marked as repeated", contact, gap);
   if (!contact.sensed) {
     truth_.at(contact.first).last_contact = truth_.time();
@@ -325,8 +351,8 @@ void ReportedContacts::end(const Event& event, const Contact& contact) {
   if (!reported(contact).touching) fail("an end without a begin", contact, event.gap);
   const double gap = truth_.gap(contact);
   const double told_gap = event.gap - event.distance;
-  if (std::abs(gap - told_gap) > slack_) fail("an end with a wrong gap", contact, event.gap);
-  if (std::abs(truth_.exact_gap(contact) - told_gap) > slack_)
+  if (std::abs(gap - told_gap) > slack(contact)) fail("an end with a wrong gap", contact, event.gap);
+  if (std::abs(truth_.exact_gap(contact) - told_gap) > slack(contact))
     fail("an end with another gap than the exact one", contact, event.gap);
   if (told_gap < rule_.separation_distance()) fail("an end before the bodies are apart", contact, gap);
   reported(contact) = {};
@@ -372,7 +398,9 @@ void ReportedContacts::move_on_to(double time) {
           check_pair(contact, time);
       }
       if (body.fixed) continue;
-      for (const Wall wall : truth_.walls()) check_contact({.first = body.id, .wall = wall}, time);
+      for (const Wall wall : truth_.walls())
+        if (const Contact contact{.first = body.id, .wall = wall}; truth_.may_be_reported(contact))
+          check_contact(contact, time);
     }
   }
   truth_.move_on_to(time);
@@ -422,7 +450,7 @@ void ReportedContacts::check_pair(Contact contact, double until) {
 /// Returns the first time after `from` at which the gap certainly passes a level.
 std::optional<double> ReportedContacts::reaches(const Contact& contact, LevelCrossing overlap, double level,
                                                 double from, double until) const {
-  const double beyond = overlap == LevelCrossing::falls_to ? level - slack_ : level + slack_;
+  const double beyond = overlap == LevelCrossing::falls_to ? level - slack(contact) : level + slack(contact);
   if (!truth_.may_reach(contact, overlap, beyond, until)) return std::nullopt;
   return truth_.first_time(contact, overlap, beyond, from, until);
 }
@@ -439,7 +467,25 @@ void ReportedContacts::check_contact(const Contact& contact, double until) {
       fail("they touch untold at " + std::to_string(*time), contact, truth_.gap(contact));
     return;
   }
-  if (is_watched(contact, state)) check_approaches(contact, state, until);
+  if (!is_watched(contact, state)) return;
+  if (truth_.turns(contact))
+    check_parted(contact, state, until);
+  else
+    check_approaches(contact, state, until);
+}
+
+/// Of contacts whose speed of approach is unknown: after they have certainly parted the next one is reported.
+void ReportedContacts::check_parted(const Contact& contact, ReportedState& state, double until) {
+  state.opened = true;
+  if (state.touching) return;
+  double from = truth_.time();
+  if (state.approached) {
+    const auto parted = reaches(contact, LevelCrossing::rises_to, rule_.release_gap(), from, until);
+    if (!parted) return;
+    state = {};
+    from = *parted;
+  }
+  check_free(contact, state, from, until);
 }
 
 void ReportedContacts::check_approaches(const Contact& contact, ReportedState& state, double until) {

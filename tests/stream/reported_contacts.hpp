@@ -20,6 +20,7 @@ struct Before {
   Contact contact;
   Event end;     ///< the event that must come if the change ends it
   bool is_over;  ///< the true gap is at the separation distance, so an end may be pending
+  bool turns;    ///< one of the two is rigid
 };
 
 class ReportedContacts {
@@ -68,6 +69,7 @@ class ReportedContacts {
     Contact contact;
     std::vector<Event> candidates;  ///< an end for each possible change
     bool certain;
+    bool turns;  ///< one of the two was rigid
   };
 
   /// True if the begin of the two was reported and, as far as reports tell, they touch or may touch.
@@ -76,8 +78,10 @@ class ReportedContacts {
   }
   Event end_now(const World& world, const Contact& contact) const;
   GapLimits limits(const World& world, const Contact& contact) const;
-  bool same(const Event& a, const Event& b) const;
+  bool same(const Event& a, const Event& b, bool turns) const;
+  double slack(const Contact& contact) const { return truth_.turns(contact) ? slack_ + 1e-10 : slack_; }
   bool same_state(const State& reported, BodyId id) const;
+  bool same_spin(const Vec3& reported, BodyId id) const;
   ReportedState& reported(const Contact& contact);
   const ReportedState& reported(const Contact& contact) const;
   template <class Action>
@@ -94,6 +98,7 @@ class ReportedContacts {
   void check_pair(Contact contact, double until);
   void check_contact(const Contact& contact, double until);
   void check_approaches(const Contact& contact, ReportedState& state, double until);
+  void check_parted(const Contact& contact, ReportedState& state, double until);
   void check_free(const Contact& contact, ReportedState& state, double from, double until) const;
   std::optional<double> reaches(const Contact& contact, LevelCrossing overlap, double level, double from,
                                 double until) const;

@@ -27,10 +27,19 @@ bool Player::in_touch(BodyId id, BodyId resting, bool certainly) const {
     const Contact contact = id.index < resting.index ? Contact{id, resting} : Contact{resting, id};
     return truth_.gap(contact) <= rule.release_gap() - slack;
   }
-  const Bound bound = world_.body(id).value().bound;
+  const BodyView view = world_.body(id).value();
+  const Bound& bound = view.bound;
   const Bound bound_of_other = world_.body(resting).value().bound;
   const CollisionShape extent{bound, body.fixed, body.shape ? &*body.shape : nullptr};
-  return truth_.limits(extent, {bound_of_other}).lower <= rule.release_gap() + slack;
+  double least = truth_.limits(extent, {bound_of_other}).lower;
+  if (body.rigid) {
+    // The bounds of its points leave the ball around it.
+    const double spin = std::max(body.rigid->spin(), norm(view.rigid->rotation.angular_velocity));
+    const double since = truth_.time() - bound.time;
+    least -=
+        (body.rigid->angular_acceleration_limit + 2.0 * spin * spin) * body.definition.radius * since * since;
+  }
+  return least <= rule.release_gap() + slack;
 }
 
 /// Returns the body itself, if it sleeps, the sleeping bodies in touch with it, those in touch with them, and
@@ -97,6 +106,7 @@ void Player::wake_by(const Event& event) {
 }
 
 void Player::rest(BodyId id) {
+  if (is_rigid(id)) return;
   const bool rested = truth_.at(id).resting;
   const auto done = on_world([&](World& world) { return world.sleep(id); });
   if (!done) throw Disagreement("rest: " + done.error().message);

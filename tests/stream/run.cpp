@@ -28,7 +28,11 @@ bool same_in_all(const Event& a, const Event& b) {
          a.position_excess == b.position_excess && a.velocity_excess == b.velocity_excess &&
          a.distance == b.distance && a.first_user_data == b.first_user_data &&
          a.second_user_data == b.second_user_data && a.first_traits == b.first_traits &&
-         a.second_traits == b.second_traits && a.first_mass == b.first_mass && a.second_mass == b.second_mass;
+         a.second_traits == b.second_traits && a.first_mass == b.first_mass &&
+         a.second_mass == b.second_mass && a.first_part == b.first_part && a.second_part == b.second_part &&
+         a.first_angular_velocity == b.first_angular_velocity &&
+         a.second_angular_velocity == b.second_angular_velocity && a.first_spin_gain == b.first_spin_gain &&
+         a.second_spin_gain == b.second_spin_gain;
 }
 
 bool is_begin(const Event& event) {
@@ -44,8 +48,8 @@ struct Failed {};
 /// Responds to an event by the event alone: two bodies that meet bounce, lose speed, stick together, or pass.
 class Answering {
  public:
-  Answering(const Truth& truth, std::uint64_t seed, bool passes)
-      : truth_(truth), seed_(seed), passes_(passes) {}
+  Answering(const Truth& truth, std::uint64_t seed, bool passes, bool spins)
+      : truth_(truth), seed_(seed), passes_(passes), spins_(spins) {}
 
   Response operator()(const Event& event) const {
     if (passes_) return {};
@@ -58,6 +62,10 @@ class Answering {
     Response answer;
     if (moves(event.first)) answer.first_velocity = after->first_velocity;
     if (event.second != no_body && moves(event.second)) answer.second_velocity = after->second_velocity;
+    if (turns(event.first, event.first_spin_gain))
+      answer.first_angular_velocity = after->first_angular_velocity;
+    if (event.second != no_body && turns(event.second, event.second_spin_gain))
+      answer.second_angular_velocity = after->second_angular_velocity;
     return answer;
   }
   bool is_there(BodyId id) const { return truth_.is_present(id); }
@@ -80,11 +88,15 @@ class Answering {
         return kinesphere::bounce(event, first, second, 1.0);
     }
   }
+  bool turns(BodyId id, const Vec3& spin_gain) const {
+    return spins_ && moves(id) && truth_.at(id).rigid && spin_gain != Vec3{};
+  }
   double mass(BodyId id) const { return moves(id) ? 1.0 : std::numeric_limits<double>::infinity(); }
 
   const Truth& truth_;
   std::uint64_t seed_;
   bool passes_;
+  bool spins_;  ///< contacts turn bodies, as they may in worlds without a rotation probe
 };
 
 /// Moves bodies from their true states at the begin of the run.
@@ -202,6 +214,8 @@ class Run {
       const Response answer = answers ? answer_(**event) : Response{};
       turn((*event)->first, answer.first_velocity);
       turn((*event)->second, answer.second_velocity);
+      spin((*event)->first, answer.first_angular_velocity);
+      spin((*event)->second, answer.second_angular_velocity);
     }
     require(told_ == expected_.size(), "a loop after a run leaves out events");
   }
@@ -228,6 +242,9 @@ class Run {
     mover_.set_origin(id, {world_.time(), {state.position, *velocity}});
     if (const auto done = world_.set_velocity(id, *velocity); !done)
       throw Disagreement("set_velocity after a run: " + done.error().message);
+  }
+  void spin(BodyId id, const std::optional<Vec3>& angular_velocity) {
+    if (angular_velocity) world_.change(id, {.angular_velocity = *angular_velocity}).value();
   }
   /// Checks that the world is at the expected time, and clean.
   void check_failure() const {
@@ -265,6 +282,8 @@ std::vector<Event> Player::loop(double until, const ResponseFn& respond) {
     const Response answer = respond(*event);
     if (answer.first_velocity) set_velocity(event->first, *answer.first_velocity);
     if (answer.second_velocity) set_velocity(event->second, *answer.second_velocity);
+    if (answer.first_angular_velocity) turn(event->first, *answer.first_angular_velocity);
+    if (answer.second_angular_velocity) turn(event->second, *answer.second_angular_velocity);
     if (events.size() >= most_events) until = world_.time();
   }
   return events;
@@ -277,7 +296,7 @@ void Player::run(const Operation& operation) {
   const bool answers = rests || operation.byte(2) % 8 != 0;
   const double length = operation.fraction(0);
   Random random = operation.random();
-  const Answering answer(truth_, random.bits(), !answers);
+  const Answering answer(truth_, random.bits(), !answers, !kind_.swings);
   World world = world_.clone().value();
   if (truth_.has_pair_filter) {
     give_pair_filters();

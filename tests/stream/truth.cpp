@@ -12,6 +12,18 @@ namespace {
 
 using exact::Wide;
 using exact::WideVec;
+using placed_parts::distance_of;
+using placed_parts::gap_of;
+using placed_parts::PlacedPart;
+
+/// In a plane boxes are as high as the world allows.
+Shape near_the_world(Shape shape) {
+  if (auto* box = std::get_if<Box>(&shape)) {
+    box->lower.z = std::max(box->lower.z, -2.0 * world_size);
+    box->upper.z = std::min(box->upper.z, 2.0 * world_size);
+  }
+  return shape;
+}
 
 /// Returns the signed distance from the surface of a shape that is no ball, by formulas other than the
 /// library's.
@@ -74,6 +86,22 @@ void Truth::add_static(BodyId id, const BodyDefinition& body, const Shape& shape
   add(id, body, {});
   at(id).fixed = true;
   if (!std::holds_alternative<Ball>(shape)) at(id).shape = shape;
+}
+
+void Truth::add_rigid(BodyId id, const RigidBody& body, double radius, const Vec3& acceleration) {
+  add(id, body.body, acceleration);
+  at(id).definition.radius = radius;
+  at(id).rigid.emplace(body, time_);
+}
+
+void Truth::swing(BodyId id, double part, const Vec3& axis) {
+  TrueRigid& rigid = *at(id).rigid;
+  const Rotation now = rigid.turning.at(time_);
+  const double speed = norm(now.angular_velocity);
+  const double room = std::max(0.0, 0.99 * rigid.largest_angular_speed - speed) * Turning::pace;
+  const double most = std::min(0.99 * rigid.angular_acceleration_limit, room);
+  const Vec3 along = speed > 0.0 ? now.angular_velocity / speed : axis;
+  rigid.turning = {time_, now, along * (part * most)};
 }
 
 void Truth::remove(BodyId id) {
@@ -154,7 +182,8 @@ bool Truth::senses(BodyId a, BodyId b, double distance) const {
 
 bool Truth::may_be_reported(const Contact& contact) const {
   if (!is_present(contact.first)) return false;
-  if (contact.wall != Wall::none) return !at(contact.first).fixed;
+  if (contact.wall != Wall::none)
+    return !at(contact.first).fixed && meets_walls(definition_, at(contact.first).definition.filter);
   const auto& [a, b, wall, sensed] = contact;
   if (sensed) return (senses(a, b, *sensed) || senses(b, a, *sensed)) && meets(contact);
   return at(a).definition.solid && at(b).definition.solid && meets(contact);
@@ -189,7 +218,66 @@ double Truth::extent(const Contact& contact) const {
   return radius + (ball ? at(contact.second).definition.radius : 0.0) + contact.sensed.value_or(0.0);
 }
 
-double Truth::gap_at(const Contact& contact, double time) const {
+/// Returns the largest speed at which the surfaces of rigid bodies turn.
+double Truth::turning_speed(const Contact& contact) const {
+  const auto of = [this](BodyId id) {
+    const TrueBody& body = at(id);
+    return body.rigid ? body.rigid->spin() * body.definition.radius : 0.0;
+  };
+  return of(contact.first) + (contact.wall == Wall::none ? of(contact.second) : 0.0);
+}
+
+/// Returns the parts of a rigid body, or the ball of another one.
+std::vector<PlacedPart> Truth::placed(const TrueBody& body, double time, const Vec3& shift) const {
+  static const true_hulls::Hull point(std::vector<Vec3>(1));
+  const Vec3 position = body.path.front().state_at(time).position + shift;
+  if (!body.rigid) return {{RigidPart{.radius = body.definition.radius}, point, position, {}}};
+  const Quaternion orientation = body.rigid->turning.at(time).orientation;
+  std::vector<PlacedPart> parts;
+  for (std::size_t k = 0; k < body.rigid->parts.size(); ++k)
+    parts.emplace_back(body.rigid->parts[k], body.rigid->hulls[k], position, orientation);
+  return parts;
+}
+
+/// Beyond `enough`, a lower limit will do. Parts whose axes or hulls cross are as near as their radii tell.
+double Truth::gap_of_parts(const Contact& contact, double time, double enough) const {
+  const TrueBody& body = mover(contact);
+  const double sensed = contact.sensed.value_or(0.0);
+  double least = infinity;
+  const auto consider = [&](double lower, auto exact) {
+    least = std::min(least, lower > enough + sensed ? lower : exact());
+  };
+  if (const auto half = inside(contact)) {
+    for (const PlacedPart& part : placed(body, time, {})) least = std::min(least, gap_of(part, *half));
+    return least - sensed;
+  }
+  if (const Shape* solid = shape(contact)) {
+    for (const PlacedPart& part : placed(body, time, {}))
+      consider(distance_of(*solid, part.middle) - part.reach,
+               [&] { return gap_of(part, near_the_world(*solid), {}, false, enough + sensed); });
+    return least - sensed;
+  }
+  const TrueBody& other = at(contact.second);
+  const auto centre = [time](const TrueBody& of) { return of.path.front().state_at(time).position; };
+  const std::vector<PlacedPart> far = placed(other, time, shift_to_nearest(centre(other), centre(body)));
+  for (const PlacedPart& part : placed(body, time, {}))
+    for (const PlacedPart& partner : far)
+      consider(norm(part.middle - partner.middle) - part.reach - partner.reach,
+               [&] { return gap_of(part, partner, false, enough + sensed); });
+  return least - sensed;
+}
+
+double Truth::gap_to_walls(const std::vector<PlacedPart>& parts, const Filter& filter) const {
+  double least = infinity;
+  if (!meets_walls(definition_, filter)) return least;
+  for (const Wall wall : walls_)
+    for (const PlacedPart& part : parts)
+      least = std::min(least, gap_of(part, half_space(*definition_.box, wall)));
+  return least;
+}
+
+double Truth::gap_at(const Contact& contact, double time, double enough) const {
+  if (turns(contact)) return gap_of_parts(contact, time, enough);
   const Vec3 centre = mover(contact).path.front().state_at(time).position;
   const double extent = this->extent(contact);
   if (const auto half = inside(contact)) return dot(half->normal, centre) - half->offset - extent;
@@ -202,6 +290,7 @@ double Truth::gap_at(const Contact& contact, double time) const {
 double Truth::gap(const Contact& contact) const { return gap_at(contact, time_); }
 
 double Truth::exact_gap(const Contact& contact) const {
+  if (turns(contact)) return gap(contact);
   const WideVec centre = place_at(mover(contact), time_);
   const Wide extent = Wide(mover(contact).definition.radius) + Wide(contact.sensed.value_or(0.0));
   if (const auto half = inside(contact)) return double(exact::distance(*half, centre) - extent);
@@ -218,6 +307,15 @@ double Truth::exact_gap(const Contact& contact) const {
 
 double Truth::distance(BodyId id, const Vec3& point) const {
   const TrueBody& body = at(id);
+  if (body.rigid) {
+    const Vec3 centre = state(id).position;
+    const true_hulls::Hull hull(std::vector<Vec3>(1));
+    const PlacedPart there(RigidPart{.radius = 0.0}, hull, point, {});
+    double least = infinity;
+    for (const PlacedPart& part : placed(body, time_, shift_to_nearest(centre, point)))
+      least = std::min(least, gap_of(part, there, false, infinity));
+    return least;
+  }
   if (body.shape) return static_cast<double>(distance_from(*body.shape, exact::wide(point)));
   const Vec3 centre = state(id).position;
   return norm(centre + shift_to_nearest(centre, point) - point) - body.definition.radius;
@@ -268,13 +366,14 @@ double Truth::approach_speed(const Contact& contact) const {
 bool Truth::may_reach(const Contact& contact, LevelCrossing overlap, double level, double until) const {
   const auto [x, v, g] = relative(contact);
   const double s = until - time_;
-  const double way = 1.001 * (norm(v) + 0.5 * norm(g) * s) * s + 1e-9;
+  const double way = 1.001 * (norm(v) + 0.5 * norm(g) * s + turning_speed(contact)) * s + 1e-9;
   const double gap = this->gap(contact);
   return overlap == LevelCrossing::falls_to ? gap - way <= level : gap + way >= level;
 }
 
 std::optional<double> Truth::first_time(const Contact& contact, LevelCrossing overlap, double level,
                                         double from, double until) const {
+  if (turns(contact)) return march(contact, overlap, level, from, until);
   if (const auto half = inside(contact))
     return GapCourse(mover(contact).path, *half, extent(contact)).first_time(overlap, level, from, until);
   if (shape(contact) != nullptr) return march(contact, overlap, level, from, until);
@@ -285,13 +384,14 @@ std::optional<double> Truth::first_time(const Contact& contact, LevelCrossing ov
 std::optional<double> Truth::march(const Contact& contact, LevelCrossing overlap, double level, double from,
                                    double until) const {
   const auto [x, v, g] = relative(contact);
-  const double speed = norm(v) + norm(g) * (until - time_);
+  const double speed = norm(v) + norm(g) * (until - time_) + turning_speed(contact);
+  const double least = turns(contact) ? 1.0 / 64.0 : 1e-3;
   for (double time = from;;) {
-    const double gap = gap_at(contact, time);
+    const double gap = gap_at(contact, time, level + 0.1);
     const double way = overlap == LevelCrossing::falls_to ? gap - level : level - gap;
     if (way <= 0.0) return time;
     if (time >= until) return std::nullopt;
-    time = std::min(until, time + std::max(1e-3 * (until - from), way / speed));
+    time = std::min(until, time + std::max(least * (until - from), way / speed));
   }
 }
 

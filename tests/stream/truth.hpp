@@ -15,8 +15,10 @@
 #include "kinesphere/motion/trajectory.hpp"
 #include "kinesphere/shape.hpp"
 #include "kinesphere/world_definition.hpp"
+#include "number/infinity.hpp"
 #include "simulation/oracle/gap_course.hpp"
 #include "stream/operation.hpp"
+#include "stream/true_rigid.hpp"
 
 namespace kinesphere::stream {
 
@@ -51,6 +53,7 @@ struct TrueBody {
   double rested_at = 0.0;        ///< time of falling asleep
   Vec3 on_waking{};              ///< acceleration after waking
   std::optional<Shape> shape{};  ///< shape of a static body that is no ball
+  std::optional<TrueRigid> rigid{};
   double last_contact = -std::numeric_limits<double>::infinity();  ///< according to events
 
   bool present() const { return alive && enabled; }
@@ -75,6 +78,12 @@ class Truth {
 
   void add(BodyId id, const BodyDefinition& body, const Vec3& acceleration);
   void add_static(BodyId id, const BodyDefinition& body, const Shape& shape);
+  /// `radius` is that of the ball around it.
+  void add_rigid(BodyId id, const RigidBody& body, double radius, const Vec3& acceleration);
+  /// The rigid body turns from now on with a constant angular velocity.
+  void turn(BodyId id, const Rotation& rotation) { at(id).rigid->turning = {time_, rotation}; }
+  /// The rigid body swings from now on, with this part of its largest angular acceleration.
+  void swing(BodyId id, double part, const Vec3& axis);
   void remove(BodyId id);
   void move(BodyId id, const State& state);
   /// Sets the acceleration; a sleeping body gets it when it wakes.
@@ -90,6 +99,14 @@ class Truth {
   bool is_alive(BodyId id) const;
   bool is_present(BodyId id) const { return is_alive(id) && at(id).enabled; }
   State state(BodyId id) const { return at(id).path.front().state_at(time_); }
+  Rotation rotation(BodyId id, double time) const { return at(id).rigid->turning.at(time); }
+  /// Returns true if one of the bodies is rigid. Then deep overlaps have no exact gap, and speeds of approach
+  /// are unknown.
+  bool turns(const Contact& contact) const {
+    return at(contact.first).rigid || (contact.wall == Wall::none && at(contact.second).rigid);
+  }
+  /// Returns the least gap of parts at these places and the walls that meet such a filter.
+  double gap_to_walls(const std::vector<placed_parts::PlacedPart>& parts, const Filter& filter) const;
 
   /// The caller's own filter: haunted bodies touch only each other.
   bool pair_filter(BodyId a, BodyId b) const { return haunted_.contains(a) == haunted_.contains(b); }
@@ -129,9 +146,12 @@ class Truth {
   Relative relative(const Contact& contact) const;
   double approach_to_shape(const Contact& contact) const;
   double extent(const Contact& contact) const;
+  double turning_speed(const Contact& contact) const;
+  std::vector<placed_parts::PlacedPart> placed(const TrueBody& body, double time, const Vec3& shift) const;
+  double gap_of_parts(const Contact& contact, double time, double enough) const;
   bool meets(const Contact& contact) const;
   bool senses(BodyId a, BodyId b, double distance) const;
-  double gap_at(const Contact& contact, double time) const;
+  double gap_at(const Contact& contact, double time, double enough = infinity) const;
   std::optional<double> march(const Contact& contact, LevelCrossing overlap, double level, double from,
                               double until) const;
   std::optional<double> first_in_images(const Contact& contact, LevelCrossing overlap, double level,

@@ -1,6 +1,7 @@
 // Filters: Box2D's rule, the predicate, and their changes in mid-contact and at one instant.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <set>
 
 #include "kinesphere/certificates.hpp"
@@ -96,10 +97,97 @@ TEST(Filter, LetsBodiesOverlapWhereOverlapsAreNotAllowed) {
   EXPECT_TRUE(world.add_all(crowd));
 }
 
-TEST(Filter, DoesNotConcernWalls) {
+TEST(Filter, DoesNotConcernWallsWithoutOne) {
   Playground p({.box = Box{{0, 0, 0}, {10, 10, 10}}});
   p.add({.radius = 1, .position = {0.5, 5, 5}, .filter = {.mask = 0}});
   EXPECT_EQ(p.run(1.0).size(), 1u);
+}
+
+constexpr std::uint64_t wall_category = 2;
+const WorldDefinition with_filtered_walls{.box = Box{{0, 0, 0}, {10, 10, 10}},
+                                          .wall_filter = Filter{.category = wall_category, .mask = 1 | 4}};
+/// Filters of bodies that these walls do not meet, by the mask and by the category.
+constexpr std::array let_through{Filter{.mask = ~wall_category}, Filter{.category = 8}};
+
+RigidBody rod_of(const BodyDefinition& body) {
+  return {.body = body, .parts = {{{-1, 0, 0}, {1, 0, 0}, 0.5}}};
+}
+
+TEST(FilterOfWalls, LetsBodiesPassAndCostsNoProbes) {
+  for (const Filter& filter : let_through) {
+    Playground p(with_filtered_walls);
+    const BodyDefinition body{.radius = 1, .position = {5, 5, 5}, .velocity = {1, 0, 0}, .filter = filter};
+    const BodyId ball = p.add(body);
+    BodyDefinition beside = body;
+    beside.position.y = 2;
+    const BodyId rod = p.add_rigid_body(rod_of(beside));
+    EXPECT_EQ(p.world.certificates().earliest_contact(ball).value().wall, Wall::none);
+    EXPECT_EQ(p.world.certificates().earliest_approach(rod, 1.0).value().wall, Wall::none);
+    EXPECT_TRUE(p.run(20.0).empty());
+    EXPECT_TRUE(is_clean(p.world));
+    EXPECT_EQ(p.world.counters().wall_checks, 0u);
+  }
+}
+
+TEST(FilterOfWalls, StopsTheOthers) {
+  for (const std::uint64_t category : {1u, 4u, 12u}) {
+    Playground p(with_filtered_walls);
+    const BodyDefinition body{
+        .radius = 1, .position = {5, 5, 5}, .velocity = {1, 0, 0}, .filter = {.category = category}};
+    p.add(body);
+    p.add_rigid_body(rod_of(body));
+    EXPECT_EQ(of_kind(p.run(20.0), EventKind::wall_begin).size(), 2u);
+  }
+}
+
+TEST(FilterOfWalls, HoldsAtOnceWhenThatOfABodyChanges) {
+  Playground p(with_filtered_walls);
+  const BodyId id = p.add({.radius = 1, .position = {0.5, 5, 5}});
+  EXPECT_EQ(p.run(1.0).size(), 1u);
+  p.world.change(id, {.filter = let_through[0]}).value();
+  auto events = p.run(2.0);
+  ASSERT_EQ(events.size(), 1u) << events;
+  EXPECT_EQ(events[0].kind, EventKind::wall_end);
+  EXPECT_EQ(events[0].time, 1.0);
+  EXPECT_TRUE(is_clean(p.world));
+  p.world = World::restore(p.world.save().value()).value();
+  EXPECT_EQ(p.world.definition(), with_filtered_walls);
+  p.set_velocity(id, {-1, 0, 0});
+  EXPECT_TRUE(p.run(5.0).empty());
+  p.world.change(id, {.filter = Filter{}}).value();
+  events = p.run(6.0);
+  ASSERT_EQ(events.size(), 1u) << events;
+  EXPECT_EQ(events[0].kind, EventKind::wall_begin);
+  EXPECT_NEAR(events[0].gap, -3.5, 1e-9);
+  EXPECT_TRUE(is_clean(p.world));
+}
+
+TEST(FilterOfWalls, AtAnotherEventOfTheInstantTakesABeginBack) {
+  Playground p(with_filtered_walls);
+  p.add({.radius = 1, .position = {0.5, 5, 5}});
+  const BodyId next = p.add({.radius = 1, .position = {0.5, 8, 5}});
+  ASSERT_TRUE(p.advance(1.0));
+  p.world.change(next, {.filter = let_through[0]}).value();
+  EXPECT_TRUE(p.run(1.0).empty());
+}
+
+TEST(FilterOfWalls, LetsBodiesBeOutsideWhereOverlapsAreNotAllowed) {
+  WorldDefinition definition = with_filtered_walls;
+  definition.allow_overlap = false;
+  World world = World::create(definition).value();
+  for (const Filter& filter : {Filter{}, let_through[0]}) {
+    SCOPED_TRACE(filter.mask);
+    const bool may = filter == let_through[0];
+    const BodyDefinition ball{.radius = 1, .position = {5, 5, 12}, .filter = filter};
+    const auto id = world.add(ball);
+    EXPECT_EQ(id.has_value(), may);
+    EXPECT_EQ(world.add_rigid_body(rod_of({.position = {0, 5, 5}, .filter = filter})).has_value(), may);
+    BodyDefinition inside = ball;
+    inside.position = {5, 5, may ? 5.0 : 2.0};
+    const BodyId within = world.add(inside).value();
+    EXPECT_EQ(world.teleport(within, {{5, 9.5, 5}, {}}).has_value(), may);
+    EXPECT_EQ(world.change(within, {.radius = 2.5}).has_value(), may);
+  }
 }
 
 TEST(Filter, EndsImpactsSilently) {

@@ -44,6 +44,35 @@ TEST_F(Hulls, ACubeRestsOnAnotherAndSlidesOff) {
   EXPECT_LT(p.world.counters().probes, 1000u);
 }
 
+/// A mesh is hollow: one triangle for each half of a face of a cube, which turns by a quarter and moves on.
+TEST_F(Hulls, AMeshThatMovesIsABodyOfPlates) {
+  RigidBody mesh{.body = {.velocity = {1, 0, 0}, .mass = 1e9}, .inertia = {1e9, 1e9, 1e9}};
+  const Vec3 axes[] = {{2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
+  for (int k = 0; k < 6; ++k) {
+    const Vec3 face = axes[k / 2] * (k % 2 == 0 ? 1.0 : -1.0);
+    const Vec3 along = axes[(k / 2 + 1) % 3];
+    const Vec3 across = axes[(k / 2 + 2) % 3];
+    const Vec3 a = face - along - across;
+    const Vec3 c = face + along + across;
+    for (const Vec3& b : {face + along - across, face - along + across})
+      mesh.parts.push_back(hull_part(std::vector{a, b, c}, 0.0));
+  }
+  const double quarter = 0.5 * std::numbers::pi;
+  mesh.rotation = {rotation_by({0, quarter, 0}), {quarter / 1.5, 0, 0}};
+  const BodyId cube = p.add_rigid_body(mesh);
+  const BodyId inside = p.add({.radius = 0.5, .position = {0.1, 0.2, 0.3}});
+  const BodyId outside = p.add({.radius = 0.5, .position = {4, 0.1, 0.2}});
+  const auto events = p.run(1.7);
+  ASSERT_EQ(events.size(), 2u) << events;
+  EXPECT_EQ(events[0].first, cube);
+  EXPECT_EQ(events[0].second, outside);
+  EXPECT_NEAR(events[0].time, 1.5, 1e-8);
+  EXPECT_NEAR(events[0].normal.x, 1.0, 1e-8);
+  EXPECT_EQ(events[1].second, inside);
+  EXPECT_NEAR(events[1].time, 1.6, 1e-8);
+  EXPECT_NEAR(events[1].normal.x, 1.0, 1e-8);
+}
+
 /// A cube spins about z; its edge passes the face of another one within `beyond`, which is negative for a
 /// hit.
 TEST_F(Hulls, EdgesGrazeAtAHundredRadiansPerTime) {

@@ -17,129 +17,16 @@
 #include "number/infinity.hpp"
 #include "support/eager_workers.hpp"
 #include "support/expect_error.hpp"
+#include "support/placed_parts.hpp"
 #include "support/scenes_of_each.hpp"
-#include "support/true_hulls.hpp"
 #include "world/surroundings.hpp"
 
 namespace kinesphere::rigid_bodies_test {
 namespace {
 
+using namespace placed_parts;
+
 constexpr double eps = 1e-5;
-
-// Gaps by other formulas than the library's.
-
-struct Axis {
-  Vec3 a, b;
-  double radius;
-};
-
-double point_to_segment(const Vec3& point, const Axis& axis) {
-  const Vec3 way = axis.b - axis.a;
-  const double square = norm_squared(way);
-  const double part = square > 0.0 ? std::clamp(dot(point - axis.a, way) / square, 0.0, 1.0) : 0.0;
-  return norm(point - (axis.a + way * part));
-}
-
-/// The squared distance is convex in the two positions, so its least is at an edge of the unit square or
-/// where both derivatives are zero.
-double segment_distance(const Axis& p, const Axis& q) {
-  double least = std::min({point_to_segment(p.a, q), point_to_segment(p.b, q), point_to_segment(q.a, p),
-                           point_to_segment(q.b, p)});
-  const Vec3 u = p.b - p.a;
-  const Vec3 v = q.b - q.a;
-  const Vec3 across = cross(u, v);
-  const double square = norm_squared(across);
-  if (square == 0.0) return least;
-  const Vec3 between = q.a - p.a;
-  const double s = dot(cross(between, v), across) / square;
-  const double t = dot(cross(between, u), across) / square;
-  if (s >= 0.0 && s <= 1.0 && t >= 0.0 && t <= 1.0)
-    least = std::min(least, std::abs(dot(between, across)) / std::sqrt(square));
-  return least;
-}
-
-double distance_of(const Shape& shape, const Vec3& from) {
-  return std::visit(
-      [&]<class Solid>(const Solid& solid) {
-        if constexpr (std::is_same_v<Solid, Ball>)
-          return norm(from - solid.centre) - solid.radius;
-        else
-          return nearest_point(solid, from).distance;
-      },
-      shape);
-}
-
-/// The distance from a convex shape is convex along a segment.
-double segment_distance(const Axis& axis, const Shape& shape, const Vec3& origin) {
-  const auto at = [&](double part) { return distance_of(shape, axis.a + (axis.b - axis.a) * part - origin); };
-  if (axis.a == axis.b) return at(0.0);
-  double lower = 0.0;
-  double upper = 1.0;
-  for (int step = 0; step < 60; ++step) {
-    const double left = lower + (upper - lower) / 3.0;
-    const double right = upper - (upper - lower) / 3.0;
-    if (at(left) < at(right))
-      upper = right;
-    else
-      lower = left;
-  }
-  return std::min({at(lower), at(0.0), at(1.0)});
-}
-
-std::vector<Vec3> points_of(const RigidPart& part) {
-  std::vector<Vec3> points{part.a};
-  if (part.b != part.a) points.push_back(part.b);
-  points.insert(points.end(), part.more.begin(), part.more.end());
-  return points;
-}
-
-/// A part where it is.
-struct PlacedPart {
-  Axis axis;
-  const true_hulls::Hull* hull;
-  bool is_hull;
-  std::vector<Vec3> points;
-  Vec3 middle{};
-  double reach = 0.0;  ///< of the ball around the middle that contains the part
-
-  PlacedPart(const RigidPart& part, const true_hulls::Hull& known, const Vec3& position,
-             const Quaternion& orientation)
-      : hull(&known), is_hull(!part.more.empty()), points(points_of(part)) {
-    for (Vec3& point : points) point = position + rotated(orientation, point);
-    axis = {points.front(), points.back(), part.radius};
-    for (const Vec3& point : points) middle += point / static_cast<double>(points.size());
-    for (const Vec3& point : points) reach = std::max(reach, norm(point - middle) + part.radius);
-  }
-
-  double distance(const true_hulls::Hull& other, std::vector<Vec3> there, double enough) const {
-    return true_hulls::signed_distance({*hull, points}, {other, std::move(there)}, enough);
-  }
-};
-
-/// `is_deep`: the distance of overlapping hulls is minus their depth, and not 0. Beyond `enough`, a lower
-/// limit will do.
-double gap_of(const PlacedPart& one, const PlacedPart& other, bool is_deep, double enough) {
-  const double radii = one.axis.radius + other.axis.radius;
-  if (!one.is_hull && !other.is_hull) return segment_distance(one.axis, other.axis) - radii;
-  const double distance = one.distance(*other.hull, other.points, enough + radii);
-  return (is_deep ? distance : std::max(distance, 0.0)) - radii;
-}
-
-double gap_of(const PlacedPart& part, const Shape& shape, const Vec3& origin, bool is_deep, double enough) {
-  if (!part.is_hull) return segment_distance(part.axis, shape, origin) - part.axis.radius;
-  if (const auto* space = std::get_if<HalfSpace>(&shape)) {
-    double least = infinity;
-    for (const Vec3& point : part.points) least = std::min(least, dot(space->normal, point) - space->offset);
-    return least - part.axis.radius;
-  }
-  const auto* triangle = std::get_if<Triangle>(&shape);
-  std::vector<Vec3> points = triangle ? std::vector{triangle->a, triangle->b, triangle->c}
-                                      : points_of(box_part(std::get<Box>(shape), 0.0));
-  const true_hulls::Hull solid(points);
-  for (Vec3& point : points) point += origin;
-  const double distance = part.distance(solid, points, enough + part.axis.radius);
-  return (is_deep ? distance : std::max(distance, 0.0)) - part.axis.radius;
-}
 
 // The scene.
 
@@ -845,6 +732,37 @@ TEST(RigidBodies, CountPositionErrors) {
   const auto walls = of_kind(p.run(8.6), EventKind::wall_begin);
   ASSERT_EQ(walls.size(), 1u);
   EXPECT_NEAR(walls[0].time, 8.5 - error, eps);
+}
+
+/// For answers without a probe, which know the rotation of the last report alone.
+TEST(RigidBodies, AreTheBallsAroundThemFromAChangeToTheNextReport) {
+  const double half_pi = 1.5707963267948966;
+  for (const bool at_once : {true, false}) {
+    SCOPED_TRACE(at_once);
+    Playground p;
+    const BodyId rod =
+        p.add_rigid_body({.body = {.acceleration_limit = 1}, .parts = {{{-2, 0, 0}, {2, 0, 0}, 0.1}}});
+    const BodyId ball = p.add({.radius = 0.1, .position = {0, 1.5, 0}});
+    p.run(0.01);
+    ASSERT_LT(p.world.body(rod)->bound.time, 0.01);
+    if (at_once)
+      p.world.change(rod, {.rotation = Rotation{rotation_by({0, 0, half_pi})}}).value();
+    else
+      p.world.change(rod, {.angular_velocity = Vec3{0, 0, half_pi}}).value();
+    const World& world = p.world;
+    const double meets = world.certificates().earliest_contact(rod).value().time;
+    const DistanceLimits limits = world.certificates().distance_limits(rod, ball, world.time()).value();
+    const auto event = p.advance(2.0);
+    ASSERT_TRUE(event);
+    EXPECT_LE(meets, event->time);
+    if (at_once) {
+      EXPECT_EQ(event->time, 0.01);
+      EXPECT_LE(limits.lower, 0.0);
+    } else {
+      EXPECT_NEAR(event->time, 0.88, 0.08);
+      EXPECT_GE(limits.upper, 1.3);
+    }
+  }
 }
 
 TEST(RigidBodies, LieOnAFloorThoughTheBallAroundThemReachesBelow) {

@@ -43,6 +43,20 @@ std::vector<BodyId> row(Rested& p, int count, const Vec3& first) {
   return ids;
 }
 
+TEST(SleepingBesideARigidBody, EndsWhenItIsTurnedAtOnce) {
+  Rested p;
+  const BodyId plank = p.add_rigid_body({.parts = {{{-2, 0, 0}, {2, 0, 0}, 0.5}}});
+  const BodyId ball = p.ball({1, 0, 1.5});
+  p.run(0.0);
+  p.rest(ball);
+  p.run(1.0);
+  ASSERT_TRUE(p.resting(ball));
+  p.world.change(plank, {.rotation = Rotation{rotation_by({0, 0, 1e-9})}}).value();
+  EXPECT_FALSE(p.resting(ball));
+  EXPECT_EQ(woke(p.run(2.0)), std::set{ball});
+  EXPECT_TRUE(is_clean(p.world));
+}
+
 class Modes : public testing::TestWithParam<ContactEvents> {};
 INSTANTIATE_TEST_SUITE_P(Rest, Modes, testing::Values(ContactEvents::begin_and_end, ContactEvents::impacts));
 

@@ -1,8 +1,9 @@
 // Definitions of bodies, and their tables of numbers for the module.
 import { type Box, boxKeys, type ContactEvents, numberOfContacts } from "./definition.js";
 import type { Vec3 } from "./event.js";
+import { type Filter, filterNumbers } from "./filter.js";
 import { type PerBody, type States, vector } from "./motion.js";
-import { checkKeys, type Keys, shown, whole } from "./options.js";
+import { checkKeys, type Keys, whole } from "./options.js";
 
 /** What a body promises: the fields of BodyDefinition with these names. */
 export interface MotionLimits {
@@ -13,19 +14,6 @@ export interface MotionLimits {
   positionError?: number;
   /** >= 0 (length / time). */
   velocityError?: number;
-}
-
-/**
- * Which bodies a body may touch: two of one group may if it is positive, and may not if it is negative; any other pair
- * may if the category of each has a bit in the mask of the other. Static bodies and zones have one, too.
- */
-export interface Filter {
-  /** Bits, up to 2^53; by default 1. */
-  category?: number;
-  /** Bits, up to 2^53; by default -1, the mask of all. */
-  mask?: number;
-  /** Of 32 bits; by default 0, no group. */
-  group?: number;
 }
 
 /** The part of a definition that does not depend on the place. */
@@ -104,7 +92,6 @@ export interface StaticOptions extends ZoneOptions {
 }
 export const zoneKeys: Keys<ZoneOptions> = { filter: true, userData: "number" };
 export const staticKeys: Keys<StaticOptions> = { ...zoneKeys, solid: "boolean", sensorClass: "number" };
-const filterKeys: Keys<Filter> = { category: "number", mask: "number", group: "number" };
 type ShapeName = "ball" | "halfSpace" | "box" | "triangle";
 const shapeKeys: Readonly<Record<ShapeName, true>> = { ball: true, halfSpace: true, box: true, triangle: true };
 const ballKeys: Keys<{ centre: Vec3; radius: number }> = { centre: true, radius: "number" };
@@ -131,19 +118,6 @@ export function putOptions(numbers: Float64Array, at: number, body: BodyOptions,
   numbers[at + 18] = whole(body.userData ?? 0, 2 ** 53, "userData", call);
   numbers[at + 19] = body.mass ?? 1;
   numbers[at + 20] = body.contacts === undefined ? 0 : numberOfContacts(body.contacts, call);
-}
-
-/** Returns numbers in the order of filter_at() in browser/module/world.cpp. */
-export function filterNumbers(filter: Filter, call: string): [category: number, mask: number, group: number] {
-  checkKeys(filter, filterKeys, "filter", call);
-  const { category = 1, mask = -1, group = 0 } = filter;
-  if (!Number.isInteger(group) || Math.abs(group) >= 2 ** 31)
-    throw new RangeError(`${call}: filter.group must be a whole number of 32 bits, but is ${shown(group)}`);
-  return [whole(category, 2 ** 53, "filter.category", call), maskNumber(mask, "filter.mask", call), group];
-}
-
-export function maskNumber(mask: number, what: string, call: string): number {
-  return mask === -1 ? -1 : whole(mask, 2 ** 53, what, call);
 }
 
 /** Reads a shape from its kind and its numbers. */

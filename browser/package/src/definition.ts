@@ -1,5 +1,6 @@
 // Definitions of worlds.
 import type { Vec3 } from "./event.js";
+import { type Filter, filterFrom, filterNumbers } from "./filter.js";
 import type { Module } from "./module.js";
 import { vector } from "./motion.js";
 import { checkKeys, type Keys, shown } from "./options.js";
@@ -24,6 +25,8 @@ export interface WorldDefinition {
   box?: Box;
   /** Axes on which space is periodic with the box, without walls. */
   periodic?: { x?: boolean; y?: boolean; z?: boolean };
+  /** The filter of all walls; without one they meet every body. */
+  wallFilter?: Filter;
   /** 2: bodies are discs in the plane z = 0. */
   dimensions?: 2 | 3;
   /** > 0 (length). */
@@ -42,11 +45,12 @@ export interface WorldDefinition {
 }
 
 /** A definition with all defaults filled in. */
-export type Definition = Required<Omit<WorldDefinition, "box">> & Pick<WorldDefinition, "box">;
+export type Definition = Required<Omit<WorldDefinition, "box" | "wallFilter">> & Pick<WorldDefinition, "box" | "wallFilter">;
 
 const definitionKeys: Keys<WorldDefinition> = {
-  box: true, periodic: true, dimensions: "number", contactTolerance: "number", separationDistance: "number", contacts: true,
-  allowOverlap: "boolean", zenoInterval: "number", startTime: "number", spreadWindowStarts: "boolean",
+  box: true, periodic: true, wallFilter: true, dimensions: "number", contactTolerance: "number",
+  separationDistance: "number", contacts: true, allowOverlap: "boolean", zenoInterval: "number", startTime: "number",
+  spreadWindowStarts: "boolean",
 };
 const periodicKeys: Keys<NonNullable<WorldDefinition["periodic"]>> = { x: "boolean", y: "boolean", z: "boolean" };
 export const boxKeys: Keys<Box> = { lower: true, upper: true };
@@ -54,7 +58,7 @@ export const boxKeys: Keys<Box> = { lower: true, upper: true };
 /** Returns numbers in the order of definition_at() in browser/module/world.cpp. */
 export function definitionNumbers(definition: WorldDefinition): number[] {
   checkKeys(definition, definitionKeys, "definition", "World");
-  const { box, periodic, dimensions = 3 } = definition;
+  const { box, periodic, wallFilter, dimensions = 3 } = definition;
   if (dimensions !== 2 && dimensions !== 3)
     throw new RangeError(`World: dimensions must be 2 or 3, but is ${shown(dimensions)}`);
   if (box !== undefined) checkKeys(box, boxKeys, "box", "World");
@@ -76,6 +80,8 @@ export function definitionNumbers(definition: WorldDefinition): number[] {
     definition.zenoInterval ?? 0,
     definition.startTime ?? 0,
     definition.spreadWindowStarts ? 1 : 0,
+    wallFilter === undefined ? 0 : 1,
+    ...filterNumbers(wallFilter ?? {}, "World"),
   ];
 }
 
@@ -100,5 +106,6 @@ export function definitionAt(module: Module, address: number): Definition {
     zenoInterval: numbers[15]!,
     startTime: numbers[16]!,
     spreadWindowStarts: numbers[17] !== 0,
+    ...(numbers[18] === 0 ? {} : { wallFilter: filterFrom(numbers, 19) }),
   };
 }

@@ -9,7 +9,7 @@ export {
 export { bounce, type Bounce, type BounceOptions } from "./response.js";
 export type { Answer, BodyAction, Bounces, Probe, ProbeFunction, RespondFunction, RunOptions } from "./asking.js";
 export type {
-  BodyBatch, BodyDefinition, BodyOptions, Filter, MotionLimits, MovedBodyDefinition, MovedOptions, Shape, ShapeCarrier, StaticOptions,
+  BodyBatch, BodyDefinition, BodyOptions, MotionLimits, MovedBodyDefinition, MovedOptions, Shape, ShapeCarrier, StaticOptions,
   ZoneOptions,
 } from "./body.js";
 export type {
@@ -20,6 +20,7 @@ export {
   type BodyView, type BusyBody, type Certain, type Counters, type Earliest, type Located, type ProbeReason, World, WorldView,
 } from "./world.js";
 export type { Box, ContactEvents, Definition, WorldDefinition } from "./definition.js";
+export type { Filter } from "./filter.js";
 export { Scene, sceneNames, type SceneSettings } from "./scene.js";
 export { Replay } from "./replay.js";
 export {

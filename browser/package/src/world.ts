@@ -1,7 +1,7 @@
 // The world: moving spheres with unknown trajectories, and every contact among them, in time order.
 import { asking, moving, type Probe, responded, runKeys, type RunOptions } from "./asking.js";
 import {
-  batchKeys, type BodyBatch, type BodyDefinition, bodyKeys, bodyNumbers, type Filter, filterNumbers, limitKeys, maskNumber,
+  batchKeys, type BodyBatch, type BodyDefinition, bodyKeys, bodyNumbers, limitKeys,
   type MotionLimits, movedKeys, type MovedOptions, putBody, putOptions, type Shape, type ShapeCarrier,
   shapeCarrierKeys, shapeFrom, shapeNumbers, staticKeys,
   type StaticOptions, zoneKeys, type ZoneOptions,
@@ -9,6 +9,7 @@ import {
 import { BodyMap } from "./body_map.js";
 import { type Box, boxKeys, type Definition, definitionAt, definitionNumbers, type WorldDefinition } from "./definition.js";
 import { type BodyId, Event, type EventKind, Events, eventKinds, type State, type Vec3, type Wall, wallOf } from "./event.js";
+import { type Filter, filterFrom, filterNumbers, maskNumber } from "./filter.js";
 import { Owned, type Scratch, theModule } from "./module.js";
 import { checkKeys, requireBytes, requireNumbers, whole } from "./options.js";
 import {
@@ -166,7 +167,7 @@ export class WorldView extends Owned {
         image: numbers.subarray(25, 28),
         solid: numbers[28] === 1,
         mass: numbers[29]!,
-        filter: { category: numbers[30]!, mask: numbers[31]!, group: numbers[32]! },
+        filter: filterFrom(numbers, 30),
         isRigid: numbers[33] === 1,
       };
     });
