@@ -84,7 +84,7 @@ TEST(ClustersOfRows, AreLeftToALoopWhereTheyRunAgainAndAgain) {
 /// Most clusters are unrelated to the rows.
 TEST(ClustersOfRows, ForgetWhatTheyHaveDoneInVain) {
   for (const int threads : {2, 3}) {
-    Rows looped(8, 70, 700), run(8, 70, 700);
+    Rows looped(8, 70, 120), run(8, 70, 120);
     looped.loop(2.0);
     std::size_t asked = 0;
     for (const double until : {0.9, 2.0}) {
