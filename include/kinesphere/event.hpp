@@ -88,8 +88,9 @@ struct Event {
   /// True if each of the two bodies has already had 64 contacts at this very instant, for example a body
   /// stuck between walls. A response that returns any speed would continue for ever. After 256 contacts the
   /// Zeno guard advances time by its least step. A pair whose responses go on to return speed is let through
-  /// until it has separated, after 8 such steps or if it is deep within the tolerance, which
-  /// EventKind::zeno_guard reports.
+  /// until it has separated, after 8 such steps or if it is deep within the tolerance. So is a pair of a body
+  /// that is crushed, as between a piston and a wall, after 64 such steps in a row. EventKind::zeno_guard
+  /// reports it.
   bool jammed = false;
   /// contact_begin, wall_begin: true if the two have been in touch since an earlier begin, without an end in
   /// between (never with ContactEvents::impacts). To count contacts, count the begins for which it is

@@ -54,6 +54,7 @@ GapLimits gap_at(const Bodies& bodies, double now, const CollisionShape& a, cons
 Sphere sphere_at(const Bodies& bodies, double now, std::uint32_t number) {
   const Body& body = bodies[number];
   const Bound& bound = body.bound;
+  const RigidRecord* const turning = bodies.rigid.find(body);
   const Size size = bodies.radii.any() ? changing_size(bodies, now, number) : Size{bound.radius, 0.0};
   Sphere sphere{bodies.id_of(number),
                 size.radius,
@@ -64,9 +65,10 @@ Sphere sphere_at(const Bodies& bodies, double now, std::uint32_t number) {
                 bodies.masses.of(number),
                 traits_of(body),
                 body.contact_events,
-                bodies.rigid.find(body),
+                turning,
                 size.rate,
-                body.carries_shape || body.is_rigid ? bound.radius - body.radius : 0.0};
+                body.carries_shape || body.is_rigid ? bound.radius - body.radius : 0.0,
+                turning ? turning->after_report(now - bound.time) : Rotation{}};
   const Space& space = bodies.space();
   if (space.repeats()) sphere.state.position = space.wrapped(sphere.state.position).position;
   return sphere;

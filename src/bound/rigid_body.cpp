@@ -3,8 +3,10 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "bound/rigid_record.hpp"
+#include "number/angles.hpp"
 
 namespace kinesphere {
 namespace {
@@ -16,8 +18,11 @@ Vec3 vector_of(const Quaternion& q) { return {q.x, q.y, q.z}; }
 Quaternion rotation_by(const Vec3& turn) {
   const double angle = norm(turn);
   if (angle == 0.0) return {};
-  const Vec3 axis = turn * (std::sin(0.5 * angle) / angle);
-  return {std::cos(0.5 * angle), axis.x, axis.y, axis.z};
+  constexpr double pi = std::numbers::pi;
+  // A whole turn changes the sign of the quaternion, which is the same rotation.
+  const auto [sine, cosine] = sine_and_cosine(0.5 * (angle > pi ? std::remainder(angle, 2.0 * pi) : angle));
+  const Vec3 axis = turn * (sine / angle);
+  return {cosine, axis.x, axis.y, axis.z};
 }
 
 Quaternion after(const Quaternion& second, const Quaternion& first) {
@@ -31,7 +36,7 @@ Quaternion after(const Quaternion& second, const Quaternion& first) {
 
 double angle_between(const Quaternion& a, const Quaternion& b) {
   const Quaternion turn = after(a, {b.w, -b.x, -b.y, -b.z});
-  return 2.0 * std::atan2(norm(vector_of(turn)), std::abs(turn.w));
+  return 4.0 * arc_tangent(norm(vector_of(turn)) / (1.0 + std::abs(turn.w)));
 }
 
 Vec3 rotated(const Quaternion& rotation, const Vec3& vector) {
@@ -65,11 +70,11 @@ RigidPart box_part(const Box& box, double radius) {
   return hull_part(corners, radius);
 }
 
-Vec3 RigidRecord::spin_gain(const Vec3& arm, const Vec3& direction) const {
-  Vec3 torque = rotated_back(rotation.orientation, cross(arm, direction));
+Vec3 RigidRecord::spin_gain(const Quaternion& orientation, const Vec3& arm, const Vec3& direction) const {
+  Vec3 torque = rotated_back(orientation, cross(arm, direction));
   for (int axis = 0; axis < 3; ++axis)
     torque[axis] = inertia[axis] > 0.0 && std::isfinite(inertia[axis]) ? torque[axis] / inertia[axis] : 0.0;
-  return rotated(rotation.orientation, torque);
+  return rotated(orientation, torque);
 }
 
 }  // namespace kinesphere

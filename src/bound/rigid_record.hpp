@@ -36,14 +36,21 @@ struct RigidRecord {
     const double now = norm(rotation.angular_velocity) * (1.0 + rounding::margin);
     return keeps_spin() ? now : std::max(now, largest_angular_speed);
   }
-  /// Returns the largest acceleration of a point of the body beyond that of its position.
+  /// Returns the largest acceleration of a point of the body beyond that of its position, after a change too.
   double surface_acceleration(double radius) const {
-    return (angular_acceleration_limit + spin() * spin()) * radius;
+    const double fastest = std::max(spin(), norm(origin.angular_velocity));
+    return (angular_acceleration_limit + fastest * fastest) * radius;
   }
   /// Returns the rotation at a time not before the origin, if the angular velocity stays.
   Rotation at(double time) const {
     return {after(rotation_by(origin.angular_velocity * (time - origin_time)), origin.orientation),
             origin.angular_velocity};
+  }
+  /// Returns the rotation so long after the last report, if the angular velocity stays.
+  Rotation after_report(double duration) const {
+    if (duration == 0.0) return rotation;
+    return {after(rotation_by(rotation.angular_velocity * duration), rotation.orientation),
+            rotation.angular_velocity};
   }
   /// Takes the rotation of a report.
   void report(const Rotation& now, double time) {
@@ -61,8 +68,9 @@ struct RigidRecord {
   void keep() { kept = {rotation, origin, origin_time, is_changed}; }
   /// Undoes the reports and changes since keep().
   void go_back() { std::tie(rotation, origin, origin_time, is_changed) = kept; }
-  /// Returns the change of angular velocity by a unit impulse along `direction` at `arm` from the position.
-  Vec3 spin_gain(const Vec3& arm, const Vec3& direction) const;
+  /// Returns the change of angular velocity by a unit impulse along `direction` at `arm` from the position of
+  /// the body in this orientation.
+  Vec3 spin_gain(const Quaternion& orientation, const Vec3& arm, const Vec3& direction) const;
 
   static void serialize(auto& self, auto& archive) {
     auto& [parts, balls, rotation, angular_acceleration_limit, largest_angular_speed, inertia, origin,

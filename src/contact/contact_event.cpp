@@ -57,8 +57,7 @@ State second_at_point(const Event& event) {
 
 /// Precondition: the body is rigid.
 RigidPose pose_of(const Sphere& body, const Vec3& origin = {}) {
-  return {body.state.position - origin, body.rigid->rotation.orientation, body.rigid->parts,
-          body.rigid->balls};
+  return {body.state.position - origin, body.rotation.orientation, body.rigid->parts, body.rigid->balls};
 }
 
 /// Returns the nearest parts of a rigid body and any other body.
@@ -85,15 +84,10 @@ NearestParts nearest_to(const Sphere& rigid, const Sphere& other) {
       *other.shape);
 }
 
-/// Sets what the event says of the turning of its bodies.
-void describe_spins(Event& event, const RigidRecord* first, const RigidRecord* second) {
-  const auto gain = [&](const RigidRecord* body, const State& state) {
-    return body ? body->spin_gain(event.point - state.position, event.normal) : Vec3{};
-  };
-  event.first_angular_velocity = first ? first->rotation.angular_velocity : Vec3{};
-  event.second_angular_velocity = second ? second->rotation.angular_velocity : Vec3{};
-  event.first_spin_gain = gain(first, event.first_state);
-  event.second_spin_gain = gain(second, event.second_state);
+/// Returns the change of the body's angular velocity by a unit impulse at the point of the event.
+Vec3 spin_gain_of(const Sphere& body, const Event& event) {
+  if (!body.rigid) return {};
+  return body.rigid->spin_gain(body.rotation.orientation, event.point - body.state.position, event.normal);
 }
 
 /// Sets normal, gap, point and parts of an event between two bodies, at least one of which is rigid.
@@ -108,7 +102,10 @@ void describe_parts(Event& event, const Sphere& first, const Sphere& second) {
   event.point = nearest.point + event.normal * (0.5 * (first.position_error - second.position_error));
   event.first_part = nearest.first_part;
   event.second_part = nearest.second_part;
-  describe_spins(event, first.rigid, second.rigid);
+  event.first_angular_velocity = first.rotation.angular_velocity;
+  event.second_angular_velocity = second.rotation.angular_velocity;
+  event.first_spin_gain = spin_gain_of(first, event);
+  event.second_spin_gain = spin_gain_of(second, event);
 }
 
 /// Sets what the event says of its first body.
@@ -183,7 +180,8 @@ void describe(Event& event, const Sphere& sphere, const Box& box) {
     event.gap = nearest.gap - sphere.position_error;
     event.point = nearest.point + event.normal * (0.5 * nearest.gap);
     event.first_part = nearest.first_part;
-    describe_spins(event, sphere.rigid, nullptr);
+    event.first_angular_velocity = sphere.rotation.angular_velocity;
+    event.first_spin_gain = spin_gain_of(sphere, event);
     event.approach_speed = dot(event.normal, first_at_point(event).velocity);
     return;
   }

@@ -30,6 +30,7 @@ struct Sphere {
   const RigidRecord* rigid = nullptr;  ///< of a rigid body; then `radius` is ignored
   double radius_rate = 0.0;            ///< at which the radius grows (length / time)
   double position_error = 0.0;         ///< of a body whose radius is ignored; gaps are smaller by it (length)
+  Rotation rotation{};                 ///< of a rigid body
 };
 
 /// Bounds the rounding error that radii that change at these rates add to the approach speed.

@@ -158,7 +158,11 @@ ContactGraph::Jam ContactGraph::note_jam(const Event& current, const Threshold& 
   ContactState state = threshold.within ? threshold.state : ContactState{};
   const bool is_defied = state.jams > 0;
   if (is_defied && state.jams < last) ++state.jams;
-  const bool is_last = is_defied && (is_deep || state.jams == last);
+  std::array<std::uint32_t, 2> buffer{};
+  const std::span<const std::uint32_t> bodies = counting(current, buffer);
+  const bool is_crushed = rate_.is_crushed(bodies);
+  if (is_crushed) rate_.end_crush(bodies);
+  const bool is_last = is_crushed || (is_defied && (is_deep || state.jams == last));
   const Jam jam{is_last, is_last || (is_deep && !state.guard_reported)};
   state.approach = is_last ? ApproachState::ignored : ApproachState::watched;
   state.guard_reported = state.guard_reported || jam.is_news;

@@ -115,8 +115,8 @@ class ContactGraph {
     bool is_news;
   };
   /// Counts a jam of the contact. It can be the last one only if responses have returned speed at events
-  /// marked as jammed. `is_deep`: the two may overlap by more than the tolerance before they are checked
-  /// again.
+  /// marked as jammed, or one of the two is crushed. `is_deep`: the two may overlap by more than the
+  /// tolerance before they are checked again.
   Jam note_jam(const Event& current, const Threshold& threshold, bool is_deep);
 
   /// Replaces all contacts and overlaps of a body that has arrived from elsewhere. The lists of its former

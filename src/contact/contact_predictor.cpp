@@ -145,7 +145,7 @@ ContactDecision ContactPredictor<Partner>::defer(const Event& current, const Rel
   const double beyond = current.gap - threshold_.distance;
   const double speed = limits.speed_error + std::max(current.approach_speed, 0.0);
   const double next_time = now_ + rule_.least_step(beyond, speed, limits.acceleration);
-  return {.next_check = std::max(next_time, just_after(now_)),
+  return {.next_check = std::max(std::min(next_time, separation(rule_.release_gap())), just_after(now_)),
           .approach = ApproachState::watched,
           .zeno_step = true,
           .breaks_tolerance = rule_.step_breaks_tolerance(beyond)};

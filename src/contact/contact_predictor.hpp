@@ -83,7 +83,7 @@ class ContactPredictor {
   ContactDecision decide(const Event& current, const RelativeLimits& limits) const;
 
   /// Defers the begin of a jammed contact: the Zeno guard lets the gap shrink, by at most its limit, before
-  /// the next check.
+  /// the next check, which comes before the two have separated.
   ContactDecision defer(const Event& current, const RelativeLimits& limits) const;
 
   /// Returns a time after `now` before which the two do not separate.

@@ -35,10 +35,13 @@ class ContactRate {
     TruncatedDouble zeno_interval;
     /// Contacts at time last_contact. Saturates at the limit of is_jammed().
     std::uint16_t contacts_then = 0;
+    /// Instants in a row before last_contact with as many contacts as that limit. Saturates at the limit of
+    /// is_crushed().
+    std::uint16_t full_instants = 0;
 
     static void serialize(auto& self, auto& archive) {
-      auto& [last_contact, zeno_interval, contacts_then] = self;
-      archive(last_contact, zeno_interval, contacts_then);
+      auto& [last_contact, zeno_interval, contacts_then, full_instants] = self;
+      archive(last_contact, zeno_interval, contacts_then, full_instants);
     }
   };
   /// Marks for the begin of a contact.
@@ -61,6 +64,12 @@ class ContactRate {
   /// True if each of these bodies has reached the limit of contacts at `time`, so that the caller's responses
   /// will not separate them.
   bool is_jammed(std::span<const std::uint32_t> bodies, double time) const;
+
+  /// True if each of these bodies has reached that limit at so many instants in a row that it counts as
+  /// crushed: no velocity separates it from all that drives onto it.
+  bool is_crushed(std::span<const std::uint32_t> bodies) const;
+  /// Counts these instants anew.
+  void end_crush(std::span<const std::uint32_t> bodies);
 
   /// Validates values read from bytes.
   bool is_valid() const;

@@ -52,9 +52,12 @@ void PendingEvents::note_response(ContactGraph& graph, const Sphere& first, cons
                                   const std::optional<Box>& box) {
   const Event reported = *delivered_;
   delivered_.reset();
-  const bool is_pair = reported.second != no_body;
-  if (first.state.velocity == reported.first_state.velocity &&
-      (!is_pair || second.state.velocity == reported.second_state.velocity))
+  const auto moves_on = [](const Sphere& now, const State& state, const Vec3& spin) {
+    return now.state.velocity == state.velocity && now.rotation.angular_velocity == spin;
+  };
+  if (moves_on(first, reported.first_state, reported.first_angular_velocity) &&
+      (reported.second == no_body ||
+       moves_on(second, reported.second_state, reported.second_angular_velocity)))
     return;
   const ContactEvents wanted = wanted_of(first, second);
   const Threshold threshold = graph.threshold_of(reported, wanted);

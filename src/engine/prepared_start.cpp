@@ -321,7 +321,7 @@ bool PreparedStart::is_valid(const WorldState& state) const {
          (have_entered()
               ? next_.is_valid_copy(bodies) && state.broad_phase.search_begin() == end()
               : next_.is_valid_successor(bodies, slice_ > survey_slice(), slice_ > cells_slice()) &&
-                    next_.started_slots() == 0) &&
+                    next_.started_slots() == 0 && state.broad_phase.search_begin() == -infinity) &&
          (slice_ == 0 || has_begun_) && policy_.is_valid() &&
          std::all_of(at_walls_.begin(), at_walls_.end(), is_number) &&
          std::all_of(linked_.begin(), linked_.end(), [&](const PairCertificate& pair) {

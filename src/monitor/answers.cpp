@@ -66,7 +66,7 @@ Result<PairAnswer> Monitor::Engine::answer(TrackId first, TrackId second, std::u
   answer.closest_distance = pass.closest_distance;
   const Vec3 velocity = first_state.velocity - second_state.velocity;
   const Vec3 closest = first_state.position - second_state.position + velocity * (pass.closest_time - time_);
-  answer.closest_horizontal = std::hypot(closest.x, closest.y);
+  answer.closest_horizontal = norm({closest.x, closest.y, 0.0});
   answer.closest_vertical = std::abs(closest.z);
   answer.relative_speed = norm(velocity);
   answer.inevitable_by =

@@ -12,7 +12,7 @@ namespace kinesphere {
 
 /// Returns the lengths of a vector: in the plane, along z, and in total.
 inline ErrorBound lengths_of(const Vec3& v) {
-  return ErrorBound::cylinder(std::hypot(v.x, v.y), std::abs(v.z));
+  return ErrorBound::cylinder(norm({v.x, v.y, 0.0}), std::abs(v.z));
 }
 
 /// Summary of the plans of a track that exceed the limits of its class. Until `end`, accelerations differ

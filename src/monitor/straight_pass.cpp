@@ -6,6 +6,13 @@
 namespace kinesphere {
 namespace {
 
+/// Returns the square root of a^2 + b^2 for a, b >= 0 whose squares may overflow.
+double hypotenuse(double a, double b) {
+  const double larger = std::max(a, b);
+  const double part = larger > 0.0 ? std::min(a, b) / larger : 0.0;
+  return larger * std::sqrt(1.0 + part * part);
+}
+
 /// Returns the time until two that go straight on and meet are within the limit of a component, or lose well
 /// clear. With the offset x and the velocity v, c = x.x - limit^2 > 0, and root^2 = (x.v)^2 - v.v c. With a
 /// modified tau T, well clear is lost where  v.v t^2 + (2 x.v + T v.v) t + c + T x.v  falls to zero, which is
@@ -15,7 +22,7 @@ double entry_after(double c, double xv, double v2, double root, double modified_
   const double constant = c + modified_tau * xv;
   if (constant <= 0.0) return 0.0;
   const double slope = 2.0 * xv + modified_tau * v2;
-  return 2.0 * constant / (std::hypot(modified_tau * v2, 2.0 * root) - slope);
+  return 2.0 * constant / (hypotenuse(modified_tau * v2, 2.0 * root) - slope);
 }
 
 }  // namespace

@@ -137,7 +137,7 @@ std::vector<ReachableSet> reachable_sets_of(const ExactReport& report,
 
 double beyond(const Vec3& offset, const ErrorBound& limit, double size) {
   const double margin = rounding::margin * size;
-  const double flat = std::hypot(offset.x, offset.y) - limit.horizontal();
+  const double flat = norm({offset.x, offset.y, 0.0}) - limit.horizontal();
   const double upright = std::abs(offset.z) - limit.vertical();
   const double all = norm(offset) - limit.total();
   return std::max({0.0, flat - margin, upright - margin, all - margin});
@@ -336,7 +336,7 @@ double TrackEstimate::largest_speed(const Hypothesis& hypothesis, double now, do
     if (set.time > now || set.end < end) continue;
     const auto speed_at = [&](double time) {
       const Vec3 velocity = set.velocity_at(time);
-      return std::hypot(velocity.x, velocity.y);
+      return norm({velocity.x, velocity.y, 0.0});
     };
     // The speed of the centre is a convex function of time.
     const double centre = std::max(speed_at(now), speed_at(end));

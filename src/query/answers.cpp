@@ -8,6 +8,28 @@
 #include "query/certain_sphere.hpp"
 
 namespace kinesphere {
+namespace {
+
+/// Calls visit(image) for a bound and for its images up to one period away.
+template <class Visit>
+void for_each_image(const Space& space, Bound bound, Visit visit) {
+  const auto most = [&](int axis) { return space.repeats(axis) ? 1.0 : 0.0; };
+  const Vec3 place = bound.position;
+  for (double x = -most(0); x <= most(0); ++x)
+    for (double y = -most(1); y <= most(1); ++y)
+      for (double z = -most(2); z <= most(2); ++z) {
+        bound.position = place + space.shift_of({x, y, z});
+        visit(bound);
+      }
+}
+
+/// Returns the collision shape with another bound.
+CollisionShape moved(const CollisionShape& shape, const Bound& bound) {
+  return {bound, shape.is_static, shape.shape, shape.carried_radius, shape.rigid};
+}
+
+}  // namespace
+
 World::Engine::Answers::Answers(const Engine& engine) : engine_(engine), now_(engine.time()) {
   for (const auto& [a, b] : engine.main().events().changed()) open_.insert(std::minmax(a, b));
   engine.main().events().pending().for_each([this](const Event& event) {
@@ -100,15 +122,12 @@ double World::Engine::Answers::meeting(const CollisionShape& extent_of_a,
   const Bound& b = extent_of_b.bound;
   Bound image = b;
   image.position += space.shift_to_nearest(b.centre_at(now_), a.centre_at(now_));
-  const Vec3 nearest = image.position;
   const RelativeMotion motion(a, image, now_);
   // The loop below covers all images up to one period from the nearest one. Any other image is at least two
   // periods away on some axis, and cannot be met before the bounds have closed that distance.
   double first = infinity;
-  std::array<int, 3> most{};
   for (int axis = 0; axis < 3; ++axis) {
     if (!space.repeats(axis)) continue;
-    most[static_cast<std::size_t>(axis)] = 1;
     const double way =
         2.0 * space.period()[axis] - std::abs(motion.offset[axis]) - motion.radii - motion.growth;
     const double speed = std::abs(motion.velocity[axis]) + motion.growth_speed;
@@ -119,19 +138,13 @@ double World::Engine::Answers::meeting(const CollisionShape& extent_of_a,
         -(speed + margin * motion.velocity_size), -(acceleration + margin * motion.acceleration_size));
     first = std::min(first, rounding::sum_down(now_, until));
   }
-  for (int x = -most[0]; x <= most[0]; ++x)
-    for (int y = -most[1]; y <= most[1]; ++y)
-      for (int z = -most[2]; z <= most[2]; ++z) {
-        image.position = nearest + space.shift_of({double(x), double(y), double(z)});
-        {
-          const CollisionShape moved{image, extent_of_b.is_static, extent_of_b.shape,
-                                     extent_of_b.carried_radius, extent_of_b.rigid};
-          first =
-              std::min(first, visit_shapes(extent_of_a, moved, [&](const Bound& bound, const auto& partner) {
-                         return earliest_meeting(bound, partner, now_, std::max(first, now_));
-                       }));
-        }
-      }
+  for_each_image(space, image, [&](const Bound& seen) {
+    const double time =
+        visit_shapes(extent_of_a, moved(extent_of_b, seen), [&](const Bound& bound, const auto& partner) {
+          return earliest_meeting(bound, partner, now_, std::max(first, now_));
+        });
+    first = std::min(first, time);
+  });
   return std::max(first, now_);
 }
 
@@ -235,9 +248,18 @@ DistanceLimits World::Engine::Answers::distance(std::uint32_t a, std::uint32_t b
   const CollisionShape extent_of_a = shape_of(a, first);
   const CollisionShape extent_of_b = shape_of(b, second);
   if (extent_of_a.shape && extent_of_b.shape) return {-infinity, infinity, false};
-  const GapLimits gap = visit_shapes(
-      extent_of_a, extent_of_b,
-      [time](const Bound& bound, const auto& partner) { return gap_limits(bound, partner, time); });
+  GapLimits gap{infinity, infinity};
+  const auto look_at = [&](const Bound& seen) {
+    const GapLimits own = visit_shapes(
+        extent_of_a, moved(extent_of_b, seen),
+        [time](const Bound& bound, const auto& partner) { return gap_limits(bound, partner, time); });
+    gap = {std::min(gap.lower, own.lower), std::min(gap.upper, own.upper)};
+  };
+  // Where the positions are nearest, the parts of rigid bodies need not be.
+  if (extent_of_a.rigid || extent_of_b.rigid)
+    for_each_image(engine_.bodies().space(), second, look_at);
+  else
+    look_at(second);
   // The upper limit applies to the bodies as reported. The true bodies may differ by the error parts of the
   // radii.
   // A rigid body that counts as a ball has a point within that ball only.

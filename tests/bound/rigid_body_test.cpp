@@ -71,13 +71,13 @@ TEST(SpinGain, IsTheTorqueOfAUnitImpulseOverTheInertia) {
       principal = turned(turn, principal);
       expected += principal * (dot(principal, cross(arm, direction)) / record.inertia[axis]);
     }
-    EXPECT_NEAR(norm(record.spin_gain(arm, direction) - expected), 0.0, 1e-14);
+    EXPECT_NEAR(norm(record.spin_gain(record.rotation.orientation, arm, direction) - expected), 0.0, 1e-14);
   }
   RigidRecord stiff;
   stiff.inertia = {0.0, infinity, 2.0};
-  EXPECT_EQ(stiff.spin_gain({1, 1, 1}, {1, 0, 0}).x, 0.0) << "no inertia: does not turn about x";
-  EXPECT_EQ(stiff.spin_gain({1, 1, 1}, {1, 0, 0}).y, 0.0);
-  EXPECT_EQ(stiff.spin_gain({1, 1, 1}, {1, 0, 0}).z, -0.5);
+  EXPECT_EQ(stiff.spin_gain({}, {1, 1, 1}, {1, 0, 0}).x, 0.0) << "no inertia: does not turn about x";
+  EXPECT_EQ(stiff.spin_gain({}, {1, 1, 1}, {1, 0, 0}).y, 0.0);
+  EXPECT_EQ(stiff.spin_gain({}, {1, 1, 1}, {1, 0, 0}).z, -0.5);
 }
 
 }  // namespace

@@ -73,6 +73,12 @@ TEST(RigidRecord, AChangeWaitsForAReportUnlessTheStateIsKnown) {
   EXPECT_EQ(record.rotation.angular_velocity, (Vec3{1, 0, 0}));
 }
 
+TEST(RigidRecord, CountsASpinThatAwaitsAReport) {
+  RigidRecord record = turning({}, 0.0);
+  record.change({{}, {0, 0, 3}}, 2.0, false);
+  EXPECT_EQ(record.surface_acceleration(2.0), 18.0);
+}
+
 TEST(RigidRecord, GoesBackToWhatWasKept) {
   RigidRecord record = turning({0, 0, 1}, 0.0);
   record.keep();

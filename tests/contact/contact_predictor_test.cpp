@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "contact/contact_event.hpp"
 #include "number/infinity.hpp"
 #include "space/space.hpp"
@@ -54,6 +56,18 @@ TEST(ContactPredictor, GuardsTheDistanceOfAPairOutsideTheTolerance) {
 TEST(ContactPredictor, BeginsWithinTheTolerance) {
   const Pair pair(0.999 * tolerance, 2.0, 0.0);
   EXPECT_EQ(pair.judge(ContactRule(pair.world)).change, ContactRule::Change::begin);
+}
+
+/// They hardly approach, but pass each other.
+TEST(ContactPredictor, DefersABeginNoLongerThanTheTwoStayTogether) {
+  Pair pair(0.0, 0.0, 0.0);
+  pair.first.velocity = {1e-9, 1, 0};
+  pair.first.acceleration_limit = pair.second.acceleration_limit = 0.0;
+  const ContactRule rule(pair.world);
+  const ContactPredictor<Bound> predictor(rule, {.within = true}, pair.first, pair.second, 0.0,
+                                          {infinity, infinity});
+  const double apart = 2.0 + rule.release_gap();
+  EXPECT_LE(predictor.defer(pair.now(), {0.0, 0.0}).next_check, std::sqrt(apart * apart - 4.0) + 1e-6);
 }
 
 }  // namespace

@@ -47,6 +47,29 @@ TEST_F(ContactRateTest, JamWhereEachHasHadManyAtOneInstant) {
   EXPECT_FALSE(recent.is_jammed(both, 5.0)) << "at an instant that is over";
 }
 
+TEST_F(ContactRateTest, CrushWhomManyMeetAtEachOfManyInstants) {
+  const auto fill = [&](double time, int contacts) {
+    for (int k = 0; k < contacts; ++k) recent.note(alone, time);
+  };
+  double time = 0.0;
+  const auto crush = [&] {
+    int instants = 0;
+    for (; !recent.is_crushed(alone) && instants < 1000; ++instants) fill(time += 0.5, 256);
+    return instants;
+  };
+  EXPECT_EQ(crush(), 65) << "the last one is not over";
+  EXPECT_FALSE(recent.is_crushed(both)) << "the other is not";
+  recent.end_crush(alone);
+  EXPECT_FALSE(recent.is_crushed(alone));
+  for (int k = 0; k < 60; ++k) fill(time += 0.5, 256);
+  fill(time += 0.5, 255);
+  EXPECT_EQ(crush(), 65) << "not in a row";
+  ContactRate::Body counted = recent.of(0);
+  ++counted.full_instants;
+  recent.restore(0, counted);
+  EXPECT_FALSE(recent.is_valid());
+}
+
 TEST_F(ContactRateTest, GoOnAsBeforeWhenPutBackOrRead) {
   recent.note(both, 5.0);
   const ContactRate::Body checkpoint = recent.of(0);

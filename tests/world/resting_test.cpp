@@ -222,6 +222,33 @@ TEST(Jammed, BallIsLetThroughIfAnswersGoOn) {
   EXPECT_TRUE(is_clean(p.world));
 }
 
+/// A piston, or a ball of infinite mass, drives a ball onto the floor. No velocities part the three.
+TEST(Jammed, BallThatIsCrushedDoesNotStopTime) {
+  for (const bool is_piston : {true, false})
+    for (const double restitution : {0.0, 0.5, 1.0}) {
+      SCOPED_TRACE(testing::Message() << is_piston << ", restitution " << restitution);
+      Playground p({.box = Box{{-5, -5, 0}, {5, 5, 10}}});
+      p.add({.radius = 1, .position = {0, 0, 1}});
+      const BodyDefinition press{
+          .radius = 1, .position = {0, 0, 3.5}, .velocity = {0, 0, -1}, .mass = infinity};
+      if (is_piston)
+        p.start_course(p.world.add_moving_shape({press, Box{{-1, -1, 0}, {1, 1, 0.2}}}).value(), press);
+      else
+        p.add(press);
+      const auto events = p.run(
+          3.0,
+          [&](const Event& event) {
+            const Response after = response_of(event, bounce(event, restitution));
+            if (after.first_velocity) p.set_velocity(event.first, *after.first_velocity);
+            if (after.second_velocity) p.set_velocity(event.second, *after.second_velocity);
+          },
+          60000);
+      EXPECT_EQ(p.world.time(), 3.0);
+      EXPECT_LE(of_kind(events, EventKind::zeno_guard).size(), 4u);
+      EXPECT_TRUE(is_clean(p.world));
+    }
+}
+
 /// Many bodies that arrive at one instant are not a jam.
 TEST(Jammed, IsNotWhatManyHitAtOnce) {
   Playground p({.contacts = ContactEvents::impacts});

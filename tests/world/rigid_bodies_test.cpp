@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 #include <utility>
 #include <variant>
@@ -494,6 +495,26 @@ TEST_F(FreeFlight, ASpinningDumbbellHitsAtTheTimeOfItsRotation) {
   EXPECT_GT(event->approach_speed, 0.5);
 }
 
+/// Answers that change spins alone, and leave a part of the approach.
+TEST_F(FreeFlight, PinnedRotorsStopEachOther) {
+  const auto rotor = [](const Vec3& position, double angle) {
+    return RigidBody{.body = {.position = position, .mass = infinity},
+                     .parts = {{{}, {1, 0, 0}, 0.1}},
+                     .rotation = {rotation_by({0, 0, angle}), {0, 0, -1}},
+                     .inertia = {1, 1, 1}};
+  };
+  p.add_rigid_body(rotor({0, 0, 0}, 0.0));
+  p.add_rigid_body(rotor({1.8, 0, 0}, std::numbers::pi + 0.5));
+  double first = infinity;
+  const auto events = p.run(1.0, [&](const Event& event) {
+    first = std::min(first, event.time);
+    EXPECT_NEAR(event.time, first, 1e-8) << "they have nearly stopped";
+    p.world.change(event.first, {.angular_velocity = 0.3 * event.first_angular_velocity}).value();
+    p.world.change(event.second, {.angular_velocity = 0.3 * event.second_angular_velocity}).value();
+  });
+  EXPECT_GT(events.size(), 10u);
+}
+
 TEST_F(FreeFlight, ARecordingIsReplayed) {
   for (int k = 0; k < 5; ++k)
     p.add_rigid_body(dumbbell({3.0 * k, 0.1 * k, 0}, {k % 2 == 0 ? 1.0 : -1.0, 0, 0}, {0.3 * k, 0, 1.0}));
@@ -763,6 +784,60 @@ TEST(RigidBodies, AreTheBallsAroundThemFromAChangeToTheNextReport) {
       EXPECT_GE(limits.upper, 1.3);
     }
   }
+}
+
+/// A rod and a ball beside it. The last report of the rod is older than the change.
+struct ChangedRod {
+  explicit ChangedRod(const BodyChange& change) {
+    p.run(1.0);
+    EXPECT_LT(p.world.body(rod)->bound.time, 1.0);
+    p.world.change(rod, change).value();
+  }
+  void expect_met_by(double time) {
+    const auto known = p.world.certificates();
+    EXPECT_LE(known.safe_until()->time, time);
+    EXPECT_LE(known.safe_until(ball)->time, time);
+    EXPECT_LE(known.safe_until(rod, ball)->time, time);
+    EXPECT_LE(known.safe_until(rod, ball, 0.0)->time, time);
+    EXPECT_LE(known.earliest_approach(ball, 0.0)->time, time);
+    EXPECT_LE(known.distance_limits(rod, ball, time)->lower, 0.0);
+    EXPECT_NEAR(p.world.certificates(p.probe()).safe_until(rod, ball)->time, time, 1e-4);
+  }
+
+  Playground p{WorldDefinition{.contact_tolerance = eps}};
+  const BodyId rod = p.add_rigid_body({.parts = {{{-1, 0, 0}, {1, 0, 0}, 0.1}}});
+  const BodyId ball = p.add({.radius = 0.1, .position = {0, 1, 0}});
+};
+
+TEST(RigidBodies, AnswersCountARotationThatHasChanged) {
+  ChangedRod(BodyChange{.angular_velocity = Vec3{0, 0, 1}}).expect_met_by(1.0 + std::acos(0.2));
+  ChangedRod(BodyChange{.rotation = Rotation{rotation_by({0, 0, 1.5})}}).expect_met_by(1.0);
+}
+
+/// The positions are nearest in one image, and the parts in another.
+TEST(RigidBodies, AreAsFarApartAsInTheImageWhereTheirPartsAreNearest) {
+  Playground p({.box = Box{{0, 0, 0}, {10, 10, 10}}, .periodic = {true, true, true}});
+  const auto beside = [](double place, double arm) {
+    return RigidBody{.body = {.position = {place, 5, 5}}, .parts = {{{arm, 0, 0}, {arm, 0, 0}, 0.05}}};
+  };
+  const BodyId one = p.add_rigid_body(beside(0.0, -1.8));
+  const BodyId other = p.add_rigid_body(beside(4.5, 1.8));
+  const auto limits = p.world.certificates().distance_limits(one, other, 0.0).value();
+  EXPECT_NEAR(limits.lower, 1.8, 1e-12);
+  EXPECT_NEAR(limits.upper, 1.8, 1e-12);
+}
+
+TEST(RigidBodies, EndContactsAsTheyAreTurnedByThen) {
+  Playground p;
+  p.world.set_sensor(3, {.distances = {5.0}}).value();
+  p.add_rigid_body({.parts = {{{-1, 0, 0}, {1, 0, 0}, 0.1}}, .rotation = {.angular_velocity = {0, 0, 1}}});
+  const BodyId ball = p.add({.radius = 0.1, .position = {0, 1.5, 0}, .sensor_class = 3});
+  p.run(1.0);
+  p.world.remove(ball).value();
+  const auto event = p.advance(1.0);
+  ASSERT_TRUE(event && event->kind == EventKind::sensor_leave);
+  const Vec3 tip{std::cos(1.0), std::sin(1.0), 0};
+  EXPECT_NEAR(event->gap, point_to_segment({0, 1.5, 0}, {-tip, tip, 0.0}) - 0.2, 1e-12);
 }
 
 TEST(RigidBodies, LieOnAFloorThoughTheBallAroundThemReachesBelow) {
