@@ -148,8 +148,7 @@ void warn_of_distance(const Closeness& closeness, const Recording& recording) {
   if (closeness.distance <= size || std::abs(step.x - 1.0) < 1e-9) return;
   print_message(
       "kinesphere: warning: all positions are within {:.4g} m of each other, so that all pairs are close all "
-      "the "
-      "time: {} {} is in metres; another unit is said as in 5mm\n",
+      "the time: {} {} is in metres; another unit is said as in 5mm\n",
       size, closeness.option, closeness.given);
 }
 

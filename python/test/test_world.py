@@ -413,7 +413,7 @@ def test_walls_with_a_filter_let_some_bodies_pass() -> None:
 
     assert escapes(1) and not escapes(3)
     with pytest.raises(ks.InvalidValue, match="wall_filter must have no other keys .* has masks"):
-        ks.World(wall_filter={"masks": 2})  # type: ignore[typeddict-unknown-key]
+        ks.World(wall_filter={"masks": 2})  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="wall_filter must be a dict of whole numbers"):
         ks.World(wall_filter={"mask": "all"})  # type: ignore[typeddict-item]
 

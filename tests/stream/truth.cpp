@@ -71,6 +71,15 @@ Vec3 Truth::shift_to_nearest(const Vec3& from, const Vec3& to) const {
   return shift;
 }
 
+/// Calls visit(shift) for an image and those up to one period away.
+template <class Visit>
+void Truth::for_each_image(Visit visit) const {
+  const auto most = [this](int axis) { return definition_.periodic[axis] ? 1 : 0; };
+  for (int x = -most(0); x <= most(0); ++x)
+    for (int y = -most(1); y <= most(1); ++y)
+      for (int z = -most(2); z <= most(2); ++z) visit(world_size * Vec3{double(x), double(y), double(z)});
+}
+
 void Truth::add(BodyId id, const BodyDefinition& body, const Vec3& acceleration) {
   if (id.index >= bodies_.size()) {
     require(id.index == bodies_.size() && id.generation == 0, "a new index is not the next one");
@@ -245,7 +254,7 @@ double Truth::gap_of_parts(const Contact& contact, double time, double enough) c
   const double sensed = contact.sensed.value_or(0.0);
   double least = infinity;
   const auto consider = [&](double lower, auto exact) {
-    least = std::min(least, lower > enough + sensed ? lower : exact());
+    if (lower < least) least = std::min(least, lower > enough + sensed ? lower : exact());
   };
   if (const auto half = inside(contact)) {
     for (const PlacedPart& part : placed(body, time, {})) least = std::min(least, gap_of(part, *half));
@@ -259,11 +268,15 @@ double Truth::gap_of_parts(const Contact& contact, double time, double enough) c
   }
   const TrueBody& other = at(contact.second);
   const auto centre = [time](const TrueBody& of) { return of.path.front().state_at(time).position; };
-  const std::vector<PlacedPart> far = placed(other, time, shift_to_nearest(centre(other), centre(body)));
-  for (const PlacedPart& part : placed(body, time, {}))
-    for (const PlacedPart& partner : far)
-      consider(norm(part.middle - partner.middle) - part.reach - partner.reach,
-               [&] { return gap_of(part, partner, false, enough + sensed); });
+  const Vec3 nearest = shift_to_nearest(centre(other), centre(body));
+  const std::vector<PlacedPart> parts = placed(body, time, {});
+  // Where the positions are nearest, the parts need not be.
+  for_each_image([&](const Vec3& shift) {
+    for (const PlacedPart& partner : placed(other, time, nearest + shift))
+      for (const PlacedPart& part : parts)
+        consider(norm(part.middle - partner.middle) - part.reach - partner.reach,
+                 [&] { return gap_of(part, partner, false, enough + sensed); });
+  });
   return least - sensed;
 }
 

@@ -148,6 +148,8 @@ class Truth {
   double extent(const Contact& contact) const;
   double turning_speed(const Contact& contact) const;
   std::vector<placed_parts::PlacedPart> placed(const TrueBody& body, double time, const Vec3& shift) const;
+  template <class Visit>
+  void for_each_image(Visit visit) const;
   double gap_of_parts(const Contact& contact, double time, double enough) const;
   bool meets(const Contact& contact) const;
   bool senses(BodyId a, BodyId b, double distance) const;

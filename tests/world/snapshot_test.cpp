@@ -341,8 +341,8 @@ TEST(BadSnapshot, SaysWhatIsWrong) {
   Bytes damaged = bytes;
   damaged[bytes.size() / 2] ^= std::byte{1};
   EXPECT_TRUE(is_refused(damaged, "checksum"));
-  Bytes impossible = bytes;  // the contact tolerance stands behind the box, its axes and the dimensions
-  write_number(impossible, snapshot_header_size + 1 + 48 + 3 + 4, 0);
+  Bytes impossible = bytes;  // the contact tolerance stands behind box, axes, wall filter and dimensions
+  write_number(impossible, snapshot_header_size + 1 + 48 + 3 + 1 + 4, 0);
   EXPECT_TRUE(is_refused(sealed(impossible), "definition"));
 }
 

@@ -150,8 +150,7 @@ std::string other_file_kind(std::string_view beginning) {
   const bool is_json = has_begin(beginning, "{") || has_begin(beginning, "[");
   if (is_strava(beginning))
     return "streams of Strava, whose times count from the start of their activity: export the activity as "
-           "GPX, "
-           "which has dates";
+           "GPX, which has dates";
   if (is_columnar_json(beginning))
     return "JSON with a list for each name: write it as records, with pandas: to_json(orient='records', "
            "lines=True)";

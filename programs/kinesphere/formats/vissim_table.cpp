@@ -67,10 +67,8 @@ class VissimReader {
     if (!columns)
       fail(
           "the attributes NO, SIMSEC and COORDFRONTX, COORDFRONTY (or COORDFRONT, COORDCENTX, COORDCENTY), "
-          "which "
-          "are chosen where Vissim is told to record vehicles or pedestrians: links and places on them are "
-          "no "
-          "positions");
+          "which are chosen where Vissim is told to record vehicles or pedestrians: links and places on them "
+          "are no positions");
     while (const auto line = lines_.next()) {
       if (!line->empty() && !line->starts_with('*') && !line->starts_with('$'))
         add_row(*columns, *line, names.size());

@@ -337,8 +337,7 @@ void RawRecording::ask_about_ids() const {
       const std::string name = head_.names.empty() ? "id" : name_in_filter(head_.names[*id_column_]);
       throw ProgramError(fmt::format(
           "{} and {} both have the id '{}' at the same times: say {} if each file is one body, --where '{} "
-          "!= "
-          "none' if the id is one body in both, or read them one by one if they are of different scenes",
+          "!= none' if the id is one body in both, or read them one by one if they are of different scenes",
           files_[one->first], files_[other->first], track.id, columns_.file_advice, name));
     }
   }

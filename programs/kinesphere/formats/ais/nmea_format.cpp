@@ -79,8 +79,7 @@ class NmeaFormat final : public ReportFormat {
     if (!has_sentences_)
       throw UnusableStream(
           "expected sentences of AIS (!AIVDM or !AIVDO of any talker), but the stream has none ($GPRMC and "
-          "$GPGGA of "
-          "receivers of GPS are read from a file, or a pipe that ends, without --format)");
+          "$GPGGA of receivers of GPS are read from a file, or a pipe that ends, without --format)");
   }
 
   nlohmann::json save() const override {
