@@ -131,8 +131,10 @@ void World::WorldEditor::teleport(BodyId id, const State& state) {
   sleeping().wake(id.index);
   state_.contacts.turn_reported(id.index);
   state_.bodies.count_images_anew(id.index);
+  BodyDefinition moved = bodies().definition_of(id.index);
+  moved.radius = bodies().radius_at(id.index, time());
+  replace(id.index, bound_of(moved, state, time()));
   state_.bodies.update_radius(id.index, time());
-  replace(id.index, bound_of(bodies().definition_of(id.index), state, time()));
   state_.bodies.forget_change(id.index);
 }
 

@@ -506,6 +506,19 @@ TEST(ChangingRadii, EndWithTheirBody) {
   EXPECT_EQ(p.radius(next), 1.0);
 }
 
+TEST(ChangingRadii, EndContactsWithTheRadiusOfThatTime) {
+  Playground p;
+  p.world.set_sensor(3, {.distances = {5.0}}).value();
+  const BodyId ball = p.add({.radius = 1.0, .position = {0, 0, 0}, .radius_rate = 0.5});
+  p.add({.radius = 1.0, .position = {6, 0, 0}, .sensor_class = 3});
+  p.run(1.0);
+  ASSERT_LT(p.world.body(ball)->bound.time, 1.0);
+  p.world.teleport(ball, {{100, 0, 0}, {}}).value();
+  const auto event = p.advance(1.0);
+  ASSERT_TRUE(event && event->kind == EventKind::sensor_leave);
+  EXPECT_NEAR(event->gap, 6.0 - 1.5 - 1.0, 1e-12);
+}
+
 TEST(ChangingRadii, AreRefusedWithAReason) {
   World world = World::create({}).value();
   expect_error(world.add({.radius_rate = NAN}), ErrorCode::not_finite, "radius_rate", "add");
