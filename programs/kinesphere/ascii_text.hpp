@@ -22,16 +22,25 @@ inline std::string without_controls(std::string text) {
   return text;
 }
 
+/// Returns true if the text has letters and digits of ASCII and these other characters alone.
+inline bool has_only(std::string_view text, std::string_view others) {
+  return std::ranges::all_of(text, [&](char c) {
+    return (lower_case(c) >= 'a' && lower_case(c) <= 'z') || (c >= '0' && c <= '9') ||
+           others.find(c) != std::string_view::npos;
+  });
+}
+
+/// Returns the text as it stands between the single quotes of a shell.
+inline std::string between_single_quotes(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) escaped += c == '\'' ? "'\\''" : std::string(1, c);
+  return escaped;
+}
+
 /// Returns the text as a word of a shell's command line: in quotes, if need be.
 inline std::string shell_word(std::string_view text) {
-  const auto is_plain = [](char c) {
-    return (lower_case(c) >= 'a' && lower_case(c) <= 'z') || (c >= '0' && c <= '9') ||
-           std::string_view("_-.,:=/@%+").find(c) != std::string_view::npos;
-  };
-  if (!text.empty() && std::ranges::all_of(text, is_plain)) return std::string(text);
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
-  return word + "'";
+  if (!text.empty() && has_only(text, "_-.,:=/@%+")) return std::string(text);
+  return "'" + between_single_quotes(text) + "'";
 }
 
 /// Returns true if the names are equal, ignoring the case of A to Z.

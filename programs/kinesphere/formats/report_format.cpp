@@ -10,6 +10,7 @@
 
 #include "ascii_text.hpp"
 #include "formats/ais/nmea_line.hpp"
+#include "formats/converted_table.hpp"
 #include "formats/presets.hpp"
 #include "number_text.hpp"
 #include "program_error.hpp"
@@ -122,9 +123,7 @@ bool is_table_of_ships(std::string_view header) {
 bool has_blank_separated_names(std::string_view line) {
   bool has_id = false, has_time = false;
   int coordinates = 0;
-  while (!(line = trimmed(line)).empty()) {
-    const std::string_view name = line.substr(0, line.find_first_of(blanks));
-    line.remove_prefix(name.size());
+  for (const std::string_view name : words_of(line)) {
     const auto meaning = meaning_of(name);
     if (!meaning) continue;
     const Measure measure = measure_of(meaning->quantity);

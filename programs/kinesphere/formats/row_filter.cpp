@@ -186,14 +186,8 @@ bool RowFilter::mentions(std::size_t column) const {
 }
 
 std::string name_in_filter(const std::string& text) {
-  const bool is_word = !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
-    return (lower_case(c) >= 'a' && lower_case(c) <= 'z') || (c >= '0' && c <= '9') ||
-           std::string_view("_-.:/").find(c) != std::string_view::npos;
-  });
-  if (is_word) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-  return quoted + '"';
+  if (!text.empty() && has_only(text, "_-.:/")) return text;
+  return '"' + between_single_quotes(text) + '"';
 }
 
 }  // namespace kinesphere::program
