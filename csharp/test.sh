@@ -8,7 +8,7 @@ hash=$3 game_loop=$4 monitor=$5 work=$2/csharp
 export LD_LIBRARY_PATH=$1
 source=$(realpath "$(dirname "${BASH_SOURCE[0]}")")
 mkdir -p "$work"
-mcs -unsafe -warnaserror -target:library -out:"$work/Kinesphere.dll" "$source/Native.cs" "$source/Kinesphere.cs"
+mcs -unsafe -warnaserror -target:library -out:"$work/Kinesphere.dll" "$source"/src/*.cs
 compile() { mcs -warnaserror -r:"$work/Kinesphere.dll" -r:System.Core -out:"$work/$2.exe" "$source/$1/$2.cs"; }
 compile examples GameLoop
 compile examples Tower

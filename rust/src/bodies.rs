@@ -154,6 +154,19 @@ impl BodyView {
     }
 }
 
+impl Shape {
+    pub(crate) fn raw(&self) -> sys::ks_shape {
+        let zero = Vec3::default();
+        let (kind, points, number) = match *self {
+            Shape::Ball { centre, radius } => (0, [centre, zero, zero], radius),
+            Shape::HalfSpace { normal, offset } => (1, [normal, zero, zero], offset),
+            Shape::Box(Box3 { lower, upper }) => (2, [lower, upper, zero], 0.0),
+            Shape::Triangle(corners) => (3, corners, 0.0),
+        };
+        sys::ks_shape { kind, points, number }
+    }
+}
+
 /// A body that never moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StaticDefinition {

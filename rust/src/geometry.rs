@@ -1,5 +1,4 @@
 //! Vectors, boxes, shapes and ids.
-use crate::sys;
 use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::ops::{Add, AddAssign, Mul, Neg, Sub};
@@ -76,19 +75,6 @@ pub enum Shape {
     HalfSpace { normal: Vec3, offset: f64 },
     Box(Box3),
     Triangle([Vec3; 3]),
-}
-
-impl Shape {
-    pub(crate) fn raw(&self) -> sys::ks_shape {
-        let zero = Vec3::default();
-        let (kind, points, number) = match *self {
-            Shape::Ball { centre, radius } => (0, [centre, zero, zero], radius),
-            Shape::HalfSpace { normal, offset } => (1, [normal, zero, zero], offset),
-            Shape::Box(Box3 { lower, upper }) => (2, [lower, upper, zero], 0.0),
-            Shape::Triangle(corners) => (3, corners, 0.0),
-        };
-        sys::ks_shape { kind, points, number }
-    }
 }
 
 /// A rotation as a unit quaternion w + x i + y j + z k.

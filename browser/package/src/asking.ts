@@ -1,12 +1,13 @@
 // Callbacks of an advancing world: states of bodies, and responses to events.
 import { BodyMap } from "./body_map.js";
-import { Event, eventNumbers, type Vec3 } from "./event.js";
+import { Event, eventNumbers } from "./event.js";
 import type { Module } from "./module.js";
-import { Motion, vector } from "./motion.js";
-import { checkKeys, type Keys, requireNumbers, shown } from "./options.js";
-import { bounced, checkBounce } from "./response.js";
-import { type RotationProbeFunction, rotationNumbers } from "./rigid_body.js";
+import { Motion } from "./motion.js";
+import { checkKeys, type Keys, refusePromise, requireNumbers, shown } from "./options.js";
+import { bounced, type Bounces, checkBounce } from "./response.js";
+import { rotationNumbers, type RotationProbeFunction } from "./rigid_body.js";
 import { Scene } from "./scene.js";
+import { type Vec3, vector } from "./state.js";
 
 /**
  * Sets states[6 k], ... to position and velocity of ids[k] at `time`. Both arrays are good during the call alone.
@@ -37,18 +38,6 @@ export interface Answer {
 }
 /** Precondition: equal events get equal answers. `bounce` is such a function. */
 export type RespondFunction = (event: Event) => Answer | undefined;
-/**
- * Bodies bounce off each other, static bodies and the walls. Masses are by index, by default those of the bodies; static
- * bodies are infinitely heavy.
- */
-export interface Bounces {
-  masses?: ArrayLike<number>;
-  /** Range: 0 to 1; default: 1. */
-  restitution?: number;
-  /** > 0: bodies that come to rest in a heap; see `settle` in kinesphere/response.hpp. */
-  restingSpeed?: number;
-}
-
 /** What a run may be told besides its motion and its end. */
 export interface RunOptions {
   /** The source of states: a motion whose numbers are the indices of the ids, or a map. */
@@ -95,14 +84,6 @@ export function responded(respond: RunOptions["respond"]): [number, Bounces, num
   checkBounce(respond, "run");
   if (respond.masses !== undefined) requireNumbers(respond.masses, "masses", "run");
   return [respondings.bounces, respond, 0, null];
-}
-
-/** Throws TypeError for the answer of an async function: the library needs it at once. */
-export function refusePromise(answer: unknown, what: string): void {
-  if (answer instanceof Promise) {
-    answer.catch(() => {});
-    throw new TypeError(`${what} must not be an async function: its answer is needed at once`);
-  }
 }
 
 /** Returns false for what no bounce turns: walls, static and sleeping bodies, infinite masses, and events but begins. */

@@ -1,9 +1,8 @@
 // Definitions of bodies, and their tables of numbers for the module.
 import { type Box, boxKeys, type ContactEvents, numberOfContacts } from "./definition.js";
-import type { Vec3 } from "./event.js";
 import { type Filter, filterNumbers } from "./filter.js";
-import { type PerBody, type States, vector } from "./motion.js";
 import { checkKeys, type Keys, whole } from "./options.js";
+import { type PerBody, type States, type Vec3, vector } from "./state.js";
 
 /** What a body promises: the fields of BodyDefinition with these names. */
 export interface MotionLimits {

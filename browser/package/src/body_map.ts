@@ -1,12 +1,13 @@
 // BodyMap: which body of a world is which body of which motion.
-import { type BodyId, type State, type Vec3 } from "./event.js";
 import {
-  bodyNumbers, type MovedBodyDefinition, movedBodyKeys, movedKeys, type MovedOptions, putBody, type Shape, shapeNumbers,
+  bodyNumbers, type MovedBodyDefinition, movedBodyKeys, movedKeys, type MovedOptions, putBody, type Shape,
+  shapeNumbers,
 } from "./body.js";
 import { Owned, theModule } from "./module.js";
-import { countOf, each, type FrameMotion, type Motion, type PerBody, sixOf, vector } from "./motion.js";
+import type { FrameMotion, Motion } from "./motion.js";
 import { checkKeys, requireNumbers } from "./options.js";
-import { type MovedRigidBodyDefinition, movedRigidArguments, type RigidPart } from "./rigid_body.js";
+import { movedRigidArguments, type MovedRigidBodyDefinition, type RigidPart } from "./rigid_body.js";
+import { type BodyId, countOf, each, type PerBody, sixOf, type State, type Vec3, vector } from "./state.js";
 import type { World } from "./world.js";
 
 const existing = Symbol("existing");

@@ -1,9 +1,8 @@
 // Definitions of worlds.
-import type { Vec3 } from "./event.js";
 import { type Filter, filterFrom, filterNumbers } from "./filter.js";
 import type { Module } from "./module.js";
-import { vector } from "./motion.js";
 import { checkKeys, type Keys, shown } from "./options.js";
+import { type Vec3, vector } from "./state.js";
 
 /** All points with lower <= p <= upper on every axis. */
 export interface Box {

@@ -1,18 +1,7 @@
 // Events of a world: contacts and the like, each at its exact time.
 import { theModule } from "./module.js";
 import { shown } from "./options.js";
-
-/** Three numbers; a typed array is possible. */
-export type Vec3 = ArrayLike<number>;
-
-/** A body's id: a whole number, valid in its own world alone; usable as a key. */
-export type BodyId = number;
-
-/** Position (length) and velocity (length / time). */
-export interface State {
-  position: Vec3;
-  velocity: Vec3;
-}
+import type { BodyId, State } from "./state.js";
 
 const kinds = [
   "bound_violation", "contact_begin", "contact_end", "wall_begin", "wall_end", "zeno_guard", "sensor_enter",

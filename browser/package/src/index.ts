@@ -1,13 +1,13 @@
 // Kinesphere: finds every collision among moving spheres with trajectories that are unknown in advance.
 export { type ErrorCode, KinesphereError, load, type LoadOptions, usesSimd, version } from "./module.js";
-export { type BodyId, type BodyTraits, Event, EventHash, type EventKind, eventKinds, Events, type State, type Vec3, type Wall } from "./event.js";
+export type { BodyId, PerBody, State, States, Vec3 } from "./state.js";
+export { type BodyTraits, Event, EventHash, type EventKind, eventKinds, Events, type Wall } from "./event.js";
 export {
   Ballistic, type BallisticOptions, FrameMotion, type FrameMotionOptions, type FrameViolation, type LimitedMotion, Motion,
-  type MotionDefinition, type PerBody, RandomForces, type RandomForcesOptions, RecordedTracks, type States, SteeredMotion,
-  type Track,
+  type MotionDefinition, RandomForces, type RandomForcesOptions, RecordedTracks, SteeredMotion, type Track,
 } from "./motion.js";
-export { bounce, type Bounce, type BounceOptions } from "./response.js";
-export type { Answer, BodyAction, Bounces, Probe, ProbeFunction, RespondFunction, RunOptions } from "./asking.js";
+export { bounce, type Bounce, type BounceOptions, type Bounces } from "./response.js";
+export type { Answer, BodyAction, Probe, ProbeFunction, RespondFunction, RunOptions } from "./asking.js";
 export type {
   BodyBatch, BodyDefinition, BodyOptions, MotionLimits, MovedBodyDefinition, MovedOptions, Shape, ShapeCarrier, StaticOptions,
   ZoneOptions,

@@ -1,9 +1,10 @@
 // Monitor: certain statements about the separation of tracks that report irregularly, and predictions.
-import { refusePromise } from "./asking.js";
 import { type Module, Owned, theModule } from "./module.js";
-import { type FullMonitorDefinition, monitorDefinitionOf, monitorNumbers, type MonitorDefinition } from "./monitor_definition.js";
-import { requireBytes, whole } from "./options.js";
+import {
+  type FullMonitorDefinition, type MonitorDefinition, monitorDefinitionOf, monitorNumbers,
+} from "./monitor_definition.js";
 import { MonitorEvent, MonitorEvents, type TrackId, type Verdict, verdictOf } from "./monitor_event.js";
+import { refusePromise, requireBytes, whole } from "./options.js";
 import { batchNumbers, putReport, type ReportBatch, reportNumbers, trackId, type TrackReport } from "./report.js";
 
 /** Counts of the work that a monitor has done since it was created. */

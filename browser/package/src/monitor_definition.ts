@@ -1,8 +1,7 @@
 // Definitions of monitors: classes, separations, levels.
-import type { Vec3 } from "./event.js";
-import { vector } from "./motion.js";
 import { checkKeys, type Keys, shown, whole } from "./options.js";
 import { boundNumbers, type ErrorBound } from "./report.js";
+import { type Vec3, vector } from "./state.js";
 
 /** Motion limits that hold for all tracks of a class. At least one of the two limits has to be finite. */
 export interface TrackClass {

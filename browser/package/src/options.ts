@@ -100,3 +100,11 @@ export function checkKeys<Options extends object>(
       throw new TypeError(`${call}: ${name} must be a ${kind}, but is ${shown(value)}`);
   }
 }
+
+/** Throws TypeError for the answer of an async function: the library needs it at once. */
+export function refusePromise(answer: unknown, what: string): void {
+  if (answer instanceof Promise) {
+    answer.catch(() => {});
+    throw new TypeError(`${what} must not be an async function: its answer is needed at once`);
+  }
+}

@@ -1,8 +1,7 @@
 // Reports of tracks, and their tables of numbers for the module.
-import type { Vec3 } from "./event.js";
 import type { TrackId } from "./monitor_event.js";
-import { countOf, each, type PerBody, vector } from "./motion.js";
 import { checkKeys, type Keys, numberOf, requireNumbers, shown, whole } from "./options.js";
+import { countOf, each, type PerBody, type Vec3, vector } from "./state.js";
 
 /**
  * An upper limit of an error: a number is a ball of that radius; otherwise the limits in the horizontal plane (x, y) and

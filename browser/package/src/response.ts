@@ -1,8 +1,8 @@
 // Responses of two bodies to a contact.
-import type { Bounces } from "./asking.js";
-import { Event, type Vec3 } from "./event.js";
+import { Event } from "./event.js";
 import { theModule } from "./module.js";
 import { checkKeys, type Keys, shown } from "./options.js";
+import type { Vec3 } from "./state.js";
 
 /** Marks what `bounce` returns: as an answer of a run it turns only the bodies that a contact can turn. */
 export const bounced = Symbol("bounced");
@@ -30,6 +30,18 @@ export interface BounceOptions {
 }
 
 const bounceKeys: Keys<BounceOptions> = { firstMass: "number", secondMass: "number", restitution: "number", restingSpeed: "number" };
+
+/**
+ * Bodies bounce off each other, static bodies and the walls. Masses are by index, by default those of the bodies; static
+ * bodies are infinitely heavy.
+ */
+export interface Bounces {
+  masses?: ArrayLike<number>;
+  /** Range: 0 to 1; default: 1. */
+  restitution?: number;
+  /** > 0: bodies that come to rest in a heap; see `settle` in kinesphere/response.hpp. */
+  restingSpeed?: number;
+}
 
 /** Throws RangeError for numbers with which bodies would gain energy. */
 export function checkBounce({ restitution = 1, restingSpeed = 0 }: Bounces, call: string): void {

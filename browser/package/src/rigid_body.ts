@@ -1,9 +1,8 @@
 // Rigid bodies: balls, capsules, boxes and convex hulls that move and turn together.
-import { putBody, bodyNumbers, type MovedOptions, movedKeys, type ShapeCarrier, shapeCarrierKeys } from "./body.js";
-import type { Vec3 } from "./event.js";
+import { bodyNumbers, movedKeys, type MovedOptions, putBody, type ShapeCarrier, shapeCarrierKeys } from "./body.js";
 import type { Scratch } from "./module.js";
-import { vector } from "./motion.js";
 import { checkKeys, type Keys, requireNumbers, shown } from "./options.js";
+import { type Vec3, vector } from "./state.js";
 
 /** A rotation as a unit quaternion w, x, y, z. */
 export type Quaternion = ArrayLike<number>;

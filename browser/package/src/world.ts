@@ -1,22 +1,26 @@
 // The world: moving spheres with unknown trajectories, and every contact among them, in time order.
 import { asking, moving, type Probe, responded, runKeys, type RunOptions } from "./asking.js";
 import {
-  batchKeys, type BodyBatch, type BodyDefinition, bodyKeys, bodyNumbers, limitKeys,
-  type MotionLimits, movedKeys, type MovedOptions, putBody, putOptions, type Shape, type ShapeCarrier,
-  shapeCarrierKeys, shapeFrom, shapeNumbers, staticKeys,
-  type StaticOptions, zoneKeys, type ZoneOptions,
+  batchKeys, type BodyBatch, type BodyDefinition, bodyKeys, bodyNumbers, limitKeys, type MotionLimits, movedKeys,
+  type MovedOptions, putBody, putOptions, type Shape, type ShapeCarrier, shapeCarrierKeys, shapeFrom, shapeNumbers,
+  staticKeys, type StaticOptions, zoneKeys, type ZoneOptions,
 } from "./body.js";
 import { BodyMap } from "./body_map.js";
-import { type Box, boxKeys, type Definition, definitionAt, definitionNumbers, type WorldDefinition } from "./definition.js";
-import { type BodyId, Event, type EventKind, Events, eventKinds, type State, type Vec3, type Wall, wallOf } from "./event.js";
+import {
+  type Box, boxKeys, type Definition, definitionAt, definitionNumbers, type WorldDefinition,
+} from "./definition.js";
+import { Event, type EventKind, eventKinds, Events, type Wall, wallOf } from "./event.js";
 import { type Filter, filterFrom, filterNumbers, maskNumber } from "./filter.js";
 import { Owned, type Scratch, theModule } from "./module.js";
+import { Motion, type MotionDefinition } from "./motion.js";
 import { checkKeys, requireBytes, requireNumbers, whole } from "./options.js";
 import {
   numbersOfRotation, partsFrom, rigidArguments, type RigidBodyDefinition, type RigidPart, type Rotation, rotationFrom,
   type RotationProbeFunction,
 } from "./rigid_body.js";
-import { countOf, each, Motion, type MotionDefinition, type PerBody, requireAsMany, sixOf, vector } from "./motion.js";
+import {
+  type BodyId, countOf, each, type PerBody, requireAsMany, sixOf, type State, type Vec3, vector,
+} from "./state.js";
 
 /** What the world knows of a body now. */
 export interface BodyView {

@@ -1,0 +1,63 @@
+// Vectors, states, rotations and shapes.
+using System;
+using System.Runtime.InteropServices;
+
+namespace Kinesphere
+{
+    [Flags] public enum Axes : uint { None = 0, X = 1, Y = 2, Z = 4 }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Vector
+    {
+        public double X, Y, Z;
+        public Vector(double x, double y, double z) { X = x; Y = y; Z = z; }
+        public static Vector operator +(Vector a, Vector b) { return new Vector(a.X + b.X, a.Y + b.Y, a.Z + b.Z); }
+        public static Vector operator -(Vector a, Vector b) { return new Vector(a.X - b.X, a.Y - b.Y, a.Z - b.Z); }
+        public static Vector operator *(Vector a, double by) { return new Vector(a.X * by, a.Y * by, a.Z * by); }
+        public override string ToString() { return FormattableString.Invariant($"({X}, {Y}, {Z})"); }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public struct State
+    {
+        public Vector Position, Velocity;
+        public State(Vector position, Vector velocity) { Position = position; Velocity = velocity; }
+        public override string ToString() { return Position + " at velocity " + Velocity; }
+    }
+
+    /// <summary>A rotation as a unit quaternion W + X i + Y j + Z k.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Quaternion
+    {
+        public double W, X, Y, Z;
+        public Quaternion(double w, double x, double y, double z) { W = w; X = x; Y = y; Z = z; }
+    }
+
+    /// <summary>Orientation and angular velocity (radians / time, in the world's axes) of a rigid body.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Rotation
+    {
+        public Quaternion Orientation;
+        public Vector AngularVelocity;
+        public Rotation(Quaternion orientation, Vector angularVelocity)
+        {
+            Orientation = orientation;
+            AngularVelocity = angularVelocity;
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Shape
+    {
+        int kind;
+        Vector a, b, c;
+        double number;
+        public static Shape Ball(Vector centre, double radius) { return new Shape { a = centre, number = radius }; }
+        public static Shape HalfSpace(Vector normal, double offset)
+        {
+            return new Shape { kind = 1, a = normal, number = offset };
+        }
+        public static Shape Box(Vector lower, Vector upper) { return new Shape { kind = 2, a = lower, b = upper }; }
+        public static Shape Triangle(Vector a, Vector b, Vector c) { return new Shape { kind = 3, a = a, b = b, c = c }; }
+    }
+}
