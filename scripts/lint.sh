@@ -35,13 +35,21 @@ if ! diff <(printf '%s\n' "${rooms[@]}" | sort) <(basename -a src/*/ | sort); th
   echo "lint: scripts/lint.sh and docs/architecture.md must list all folders of src" >&2
   exit 1
 fi
-for k in "${!rooms[@]}"; do
-  later=$(IFS='|' && echo "${rooms[*]:k+1}")
-  if [[ -n $later ]] && grep -rnE "#include \"($later)/" "src/${rooms[k]}"; then
-    echo "lint: src/${rooms[k]} may include only folders that docs/architecture.md lists before it" >&2
-    exit 1
-  fi
-done
+# Usage: includes_only_earlier <folder> <prefix of its rooms in includes> <room>...
+includes_only_earlier() {
+  local folder=$1 prefix=$2 k later
+  shift 2
+  for ((k = 1; k < $#; ++k)); do
+    later=$(IFS='|' && echo "${*:k+1}")
+    if grep -rnE "#include \"$prefix($later)/" "$folder/${!k}"; then
+      echo "lint: $folder/${!k} may include only folders that docs/architecture.md lists before it" >&2
+      exit 1
+    fi
+  done
+}
+includes_only_earlier src '' "${rooms[@]}"
+includes_only_earlier programs/kinesphere '' base formats serving scenes tracks view watch
+includes_only_earlier programs/kinesphere/formats formats/ fields nmea tables converted streams
 beyond_input=$(IFS='|' && echo "${rooms[*]:2}")
 if grep -rnE "#include \"($beyond_input)/" c; then
   echo "lint: of src, c/ may include number/ and input/ alone" >&2

@@ -18,7 +18,7 @@
 #include <system_error>
 #include <utility>
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
 
 namespace kinesphere::program {
 namespace {

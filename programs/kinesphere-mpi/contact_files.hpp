@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "contact_log.hpp"
 #include "kinesphere/distributed/distributed_world.hpp"
 #include "ranks.hpp"
+#include "scenes/contact_log.hpp"
 
 namespace kinesphere::program {
 

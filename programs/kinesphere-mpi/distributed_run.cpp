@@ -8,16 +8,16 @@
 #include <new>
 #include <vector>
 
+#include "base/output_paths.hpp"
+#include "base/program_error.hpp"
+#include "base/standard_output.hpp"
+#include "base/validators.hpp"
 #include "contact_files.hpp"
 #include "distributed_simulation.hpp"
-#include "output_paths.hpp"
-#include "program_error.hpp"
 #include "rank_table.hpp"
 #include "ranks.hpp"
 #include "scene_text.hpp"
-#include "standard_output.hpp"
-#include "summary.hpp"
-#include "validators.hpp"
+#include "scenes/summary.hpp"
 
 namespace kinesphere::program {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "kinesphere/distributed/mpi_session.hpp"
-#include "scene_options.hpp"
+#include "scenes/scene_options.hpp"
 
 namespace kinesphere::program {
 

@@ -15,7 +15,7 @@
 #include <tuple>
 #include <utility>
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
 #include "simulation/run/scene_answer.hpp"
 
 namespace kinesphere::program {

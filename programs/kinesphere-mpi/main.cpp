@@ -7,13 +7,13 @@
 #include <sstream>
 #include <string>
 
+#include "base/program_error.hpp"
+#include "base/standard_output.hpp"
 #include "distributed_run.hpp"
 #include "kinesphere/distributed/mpi_session.hpp"
 #include "kinesphere/version.hpp"
-#include "program_error.hpp"
 #include "ranks.hpp"
 #include "shared_error.hpp"
-#include "standard_output.hpp"
 
 namespace kinesphere::program {
 namespace {

@@ -9,7 +9,7 @@
 #include <ctime>
 #include <vector>
 
-#include "summary.hpp"
+#include "scenes/summary.hpp"
 
 namespace kinesphere::program {
 namespace {

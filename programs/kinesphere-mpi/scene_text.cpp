@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "scene_file.hpp"
+#include "scenes/scene_file.hpp"
 
 namespace kinesphere::program {
 namespace {

@@ -8,10 +8,10 @@
 #include <sstream>
 #include <string>
 
+#include "base/program_error.hpp"
+#include "base/standard_output.hpp"
+#include "base/standard_streams.hpp"
 #include "kinesphere/version.hpp"
-#include "program_error.hpp"
-#include "standard_output.hpp"
-#include "standard_streams.hpp"
 
 namespace kinesphere::program {
 namespace {

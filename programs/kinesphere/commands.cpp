@@ -4,13 +4,13 @@
 #include <CLI/CLI.hpp>
 
 #include "command_line.hpp"
-#include "list_scenes.hpp"
-#include "replay.hpp"
-#include "run.hpp"
-#include "tracks.hpp"
-#include "verify.hpp"
-#include "view.hpp"
-#include "watch.hpp"
+#include "scenes/list_scenes.hpp"
+#include "scenes/replay.hpp"
+#include "scenes/run.hpp"
+#include "scenes/verify.hpp"
+#include "tracks/tracks.hpp"
+#include "view/view.hpp"
+#include "watch/watch.hpp"
 
 namespace kinesphere::program {
 

@@ -59,7 +59,7 @@ std::shared_ptr<SceneHandle> create_scene(const std::string& name, const py::obj
   refuse({"Scene", "name"}, "must be one of scene_names()", "is \"" + name + "\"");
 }
 
-/// A field of a scene file (programs/kinesphere/scene_file.cpp).
+/// A field of a scene file (programs/kinesphere/scenes/scene_file.cpp).
 struct SceneField {
   std::string_view name;
   void (*set)(SceneParameters&, const py::object&, const Argument&);

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <numbers>
 
+#include "base/program_error.hpp"
 #include "kinesphere/random.hpp"
-#include "program_error.hpp"
 
 namespace kinesphere::program {
 namespace {

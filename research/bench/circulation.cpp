@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
 #include "research/bench/measurement.hpp"
 #include "research/bench/published.hpp"
 #include "research/bench/sections.hpp"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
 #include "simulation/run/simulate.hpp"
 
 namespace kinesphere::program {

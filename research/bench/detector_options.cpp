@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <vector>
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
+#include "base/validators.hpp"
 #include "research/rivals/detector_table.hpp"
-#include "summary.hpp"
-#include "validators.hpp"
+#include "scenes/summary.hpp"
 
 namespace kinesphere::program {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "named_detector.hpp"
+#include "scenes/named_detector.hpp"
 
 namespace kinesphere::program {
 

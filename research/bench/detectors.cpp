@@ -1,7 +1,7 @@
 // The detectors that are compared, by their names in the tables.
 #include "research/bench/detectors.hpp"
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
 #include "research/rivals/detector_table.hpp"
 
 namespace kinesphere::program {

@@ -1,8 +1,8 @@
 // The detectors that are compared, by their names in the tables.
 #pragma once
 
-#include "named_detector.hpp"
 #include "research/rivals/rivals.hpp"
+#include "scenes/named_detector.hpp"
 
 namespace kinesphere::program {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
 #include "research/bench/measurement.hpp"
 #include "research/measures/game_loop.hpp"
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
 #include "research/bench/measurement.hpp"
 #include "research/measures/gas_properties.hpp"
-#include "scene_file.hpp"
+#include "scenes/scene_file.hpp"
 
 namespace kinesphere::program {
 namespace {

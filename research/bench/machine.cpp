@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "kinesphere/version.hpp"
-#include "summary.hpp"
+#include "scenes/summary.hpp"
 
 namespace kinesphere::program {
 namespace {

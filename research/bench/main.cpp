@@ -1,8 +1,8 @@
 // `kinesphere-bench`: measurements that anyone can repeat, and scenes under the algorithms of other papers.
 #include <CLI/CLI.hpp>
 
+#include "base/program_error.hpp"
 #include "command_line.hpp"
-#include "program_error.hpp"
 #include "research/bench/detector_options.hpp"
 #include "research/bench/frames.hpp"
 #include "research/bench/gas.hpp"
@@ -13,8 +13,8 @@
 #include "research/bench/soak.hpp"
 #include "research/bench/speed/speed.hpp"
 #include "research/bench/vessels.hpp"
-#include "run.hpp"
-#include "verify.hpp"
+#include "scenes/run.hpp"
+#include "scenes/verify.hpp"
 
 int main(int argc, char** argv) {
   namespace program = kinesphere::program;

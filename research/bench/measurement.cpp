@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
-#include "program_error.hpp"
-#include "scene_file.hpp"
+#include "base/program_error.hpp"
+#include "scenes/scene_file.hpp"
 
 namespace kinesphere::program {
 namespace {

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
+#include "base/validators.hpp"
 #include "research/bench/result_table.hpp"
 #include "research/monitoring/alarms.hpp"
 #include "research/monitoring/polling.hpp"
 #include "tracks/reading_options.hpp"
 #include "tracks/track_file.hpp"
-#include "validators.hpp"
 
 namespace kinesphere::program {
 namespace {

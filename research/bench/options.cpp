@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
+#include "base/standard_output.hpp"
 #include "research/bench/machine.hpp"
-#include "standard_output.hpp"
 
 namespace kinesphere::program {
 

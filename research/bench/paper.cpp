@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
+#include "base/standard_output.hpp"
 #include "research/bench/report.hpp"
 #include "research/bench/sections.hpp"
-#include "standard_output.hpp"
 
 namespace kinesphere::program {
 namespace {

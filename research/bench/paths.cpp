@@ -10,16 +10,16 @@
 #include <vector>
 
 #include "archive/checksum.hpp"
+#include "base/program_error.hpp"
+#include "base/standard_output.hpp"
+#include "base/validators.hpp"
 #include "kinesphere/approaches.hpp"
 #include "kinesphere/workers.hpp"
-#include "program_error.hpp"
 #include "research/bench/arcs.hpp"
 #include "research/bench/measurement.hpp"
 #include "research/bench/result_table.hpp"
 #include "research/measures/peak_memory.hpp"
-#include "standard_output.hpp"
-#include "summary.hpp"
-#include "validators.hpp"
+#include "scenes/summary.hpp"
 
 namespace kinesphere::program {
 namespace {

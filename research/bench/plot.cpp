@@ -5,7 +5,7 @@
 
 #include <cstdlib>
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
 
 namespace kinesphere::program {
 namespace {

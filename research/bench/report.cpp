@@ -9,9 +9,9 @@
 #include <system_error>
 #include <utility>
 
-#include "output_file.hpp"
-#include "program_error.hpp"
-#include "standard_output.hpp"
+#include "base/output_file.hpp"
+#include "base/program_error.hpp"
+#include "base/standard_output.hpp"
 
 namespace kinesphere::program {
 namespace {

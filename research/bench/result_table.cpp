@@ -7,7 +7,7 @@
 #include <cassert>
 #include <utility>
 
-#include "summary.hpp"
+#include "scenes/summary.hpp"
 
 namespace kinesphere::program {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "table_file.hpp"
+#include "base/table_file.hpp"
 
 namespace kinesphere::program {
 

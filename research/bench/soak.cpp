@@ -10,12 +10,12 @@
 #include <optional>
 #include <vector>
 
-#include "program_error.hpp"
-#include "progress.hpp"
+#include "base/program_error.hpp"
+#include "base/progress.hpp"
+#include "base/standard_output.hpp"
+#include "base/validators.hpp"
 #include "research/monitoring/verdict_check.hpp"
-#include "standard_output.hpp"
-#include "summary.hpp"
-#include "validators.hpp"
+#include "scenes/summary.hpp"
 
 namespace kinesphere::program {
 

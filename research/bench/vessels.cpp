@@ -9,11 +9,11 @@
 #include <memory>
 #include <utility>
 
+#include "base/output_file.hpp"
+#include "base/program_error.hpp"
+#include "base/validators.hpp"
 #include "kinesphere/random.hpp"
-#include "output_file.hpp"
-#include "program_error.hpp"
 #include "research/bench/measurement.hpp"
-#include "validators.hpp"
 
 namespace kinesphere::program {
 namespace {

@@ -1,5 +1,5 @@
 // The contact log, and its rows of CSV and JSON lines.
-#include "contact_log.hpp"
+#include "scenes/contact_log.hpp"
 
 #include <cstdlib>
 #include <limits>

@@ -1,5 +1,5 @@
 // Frames in extended XYZ.
-#include "frames_xyz.hpp"
+#include "scenes/frames_xyz.hpp"
 
 #include "kinesphere/motion/recorded_tracks.hpp"
 #include "support.hpp"

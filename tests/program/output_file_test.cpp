@@ -1,5 +1,5 @@
 // Output files appear complete or not at all.
-#include "output_file.hpp"
+#include "base/output_file.hpp"
 
 #include <sys/resource.h>
 

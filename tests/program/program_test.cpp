@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "formats/column_names.hpp"
+#include "formats/tables/column_names.hpp"
 #include "kinesphere/version.hpp"
-#include "scene_file.hpp"
+#include "scenes/scene_file.hpp"
 #include "support.hpp"
 
 namespace kinesphere::program::program_test {

@@ -1,5 +1,5 @@
 // Scene files: every field, and every kind of error.
-#include "scene_file.hpp"
+#include "scenes/scene_file.hpp"
 
 #include "support.hpp"
 

@@ -1,11 +1,11 @@
 // Figures in summaries.
-#include "summary.hpp"
+#include "scenes/summary.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "progress.hpp"
+#include "base/progress.hpp"
 
 namespace kinesphere::program::summary_test {
 namespace {

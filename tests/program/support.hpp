@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
 
 namespace kinesphere::program {
 

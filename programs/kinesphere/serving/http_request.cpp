@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "ascii_text.hpp"
+#include "base/ascii_text.hpp"
 
 namespace kinesphere::program {
 namespace {

@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
 #include "serving/client_connection.hpp"
 
 namespace kinesphere::program {

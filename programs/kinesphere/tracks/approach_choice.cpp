@@ -8,9 +8,9 @@
 #include <set>
 #include <string_view>
 
-#include "formats/time_text.hpp"
-#include "program_error.hpp"
-#include "validators.hpp"
+#include "base/program_error.hpp"
+#include "base/validators.hpp"
+#include "formats/fields/time_text.hpp"
 
 namespace kinesphere::program {
 namespace {

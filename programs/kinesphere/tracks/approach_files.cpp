@@ -8,8 +8,8 @@
 #include <map>
 #include <utility>
 
+#include "base/program_error.hpp"
 #include "number/infinity.hpp"
-#include "program_error.hpp"
 #include "tracks/recording_cells.hpp"
 #include "tracks/track_scene.hpp"
 

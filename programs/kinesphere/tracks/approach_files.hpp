@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "base/output_file.hpp"
+#include "base/table_file.hpp"
 #include "number/infinity.hpp"
-#include "output_file.hpp"
 #include "simulation/tracks/approaches.hpp"
 #include "simulation/tracks/post_encroachment.hpp"
 #include "simulation/tracks/time_to_collision.hpp"
-#include "table_file.hpp"
 #include "tracks/approach_map.hpp"
 #include "tracks/recording.hpp"
 

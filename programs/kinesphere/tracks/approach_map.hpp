@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/table_file.hpp"
 #include "simulation/tracks/approaches.hpp"
-#include "table_file.hpp"
 #include "tracks/recording.hpp"
 
 namespace kinesphere::program {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "xml_text.hpp"
+#include "base/xml_text.hpp"
 
 namespace kinesphere::program {
 namespace {

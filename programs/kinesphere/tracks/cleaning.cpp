@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
 
 namespace kinesphere::program {
 namespace {

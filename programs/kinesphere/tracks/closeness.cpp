@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "formats/units.hpp"
-#include "program_error.hpp"
-#include "separations.hpp"
+#include "base/program_error.hpp"
+#include "formats/fields/separations.hpp"
+#include "formats/fields/units.hpp"
 
 namespace kinesphere::program {
 Closeness closeness_of(const std::string& distance_text, const std::string& separation_text) {

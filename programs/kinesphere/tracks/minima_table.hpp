@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "base/table_file.hpp"
 #include "simulation/tracks/approaches.hpp"
-#include "table_file.hpp"
 #include "tracks/recording.hpp"
 
 namespace kinesphere::program {

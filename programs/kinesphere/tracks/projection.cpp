@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <charconv>
 
-#include "azimuthal_map.hpp"
-#include "program_error.hpp"
+#include "base/azimuthal_map.hpp"
+#include "base/program_error.hpp"
 
 #ifdef KINESPHERE_WITH_GEOGRAPHICLIB
 #include <GeographicLib/Geocentric.hpp>

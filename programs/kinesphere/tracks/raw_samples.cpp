@@ -11,10 +11,10 @@
 #include <numeric>
 #include <utility>
 
-#include "formats/converted_table.hpp"
-#include "formats/file_kind.hpp"
-#include "formats/row_reader.hpp"
-#include "program_error.hpp"
+#include "base/program_error.hpp"
+#include "formats/converted/converted_table.hpp"
+#include "formats/converted/file_kind.hpp"
+#include "formats/tables/row_reader.hpp"
 
 namespace kinesphere::program {
 namespace {

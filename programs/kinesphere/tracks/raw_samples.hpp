@@ -8,9 +8,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "formats/report_format.hpp"
-#include "formats/table_head.hpp"
-#include "formats/time_text.hpp"
+#include "formats/fields/time_text.hpp"
+#include "formats/streams/report_format.hpp"
+#include "formats/tables/table_head.hpp"
 #include "kinesphere/vec3.hpp"
 #include "tracks/reading_policy.hpp"
 #include "tracks/recording.hpp"

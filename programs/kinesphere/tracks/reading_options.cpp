@@ -1,7 +1,7 @@
 // The command-line options for reading recordings.
 #include "tracks/reading_options.hpp"
 
-#include "validators.hpp"
+#include "base/validators.hpp"
 
 namespace kinesphere::program {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/input_options.hpp"
+#include "formats/streams/input_options.hpp"
 #include "tracks/reading_policy.hpp"
 
 namespace kinesphere::program {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "formats/report_format.hpp"
+#include "formats/streams/report_format.hpp"
 #include "simulation/tracks/scene_of_tracks.hpp"
 #include "tracks/projection.hpp"
 

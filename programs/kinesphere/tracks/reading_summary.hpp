@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "summary.hpp"
+#include "scenes/summary.hpp"
 #include "tracks/recording.hpp"
 #include "tracks/track_scene.hpp"
 

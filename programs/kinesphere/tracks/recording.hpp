@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/time_scale.hpp"
+#include "formats/fields/time_scale.hpp"
 #include "kinesphere/motion/recorded_tracks.hpp"
 #include "tracks/coordinates.hpp"
 

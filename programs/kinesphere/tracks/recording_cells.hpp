@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/units.hpp"
-#include "table_file.hpp"
+#include "base/table_file.hpp"
+#include "formats/fields/units.hpp"
 #include "tracks/recording.hpp"
 
 namespace kinesphere::program {

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "formats/column_names.hpp"
-#include "formats/row_filter.hpp"
-#include "program_error.hpp"
+#include "base/program_error.hpp"
+#include "formats/tables/column_names.hpp"
+#include "formats/tables/row_filter.hpp"
 
 namespace kinesphere::program {
 

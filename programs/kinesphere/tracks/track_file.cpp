@@ -9,10 +9,10 @@
 #include <limits>
 #include <utility>
 
-#include "formats/degree_check.hpp"
-#include "formats/time_check.hpp"
-#include "input_file.hpp"
-#include "program_error.hpp"
+#include "base/input_file.hpp"
+#include "base/program_error.hpp"
+#include "formats/fields/degree_check.hpp"
+#include "formats/fields/time_check.hpp"
 #include "tracks/cleaning.hpp"
 #include "tracks/raw_samples.hpp"
 

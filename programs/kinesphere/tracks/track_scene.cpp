@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
 #include "simulation/tracks/cylinder_approaches.hpp"
 #include "simulation/tracks/scene_of_tracks.hpp"
 

@@ -8,11 +8,11 @@
 #include <span>
 #include <utility>
 
-#include "json_text.hpp"
+#include "base/json_text.hpp"
+#include "base/program_error.hpp"
+#include "base/standard_output.hpp"
 #include "kinesphere/recording.hpp"
-#include "program_error.hpp"
 #include "recording/format.hpp"
-#include "standard_output.hpp"
 #include "tracks/reading_summary.hpp"
 #include "tracks/track_file.hpp"
 #include "view/track_table.hpp"

@@ -6,9 +6,9 @@
 #include <iterator>
 #include <string_view>
 
-#include "json_text.hpp"
-#include "program_error.hpp"
-#include "summary.hpp"
+#include "base/json_text.hpp"
+#include "base/program_error.hpp"
+#include "scenes/summary.hpp"
 #include "tracks/track_scene.hpp"
 
 namespace kinesphere::program {

@@ -11,8 +11,8 @@
 #include <cerrno>
 #include <cstring>
 
-#include "program_error.hpp"
-#include "standard_output.hpp"
+#include "base/program_error.hpp"
+#include "base/standard_output.hpp"
 #include "watch/checksum.hpp"
 #include "watch/file_bytes.hpp"
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "ascii_text.hpp"
+#include "base/ascii_text.hpp"
 
 namespace kinesphere::program {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "json_text.hpp"
+#include "base/json_text.hpp"
 #include "watch/alert_text.hpp"
 
 namespace kinesphere::program {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "formats/time_scale.hpp"
+#include "formats/fields/time_scale.hpp"
 #include "kinesphere/monitor/monitor.hpp"
 #include "watch/alert_policy.hpp"
 #include "watch/track_names.hpp"

@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "ascii_text.hpp"
-#include "formats/row_reader.hpp"
-#include "input_file.hpp"
-#include "program_error.hpp"
+#include "base/ascii_text.hpp"
+#include "base/input_file.hpp"
+#include "base/program_error.hpp"
+#include "formats/tables/row_reader.hpp"
 
 namespace kinesphere::program {
 namespace {

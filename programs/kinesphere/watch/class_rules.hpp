@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/report_format.hpp"
+#include "formats/streams/report_format.hpp"
 #include "watch/track_classes.hpp"
 
 namespace kinesphere::program {

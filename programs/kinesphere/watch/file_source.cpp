@@ -13,8 +13,8 @@
 #include <cstring>
 #include <filesystem>
 
-#include "program_error.hpp"
-#include "standard_streams.hpp"
+#include "base/program_error.hpp"
+#include "base/standard_streams.hpp"
 #include "watch/checksum.hpp"
 #include "watch/file_bytes.hpp"
 

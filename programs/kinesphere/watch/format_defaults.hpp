@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "formats/report_format.hpp"
+#include "formats/streams/report_format.hpp"
 #include "kinesphere/monitor/report.hpp"
 
 namespace kinesphere::program {

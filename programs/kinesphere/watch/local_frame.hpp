@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "azimuthal_map.hpp"
+#include "base/azimuthal_map.hpp"
 #include "kinesphere/body.hpp"
 #include "kinesphere/monitor/report.hpp"
 #include "kinesphere/monitor/separation.hpp"

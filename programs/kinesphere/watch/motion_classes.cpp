@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ascii_text.hpp"
-#include "program_error.hpp"
+#include "base/ascii_text.hpp"
+#include "base/program_error.hpp"
 
 namespace kinesphere::program {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "formats/craft_kinds.hpp"
-#include "formats/units.hpp"
+#include "formats/fields/units.hpp"
+#include "formats/tables/craft_kinds.hpp"
 #include "kinesphere/monitor/report.hpp"
 
 namespace kinesphere::program {

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "formats/time_text.hpp"
+#include "formats/fields/time_text.hpp"
 
 namespace kinesphere::program {
 

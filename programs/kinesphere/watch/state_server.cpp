@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "input_file.hpp"
+#include "base/input_file.hpp"
 #include "serving/built_pages.hpp"
 #include "watch/watch_report.hpp"
 

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <string>
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
 
 namespace kinesphere::program {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "formats/time_text.hpp"
+#include "formats/fields/time_text.hpp"
 #include "kinesphere/vec3.hpp"
 
 namespace kinesphere::program {

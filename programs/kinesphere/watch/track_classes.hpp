@@ -9,7 +9,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "formats/source_report.hpp"
+#include "formats/streams/source_report.hpp"
 #include "watch/motion_classes.hpp"
 #include "watch/track_names.hpp"
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
 
 namespace kinesphere::program {
 

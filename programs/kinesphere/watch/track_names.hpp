@@ -8,8 +8,8 @@
 #include <string_view>
 #include <utility>
 
-#include "formats/known_names.hpp"
-#include "formats/source_report.hpp"
+#include "formats/streams/known_names.hpp"
+#include "formats/streams/source_report.hpp"
 #include "kinesphere/monitor/monitor_event.hpp"
 #include "number/id_index.hpp"
 

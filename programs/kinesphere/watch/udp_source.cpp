@@ -14,8 +14,8 @@
 #include <cstring>
 #include <vector>
 
-#include "program_error.hpp"
-#include "standard_output.hpp"
+#include "base/program_error.hpp"
+#include "base/standard_output.hpp"
 
 namespace kinesphere::program {
 namespace {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "number_text.hpp"
-#include "program_error.hpp"
+#include "base/number_text.hpp"
+#include "base/program_error.hpp"
 #include "watch/class_rules.hpp"
 #include "watch/format_defaults.hpp"
 #include "watch/local_frame.hpp"

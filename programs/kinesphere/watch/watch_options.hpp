@@ -1,7 +1,7 @@
 // Turns the command line into the settings of a watch.
 #pragma once
 
-#include "watch.hpp"
+#include "watch/watch.hpp"
 #include "watch/watch_settings.hpp"
 #include "watch/watch_snapshot.hpp"
 

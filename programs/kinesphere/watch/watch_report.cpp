@@ -7,8 +7,8 @@
 #include <iterator>
 #include <string_view>
 
-#include "json_text.hpp"
-#include "summary.hpp"
+#include "base/json_text.hpp"
+#include "scenes/summary.hpp"
 
 namespace kinesphere::program {
 namespace {

@@ -8,12 +8,12 @@
 #include <random>
 #include <utility>
 
-#include "ascii_text.hpp"
-#include "formats/ais/nmea_line.hpp"
-#include "formats/converted_table.hpp"
-#include "formats/file_kind.hpp"
-#include "program_error.hpp"
-#include "standard_output.hpp"
+#include "base/ascii_text.hpp"
+#include "base/program_error.hpp"
+#include "base/standard_output.hpp"
+#include "formats/converted/converted_table.hpp"
+#include "formats/converted/file_kind.hpp"
+#include "formats/nmea/nmea_line.hpp"
 #include "watch/class_rules.hpp"
 #include "watch/file_source.hpp"
 #include "watch/nats/nats_streams.hpp"

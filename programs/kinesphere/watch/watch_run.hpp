@@ -7,12 +7,12 @@
 #include <optional>
 #include <string_view>
 
-#include "formats/record_cutter.hpp"
-#include "watch.hpp"
+#include "formats/tables/record_cutter.hpp"
 #include "watch/alert_output.hpp"
 #include "watch/report_source.hpp"
 #include "watch/state_server.hpp"
 #include "watch/stop_signals.hpp"
+#include "watch/watch.hpp"
 #include "watch/watch_snapshot.hpp"
 #include "watch/watcher.hpp"
 

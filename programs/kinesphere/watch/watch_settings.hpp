@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "formats/fields/separations.hpp"
 #include "kinesphere/monitor/monitor.hpp"
-#include "separations.hpp"
 #include "watch/track_classes.hpp"
 
 namespace kinesphere::program {

@@ -10,8 +10,8 @@
 #include <ostream>
 #include <streambuf>
 
-#include "output_file.hpp"
-#include "program_error.hpp"
+#include "base/output_file.hpp"
+#include "base/program_error.hpp"
 #include "watch/checksum.hpp"
 
 namespace kinesphere::program {

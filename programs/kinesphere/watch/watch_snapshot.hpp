@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "formats/record_cutter.hpp"
+#include "formats/tables/record_cutter.hpp"
 #include "watch/alert_output.hpp"
 #include "watch/report_source.hpp"
 

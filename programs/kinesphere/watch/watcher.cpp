@@ -8,8 +8,8 @@
 #include <limits>
 #include <utility>
 
-#include "ascii_text.hpp"
-#include "program_error.hpp"
+#include "base/ascii_text.hpp"
+#include "base/program_error.hpp"
 
 namespace kinesphere::program {
 namespace {

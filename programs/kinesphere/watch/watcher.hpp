@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "formats/source_report.hpp"
+#include "formats/streams/source_report.hpp"
 #include "kinesphere/monitor/monitor.hpp"
 #include "watch/alert_policy.hpp"
 #include "watch/alerts.hpp"

@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
 #include "watch/watcher.hpp"
 
 namespace nlohmann {

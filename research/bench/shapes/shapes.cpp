@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
 #include "research/bench/measurement.hpp"
 #include "research/bench/shapes/pair_methods.hpp"
 

@@ -2,8 +2,8 @@
 #include <memory>
 #include <utility>
 
+#include "base/program_error.hpp"
 #include "kinesphere/world.hpp"
-#include "program_error.hpp"
 #include "research/bench/shapes/pair_methods.hpp"
 
 namespace kinesphere::program {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <utility>
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
 #include "research/bench/contact_counts.hpp"
 #include "research/bench/detectors.hpp"
 #include "research/bench/measurement.hpp"

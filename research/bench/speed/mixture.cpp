@@ -5,12 +5,12 @@
 #include <memory>
 #include <utility>
 
+#include "base/program_error.hpp"
 #include "kinesphere/motion/ballistic.hpp"
 #include "kinesphere/motion/piecewise_acceleration.hpp"
 #include "kinesphere/motion/random_forces.hpp"
 #include "kinesphere/placement.hpp"
 #include "kinesphere/random.hpp"
-#include "program_error.hpp"
 
 namespace kinesphere::program {
 namespace {

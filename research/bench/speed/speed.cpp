@@ -7,16 +7,16 @@
 #include <utility>
 #include <vector>
 
+#include "base/program_error.hpp"
+#include "base/standard_output.hpp"
+#include "base/validators.hpp"
 #include "kinesphere/workers.hpp"
-#include "program_error.hpp"
 #include "research/bench/measurement.hpp"
 #include "research/bench/report.hpp"
 #include "research/bench/speed/bullet_kernel.hpp"
 #include "research/bench/speed/contest.hpp"
 #include "research/bench/speed/threads.hpp"
 #include "research/bench/speed/verdicts.hpp"
-#include "standard_output.hpp"
-#include "validators.hpp"
 
 namespace kinesphere::program {
 namespace {

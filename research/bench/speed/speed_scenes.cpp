@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
 #include "research/bench/measurement.hpp"
 #include "research/bench/speed/mixture.hpp"
 #include "research/bench/vessels.hpp"
-#include "scene_file.hpp"
+#include "scenes/scene_file.hpp"
 
 namespace kinesphere::program {
 namespace {

@@ -9,9 +9,9 @@
 #include <tuple>
 #include <utility>
 
+#include "base/program_error.hpp"
 #include "contact/contact_event.hpp"
 #include "kinesphere/response.hpp"
-#include "program_error.hpp"
 #include "research/bench/speed/touch.hpp"
 #include "research/bench/speed/tuning.hpp"
 #include "research/bench/speed/wall_check.hpp"

@@ -6,8 +6,8 @@
 #include <chrono>
 #include <numeric>
 
+#include "base/program_error.hpp"
 #include "kinesphere/workers.hpp"
-#include "program_error.hpp"
 #include "research/bench/measurement.hpp"
 #include "research/measures/shooting_game.hpp"
 

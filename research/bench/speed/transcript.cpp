@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
 #include "research/bench/measurement.hpp"
 
 namespace kinesphere::program {

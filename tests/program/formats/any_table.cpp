@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
 #include "tracks/track_file.hpp"
 
 namespace kinesphere::program {

@@ -5,10 +5,10 @@
 #include <map>
 #include <string>
 
-#include "formats/report_format.hpp"
+#include "formats/fields/separations.hpp"
+#include "formats/streams/report_format.hpp"
 #include "kinesphere/random.hpp"
 #include "program/support.hpp"
-#include "separations.hpp"
 #include "watch/watcher.hpp"
 
 namespace kinesphere::program::damaged_streams_test {

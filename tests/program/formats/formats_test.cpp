@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "formats/report_format.hpp"
+#include "formats/streams/report_format.hpp"
 #include "program/support.hpp"
 
 namespace kinesphere::program::formats_test {

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "formats/report_format.hpp"
+#include "formats/streams/report_format.hpp"
 #include "kinesphere/random.hpp"
 #include "program/formats/ais/ais_encoder.hpp"
 #include "program/support.hpp"

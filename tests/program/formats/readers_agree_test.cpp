@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "formats/converted_table.hpp"
-#include "formats/report_format.hpp"
+#include "formats/converted/converted_table.hpp"
+#include "formats/streams/report_format.hpp"
 #include "kinesphere/random.hpp"
 #include "program/support.hpp"
 #include "tracks/track_file.hpp"

@@ -1,5 +1,5 @@
 // Records do not depend on the pieces of the text, and a truncated one does not swallow the next.
-#include "formats/record_cutter.hpp"
+#include "formats/tables/record_cutter.hpp"
 
 #include <gtest/gtest.h>
 

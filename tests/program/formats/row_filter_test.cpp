@@ -1,7 +1,7 @@
 // --where: which rows an expression takes, and how a wrong one is refused.
-#include "formats/row_filter.hpp"
+#include "formats/tables/row_filter.hpp"
 
-#include "formats/table_columns.hpp"
+#include "formats/tables/table_columns.hpp"
 #include "program/support.hpp"
 
 namespace kinesphere::program::row_filter_test {

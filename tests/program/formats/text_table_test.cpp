@@ -1,9 +1,9 @@
 // Tables in text files.
-#include "formats/text_table.hpp"
+#include "formats/tables/text_table.hpp"
 
 #include <fmt/format.h>
 
-#include "number_text.hpp"
+#include "base/number_text.hpp"
 #include "program/support.hpp"
 #include "tracks/track_file.hpp"
 

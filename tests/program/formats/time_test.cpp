@@ -1,8 +1,8 @@
 // Times of files: dates and numbers, exact at any distance from zero, and written in the file's form.
 #include <gtest/gtest.h>
 
-#include "formats/time_scale.hpp"
-#include "formats/time_text.hpp"
+#include "formats/fields/time_scale.hpp"
+#include "formats/fields/time_text.hpp"
 
 namespace kinesphere::program::time_test {
 namespace {

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "contact/contact_rule.hpp"
-#include "formats/presets.hpp"
+#include "formats/tables/presets.hpp"
 #include "kinesphere/random.hpp"
 #include "program/formats/preset_shapes.hpp"
 #include "program/support.hpp"

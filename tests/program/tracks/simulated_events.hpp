@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
 #include "simulation/detector/detector.hpp"
 #include "simulation/run/simulate.hpp"
 #include "simulation/scene/scene.hpp"

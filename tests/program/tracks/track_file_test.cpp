@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "input_file.hpp"
+#include "base/input_file.hpp"
 #include "program/support.hpp"
 
 namespace kinesphere::program::track_file_test {

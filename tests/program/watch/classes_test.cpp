@@ -7,12 +7,12 @@
 #include <queue>
 #include <sstream>
 
-#include "formats/json_reading.hpp"
+#include "formats/fields/json_reading.hpp"
 #include "kinesphere/random.hpp"
 #include "program/formats/ais/ais_encoder.hpp"
 #include "program/support.hpp"
-#include "watch.hpp"
 #include "watch/class_rules.hpp"
+#include "watch/watch.hpp"
 #include "watch/watch_options.hpp"
 #include "watch/watcher.hpp"
 

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "formats/fields/separations.hpp"
 #include "program/support.hpp"
-#include "separations.hpp"
 
 namespace kinesphere::program::measures_test {
 namespace {

@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "formats/ais/ais_message.hpp"
-#include "formats/known_names.hpp"
-#include "formats/report_format.hpp"
+#include "formats/fields/separations.hpp"
+#include "formats/nmea/ais_message.hpp"
+#include "formats/streams/known_names.hpp"
+#include "formats/streams/report_format.hpp"
 #include "program/formats/ais/ais_encoder.hpp"
-#include "separations.hpp"
 #include "watch/watch_report.hpp"
 #include "watch/watcher.hpp"
 

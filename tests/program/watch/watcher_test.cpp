@@ -10,9 +10,9 @@
 #include <queue>
 #include <tuple>
 
-#include "formats/json_reading.hpp"
+#include "formats/fields/json_reading.hpp"
+#include "formats/fields/separations.hpp"
 #include "kinesphere/random.hpp"
-#include "separations.hpp"
 
 #ifdef KINESPHERE_WITH_GEOGRAPHICLIB
 #include <GeographicLib/Geodesic.hpp>

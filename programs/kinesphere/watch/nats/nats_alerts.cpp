@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
 #include "watch/nats/nats_connection.hpp"
 #include "watch/nats/nats_streams.hpp"
 

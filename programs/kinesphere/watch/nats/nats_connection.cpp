@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "program_error.hpp"
-#include "standard_output.hpp"
+#include "base/program_error.hpp"
+#include "base/standard_output.hpp"
 
 namespace kinesphere::program {
 

@@ -1,7 +1,7 @@
 // Replaces NATS if its library is not installed.
 #include <fmt/format.h>
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
 #include "watch/nats/nats_streams.hpp"
 
 namespace kinesphere::program {

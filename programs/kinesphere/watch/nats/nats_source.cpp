@@ -6,7 +6,7 @@
 #include <thread>
 #include <utility>
 
-#include "program_error.hpp"
+#include "base/program_error.hpp"
 #include "watch/nats/nats_connection.hpp"
 #include "watch/nats/nats_streams.hpp"
 

@@ -1,5 +1,5 @@
 // Messages of AIS: published ones with their published values, and each bit of each field.
-#include "formats/ais/ais_message.hpp"
+#include "formats/nmea/ais_message.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/report_format.hpp"
+#include "formats/streams/report_format.hpp"
 #include "program/formats/ais/ais_encoder.hpp"
 
 namespace kinesphere::program::ais_message_test {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "formats/ais/ais_message.hpp"
-#include "formats/report_format.hpp"
+#include "formats/nmea/ais_message.hpp"
+#include "formats/streams/report_format.hpp"
 
 namespace kinesphere::program {
 namespace {

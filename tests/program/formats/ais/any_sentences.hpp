@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "formats/ais/sentence_assembler.hpp"
+#include "formats/streams/sentence_assembler.hpp"
 
 namespace kinesphere::program {
 

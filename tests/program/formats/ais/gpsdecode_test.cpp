@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "formats/ais/ais_message.hpp"
+#include "formats/nmea/ais_message.hpp"
 #include "kinesphere/random.hpp"
 #include "program/formats/ais/ais_encoder.hpp"
 #include "program/support.hpp"

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "formats/ais/sentence_assembler.hpp"
-#include "formats/recent_values.hpp"
-#include "formats/report_format.hpp"
-#include "formats/units.hpp"
+#include "formats/fields/units.hpp"
+#include "formats/streams/recent_values.hpp"
+#include "formats/streams/report_format.hpp"
+#include "formats/streams/sentence_assembler.hpp"
 #include "program/formats/ais/ais_encoder.hpp"
 
 namespace kinesphere::program::nmea_format_test {

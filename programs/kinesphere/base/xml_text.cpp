@@ -1,0 +1,35 @@
+// Text as XML writes it.
+#include "base/xml_text.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "base/json_text.hpp"
+
+namespace kinesphere::program {
+
+std::string xml_text(std::string_view text) {
+  // JSON's writer replaces invalid UTF-8.
+  const auto valid = nlohmann::json::parse(json_text(std::string(text))).get<std::string>();
+  std::string safe;
+  for (const char c : valid) {
+    switch (c) {
+      case '&':
+        safe += "&amp;";
+        break;
+      case '<':
+        safe += "&lt;";
+        break;
+      case '>':
+        safe += "&gt;";
+        break;
+      case '"':
+        safe += "&quot;";
+        break;
+      default:
+        safe += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+  }
+  return safe;
+}
+
+}  // namespace kinesphere::program

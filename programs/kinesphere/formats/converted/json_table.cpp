@@ -1,0 +1,207 @@
+// JSON that is a table: records, as pandas and jq write them, and traces of tar1090.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "base/ascii_text.hpp"
+#include "base/number_text.hpp"
+#include "base/program_error.hpp"
+#include "formats/converted/converted_table.hpp"
+#include "formats/converted/file_kind.hpp"
+#include "formats/fields/line_text.hpp"
+#include "formats/tables/column_names.hpp"
+#include "formats/tables/json_rows.hpp"
+#include "formats/tables/stream_format.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+/// [{...}, {...}]
+std::optional<ConvertedTable> table_of_list(std::string_view text, const std::string& file) {
+  JsonDocumentReader reader;
+  JsonRows rows;
+  std::size_t line = 1;
+  read_json(file, line, [&] {
+    ondemand::document document = reader.open(text);
+    JsonLine place(document);
+    for (ondemand::value value : document.get_array()) {
+      line = place.now();
+      rows.add(value.get_object(), line);
+    }
+    require_end(document, "one list of JSON records");
+  });
+  return table_of(rows);
+}
+
+/// Reads objects, or lists of objects, one in each line.
+std::optional<ConvertedTable> table_of_lines(std::string_view text, const std::string& file) {
+  JsonDocumentReader reader;
+  JsonRows rows;
+  LineCutter lines(text);
+  std::size_t number = 0;
+  read_json(file, number, [&] {
+    while (const auto line = lines.next()) {
+      number = lines.line();
+      if (line->empty()) continue;
+      ondemand::document document = reader.open(*line);
+      rows.add_document(document, number);
+    }
+  });
+  return table_of(rows);
+}
+
+/// Returns a field of a table for a number, or nothing.
+std::string number_field_of(ondemand::value value) {
+  return value.type() == ondemand::json_type::number ? std::string(trimmed(value.raw_json_token())) : "";
+}
+
+/// trace: [[seconds since timestamp, latitude, longitude, barometric altitude in ft or "ground", speed,
+/// course, flags, climb, details, source, geometric altitude, ...], ...]
+ConvertedTable trace_table(ondemand::document& document, bool geometric) {
+  enum at {
+    seconds,
+    latitude,
+    longitude,
+    barometric_height,
+    speed,
+    course,
+    climb = 7,
+    geometric_height = 10,
+    fields_read
+  };
+  const std::string id(std::string_view(document["icao"].get_string()));
+  const double start = document["timestamp"].get_double();
+  ConvertedTable table{
+      .format = fmt::format("trace of tar1090 ({} altitude)", geometric ? "geometric" : "barometric"),
+      .text = "icao24,time,lon,lat,alt_ft,speed_kt,course,climb_fpm\n"};
+  std::size_t without_height = 0;
+  for (ondemand::array point : document["trace"].get_array()) {
+    std::array<std::string, fields_read> fields;
+    std::size_t place = 0;
+    for (ondemand::value value : point)
+      if (place < fields_read) fields[place++] = number_field_of(value);
+    const std::string& height = fields[geometric ? geometric_height : barometric_height];
+    const auto offset = parse_number(fields[seconds]);
+    without_height += height.empty() ? 1 : 0;
+    if (!offset || height.empty()) continue;
+    table.text += fmt::format("{},{:.3f},{},{},{},{},{},{}\n", id, start + *offset, fields[longitude],
+                              fields[latitude], height, fields[speed], fields[course], fields[climb]);
+  }
+  if (without_height > 0)
+    table.warnings.push_back(
+        fmt::format("{}: {} points on the ground, or without a height, are left out", id, without_height));
+  return table;
+}
+
+/// Returns the text behind an opening bracket and blanks; nothing for other text.
+std::optional<std::string_view> inside_bracket(std::string_view text, char bracket) {
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  if (!text.starts_with(bracket)) return std::nullopt;
+  text.remove_prefix(1);
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  return text;
+}
+
+/// A name, and the text behind its colon.
+struct FirstField {
+  std::string_view name, value;
+};
+
+/// Returns the first field of an object; an empty name where there is none.
+FirstField first_field(std::string_view object) {
+  const auto name = inside_bracket(inside_bracket(object, '{').value_or(""), '"');
+  const std::size_t end = name ? name->find('"') : std::string_view::npos;
+  if (end == std::string_view::npos) return {};
+  const auto value = inside_bracket(name->substr(end + 1), ':');
+  return value ? FirstField{name->substr(0, end), *value} : FirstField{};
+}
+
+/// True for a name of which a record has one value.
+bool is_name_of_values(std::string_view name) {
+  constexpr std::string_view activity[] = {"latlng", "distance", "velocity_smooth", "heartrate",   "cadence",
+                                           "watts",  "temp",     "moving",          "grade_smooth"};
+  return meaning_of(name).has_value() || std::ranges::find(activity, name) != std::end(activity);
+}
+
+}  // namespace
+
+bool is_columnar_json(std::string_view text) {
+  const auto [name, value] = first_field(inside_bracket(text, '[').value_or(text));
+  // A list of columns names each by its type.
+  if (name == "type") {
+    const std::string_view type = inside_bracket(value, '"').value_or("");
+    return is_name_of_values(type.substr(0, type.find('"'))) &&
+           text.substr(0, 200).find("\"data\"") != text.npos;
+  }
+  if (!is_name_of_values(name)) return false;
+  const FirstField inner = first_field(value);
+  return value.starts_with('[') || inner.name == "0" ||
+         (inner.name == "data" && inner.value.starts_with('['));
+}
+
+bool is_strava(std::string_view text) {
+  return is_columnar_json(text) &&
+         (text.find("\"latlng\"") != text.npos || text.find("\"series_type\"") != text.npos);
+}
+
+bool is_json_trace(std::string_view text) {
+  const std::string_view begin = text.substr(0, 4096);
+  return trimmed(begin).starts_with('{') && begin.find("\"icao\"") != std::string_view::npos &&
+         begin.find("\"trace\"") != std::string_view::npos;
+}
+
+std::optional<ConvertedTable> convert_json_trace(std::string_view text, const std::string& file,
+                                                 bool geometric) {
+  if (!is_json_trace(text)) return std::nullopt;
+  JsonDocumentReader reader;
+  std::optional<ConvertedTable> table;
+  read_json(file, 1, [&] {
+    ondemand::document document = reader.open(text);
+    table = trace_table(document, geometric);
+  });
+  return table;
+}
+
+bool is_json_list(std::string_view text) {
+  if (has_orbital_elements(text)) return false;
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  const std::size_t second =
+      first == std::string_view::npos ? first : text.find_first_not_of(" \t\r\n", first + 1);
+  return second != std::string_view::npos && text[first] == '[' && text[second] == '{' &&
+         !is_columnar_json(text);
+}
+
+bool are_json_lines(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  const std::string_view line = trimmed(text.substr(0, text.find('\n')));
+  // A stream may have the beginning of a long line only.
+  const bool may_be_whole = line.ends_with('}') || text.find('\n') == text.npos;
+  return line.starts_with('{') && may_be_whole && line.find("\"features\"") == line.npos &&
+         !is_columnar_json(text);
+}
+
+std::optional<ConvertedTable> table_of(const JsonRows& rows) {
+  if (rows.names().empty()) return std::nullopt;
+  ConvertedTable table{.format = "JSON records", .text = rows.header() + '\n', .lines_before = 1};
+  std::size_t row_line = 1;
+  rows.for_each([&](std::size_t line, const std::string& row) {
+    for (; row_line < line; ++row_line) table.text += '\n';
+    table.text += row + '\n';
+    ++row_line;
+  });
+  return table;
+}
+
+std::optional<ConvertedTable> convert_json_records(std::string_view text, const std::string& file) {
+  if (recognised_format(text.substr(0, 4096))) return std::nullopt;
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  // Lists that follow each other, as of a service that was asked again and again.
+  const std::string_view first = text.substr(0, text.find('\n'));
+  const bool are_lists =
+      trimmed(first).ends_with(']') && text.find_first_not_of(" \t\r\n", first.size()) != text.npos;
+  if (is_json_list(text)) return are_lists ? table_of_lines(text, file) : table_of_list(text, file);
+  return are_json_lines(text) ? table_of_lines(text, file) : std::nullopt;
+}
+
+}  // namespace kinesphere::program

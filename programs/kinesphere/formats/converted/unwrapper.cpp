@@ -1,0 +1,41 @@
+// Undoes the jumps of positions at the faces of a periodic box.
+#include "formats/converted/unwrapper.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/number_text.hpp"
+
+namespace kinesphere::program {
+
+std::string Unwrapper::position(const std::string& id, const std::array<std::string_view, 3>& texts) {
+  const std::string as_it_is = fmt::format(",{},{},{}", texts[0], texts[1], texts[2]);
+  if (!is_periodic()) return as_it_is;
+  std::array<double, 3> place{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto number = parse_number(texts[axis]);
+    if (!number) return as_it_is;
+    place[axis] = *number;
+  }
+  const auto [last, is_new] = last_.try_emplace(id, place);
+  bool has_jumped = false;
+  // The last vector alone has a part along z, the first none but along x.
+  for (std::size_t k = 3; !is_new && k-- > 0;) {
+    const auto& vector = cell_[k];
+    if (!(vector[k] > 0.0)) continue;
+    const double jumps = std::round((place[k] - last->second[k]) / vector[k]);
+    has_jumped = has_jumped || jumps != 0.0;
+    for (std::size_t axis = 0; axis <= k; ++axis) place[axis] -= jumps * vector[axis];
+  }
+  last->second = place;
+  return has_jumped ? fmt::format(",{},{},{}", place[0], place[1], place[2]) : as_it_is;
+}
+
+std::string Unwrapper::warning(const std::string& file) {
+  return fmt::format(
+      "{}: its box is periodic: tracks go on through its faces, but distances through them are not seen",
+      file);
+}
+
+}  // namespace kinesphere::program

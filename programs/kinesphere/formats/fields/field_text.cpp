@@ -1,0 +1,93 @@
+// The text of one field: numbers, missing values, its form in messages.
+#include "formats/fields/field_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/ascii_text.hpp"
+#include "base/number_text.hpp"
+
+namespace kinesphere::program {
+
+std::string_view with_decimal_point(std::string_view text, std::string& buffer) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string_view::npos || text.find_first_not_of("0123456789,+-eE") != std::string_view::npos)
+    return text;
+  buffer.assign(text);
+  buffer[comma] = '.';
+  return buffer;
+}
+
+std::optional<double> number_field(std::string_view text, bool decimal_comma) {
+  if (const auto number = parse_number(text); number || !decimal_comma) return number;
+  std::string buffer;
+  return parse_number(with_decimal_point(text, buffer));
+}
+
+std::optional<double> angle_field(std::string_view text, bool decimal_comma, std::string_view letters) {
+  std::string numbers;
+  int hemispheres = 0, sign = 1;
+  bool has_signs = false;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    if (const std::size_t which = letters.find(c);
+        which != std::string_view::npos && (at == 0 || at + 1 == text.size())) {
+      ++hemispheres;
+      sign = which == 0 ? 1 : -1;
+    } else if ((c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+') {
+      numbers += c;
+    } else if (c == ',' && decimal_comma) {
+      numbers += '.';
+    } else if (c == '\'' || c == '"' || static_cast<unsigned char>(c) >= 0x80) {  // also as UTF-8 and Latin 1
+      has_signs = true;
+      numbers += ' ';
+    } else if (c == ' ') {
+      numbers += ' ';
+    } else {
+      return std::nullopt;
+    }
+  }
+  double degrees = 0.0, unit = 1.0;
+  int parts = 0;
+  for (std::string_view rest = trimmed(numbers); !rest.empty(); ++parts) {
+    const std::string_view word = rest.substr(0, rest.find(' '));
+    rest = trimmed(rest.substr(word.size()));
+    const auto number = parse_number(word);
+    if (!number || parts == 3 || (parts > 0 && !(*number >= 0.0 && *number < 60.0))) return std::nullopt;
+    degrees = parts == 0 ? *number : degrees + std::copysign(*number / unit, degrees);
+    unit *= 60.0;
+  }
+  const bool is_signed = numbers.find_first_of("+-") != std::string::npos;
+  if (parts == 0 || hemispheres > 1 || (hemispheres == 0 && !has_signs) || (hemispheres == 1 && is_signed))
+    return std::nullopt;
+  return sign * degrees;
+}
+
+bool is_missing(std::string_view field) {
+  constexpr std::string_view names[] = {
+      "", "nan", "-nan", "inf", "-inf", "+inf", "infinity", "-infinity", "na", "n/a", "#n/a", "<na>", "nat",
+      "null", "nil", "none", "\\N", "-", "--", "?", "nodata",
+      // Of spreadsheets, of programs for Windows, and of aircraft that stand.
+      "#value!", "#ref!", "#div/0!", "#num!", "1.#qnan", "-1.#ind", "nan(ind)", "-nan(ind)", "ground"};
+  return std::any_of(std::begin(names), std::end(names),
+                     [field](std::string_view name) { return same_name(field, name); });
+}
+
+std::string shown_field(std::string_view field) {
+  if (field.empty()) return "nothing";
+  constexpr std::size_t most = 60;
+  std::string text(field.substr(0, most));
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return fmt::format("'{}{}'", text, field.size() > most ? "..." : "");
+}
+
+std::string quoted_field(std::string_view text) {
+  std::string field = "\"";
+  for (const char c : text) field += c == '"' ? "\"\"" : std::string(1, c == '\n' || c == '\r' ? ' ' : c);
+  return field + '"';
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,58 @@
+// Reads JSON with simdjson: values of an expected type.
+#pragma once
+
+#include <simdjson.h>
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "formats/fields/wrong_input.hpp"
+
+namespace kinesphere::program {
+
+namespace ondemand = simdjson::ondemand;
+
+/// Keeps the text of a document, with the padding that simdjson requires.
+class JsonDocumentReader {
+ public:
+  /// Returns the document, valid until the next call. Throws MalformedRecord.
+  ondemand::document open(std::string_view text) {
+    text_.assign(text);
+    text_.reserve(text.size() + simdjson::SIMDJSON_PADDING);
+    ondemand::document document;
+    if (const auto error = parser_.iterate(text_.data(), text_.size(), text_.capacity()).get(document))
+      throw MalformedRecord(std::string("expected JSON: ") + simdjson::error_message(error));
+    return document;
+  }
+
+ private:
+  ondemand::parser parser_;
+  std::string text_;
+};
+
+/// Throws MalformedRecord with `expected` unless the document has been read to its end.
+inline void require_end(ondemand::document& document, std::string_view expected) {
+  const char* more = nullptr;
+  if (!document.current_location().get(more))
+    throw MalformedRecord("expected " + std::string(expected) + ", but there is more");
+}
+
+/// Returns a number; nothing for null. Sets `wrong` to `name` for any other value.
+inline std::optional<double> number_in(ondemand::value value, const char* name, const char*& wrong) {
+  const ondemand::json_type type = value.type();
+  if (type == ondemand::json_type::number) return double(value.get_double());
+  if (type != ondemand::json_type::null) wrong = name;
+  return std::nullopt;
+}
+
+/// Returns a text, valid as long as the document; nothing for null. Sets `wrong` to `name` for any other
+/// value.
+inline std::optional<std::string_view> text_in(ondemand::value value, const char* name, const char*& wrong) {
+  const ondemand::json_type type = value.type();
+  if (type == ondemand::json_type::string) return std::string_view(value.get_string());
+  if (type != ondemand::json_type::null) wrong = name;
+  return std::nullopt;
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,39 @@
+// Lines of a text, and the words and fields of a line.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace kinesphere::program {
+
+/// Cuts lines off the front of a text and counts them.
+class LineCutter {
+ public:
+  explicit LineCutter(std::string_view text) : rest_(text) {}
+
+  /// Returns the next line without its end; nothing at the end of the text.
+  std::optional<std::string_view> next();
+  /// Line of the last result of next(), from 1.
+  std::size_t line() const { return line_; }
+  /// The last line with its leading blanks, for formats of fixed columns.
+  std::string_view whole() const { return whole_; }
+  /// True if the last line had an end: a file that was cut off may lack it.
+  bool has_end() const { return has_end_; }
+
+ private:
+  std::string_view rest_, whole_;
+  std::size_t line_ = 0;
+  bool has_end_ = true;
+};
+
+/// Returns the parts between blanks.
+std::vector<std::string_view> words_of(std::string_view line);
+/// Returns the parts between separators, without blanks around them; between blanks as words_of(), but at
+/// least one.
+std::vector<std::string_view> fields_of(std::string_view line, char separator);
+/// Returns "3" as a count; nothing for other text.
+std::optional<std::size_t> count_in(std::string_view text);
+
+}  // namespace kinesphere::program

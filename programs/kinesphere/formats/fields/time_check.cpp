@@ -1,0 +1,47 @@
+// Finds numbers of times that may be those of a clock, or days.
+#include "formats/fields/time_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+namespace kinesphere::program {
+
+void TimeCheck::add(const FileTime& time) {
+  const std::int64_t clock = time.whole;
+  is_clock_ = is_clock_ && clock >= 0 && clock < 240'000 && clock % 100 < 60 && clock / 100 % 100 < 60;
+  has_seconds_ = has_seconds_ || clock % 100 != 0;
+  first_clock_ = std::min(first_clock_, clock);
+  last_clock_ = std::max(last_clock_, clock);
+  const double number = static_cast<double>(time.whole) + time.fraction;
+  least_ = std::min(least_, number);
+  largest_ = std::max(largest_, number);
+}
+
+std::string TimeCheck::clock_suspicion() const {
+  if (!is_clock_ || !has_seconds_ || last_clock_ < 10'000 || last_clock_ - first_clock_ < 100) return {};
+  return fmt::format(
+      "the times {} to {} may be those of a clock (hhmmss): write them as in 2024-01-31T12:30:15, or say "
+      "--time-unit s if they are seconds",
+      first_clock_, last_clock_);
+}
+
+std::string TimeCheck::day_suspicion(std::size_t samples) const {
+  // 1980 to 2100: of spreadsheets and modified Julian dates, of MATLAB, and Julian dates.
+  constexpr struct {
+    double first, last;
+  } years[] = {{29'220.0, 73'050.0}, {723'181.0, 767'011.0}, {2'444'239.0, 2'488'070.0}};
+  const bool may_be_days = std::any_of(std::begin(years), std::end(years), [&](const auto& days) {
+    return least_ >= days.first && largest_ <= days.last;
+  });
+  if (samples < 2 || !(least_ <= largest_) || !may_be_days ||
+      !(largest_ - least_ < 0.01 * static_cast<double>(samples)))
+    return {};
+  return fmt::format(
+      "the times {} to {} may be days, as spreadsheets, MATLAB and astronomers have them: say --time-unit d, "
+      "or s if they are seconds",
+      least_, largest_);
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,226 @@
+// A line with a sentence of AIS: IEC 61162-1 sentences VDM and VDO, tag blocks of IEC 61162-450.
+#include "formats/nmea/nmea_line.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <vector>
+
+#include "base/ascii_text.hpp"
+#include "formats/fields/wrong_input.hpp"
+#include "formats/nmea/ais_bits.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+constexpr bool is_capital_or_digit(char c) { return ('A' <= c && c <= 'Z') || ('0' <= c && c <= '9'); }
+
+/// Returns the value of a hexadecimal digit; -1 for another character.
+constexpr int hex_digit(char c) {
+  if ('0' <= c && c <= '9') return c - '0';
+  const char lower = lower_case(c);
+  return 'a' <= lower && lower <= 'f' ? lower - 'a' + 10 : -1;
+}
+
+/// Returns the digit from `least` to `most` that is the whole text; nothing for other text.
+std::optional<std::size_t> digit_in(std::string_view text, char least, char most) {
+  if (text.size() != 1 || text[0] < least || text[0] > most) return std::nullopt;
+  return static_cast<std::size_t>(text[0] - '0');
+}
+
+/// Returns the content of a sentence, and moves `text` behind its checksum. Throws MalformedRecord.
+std::string_view checked_sentence(std::string_view& text) {
+  const CheckedText split = split_checksum(text);
+  if (!split.said)
+    throw MalformedRecord("expected * and a checksum of two hexadecimal digits behind the sentence");
+  if (*split.said != split.sum)
+    throw MalformedRecord(
+        fmt::format("expected the checksum {:02X} behind the sentence, but got {:02X}: it is damaged",
+                    split.sum, *split.said));
+  if (!split.is_printable) throw MalformedRecord("expected printable ASCII characters in the sentence");
+  text = split.behind;
+  return split.content;
+}
+
+/// Returns the time of receipt that a text spells: a date, or a number of seconds or milliseconds since 1970,
+/// at least 1e8 s (1973); nothing for other text.
+std::optional<TimeField> time_of_receipt(std::string_view text) {
+  constexpr std::int64_t least = 100'000'000, least_milliseconds = 100'000'000'000;
+  auto field = time_field(text);
+  if (!field || field->kind != TimeKind::number) return field;
+  FileTime& time = field->time;
+  if (time.whole < least || time.whole >= 1000 * least_milliseconds) return std::nullopt;
+  if (time.whole >= least_milliseconds)
+    time = {time.whole / 1000, (static_cast<double>(time.whole % 1000) + time.fraction) / 1000.0};
+  return field;
+}
+
+AisSentence sentence_of(std::string_view content) {
+  std::string_view fields[7];
+  std::size_t count = 0;
+  for (std::string_view rest = content; count < std::size(fields); ++count) {
+    fields[count] = rest.substr(0, rest.find(','));
+    if (fields[count].size() == rest.size()) {
+      ++count;
+      break;
+    }
+    rest.remove_prefix(fields[count].size() + 1);
+  }
+  if (count != std::size(fields) || std::ranges::count(content, ',') != 6)
+    throw MalformedRecord(fmt::format("expected 7 fields of a sentence of AIS, but got {}",
+                                      std::ranges::count(content, ',') + 1));
+  const auto of = digit_in(fields[1], '1', '9'), number = digit_in(fields[2], '1', '9');
+  const auto fill_bits = digit_in(fields[6], '0', '5');
+  if (!of || !number || *number > *of)
+    throw MalformedRecord(
+        fmt::format("expected the number of sentences and that of this one (fields 2 and 3), but got '{}' "
+                    "and '{}'",
+                    fields[1], fields[2]));
+  if (!fill_bits)
+    throw MalformedRecord(fmt::format("expected 0 to 5 fill bits (field 7), but got '{}'", fields[6]));
+  if (fields[3].size() > 1 || fields[4].size() > 1)
+    throw MalformedRecord(
+        fmt::format("expected a sequence identifier and a channel (fields 4 and 5), but got '{}' and '{}'",
+                    fields[3], fields[4]));
+  if (fields[5].empty() || fields[5].size() > longest_ais_payload)
+    throw MalformedRecord(fmt::format("expected 1 to {} characters of a message (field 6), but got {}",
+                                      longest_ais_payload, fields[5].size()));
+  if (!is_six_bit_text(fields[5]))
+    throw MalformedRecord("expected characters from 0 to W and ` to w as the message (field 6)");
+  return {*of, *number, fields[3], fields[4], fields[5], *fill_bits, fields[0].ends_with("VDO")};
+}
+
+/// Returns the time of PGHP,1,YEAR,MONTH,DAY,HOUR,MINUTE,SECOND,MILLISECOND,...; nothing for other text.
+std::optional<TimeField> time_of_pghp(std::string_view content) {
+  std::vector<std::string_view> fields;
+  for (std::string_view rest = content;; rest.remove_prefix(fields.back().size() + 1)) {
+    fields.push_back(rest.substr(0, rest.find(',')));
+    if (fields.back().size() == rest.size()) break;
+  }
+  if (fields.size() < 9 || fields[1] != "1") return std::nullopt;
+  int numbers[7] = {};
+  for (std::size_t k = 0; k < std::size(numbers); ++k) {
+    const std::string_view field = fields[k + 2];
+    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), numbers[k]);
+    if (error != std::errc() || end != field.data() + field.size()) return std::nullopt;
+  }
+  const auto [year, month, day, hour, minute, second, millisecond] = numbers;
+  const auto date = parse_date_time(fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:03}", year, month, day,
+                                                hour, minute, second, millisecond));
+  if (!date) return std::nullopt;
+  return TimeField{date->time, TimeKind::number};
+}
+
+/// Returns where !--VDM or !--VDO of any talker begins in the text; npos if it has none.
+std::size_t ais_sentence_in(std::string_view text) {
+  for (std::size_t at = text.find('!'); at != std::string_view::npos; at = text.find('!', at + 1)) {
+    const std::string_view sentence = text.substr(at);
+    if (sentence.size() < 7 || sentence[6] != ',') continue;
+    const std::string_view formatter = sentence.substr(3, 3);
+    if (formatter == "VDM" || formatter == "VDO") return at;
+  }
+  return std::string_view::npos;
+}
+
+/// Returns true for the end of a sentence, with which a stream may begin: fields, and a checksum at the end.
+bool ends_sentence(std::string_view text) {
+  const std::size_t star = text.rfind('*');
+  return star != std::string_view::npos && star + 3 == text.size() && hex_digit(text[star + 1]) >= 0 &&
+         hex_digit(text[star + 2]) >= 0 && text.substr(0, star).find(',') != std::string_view::npos;
+}
+
+/// Returns true if the text begins with $ or !, five capitals or digits or more, and a comma.
+bool begins_sentence(std::string_view text) {
+  if (text.empty() || (text[0] != '$' && text[0] != '!')) return false;
+  const std::size_t comma = text.find(',');
+  return comma != std::string_view::npos && comma > 4 &&
+         std::ranges::all_of(text.substr(1, comma - 1), is_capital_or_digit);
+}
+
+/// Reads a line without VDM and VDO. Throws MalformedRecord if it is none of a stream of sentences.
+NmeaLine line_without_ais(std::string_view text) {
+  NmeaLine line;
+  const std::size_t end = text.find_last_of('\\') + 1;
+  std::string_view sentence = trimmed(text.substr(end));
+  if (sentence.empty() && split_checksum(text.substr(1)).is_whole()) {
+    line.received = read_head(text, line);
+    line.is_of_next = true;
+  } else if (sentence.starts_with("$PGHP,")) {
+    sentence.remove_prefix(1);
+    line.received = time_of_pghp(checked_sentence(sentence));
+    line.is_of_next = true;
+  } else if (!begins_sentence(sentence)) {
+    throw MalformedRecord(
+        fmt::format("expected a sentence of AIS (!AIVDM,...), but got '{}'", text.substr(0, 40)));
+  } else if (sentence.starts_with('!')) {
+    sentence.remove_prefix(1);
+    checked_sentence(sentence);
+  }
+  return line;
+}
+
+}  // namespace
+
+CheckedText split_checksum(std::string_view text) {
+  const std::size_t star = std::min(text.find('*'), text.size());
+  const std::string_view digits = text.substr(std::min(star + 1, text.size()), 2);
+  CheckedText result{.content = text.substr(0, star), .behind = text.substr(std::min(star + 3, text.size()))};
+  const int high = digits.size() == 2 ? hex_digit(digits[0]) : -1;
+  const int low = digits.size() == 2 ? hex_digit(digits[1]) : -1;
+  if (high >= 0 && low >= 0) result.said = static_cast<unsigned>(16 * high + low);
+  for (const char c : result.content) result.sum ^= static_cast<unsigned char>(c);
+  result.is_printable = std::ranges::all_of(result.content, [](char c) { return ' ' <= c && c <= '~'; });
+  return result;
+}
+
+std::optional<TimeField> read_head(std::string_view head, NmeaLine& line) {
+  std::string_view time = trimmed(head.substr(0, head.find('\\')));
+  while (!time.empty() && (time.back() == ',' || time.back() == ';'))
+    time = trimmed(time.substr(0, time.size() - 1));
+  std::optional<TimeField> received = time_of_receipt(time);
+  for (std::size_t begin = head.find('\\'); begin < head.size();) {
+    const std::size_t end = head.find('\\', begin + 1);
+    if (end == std::string_view::npos) break;
+    const CheckedText tag = split_checksum(head.substr(begin + 1, end - begin - 1));
+    begin = head.find('\\', end + 1);
+    if (!tag.is_whole()) continue;
+    for (std::string_view fields = tag.content; !fields.empty();) {
+      const std::string_view field = fields.substr(0, fields.find(','));
+      fields.remove_prefix(std::min(field.size() + 1, fields.size()));
+      if (field.size() < 2 || field[1] != ':') continue;
+      const std::string_view value = field.substr(2);
+      if (field[0] == 'c') received = time_of_receipt(value);
+      if (field[0] == 's') line.source = value;
+      // Number in the group - lines in the group - identifier of the group.
+      if (field[0] == 'g') line.group = value.substr(value.rfind('-') + 1);
+    }
+  }
+  return received;
+}
+
+NmeaLine parse_nmea_line(std::string_view text) {
+  text = trimmed(text);
+  if (text.empty() || text[0] == '#') return {};
+  const std::size_t begin = ais_sentence_in(text);
+  if (begin == std::string_view::npos) return line_without_ais(text);
+  NmeaLine line;
+  std::string_view rest = text.substr(begin + 1);
+  line.sentence = sentence_of(checked_sentence(rest));
+  line.received = read_head(text.substr(0, begin), line);
+  if (const std::size_t comma = rest.rfind(','); !line.received && comma != std::string_view::npos)
+    line.received = time_of_receipt(trimmed(rest.substr(comma + 1)));
+  return line;
+}
+
+bool has_ais_sentence(std::string_view text) { return ais_sentence_in(text) != std::string_view::npos; }
+
+bool looks_like_nmea(std::string_view line) {
+  line = trimmed(line);
+  if (begins_sentence(line) || ends_sentence(line) || has_ais_sentence(line)) return true;
+  // A tag block in a line of its own, or before a sentence of another kind.
+  const std::size_t end = line.starts_with('\\') ? line.find('\\', 1) : std::string_view::npos;
+  return end != std::string_view::npos && line.substr(0, end).find('*') != std::string_view::npos;
+}
+
+}  // namespace kinesphere::program

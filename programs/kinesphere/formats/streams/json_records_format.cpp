@@ -1,0 +1,122 @@
+// JSON records as they come, an object in each line: rows of a table whose columns are their keys.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "formats/streams/report_format.hpp"
+#include "formats/tables/json_rows.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+class JsonRecordsFormat final : public ReportFormat {
+ public:
+  explicit JsonRecordsFormat(FormatChoices choices) : choices_(std::move(choices)) {
+    if (choices_.hints.format == "json") choices_.hints.format.clear();
+    question_ = choices_.source + ": expected JSON objects that have an id, a time and a position";
+  }
+
+  void read(const Record& record, ReportSink& sink) override {
+    if (!record.is_whole) throw MalformedRecord("expected a line, but it is too long");
+    if (record.text.find_first_not_of(" \t\r") == std::string_view::npos) return;
+    const std::size_t known = rows_.names().size();
+    try {
+      std::string_view text = record.text;
+      if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+      ondemand::document document = reader_.open(text);
+      rows_.add_document(document, record.line);
+      if (rows_.names().size() > known)
+        take_new_names(record, sink);
+      else if (table_)
+        read_rows(*table_, record, sink);
+      else
+        pass_without_columns(sink);
+      rows_.forget(rows_.names().size());
+    } catch (const simdjson::simdjson_error& error) {
+      rows_.forget(known);
+      throw MalformedRecord(std::string("expected a JSON object: ") + error.what());
+    } catch (const WrongInput&) {
+      rows_.forget(table_ ? names_taken_ : known);
+      throw;
+    }
+  }
+  void finish(ReportSink& sink) override {
+    if (table_) return table_->finish(sink);
+    if (without_columns_ > 0) throw ProgramError(question_);
+  }
+  const RowReader* rows() const override { return table_ ? table_->rows() : nullptr; }
+
+  nlohmann::json save() const override {
+    return {{"names", rows_.names()}, {"table", table_ ? table_->save() : nlohmann::json()}};
+  }
+  void restore(const nlohmann::json& state) override {
+    rows_.begin_row(0);
+    for (const std::string name : state.at("names")) rows_.set(name, "");
+    rows_.forget(rows_.names().size());
+    names_taken_ = rows_.names().size();
+    if (state.at("table").is_null()) return;
+    table_ = make_csv_format(choices_);
+    table_->restore(state.at("table"));
+  }
+
+ private:
+  /// A row of a list that is wrong does not take the others along.
+  void read_rows(ReportFormat& table, const Record& record, ReportSink& sink) const {
+    rows_.for_each([&](std::size_t, const std::string& row) {
+      Record as_row = record;
+      as_row.text = row;
+      try {
+        table.read(as_row, sink);
+      } catch (const WrongInput& error) {
+        sink.refuse(record.line, error.what());
+      }
+    });
+  }
+
+  /// The first records may be of another kind, without positions.
+  void pass_without_columns(ReportSink& sink) {
+    constexpr std::size_t most_without_columns = 20;
+    if (++without_columns_ == most_without_columns) throw ProgramError(question_);
+    sink.pass_over(Passed::no_position);
+  }
+
+  /// Begins the table anew with a header that has the new names. A later record whose names make it unclear
+  /// what the columns are is malformed.
+  void take_new_names(const Record& record, ReportSink& sink) {
+    std::unique_ptr<ReportFormat> table = make_csv_format(choices_);
+    const std::string header = rows_.header();
+    table->read({.text = header}, sink);
+    try {
+      read_rows(*table, record, sink);
+    } catch (const ProgramError& error) {
+      if (table_) throw MalformedRecord(error.what());
+      // An option is missing.
+      if (table->rows() != nullptr) throw;
+      question_ = error.what();
+      return pass_without_columns(sink);
+    }
+    names_taken_ = rows_.names().size();
+    if (table_) retired_.push_back(std::move(table_));
+    table_ = std::move(table);
+  }
+
+  FormatChoices choices_;
+  JsonDocumentReader reader_;
+  JsonRows rows_;
+  std::size_t names_taken_ = 0;  ///< of rows_, those that are columns of the table
+  // Before there is a table.
+  std::size_t without_columns_ = 0;
+  std::string question_;
+  std::unique_ptr<ReportFormat> table_;
+  /// Earlier tables, to whose texts reports refer that a sink has kept. There are no more than names.
+  std::vector<std::unique_ptr<ReportFormat>> retired_;
+};
+
+}  // namespace
+
+std::unique_ptr<ReportFormat> make_json_records_format(const FormatChoices& choices) {
+  return std::make_unique<JsonRecordsFormat>(choices);
+}
+
+}  // namespace kinesphere::program

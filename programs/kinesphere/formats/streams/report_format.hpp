@@ -1,0 +1,90 @@
+// The formats of recordings and streams, which turn records into reports.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "formats/streams/source_report.hpp"
+#include "formats/tables/record_cutter.hpp"
+#include "formats/tables/row_splitter.hpp"
+#include "formats/tables/stream_format.hpp"
+#include "formats/tables/table_columns.hpp"
+
+namespace kinesphere::program {
+
+/// A stream has nothing that can be used; the message says what was expected, without the stream's name.
+class UnusableStream : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+class ReportFormat {
+ public:
+  virtual ~ReportFormat() = default;
+  /// Passes the reports of a record to `sink`. Throws WrongInput, such as MalformedRecord; reports passed
+  /// before that stay valid. Throws UnusableStream.
+  virtual void read(const Record& record, ReportSink& sink) = 0;
+  /// Of a table, the reader of its rows; null before the first of them, and for other formats.
+  virtual const RowReader* rows() const { return nullptr; }
+  /// Returns what kind of recording was read; empty for other formats.
+  virtual std::string_view title() const { return {}; }
+  /// Call it at the end of the stream. Throws UnusableStream.
+  virtual void finish(ReportSink& sink);
+  /// Returns the state from earlier records, for a run that continues behind them.
+  virtual nlohmann::json save() const;
+  /// Restores the state of save(). Throws ProgramError like read(), or an exception of nlohmann::json.
+  virtual void restore(const nlohmann::json& state);
+};
+
+/// Returns "readsb" and so on.
+std::string_view name_of(StreamFormat format);
+/// Returns the format that --format says of a text with this beginning; nothing for an unknown name. Messages
+/// and tables of OpenSky have one name: without a beginning they are messages.
+std::optional<StreamFormat> format_named(std::string_view name, std::string_view beginning = {});
+/// Returns the names of all formats of messages and of all presets of tables, separated by |.
+std::string format_names();
+
+/// The command line's choices about a file or stream.
+struct FormatChoices {
+  ColumnHints hints;   ///< for tables, but for --format
+  std::string source;  ///< the stream's name, for messages
+  enum class Altitude { barometric, geometric } altitude = Altitude::barometric;
+  enum class PositionBound {
+    containment_radius,
+    accuracy
+  } position_bound = PositionBound::containment_radius;
+  /// Multiple of a 95 % accuracy that is declared to contain all errors.
+  double containment = 2.5;
+  /// True if an option gave the position error; otherwise positions from radar or receivers on the ground
+  /// have no bound.
+  bool position_error_is_said = false;
+  double velocity_age = 5.0;  ///< sbs: an older velocity is not used (seconds)
+  /// The whole file is read: each row of a table has as many fields as the first, and what is asked about is
+  /// never only a damaged line. Reports of tables then have no velocity, errors and kind.
+  bool is_recording = false;
+  std::string title;  ///< of a converted table: its format
+  /// nmea: if not empty, sentences RMC are reports of a track of this id, in place of VDO.
+  std::string own_by_gps{};
+};
+
+/// Throws ProgramError naming a wrong option, also for an option about tables that is given with messages.
+std::unique_ptr<ReportFormat> make_format(StreamFormat format, const FormatChoices& choices);
+RecordCutter::Kind records_of(StreamFormat format);
+
+// One file each.
+std::unique_ptr<ReportFormat> make_readsb_format(const FormatChoices& choices);
+std::unique_ptr<ReportFormat> make_sbs_format(const FormatChoices& choices);
+std::unique_ptr<ReportFormat> make_opensky_format(const FormatChoices& choices);
+std::unique_ptr<ReportFormat> make_nmea_format(const FormatChoices& choices);
+std::unique_ptr<ReportFormat> make_csv_format(const FormatChoices& choices);
+std::unique_ptr<ReportFormat> make_ais_format(const FormatChoices& choices);
+std::unique_ptr<ReportFormat> make_json_lines_format(const FormatChoices& choices);
+std::unique_ptr<ReportFormat> make_json_records_format(const FormatChoices& choices);
+std::unique_ptr<ReportFormat> make_recording_format(const FormatChoices& choices);
+
+}  // namespace kinesphere::program

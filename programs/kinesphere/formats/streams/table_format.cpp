@@ -1,0 +1,287 @@
+// Tables with a report in each line: with a map of columns, or AIS as it is published in tables.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/number_text.hpp"
+#include "base/program_error.hpp"
+#include "formats/fields/degree_check.hpp"
+#include "formats/fields/time_check.hpp"
+#include "formats/streams/ground_speed.hpp"
+#include "formats/streams/report_format.hpp"
+#include "formats/tables/presets.hpp"
+#include "formats/tables/row_reader.hpp"
+#include "formats/tables/text_table.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+class CsvFormat final : public ReportFormat {
+ public:
+  CsvFormat(FormatChoices choices, bool is_ais)
+      : choices_(std::move(choices)),
+        is_ais_(is_ais),
+        table_(choices_.source.empty() ? "the stream" : choices_.source, choices_.is_recording) {}
+
+  void read(const Record& record, ReportSink& sink) override try {
+    fields_ = table_.read(record);
+    if (fields_ == nullptr) return;
+    if (!reader_) begin();
+    if (reader_->leaves_out(*fields_)) return sink.pass_over(Passed::filtered);
+    if (fields_->size() < columns_needed_)
+      throw MalformedRecord(
+          fmt::format("expected {} columns or more, but got {}", columns_needed_, fields_->size()));
+    reader_->set_row(*fields_);
+    for (std::size_t body = 0; body < reader_->bodies(); ++body) {
+      reader_->set_body(body);
+      hand_over(sink);
+    }
+  } catch (const OpenQuestion& question) {
+    // A damaged line must not end a stream that has been understood.
+    if (has_handed_over_ && !choices_.is_recording) throw MalformedRecord(question.what());
+    const std::string line = question.is_about_row() ? fmt::format(":{}", record.line) : "";
+    throw ProgramError(fmt::format("{}{}: {}", table_.head().file, line, question.what()));
+  }
+
+  /// A short stream is asked about at its end.
+  void finish(ReportSink& /*sink*/) override {
+    if (choices_.is_recording && !reader_) throw UnusableStream("expected rows of numbers, but found none");
+    ask();
+  }
+  const RowReader* rows() const override { return reader_ ? &*reader_ : nullptr; }
+
+  nlohmann::json save() const override { return table_.beginning(); }
+  void restore(const nlohmann::json& state) override {
+    for (const std::string line : state)
+      if (table_.read({.text = line}) != nullptr) begin();
+    has_handed_over_ = reader_.has_value();
+    // The earlier run has asked.
+    if (reader_) checked_ = most_checked;
+    is_checking_clock_ = false;
+  }
+
+ private:
+  /// Finds the columns. Precondition: the head of the table is complete.
+  void begin() {
+    const TableHead& head = table_.head();
+    ColumnHints hints = choices_.hints;
+    // Of several presets of ships the header chooses one; others have the usual names.
+    if (hints.format == "csv" || (is_ais_ && hints.format == "ais")) hints.format.clear();
+    TableColumns columns =
+        find_columns(head, hints, choices_.is_recording ? ColumnUse::positions : ColumnUse::reports);
+    if (!choices_.title.empty()) columns.format = choices_.title;
+    reader_.emplace(head, std::move(columns));
+    for (const TableColumns::Body& body : reader_->columns().bodies)
+      columns_needed_ = std::max({columns_needed_, body.x + 1, body.y + 1, body.z.value_or(0) + 1});
+    for (const auto& column : reader_->columns().of)
+      if (column) columns_needed_ = std::max(columns_needed_, column->place + 1);
+    name_column_ = column_of_names(head);
+    find_class_columns(head);
+  }
+
+  /// Returns the column with callsigns or ships' names. Such names may be ids elsewhere, so one that is read
+  /// as an id does not count.
+  std::optional<std::size_t> column_of_names(const TableHead& head) const {
+    const auto& id = reader_->columns()[Quantity::id];
+    for (const std::string_view wanted : {"vesselname", "shipname", "callsign", "flight", "name"}) {
+      if (wanted == "name" && !is_ais_) continue;
+      for (std::size_t place = 0; place < head.names.size(); ++place)
+        if (plain_name(head.names[place]) == wanted && !(id && id->place == place)) return place;
+    }
+    return std::nullopt;
+  }
+
+  /// Returns a number in metres and seconds.
+  std::optional<double> number(Quantity quantity) {
+    const auto number = reader_->number(quantity);
+    return number ? std::optional(*number * reader_->columns()[quantity]->unit) : std::nullopt;
+  }
+  /// Makes a number one of this unit in seconds.
+  static void scale(TimeField& time, double unit) {
+    if (time.kind == TimeKind::date || time.kind == TimeKind::utc) return;
+    if (unit != 1.0) time.time = time_of((static_cast<double>(time.time.whole) + time.time.fraction) * unit);
+    time.kind = TimeKind::number;
+  }
+  std::optional<DeclaredError> error(Quantity quantity) {
+    const auto error = number(quantity);
+    if (!error) return std::nullopt;
+    if (*error < 0.0)
+      throw MalformedRecord(reader_->wrong_text(reader_->columns()[quantity]->place, "an error >= 0"));
+    return DeclaredError{*error, "said by the stream"};
+  }
+
+  void hand_over(ReportSink& sink) {
+    const TableColumns& columns = reader_->columns();
+    SourceReport report{.id = reader_->id()};
+    report.row = &*reader_;
+    if (name_column_ && *name_column_ < fields_->size()) report.name = (*fields_)[*name_column_];
+    auto stamp = reader_->time();
+    report.written.time = stamp;
+    if (auto arrival = reader_->time(Quantity::arrival)) {
+      scale(*arrival, columns[Quantity::arrival]->unit);
+      report.arrival = arrival->time;
+    }
+    const auto position = reader_->position();
+    if (!stamp || !position) return sink.take_incomplete(report);
+    report.written.position = *position;
+    scale(*stamp, columns.time_unit.seconds / columns.time_unit.rate);
+    report.stamp = stamp->time;
+    report.time_kind = stamp->kind;
+    report.geographic = columns.geographic;
+    report.in_metres = columns.in_metres;
+    report.position = {position->x * columns.x().unit, position->y * columns.y().unit,
+                       columns.z() ? position->z * columns.z()->unit : 0.0};
+    report.has_height = reader_->has_height();
+    report.may_have_height = columns.z().has_value();
+    report.extent = radius();
+    if (choices_.is_recording) return sink.take(report);
+    read_velocity(report);
+    report.position_error = error(Quantity::position_error);
+    report.height_error = error(Quantity::height_error);
+    report.velocity_error = error(Quantity::velocity_error);
+    report.climb_error = error(Quantity::climb_error);
+    report.stamp_error = number(Quantity::stamp_error);
+    add_class(report);
+    has_handed_over_ = true;
+    if (checked_ < most_checked) check_first(*position, report);
+    if (is_checking_clock_) check_clock(report);
+    sink.take(report);
+  }
+
+  /// Returns half the diagonal of length and width; 0 if one of them is not known, which is also said by 0.
+  double radius() {
+    const auto length = number(Quantity::length), width = number(Quantity::width);
+    return length && width && *length > 0.0 && *width > 0.0 ? std::hypot(*length, *width) / 2 : 0.0;
+  }
+
+  /// Gathers the first reports, and asks before the last of them is taken.
+  void check_first(const Vec3& position, const SourceReport& report) {
+    degree_check_.add(position.x, position.y);
+    const auto number = parse_number(report.id);
+    counts_rows_ = counts_rows_ && number && (!last_number_ || *number == *last_number_ + 1.0);
+    last_number_ = number;
+    if (!first_stamp_) first_stamp_ = report.stamp;
+    stamps_ += !last_stamp_ || is_earlier(*last_stamp_, report.stamp) ? 1 : 0;
+    last_stamp_ = report.stamp;
+    has_later_ = has_later_ || is_earlier(*first_stamp_, report.stamp);
+    ++checked_;
+    if (checked_ == most_checked) ask();
+  }
+  /// A stream of clock times shows itself with its second minute.
+  void check_clock(const SourceReport& report) {
+    // Seconds since the start of something may look like a clock after midnight.
+    constexpr std::int64_t one_o_clock = 10'000;
+    is_checking_clock_ = !reader_->columns().time_unit_said && report.time_kind == TimeKind::number &&
+                         first_stamp_->whole >= one_o_clock;
+    if (!is_checking_clock_) return;
+    time_check_.add(report.stamp);
+    is_checking_clock_ = time_check_.may_be_clock();
+    if (const std::string suspicion = time_check_.clock_suspicion(); !suspicion.empty())
+      throw UnusableStream(suspicion);
+  }
+  void ask() const {
+    if (!reader_ || choices_.is_recording) return;
+    ask_about_row_numbers();
+    ask_about_degrees();
+    const bool is_said = reader_->columns().time_unit_said;
+    if (const std::string suspicion = time_check_.day_suspicion(stamps_); !is_said && !suspicion.empty())
+      throw UnusableStream(suspicion);
+  }
+  /// Asks about ids that are one more in each row.
+  void ask_about_row_numbers() const {
+    const auto& id = reader_->columns()[Quantity::id];
+    if (!id || checked_ < 3 || !counts_rows_ || !has_later_ || reader_->filter().mentions(id->place)) return;
+    throw UnusableStream(fmt::format(
+        "each row has an id of its own in column {}, up to {}, as a row number is: say id=... with "
+        "--columns, or keep it with --where 'id != none'",
+        id->place + 1, *last_number_));
+  }
+  /// Asks about lengths that may be degrees.
+  void ask_about_degrees() const {
+    const TableColumns& columns = reader_->columns();
+    const std::string suspicion = degree_check_.suspicion();
+    if (columns.positions_said || columns.x().has_unit || suspicion.empty()) return;
+    throw UnusableStream(suspicion);
+  }
+
+  void read_velocity(SourceReport& report) {
+    auto speed = number(Quantity::speed), course = number(Quantity::course);
+    if (is_ais_ || reader_->columns().is_ais) {
+      // AIS has these values for an unknown speed or course.
+      if (speed && *speed >= 102.25 * knot) speed.reset();
+      if (course && *course >= 360.0) course.reset();
+    }
+    const auto vz = number(Quantity::vz), climb = number(Quantity::climb);
+    const auto upward = vz ? vz : climb;
+    set_velocity(report, speed, course, upward);
+    if (const auto vx = number(Quantity::vx), vy = number(Quantity::vy); vx && vy)
+      report.velocity = Vec3{*vx, *vy, upward.value_or(0.0)};
+    if (report.velocity && !report.ground_speed)
+      report.ground_speed = std::hypot(report.velocity->x, report.velocity->y);
+  }
+
+  /// Finds the columns that say what a track is; tables of AIS have such.
+  void find_class_columns(const TableHead& head) {
+    if (!is_ais_ && !reader_->columns().is_ais) return;
+    for (std::size_t place = 0; place < head.names.size(); ++place) {
+      const std::string name = plain_name(head.names[place]);
+      if (name == "status" || name == "navigationalstatus" || name == "navstatus") status_ = place;
+      if (name == "vesseltype" || name == "shiptype") type_ = place;
+      if (name == "typeofmobile") mobile_ = place;
+    }
+    if (status_) sayable_.push_back(MotionPreset::vessel_at_rest);
+    if (type_)
+      sayable_.insert(sayable_.end(), {MotionPreset::high_speed_craft, MotionPreset::wing_in_ground});
+    if (mobile_)
+      sayable_.insert(sayable_.end(), {MotionPreset::search_aircraft, MotionPreset::aid_to_navigation});
+  }
+  void add_class(SourceReport& report) const {
+    const auto text = [&](const std::optional<std::size_t>& place) {
+      return place && *place < fields_->size() ? (*fields_)[*place] : std::string_view();
+    };
+    report.said_status = preset_of_status(text(status_));
+    report.said_kind = preset_of_mobile(text(mobile_));
+    if (!report.said_kind) report.said_kind = preset_of_ship_type(text(type_));
+    report.sayable = sayable_;
+  }
+
+  FormatChoices choices_;
+  bool is_ais_;
+  TextTable table_;
+  std::optional<RowReader> reader_;  ///< empty before the first row of values
+  bool has_handed_over_ = false;
+  std::size_t columns_needed_ = 0;
+  std::optional<std::size_t> name_column_;
+  std::optional<std::size_t> status_, type_, mobile_;  ///< columns
+  std::vector<MotionPreset> sayable_;
+  /// Reports that are checked. More would delay the question; fewer would ask about more rooms, of which they
+  /// show a small part.
+  static constexpr int most_checked = 20;
+  int checked_ = 0;
+  DegreeCheck degree_check_;
+  bool counts_rows_ = true;  ///< ids are one more in each row
+  bool has_later_ = false;   ///< a report is later than the first
+  std::optional<double> last_number_;
+  std::optional<FileTime> first_stamp_, last_stamp_;
+  std::size_t stamps_ = 0;  ///< of the reports that are checked, those later than the one before
+  TimeCheck time_check_;
+  bool is_checking_clock_ = true;
+  const std::vector<std::string_view>* fields_ = nullptr;  ///< of the row
+};
+
+}  // namespace
+
+std::unique_ptr<ReportFormat> make_csv_format(const FormatChoices& choices) {
+  return std::make_unique<CsvFormat>(choices, false);
+}
+
+std::unique_ptr<ReportFormat> make_ais_format(const FormatChoices& choices) {
+  return std::make_unique<CsvFormat>(choices, true);
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,316 @@
+// Parses the names of columns: quantity and unit.
+#include "formats/tables/column_names.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "base/ascii_text.hpp"
+#include "base/number_text.hpp"
+#include "formats/fields/field_text.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+struct QuantityNames {
+  Quantity quantity;
+  std::string_view key;
+  Measure measure;
+  /// Names in headers besides the key: lower case, without blanks, - _ and . between words. A unit may follow
+  /// a colon; ? after it says that the name does not tell.
+  std::string_view names;
+};
+
+constexpr QuantityNames quantities[quantity_count] = {
+    {Quantity::id, "id", Measure::none,
+     "mmsi trackid agent agentid ped pedid pedestrian pedestrianid person personid object objectid vehicleid "
+     "vesselid shipid sourcemmsi deviceid droneid drone uavid uav robotid playerid entityid icao24 hex "
+     "trajectoryid particle particleid tag tagid animalid individuallocalidentifier identity objid targetid "
+     "instanceid cellid carid persid personnr bodyid individual individualid individualidentifier subjectid "
+     "birdid fishid satid satelliteid noradid noradcatid nodeid"},
+    {Quantity::time, "time", Measure::time,
+     "t timestamp datetime basedatetime utc timeutc timestamputc datetimeutc unixtime epoch stamp tstamp "
+     "headerstamp fixtime utctime date/time date&time epochutc timegmt datetimegmt localtime timestamplocal "
+     "zeit uhrzeit seconds:s secs:s sec:s milliseconds:ms"},
+    {Quantity::frame, "frame", Measure::none,
+     "frameid frameno framenr framenumber frameindex frameidx fr timestep"},
+    {Quantity::date, "date", Measure::none, "datum utcdate dateutc gpsdate localdate"},
+    {Quantity::arrival, "arrival", Measure::time, "received"},
+    {Quantity::x, "x", Measure::length,
+     "posx xpos positionx xposition posepositionx px centerx xcenter centroidx xcentroid east easting "
+     "points0"},
+    {Quantity::y, "y", Measure::length,
+     "posy ypos positiony yposition posepositiony py centery ycenter centroidy ycentroid north northing "
+     "points1"},
+    {Quantity::z, "z", Measure::length,
+     "posz zpos positionz zposition posepositionz pz centerz zcenter centroidz zcentroid points2 alt "
+     "altitude ele elevation flightlevel:FL fl:FL"},
+    {Quantity::longitude, "lon", Measure::angle,
+     "lng long longitude locationlong locationlon gpslon gpslongitude decimallongitude"},
+    {Quantity::latitude, "lat", Measure::angle, "latitude locationlat gpslat gpslatitude decimallatitude"},
+    {Quantity::vx, "vx", Measure::speed, "velx velocityx"},
+    {Quantity::vy, "vy", Measure::speed, "vely velocityy"},
+    {Quantity::vz, "vz", Measure::speed, "velz velocityz"},
+    {Quantity::speed, "speed", Measure::speed, "gs:? sog:? speedoverground:?"},
+    {Quantity::course, "course", Measure::none, "cog track courseoverground"},
+    {Quantity::climb, "climb", Measure::speed, "verticalrate:?"},
+    {Quantity::position_error, "position_error", Measure::length, "positionerror"},
+    {Quantity::height_error, "height_error", Measure::length, "heighterror"},
+    {Quantity::velocity_error, "velocity_error", Measure::speed, "velocityerror"},
+    {Quantity::climb_error, "climb_error", Measure::speed, "climberror"},
+    {Quantity::stamp_error, "stamp_error", Measure::time, "stamperror"},
+    {Quantity::length, "length", Measure::length, "vehiclelength objectlength"},
+    {Quantity::width, "width", Measure::length, "vehiclewidth objectwidth"}};
+
+const QuantityNames& names_of(Quantity quantity) { return quantities[static_cast<std::size_t>(quantity)]; }
+
+/// Calls `visit` with each word, until it returns true; returns whether it did.
+template <class Visitor>
+bool any_word(std::string_view words, Visitor visit) {
+  while (!words.empty()) {
+    const std::string_view word = words.substr(0, words.find(' '));
+    words.remove_prefix(std::min(word.size() + 1, words.size()));
+    if (visit(word)) return true;
+  }
+  return false;
+}
+
+std::optional<ColumnMeaning> whole_name(std::string_view name) {
+  const std::string plain = plain_name(name);
+  for (const QuantityNames& each : quantities) {
+    if (plain == each.key) return ColumnMeaning{each.quantity, ""};
+    std::optional<ColumnMeaning> meaning;
+    any_word(each.names, [&](std::string_view word) {
+      const std::size_t colon = std::min(word.find(':'), word.size());
+      if (word.substr(0, colon) != plain) return false;
+      const std::string_view unit = word.substr(std::min(colon + 1, word.size()));
+      const bool asks = unit == "?";
+      meaning = ColumnMeaning{each.quantity, asks ? "" : std::string(unit), asks};
+      return true;
+    });
+    if (meaning) return meaning;
+  }
+  return std::nullopt;
+}
+
+/// `nm` may be a nanometre or a nautical mile, so it is no unit in a name.
+bool is_unit_of(Measure measure, std::string_view unit) {
+  if (unit == "nm") return false;
+  if (measure == Measure::length && (is_pixel(unit) || unit_named(unit, Measure::angle))) return true;
+  return unit_named(unit, measure).has_value();
+}
+
+/// What may stand between a name and its unit. R writes "x (m)" as x..m.
+constexpr std::string_view between_words = " _-.:,([{/";
+
+/// Returns the text behind `at` as a unit: without brackets, blanks and the word "in".
+std::string_view unit_behind(std::string_view name, std::size_t at) {
+  std::string_view unit = name.substr(at);
+  while (!unit.empty() && between_words.find(unit.front()) != std::string_view::npos) unit.remove_prefix(1);
+  for (std::string_view in : {"in_", "in "})
+    if (unit.starts_with(in)) unit.remove_prefix(in.size());
+  while (!unit.empty() && std::string_view(" )]}.").find(unit.back()) != std::string_view::npos)
+    unit.remove_suffix(1);
+  return unit;
+}
+
+/// True if a unit may begin at `at`: behind a separator, or at the end of a word in camelCase.
+bool may_begin_unit(std::string_view name, std::size_t at) {
+  if (between_words.find(name[at]) != std::string_view::npos) return true;
+  const auto is_upper = [](char c) { return lower_case(c) != c; };
+  return is_upper(name[at]) && !is_upper(name[at - 1]) &&
+         between_words.find(name[at - 1]) == std::string_view::npos;
+}
+
+bool is_word_of(std::string_view word, std::string_view words) {
+  return any_word(words, [&](std::string_view each) { return each == word; });
+}
+
+/// True if a word of the name, also of camelCase, is one of `words`.
+bool has_word(std::string_view name, std::string_view words) {
+  std::string separate;
+  for (std::size_t at = 0; at < name.size(); ++at) {
+    const bool is_upper = lower_case(name[at]) != name[at];
+    if (at > 0 && is_upper && lower_case(name[at - 1]) == name[at - 1]) separate += ' ';
+    const bool is_between = between_words.find(name[at]) != std::string_view::npos || name[at] == ')';
+    separate += is_between ? ' ' : lower_case(name[at]);
+  }
+  return any_word(separate, [&](std::string_view word) { return is_word_of(word, words); });
+}
+
+/// True if one of `parts` is in the plain name.
+bool has_part(const std::string& plain, std::string_view parts) {
+  return any_word(parts, [&](std::string_view part) { return plain.find(part) != std::string::npos; });
+}
+
+}  // namespace
+
+std::string plain_name(std::string_view name) {
+  std::string plain;
+  for (char c : name)
+    if (c != ' ' && c != '_' && c != '-' && c != '.' && c != ':') plain += lower_case(c);
+  return plain;
+}
+
+Measure measure_of(Quantity quantity) { return names_of(quantity).measure; }
+std::string_view key_of(Quantity quantity) { return names_of(quantity).key; }
+
+std::optional<Quantity> quantity_of_key(std::string_view key) {
+  if (key == "alt") return Quantity::z;
+  for (const QuantityNames& each : quantities)
+    if (each.key == key) return each.quantity;
+  return std::nullopt;
+}
+
+std::string key_list() {
+  std::string list;
+  for (const QuantityNames& each : quantities) list += (list.empty() ? "" : ", ") + std::string(each.key);
+  return list;
+}
+
+std::optional<ColumnMeaning> meaning_of(std::string_view column_name) {
+  if (const auto meaning = whole_name(column_name)) return meaning;
+  for (std::size_t at = 1; at < column_name.size(); ++at) {
+    if (!may_begin_unit(column_name, at)) continue;
+    const auto meaning = whole_name(column_name.substr(0, at));
+    const std::string_view unit = unit_behind(column_name, at);
+    if (!meaning || !meaning->unit.empty()) continue;
+    if (is_unit_of(measure_of(meaning->quantity), unit))
+      return ColumnMeaning{meaning->quantity, std::string(unit)};
+    if (meaning->quantity == Quantity::time && (same_name(unit, "utc") || same_name(unit, "gmt")))
+      return meaning;
+  }
+  return std::nullopt;
+}
+
+std::optional<ColumnMeaning> meaning_of_ending(std::string_view column_name) {
+  for (std::size_t at = 0; at < column_name.size(); ++at) {
+    const bool begins_word =
+        at == 0 || std::string_view(" _-./:").find(column_name[at - 1]) != std::string_view::npos;
+    if (begins_word)
+      if (const auto meaning = meaning_of(column_name.substr(at))) return meaning;
+  }
+  return std::nullopt;
+}
+
+AxisAndBody axis_and_body(std::string_view column_name) {
+  // The first that fits counts, so that "longitude" stands before "lon", with which it begins.
+  constexpr std::pair<std::string_view, Quantity> axes[] = {{"longitude", Quantity::longitude},
+                                                            {"long", Quantity::longitude},
+                                                            {"lon", Quantity::longitude},
+                                                            {"lng", Quantity::longitude},
+                                                            {"latitude", Quantity::latitude},
+                                                            {"lat", Quantity::latitude},
+                                                            {"altitude", Quantity::z},
+                                                            {"alt", Quantity::z},
+                                                            {"x", Quantity::x},
+                                                            {"y", Quantity::y},
+                                                            {"z", Quantity::z}};
+  std::string name;
+  for (const char c : column_name) name += lower_case(c);
+  for (const auto& [word, axis] : axes) {
+    for (const bool is_first : {true, false}) {
+      if (name.size() <= word.size() || !(is_first ? name.starts_with(word) : name.ends_with(word))) continue;
+      std::string_view rest =
+          std::string_view(name).substr(is_first ? word.size() : 0, name.size() - word.size());
+      const bool is_apart =
+          std::string_view(" _-.").find(is_first ? rest.front() : rest.back()) != std::string_view::npos;
+      if (is_apart) rest = rest.substr(is_first ? 1 : 0, rest.size() - 1);
+      const bool is_number = is_first && rest.find_first_not_of("0123456789") == std::string_view::npos;
+      if (!rest.empty() && (is_apart || is_number)) return {axis, std::string(rest)};
+    }
+  }
+  return {};
+}
+
+std::string_view unit_in_name(std::string_view column_name, Measure measure) {
+  for (std::size_t at = 1; at < column_name.size(); ++at) {
+    const std::string_view unit = unit_behind(column_name, at);
+    if (may_begin_unit(column_name, at) && is_unit_of(measure, unit)) return unit;
+  }
+  return {};
+}
+
+bool looks_like_height(std::string_view column_name) {
+  // The h of km_h is an hour.
+  if (!unit_in_name(column_name, Measure::speed).empty()) return false;
+  const std::string plain = plain_name(column_name);
+  // The last two are Höhe in UTF-8 and in Latin 1.
+  return has_part(
+             plain,
+             "altitud altura elevation height flightlevel hoehe hauteur geoalt gpsalt baroalt relalt altgeo "
+             "altbaro h\xC3\xB6he h\xF6"
+             "he") ||
+         has_word(column_name,
+                  "z alt alti galt elev h hgt fl afl cfl msl amsl agl hae depth tiefe up down") ||
+         is_word_of(plain, "level lvl floor storey story etage deck quota modec vertical zcoord coordz");
+}
+
+bool is_part_of_time(std::string_view column_name) {
+  return has_word(
+             column_name,
+             "nsec nsecs nanosec nanosecs nanoseconds usec usecs microsec microseconds msec msecs millis "
+             "millisec fraction") ||
+         is_word_of(plain_name(column_name), "gpsweek gpswk");
+}
+
+bool looks_like_angle(std::string_view column_name, Quantity angle) {
+  const bool along = angle == Quantity::longitude;
+  const std::string plain = plain_name(column_name);
+  return has_part(plain, along ? "longitud l\xC3\xA4ngengrad laengengrad" : "latitud breitengrad") ||
+         has_word(column_name, along ? "lon lng long" : "lat") ||
+         (has_part(plain, "wgs84") && !has_part(plain, "utm"));
+}
+
+std::string_view void_values_of(std::string_view column_name) {
+  std::string plain = plain_name(column_name);
+  if (plain.starts_with("is") || plain.starts_with("has")) plain.erase(0, plain[0] == 'i' ? 2 : 3);
+  if (plain.ends_with('?')) plain.pop_back();
+  if (has_part(plain, "outlier") || is_word_of(plain, "lost missing invalid bad deleted"))
+    return "true 1 yes t y";
+  if (is_word_of(plain, "visible valid validity detected found tracked present exists inview"))
+    return "false 0 no f n";
+  if (is_word_of(plain, "fix gpsfix fixtype gpsfixtype")) return "false 0 no none";
+  return {};
+}
+
+bool is_scene(std::string_view column_name) {
+  std::string plain = plain_name(column_name);
+  for (std::string_view ending : {"id", "no", "number"})
+    if (plain.ends_with(ending)) plain.resize(plain.size() - ending.size());
+  return is_word_of(
+      plain,
+      "scene scenario case recording session trial video clip match game experiment replicate run "
+      "simulation arena camera cam cameraid sensor tank cage well plate");
+}
+
+bool may_be_id(std::string_view column_name) {
+  return is_word_of(
+      plain_name(column_name),
+      "name label vehicle vessel ship boat car robot player bird fish mouse cell device callsign flight "
+      "subject target who imei serial");
+}
+
+bool is_of_aircraft(std::string_view column_name) {
+  return is_word_of(plain_name(column_name),
+                    "icao icao24 hex modes squawk callsign flight registration altbaro altgeom");
+}
+
+bool is_zone(std::string_view column_name) {
+  return is_word_of(
+      plain_name(column_name),
+      "zone utmzone gridzone map mapid building buildingid floorid levelid centername refframe timesystem");
+}
+
+bool is_nobody(std::string_view column_name, std::string_view id) {
+  // Whole numbers above 0 are most frequent. The largest of a type are -1 in another.
+  if (!id.empty() && id[0] >= '1' && id[0] <= '9')
+    return is_word_of(id, "2147483647 4294967295 9223372036854775807 18446744073709551615");
+  if (id.starts_with('0'))
+    return parse_number(id) == 0.0 && is_word_of(plain_name(column_name), "mmsi icao24 hex");
+  if (id.starts_with('-') && parse_number(id)) return true;
+  return is_missing(id) || any_word("unknown unk undefined unassigned untracked nobody noise no_id noid",
+                                    [&](std::string_view each) { return same_name(each, id); });
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,185 @@
+// Objects of JSON as rows of a table.
+#pragma once
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "base/ascii_text.hpp"
+#include "base/program_error.hpp"
+#include "formats/fields/field_text.hpp"
+#include "formats/fields/json_reading.hpp"
+#include "formats/fields/time_text.hpp"
+#include "formats/tables/column_names.hpp"
+
+namespace kinesphere::program {
+
+/// Gathers objects as rows. Objects and short lists in them become several columns, with . between the names.
+class JsonRows {
+ public:
+  void add(ondemand::object object, std::size_t line) {
+    begin_row(line);
+    add_fields("", object, 1);
+  }
+  void begin_row(std::size_t line) { rows_.push_back({line, {}}); }
+  /// Adds an object, or the objects of a list. Throws MalformedRecord for other documents.
+  void add_document(ondemand::document& document, std::size_t line) {
+    if (document.type() != ondemand::json_type::array) {
+      add(document.get_object(), line);
+    } else {
+      for (ondemand::value value : document.get_array()) add(value.get_object(), line);
+    }
+    require_end(document, "one JSON object, or one list of objects, in a line");
+  }
+
+  const std::vector<std::string>& names() const { return names_; }
+  /// Returns the names as the header of a table.
+  std::string header() const {
+    std::string header;
+    for (const std::string& name : names_) header += (header.empty() ? "" : ",") + quoted_field(name);
+    return header;
+  }
+  /// Calls `action` with the line of each row, and with its text as that of a table.
+  template <class Action>
+  void for_each(Action action) const {
+    for (const Row& row : rows_) action(row.line, text_of(row));
+  }
+  /// Forgets all rows, and the names behind the first `count`.
+  void forget(std::size_t count) {
+    rows_.clear();
+    for (; names_.size() > count; names_.pop_back()) columns_.erase(names_.back());
+  }
+
+  /// Sets what the row that was begun last has of this name. `depth` is the number of objects and lists
+  /// around the value.
+  void add_value(const std::string& name, ondemand::value value, std::size_t depth = 1) {
+    // Each level takes some of the stack.
+    constexpr std::size_t deepest = 64;
+    if (depth > deepest)
+      throw MalformedRecord(fmt::format("expected records nested at most {} deep, but got deeper", deepest));
+    switch (value.type()) {
+      case ondemand::json_type::object: {
+        ondemand::object object = value.get_object();
+        if (auto time = time_of_ros(object)) return set(name, *std::move(time));
+        return add_fields(name + '.', object, depth + 1);
+      }
+      case ondemand::json_type::array: {
+        // Longer lists are no positions.
+        constexpr std::size_t longest = 3;
+        ondemand::array list = value.get_array();
+        if (list.count_elements() > longest) return;
+        std::size_t place = 0;
+        for (ondemand::value element : list)
+          add_value(fmt::format("{}.{}", name, place++), element, depth + 1);
+        return;
+      }
+      case ondemand::json_type::string:
+        return set(name, quoted_field(dated_text(name, value.get_string())));
+      case ondemand::json_type::null:
+        return set(name, "");
+      default:
+        // Numbers keep all their digits.
+        return set(name, std::string(trimmed(value.raw_json_token())));
+    }
+  }
+  void set(const std::string& name, std::string field) {
+    const auto [place, is_new] = columns_.emplace(name, names_.size());
+    if (is_new) names_.push_back(name);
+    // Objects whose keys are ids or times would need a field for each of them in each row.
+    constexpr std::size_t most_columns = 1000;
+    if (names_.size() > most_columns)
+      throw MalformedRecord(fmt::format("expected records of at most {} names, but got more", most_columns));
+    rows_.back().fields.emplace_back(place->second, std::move(field));
+  }
+
+ private:
+  struct Row {
+    std::size_t line;
+    /// Columns and texts; the last text of a column counts. Many rows have few of all columns.
+    std::vector<std::pair<std::size_t, std::string>> fields;
+  };
+
+  /// Returns a text of 14 digits that is a date by its name and its digits, as rxtime of AIS-catcher is, as
+  /// 20240131T123015; else the text.
+  static std::string dated_text(const std::string& name, std::string_view text) {
+    constexpr std::size_t digits = 14, of_day = 8;
+    const std::string plain = plain_name(name);
+    const bool is_time = plain.find("time") != plain.npos || plain.find("date") != plain.npos;
+    if (!is_time || text.size() != digits) return std::string(text);
+    const std::string date = fmt::format("{}T{}", text.substr(0, of_day), text.substr(of_day));
+    return parse_date_time(date) ? date : std::string(text);
+  }
+  /// Returns the seconds of {"secs": 7, "nsecs": 5000000} and {"sec": 7, "nanosec": 5000000}; nothing for
+  /// another object, which is then at its begin again.
+  static std::optional<std::string> time_of_ros(ondemand::object& object) {
+    constexpr std::pair<std::string_view, std::string_view> names[] = {
+        {"secs", "nsecs"}, {"sec", "nanosec"}, {"sec", "nsec"}};
+    if (object.count_fields() != 2) return std::nullopt;
+    for (const auto& [whole, rest] : names) {
+      std::uint64_t seconds = 0, nanoseconds = 0;
+      const bool are_both =
+          !object[whole].get_uint64().get(seconds) && !object[rest].get_uint64().get(nanoseconds);
+      object.reset();
+      constexpr std::uint64_t second = 1'000'000'000;
+      if (are_both && nanoseconds < second) return fmt::format("{}.{:09}", seconds, nanoseconds);
+    }
+    return std::nullopt;
+  }
+  std::string text_of(const Row& row) const {
+    std::vector<std::string_view> texts(names_.size());
+    for (const auto& [column, text] : row.fields) texts[column] = text;
+    return fmt::format("{}", fmt::join(texts, ","));
+  }
+  void add_fields(const std::string& prefix, ondemand::object object, std::size_t depth) {
+    for (auto field : object) {
+      const std::string name = prefix + std::string(std::string_view(field.unescaped_key()));
+      add_value(name, field.value(), depth);
+    }
+  }
+
+  std::vector<std::string> names_;
+  std::unordered_map<std::string, std::size_t> columns_;
+  std::vector<Row> rows_;
+};
+
+/// The line of a document that has been read so far.
+class JsonLine {
+ public:
+  explicit JsonLine(ondemand::document& document) : document_(document), at_(document.current_location()) {}
+
+  std::size_t now() {
+    const char* next = nullptr;
+    if (document_.current_location().get(next)) return line_;
+    line_ += static_cast<std::size_t>(std::count(at_, next, '\n'));
+    at_ = next;
+    return line_;
+  }
+
+ private:
+  ondemand::document& document_;
+  const char* at_;
+  std::size_t line_ = 1;
+};
+
+/// Calls `read`; throws ProgramError naming file and line of JSON that is none.
+template <class Action>
+void read_json(const std::string& file, const std::size_t& line, Action read) {
+  try {
+    read();
+  } catch (const simdjson::simdjson_error& error) {
+    throw ProgramError(fmt::format("{}:{}: expected JSON records: {}", file, line, error.what()));
+  } catch (const MalformedRecord& error) {
+    throw ProgramError(fmt::format("{}:{}: {}", file, line, error.what()));
+  }
+}
+
+}  // namespace kinesphere::program

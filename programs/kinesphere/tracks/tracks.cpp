@@ -1,0 +1,321 @@
+// `kinesphere tracks`: finds close approaches in a recording of real motion.
+#include "tracks/tracks.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "base/number_text.hpp"
+#include "base/output_paths.hpp"
+#include "base/program_error.hpp"
+#include "base/progress.hpp"
+#include "base/standard_output.hpp"
+#include "base/table_file.hpp"
+#include "base/validators.hpp"
+#include "scenes/summary.hpp"
+#include "scenes/verify.hpp"
+#include "simulation/oracle/comparison.hpp"
+#include "simulation/tracks/approaches.hpp"
+#include "simulation/tracks/cylinder_approaches.hpp"
+#include "tracks/approach_files.hpp"
+#include "tracks/approach_plot.hpp"
+#include "tracks/closeness.hpp"
+#include "tracks/implied_speeds.hpp"
+#include "tracks/minima_table.hpp"
+#include "tracks/reading_options.hpp"
+#include "tracks/reading_summary.hpp"
+#include "tracks/track_file.hpp"
+#include "tracks/track_scene.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+void add_approaches(Summary& summary, const Closeness& closeness, const std::vector<Approach>& approaches) {
+  const auto cut = std::count_if(approaches.begin(), approaches.end(),
+                                 [](const Approach& approach) { return approach.ends_with_track; });
+  summary.row("approaches", grouped(approaches.size()),
+              fmt::format("{}, {} of them until a track's end", closeness.text,
+                          grouped(static_cast<std::uint64_t>(cut))));
+  if (approaches.empty()) return;
+  const auto shorter = [](const Approach& a, const Approach& b) { return a.end - a.begin < b.end - b.begin; };
+  const auto [shortest, longest] = std::minmax_element(approaches.begin(), approaches.end(), shorter);
+  summary.row("duration", fmt::format("{} s to {} s", number(shortest->end - shortest->begin),
+                                      number(longest->end - longest->begin)));
+}
+
+void add_left_out(Summary& summary, const ApproachChoice& choice, const LeftOut& left_out) {
+  if (!choice.only.empty())
+    summary.row("left out", grouped(left_out.by_ids),
+                fmt::format("approaches without {}", fmt::join(choice.only, ",")));
+  if (choice.min_duration)
+    summary.row("left out", grouped(left_out.by_duration),
+                fmt::format("approaches shorter than {} s", *choice.min_duration));
+}
+
+std::string closest_approaches(const std::vector<Approach>& approaches, const Recording& recording,
+                               bool by_cylinder) {
+  constexpr std::size_t shown = 10;
+  const auto distances = [&](const std::string& one, const std::string& two) {
+    return by_cylinder ? fmt::format("{:>12}  {:>12}", one, two) : fmt::format("{:>12}", one);
+  };
+  std::string text = fmt::format("\n{:>24}  {}  {:>14}  {:>12}    {}\n", "closest at",
+                                 distances(by_cylinder ? "horizontally" : "distance", "vertically"),
+                                 "relative speed", "duration", "ids");
+  const ImpliedSpeeds speeds(recording);
+  bool any_absurd = false;
+  const auto marked = [&](std::uint32_t track, double time) {
+    const bool is_absurd = speeds.is_absurd_at(track, time);
+    any_absurd = any_absurd || is_absurd;
+    return recording.tracks[track].id + (is_absurd ? " (?)" : "");
+  };
+  for (const std::size_t k : closest_of(approaches, shown)) {
+    const Approach& approach = approaches[k];
+    const ClosestApproach& closest = approach.closest;
+    text += fmt::format(
+        "{:>24}  {}  {:>14}  {}{:>11}{}  {} {}\n", recording.times.text(closest.time, 6),
+        by_cylinder ? distances(number(horizontal_distance(closest)), number(vertical_distance(closest)))
+                    : distances(number(closest.distance), ""),
+        number(closest.relative_speed), approach.begins_with_track ? "<" : " ",
+        number(approach.end - approach.begin), approach.ends_with_track ? "> " : "  ",
+        marked(approach.first, closest.time), marked(approach.second, closest.time));
+  }
+  text += "< close from a track's first sample (or --from) on, > until a track's last sample (or --until)\n";
+  if (any_absurd)
+    text += "(?) samples around that time imply a speed more than 10 times the usual one: see --max-speed\n";
+  if (approaches.size() > shown) {
+    text += fmt::format("and {} more: --contacts FILE has them all\n", grouped(approaches.size() - shown));
+  }
+  return text;
+}
+
+/// Warns of bodies that jump to one place, or keep together at one.
+void warn_of_one_place(const std::vector<Approach>& approaches, const Recording& recording,
+                       double tolerance) {
+  const ImpliedSpeeds speeds(recording);
+  const auto is_at_one = [&](const Approach& approach) {
+    const auto& [time, distance, first, second, relative_speed] = approach.closest;
+    return norm(second - first) <= tolerance &&
+           (relative_speed <= tolerance || speeds.is_absurd_at(approach.first, time) ||
+            speeds.is_absurd_at(approach.second, time));
+  };
+  const auto first = std::find_if(approaches.begin(), approaches.end(), is_at_one);
+  if (first == approaches.end()) return;
+  const Vec3 at = recording.coordinates.as_in_file(first->closest.first);
+  print_message(
+      "kinesphere: warning: two bodies are at exactly one place in {} approaches, as {} and {} are at {}, at "
+      "{:.9g}, {:.9g}: such places may stand for none (--where), or be of one body with two ids\n",
+      grouped(static_cast<std::uint64_t>(std::count_if(approaches.begin(), approaches.end(), is_at_one))),
+      recording.tracks[first->first].id, recording.tracks[first->second].id,
+      recording.times.text(first->closest.time, 6), at.x, at.y);
+}
+
+/// Returns the diagonal of the box around all samples.
+double size_of(const Recording& recording) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  Box extent{{none, none, none}, {-none, -none, -none}};
+  for (const RecordedTrack& track : recording.tracks) {
+    for (const TrackSample& sample : track.samples) {
+      for (int axis = 0; axis < 3; ++axis) {
+        extent.lower[axis] = std::min(extent.lower[axis], sample.position[axis]);
+        extent.upper[axis] = std::max(extent.upper[axis], sample.position[axis]);
+      }
+    }
+  }
+  return norm(extent.upper - extent.lower);
+}
+
+/// Warns of a distance without a unit that is larger than a recording in another unit than metres, or a few
+/// metres among places that are kilometres apart: it may have been meant in another unit.
+void warn_of_distance(const Closeness& closeness, const Recording& recording) {
+  const Coordinates& coordinates = recording.coordinates;
+  if (closeness.has_unit || !recording.in_metres) return;
+  const double size = size_of(recording);
+  if (coordinates.are_geographic()) {
+    constexpr double few_metres = 10.0, wide = 20e3;
+    if (closeness.distance < few_metres && size > wide)
+      print_message("kinesphere: warning: {} {} is in metres; another unit is said as in 5NM\n",
+                    closeness.option, closeness.given);
+    return;
+  }
+  const Vec3 step = coordinates.as_in_file({1, 0, 0}) - coordinates.as_in_file({});
+  if (closeness.distance <= size || std::abs(step.x - 1.0) < 1e-9) return;
+  print_message(
+      "kinesphere: warning: all positions are within {:.4g} m of each other, so that all pairs are close all "
+      "the time: {} {} is in metres; another unit is said as in 5mm\n",
+      size, closeness.option, closeness.given);
+}
+
+/// Returns a callback that shows a progress bar over the span of the scene.
+ComparisonProgress shown(const TracksOptions& options, const Scene& scene) {
+  const auto progress = std::make_shared<Progress>(scene.world.start_time, scene.end_time);
+  if (options.quiet || !progress->visible()) return {};
+  const double span = scene.end_time - scene.world.start_time;
+  return [=, start = scene.world.start_time](double part) { progress->show(start + part * span); };
+}
+
+/// All output besides the summary. The constructor opens the files, before the work begins.
+class TracksFiles {
+ public:
+  explicit TracksFiles(const TracksOptions& options) {
+    const OutputPath outputs[] = {{"--contacts", options.contacts},
+                                  {"--minima", options.minima},
+                                  {"--pairs", options.pairs},
+                                  {"--plot", options.plot}};
+    check_outputs(outputs, options.files);
+    if (!options.plot.empty() && std::filesystem::path(options.plot).extension() != ".svg")
+      throw ProgramError(fmt::format("{}: expected a name that ends in .svg", options.plot));
+    if (!options.contacts.empty())
+      contacts_.emplace(options.contacts, options.separation.starts_with("cylinder"));
+    if (!options.minima.empty()) minima_.emplace(options.minima);
+    if (!options.pairs.empty()) pairs_.emplace(options.pairs);
+    if (!options.plot.empty()) plot_.emplace(options.plot);
+  }
+
+  void check(const Recording& recording) const {
+    if (contacts_) contacts_->check(recording);
+  }
+  void write(const Recording& recording, const Scene& scene, const std::vector<Approach>& approaches,
+             double distance) {
+    if (contacts_) contacts_->write(approaches, recording);
+    if (minima_)
+      write_minima(*minima_, minima_in(*scene.motion, approaches, radii_of(recording)), approaches,
+                   recording);
+    if (pairs_) write_pairs(*pairs_, pairs_in(approaches, recording, *scene.motion), recording);
+    if (plot_) plot_->write(plot_of(recording, scene, approaches, distance));
+  }
+  void commit() {
+    if (contacts_) contacts_->commit();
+    if (minima_) minima_->commit();
+    if (pairs_) pairs_->commit();
+    if (plot_) plot_->commit();
+  }
+
+ private:
+  std::optional<ApproachFile> contacts_;
+  std::optional<TableFile> minima_, pairs_;
+  std::optional<OutputFile> plot_;
+};
+
+}  // namespace
+
+CLI::App* add_tracks_command(CLI::App& program, TracksOptions& options) {
+  CLI::App* command = program.add_subcommand("tracks", "Find every approach in a recording of real motion");
+  command
+      ->add_option("--distance", options.distance,
+                   "How close counts as an approach: a number, and perhaps a unit, such as 500m, 5NM, 2um")
+      ->type_name("LENGTH");
+  command
+      ->add_option("--separation", options.separation,
+                   "Instead of --distance: cylinder:HORIZONTAL:VERTICAL, such as cylinder:5NM:1000ft, or "
+                   "sphere:LENGTH")
+      ->type_name("SHAPE");
+  command
+      ->add_option("--tolerance", options.tolerance,
+                   "Tolerance of that distance; when not given a millionth of it, or 1e-12 of the extent")
+      ->check(finite_number());
+  command
+      ->add_option("--contacts", options.contacts,
+                   "Write every approach to this .csv or .jsonl file or, where positions are on the earth, "
+                   ".geojson, .gpx or .kml file")
+      ->type_name("FILE");
+  command
+      ->add_option("--minima", options.minima,
+                   "Write every local minimum of the distance during approaches to this .csv or .jsonl file")
+      ->type_name("FILE");
+  command
+      ->add_option("--pairs", options.pairs, "Write a line for each pair of ids to this .csv or .jsonl file")
+      ->type_name("FILE");
+  command->add_option("--plot", options.plot, "Draw a map and the closest approaches into this .svg file")
+      ->type_name("FILE");
+  add_reading_options(*command, options.files, options.reading);
+  add_interpolation_option(*command, options.reading);
+  command->add_flag(
+      "--sizes", options.reading.hints.sizes,
+      "Distances are between discs (in 3D spheres) around bodies of the columns length and width, and "
+      "--pairs has times to collision and post-encroachment times");
+  add_choice_options(*command, options.choice);
+  command->add_flag("--verify", options.verify, "Compare with the exact oracle on the same curves");
+  command->add_flag("--quiet", options.quiet, "No progress bar and no summary");
+  return command;
+}
+
+int tracks(const TracksOptions& options) {
+  const Closeness closeness = closeness_of(options.distance, options.separation);
+  TracksFiles files(options);
+  const Recording recording = read_tracks(options.files, reading_for(closeness, options.reading));
+  check_closeness(closeness, recording);
+  files.check(recording);
+  const ApproachFilter filter(options.choice, recording);
+  const TrackScene scene_and_notes = scene_of(recording, {.distance = closeness.distance,
+                                                          .vertical = closeness.vertical,
+                                                          .tolerance = options.tolerance,
+                                                          .interpolation = options.reading.interpolation,
+                                                          .from = filter.window().from,
+                                                          .until = filter.window().until});
+  const Scene& scene = scene_and_notes.scene;
+  const Scene& searched = scene_and_notes.searched();
+  for (const std::string& warning : warnings_of(recording, scene_and_notes))
+    print_message("kinesphere: warning: {}\n", warning);
+  warn_of_distance(closeness, recording);
+
+  std::vector<Event> events;
+  SimulationObserver observer;
+  observer.on_event = [&](const Event& event) { events.push_back(event); };
+  std::optional<Progress> progress;
+  if (!options.quiet) progress.emplace(scene.world.start_time, scene.end_time);
+  if (progress && progress->visible()) {
+    observer.between_events = [&](const Detector& detector) { progress->show(detector.time()); };
+  }
+  const auto started = std::chrono::steady_clock::now();
+  const SimulationResult result = require(simulate(searched, make_world_detector, observer));
+  const std::chrono::duration<double> real_time = std::chrono::steady_clock::now() - started;
+  progress.reset();
+
+  std::vector<Approach> approaches = approaches_in(searched, events);
+  if (closeness.vertical)
+    approaches = approaches_within({.horizontal = closeness.distance,
+                                    .vertical = *closeness.vertical,
+                                    .tolerance = scene.world.contact_tolerance},
+                                   *scene.motion, approaches);
+  const LeftOut left_out = filter.apply(approaches);
+  find_closest(*scene.motion, approaches, radii_of(recording));
+  warn_of_one_place(approaches, recording, scene.world.contact_tolerance);
+  files.write(recording, scene, approaches, closeness.distance);
+  Summary summary;
+  add_recording(summary, options.files, recording, scene_and_notes);
+  summary.space();
+  add_approaches(summary, closeness, approaches);
+  add_left_out(summary, options.choice, left_out);
+  summary.row("probes", grouped(result.counters.probes),
+              fmt::format("for {} samples: {}", grouped(recording.samples),
+                          percent(static_cast<double>(result.counters.probes),
+                                  static_cast<double>(recording.samples))));
+  int exit_code = exit_fine;
+  if (options.verify) {
+    const ContactComparison comparison =
+        require(compare_with_oracle(searched, events, shown(options, searched)));
+    summary.space();
+    add_comparison(summary, comparison);
+    if (!comparison.agrees()) exit_code = exit_disagreement;
+  }
+  summary.space();
+  summary.row("hash", fmt::format("{:016x}", result.contact_hash));
+  add_speed(summary, result.simulated_time, real_time.count());
+  if (!options.quiet) {
+    print("{}", summary.text());
+    if (!approaches.empty())
+      print("{}", closest_approaches(approaches, recording, closeness.vertical.has_value()));
+  }
+  // The commit comes last: a full disk must not suppress the summary.
+  files.commit();
+  return exit_code;
+}
+
+}  // namespace kinesphere::program
