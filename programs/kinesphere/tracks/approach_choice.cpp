@@ -104,6 +104,7 @@ void add_choice_options(CLI::App& command, ApproachChoice& choice) {
       .add_option("--only", choice.only, "Only approaches of these ids, with each other and with all others")
       ->type_name("ID[,ID...]")
       ->expected(1)
+      ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->group(group);
   command

@@ -13,6 +13,7 @@
 #include "base/validators.hpp"
 #include "formats/streams/input_options.hpp"
 #include "watch/nats/nats_address.hpp"
+#include "watch/tcp_source.hpp"
 #include "watch/udp_source.hpp"
 #include "watch/watch_report.hpp"
 #include "watch/watch_run.hpp"
@@ -23,10 +24,13 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
       "watch", "Tell what is certain about the separation of tracks in a stream of reports");
   command->footer("docs/watch.md explains the formats, the alerts, and what is certain about them.");
   command
-      ->add_option("FILE", options.file,
-                   "The stream, plain or gzipped; - for standard input; nats://HOST:PORT/SUBJECT for what a "
-                   "server of NATS has; udp://127.0.0.1:PORT for datagrams to this port")
+      ->add_option(
+          "FILE", options.file,
+          "The stream, plain or gzipped; - for standard input; tcp://HOST:PORT for what a server sends "
+          "there; udp://127.0.0.1:PORT for datagrams to this port; nats://HOST:PORT/SUBJECT for what "
+          "a server of NATS has")
       ->capture_default_str();
+  // Options that may be given several times take one value each: the FILE may come behind it.
   command
       ->add_option(
           "--separation", options.separations,
@@ -34,6 +38,7 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
           "well-clear:0.66NM:450ft:35s, do365:corrective; with or without a look-ahead time of its own, as "
           "sphere:1NM:20min")
       ->expected(1)
+      ->allow_extra_args(false)
       ->take_all()
       ->type_name("SHAPE[:TIME]");
   command
@@ -60,12 +65,14 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
           "Write alerts of these kinds; within,predicted,lost when not given: at most three for each "
           "encounter. With undecided, each change of a verdict")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->check(CLI::IsMember({"within", "predicted", "lost", "undecided", "tracks", "all"}))
       ->type_name("KINDS");
   command
       ->add_option("--area", options.areas,
                    "Write only alerts about pairs with a track in this circle, or in one of several")
       ->expected(1)
+      ->allow_extra_args(false)
       ->take_all()
       ->type_name("LAT,LON,RADIUS|X,Y,RADIUS");
   command
@@ -92,6 +99,7 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
           "limits of acceleration and speed (5:2,40:10), and who has them: an expression as in "
           "--where, or a file with an id in each line")
       ->expected(1)
+      ->allow_extra_args(false)
       ->take_all()
       ->type_name("CLASS=EXPRESSION|@FILE")
       ->group(promises);
@@ -193,7 +201,8 @@ int watch(const WatchOptions& options) {
   const OutputPath outputs[] = {{"--summary", options.summary},
                                 {"--snapshot", options.snapshot},
                                 {"--alerts", is_nats_address(options.alerts) ? "" : options.alerts}};
-  const bool is_file = options.file != "-" && !is_nats_address(options.file) && !is_udp_address(options.file);
+  const bool is_file = options.file != "-" && !is_nats_address(options.file) &&
+                       !is_udp_address(options.file) && !is_tcp_address(options.file);
   const std::string inputs[] = {is_file ? options.file : ""};
   check_outputs(outputs, inputs);
   std::optional<OutputFile> summary;

@@ -17,6 +17,7 @@
 #include "watch/class_rules.hpp"
 #include "watch/file_source.hpp"
 #include "watch/nats/nats_streams.hpp"
+#include "watch/tcp_source.hpp"
 #include "watch/udp_source.hpp"
 #include "watch/watch_options.hpp"
 #include "watch/watch_report.hpp"
@@ -45,21 +46,11 @@ std::optional<WatchSnapshot> snapshot_of(const WatchOptions& options) {
 
 /// Says how to read from an address of a kind that other programs read.
 void refuse_address(const std::string& file) {
-  const std::size_t slashes = file.find("://");
-  if (slashes == std::string::npos) return;
-  const std::string scheme = file.substr(0, slashes), rest = file.substr(slashes + 3);
-  const std::size_t colon = std::min(rest.rfind(':'), rest.size());
-  std::string command;
-  if (scheme == "tcp")
-    command = fmt::format("nc {} {}", shell_word(rest.substr(0, colon)),
-                          shell_word(rest.substr(std::min(colon + 1, rest.size()))));
-  if (scheme == "http" || scheme == "https")
-    command = fmt::format("while sleep 1; do curl -s {}; done", shell_word(file));
-  if (!command.empty())
-    throw ProgramError(
-        fmt::format("{}: expected a file, -, or an address udp:// or nats://: say {} | kinesphere watch "
-                    "--clock arrival -",
-                    file, command));
+  if (file.starts_with("http://") || file.starts_with("https://"))
+    throw ProgramError(fmt::format(
+        "{}: expected a file, -, or an address tcp://, udp:// or nats://: say while sleep 1; do curl "
+        "-s {}; done | kinesphere watch --clock arrival -",
+        file, shell_word(file)));
 }
 
 std::unique_ptr<ReportSource> source_of(const WatchOptions& options, const StopSignals& stop,
@@ -67,6 +58,8 @@ std::unique_ptr<ReportSource> source_of(const WatchOptions& options, const StopS
   const StreamPlace* const from = snapshot ? &snapshot->place : nullptr;
   if (is_udp_address(options.file))
     return make_udp_source(parse_udp_address(options.file), stop, options.quiet);
+  if (is_tcp_address(options.file))
+    return make_tcp_source(parse_tcp_address(options.file), stop, options.quiet, from);
   if (is_nats_address(options.file))
     return make_nats_source(parse_nats_address(options.file, "FILE"), stop, options.clock == "arrival",
                             options.quiet, from);
@@ -166,9 +159,10 @@ std::optional<StreamFormat> format_of(const WatchOptions& options,
 }
 
 std::unique_ptr<ReportFormat> reader_of(const WatchOptions& options, StreamFormat format,
-                                        const ReportSource& source,
+                                        const ReportSource& source, const StopSignals& stop,
                                         const std::vector<ClassRule>& class_rules) {
   FormatChoices choices = options.choices;
+  choices.is_stopped = [&stop] { return stop.asked(); };
   choices.source = source.name();
   choices.position_error_is_said = !options.position_error.empty();
   if (same_name(options.own, "gps")) choices.own_by_gps = options.own;
@@ -186,7 +180,7 @@ WatchRun::WatchRun(const WatchOptions& options)
       format_(known_format_.value_or(StreamFormat::readsb)),
       watcher_(settings_of(options, format_, source_->name()),
                [this](std::uint64_t share, std::string_view line) { alerts_->write(share, line); }),
-      reader_(reader_of(options, format_, *source_, watcher_.settings().class_rules)),
+      reader_(reader_of(options, format_, *source_, stop_, watcher_.settings().class_rules)),
       snapshot_interval_(snapshot_interval(options)) {
   cutter_.set_kind(records_of(format_));
   if (format_ == StreamFormat::recording && source_->nature() == ReportSource::Nature::unknown &&

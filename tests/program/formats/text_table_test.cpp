@@ -141,7 +141,8 @@ TEST(TextTable, WantsARow) {
     return error_of([&] { parse_tracks({{"t.txt", text}}, {}); });
   };
   EXPECT_EQ(error_of_file(""), "t.txt: expected rows of numbers, but found none");
-  EXPECT_EQ(error_of_file("# c\nid,x\n"), "t.txt: expected rows of numbers, but found none");
+  EXPECT_EQ(error_of_file("# c\nid,x\n"),
+            "t.txt: expected rows of numbers, but found none: its first line is 'id x'");
   EXPECT_EQ(error_of_file(std::string("1,2\n\0,3\n", 8)),
             "t.txt: expected a text file, but it has zero bytes");
 }

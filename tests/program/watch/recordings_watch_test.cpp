@@ -183,7 +183,7 @@ TEST_F(RecordingsWatch, TablesBetweenBlanks) {
             "verdict ");
   expect_wrong_input(
       "watch " + write("f", "1 0 0 0\n2 0 3 0\n") + promises + "--quiet --separation sphere:20",
-      {"say --columns id=1,time=2,x=3,y=4"});
+      {"say --columns id=...,time=...,x=...,y=... with the numbers"});
   // SUMO's table has speeds and angles: the two are predicted ten seconds ahead.
   std::string cars = "timestep_time;vehicle_id;vehicle_x;vehicle_y;vehicle_speed;vehicle_angle\n";
   for (int k = 0; k < 25; ++k)

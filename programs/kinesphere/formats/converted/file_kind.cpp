@@ -31,6 +31,8 @@ constexpr std::string_view sp3 = "an ephemeris (SP3): write it as CSV, with colu
 
 /// Files that begin with certain bytes.
 constexpr FileKind kinds_by_bytes[] = {
+    {"\xFF\xFE\0\0"sv, "text in UTF-32: convert it with iconv -f UTF-32 -t UTF-8"},
+    {"\0\0\xFE\xFF"sv, "text in UTF-32: convert it with iconv -f UTF-32 -t UTF-8"},
     {"\xFF\xFE"sv, "text in UTF-16: convert it with iconv -f UTF-16 -t UTF-8"},
     {"\xFE\xFF"sv, "text in UTF-16: convert it with iconv -f UTF-16 -t UTF-8"},
     {"PK\3\4"sv, "a zip archive (or .xlsx, .kmz, .npz): unpack it, or write the sheet as CSV"},
@@ -75,6 +77,18 @@ constexpr FileKind kinds_by_bytes[] = {
     {"\xA3\x95"sv,
      "an ArduPilot log: write its messages GPS as CSV, with mavlogdump.py --types GPS --format csv"},
     {"# vtk DataFile"sv, vtk},
+    {"\xDF\x65\xDF\x65"sv, "a trajectory of HOOMD (GSD): write it as XYZ, with OVITO, or as CSV"},
+    {"---\ncreator: LAMMPS"sv, "a dump of LAMMPS in YAML: write it with dump_style custom, as text"},
+    {"HIERARCHY"sv, "motion capture as angles of joints (BVH): write positions as TRC or CSV, with Blender"},
+    {"#!OML:ASF"sv, "motion capture as angles of joints (AMC): write positions as TRC or CSV, with Blender"},
+    {":FULLY-SPECIFIED"sv,
+     "motion capture as angles of joints (AMC): write positions as TRC or CSV, with Blender"},
+    {"CCSDS_OPM_VERS"sv, "one state of an orbit (OPM), no path: propagate it, and write an OEM or CSV"},
+    {"MTrackJ "sv, "tracks of MTrackJ: write them as CSV, with Measure, which shows a table of points"},
+    {"header: \n"sv, "messages as rostopic echo prints them: write a table, with rostopic echo -p"},
+    {"header:\n"sv,
+     "messages as rostopic echo prints them: write a table, with rostopic echo -p (ros2 topic "
+     "echo --csv)"},
 };
 
 /// XML by a word in its beginning.
@@ -84,6 +98,9 @@ constexpr FileKind kinds_of_xml[] = {
     {"<oem", "an ephemeris (OEM): write its rows as CSV, with columns id, time, x, y, z"},
     {"<TrackMate", "a file of TrackMate: export its tracks to XML, or the spots as CSV"},
     {"<VTKFile", vtk},
+    {"<mvnx", "motion capture of Xsens (MVNX): write it as C3D or CSV, with MVN"},
+    {"<trackfile", "tracks of Icy: write them as CSV, with its track manager"},
+    {"<trajectories", "trajectories of JuPedSim in XML: write them as text, with <format>plain</format>"},
     {"<html", "a page of HTML: save the table as CSV"},
     {"<!DOCTYPE html", "a page of HTML: save the table as CSV"},
 };
@@ -147,7 +164,10 @@ std::string other_file_kind(std::string_view beginning) {
   if (const std::string kind = kind_by_lines(beginning); !kind.empty()) return kind;
   if (has_begin(beginning, "\xEF\xBB\xBF")) beginning.remove_prefix(3);
   beginning.remove_prefix(std::min(beginning.find_first_not_of(" \t\r\n"), beginning.size()));
-  const bool is_json = has_begin(beginning, "{") || has_begin(beginning, "[");
+  // Lines of logs may begin with [INFO].
+  const bool is_json = has_begin(beginning, "{") ||
+                       (has_begin(beginning, "[") && beginning.find_first_of("{[\"0123456789-]", 1) ==
+                                                         beginning.find_first_not_of(" \t\r\n", 1));
   if (is_strava(beginning))
     return "streams of Strava, whose times count from the start of their activity: export the activity as "
            "GPX, which has dates";

@@ -21,9 +21,31 @@ std::string_view with_decimal_point(std::string_view text, std::string& buffer) 
 }
 
 std::optional<double> number_field(std::string_view text, bool decimal_comma) {
-  if (const auto number = parse_number(text); number || !decimal_comma) return number;
+  if (const auto number = parse_number(text)) return number;
+  constexpr std::string_view minus = "\xE2\x88\x92";
+  if (text.starts_with(minus))
+    return number_field('-' + std::string(text.substr(minus.size())), decimal_comma);
   std::string buffer;
-  return parse_number(with_decimal_point(text, buffer));
+  return decimal_comma ? parse_number(with_decimal_point(text, buffer)) : std::nullopt;
+}
+
+std::string number_advice(std::string_view field) {
+  constexpr std::string_view digits = "0123456789";
+  const std::size_t first = field.find_first_of(digits);
+  if (first == std::string_view::npos || first > 1) return {};
+  const std::size_t other = std::min(field.find_first_not_of("0123456789+-eE.", first), field.size());
+  if (field.find(',') == other && field.find_first_not_of(digits, other + 1) == std::string_view::npos &&
+      field.find('.') == std::string_view::npos)
+    return ": decimal commas are read where ; or tabs separate; else sed -E 's/([0-9]),([0-9])/\\1.\\2/g' "
+           "makes "
+           "them points";
+  if (std::string_view(".,' \xC2\xE2\xA0").find(other < field.size() ? field[other] : '.') !=
+          std::string_view::npos &&
+      field.substr(std::min(other + 1, field.size())).find_first_of(digits) != std::string_view::npos)
+    return ": leave out what separates thousands";
+  if (other < field.size() && field.find_first_of(digits, other) == std::string_view::npos)
+    return ": leave units out, and say them in the name of the column or with --columns";
+  return {};
 }
 
 std::optional<double> angle_field(std::string_view text, bool decimal_comma, std::string_view letters) {
@@ -36,6 +58,9 @@ std::optional<double> angle_field(std::string_view text, bool decimal_comma, std
         which != std::string_view::npos && (at == 0 || at + 1 == text.size())) {
       ++hemispheres;
       sign = which == 0 ? 1 : -1;
+    } else if (c == ':' || (c == '-' && !numbers.empty() && numbers.back() != ' ')) {  // 55-30.5N, 47:30:15
+      has_signs = has_signs || c == ':';
+      numbers += ' ';
     } else if ((c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+') {
       numbers += c;
     } else if (c == ',' && decimal_comma) {

@@ -35,9 +35,15 @@ std::string TimeCheck::day_suspicion(std::size_t samples) const {
   const bool may_be_days = std::any_of(std::begin(years), std::end(years), [&](const auto& days) {
     return least_ >= days.first && largest_ <= days.last;
   });
-  if (samples < 2 || !(least_ <= largest_) || !may_be_days ||
-      !(largest_ - least_ < 0.01 * static_cast<double>(samples)))
-    return {};
+  const double span = largest_ - least_, count = static_cast<double>(samples);
+  if (samples < 2 || !(span >= 0.0)) return {};
+  if (least_ >= 1970.0 && largest_ <= 2100.0 && span < 1e-4 * count)
+    return fmt::format(
+        "the times {} to {} may be years: write dates, as in 2024-01-31T12:30:15, or say --time-unit s if "
+        "they "
+        "are seconds",
+        least_, largest_);
+  if (!may_be_days || !(span < 0.01 * count)) return {};
   return fmt::format(
       "the times {} to {} may be days, as spreadsheets, MATLAB and astronomers have them: say --time-unit d, "
       "or s if they are seconds",

@@ -21,7 +21,7 @@ class TimeCheck {
   bool may_be_clock() const { return is_clock_; }
   /// Returns "the times 45351.5 to 45351.6 may be days ..." if all are in the years that spreadsheets, MATLAB
   /// or astronomers count in days, and would otherwise be more than a hundred `samples` of one body a second;
-  /// else empty.
+  /// or "the times 2024.25 to 2024.26 may be years ..." if they would be more than ten thousand; else empty.
   std::string day_suspicion(std::size_t samples) const;
 
  private:

@@ -210,8 +210,8 @@ std::optional<FileTime> read_clock(Reader& reader, bool extended) {
   if (*hour == 24 && (time.whole > std::int64_t{24} * 3600 || time.fraction > 0)) return std::nullopt;
   if (extended) {
     reader.take(' ');
-    const bool after_noon = reader.take_word("pm");
-    const bool of_twelve = after_noon || reader.take_word("am");
+    const bool after_noon = reader.take_word("pm") || reader.take_word("p.m.");
+    const bool of_twelve = after_noon || reader.take_word("am") || reader.take_word("a.m.");
     if (of_twelve && (*hour < 1 || *hour > 12)) return std::nullopt;
     // Twelve is the hour before one.
     if (of_twelve) time.whole += 3600 * (*hour % 12 + (after_noon ? 12 : 0) - *hour);
@@ -219,19 +219,33 @@ std::optional<FileTime> read_clock(Reader& reader, bool extended) {
   return with_sign(false, time);
 }
 
-/// Returns seconds east of Greenwich.
-std::optional<int> read_offset(Reader& reader) {
-  for (std::string_view name : {"Z", "UTC", "GMT"})
-    if (reader.take_word(name)) return 0;
+/// Reads +01:00, +0100 or +1. Returns seconds.
+std::optional<int> read_signed_offset(Reader& reader) {
   const int sign = reader.take('+') ? 1 : -1;
   if (sign < 0 && !reader.take('-')) return std::nullopt;
-  const auto hours = reader.digits(2, 23);
-  if (!hours) return std::nullopt;
-  if (reader.at_end()) return sign * *hours * 3600;
-  reader.take(':');
-  const auto minutes = reader.digits(2, 59);
-  if (!minutes) return std::nullopt;
-  return sign * (*hours * 3600 + *minutes * 60);
+  const auto hours = reader.few_digits(2);
+  if (!hours || *hours > 23) return std::nullopt;
+  if (reader.take(':') || reader.digits_ahead() > 0) {
+    const auto minutes = reader.digits(2, 59);
+    if (!minutes) return std::nullopt;
+    return sign * (*hours * 3600 + *minutes * 60);
+  }
+  return sign * *hours * 3600;
+}
+
+/// Returns seconds east of Greenwich. The name of a zone may follow, as in "+0100 CET".
+std::optional<int> read_offset(Reader& reader) {
+  bool is_named = false;
+  for (std::string_view name : {"Z", "UTC", "GMT"}) is_named = is_named || reader.take_word(name);
+  Reader ahead = reader;
+  const auto offset = read_signed_offset(ahead);
+  if (!offset) return is_named ? std::optional(0) : std::nullopt;
+  reader = ahead;
+  if (reader.take(' ')) {
+    const bool has_brackets = reader.take('(');
+    if (reader.letters_ahead().empty() || (has_brackets && !reader.take(')'))) return std::nullopt;
+  }
+  return offset;
 }
 
 }  // namespace

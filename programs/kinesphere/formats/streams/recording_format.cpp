@@ -41,6 +41,7 @@ class RecordingFormat final : public ReportFormat {
     choices_.title = table->format;
     table_ = make_csv_format(choices_);
     for (const Row& row : rows_in_order(*table)) {
+      if (is_stopped()) break;
       try {
         table_->read(row.record, sink);
       } catch (const WrongInput& error) {
@@ -61,6 +62,8 @@ class RecordingFormat final : public ReportFormat {
     FileTime time{};
   };
 
+  bool is_stopped() const { return choices_.is_stopped && choices_.is_stopped(); }
+
   /// Returns the rows by time, those of one time as in the table. What is wrong is found when they are read.
   std::vector<Row> rows_in_order(const ConvertedTable& table) const {
     std::vector<Row> rows;
@@ -68,7 +71,7 @@ class RecordingFormat final : public ReportFormat {
     TimeSink times;
     LineCutter lines(table.text);
     std::ptrdiff_t header = 0;
-    while (lines.next()) {
+    while (!is_stopped() && lines.next()) {
       if (lines.whole().empty()) continue;
       header += lines.line() <= std::max<std::size_t>(table.lines_before, 1) ? 1 : 0;
       Row row{{.text = lines.whole(), .line = table.line_in_file(lines.line())}};

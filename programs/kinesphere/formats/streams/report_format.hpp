@@ -1,6 +1,7 @@
 // The formats of recordings and streams, which turn records into reports.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -70,6 +71,8 @@ struct FormatChoices {
   std::string title;  ///< of a converted table: its format
   /// nmea: if not empty, sentences RMC are reports of a track of this id, in place of VDO.
   std::string own_by_gps{};
+  /// If not empty, asked between the rows of a recording; true ends it there.
+  std::function<bool()> is_stopped{};
 };
 
 /// Throws ProgramError naming a wrong option, also for an option about tables that is given with messages.

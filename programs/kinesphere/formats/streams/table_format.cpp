@@ -1,5 +1,6 @@
 // Tables with a report in each line: with a map of columns, or AIS as it is published in tables.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +51,8 @@ class CsvFormat final : public ReportFormat {
 
   /// A short stream is asked about at its end.
   void finish(ReportSink& /*sink*/) override {
-    if (choices_.is_recording && !reader_) throw UnusableStream("expected rows of numbers, but found none");
+    if (choices_.is_recording && !reader_)
+      throw UnusableStream("expected rows of numbers, but found none" + first_text());
     ask();
   }
   const RowReader* rows() const override { return reader_ ? &*reader_ : nullptr; }
@@ -66,6 +68,14 @@ class CsvFormat final : public ReportFormat {
   }
 
  private:
+  /// Returns ": its first line is '...'" of a file with a header alone.
+  std::string first_text() const {
+    const auto& names = table_.head().names;
+    return names.empty()
+               ? ""
+               : fmt::format(": its first line is {}", shown_field(fmt::format("{}", fmt::join(names, " "))));
+  }
+
   /// Finds the columns. Precondition: the head of the table is complete.
   void begin() {
     const TableHead& head = table_.head();

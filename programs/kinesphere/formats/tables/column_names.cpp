@@ -27,13 +27,15 @@ constexpr QuantityNames quantities[quantity_count] = {
      "vesselid shipid sourcemmsi deviceid droneid drone uavid uav robotid playerid entityid icao24 hex "
      "trajectoryid particle particleid tag tagid animalid individuallocalidentifier identity objid targetid "
      "instanceid cellid carid persid personnr bodyid individual individualid individualidentifier subjectid "
-     "birdid fishid satid satelliteid noradid noradcatid nodeid"},
+     "birdid fishid actorid satid satelliteid noradid noradcatid nodeid"},
     {Quantity::time, "time", Measure::time,
      "t timestamp datetime basedatetime utc timeutc timestamputc datetimeutc unixtime epoch stamp tstamp "
      "headerstamp fixtime utctime date/time date&time epochutc timegmt datetimegmt localtime timestamplocal "
-     "zeit uhrzeit seconds:s secs:s sec:s milliseconds:ms"},
+     "zeit uhrzeit zeitstempel temps tiempo msgtime trialtime simt simtime seconds:s secs:s sec:s "
+     "milliseconds:ms"},
     {Quantity::frame, "frame", Measure::none,
-     "frameid frameno framenr framenumber frameindex frameidx fr timestep"},
+     "frameid frameno framenr framenumber frameindex frameidx framenum framecount imagenumber fnum fr "
+     "timestep"},
     {Quantity::date, "date", Measure::none, "datum utcdate dateutc gpsdate localdate"},
     {Quantity::arrival, "arrival", Measure::time, "received"},
     {Quantity::x, "x", Measure::length,
@@ -103,12 +105,23 @@ bool is_unit_of(Measure measure, std::string_view unit) {
 /// What may stand between a name and its unit. R writes "x (m)" as x..m.
 constexpr std::string_view between_words = " _-.:,([{/";
 
-/// Returns the text behind `at` as a unit: without brackets, blanks and the word "in".
+bool is_word_of(std::string_view word, std::string_view words) {
+  return any_word(words, [&](std::string_view each) { return same_name(each, word); });
+}
+
+/// Returns the text behind `at` as a unit: without brackets, blanks, the word "in" and, of a height, what it
+/// is above: "(ft MSL)", "_m_agl", "[ft] above sea level".
 std::string_view unit_behind(std::string_view name, std::size_t at) {
   std::string_view unit = name.substr(at);
   while (!unit.empty() && between_words.find(unit.front()) != std::string_view::npos) unit.remove_prefix(1);
   for (std::string_view in : {"in_", "in "})
     if (unit.starts_with(in)) unit.remove_prefix(in.size());
+  const std::size_t end = std::min(unit.find_first_of(" _)]}"), unit.size());
+  const std::string_view behind = unit.substr(end);
+  const std::size_t word = std::min(behind.find_first_not_of(" _)]}("), behind.size());
+  if (is_word_of(behind.substr(word, behind.find_first_of(" _)]}", word) - word),
+                 "msl amsl asl agl hae above wgs84 ellipsoid ellipsoidal"))
+    unit = unit.substr(0, end);
   while (!unit.empty() && std::string_view(" )]}.").find(unit.back()) != std::string_view::npos)
     unit.remove_suffix(1);
   return unit;
@@ -120,10 +133,6 @@ bool may_begin_unit(std::string_view name, std::size_t at) {
   const auto is_upper = [](char c) { return lower_case(c) != c; };
   return is_upper(name[at]) && !is_upper(name[at - 1]) &&
          between_words.find(name[at - 1]) == std::string_view::npos;
-}
-
-bool is_word_of(std::string_view word, std::string_view words) {
-  return any_word(words, [&](std::string_view each) { return each == word; });
 }
 
 /// True if a word of the name, also of camelCase, is one of `words`.
@@ -193,6 +202,24 @@ std::optional<ColumnMeaning> meaning_of_ending(std::string_view column_name) {
   return std::nullopt;
 }
 
+namespace {
+
+/// Returns the name in lower case, without its unit, and with _ for brackets: x_1 of "X(1) [cm]".
+std::string name_of_axis(std::string_view column_name) {
+  for (std::size_t at = 1; at < column_name.size(); ++at) {
+    const std::string_view unit = unit_behind(column_name, at);
+    if (may_begin_unit(column_name, at) &&
+        (is_unit_of(Measure::length, unit) || is_unit_of(Measure::angle, unit)))
+      column_name = column_name.substr(0, at);
+  }
+  std::string name;
+  for (const char c : trimmed(column_name)) name += c == '(' || c == '[' || c == '{' ? '_' : lower_case(c);
+  while (name.ends_with(')') || name.ends_with(']') || name.ends_with('}')) name.pop_back();
+  return name;
+}
+
+}  // namespace
+
 AxisAndBody axis_and_body(std::string_view column_name) {
   // The first that fits counts, so that "longitude" stands before "lon", with which it begins.
   constexpr std::pair<std::string_view, Quantity> axes[] = {{"longitude", Quantity::longitude},
@@ -203,11 +230,13 @@ AxisAndBody axis_and_body(std::string_view column_name) {
                                                             {"lat", Quantity::latitude},
                                                             {"altitude", Quantity::z},
                                                             {"alt", Quantity::z},
+                                                            {"posx", Quantity::x},
+                                                            {"posy", Quantity::y},
+                                                            {"posz", Quantity::z},
                                                             {"x", Quantity::x},
                                                             {"y", Quantity::y},
                                                             {"z", Quantity::z}};
-  std::string name;
-  for (const char c : column_name) name += lower_case(c);
+  const std::string name = name_of_axis(column_name);
   for (const auto& [word, axis] : axes) {
     for (const bool is_first : {true, false}) {
       if (name.size() <= word.size() || !(is_first ? name.starts_with(word) : name.ends_with(word))) continue;
@@ -299,7 +328,8 @@ bool is_of_aircraft(std::string_view column_name) {
 bool is_zone(std::string_view column_name) {
   return is_word_of(
       plain_name(column_name),
-      "zone utmzone gridzone map mapid building buildingid floorid levelid centername refframe timesystem");
+      "zone utmzone gridzone map mapid building buildingid floorid levelid centername refframe timesystem tz "
+      "timezone utcoffset tzoffset timezoneoffset");
 }
 
 bool is_nobody(std::string_view column_name, std::string_view id) {

@@ -2,6 +2,7 @@
 #include "formats/tables/presets.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -235,14 +236,23 @@ std::optional<std::vector<double>> numbers_in(const std::vector<std::string>& fi
   return numbers;
 }
 
-/// frame id left top width height confidence -1 -1 -1
+/// frame id left top width height confidence -1 -1 -1; or, as the truth of MOT16 to MOT20, behind the
+/// confidence a class from 1 to 13 and a visibility from 0 to 1.
 bool is_mot(const std::vector<double>& row) {
+  if (row.size() == 9)
+    return row[0] >= 1.0 && row[1] >= 1.0 && (row[6] == 0.0 || row[6] == 1.0) && row[7] >= 1.0 &&
+           row[7] <= 13.0 && row[8] >= 0.0 && row[8] <= 1.0 &&
+           std::ranges::all_of(std::array{row[0], row[1], row[7]},
+                               [](double number) { return number == std::floor(number); });
   return row.size() == 10 && row[7] == -1.0 && row[8] == -1.0 && row[9] == -1.0;
 }
 
-/// Unix time, position, quaternion of length 1.
+/// Time, position, quaternion of length 1. Times of a simulation may be small, as frames of an obsmat are,
+/// whose second number is an id.
 bool is_tum(const std::vector<double>& row) {
-  if (row.size() != 8 || row[0] < 1e8) return false;
+  if (row.size() != 8) return false;
+  const bool may_be_id = row[1] >= 0.0 && row[1] == std::floor(row[1]);
+  if (row[0] < 1e8 && may_be_id) return false;
   return std::abs(std::hypot(std::hypot(row[4], row[5]), std::hypot(row[6], row[7])) - 1.0) < 1e-3;
 }
 

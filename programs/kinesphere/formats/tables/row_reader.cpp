@@ -232,7 +232,7 @@ std::optional<TimeField> RowReader::time(Quantity quantity) {
                       wrong_text(column->place, "a date whose order of day and month is known"),
                       parse_date_time(text, DateOrder::year_first) ? ", or year-first" : ""));
     if (text.find_first_of("-/:") == std::string_view::npos)
-      throw WrongInput(wrong_text(column->place, "a number as time"));
+      throw WrongInput(wrong_text(column->place, "a number as time") + number_advice(field(column->place)));
     throw WrongInput(wrong_text(column->place, "a time") +
                      (is_clock(text)
                           ? ", which has no date: write it as in 2024-01-31T12:30:00Z, or the date in a "
@@ -294,7 +294,8 @@ std::optional<double> RowReader::number(Quantity quantity) {
   const std::string_view text = field(column->place);
   if (const auto number = number_field(text, columns_.decimal_comma)) return number;
   if (!is_missing(text))
-    throw WrongInput(wrong_text(column->place, fmt::format("a number as {}", name_of(quantity))));
+    throw WrongInput(wrong_text(column->place, fmt::format("a number as {}", name_of(quantity))) +
+                     number_advice(text));
   if (!missing_) missing_ = {column->place, name_of(quantity)};
   return std::nullopt;
 }

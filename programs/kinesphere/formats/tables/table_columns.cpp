@@ -81,6 +81,16 @@ bool set_unit(Column& column, std::string_view unit, Quantity quantity) {
   return true;
 }
 
+/// True if the row of units has one without brackets for the times, so that all its labels are units.
+bool has_plain_units(const TableHead& head) {
+  for (std::size_t place = 0; place < std::min(head.names.size(), head.units.size()); ++place) {
+    const auto meaning = meaning_of(head.names[place]);
+    if (meaning && meaning->quantity == Quantity::time && unit_named(head.units[place], Measure::time))
+      return true;
+  }
+  return false;
+}
+
 /// Returns the unit of a column in its name or in the row of units; empty if there is none.
 std::string unit_of_column(const TableHead& head, std::size_t place, Quantity quantity) {
   if (!head.names.empty()) {
@@ -96,8 +106,8 @@ std::string unit_of_column(const TableHead& head, std::size_t place, Quantity qu
   Column ignored;
   if (unit.empty() || unit == "-" || set_unit(ignored, unit, quantity))
     return std::string(unit == "-" ? "" : unit);
-  // A label without brackets says nothing.
-  if (unit.size() == trimmed(text).size()) return {};
+  // A label without brackets says nothing, but among units.
+  if (unit.size() == trimmed(text).size() && !has_plain_units(head)) return {};
   // A time in a unit of length is a mistake that some programs make in all files.
   if (quantity == Quantity::time || is_unit(unit)) return {};
   throw ProgramError(
@@ -249,6 +259,64 @@ TableColumns preset_columns(const TableHead& head, const Preset& preset) {
   return columns;
 }
 
+// What to say.
+
+/// True for parts of the messages of robots that have axes, but are no places: pose.orientation,
+/// twist.linear.
+bool is_of_no_place(std::string_view body) {
+  constexpr std::string_view words[] = {"orientation", "linear",       "angular",
+                                        "velocity",    "acceleration", "rotation"};
+  return std::any_of(std::begin(words), std::end(words),
+                     [&](std::string_view word) { return body.ends_with(word); });
+}
+
+/// Adds columns that may be meant, for messages: vessel_mmsi, OSD.latitude, field.pose.position.x. Of several
+/// that are alike it adds none.
+void add_likely_columns(const TableHead& head, TableColumns& columns) {
+  std::array<std::vector<std::size_t>, quantity_count> likely;
+  for (std::size_t place = 0; place < head.names.size(); ++place) {
+    if (is_of_no_place(axis_and_body(head.names[place]).body)) continue;
+    auto meaning = meaning_of_ending(head.names[place]);
+    for (const Quantity angle : {Quantity::longitude, Quantity::latitude})
+      if (!meaning && looks_like_angle(head.names[place], angle)) meaning = ColumnMeaning{angle, ""};
+    if (!meaning && may_be_id(head.names[place])) meaning = ColumnMeaning{Quantity::id, ""};
+    if (meaning && is_position(meaning->quantity))
+      likely[static_cast<std::size_t>(meaning->quantity)].push_back(place);
+  }
+  const bool has_place = columns[Quantity::x] || columns[Quantity::longitude];
+  for (std::size_t k = 0; k < quantity_count; ++k) {
+    const Measure measure = measure_of(static_cast<Quantity>(k));
+    const bool is_place = measure == Measure::length || measure == Measure::angle;
+    if (!columns.of[k] && likely[k].size() == 1 && !(is_place && has_place))
+      columns.of[k] = Column{.place = likely[k].front()};
+  }
+  if (columns[Quantity::time]) columns[Quantity::frame].reset();
+  if (columns[Quantity::longitude] && columns[Quantity::latitude])
+    columns[Quantity::x] = columns[Quantity::y] = std::nullopt;
+}
+
+/// Returns the option --columns with these columns and those that are likely, and with id=..., time=... and
+/// x=...,y=... for what is none of them.
+std::string whole_columns_option(const TableHead& head, TableColumns columns) {
+  add_likely_columns(head, columns);
+  const bool has_bodies = !columns.bodies.empty();
+  if (has_bodies)
+    for (const Quantity quantity :
+         {Quantity::id, Quantity::x, Quantity::y, Quantity::z, Quantity::longitude, Quantity::latitude})
+      columns[quantity].reset();
+  const std::string found = columns_text(head, columns);
+  const auto has = [&](Quantity quantity) { return columns[quantity].has_value(); };
+  const bool has_place =
+      (has(Quantity::x) && has(Quantity::y)) || (has(Quantity::longitude) && has(Quantity::latitude));
+  std::vector<std::string> said;
+  if (!has(Quantity::id) && !columns.id_is_file && !has_bodies) said.emplace_back("id=...");
+  if (!has(Quantity::time) && !has(Quantity::frame)) said.emplace_back("time=...");
+  if (!found.empty()) said.push_back(found);
+  if (!has_place && !has_bodies) said.emplace_back("x=...,y=...");
+  return columns_option(fmt::format("{}", fmt::join(said, ","))) +
+         (said.front() == "id=..." ? ", with id=@file where each file is one body" : "");
+}
+
 // Columns by their usual names.
 
 class UsualColumns {
@@ -322,23 +390,18 @@ class UsualColumns {
     // Whole seconds have their rest in another column.
     for (const std::size_t place : places(Quantity::time))
       if (!plain_name(head_.names[place]).ends_with("sec")) example[Quantity::time] = Column{.place = place};
+    // Of ids that of a track, not of a sample of it.
+    for (const std::size_t place : places(Quantity::id))
+      if (plain_name(head_.names[place]).find("track") != std::string::npos)
+        example[Quantity::id] = Column{.place = place};
     throw ProgramError(fmt::format("{}: columns '{}' and '{}' may both be meant: say which, as in {}",
                                    head_.file, head_.names[one], head_.names[other],
-                                   columns_option(columns_text(head_, example))));
+                                   whole_columns_option(head_, example)));
   }
 
   const TableHead& head_;
   std::array<std::vector<std::size_t>, quantity_count> places_;
 };
-
-/// True for parts of the messages of robots that have axes, but are no places: pose.orientation,
-/// twist.linear.
-bool is_of_no_place(std::string_view body) {
-  constexpr std::string_view words[] = {"orientation", "linear",       "angular",
-                                        "velocity",    "acceleration", "rotation"};
-  return std::any_of(std::begin(words), std::end(words),
-                     [&](std::string_view word) { return body.ends_with(word); });
-}
 
 /// Finds the bodies whose columns are called after an axis and the body: x1 and y1, car_1.lon and car_1.lat.
 /// Each has `along` and `across`, and perhaps z.
@@ -373,6 +436,20 @@ bool are_numbered(const std::vector<TableColumns::Body>& bodies) {
   return std::all_of(bodies.begin(), bodies.end(), [&](const TableColumns::Body& each) {
     return kind_of(each.id).size() < each.id.size() && kind_of(each.id) == kind_of(bodies.front().id);
   });
+}
+
+/// Takes the unit of the first body's column, which must be that of the others.
+void take_unit_of_bodies(const TableHead& head, Quantity quantity, TableColumns& columns) {
+  Column& column = *columns[quantity];
+  take_unit_of_column(head, quantity, column);
+  for (const TableColumns::Body& body : columns.bodies) {
+    const bool is_across = quantity == Quantity::y || quantity == Quantity::latitude;
+    const std::size_t place = quantity == Quantity::z ? *body.z : is_across ? body.y : body.x;
+    if (unit_of_column(head, place, quantity) != unit_of_column(head, column.place, quantity))
+      throw ProgramError(fmt::format("{}: expected one unit of {}, but {} and {} have different ones",
+                                     head.file, key_of(quantity), column_text(head, column.place),
+                                     column_text(head, place)));
+  }
 }
 
 /// Finds a pair of columns for each body: x1, y1, x2, y2, as idtracker.ai writes them, or lon1, lat1 and so
@@ -414,6 +491,9 @@ void find_pairs(const TableHead& head, const ColumnHints& hints, TableColumns& c
   columns[is_earth ? Quantity::longitude : Quantity::x] = Column{.place = first.x};
   columns[is_earth ? Quantity::latitude : Quantity::y] = Column{.place = first.y};
   if (first.z) columns[Quantity::z] = Column{.place = *first.z};
+  for (const Quantity quantity :
+       {Quantity::x, Quantity::y, Quantity::z, Quantity::longitude, Quantity::latitude})
+    if (columns[quantity]) take_unit_of_bodies(head, quantity, columns);
 }
 
 /// Asks about a second column of the time: nanoseconds, as ROS has them, or weeks, as GPS has. Of columns
@@ -492,6 +572,9 @@ TableColumns recognised(const TableHead& head, const ColumnHints& hints, ColumnU
   if (!hints.columns.empty()) {
     TableColumns columns = SaidColumns(head, hints.columns, nullptr).read();
     columns.format = "columns as given";
+    // Those of the bodies are found beside the time that is said.
+    if (!columns.id_is_file && (columns[Quantity::time] || columns[Quantity::frame]))
+      find_pairs(head, hints, columns);
     return columns;
   }
   if (!hints.format.empty() && hints.format != "table") {
@@ -552,55 +635,24 @@ void understand_places(const TableHead& head, const ColumnHints& hints, TableCol
   columns.geographic = lon.has_value();
 }
 
-/// Adds columns that may be meant, for messages: vessel_mmsi, OSD.latitude, field.pose.position.x. Of several
-/// that are alike it adds none.
-void add_likely_columns(const TableHead& head, TableColumns& columns) {
-  std::array<std::vector<std::size_t>, quantity_count> likely;
-  for (std::size_t place = 0; place < head.names.size(); ++place) {
-    if (is_of_no_place(axis_and_body(head.names[place]).body)) continue;
-    auto meaning = meaning_of_ending(head.names[place]);
-    for (const Quantity angle : {Quantity::longitude, Quantity::latitude})
-      if (!meaning && looks_like_angle(head.names[place], angle)) meaning = ColumnMeaning{angle, ""};
-    if (!meaning && may_be_id(head.names[place])) meaning = ColumnMeaning{Quantity::id, ""};
-    if (meaning && is_position(meaning->quantity))
-      likely[static_cast<std::size_t>(meaning->quantity)].push_back(place);
-  }
-  const bool has_place = columns[Quantity::x] || columns[Quantity::longitude];
-  for (std::size_t k = 0; k < quantity_count; ++k) {
-    const Measure measure = measure_of(static_cast<Quantity>(k));
-    const bool is_place = measure == Measure::length || measure == Measure::angle;
-    if (!columns.of[k] && likely[k].size() == 1 && !(is_place && has_place))
-      columns.of[k] = Column{.place = likely[k].front()};
-  }
-  if (columns[Quantity::time]) columns[Quantity::frame].reset();
-  if (columns[Quantity::longitude] && columns[Quantity::latitude])
-    columns[Quantity::x] = columns[Quantity::y] = std::nullopt;
-}
-
 /// Returns the message about columns that were not found, with those that were.
-std::string missing_columns_text(const TableHead& head, TableColumns columns) {
+std::string missing_columns_text(const TableHead& head, const TableColumns& columns) {
   const std::string text = fmt::format(
       "{}: expected columns for id, time, x and y (or lon and lat) by their usual names, --columns or "
       "--format; it has {}",
       head.file, head.text());
-  constexpr std::size_t fewest = 4;
   const std::string_view above = "lines above the header have to be left out or begin with #";
   if (head.names.empty())
-    return fmt::format("{}: say --columns id=1,time=2,x=3,y=4 with the numbers of its columns ({})", text,
-                       above);
-  add_likely_columns(head, columns);
-  const std::string found = columns_text(head, columns);
-  if (found.empty() && head.names.size() < fewest) return fmt::format("{} ({})", text, above);
-  const auto has = [&](Quantity quantity) { return columns[quantity].has_value(); };
-  const bool has_place =
-      (has(Quantity::x) && has(Quantity::y)) || (has(Quantity::longitude) && has(Quantity::latitude));
-  std::vector<std::string> said;
-  if (!has(Quantity::id)) said.emplace_back("id=...");
-  if (!has(Quantity::time) && !has(Quantity::frame)) said.emplace_back("time=...");
-  if (!found.empty()) said.push_back(found);
-  if (!has_place) said.emplace_back("x=...,y=...");
-  return fmt::format("{}: say {}{}", text, columns_option(fmt::format("{}", fmt::join(said, ","))),
-                     has(Quantity::id) ? "" : ", with id=@file where each file is one body");
+    return fmt::format(
+        "{}: say --columns id=...,time=...,x=...,y=... with the numbers of its columns, whose "
+        "first row is {} ({})",
+        text, shown_field(fmt::format("{}", fmt::join(head.first, " "))), above);
+  constexpr std::size_t fewest = 4;
+  TableColumns likely = columns;
+  add_likely_columns(head, likely);
+  if (columns_text(head, likely).empty() && head.names.size() < fewest)
+    return fmt::format("{} ({})", text, above);
+  return fmt::format("{}: say {}", text, whole_columns_option(head, columns));
 }
 
 void require_columns(const TableHead& head, const ColumnHints& hints, const TableColumns& columns) {
