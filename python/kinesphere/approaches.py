@@ -123,8 +123,9 @@ def tracks(
 ) -> Approaches:
     """Finds every time that two bodies of a recording were closer to each other than `distance` (length).
 
-    t, x, y, z: shape (n,), a sample in each row, in any order; z is None for motion in a plane. t may be
-    datetime64, or of pandas with a time zone. id: shape (n,), whole numbers or texts, identifies the body of each
+    t, x, y, z: shape (n,), a sample in each row, in any order; z is None for motion in a plane. x, y and z are
+    lengths, not degrees. t may be datetime64, of pandas with a time zone, or timedelta64, which counts in
+    seconds. id: shape (n,), whole numbers or texts, identifies the body of each
     sample. Times and coordinates may be large (Unix times, UTM): they are calculated from origins near them.
 
     tracks(frame, distance=...) takes a DataFrame with the columns t, x, y, id and, if there is one, z; columns
@@ -214,6 +215,13 @@ def _clock_of(t: Any) -> tuple[_Clock, npt.NDArray[np.float64]]:
     elif getattr(t, "tz", None) is not None:
         t = t.tz_convert(None)
     array = np.asarray(t)
+    if array.dtype.kind in "OUS" and array.size > 0:
+        raise TypeError(
+            f"tracks: t must be numbers, datetime64 or timedelta64, but is an array of {array.dtype}: "
+            "pandas.to_datetime makes dates of texts"
+        )
+    if array.dtype.kind == "m":
+        t = array / np.timedelta64(1, "s")
     if array.dtype.kind != "M":
         times = _column("t", t)
         origin = _origin(times)
@@ -233,6 +241,9 @@ def _seconds(duration: Duration) -> float:
     return float(duration)
 
 
+_names_of_degrees = ("lon", "lng", "long", "longitude", "lat", "latitude")
+
+
 def _of_frame(frame: Any, columns: dict[str, str], radii: Any) -> tuple[Any, ...]:
     """The columns of a data frame: t, x, y, z, id and radii."""
     unknown = set(columns) - {"t", "x", "y", "z", "id", "radii"}
@@ -241,8 +252,15 @@ def _of_frame(frame: Any, columns: dict[str, str], radii: Any) -> tuple[Any, ...
             "columns", f"must name t, x, y, z, id and radii, but names {', '.join(sorted(unknown))}"
         )
     found = []
+    degrees = [one for one in frame.columns if str(one).lower() in _names_of_degrees]
     for name in ("t", "x", "y", "z", "id"):
         column = columns.get(name, name)
+        if name in ("x", "y") and (column in degrees or (column not in frame.columns and degrees)):
+            raise _refused(
+                "columns",
+                f"must name lengths as x and y, but {degrees[0]!r} has degrees: project them first, as pyproj "
+                "does, or give tracks_in a file with them",
+            )
         if column in frame.columns:
             found.append(frame[column])
         elif name == "z" and name not in columns:

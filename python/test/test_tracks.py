@@ -70,6 +70,20 @@ def test_a_data_frame_is_a_recording() -> None:
     assert shown["least_time_to_collision"][0] == 0.0 and "1 approaches" in (sized._repr_html_() or "")
 
 
+def test_degrees_and_texts_are_refused_and_durations_are_seconds() -> None:
+    pandas = pytest.importorskip("pandas")
+    twice = np.array([0.0, 1.0, 0.0, 1.0])
+    frame = pandas.DataFrame({"id": [1, 1, 2, 2], "t": twice, "lon": 8.0, "lat": [47.0, 47.0, 47.5, 47.5]})
+    for columns in (None, {"x": "lon", "y": "lat"}):
+        with pytest.raises(ks.InvalidValue, match="lengths as x and y, but 'lon' has degrees"):
+            ks.tracks(frame, distance=1.0, columns=columns)
+    place = [0.0, 0.0, 0.5, 0.5]
+    with pytest.raises(TypeError, match="pandas.to_datetime makes dates of texts"):
+        ks.tracks(["a", "b", "a", "b"], place, place, id=[1, 1, 2, 2], distance=1.0)
+    durations = (twice * 1000).astype("timedelta64[ms]")
+    assert ks.tracks(durations, place, place, id=[1, 1, 2, 2], distance=1.0)["end"][0] == 1.0
+
+
 def test_times_to_collision_are_those_of_straight_motion() -> None:
     apart = ks.tracks(times, x, y + np.where(who == 3, 0.4, 0.0), None, who, 1.0, radii=0.1)
     # The way is (t - 5, t - 5 + 0.4) for two of radius 0.1: at least 0.4 / sqrt(2) - 0.2 apart, on no course.

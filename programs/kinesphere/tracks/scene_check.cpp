@@ -39,7 +39,7 @@ void SceneCheck::ask(const std::string& file) const {
           fmt::format("{}: the rows with {} as '{}' and '{}' {}: take one with --where '{} = {}', or all as "
                       "one with --where '{} != none'",
                       file, column, ordered[latest].first, ordered[k].first,
-                      are_zones ? "may have coordinates that cannot be compared"
+                      are_zones ? "may have coordinates or times that cannot be compared"
                                 : "have the same times, so that they may be different scenes",
                       name, name_in_filter(ordered[latest].first), name));
     }

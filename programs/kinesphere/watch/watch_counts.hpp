@@ -38,6 +38,7 @@ struct WatchCounts {
   std::uint64_t dropped = 0;  ///< tracks, because there were more open pairs than may be
   std::uint64_t alerts = 0;
   std::uint64_t with_velocity = 0;        ///< reports taken that have a velocity
+  std::uint64_t behind = 0;               ///< reports taken that are seconds older than others before them
   std::uint64_t of_own = 0;               ///< reports taken of the own track (--own)
   std::uint64_t lost = 0;                 ///< alerts `lost`
   std::uint64_t groups = 0;               ///< groups that have begun

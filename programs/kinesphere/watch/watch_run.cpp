@@ -261,7 +261,10 @@ void WatchRun::run() {
     watcher_.finish();
   }
   warn_of_own();
-  if (has_ended) warn_of_one_track();
+  if (has_ended) {
+    warn_of_disorder();
+    warn_of_one_track();
+  }
   alerts_->flush(source_->position(cutter_.waiting().size()));
 }
 
@@ -396,6 +399,7 @@ void WatchRun::warn_of_doubtful_reports() {
         has_warned_of_order_,
         "most reports are older than one before of their track, so that alerts may be missing: rows have "
         "to be in the order of their times");
+  if (counts.behind >= least) warn_of_disorder();
   if (monitor.contradictions >= least_contradictions && 5 * monitor.contradictions > monitor.reports)
     warn_once(
         has_warned_of_contradictions_,
@@ -418,6 +422,21 @@ void WatchRun::warn_of_doubtful_reports() {
         fmt::format("{} reports are stamped ahead of all others by more than --leap, and not taken: the "
                     "clock of their tracks is wrong",
                     counts.ahead));
+}
+
+/// Warns of reports that are older than others before them, as in a file in which one track stands behind the
+/// other.
+void WatchRun::warn_of_disorder() {
+  const WatchCounts& counts = watcher_.counts();
+  const std::uint64_t taken = watcher_.monitor_counters().reports;
+  constexpr std::uint64_t fewest = 10;
+  if (counts.behind >= fewest && 5 * counts.behind > taken)
+    warn_once(
+        has_warned_of_order_,
+        fmt::format("{} of {} reports are more than 5 s older than others before them, so that alerts may "
+                    "be missing: rows have to be in the order of their times, or the clocks of some "
+                    "tracks are wrong; tracks reads rows in any order",
+                    counts.behind, taken));
 }
 
 /// Warns if there was never a second track.

@@ -48,6 +48,7 @@ class WatchRun {
   void warn_of_doubtful_reports();
   void warn_of_small_separations();
   void warn_of_own();
+  void warn_of_disorder();
   void warn_of_one_track();
   void warn_once(bool& has_warned, std::string_view warning);
   bool is_time_for_snapshot() const;

@@ -481,6 +481,9 @@ void Watcher::deliver(const SourceReport& report) {
   if (!settings_.own.empty() && report.id == settings_.own) ++counts_.of_own;
   if (lacks_height) ++counts_.no_height;
   if (knows_velocity) ++counts_.with_velocity;
+  // Times of arrival tell that reports are late, and not in disorder.
+  constexpr double seconds_of_disorder = 5.0;
+  if (age > seconds_of_disorder && clock_.source() == StreamClock::Source::stamps) ++counts_.behind;
   NamedTrack& named = known != nullptr ? *known : names_.add(id, report.id);
   if (const std::string_view name = shown_name(report.name); !name.empty()) named.name = name;
   if (known == nullptr || seconds_between(named.stamp, report.stamp) >= 0.0) {

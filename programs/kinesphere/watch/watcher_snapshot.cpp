@@ -59,8 +59,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MalformedLine, line, reason)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WatchCounts::Turns, apart, undecided, within)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WatchCounts, repeated, stale, ahead, outside, no_position, on_ground,
                                    no_bound, no_velocity, filtered, superseded, crowded, malformed,
-                                   first_malformed, no_height, dropped, alerts, with_velocity, of_own, lost,
-                                   groups, grouped, events, fates, turns)
+                                   first_malformed, no_height, dropped, alerts, with_velocity, behind, of_own,
+                                   lost, groups, grouped, events, fates, turns)
 
 namespace {
 

@@ -1,4 +1,5 @@
 // The reports of each format, from small samples as their sources write them, and the refused lines.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -197,6 +198,27 @@ TEST(SbsFormat, PutsPositionsAndVelocitiesTogether) {
   EXPECT_EQ(kept.refused[2], "10: expected a message of SBS (MSG,...), but got 'mumble'");
 }
 
+/// Receivers write local times.
+TEST(SbsFormat, KnowsTheZoneOfALiveReceiver) {
+  for (const std::int64_t zone : {-5 * 3600, 0, 20700, 3600}) {
+    CollectedReports kept;
+    const auto format = make_format(StreamFormat::sbs, {});
+    Record record{.text =
+                      "MSG,3,1,1,4CA1FA,1,2026/03/01,12:00:00.000,2026/03/"
+                      "01,12:00:01.500,,35000,,,51.5,-0.5,,,0,0,0,0"};
+    constexpr std::int64_t noon = 1772366400;
+    record.read_at = FileTime{noon + 2 - zone, 0.5};
+    format->read(record, kept);
+    ASSERT_EQ(kept.reports.size(), 1u);
+    EXPECT_EQ(seconds(kept.reports[0].report.stamp), static_cast<double>(noon - zone));
+    EXPECT_EQ(seconds(*kept.reports[0].report.arrival), static_cast<double>(noon - zone) + 1.5);
+    // Messages of a log are read minutes later, or at another time of the day.
+    record.read_at = FileTime{noon + 300 - zone, 0.0};
+    format->read(record, kept);
+    EXPECT_EQ(seconds(kept.reports[1].report.stamp), static_cast<double>(noon));
+  }
+}
+
 TEST(SbsFormat, TakesVelocitiesOfPositionMessages) {
   const CollectedReports kept = read_all(
       StreamFormat::sbs,
@@ -350,6 +372,21 @@ TEST(StreamFormats, AreRecognised) {
   EXPECT_EQ(recognised_format("{\n\"now\": 1,\n\"aircraft\": []"), StreamFormat::readsb);
   EXPECT_EQ(recognised_format("1,2,3,4"), std::nullopt);
   EXPECT_EQ(recognised_format(""), std::nullopt);
+}
+
+/// A program that is asked to stop does not read a long recording to its end.
+TEST(RecordingFormat, EndsWhereItIsStopped) {
+  std::string text = "3\nTime=0\nA 0 0 0\nB 9 0 0\nC 5 0 0\n";
+  for (int time = 1; time < 100; ++time) text += fmt::format("3\nTime={}\nA 0 0 0\nB 9 0 0\nC 5 0 0\n", time);
+  const auto reports_until = [&](int rows) {
+    FormatChoices choices;
+    int asked = 0;
+    choices.is_stopped = [&] { return ++asked > rows; };
+    return read_all(StreamFormat::recording, text, choices).reports.size();
+  };
+  EXPECT_EQ(reports_until(1'000'000), 300u);
+  EXPECT_LE(reports_until(350), 60u);
+  EXPECT_EQ(reports_until(10), 0u);
 }
 
 }  // namespace

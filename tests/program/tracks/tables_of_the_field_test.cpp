@@ -35,8 +35,9 @@ TEST_F(TablesOfTheField, UnitsInNamesCountInEveryColumn) {
   const std::string flight =
       "id,time,lon,lat,{}\nu,0,8,47,33000\nu,10,8,47,33000\nu,20,8,47,33000\n"
       "v,0,8,47,34000\nv,10,8,47,34000\nv,20,8,47,34000\n";
-  for (const char* name : {"altitude_ft", "alt [feet]", "\"alt, ft\"", "altitudeFt", "z (ft)", "alt/ft",
-                           "Altitude..ft.", "alt-ft", "zpos{ft}"}) {
+  for (const char* name :
+       {"altitude_ft", "alt [feet]", "\"alt, ft\"", "altitudeFt", "z (ft)", "alt/ft", "Altitude..ft.",
+        "alt-ft", "zpos{ft}", "Alt (ft MSL)", "alt_ft_amsl", "altitude [ft] above sea level"}) {
     EXPECT_EQ(approaches(fmt::format(fmt::runtime(flight), name), "--distance 305"), "1") << name;
     EXPECT_EQ(approaches(fmt::format(fmt::runtime(flight), name), "--distance 304"), "0") << name;
   }
@@ -191,6 +192,50 @@ TEST_F(TablesOfTheField, ColumnsOfEachBodyByName) {
                 .find("head.x, head.y, tail.x and tail.y may be two bodies or parts of one"),
             std::string::npos);
   EXPECT_EQ(approaches(parts, "--distance 1 --format table"), "1");
+}
+
+TEST_F(TablesOfTheField, ColumnsOfEachBodyHaveUnitsAndATimeThatIsSaid) {
+  // Half a metre apart at one time, and far from each other else.
+  const std::string rows = "0,0,0,900,900\n1,100,0,100,50\n2,200,0,900,900\n";
+  for (const char* header :
+       {"t,x1_cm,y1_cm,x2_cm,y2_cm\n", "t,Fish 1 X (cm),Fish 1 Y (cm),Fish 2 X (cm),Fish 2 Y (cm)\n",
+        "t,x1,y1,x2,y2\ns,cm,cm,cm,cm\n", "t,X(1) [cm],Y(1) [cm],X(2) [cm],Y(2) [cm]\n"}) {
+    EXPECT_EQ(approaches(header + rows, "--distance 0.6"), "1") << header;
+    EXPECT_EQ(approaches(header + rows, "--distance 0.2"), "0") << header;
+  }
+  EXPECT_EQ(approaches("t,PosX1,PosY1,PosX2,PosY2\n" + rows, "--distance 60"), "1");
+  EXPECT_NE(approaches("t,x1_cm,y1_cm,x2_m,y2_m\n" + rows, "--distance 1").find("expected one unit of x"),
+            std::string::npos);
+  const std::string clock = "lap,x1,y1,x2,y2\n" + rows;
+  EXPECT_NE(approaches(clock, "--distance 60").find(": say --columns time=..."), std::string::npos);
+  EXPECT_EQ(approaches(clock, "--distance 60 --columns time=lap:s"), "1");
+  EXPECT_EQ(approaches(clock, "--distance 60 --columns frame=lap --frame-rate 5"), "1");
+  // Messages that have a position twice are of one body.
+  const std::string twice =
+      approaches("at.MMSI,at.lat,at.lon,report.lat,report.lon\n1,2,3,2,3\n", "--distance 1");
+  EXPECT_NE(twice.find("say --columns time=...,id=at.MMSI,x=...,y=..."), std::string::npos) << twice;
+}
+
+TEST_F(TablesOfTheField, AdviceLeadsOn) {
+  const auto advice = [&](const std::string& text, std::string_view expected) {
+    const std::string answer = approaches(text, "--distance 1");
+    EXPECT_NE(answer.find(expected), std::string::npos) << answer;
+  };
+  // Numbers that can be given as they stand would be wrong for most files.
+  advice("0 7 1.5 2.5\n",
+         "say --columns id=...,time=...,x=...,y=... with the numbers of its columns, whose first "
+         "row is '0 7 1.5 2.5'");
+  advice(
+      "time,timestamp,x,y\n0,0,1,1\n",
+      "say which, as in --columns id=...,time=timestamp,x=x,y=y, with id=@file where each file is one body");
+  advice("TrackID,ID,t,x,y\n1,1,0,1,1\n", "as in --columns id=TrackID,time=t,x=x,y=y");
+  advice("id t x y\nu 0 0,5 1\n", "but got '0,5': decimal commas are read where ; or tabs separate");
+  advice("id,t,x,y\nu,0,\"1.234,5\",1\n", "leave out what separates thousands");
+  advice("id,t,x,y\nu,0,12 m,1\n", "leave units out, and say them");
+  advice("id,t,x,y,tz\nu,2024-01-01 10:00,0,0,UTC\nv,2024-01-01 10:01,0,0,CET\n",
+         "coordinates or times that cannot be compared");
+  advice("id,t,x,y\nu,2024.250001,0,0\nu,2024.250002,0,0\n", "may be years");
+  advice("id,t,x,y\n,s,furlong,furlong\nu,0,0,0\n", "is in 'furlong', which is no known unit");
 }
 
 TEST_F(TablesOfTheField, NamesOfOtherHabits) {
@@ -428,6 +473,15 @@ TEST_F(TablesOfTheField, NumbersAndTimesOfOtherHabits) {
             std::string::npos);
 }
 
+TEST_F(TablesOfTheField, DegreesAndMinutesOfSailors) {
+  const std::string rows = "id,t,lat,lon\nu,0,55-30.0N,010-30.0W\nu,1,55-30.0N,010-30.0W\n";
+  EXPECT_EQ(approaches(rows + "v,0,55.5,-10.5\nv,1,55:30:00,-10.5\n", "--distance 1"), "1");
+  EXPECT_EQ(approaches("id,t,x,y\nu,0,\xE2\x88\x92"
+                       "3,0\nu,1,-3,0\nv,0,-3,0\nv,1,-3,0\n",
+                       "--distance 1"),
+            "1");
+}
+
 TEST_F(TablesOfTheField, HemispheresAreSigns) {
   const std::string text = "id,time,{0}\nu,0,{1}\nu,9,{1}\nv,0,{2}\nv,9,{2}\n";
   const auto apart = [&](const char* names, const char* u, const char* v) {
@@ -544,7 +598,8 @@ TEST_F(TablesOfTheField, CoordinatesOfSeveralZonesAreAskedAbout) {
   const std::string zones =
       "id,t,x,y,utm_zone\nu,0,500000,0,32\nu,1,500000,0,32\nv,5,500000,0,33\nv,6,500000,0,33\n";
   EXPECT_NE(approaches(zones, "--distance 1")
-                .find("the rows with utm_zone as '32' and '33' may have coordinates that cannot be compared: "
+                .find("the rows with utm_zone as '32' and '33' may have coordinates or times that cannot be "
+                      "compared: "
                       "take one "
                       "with --where 'utm_zone = 32'"),
             std::string::npos);
@@ -616,7 +671,13 @@ TEST_F(TablesOfTheField, OtherFilesAreNamed) {
            {std::string("\0\0\x07\xCB\0\0", 6), "(XTC, TRR or DCD): write it as GRO"},
            {std::string("T\0\0\0CORD", 8), "gmx trjconv"},
            {std::string("\x02P\1\0", 4), "C3D"},
-           {"MATLAB 5.0 MAT-file", ".mat file"}}) {
+           {"MATLAB 5.0 MAT-file", ".mat file"},
+           {std::string("\xFF\xFE\0\0i\0\0\0", 8), "iconv -f UTF-32"},
+           {"HIERARCHY\nROOT Hips\n", "BVH"},
+           {"---\ncreator: LAMMPS\ntimestep: 0\n", "dump_style custom"},
+           {"CCSDS_OPM_VERS = 2.0\n", "OPM"},
+           {"header: \n  seq: 0\n", "rostopic echo -p"},
+           {"<?xml version=\"1.0\"?>\n<mvnx version=\"4\"/>", "MVNX"}}) {
     const std::string message = approaches(text, "--distance 1");
     EXPECT_NE(message.find("expected a table in a text file, but it is "), std::string::npos) << message;
     EXPECT_NE(message.find(part), std::string::npos) << message;
@@ -694,6 +755,8 @@ const Shape shapes[] = {
      "ID{1},{1}{0},{0},{2},{3},0,{1},{1}\nID9{1},9{1}{0},,0,0,0,{1},{1}\n", "--unit um"},
     {"table", "y,x,mass,size,frame,particle\n", "{3},{2},100,2,{1},{0}\n", "--frame-rate 10"},
     {"TUM", "", "160000000{1} {2} {3} 0 0 0 0 1\n", "", 2},
+    {"TUM", "", "{1}.5 {2}.5 {3} 0 0 0 0 1\n", "", 2},
+    {"MOT", "", "1{1},1{0},{2},{3},10,20,1,1,0.86\n", "--frame-rate 30"},
     {"TUM", "# timestamp tx ty tz qx qy qz qw\n", "{1}.25 {2} {3} 0 0 0 0 1\n", "", 2},
     {"table", "Tag;Zeit;X;Y\n", "T{0};{1},5;{2};{3}\n"},
     {"Vadere", "pedestrianId simTime endTime-PID1 startX-PID1 startY-PID1 endX-PID1 endY-PID1\n",

@@ -230,6 +230,14 @@ TEST_F(StreamsOfTheField, WhatCannotBeTrueIsToldWhileItRuns) {
     for (int k = 0; k < 150; ++k) sorted_by_id += fmt::format("{},{},{},0\n", id, 10 * k, id[0] - 'u');
   verdicts(sorted_by_id, promises);
   EXPECT_NE(err_.find("have to be sorted"), std::string::npos) << err_;
+  // Within --forget, so that all are taken.
+  std::string briefly_sorted_by_id = "id,time,x,y\n";
+  for (const char* id : {"u", "v"})
+    for (int k = 0; k < 40; ++k)
+      briefly_sorted_by_id += fmt::format("{},{},0,{}\n", id, k, 9 * (id[0] - 'u'));
+  verdicts(briefly_sorted_by_id, promises);
+  EXPECT_NE(err_.find("34 of 80 reports are more than 5 s older than others before them"), std::string::npos)
+      << err_;
   std::string wrong_clock = "id,time,x,y\n";
   for (int k = 0; k < 150; ++k) wrong_clock += fmt::format("u,{0},0,0\nw,{1},3,0\nv,{0},9,0\n", k, k + 3600);
   verdicts(wrong_clock, promises);

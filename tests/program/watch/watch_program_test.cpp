@@ -277,6 +277,17 @@ TEST_F(WatchProgram, StopsAtTooManyMalformedLines) {
                      {"bad.txt", "expected reports of format jsonl", "2 malformed"});
 }
 
+TEST_F(WatchProgram, TakesItsFileBehindAnyOption) {
+  const std::string file = write("s.jsonl", head_on(2));
+  const ProgramRun first = run("watch " + file + " --separation sphere:3 --only within" + promises);
+  EXPECT_EQ(first.exit_code, 0) << first.err;
+  for (const std::string options :
+       {" --only within --separation sphere:3 ", " --separation sphere:3 --only within "})
+    EXPECT_EQ(run("watch" + promises + options + file).out, first.out) << options;
+  EXPECT_EQ(run("watch" + promises + " --separation sphere:3 --area 0,0,1000 " + file).exit_code, 0);
+  EXPECT_EQ(run("watch" + promises + " --separation sphere:3 --class '1,9=id = a' " + file).exit_code, 0);
+}
+
 TEST_F(WatchProgram, RefusesWrongOptions) {
   const std::string file = write("s.jsonl", head_on(2));
   expect_wrong_input("watch " + file, {"--separation"});

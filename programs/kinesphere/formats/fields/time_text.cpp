@@ -219,11 +219,11 @@ std::optional<FileTime> read_clock(Reader& reader, bool extended) {
   return with_sign(false, time);
 }
 
-/// Reads +01:00, +0100 or +1. Returns seconds.
-std::optional<int> read_signed_offset(Reader& reader) {
+/// Reads +01:00, +0100 or +01, and +1 behind the name of a zone. Returns seconds.
+std::optional<int> read_signed_offset(Reader& reader, bool is_named) {
   const int sign = reader.take('+') ? 1 : -1;
   if (sign < 0 && !reader.take('-')) return std::nullopt;
-  const auto hours = reader.few_digits(2);
+  const auto hours = is_named ? reader.few_digits(2) : reader.digits(2, 23);
   if (!hours || *hours > 23) return std::nullopt;
   if (reader.take(':') || reader.digits_ahead() > 0) {
     const auto minutes = reader.digits(2, 59);
@@ -235,10 +235,10 @@ std::optional<int> read_signed_offset(Reader& reader) {
 
 /// Returns seconds east of Greenwich. The name of a zone may follow, as in "+0100 CET".
 std::optional<int> read_offset(Reader& reader) {
-  bool is_named = false;
-  for (std::string_view name : {"Z", "UTC", "GMT"}) is_named = is_named || reader.take_word(name);
+  if (reader.take_word("Z")) return 0;
+  const bool is_named = reader.take_word("UTC") || reader.take_word("GMT");
   Reader ahead = reader;
-  const auto offset = read_signed_offset(ahead);
+  const auto offset = read_signed_offset(ahead, is_named);
   if (!offset) return is_named ? std::optional(0) : std::nullopt;
   reader = ahead;
   if (reader.take(' ')) {

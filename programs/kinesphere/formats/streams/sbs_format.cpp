@@ -48,8 +48,13 @@ class SbsFormat final : public ReportFormat {
       callsigns_.set(fields_[sbs::hex], fields_[sbs::callsign]);
     if (!is_position && !is_velocity) return;
     if (fields_[sbs::hex].empty()) throw MalformedRecord("expected the address of an aircraft (field 5)");
-    const TimeField made = time_at(sbs::made_date, sbs::made_time);
-    const TimeField logged = time_at(sbs::logged_date, sbs::logged_time);
+    TimeField made = time_at(sbs::made_date, sbs::made_time);
+    TimeField logged = time_at(sbs::logged_date, sbs::logged_time);
+    if (record.read_at) {
+      const std::int64_t zone = zone_of(logged.time, *record.read_at);
+      made.time.whole -= zone;
+      logged.time.whole -= zone;
+    }
     forget_old(logged.time);
     if (is_velocity) return keep_velocity(made.time);
     if (fields_[sbs::latitude].empty() || fields_[sbs::longitude].empty())
@@ -78,6 +83,15 @@ class SbsFormat final : public ReportFormat {
     bool has_climb = false;
     double velocity_spread = 0.0;
   };
+
+  /// Returns the seconds by which the receiver's zone is ahead of UTC, a multiple of a quarter of an hour:
+  /// receivers write local times. 0 for messages that were not logged within a minute of being read.
+  static std::int64_t zone_of(const FileTime& logged, const FileTime& read_at) {
+    constexpr double quarter = 900.0, farthest = 14 * 3600.0, soon = 60.0;
+    const double ahead = seconds_between(read_at, logged);
+    const double zone = quarter * std::round(ahead / quarter);
+    return std::abs(zone) <= farthest && std::abs(ahead - zone) <= soon ? static_cast<std::int64_t>(zone) : 0;
+  }
 
   TimeField time_at(std::size_t date, std::size_t clock) {
     text_.assign(fields_[date]);

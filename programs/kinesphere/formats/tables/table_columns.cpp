@@ -438,6 +438,14 @@ bool are_numbered(const std::vector<TableColumns::Body>& bodies) {
   });
 }
 
+/// True for a name that ends as an id does: MetaData.MMSI.
+bool has_likely_id(const TableHead& head) {
+  return std::any_of(head.names.begin(), head.names.end(), [](const std::string& name) {
+    const auto meaning = meaning_of_ending(name);
+    return meaning && meaning->quantity == Quantity::id;
+  });
+}
+
 /// Takes the unit of the first body's column, which must be that of the others.
 void take_unit_of_bodies(const TableHead& head, Quantity quantity, TableColumns& columns) {
   Column& column = *columns[quantity];
@@ -465,7 +473,7 @@ void find_pairs(const TableHead& head, const ColumnHints& hints, TableColumns& c
                     head.names[plane[0].x], head.names[earth[0].x]));
   const std::vector<TableColumns::Body>& bodies = is_earth ? earth : plane;
   const bool numbered = are_numbered(bodies);
-  if (bodies.empty() || (!numbered && bodies.size() == 1)) return;
+  if (bodies.empty() || (!numbered && (bodies.size() == 1 || has_likely_id(head)))) return;
   const auto heights =
       std::count_if(bodies.begin(), bodies.end(), [](const auto& each) { return each.z.has_value(); });
   if (heights != 0 && heights != std::ssize(bodies))
