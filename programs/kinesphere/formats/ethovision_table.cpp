@@ -7,6 +7,7 @@
 #include "ascii_text.hpp"
 #include "formats/converted_table.hpp"
 #include "formats/field_text.hpp"
+#include "formats/row_reader.hpp"
 #include "program_error.hpp"
 
 namespace kinesphere::program {
@@ -45,10 +46,10 @@ std::optional<ConvertedTable> convert_ethovision(std::string_view text, const st
     if (fields.size() > 1 && same_name(unquoted(fields[0]), "Subject name")) subject = unquoted(fields[1]);
     table.text += '\n';
   }
-  table.is_one_body = subject.empty();
+  if (subject.empty()) subject = id_of_file(file);
   while (const auto line = lines.next()) {
     const bool is_head = lines.line() <= *count;
-    if (!line->empty() && !table.is_one_body)
+    if (!line->empty())
       table.text += quoted_field(!is_head ? subject : lines.line() < *count ? "id" : "") + separator;
     table.text += std::string(*line) + '\n';
   }

@@ -15,8 +15,7 @@ bool is_flightradar24(std::string_view text) {
 
 std::optional<ConvertedTable> convert_flightradar24(std::string_view text, const std::string& file) {
   if (!is_flightradar24(text)) return std::nullopt;
-  ConvertedTable table{.format = "Flightradar24",
-                       .text = "callsign,time_s,lat,lon,altitude_ft,speed_kt,course\n"};
+  ConvertedTable table{.format = "Flightradar24", .text = "id,time_s,lat,lon,altitude_ft,speed_kt,course\n"};
   LineCutter lines(text);
   lines.next();
   while (const auto line = lines.next()) {

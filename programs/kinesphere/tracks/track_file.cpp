@@ -132,6 +132,28 @@ std::optional<std::string> warning_about_order(const RawRecording& raw) {
       raw.name(first->first_backward), rows - 1, first->id);
 }
 
+/// Returns a warning about places of a table that may be in radians by their numbers: as degrees, they are
+/// around the Gulf of Guinea. Nothing where a unit is said.
+std::optional<std::string> warning_of_radians(const RawRecording& raw) {
+  const TableColumns& columns = raw.columns();
+  const auto &longitude = columns[Quantity::longitude], &latitude = columns[Quantity::latitude];
+  const bool is_table = columns.format.starts_with("table") || columns.format.starts_with("columns as given");
+  if (!is_table || !longitude || !latitude || longitude->has_unit || latitude->has_unit) return std::nullopt;
+  Vec3 farthest{};
+  bool all_whole = true;
+  for_each_sample(raw, [&](const RawSample& sample) {
+    const Vec3& at = sample.position;
+    farthest = {std::max(farthest.x, std::abs(at.x)), std::max(farthest.y, std::abs(at.y)), 0.0};
+    all_whole = all_whole && at.x == std::floor(at.x) && at.y == std::floor(at.y);
+  });
+  constexpr double pi = 3.141592653589794, least = 0.2;
+  if (all_whole || farthest.y < least || farthest.y > pi / 2 || farthest.x > pi) return std::nullopt;
+  return fmt::format(
+      "{}: all latitudes are from -{:.4g} to {:.4g}, and all longitudes from -{:.4g} to {:.4g}: if they are "
+      "radians, say so with --columns ...,lon=...:rad,lat=...:rad",
+      raw.head().file, farthest.y, farthest.y, farthest.x, farthest.x);
+}
+
 /// The pieces of one id, before they are split at gaps.
 struct Body {
   std::string id;
@@ -145,6 +167,7 @@ class Reading {
   Reading(const RawRecording& raw, const TrackOptions& options) : raw_(raw), options_(options) {
     static_cast<ReadCounts&>(recording_) = raw.counts();
     if (auto warning = warning_about_order(raw)) recording_.warnings.push_back(std::move(*warning));
+    if (auto warning = warning_of_radians(raw)) recording_.warnings.push_back(std::move(*warning));
     recording_.times = time_scale_of(raw);
     recording_.dates = raw.columns().dates;
     recording_.coordinates = coordinates_of(raw, options);

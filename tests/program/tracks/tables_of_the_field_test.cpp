@@ -206,7 +206,7 @@ TEST_F(TablesOfTheField, ColumnsOfEachBodyHaveUnitsAndATimeThatIsSaid) {
   EXPECT_EQ(approaches("t,PosX1,PosY1,PosX2,PosY2\n" + rows, "--distance 60"), "1");
   EXPECT_NE(approaches("t,x1_cm,y1_cm,x2_m,y2_m\n" + rows, "--distance 1").find("expected one unit of x"),
             std::string::npos);
-  const std::string clock = "lap,x1,y1,x2,y2\n" + rows;
+  const std::string clock = "lap,car1_x,car1_y,car2_x,car2_y\n" + rows;
   EXPECT_NE(approaches(clock, "--distance 60").find(": say --columns time=..."), std::string::npos);
   EXPECT_EQ(approaches(clock, "--distance 60 --columns time=lap:s"), "1");
   EXPECT_EQ(approaches(clock, "--distance 60 --columns frame=lap --frame-rate 5"), "1");

@@ -19,6 +19,7 @@ struct FileKind {
 };
 
 constexpr std::string_view as_csv = ": write it as CSV, with pandas for example";
+constexpr std::string_view utf_16 = "text in UTF-16: convert it with iconv -f UTF-16 -t UTF-8";
 constexpr std::string_view molecular =
     "a trajectory of molecular dynamics (XTC, TRR or DCD): write it as GRO or PDB, with gmx trjconv or "
     "mdconvert";
@@ -33,8 +34,8 @@ constexpr std::string_view sp3 = "an ephemeris (SP3): write it as CSV, with colu
 constexpr FileKind kinds_by_bytes[] = {
     {"\xFF\xFE\0\0"sv, "text in UTF-32: convert it with iconv -f UTF-32 -t UTF-8"},
     {"\0\0\xFE\xFF"sv, "text in UTF-32: convert it with iconv -f UTF-32 -t UTF-8"},
-    {"\xFF\xFE"sv, "text in UTF-16: convert it with iconv -f UTF-16 -t UTF-8"},
-    {"\xFE\xFF"sv, "text in UTF-16: convert it with iconv -f UTF-16 -t UTF-8"},
+    {"\xFF\xFE"sv, utf_16},
+    {"\xFE\xFF"sv, utf_16},
     {"PK\3\4"sv, "a zip archive (or .xlsx, .kmz, .npz): unpack it, or write the sheet as CSV"},
     {"PK\5\6"sv, "an empty zip archive"},
     {"7z\xBC\xAF"sv, "a 7z archive: unpack it first"},
@@ -151,7 +152,7 @@ std::string other_file_kind(std::string_view beginning) {
   // Text in UTF-16 may lack its mark.
   if (beginning.size() >= 4 && (beginning[0] == '\0') != (beginning[1] == '\0') &&
       (beginning[0] == '\0') == (beginning[2] == '\0') && (beginning[1] == '\0') == (beginning[3] == '\0'))
-    return std::string(kinds_by_bytes[0].is);
+    return std::string(utf_16);
   const std::size_t first_return = beginning.find('\r');
   if (first_return < beginning.size() - 1 && beginning.find('\n') == std::string_view::npos)
     return "text whose lines end as on old Macs: convert it with tr '\\r' '\\n'";

@@ -479,14 +479,22 @@ void find_pairs(const TableHead& head, const ColumnHints& hints, TableColumns& c
   if (heights != 0 && heights != std::ssize(bodies))
     throw ProgramError(fmt::format("{}: expected a height for each pair of columns or for none; it has {}",
                                    head.file, head.text()));
-  // Of the bodies, as x1 is, or the time.
-  const auto is_usual = [&](const std::string& name) {
+  // Of the bodies, as x1 and p1 are, or the time.
+  const auto is_usual = [&](std::size_t place) {
+    const std::string& name = head.names[place];
     const auto meaning = meaning_of(name);
-    return name.ends_with('1') || name.ends_with('2') ||
+    const bool is_said = std::any_of(columns.of.begin(), columns.of.end(),
+                                     [&](const auto& column) { return column && column->place == place; });
+    const bool is_of_body = std::any_of(bodies.begin(), bodies.end(), [&](const TableColumns::Body& body) {
+      return body.x == place || body.y == place || body.z == place;
+    });
+    return is_of_body || name.ends_with('1') || name.ends_with('2') || is_said ||
            (meaning && (meaning->quantity == Quantity::time || meaning->quantity == Quantity::frame));
   };
-  const bool may_be_corners = bodies.size() == 2 && heights == 0 && parse_number(bodies.front().id) &&
-                              !std::all_of(head.names.begin(), head.names.end(), is_usual);
+  bool all_usual = true;
+  for (std::size_t place = 0; place < head.names.size(); ++place) all_usual = all_usual && is_usual(place);
+  const bool may_be_corners =
+      bodies.size() == 2 && heights == 0 && parse_number(bodies.front().id) && !all_usual;
   if ((!numbered || may_be_corners) && hints.format != "table")
     throw ProgramError(fmt::format(
         "{}: {}, {}, {} and {} may be two bodies or {}: say --format table if each such pair is a "
