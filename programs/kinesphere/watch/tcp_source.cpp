@@ -14,9 +14,9 @@
 #include <cerrno>
 #include <cstring>
 
-#include "number_text.hpp"
-#include "program_error.hpp"
-#include "standard_output.hpp"
+#include "base/number_text.hpp"
+#include "base/program_error.hpp"
+#include "base/standard_output.hpp"
 
 namespace kinesphere::program {
 namespace {

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "ascii_text.hpp"
-#include "formats/converted_table.hpp"
-#include "formats/field_text.hpp"
-#include "formats/row_reader.hpp"
-#include "program_error.hpp"
+#include "base/ascii_text.hpp"
+#include "formats/converted/converted_table.hpp"
+#include "formats/fields/field_text.hpp"
+#include "formats/tables/row_reader.hpp"
+#include "base/program_error.hpp"
 
 namespace kinesphere::program {
 namespace {
