@@ -14,7 +14,7 @@ class RigidBodies {
  public:
   /// Returns true if there has never been a rigid body.
   bool empty() const { return records_.empty(); }
-  /// Makes empty() return false, since another process of this world has rigid bodies.
+  /// Makes empty() return false, since another process of this world has bodies that are no balls.
   void note_elsewhere() {
     if (!empty()) return;
     records_.emplace_back();

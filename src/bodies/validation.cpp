@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "bodies/shaped_body.hpp"
 #include "bound/triangle.hpp"
 #include "contact/contact_rule.hpp"
 #include "kinesphere/limits.hpp"
@@ -211,6 +212,18 @@ Result<void> check_carried_shape(const Shape& shape, const WorldDefinition& worl
                                                        : "a box or a triangle; a body is a ball without one";
   return Error{ErrorCode::unsupported, "shape", no_body,
                std::string(call) + ": shape must be " + std::string(wanted)};
+}
+
+/// It may be anywhere, since walls do not meet it.
+Result<MovingShape> accepted_moving_shape(const MovingShape& added, const WorldDefinition& world,
+                                          std::string_view call) {
+  if (auto valid = check_keeps_size(added.body, call); !valid) return valid.error();
+  if (auto valid = check_carried_shape(added.shape, world, call); !valid) return valid.error();
+  const MovingShape accepted{added.body, normalized_carried(added.shape, world)};
+  WorldDefinition without_walls = world;
+  without_walls.box.reset();
+  if (auto valid = check_body(body_of(accepted, world), without_walls, call); !valid) return valid.error();
+  return accepted;
 }
 
 Result<void> check_radius(const BodyDefinition& changed, BodyId body, const WorldDefinition& world,

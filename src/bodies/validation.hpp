@@ -20,6 +20,10 @@ Result<void> check_body(const BodyDefinition& body, const WorldDefinition& world
 Result<void> check_shape(const Shape& shape, const WorldDefinition& world, std::string_view call);
 /// Does the same for a shape that a body carries: a box or a triangle, where no axis is periodic.
 Result<void> check_carried_shape(const Shape& shape, const WorldDefinition& world, std::string_view call);
+/// Validates a moving shape that is to be added, except for the room that it takes. Returns it as a world
+/// keeps it.
+Result<MovingShape> accepted_moving_shape(const MovingShape& added, const WorldDefinition& world,
+                                          std::string_view call);
 /// Validates what a rigid body adds to its BodyDefinition.
 Result<void> check_rigid_body(const RigidBody& body, const WorldDefinition& world, std::string_view call);
 /// Validates a rigid body that is to be added, except for its sensor reach and the room that it takes.

@@ -35,6 +35,7 @@ struct BodyMessage {
   Filter filter{};
   double mass = 1.0;
   ChangingRadius radius{};
+  std::optional<Shape> shape{};        ///< of a moving shape
   std::optional<RigidRecord> rigid{};  ///< of a rigid body
   ContactCheckpoint contacts{};
   /// Registration in the broad phase and, if registered, the window (`rung`, `end`). `enters`: the receiver
@@ -54,10 +55,10 @@ struct BodyMessage {
   Window window() const { return {rung, end}; }
 
   static void serialize(auto& self, auto& archive) {
-    auto& [name, owner, body, image, filter, mass, radius, rigid, contacts, is_registered, enters, starts,
-           rung, end, is_stale, due, pending, motion] = self;
-    archive(name, owner, body, image, filter, mass, radius, rigid, contacts, is_registered, enters, starts,
-            rung, end, is_stale, due, pending, motion);
+    auto& [name, owner, body, image, filter, mass, radius, shape, rigid, contacts, is_registered, enters,
+           starts, rung, end, is_stale, due, pending, motion] = self;
+    archive(name, owner, body, image, filter, mass, radius, shape, rigid, contacts, is_registered, enters,
+            starts, rung, end, is_stale, due, pending, motion);
   }
 };
 

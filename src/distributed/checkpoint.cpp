@@ -12,7 +12,7 @@ namespace kinesphere {
 namespace {
 
 constexpr Envelope envelope{{'K', 'i', 'n', 'e', 'd', 'w', '\r', '\n'},
-                            6,
+                            7,
                             "part of a distributed world",
                             "restore",
                             "parts",

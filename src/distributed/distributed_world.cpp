@@ -47,6 +47,11 @@ Result<void> DistributedWorld::add_rigid_body(std::uint32_t index, const RigidBo
   return engine_->add_rigid_body(index, body, number_in_motion);
 }
 
+Result<void> DistributedWorld::add_moving_shape(std::uint32_t index, const MovingShape& body,
+                                                std::uint32_t number_in_motion) {
+  return engine_->add_moving_shape(index, body, number_in_motion);
+}
+
 Result<void> DistributedWorld::set_sensor(SensorClass sensor_class, const Sensor& sensor) {
   return engine_->set_sensor(sensor_class, sensor);
 }

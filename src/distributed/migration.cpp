@@ -19,6 +19,7 @@ BodyMessage Migration::pack(std::uint32_t number) const {
   message.filter = bodies.filters.of(number);
   message.mass = bodies.masses.of(number);
   message.radius = bodies.radii.of(number);
+  if (body.has_shape()) message.shape = bodies.shapes.of(body);
   if (const RigidRecord* const turning = bodies.rigid.find(body)) message.rigid = *turning;
   message.contacts = ContactCheckpoint::of(rank_.state.contacts, number);
   const BroadPhase& windows = rank_.state.broad_phase;
@@ -208,12 +209,14 @@ Result<std::uint32_t> Migration::install(BodyMessage& message) {
   Body& body = bodies[number];
   const std::uint32_t generation = body.generation;
   const std::uint32_t new_revision = message.is_stale || !known ? body.revision + 1 : body.revision;
+  bodies.shapes.remove(body);
   bodies.rigid.remove(body);
   body = message.body;
   body.generation = generation;
   body.revision = new_revision;
   body.shape_number = body.change_number = body.sleep_number = Body::none;
-  body.is_rigid = false;
+  body.is_rigid = body.carries_shape = false;
+  if (message.shape) bodies.give_shape(number, *message.shape, true);
   if (message.rigid) bodies.make_rigid(number, std::move(*message.rigid));
   bodies.filters.keep(number, message.filter);
   bodies.masses.keep(number, message.mass);

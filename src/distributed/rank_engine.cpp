@@ -21,7 +21,7 @@ DistributedWorld::RankEngine::RankEngine(const WorldDefinition& definition, Moti
       distribution_(communicator_, consensus_, rank_, migration_, known_),
       starts_(communicator_, consensus_, rank_, distribution_) {}
 
-/// Checks what balls and rigid bodies have in common.
+/// Checks what bodies of all kinds have in common.
 Result<void> DistributedWorld::RankEngine::check_addition(std::uint32_t name, const BodyDefinition& body,
                                                           std::uint32_t number_in_motion,
                                                           std::string_view call) const {
@@ -47,8 +47,23 @@ Result<void> DistributedWorld::RankEngine::add(std::uint32_t name, const BodyDef
   auto valid = consensus_.check("add");
   if (valid) valid = check_body(body, definition(), "add");
   if (valid) valid = check_addition(name, body, number_in_motion, "add");
-  if (valid) insert(name, body, number_in_motion, std::nullopt);
+  if (valid) insert(name, body, number_in_motion);
   return valid;
+}
+
+Result<void> DistributedWorld::RankEngine::add_moving_shape(std::uint32_t name, const MovingShape& added,
+                                                            std::uint32_t number_in_motion) {
+  constexpr std::string_view call = "add_moving_shape";
+  if (auto valid = consensus_.check(call); !valid) return valid;
+  const auto accepted = accepted_moving_shape(added, definition(), call);
+  if (!accepted) return accepted.error();
+  const BodyDefinition body = body_of(*accepted, definition());
+  auto valid = check_addition(name, body, number_in_motion, call);
+  if (!valid) return valid;
+  const std::uint32_t number = insert(name, body, number_in_motion);
+  rank_.bodies().give_shape(number, accepted->shape, true);
+  rank_.state.contacts.set_shape(number, false);
+  return {};
 }
 
 Result<void> DistributedWorld::RankEngine::add_rigid_body(std::uint32_t name, const RigidBody& added,
@@ -69,16 +84,16 @@ Result<void> DistributedWorld::RankEngine::add_rigid_body(std::uint32_t name, co
   const Overlaps overlaps(rank_.bodies(), rank_.state.broad_phase, time());
   if (const auto wall = overlaps.of_wall({bound, false, nullptr, body.radius, &turning}, body.filter))
     return wall_error(call, no_body, *wall);
-  insert(name, body, number_in_motion, turning);
+  const std::uint32_t number = insert(name, body, number_in_motion);
+  rank_.bodies().make_rigid(number, turning);
+  rank_.state.contacts.set_largest_acceleration(number, rank_.bodies().largest_acceleration(number));
   return {};
 }
 
-void DistributedWorld::RankEngine::insert(std::uint32_t name, const BodyDefinition& body,
-                                          std::uint32_t number_in_motion,
-                                          std::optional<RigidRecord> turning) {
+std::uint32_t DistributedWorld::RankEngine::insert(std::uint32_t name, const BodyDefinition& body,
+                                                   std::uint32_t number_in_motion) {
   Bodies& bodies = rank_.bodies();
   const std::uint32_t number = bodies.add_named(body, time(), name);
-  if (turning) bodies.make_rigid(number, std::move(*turning));
   rank_.directory.add(name, number, communicator_.rank());
   rank_.directory[number].in_motion = number_in_motion;
   names_.add(name);
@@ -86,6 +101,7 @@ void DistributedWorld::RankEngine::insert(std::uint32_t name, const BodyDefiniti
   bodies[number].relocated = true;
   rank_.main.invalidate(number);
   rank_.state.contacts.add(number, bodies.largest_acceleration(number));
+  return number;
 }
 
 Result<void> DistributedWorld::RankEngine::set_sensor(SensorClass sensor_class, const Sensor& sensor) {

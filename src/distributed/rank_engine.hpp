@@ -46,6 +46,7 @@ class DistributedWorld::RankEngine {
 
   Result<void> add(std::uint32_t name, const BodyDefinition& body, std::uint32_t number_in_motion);
   Result<void> add_rigid_body(std::uint32_t name, const RigidBody& added, std::uint32_t number_in_motion);
+  Result<void> add_moving_shape(std::uint32_t name, const MovingShape& added, std::uint32_t number_in_motion);
   Result<void> set_sensor(SensorClass sensor_class, const Sensor& sensor);
   Result<void> run(double until, const ResponseFn* respond, const OrderedEventFn& sink, Workers* workers);
 
@@ -62,8 +63,8 @@ class DistributedWorld::RankEngine {
  private:
   Result<void> check_addition(std::uint32_t name, const BodyDefinition& body, std::uint32_t number_in_motion,
                               std::string_view call) const;
-  void insert(std::uint32_t name, const BodyDefinition& body, std::uint32_t number_in_motion,
-              std::optional<RigidRecord> turning);
+  /// Adds a body, which is a ball as yet. Returns its number.
+  std::uint32_t insert(std::uint32_t name, const BodyDefinition& body, std::uint32_t number_in_motion);
   Result<void> check_run(double until, const PoolLease& lease) const;
   Result<void> go(double until, const OrderedEventFn& sink, PoolLease& lease, SpeculativeRunner& runner);
   Result<void> start_arrivals(PoolLease& lease, SpeculativeRunner& runner);

@@ -35,7 +35,7 @@ class WindowStarts {
   Result<void> start(PoolLease& lease, bool all, std::span<const std::uint32_t> joining);
 
   /// Counts added and registered bodies over all ranks, for start_with(), and finds out whether any rank has
-  /// a rigid body.
+  /// a body that is no ball.
   Arrivals count_arrivals();
   /// Does what World::Engine::start_with_arrivals() does: if many bodies were added, all windows restart
   /// together with them. Bodies that stand still, and added bodies that are too few, remain dirty.

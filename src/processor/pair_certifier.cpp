@@ -53,6 +53,19 @@ double apart_until(const Bodies& bodies, const BoundRef& a, const BoundRef& b, d
                                                          : apart_until_in_order(bodies, a, b, now);
 }
 
+/// Returns apart_until() of two bodies that may meet if the balls around them decide, otherwise nullopt. They
+/// decide for pairs whose swept spheres do not touch: a search may find some of these or none, and the fact
+/// has to be the same.
+[[gnu::noinline]] std::optional<double> PairCertifier::apart_by_balls(BoundRef a, BoundRef b) const {
+  const Body& one = bodies()[a.number];
+  const Body& other = bodies()[b.number];
+  if (one.is_static() || other.is_static() || std::min(a.end, b.end) == infinity) return std::nullopt;
+  const double until = kinesphere::apart_until(bodies(), a, b, time_);
+  // What a shape that does not turn says costs little more, and is better than a time of the ball around it.
+  const bool decides = one.has_shape() || other.has_shape() ? until == infinity : until > time_;
+  return decides ? std::optional(until) : std::nullopt;
+}
+
 /// Computes apart_until() for two bodies that may meet, in the order of their names. Compiled into its
 /// callers, since it is the engine's inner loop.
 [[gnu::always_inline]] inline double PairCertifier::apart_until(const BoundRef& a, const BoundRef& b) const {
@@ -60,11 +73,7 @@ double apart_until(const Bodies& bodies, const BoundRef& a, const BoundRef& b, d
   const Body& one = bodies()[a.number];
   const Body& other = bodies()[b.number];
   if (one.is_shaped() || other.is_shaped() || end == infinity) {
-    // Rigid bodies are apart for as long as the balls around them are.
-    if (!one.has_shape() && !other.has_shape() && end < infinity) {
-      const double outer = apart_until_in_order(bodies(), a, b, time_);
-      if (outer > time_) return outer;
-    }
+    if (const auto known = apart_by_balls(a, b)) return *known;
     const double until = unchanged_until_by_thresholds(a.number, b.number);
     return until < end ? until : infinity;
   }
@@ -80,12 +89,9 @@ double PairCertifier::apart_until(std::uint32_t a, std::uint32_t b) const {
 }
 
 bool PairCertifier::needs_thresholds(std::uint32_t a, std::uint32_t b) const {
-  if (earliest_window_end(a, b) == infinity) return true;
-  const Body& one = bodies()[a];
-  const Body& other = bodies()[b];
-  if ((!one.is_shaped() && !other.is_shaped()) || !bodies().may_meet(a, b)) return false;
-  return one.has_shape() || other.has_shape() ||
-         !(kinesphere::apart_until(bodies(), bound_ref(a), bound_ref(b), time_) > time_);
+  const bool are_balls = !bodies()[a].is_shaped() && !bodies()[b].is_shaped();
+  if ((are_balls && earliest_window_end(a, b) < infinity) || !bodies().may_meet(a, b)) return false;
+  return !apart_by_balls(bound_ref(a), bound_ref(b));
 }
 
 double PairCertifier::unchanged_until_by_thresholds(std::uint32_t a, std::uint32_t b) const {

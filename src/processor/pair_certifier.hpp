@@ -108,8 +108,8 @@ class PairCertifier {
   /// Returns the time before which two unlinked bodies neither touch nor sense each other; +infinity if they
   /// do not before the earlier window end. Returns the current time if only fresh reports can decide.
   double apart_until(std::uint32_t a, std::uint32_t b) const;
-  /// Returns true if apart_until() of two bodies in different clusters needs more of the other one than its
-  /// bound, which is unknown here.
+  /// Returns true if apart_until() needs more of the two bodies than their bounds. If they are in different
+  /// clusters, that is unknown of the other one.
   bool needs_thresholds(std::uint32_t a, std::uint32_t b) const;
   /// Returns the time before which no threshold of the two is crossed, by the contact rules; +infinity if
   /// never. Valid for linked and unlinked pairs.
@@ -131,6 +131,7 @@ class PairCertifier {
 
  private:
   double until_search(std::uint32_t a, std::uint32_t b, double end) const;
+  std::optional<double> apart_by_balls(BoundRef a, BoundRef b) const;
   double apart_until(const BoundRef& a, const BoundRef& b) const;
   bool bounce_apart(std::uint32_t a, std::uint32_t b) const;
   const Bodies& bodies() const { return state_.bodies; }

@@ -16,13 +16,14 @@ double conflict_of(const Bodies& bodies, const SweptSphereUpdate& earlier, const
   const double now = later.time;
   const double end = std::min(earlier.window.end, later.window.end);
   if (!(now < end) || !bodies.may_meet(earlier.number, later.number)) return infinity;
-  // apart_until() knows the balls around shapes that move, not the shapes.
-  if (end == infinity || bodies[earlier.number].has_shape() || bodies[later.number].has_shape())
-    return Conflict::unknown;
+  if (end == infinity) return Conflict::unknown;
   const auto known = [](const SweptSphereUpdate& update) {
     return BoundRef{update.number, &update.bound, update.window.end, &update.middle};
   };
   const double until = apart_until(bodies, known(earlier), known(later), now);
+  // apart_until() knows the balls around shapes that move, not the shapes.
+  if (until < infinity && (bodies[earlier.number].has_shape() || bodies[later.number].has_shape()))
+    return Conflict::unknown;
   // A later report only shrinks a bound, so two bodies certified apart stay apart. The order of changes at
   // one instant is not known across clusters.
   const bool had_velocity_changed = earlier.time < now && now < earlier.first_change.changed;

@@ -272,12 +272,9 @@ Result<StaticDefinition> World::Preconditions::new_static(const StaticDefinition
 }
 
 Result<MovingShape> World::Preconditions::new_moving_shape(const MovingShape& added, BodyId id) const {
-  if (auto valid = check_keeps_size(added.body, call_); !valid) return valid.error();
-  if (auto valid = check_carried_shape(added.shape, definition(), call_); !valid) return valid.error();
-  const MovingShape accepted{added.body, normalized_carried(added.shape, definition())};
-  if (auto valid = check_body(body_of(accepted, definition()), domain_of(true), call_); !valid)
-    return valid.error();
-  if (auto space = no_overlap(accepted, id); !space) return space.error();
+  auto accepted = accepted_moving_shape(added, definition(), call_);
+  if (!accepted) return accepted;
+  if (auto space = no_overlap(*accepted, id); !space) return space.error();
   return accepted;
 }
 

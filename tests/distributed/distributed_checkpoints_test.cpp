@@ -25,10 +25,14 @@ Scene scene_of(const std::string& name, std::uint32_t bodies) {
   return make_scene(parameters).value();
 }
 
-/// Rigid bodies among balls that grow and shrink.
+/// Rigid bodies and moving shapes among balls that grow and shrink.
 Setting rigid_and_growing() {
   Setting setting = rigid_setting({.seed = 11, .acceleration_limit = 1.0, .seconds = 1.2});
   setting.radius_rate = 0.1;
+  for (const std::uint32_t k : {8u, 40u}) {
+    setting.rigid.erase(k);
+    setting.shapes[k] = Box{{-2, -1, -0.2}, {2, 1, 0}};
+  }
   return setting;
 }
 

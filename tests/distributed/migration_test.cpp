@@ -93,6 +93,26 @@ TEST(Migration, BringsPartsAndRotationOfARigidBody) {
   EXPECT_FALSE(other.local.bodies().rigid.any()) << "its record is free again";
 }
 
+TEST(Migration, BringsAShapeThatABodyCarries) {
+  Rank one(0);
+  Rank other(1);
+  const Shape plate = Box{{-1, -1, 0}, {1, 1, 0.1}};
+  const std::uint32_t number = one.add(70, {});
+  one.local.bodies().give_shape(number, plate, true);
+  one.local.state.contacts.set_shape(number, false);
+  other.add(10, {});
+  for (int time = 0; time < 2; ++time) {
+    other.install({one.migration.pack(number)});
+    const std::uint32_t there = *other.local.directory.find(70);
+    const Body& body = other.local.bodies()[there];
+    ASSERT_TRUE(body.has_shape() && !body.is_static());
+    EXPECT_EQ(other.local.bodies().shapes.of(body), plate);
+    EXPECT_TRUE(other.local.state.contacts.has_form_of(there, true, false));
+  }
+  other.migration.drop(*other.local.directory.find(70));
+  EXPECT_FALSE(other.local.bodies().shapes.any()) << "its place is free again";
+}
+
 TEST(Migration, KeepsLinksToBodiesThatAreNotThereYet) {
   Rank one(0);
   Rank other(1);

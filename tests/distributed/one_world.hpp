@@ -43,6 +43,8 @@ struct Setting {
   double radius_rate = 0.0;
   /// Parts, rotation, limits of turning and inertia of the bodies that are not balls, by number.
   std::map<std::uint32_t, RigidBody> rigid{};
+  /// Shapes of the bodies that carry one, by number.
+  std::map<std::uint32_t, Shape> shapes{};
   /// Factor by which the bodies' limits are too small.
   double broken = 1.0;
   int threads = 1;
@@ -61,9 +63,15 @@ struct Setting {
     if (number % 5 == 2) body.acceleration_limit *= broken;
     return body;
   }
-  /// Adds a body by one of two functions, for balls and for rigid bodies.
+  /// Adds a body by one of three functions, for balls, rigid bodies and moving shapes.
   void add(std::uint32_t number, const std::function<void(const BodyDefinition&)>& add_ball,
-           const std::function<void(const RigidBody&)>& add_rigid) const {
+           const std::function<void(const RigidBody&)>& add_rigid,
+           const std::function<void(const MovingShape&)>& add_shape) const {
+    if (const auto shape = shapes.find(number); shape != shapes.end()) {
+      MovingShape definition{body(number), shape->second};
+      definition.body.radius_rate = 0.0;
+      return add_shape(definition);
+    }
     const auto found = rigid.find(number);
     if (found == rigid.end()) return add_ball(body(number));
     RigidBody definition = found->second;
@@ -87,7 +95,8 @@ inline RunOutcome alone(const Setting& setting) {
   for (std::uint32_t k = 0; k < scene.bodies.size(); ++k)
     setting.add(
         k, [&](const BodyDefinition& body) { world.add(body).value(); },
-        [&](const RigidBody& body) { world.add_rigid_body(body).value(); });
+        [&](const RigidBody& body) { world.add_rigid_body(body).value(); },
+        [&](const MovingShape& body) { world.add_moving_shape(body).value(); });
   RunOutcome outcome;
   EventHash hash;
   const auto sink = [&](const Event& event) {
@@ -111,7 +120,8 @@ inline DistributedWorld spread(const Setting& setting, Motion& motion) {
     if (setting.bringer(k, bodies, world.ranks()) == world.rank())
       setting.add(
           k, [&](const BodyDefinition& body) { world.add(k, body, k).value(); },
-          [&](const RigidBody& body) { world.add_rigid_body(k, body, k).value(); });
+          [&](const RigidBody& body) { world.add_rigid_body(k, body, k).value(); },
+          [&](const MovingShape& body) { world.add_moving_shape(k, body, k).value(); });
   for (std::uint32_t k = 0; k < bodies; ++k)
     if (setting.bringer(k, bodies, world.ranks()) != world.rank()) motion.remove(k).value();
   return world;

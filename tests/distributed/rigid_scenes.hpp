@@ -91,4 +91,15 @@ inline Setting rigid_setting(const RigidSceneParameters& parameters) {
   return setting;
 }
 
+/// Every fourth body becomes a plate or a triangle of about this size.
+inline void add_shapes(Setting& setting, double size) {
+  for (std::uint32_t k = 0; k < setting.scene.bodies.size(); k += 4) {
+    setting.rigid.erase(k);
+    if (k % 8 == 0)
+      setting.shapes[k] = Box{{-size, -0.5 * size, -0.1}, {size, 0.5 * size, 0.1}};
+    else
+      setting.shapes[k] = Triangle{{-size, 0, 0}, {size, 0, 0.3}, {0.2, 0.5 * size, 0}};
+  }
+}
+
 }  // namespace kinesphere

@@ -170,10 +170,10 @@ struct Shooting : Game {
       radii.push_back(number % 7 == 0 ? 0.6 : number % 3 == 0 ? 0.4 : 0.2);
     std::vector<BodyId> ids;
     const auto add = [&](std::uint32_t number) {
-      if (kind.rigid && number % 5 != 0)
-        return bodies.add_rigid_body(world, *crowd, number, thing(number, 1.5 * radii[number]));
       if (kind.carried && number % 12 == 5)
         return bodies.add_moving_shape(world, *crowd, number, {{}, carried_shape(number)});
+      if (kind.rigid && number % 5 != 0)
+        return bodies.add_rigid_body(world, *crowd, number, thing(number, 1.5 * radii[number]));
       return bodies.add(world, *crowd, number, {.radius = radii[number]});
     };
     if (kind.rigid || kind.carried) {
@@ -299,6 +299,7 @@ INSTANTIATE_TEST_SUITE_P(
         Kind{.name = "carried", .sensors = true, .carried = true, .stop = 64},
         Kind{.name = "carried_impacts", .contacts = ContactEvents::impacts, .carried = true},
         Kind{.name = "carried_forces", .faster = 5.0, .fixed = true, .forces = true, .carried = true},
+        Kind{.name = "carried_among_turning", .forces = true, .rigid = true, .carried = true},
         Kind{.name = "turning", .contacts = ContactEvents::impacts, .rigid = true},
         Kind{.name = "turning_periodic", .periodic = true, .rigid = true},
         Kind{.name = "turning_forces",

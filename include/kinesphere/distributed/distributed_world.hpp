@@ -28,6 +28,7 @@
 #include "kinesphere/rigid_body.hpp"
 #include "kinesphere/run.hpp"
 #include "kinesphere/sensor.hpp"
+#include "kinesphere/shape.hpp"
 #include "kinesphere/workers.hpp"
 #include "kinesphere/world_definition.hpp"
 
@@ -68,8 +69,8 @@ struct RankFigures {
 /// equal error on all ranks; its message begins with the rank on which the error occurred. After an error of
 /// run() the world cannot continue: every later call fails with rank_failed.
 ///
-/// Features of World that DistributedWorld lacks: moving shapes, static bodies, rotation probes, sleep,
-/// changes and removals between events, pair filters, queries, recordings. `allow_overlap` must be true.
+/// Features of World that DistributedWorld lacks: static bodies, rotation probes, sleep, changes and removals
+/// between events, pair filters, queries, recordings. `allow_overlap` must be true.
 class DistributedWorld {
  public:
   /// Collective. Creates an empty world. `motion` moves the bodies of this rank and must outlive the world.
@@ -89,6 +90,8 @@ class DistributedWorld {
   /// as one of World::add_rigid_body(). Errors: those of add() and World::add_rigid_body(); unsupported
   /// (angular_acceleration_limit: a distributed world has no RotationProbe).
   Result<void> add_rigid_body(std::uint32_t index, const RigidBody& body, std::uint32_t number_in_motion);
+  /// Adds a moving shape in the same way. Errors: those of add() and World::add_moving_shape().
+  Result<void> add_moving_shape(std::uint32_t index, const MovingShape& body, std::uint32_t number_in_motion);
   /// Collective. Sets a sensor class as World::set_sensor does; all ranks pass equal arguments. Precondition:
   /// no rank has added bodies. Errors, equal on all ranks: those of World::set_sensor; unsupported
   /// (sensor_class: there are bodies). After an error the world is unchanged and can continue.
