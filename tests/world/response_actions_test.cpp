@@ -118,7 +118,7 @@ struct Kind {
   bool fixed = false;      ///< there are static bodies and a zone
   bool forces = false;     ///< bodies accelerate at random
   bool rigid = false;      ///< four in five turn, and are no balls
-  bool carried = false;    ///< one in twelve carries a box or a triangle
+  bool carried = false;    ///< one in twelve, or in four if many turn, carries a box or a triangle
   bool removes = true;     ///< responses remove and disable bodies
   std::uint64_t stop = 0;  ///< one event in so many stops the world; 0: none
   std::uint64_t sleep = 0;
@@ -158,7 +158,7 @@ RigidBody thing(std::uint32_t number, double size) {
 Shape carried_shape(std::uint32_t number) {
   Random random(number + 1);
   const Vec3 lower = -random.uniform(0.1, 0.8) * Vec3{1.0, 1.0, 0.2};
-  if (number % 24 == 5) return Box{lower, -1.0 * lower};
+  if (number % 8 == 5) return Box{lower, -1.0 * lower};
   return Triangle{lower, {0.9, -0.3, 0.0}, {-0.2, 0.9, 0.5}};
 }
 
@@ -170,7 +170,7 @@ struct Shooting : Game {
       radii.push_back(number % 7 == 0 ? 0.6 : number % 3 == 0 ? 0.4 : 0.2);
     std::vector<BodyId> ids;
     const auto add = [&](std::uint32_t number) {
-      if (kind.carried && number % 12 == 5)
+      if (kind.carried && number % (kind.rigid ? 4 : 12) == (kind.rigid ? 1 : 5))
         return bodies.add_moving_shape(world, *crowd, number, {{}, carried_shape(number)});
       if (kind.rigid && number % 5 != 0)
         return bodies.add_rigid_body(world, *crowd, number, thing(number, 1.5 * radii[number]));
