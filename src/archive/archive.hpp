@@ -1,17 +1,21 @@
-// Archives convert values to bytes and back, little-endian. A class lists its fields once, for writing and
+// Archives convert values to bytes and back, little-endian. The fields of an aggregate are archived in their
+// order. A class with private fields, or with some that are not archived, lists them once, for writing and
 // reading:
 //
-//   struct Appointment {
-//     double time;
-//     std::uint32_t partner;
+//   class Appointment {
+//    public:
 //     static void serialize(auto& self, auto& archive) {
 //       auto& [time, partner] = self;  // names every field: one that is forgotten does not compile
 //       archive(time, partner);
 //     }
+//
+//    private:
+//     double time_;
+//     std::uint32_t partner_;
 //   };
 //
-// `archive` is a ByteWriter (then Self is const) or a ByteReader. A class without such a member has a free
-// function serialize(self, archive) beside it.
+// `archive` is a ByteWriter (then `self` is const) or a ByteReader. A public struct has a free function
+// serialize(self, archive) instead (fields.hpp).
 #pragma once
 
 #include <algorithm>
@@ -20,15 +24,14 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
-#include <set>
 #include <span>
 #include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "archive/aggregate.hpp"
 #include "number/bit_cast.hpp"
 
 namespace kinesphere {
@@ -49,6 +52,23 @@ using WordOf = Word<std::same_as<T, std::size_t> ? 8 : sizeof(T)>;
 template <class T>
 concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
+/// A container of any number of elements: vector, set, map.
+template <class T>
+concept Container = requires {
+  typename T::allocator_type;
+};
+
+/// The type of a container's elements, so that one can be read before it is inserted.
+template <class T>
+struct ElementOf {
+  using Type = typename T::value_type;
+};
+template <class T>
+requires requires { typename T::mapped_type; }
+struct ElementOf<T> {
+  using Type = std::pair<typename T::key_type, typename T::mapped_type>;
+};
+
 /// Converts between native and little-endian byte order; its own inverse.
 template <class Word>
 constexpr Word little_endian(Word word) {
@@ -63,8 +83,10 @@ void serialize_fields(T& value, Archive& archive) {
   using Class = std::remove_const_t<T>;
   if constexpr (requires { Class::serialize(value, archive); }) {
     Class::serialize(value, archive);
-  } else {
+  } else if constexpr (requires { serialize(value, archive); }) {
     serialize(value, archive);
+  } else {
+    visit_fields(value, archive);
   }
 }
 
@@ -90,25 +112,16 @@ class ByteWriter {
       write_word(bit_cast<detail::WordOf<T>>(value));
     } else if constexpr (detail::Number<T>) {
       write_word(static_cast<detail::WordOf<T>>(value));
+    } else if constexpr (detail::Container<T>) {
+      write(value.size());
+      for (const auto& element : value) write(element);
     } else {
       detail::serialize_fields(value, *this);
     }
   }
-  template <class T>
-  void write(const std::vector<T>& values) {
-    write_all(values);
-  }
   void write(const std::vector<std::byte>& bytes) {
     write(bytes.size());
     append(bytes);
-  }
-  template <class T, class Less>
-  void write(const std::set<T, Less>& values) {
-    write_all(values);
-  }
-  template <class Key, class Value>
-  void write(const std::map<Key, Value>& values) {
-    write_all(values);
   }
   template <class T>
   void write(const std::optional<T>& value) {
@@ -127,12 +140,6 @@ class ByteWriter {
   void write(const std::variant<Ts...>& value) {
     write(static_cast<std::uint8_t>(value.index()));
     std::visit([this](const auto& held) { this->write(held); }, value);
-  }
-
-  template <class Values>
-  void write_all(const Values& values) {
-    write(values.size());
-    for (const auto& value : values) write(value);
   }
 
   template <class Word>
@@ -170,14 +177,16 @@ class ByteReader {
       value = bit_cast<T>(read_word<detail::WordOf<T>>());
     } else if constexpr (detail::Number<T>) {
       value = static_cast<T>(read_word<detail::WordOf<T>>());
+    } else if constexpr (detail::Container<T>) {
+      value.clear();
+      for (auto count = read_word<std::uint64_t>(); count > 0 && !failed_; --count) {
+        typename detail::ElementOf<T>::Type element{};
+        read(element);
+        if (!failed_) value.insert(value.end(), std::move(element));
+      }
     } else {
       detail::serialize_fields(value, *this);
     }
-  }
-  template <class T>
-  void read(std::vector<T>& values) {
-    values.clear();
-    read_all<T>([&values](T&& value) { values.push_back(std::move(value)); });
   }
   void read(std::vector<std::byte>& bytes) {
     const auto size = read_word<std::uint64_t>();
@@ -185,16 +194,6 @@ class ByteReader {
     const auto part = bytes_.first(failed_ ? 0 : static_cast<std::size_t>(size));
     bytes.assign(part.begin(), part.end());
     bytes_ = bytes_.subspan(part.size());
-  }
-  template <class T, class Less>
-  void read(std::set<T, Less>& values) {
-    values.clear();
-    read_all<T>([&values](T&& value) { values.insert(std::move(value)); });
-  }
-  template <class Key, class Value>
-  void read(std::map<Key, Value>& values) {
-    values.clear();
-    read_all<std::pair<Key, Value>>([&values](auto&& value) { values.insert(std::move(value)); });
   }
   template <class T>
   void read(std::optional<T>& value) {
@@ -219,15 +218,6 @@ class ByteReader {
       (void)((index == k && (read(value.template emplace<k>()), true)) || ...);
     };
     if (!failed_) read_as(std::index_sequence_for<Ts...>());
-  }
-
-  template <class T, class Take>
-  void read_all(Take take) {
-    for (auto count = read_word<std::uint64_t>(); count > 0 && !failed_; --count) {
-      T value{};
-      read(value);
-      if (!failed_) take(std::move(value));
-    }
   }
 
   template <class Word>

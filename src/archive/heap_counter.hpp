@@ -24,22 +24,12 @@ class HeapCounter {
 
   template <class T>
   void count(const T& value) {
-    if constexpr (!std::is_trivially_copyable_v<T>) detail::serialize_fields(value, *this);
-  }
-  template <class T>
-  void count(const std::vector<T>& values) {
-    if (values.capacity() > 0) bytes_ += values.capacity() * sizeof(T) + block_overhead;
-    count_all(values);
-  }
-  template <class T, class Less>
-  void count(const std::set<T, Less>& values) {
-    bytes_ += values.size() * (sizeof(T) + node_overhead + block_overhead);
-    count_all(values);
-  }
-  template <class Key, class Value>
-  void count(const std::map<Key, Value>& values) {
-    bytes_ += values.size() * (sizeof(std::pair<Key, Value>) + node_overhead + block_overhead);
-    count_all(values);
+    if constexpr (detail::Container<T>) {
+      count_block(value);
+      count_all(value);
+    } else if constexpr (!std::is_trivially_copyable_v<T>) {
+      detail::serialize_fields(value, *this);
+    }
   }
   template <class T>
   void count(const std::optional<T>& value) {
@@ -54,6 +44,14 @@ class HeapCounter {
     count_all(values);
   }
 
+  /// Counts what a container itself takes: one block of all elements, or a node for each.
+  template <class Values>
+  void count_block(const Values& values) {
+    if constexpr (!requires { values.capacity(); })
+      bytes_ += values.size() * (sizeof(typename Values::value_type) + node_overhead + block_overhead);
+    else if (values.capacity() > 0)
+      bytes_ += values.capacity() * sizeof(typename Values::value_type) + block_overhead;
+  }
   template <class Values>
   void count_all(const Values& values) {
     if constexpr (!std::is_trivially_copyable_v<typename Values::value_type>)

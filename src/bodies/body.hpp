@@ -85,22 +85,12 @@ struct Change {
   std::uint32_t body = 0;
   std::optional<Vec3> velocity{};  ///< new velocity, if it was set
   MotionLimits limits{};
-
-  static void serialize(auto& self, auto& archive) {
-    auto& [body, velocity, limits] = self;
-    archive(body, velocity, limits);
-  }
 };
 
 /// Motion limits of a sleeping body that apply after it wakes.
 struct SleepRecord {
   std::uint32_t body = 0;
   MotionLimits limits{};
-
-  static void serialize(auto& self, auto& archive) {
-    auto& [body, limits] = self;
-    archive(body, limits);
-  }
 };
 
 }  // namespace kinesphere

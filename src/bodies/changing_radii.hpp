@@ -28,10 +28,6 @@ struct ChangingRadius {
   double end() const { return time - radius / rate; }
 
   friend bool operator==(const ChangingRadius&, const ChangingRadius&) = default;
-  static void serialize(auto& self, auto& archive) {
-    auto& [rate, radius, time, velocity_error, is_kept] = self;
-    archive(rate, radius, time, velocity_error, is_kept);
-  }
 };
 
 class ChangingRadii : public SparseColumn<ChangingRadius> {

@@ -43,10 +43,6 @@ struct PeriodicImage {
     }
     return true;
   }
-  static void serialize(auto& self, auto& archive) {
-    auto& [middle, image] = self;
-    archive(middle, image);
-  }
 };
 
 }  // namespace kinesphere

@@ -186,11 +186,6 @@ class BroadPhase {
     double end = 0.0;
     std::uint32_t level = none;
     std::uint32_t slot = 0;
-
-    static void serialize(auto& self, auto& archive) {
-      auto& [end, level, slot] = self;
-      archive(end, level, slot);
-    }
   };
   /// Result of prepare(): the body's size class and, unless `level` is none, the slot that the body has
   /// already and can keep with the new swept sphere.
@@ -207,11 +202,6 @@ class BroadPhase {
     UnsortedSweptSpheres unsorted{};
     SweptSphereSpread spread{};          ///< of the swept spheres, since survey()
     std::vector<std::uint32_t> cells{};  ///< of the swept spheres, since choose_cells()
-
-    static void serialize(auto& self, auto& archive) {
-      auto& [level, unsorted, spread, cells] = self;
-      archive(level, unsorted, spread, cells);
-    }
   };
   /// Whether a body awaits a search since take_over(): not; as one that is found; as one that came from the
   /// successor, in a sorted slot or behind these.
@@ -224,11 +214,6 @@ class BroadPhase {
     Sizes sizes;
     bool is_surveyed = false;
     bool has_cells = false;
-
-    static void serialize(auto& self, auto& archive) {
-      auto& [openings, sizes, is_surveyed, has_cells] = self;
-      archive(openings, sizes, is_surveyed, has_cells);
-    }
   };
 
   Entry prepare(std::uint32_t number, const InflatedBound& bound, double now, const Window& window) const;

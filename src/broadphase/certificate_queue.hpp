@@ -37,10 +37,6 @@ struct PairCertificate {
     if (a.failure_time != b.failure_time) return a.failure_time < b.failure_time;
     return a.first != b.first ? a.first < b.first : a.second < b.second;
   }
-  static void serialize(auto& self, auto& archive) {
-    auto& [failure_time, first, second, first_revision, second_revision] = self;
-    archive(failure_time, first, second, first_revision, second_revision);
-  }
 };
 
 /// Order of certificates: by failure time, then by their bodies. Bodies compare by name if they have names,

@@ -61,10 +61,6 @@ struct GridLevel {
 
   /// True if the deserialized state is consistent.
   bool is_valid() const;
-  static void serialize(auto& self, auto& archive) {
-    auto& [its_window, size, is_framed, is_fresh, sorted, entered] = self;
-    archive(its_window, size, is_framed, is_fresh, sorted, entered);
-  }
 };
 
 }  // namespace kinesphere

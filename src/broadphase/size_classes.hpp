@@ -48,21 +48,11 @@ class SizeClasses {
   struct Merged {
     int size_class;
     int into;
-
-    static void serialize(auto& self, auto& archive) {
-      auto& [size_class, into] = self;
-      archive(size_class, into);
-    }
   };
   struct Coarseness {
     int rung;
     int size_class;
     float coarseness;
-
-    static void serialize(auto& self, auto& archive) {
-      auto& [rung, size_class, coarseness] = self;
-      archive(rung, size_class, coarseness);
-    }
   };
 
   std::vector<Merged> merged_;       ///< ascending by size class

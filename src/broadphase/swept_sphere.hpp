@@ -18,11 +18,6 @@ struct SweptSphereFrame {
   double per_time = 1.0;
 
   float time(double t) const { return static_cast<float>((t - origin) * per_time); }
-
-  static void serialize(auto& self, auto& archive) {
-    auto& [base, origin, per_length, per_time] = self;
-    archive(base, origin, per_length, per_time);
-  }
 };
 
 /// A sphere that moves straight on. At time s (in units of its frame) the body lies within `radius` of
@@ -33,10 +28,6 @@ struct SweptSphere {
   float radius = 0.0f;
 
   friend bool operator==(const SweptSphere&, const SweptSphere&) = default;
-  static void serialize(auto& self, auto& archive) {
-    auto& [centre, velocity, radius] = self;
-    archive(centre, velocity, radius);
-  }
 };
 
 /// Returns a swept sphere that contains a body, with `margin` around it, from `now` for `duration`.

@@ -16,11 +16,6 @@ namespace kinesphere {
 struct UnsortedSweptSpheres {
   std::vector<std::uint32_t> numbers;
   std::vector<SweptSphere> spheres;
-
-  static void serialize(auto& self, auto& archive) {
-    auto& [numbers, spheres] = self;
-    archive(numbers, spheres);
-  }
 };
 
 /// Each swept sphere has a slot, which it keeps until the next resize() or clear(). Removed bodies leave free

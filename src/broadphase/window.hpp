@@ -36,10 +36,6 @@ struct Window {
   bool is_valid() const;
 
   friend bool operator==(const Window&, const Window&) = default;
-  static void serialize(auto& self, auto& archive) {
-    auto& [rung, end] = self;
-    archive(rung, end);
-  }
 };
 
 /// Returns the time from `now` to `end`, or 0 if `end` is +infinity: what stands still in the endless window

@@ -34,10 +34,6 @@ struct RenewalCounts {
     near += more.near;
     return *this;
   }
-  static void serialize(auto& self, auto& archive) {
-    auto& [count, due] = self;
-    archive(count, due);
-  }
 };
 
 /// Statistics of where bodies are and how fast they move, for the first choice of windows.
@@ -157,11 +153,6 @@ class WindowPolicy {
     double times_larger(double factor, int dimensions) const;
     /// Returns the cost of a search for each near pair that it finds, in swept-sphere tests.
     double cost_of_finding(double factor, int dimensions) const;
-
-    static void serialize(auto& self, auto& archive) {
-      auto& [count, most, by_way, width, way, growth, due] = self;
-      archive(count, most, by_way, width, way, growth, due);
-    }
   };
 
   /// Mean sides of the swept spheres, and mean cost of near pairs, at the last start of most bodies.
@@ -169,11 +160,6 @@ class WindowPolicy {
     double short_side = 0.0;
     double long_side = 0.0;
     double pairs = 0.0;  ///< cost of a body's near pairs, in swept-sphere tests
-
-    static void serialize(auto& self, auto& archive) {
-      auto& [across, along, due] = self;
-      archive(across, along, due);
-    }
   };
 
   double cost_of_searches(std::uint64_t searches, double found, double times_longer) const;

@@ -24,11 +24,6 @@ struct ContactCheckpoint {
   /// Updates the lists of static bodies with the contacts and overlaps that `body` has gained or lost since
   /// this checkpoint. Those lists are frozen between start_side_by_side() and stop_side_by_side().
   void update_static(ContactGraph& graph, std::uint32_t body) const;
-
-  static void serialize(auto& self, auto& archive) {
-    auto& [rate, flags, partners, overlaps] = self;
-    archive(rate, flags, partners, overlaps);
-  }
 };
 
 }  // namespace kinesphere

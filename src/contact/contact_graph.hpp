@@ -152,11 +152,6 @@ class ContactGraph {
     std::uint16_t wall_approaches = 0;  ///< two bits for each wall: ApproachState
 
     bool is_static() const { return form == Form::shape_at_rest; }
-
-    static void serialize(auto& self, auto& archive) {
-      auto& [touched_walls, kind, wall_guards, wall_jams, wall_approaches] = self;
-      archive(touched_walls, kind, wall_guards, wall_jams, wall_approaches);
-    }
   };
 
   /// Returns the state of a contact, or nullptr if the two do not touch. The list of a static body has no

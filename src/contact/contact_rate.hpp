@@ -38,11 +38,6 @@ class ContactRate {
     /// Instants in a row before last_contact with as many contacts as that limit. Saturates at the limit of
     /// is_crushed().
     std::uint16_t full_instants = 0;
-
-    static void serialize(auto& self, auto& archive) {
-      auto& [last_contact, zeno_interval, contacts_then, full_instants] = self;
-      archive(last_contact, zeno_interval, contacts_then, full_instants);
-    }
   };
   /// Marks for the begin of a contact.
   struct Marks {

@@ -31,11 +31,6 @@ struct ContactState {
   /// True if there is something to remember until the two have separated, beside the approach.
   bool has_history() const { return jams > 0 || guard_reported; }
   bool is_valid() const { return approach <= ApproachState::ignored; }
-
-  static void serialize(auto& self, auto& archive) {
-    auto& [approach, jams, guard_reported] = self;
-    archive(approach, jams, guard_reported);
-  }
   friend bool operator==(const ContactState&, const ContactState&) = default;
 };
 
@@ -43,11 +38,6 @@ struct ContactState {
 struct ContactRecord {
   std::uint32_t partner;
   ContactState state{};
-
-  static void serialize(auto& self, auto& archive) {
-    auto& [partner, state] = self;
-    archive(partner, state);
-  }
   friend bool operator==(const ContactRecord&, const ContactRecord&) = default;
 };
 

@@ -25,11 +25,6 @@ struct OverlapRecord {
   double distance;
   /// Direction of sensing as in the sensor_enter event; "first" is the body with the smaller index.
   Senses senses = Senses::neither;
-
-  static void serialize(auto& self, auto& archive) {
-    auto& [partner, distance, senses] = self;
-    archive(partner, distance, senses);
-  }
   friend bool operator==(const OverlapRecord&, const OverlapRecord&) = default;
   /// Orders by partner, then by falling distance: the last record of a partner is the next one to be left.
   friend bool operator<(const OverlapRecord& a, const OverlapRecord& b) {

@@ -14,11 +14,6 @@ namespace kinesphere {
 struct HomeBall {
   Vec3 centre{};
   double radius = 0.0;  ///< length, > 0; 0: no ball
-
-  static void serialize(auto& self, auto& archive) {
-    auto& [centre, radius] = self;
-    archive(centre, radius);
-  }
 };
 inline bool touch(const HomeBall& a, const HomeBall& b) {
   return norm(a.centre - b.centre) <= a.radius + b.radius;

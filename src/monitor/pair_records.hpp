@@ -16,11 +16,6 @@ struct LevelState {
   Verdict verdict = Verdict::apart;
   double since = -infinity;
   double until = -infinity;  ///< A certain verdict holds until this time, whatever is reported.
-
-  static void serialize(auto& self, auto& archive) {
-    auto& [verdict, since, until] = self;
-    archive(verdict, since, until);
-  }
 };
 
 struct PairRecord {
@@ -41,11 +36,6 @@ struct PairRecord {
       return state.verdict != Verdict::undecided && state.until <= now;
     });
   }
-
-  static void serialize(auto& self, auto& archive) {
-    auto& [revision, levels] = self;
-    archive(revision, levels);
-  }
 };
 
 /// A record with the numbers of its two tracks, as stored in a snapshot.
@@ -54,11 +44,6 @@ struct SavedPair {
   std::uint32_t first = 0;
   std::uint32_t second = 0;
   Record record{};
-
-  static void serialize(auto& self, auto& archive) {
-    auto& [first, second, record] = self;
-    archive(first, second, record);
-  }
 };
 
 /// Records of pairs by the numbers of their two tracks. The order of the two arguments does not matter.

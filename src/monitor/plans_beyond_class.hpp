@@ -46,11 +46,6 @@ struct PlansBeyondClass {
     return {largest(a.limit, b.limit), std::max(a.end, b.end)};
   }
 
-  static void serialize(auto& self, auto& archive) {
-    auto& [limit, end] = self;
-    archive(limit, end);
-  }
-
  private:
   static bool is_within(const ErrorBound& one, const ErrorBound& other) { return least(one, other) == one; }
 };

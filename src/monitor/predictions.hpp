@@ -28,10 +28,6 @@ struct StraightPath {
   ErrorBound error{};  ///< the part of the position error that counts
 
   State state_at(double t) const { return {state.position + state.velocity * (t - time), state.velocity}; }
-  static void serialize(auto& self, auto& archive) {
-    auto& [time, state, error] = self;
-    archive(time, state, error);
-  }
 };
 
 /// The prediction of a pair at one level.
@@ -41,11 +37,6 @@ struct LevelPrediction {
   double since = 0.0;       ///< time of the event `predicted`
   double held_since = 0.0;  ///< if `holds`: time since which it has held without a break
   double held_until = 0.0;  ///< if `predicted` and not `holds`: time until which it held
-
-  static void serialize(auto& self, auto& archive) {
-    auto& [predicted, holds, since, held_since, held_until] = self;
-    archive(predicted, holds, since, held_since, held_until);
-  }
 };
 
 struct PairPrediction {
@@ -55,10 +46,6 @@ struct PairPrediction {
   bool is_predicted() const {
     return std::any_of(levels.begin(), levels.end(),
                        [](const LevelPrediction& level) { return level.predicted; });
-  }
-  static void serialize(auto& self, auto& archive) {
-    auto& [due, levels] = self;
-    archive(due, levels);
   }
 };
 

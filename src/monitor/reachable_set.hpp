@@ -54,11 +54,6 @@ struct ReachableSet {
     return {time, position, velocity, acceleration, radius.total(), speed.total(), growth.total()};
   }
 
-  static void serialize(auto& self, auto& archive) {
-    auto& [time, end, position, velocity, acceleration, radius, speed, growth] = self;
-    archive(time, end, position, velocity, acceleration, radius, speed, growth);
-  }
-
  private:
   ErrorBound radius_after(double s) const { return radius + (speed + growth * (0.5 * s)) * s; }
 };

@@ -4,10 +4,10 @@
 
 #include "archive/archive.hpp"
 #include "archive/envelope.hpp"
+#include "archive/fields.hpp"
 #include "kinesphere/limits.hpp"
 #include "monitor/check_monitor.hpp"
 #include "monitor/engine.hpp"
-#include "monitor/fields.hpp"
 
 namespace kinesphere {
 namespace {

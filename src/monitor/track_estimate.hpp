@@ -19,11 +19,6 @@ struct ExactReport {
   State state{};
   ErrorBound position_error{};
   ErrorBound velocity_error{};
-
-  static void serialize(auto& self, auto& archive) {
-    auto& [timestamp, state, position_error, velocity_error] = self;
-    archive(timestamp, state, position_error, velocity_error);
-  }
 };
 
 /// One explanation of the reports of a track. If it is true, all of its reachable sets contain the track.

@@ -25,11 +25,6 @@ struct KnownTrack {
   std::uint32_t expected = 0;
   TrackEstimate estimate{};
   std::vector<std::uint32_t> open;  ///< Numbers of the tracks with which this one has a PairRecord.
-
-  static void serialize(auto& self, auto& archive) {
-    auto& [id, track_class, present, stale, life, placed, expected, estimate, open] = self;
-    archive(id, track_class, present, stale, life, placed, expected, estimate, open);
-  }
 };
 
 class TrackTable {

@@ -17,11 +17,6 @@
 
 namespace kinesphere {
 
-void serialize(Some<ProbedState> auto& self, auto& archive) {
-  auto& [time, body, state] = self;
-  archive(time, body, state);
-}
-
 namespace step {
 
 /// Addition of a body through the World member `call`.
@@ -32,10 +27,6 @@ struct New {
   Result<void> repeat(World& world) const {
     const auto added = (world.*call)(body);
     return added ? Result<void>() : Result<void>(added.error());
-  }
-  static void serialize(auto& self, auto& archive) {
-    auto& [definition] = self;
-    archive(definition);
   }
 };
 using Add = New<BodyDefinition, &World::add>;
@@ -49,10 +40,6 @@ struct Plain {
   BodyId body{};
 
   Result<void> repeat(World& world) const { return (world.*call)(body); }
-  static void serialize(auto& self, auto& archive) {
-    auto& [id] = self;
-    archive(id);
-  }
 };
 using Remove = Plain<&World::remove>;
 using Disable = Plain<&World::disable>;
@@ -68,10 +55,6 @@ struct With {
   Argument argument{};
 
   Result<void> repeat(World& world) const { return (world.*call)(subject, argument); }
-  static void serialize(auto& self, auto& archive) {
-    auto& [changed, value] = self;
-    archive(changed, value);
-  }
 };
 using SetVelocity = With<BodyId, Vec3, const Vec3&, &World::set_velocity>;
 using Teleport = With<BodyId, State, const State&, &World::teleport>;
@@ -90,10 +73,6 @@ struct Set {
     change.*property = argument;
     return world.change(body, change);
   }
-  static void serialize(auto& self, auto& archive) {
-    auto& [changed, value] = self;
-    archive(changed, value);
-  }
 };
 using SetRadius = Set<double, &BodyChange::radius>;
 using SetMotionLimits = Set<MotionLimits, &BodyChange::motion_limits>;
@@ -110,32 +89,17 @@ using SetRotation = Set<Rotation, &BodyChange::rotation>;
 /// one.
 struct SetPairFilter {
   bool given = false;
-
-  static void serialize(auto& self, auto& archive) {
-    auto& [is_given] = self;
-    archive(is_given);
-  }
 };
 
 /// Change of the rotation probe; it holds only whether there is one.
 struct SetRotationProbe {
   bool given = false;
-
-  static void serialize(auto& self, auto& archive) {
-    auto& [is_given] = self;
-    archive(is_given);
-  }
 };
 
 /// A probed state, as one of several that a single probe call returned.
 struct Answer {
   ProbedState report{};
   bool last = false;  ///< Last answer of its probe call.
-
-  static void serialize(auto& self, auto& archive) {
-    auto& [reported, is_last] = self;
-    archive(reported, is_last);
-  }
 };
 
 /// A rotation that the rotation probe returned.
@@ -143,11 +107,6 @@ struct RotationAnswer {
   double time = 0.0;
   BodyId body{};
   Rotation rotation{};
-
-  static void serialize(auto& self, auto& archive) {
-    auto& [asked, id, answer] = self;
-    archive(asked, id, answer);
-  }
 };
 
 /// A call that probed: advance(), or any other call with a probe.
@@ -158,22 +117,12 @@ struct Asking {
   bool failed = true;  ///< The last answer was refused, or the probe threw.
   std::optional<Event> event{};
   std::uint64_t hash = 0;  ///< StepHash of all outcomes so far.
-
-  static void serialize(auto& self, auto& archive) {
-    auto& [advance_until, all_answers, all_rotations, has_failed, outcome, running_hash] = self;
-    archive(advance_until, all_answers, all_rotations, has_failed, outcome, running_hash);
-  }
 };
 
 /// The last step of a recording.
 struct End {
   double time = 0.0;
   std::uint64_t checksum = 0;  ///< Checksum of the world's snapshot.
-
-  static void serialize(auto& self, auto& archive) {
-    auto& [end_time, sum] = self;
-    archive(end_time, sum);
-  }
 };
 
 }  // namespace step

@@ -75,14 +75,6 @@ struct MonitorEvent {
   double velocity_excess = 0.0;
 
   friend bool operator==(const MonitorEvent&, const MonitorEvent&) = default;
-
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
-    auto& [time, kind, first, second, level, verdict, before, since, likely_time, closest_time,
-           closest_distance, position_excess, velocity_excess] = self;
-    archive(time, kind, first, second, level, verdict, before, since, likely_time, closest_time,
-            closest_distance, position_excess, velocity_excess);
-  }
 };
 
 }  // namespace kinesphere

@@ -49,12 +49,6 @@ struct Separation {
   }
 
   friend constexpr bool operator==(const Separation&, const Separation&) = default;
-
-  template <class Self, class Archive>
-  static void serialize(Self& self, Archive& archive) {
-    auto& [shape, horizontal, vertical, look_ahead, modified_tau] = self;
-    archive(shape, horizontal, vertical, look_ahead, modified_tau);
-  }
 };
 
 /// What the reports so far prove about two tracks and a separation at one time.
