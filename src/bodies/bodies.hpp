@@ -51,7 +51,7 @@ class Bodies {
   /// Gives the body a shape: a carried one, or else one at rest, which makes the body static.
   void give_shape(std::uint32_t number, const Shape& shape, bool carried);
   /// Gives a body with a shape another one. Its bound must follow.
-  void reshape(std::uint32_t number, const Shape& shape) { shapes.replace(table_[number], shape); }
+  void reshape(std::uint32_t number, const Shape& shape) { shapes[table_[number]] = shape; }
   /// Gives the body the parts and the rotation of a rigid body.
   void make_rigid(std::uint32_t number, RigidRecord record) { rigid.add(table_[number], std::move(record)); }
   void remove(std::uint32_t number);

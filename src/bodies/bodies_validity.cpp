@@ -1,6 +1,5 @@
 // Validity checks for bodies that were read from a snapshot: whether some sequence of calls can have produced
 // them.
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -54,36 +53,6 @@ bool BodyTable::is_valid() const {
   for (std::uint32_t number = 0; number < numbers(); ++number)
     if (bodies_[number].alive == is_free[number]) return false;
   return live_count_ + free_.size() == bodies_.size();
-}
-
-namespace {
-
-/// Returns true if each of `count` records belongs to one living body, of those that `owns` selects, or is
-/// free.
-template <class Owns>
-bool each_has_one_owner(std::size_t count, const std::vector<std::uint32_t>& free, const BodyTable& bodies,
-                        Owns owns) {
-  std::vector<bool> is_taken(count, false);
-  const auto take = [&is_taken](std::uint32_t number) {
-    if (number >= is_taken.size() || is_taken[number]) return false;
-    is_taken[number] = true;
-    return true;
-  };
-  for (const std::uint32_t number : free)
-    if (!take(number)) return false;
-  for (const Body& body : bodies)
-    if (owns(body) && !(body.alive && take(body.shape_number))) return false;
-  return std::find(is_taken.begin(), is_taken.end(), false) == is_taken.end();
-}
-
-}  // namespace
-
-bool Shapes::is_valid(const BodyTable& bodies) const {
-  return each_has_one_owner(shapes_.size(), free_, bodies, [](const Body& body) { return body.has_shape(); });
-}
-
-bool RigidBodies::is_valid(const BodyTable& bodies) const {
-  return each_has_one_owner(records_.size(), free_, bodies, [](const Body& body) { return body.is_rigid; });
 }
 
 const char* Bodies::first_invalid_part(double now, const std::vector<std::uint32_t>& dirty) const {

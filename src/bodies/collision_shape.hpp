@@ -36,6 +36,24 @@ struct CollisionShape {
   }
 };
 
+/// Calls visit(partner) with what stands for a body that is not rigid: `ball`, or its shape, which is a
+/// HalfSpace, Box or Triangle at rest, or a CarriedShape.
+template <class BallLike, class Visit>
+auto visit_partner(const CollisionShape& body, const BallLike& ball, Visit visit) {
+  if (!body.shape) return visit(ball);
+  return std::visit(
+      [&]<class Solid>(const Solid& solid) {
+        if constexpr (std::is_same_v<Solid, Ball>) {
+          return visit(ball);
+        } else {
+          if constexpr (!std::is_same_v<Solid, HalfSpace>)
+            if (body.is_carried()) return visit(CarriedShape<Solid>{solid, body.bound, body.carried_radius});
+          return visit(solid);
+        }
+      },
+      *body.shape);
+}
+
 /// Calls visit(bound, pair) for two bodies, at least one of which is rigid, with their RigidPair.
 template <class Visit>
 auto visit_rigid(const CollisionShape& a, const CollisionShape& b, Visit visit) {
@@ -48,42 +66,18 @@ auto visit_rigid(const CollisionShape& a, const CollisionShape& b, Visit visit) 
   if (other.rigid) return with(other.extent());
   const RigidPart ball{.radius = other.bound.radius};
   const PartBall same = ball_around(ball);
-  const RigidExtent alone{other.bound, other.bound.radius, std::span(&ball, 1), std::span(&same, 1)};
-  if (!other.shape) return with(alone);
-  return std::visit(
-      [&]<class Solid>(const Solid& solid) {
-        if constexpr (std::is_same_v<Solid, Ball>) {
-          return with(alone);
-        } else {
-          if constexpr (!std::is_same_v<Solid, HalfSpace>)
-            if (other.is_carried())
-              return with(CarriedShape<Solid>{solid, other.bound, other.carried_radius});
-          return with(solid);
-        }
-      },
-      *other.shape);
+  return visit_partner(
+      other, RigidExtent{other.bound, other.bound.radius, std::span(&ball, 1), std::span(&same, 1)}, with);
 }
 
-/// Calls visit(bound, partner), where `partner` is another bound, a HalfSpace, Box or Triangle at rest, a
-/// CarriedShape or a RigidPair. Precondition: at most one of the two has a shape.
+/// Calls visit(bound, partner), where `partner` is another bound, a shape (visit_partner()) or a RigidPair.
+/// Precondition: at most one of the two has a shape.
 template <class Visit>
 auto visit_shapes(const CollisionShape& a, const CollisionShape& b, Visit visit) {
   if (a.rigid || b.rigid) return visit_rigid(a, b, visit);
-  if (!a.shape && !b.shape) return visit(a.bound, b.bound);
   const Bound& moving = a.shape ? b.bound : a.bound;
-  const CollisionShape& shaped = a.shape ? a : b;
-  return std::visit(
-      [&]<class Solid>(const Solid& solid) {
-        if constexpr (std::is_same_v<Solid, Ball>) {
-          return visit(moving, shaped.bound);
-        } else {
-          if constexpr (!std::is_same_v<Solid, HalfSpace>)
-            if (shaped.is_carried())
-              return visit(moving, CarriedShape<Solid>{solid, shaped.bound, shaped.carried_radius});
-          return visit(moving, solid);
-        }
-      },
-      *shaped.shape);
+  const CollisionShape& other = a.shape ? a : b;
+  return visit_partner(other, other.bound, [&](const auto& partner) { return visit(moving, partner); });
 }
 
 }  // namespace kinesphere

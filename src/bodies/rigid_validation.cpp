@@ -1,5 +1,4 @@
 // Validation of rigid bodies and their rotations.
-#include <algorithm>
 
 #include "bodies/shaped_body.hpp"
 #include "bodies/validation.hpp"
