@@ -130,6 +130,10 @@ class [[nodiscard]] World::Certificates {
   explicit Certificates(Facet facet) : facet_(std::move(facet)) {}
 
  private:
+  template <class Answer, class Ask>
+  Result<Answer> answer(std::string_view call, const Result<void>& valid, std::size_t max_rounds,
+                        Ask ask) const;
+
   Facet facet_;
 };
 

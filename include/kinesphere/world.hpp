@@ -437,11 +437,14 @@ class World {
     const World* world;
     World* probing = nullptr;  ///< the same world, if the facet may probe
     Probe probe{};
+
+    /// Probes those of the bodies `numbers` whose reports are not from the present time. Returns true if
+    /// there were any; false if the facet may not probe.
+    Result<bool> refresh(std::span<const std::uint32_t> numbers, std::string_view call) const;
   };
   class Engine;
   class WorldEditor;
   class Preconditions;
-  class StaleProber;
   class Run;
   struct UndeliveredEvents;
   explicit World(std::unique_ptr<Engine> engine);

@@ -1,7 +1,5 @@
 #include "processor/response_handler.hpp"
 
-#include <array>
-#include <optional>
 #include <span>
 
 #include "bodies/validation.hpp"
@@ -14,13 +12,11 @@ Result<void> apply_response(MotionSource& source, const WorldDefinition& world, 
   std::array<Vec3, 2> velocities;
   std::array<State, 2> states{no_answer, no_answer};
   std::size_t count = 0;
-  const auto turn = [&](BodyId body, const std::optional<Vec3>& velocity) {
-    if (!velocity) return;
-    ids[count] = body;
-    velocities[count++] = *velocity;
-  };
-  turn(event.first, answer.first_velocity);
-  turn(event.second, answer.second_velocity);
+  for (const BodyResponse& part : parts_of(event, answer)) {
+    if (!part.velocity) continue;
+    ids[count] = part.body;
+    velocities[count++] = *part.velocity;
+  }
   if (count == 0) return {};
   source.states(std::span(ids).first(count), event.time, std::span(states).first(count));
   // All states are validated before the first origin is set.

@@ -1,6 +1,9 @@
 // ResponseHandler responds to events during World::run().
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "kinesphere/result.hpp"
 #include "kinesphere/run.hpp"
 #include "kinesphere/world_definition.hpp"
@@ -21,6 +24,20 @@ class ResponseHandler {
   /// Restores an origin, to roll back responses.
   virtual void set_origin(BodyId body, const MotionOrigin& origin) = 0;
 };
+
+/// What a response says of one body of its event. Refers to the response.
+struct BodyResponse {
+  BodyId body;
+  const std::optional<Vec3>& velocity;
+  const std::optional<Vec3>& angular_velocity;
+  BodyAction action;
+};
+
+/// Returns what a response says of the first and of the second body of its event.
+inline std::array<BodyResponse, 2> parts_of(const Event& event, const Response& answer) {
+  return {{{event.first, answer.first_velocity, answer.first_angular_velocity, answer.first_action},
+           {event.second, answer.second_velocity, answer.second_angular_velocity, answer.second_action}}};
+}
 
 /// Sets the origins of all bodies with new velocities, or of none if the source throws or returns a state
 /// that check_report() refuses. Errors: those of check_report().

@@ -22,12 +22,6 @@ struct ContactBoundary {
   bool exists() const { return partner || wall != Wall::none; }
 };
 
-/// An answer, with whether the probe was called for it.
-struct ProbedAnswer {
-  ContactBoundary boundary;
-  bool probed = false;
-};
-
 /// Answers from the present state of the engine. Invalidated by any change of the engine.
 class World::Engine::Answers {
  public:
@@ -44,26 +38,10 @@ class World::Engine::Answers {
   /// (length) of the body.
   ContactBoundary approach_of_body(std::uint32_t number, double distance) const;
 
-  /// Returns the answer of `ask(Answers)`. The bodies that limit the answer are probed and `ask` is repeated,
-  /// until the limiting reports are fresh or after max_rounds, which is safe but less sharp.
-  /// `refresh(numbers)` probes those of the bodies with old reports, at least one per round, and returns
-  /// whether there were any. If `valid` is an error, it is returned, and `engine` may be null.
-  template <class Refresh, class Ask>
-  static Result<ProbedAnswer> answer(const Engine* engine, const Result<void>& valid, Refresh refresh,
-                                     std::size_t max_rounds, Ask ask) {
-    if (!valid) return valid.error();
-    ProbedAnswer refined{ask(Answers(*engine))};
-    for (std::size_t round = 0; round < max_rounds; ++round) {
-      const auto probed = refresh(concerned(refined.boundary));
-      if (!probed) return probed.error();
-      if (!probed.value()) break;
-      refined = {ask(Answers(*engine)), true};
-    }
-    return refined;
-  }
+  /// Returns the bodies whose reports limit an answer: fresh ones give a later time.
+  static std::vector<std::uint32_t> concerned(const ContactBoundary& boundary);
 
  private:
-  static std::vector<std::uint32_t> concerned(const ContactBoundary& boundary);
   const Body& body(std::uint32_t number) const { return engine_.bodies()[number]; }
   Bound present(std::uint32_t number) const;
   Bound guarded(std::uint32_t number) const;

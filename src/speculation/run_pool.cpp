@@ -85,22 +85,20 @@ Result<void> RunPool::respond(Worker& worker, const Event& event) {
     worker.log.batch->stop.lower_to(event.time);
     return {};
   }
-  const auto note = [&](BodyId body, const std::optional<Vec3>& velocity) {
-    if (velocity) worker.log.undo_log.add({body, handler_->origin(body)});
-  };
-  note(event.first, answer->first_velocity);
-  note(event.second, answer->second_velocity);
+  const auto parts = parts_of(event, *answer);
+  for (const BodyResponse& part : parts)
+    if (part.velocity) worker.log.undo_log.add({part.body, handler_->origin(part.body)});
   if (auto applied = handler_->apply(event, *answer); !applied) return applied;
-  if (answer->first_velocity) worker.processor.set_velocity(event.first, *answer->first_velocity);
-  if (answer->second_velocity) worker.processor.set_velocity(event.second, *answer->second_velocity);
-  const auto turn = [&](BodyId body, const std::optional<Vec3>& spin) {
-    if (spin) worker.processor.set_angular_velocity(state_.bodies.table().number_of(body), *spin);
-  };
-  turn(event.first, answer->first_angular_velocity);
-  turn(event.second, answer->second_angular_velocity);
+  for (const BodyResponse& part : parts)
+    if (part.velocity) worker.processor.set_velocity(part.body, *part.velocity);
+  for (const BodyResponse& part : parts) {
+    if (!part.angular_velocity) continue;
+    const std::uint32_t number = state_.bodies.table().number_of(part.body);
+    worker.processor.set_angular_velocity(number, *part.angular_velocity);
+  }
   EventInRound& delivered = worker.log.events.all().back();
-  delivered.removes_first = act(worker, event.first, answer->first_action);
-  delivered.removes_second = act(worker, event.second, answer->second_action);
+  delivered.removes_first = act(worker, parts[0]);
+  delivered.removes_second = act(worker, parts[1]);
   return {};
 }
 
@@ -108,25 +106,24 @@ Result<void> RunPool::respond(Worker& worker, const Event& event) {
 /// whole world, a static body, or the table of changes, in which the new velocities of a body wait that has
 /// no fresh report.
 bool RunPool::changes_more_than_clusters(const Event& event, const Response& answer) const {
-  const auto is_more = [&](BodyId id, bool is_turned, BodyAction action) {
-    if (!is_turned && action == BodyAction::none) return false;
-    const Body& body = state_.bodies[state_.bodies.table().number_of(id)];
-    return action == BodyAction::sleep || body.is_static() || (is_turned && !body.fresh(event.time));
+  const auto is_more = [&](const BodyResponse& part) {
+    const bool is_turned = part.velocity || part.angular_velocity;
+    if (!is_turned && part.action == BodyAction::none) return false;
+    const Body& body = state_.bodies[state_.bodies.table().number_of(part.body)];
+    return part.action == BodyAction::sleep || body.is_static() || (is_turned && !body.fresh(event.time));
   };
-  return answer.stop ||
-         is_more(event.first, answer.first_velocity || answer.first_angular_velocity, answer.first_action) ||
-         is_more(event.second, answer.second_velocity || answer.second_angular_velocity,
-                 answer.second_action);
+  const auto parts = parts_of(event, answer);
+  return answer.stop || is_more(parts[0]) || is_more(parts[1]);
 }
 
 /// Removes or disables the body in its cluster. What all clusters share is left to the commit: its number in
 /// the table, and its place in the broad phase. Returns true if the body is removed.
-bool RunPool::act(Worker& worker, BodyId id, BodyAction action) {
-  if (action == BodyAction::none) return false;
-  const std::uint32_t number = state_.bodies.table().number_of(id);
+bool RunPool::act(Worker& worker, const BodyResponse& part) {
+  if (part.action == BodyAction::none) return false;
+  const std::uint32_t number = state_.bodies.table().number_of(part.body);
   worker.processor.detach(number);
   if (!worker.log.conflicts.empty()) return false;
-  const bool is_removed = action == BodyAction::remove;
+  const bool is_removed = part.action == BodyAction::remove;
   (is_removed ? state_.bodies[number].alive : state_.bodies[number].enabled) = false;
   return is_removed;
 }
@@ -141,25 +138,25 @@ void RunPool::drop_rolled_back(Clusters& clusters, BatchState& batch) {
   if (all < 2 * updates_left_ + few) return;
   for (std::uint32_t worker = 0; worker < workers_.size(); ++worker) {
     SpeculationLog& log = workers_[worker].log;
-    SpeculationLog checkpoint;
+    SpeculationLog compacted;
     for (Cluster& cluster : clusters.all()) {
       RunRecord& record = cluster.record;
       if (!cluster.executed || record.worker != worker) continue;
       const std::uint32_t first_update = record.updates.begin;
-      record.events = checkpoint.events.add(log.events, record.events);
-      record.updates = checkpoint.updates.add(log.updates, record.updates);
-      record.late_pairs = checkpoint.late_pairs.add(log.late_pairs, record.late_pairs);
-      record.read_set = checkpoint.read_set.add(log.read_set, record.read_set);
-      record.undo_log = checkpoint.undo_log.add(log.undo_log, record.undo_log);
+      record.events = compacted.events.add(log.events, record.events);
+      record.updates = compacted.updates.add(log.updates, record.updates);
+      record.late_pairs = compacted.late_pairs.add(log.late_pairs, record.late_pairs);
+      record.read_set = compacted.read_set.add(log.read_set, record.read_set);
+      record.undo_log = compacted.undo_log.add(log.undo_log, record.undo_log);
       record.conflicts = {};
-      checkpoint.work.push_back(log.work[record.work]);
-      record.work = static_cast<std::uint32_t>(checkpoint.work.size() - 1);
+      compacted.work.push_back(log.work[record.work]);
+      record.work = static_cast<std::uint32_t>(compacted.work.size() - 1);
       for (const std::uint32_t number : clusters.members_of(cluster)) {
         std::uint32_t& update = batch.slots[number].update;
         if (update != BatchState::none) update = record.updates.begin + (update - first_update);
       }
     }
-    log = std::move(checkpoint);
+    log = std::move(compacted);
   }
 }
 

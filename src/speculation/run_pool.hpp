@@ -69,7 +69,7 @@ class RunPool {
   Result<void> advance(Worker& worker);
   Result<void> respond(Worker& worker, const Event& event);
   bool changes_more_than_clusters(const Event& event, const Response& answer) const;
-  bool act(Worker& worker, BodyId id, BodyAction action);
+  bool act(Worker& worker, const BodyResponse& part);
   const SpeculationLog& log_of(const Cluster& cluster) const { return workers_[cluster.record.worker].log; }
   template <class T>
   std::span<const T> of(const Cluster& cluster, SegmentedList<T> SpeculationLog::*list,

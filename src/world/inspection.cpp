@@ -49,8 +49,8 @@ Memory World::Inspection::memory() const {
 
 std::vector<CellView> World::Inspection::cells() const {
   std::vector<CellView> all;
-  for (const GridLevel& layer : world_->engine("cells").broad_phase().levels())
-    layer.for_each_cell([&](const Box& box, std::size_t bodies) { all.push_back({box, bodies}); });
+  for (const GridLevel& level : world_->engine("cells").broad_phase().levels())
+    level.for_each_cell([&](const Box& box, std::size_t bodies) { all.push_back({box, bodies}); });
   return all;
 }
 

@@ -5,7 +5,7 @@
 #include "bodies/shaped_body.hpp"
 #include "bodies/validation.hpp"
 #include "input/input_check.hpp"
-#include "world/run.hpp"
+#include "world/undelivered_events.hpp"
 
 namespace kinesphere {
 

@@ -37,7 +37,7 @@ class World::Preconditions {
   /// The world exists, and the body belongs to it and has not been removed (ErrorCode::foreign_body,
   /// stale_body or unknown_body).
   Result<void> known(BodyId body) const;
-  /// Does the same test without an error message. Precondition: exists().
+  /// Returns true if known() holds. Precondition: exists().
   bool is_known(BodyId body) const { return !is_foreign(body) && engine_->bodies().table().is_alive(body); }
   /// The world is idle, and the body is known.
   Result<void> changeable(BodyId body) const;

@@ -113,20 +113,18 @@ class Replay::Player {
  private:
   template <class Change>
   void repeat(const Change& change) {
-    if (const auto made = change.repeat(world_); !made)
-      diverge("expected a change that can be made, but found: " + made.error().message);
+    require(change.repeat(world_));
   }
 
   void repeat(const step::SetPairFilter& change) {
-    if (const auto made = world_.set_pair_filter(change.given ? pair_filter_ : PairFilter()); !made)
-      diverge("expected a change that can be made, but found: " + made.error().message);
+    require(world_.set_pair_filter(change.given ? pair_filter_ : PairFilter()));
   }
 
-  void repeat(const step::SetRotationProbe& change) {
-    if (const auto made = set_rotation_probe(change.given); !made)
-      diverge("expected a change that can be made, but found: " + made.error().message);
-  }
+  void repeat(const step::SetRotationProbe& change) { require(set_rotation_probe(change.given)); }
 
+  void require(const Result<void>& made) {
+    if (!made) diverge("expected a change that can be made, but found: " + made.error().message);
+  }
   Result<void> set_rotation_probe(bool given) {
     RotationProbe probe;
     if (given) probe = std::ref(rotations_);

@@ -16,7 +16,7 @@
 #include "recording/recorder.hpp"
 #include "world/changing.hpp"
 #include "world/preconditions.hpp"
-#include "world/run.hpp"
+#include "world/undelivered_events.hpp"
 
 namespace kinesphere {
 World::World(std::unique_ptr<Engine> engine) : engine_(std::move(engine)) {}
@@ -192,27 +192,21 @@ Result<void> World::wake(BodyId body) {
 
 Result<void> World::change(BodyId body, const BodyChange& change) {
   if (auto valid = Preconditions(*this, "change").changed(body, change); !valid) return valid;
-  if (change.radius) changing(step::SetRadius{body, *change.radius}).set_radius(body, *change.radius);
-  if (change.radius_rate)
-    changing(step::SetRadiusRate{body, *change.radius_rate}).set_radius_rate(body, *change.radius_rate);
-  if (change.motion_limits) {
-    changing(step::SetMotionLimits{body, *change.motion_limits})
-        .set_motion_limits(body, *change.motion_limits);
-  }
-  if (change.filter) changing(step::SetFilter{body, *change.filter}).set_filter(body, *change.filter);
-  if (change.solid) changing(step::SetSolid{body, *change.solid}).set_solid(body, *change.solid);
-  if (change.sensor_class) {
-    changing(step::SetSensorClass{body, *change.sensor_class}).set_sensor_class(body, *change.sensor_class);
-  }
-  if (change.mass) changing(step::SetMass{body, *change.mass}).set_mass(body, *change.mass);
-  if (change.user_data)
-    changing(step::SetUserData{body, *change.user_data}).set_user_data(body, *change.user_data);
-  if (change.rotation)
-    changing(step::SetRotation{body, *change.rotation}).set_rotation(body, *change.rotation);
-  if (change.angular_velocity) {
-    changing(step::SetAngularVelocity{body, *change.angular_velocity})
-        .set_angular_velocity(body, *change.angular_velocity);
-  }
+  const auto set = [&](auto made, const auto& value, auto setter) {
+    if (!value) return;
+    made.argument = *value;
+    (changing(made).*setter)(body, *value);
+  };
+  set(step::SetRadius{body}, change.radius, &WorldEditor::set_radius);
+  set(step::SetRadiusRate{body}, change.radius_rate, &WorldEditor::set_radius_rate);
+  set(step::SetMotionLimits{body}, change.motion_limits, &WorldEditor::set_motion_limits);
+  set(step::SetFilter{body}, change.filter, &WorldEditor::set_filter);
+  set(step::SetSolid{body}, change.solid, &WorldEditor::set_solid);
+  set(step::SetSensorClass{body}, change.sensor_class, &WorldEditor::set_sensor_class);
+  set(step::SetMass{body}, change.mass, &WorldEditor::set_mass);
+  set(step::SetUserData{body}, change.user_data, &WorldEditor::set_user_data);
+  set(step::SetRotation{body}, change.rotation, &WorldEditor::set_rotation);
+  set(step::SetAngularVelocity{body}, change.angular_velocity, &WorldEditor::set_angular_velocity);
   return {};
 }
 
@@ -286,6 +280,10 @@ Result<bool> World::refresh(std::span<const std::uint32_t> numbers, const Probe&
   auto probed = changeable().probe_stale(numbers, listener, call);
   if (probed) listener.succeeded();
   return probed;
+}
+
+Result<bool> World::Facet::refresh(std::span<const std::uint32_t> numbers, std::string_view call) const {
+  return probing ? probing->refresh(numbers, probe, call) : Result<bool>(false);
 }
 
 double World::time() const { return engine("time").time(); }

@@ -8,7 +8,6 @@
 #include "kinesphere/queries.hpp"
 #include "query/queries.hpp"
 #include "world/preconditions.hpp"
-#include "world/stale_prober.hpp"
 
 namespace kinesphere {
 namespace {
@@ -82,15 +81,14 @@ Result<std::vector<Hit>> World::Queries::answer(std::string_view call, const Que
   if (auto callable = Preconditions(*facet_.world, call).may_ask(facet_); !callable) return callable.error();
   const Engine& engine = *facet_.world->engine_;
   if (const Result<void> fit = valid(engine.definition()); !fit) return fit.error();
-  const StaleProber refresh(facet_, call);
   for (;;) {
     found.clear();
     ask(Engine::Queries(engine, options), found);
-    if (!refresh.has_probe()) return found;
+    if (!facet_.probing) return found;
     std::vector<std::uint32_t> open;
     for (const Hit& each : found)
       if (leaves_open(each)) open.push_back(each.body.index);
-    const auto probed = refresh(open);
+    const auto probed = facet_.refresh(open, call);
     if (!probed) return probed.error();
     if (!*probed) return found;
   }
@@ -158,7 +156,7 @@ Result<bool> World::Queries::refresh(BodyIds bodies) const {
     numbers.push_back(body.index);
   }
   if (!valid) return valid.error();
-  return StaleProber(facet_, "refresh")(numbers);
+  return facet_.refresh(numbers, "refresh");
 }
 
 }  // namespace kinesphere

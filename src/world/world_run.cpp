@@ -1,6 +1,4 @@
 // World::run: a loop over advance() in which the response to each event is known in advance.
-#include "world/run.hpp"
-
 #include <string>
 #include <utility>
 
@@ -9,6 +7,7 @@
 #include "number/scope_guard.hpp"
 #include "world/changing.hpp"
 #include "world/preconditions.hpp"
+#include "world/undelivered_events.hpp"
 
 namespace kinesphere {
 namespace {
@@ -39,6 +38,242 @@ Result<void> check_argument(const Event& event, std::string_view argument, Check
 
 }  // namespace
 
+/// One call of World::run: repeated work, each time followed by delivering the resulting events to the sink.
+class World::Run final : private ResponseHandler {
+ public:
+  /// Without respond_by(), events get no response. The arguments must outlive the run.
+  Run(World& world, double until, const Probe& probe, const EventFn& sink, Workers* workers)
+      : world_(world), until_(until), probe_(probe), on_event_(sink), lease_(workers) {}
+  void respond_by(MotionSource& source, const ResponseFn& respond) {
+    source_ = &source;
+    respond_ = &respond;
+  }
+
+  /// Executes the run to its end, or to the first error.
+  Result<void> go() {
+    if (auto valid = check_time(until_, world_.time()); !valid) return renamed(valid.error());
+    if (!lease_) {
+      return Error{ErrorCode::workers_busy, "workers", no_body,
+                   "run: workers must not be at work in another run, but are"};
+    }
+    if (!world_.undelivered_) world_.undelivered_ = std::make_unique<UndeliveredEvents>();
+    world_.undelivered_->ended = false;
+    world_.running_ = true;
+    const ScopeGuard stop([&] { world_.running_ = false; });
+    if (!deliver()) return {};
+    world_.changeable().begin_call(until_);
+    gain_ = lease_.gain();
+    for (;;) {
+      const auto done = work();
+      if (!done) return done.error();
+      if (!deliver()) return {};
+      if (*done) return {};
+    }
+  }
+
+ private:
+  /// Passes the events to the sink. Returns false if the sink ends the run.
+  bool deliver() {
+    UndeliveredEvents& undelivered = *world_.undelivered_;
+    while (!undelivered.events.empty() && !undelivered.ended) {
+      const Event event = undelivered.events.front();
+      undelivered.events.pop_front();
+      world_.changeable().note_delivery();
+      world_.open_ = std::exchange(stops_, false);
+      undelivered.delivering = true;
+      const ScopeGuard close([&] { world_.open_ = undelivered.delivering = false; });
+      on_event_(event);
+    }
+    return !undelivered.ended;
+  }
+
+  /// Does some work, and appends the resulting events to undelivered_->events. Returns true when the world
+  /// has reached the end of the run. Precondition: all earlier events in undelivered_->events have been
+  /// delivered to the sink.
+  Result<bool> work() {
+    if (exclusive_) return step(*exclusive_, nullptr);
+    if (!shares_work()) return step(until_, nullptr);
+    // Each epoch is tried anew.
+    const double epoch_end = world_.engine_->epoch_end();
+    if (stands_back()) return step(std::min(until_, epoch_end), nullptr);
+    if (epoch_end == one_by_one_) return step(std::min(until_, epoch_end), &lease_);
+    return step_batch();
+  }
+
+  /// Returns false if one thread does all, however many there are. What few bodies need is done before other
+  /// threads have begun. Recording and profiling require events to be processed one at a time, and a rotation
+  /// probe has to be called in the order of time.
+  bool shares_work() const {
+    constexpr std::size_t fewest_bodies = 1024;
+    if (gain_ != nullptr && world_.engine_->bodies().table().live_count() < fewest_bodies) return false;
+    return lease_.count() > 1 && !world_.recorder_ && !world_.profiling_ &&
+           !world_.engine_->bodies().rigid.probe && world_.undelivered_->empty();
+  }
+
+  /// Returns true if one thread does all for some time, because the processors are busy.
+  bool stands_back() {
+    if (gain_ == nullptr) return false;
+    if (const auto [cpu, wall] = lease_.take_sharing(); cpu > 0.0)
+      gain_->note_sharing(cpu, wall, ThreadGain::Clock::now());
+    return !gain_->uses_threads(ThreadGain::Clock::now);
+  }
+
+  /// Processes many events at once if possible, otherwise one.
+  Result<bool> step_batch() {
+    Engine& engine = world_.changeable();
+    const auto can_begin = engine.prepare_batch(probe_, lease_);
+    if (!can_begin) return renamed(can_begin.error());
+    if (*can_begin) {
+      if (!runner_) runner_.emplace(engine.runner(lease_, probe_, respond_ != nullptr ? this : nullptr));
+      if (runner_->run(until_, world_.undelivered_->events)) {
+        exclusive_ = runner_->exclusive();
+        return engine.time() == until_ && !engine.is_due();
+      }
+      one_by_one_ = engine.epoch_end();
+    }
+    return step(std::min(until_, engine.epoch_end()), &lease_);
+  }
+
+  /// Processes one event, or advances to `until` if there is none before. The threads of `sharing` share
+  /// window starts; without it, one thread does all.
+  Result<bool> step(double until, PoolLease* sharing) {
+    UndeliveredEvents& undelivered = *world_.undelivered_;
+    const auto event = next(until, sharing);
+    if (!event) return renamed(event.error());
+    if (!*event) {
+      exclusive_.reset();
+      return until == until_;
+    }
+    if (respond_ != nullptr) {
+      // Keeps the event unless its response is applied, also if the callback throws.
+      ScopeGuard keep([&] { undelivered.unanswered = *event; });
+      if (auto answered = answer_one(**event); !answered) return answered.error();
+      keep.dismiss();
+    }
+    undelivered.events.push_back(**event);
+    return false;
+  }
+
+  Result<std::optional<Event>> next(double until, PoolLease* sharing) {
+    if (auto event = world_.undelivered_->take()) return event;
+    if (sharing == nullptr) return world_.engine_advance(until, probe_);
+    return world_.changeable().advance(until, probe_, *sharing);
+  }
+
+  Result<void> answer_one(const Event& event) {
+    const auto checked = respond(event);
+    if (!checked) return checked.error();
+    if (auto turned = apply(event, *checked); !turned) return turned;
+    const auto parts = parts_of(event, *checked);
+    for (const auto& [body, velocity, spin, action] : parts)
+      if (velocity) world_.changing(step::SetVelocity{body, *velocity}).set_velocity(body, *velocity);
+    for (const auto& [body, velocity, spin, action] : parts)
+      if (spin) world_.changing(step::SetAngularVelocity{body, *spin}).set_angular_velocity(body, *spin);
+    for (const auto& [body, velocity, spin, action] : parts) act(body, action);
+    stops_ = checked->stop;
+    return {};
+  }
+
+  void act(BodyId body, BodyAction action) {
+    switch (action) {
+      case BodyAction::none:
+        return;
+      case BodyAction::remove:
+        return world_.changing(step::Remove{body}).remove(body);
+      case BodyAction::disable:
+        return world_.changing(step::Disable{body}).disable(body);
+      case BodyAction::sleep:
+        return world_.changing(step::SleepBody{body}).sleep(body);
+    }
+  }
+
+  Result<Response> respond(const Event& event) override {
+    Response answer = (*respond_)(event);
+    reduce(event.first, answer.first_velocity, answer.first_angular_velocity, answer.first_action);
+    reduce(event.second, answer.second_velocity, answer.second_angular_velocity, answer.second_action);
+    if (auto valid = check(event, answer); !valid) return valid.error();
+    return answer;
+  }
+
+  Result<void> apply(const Event& event, const Response& answer) override {
+    return apply_response(*source_, world_.definition(), event, answer);
+  }
+  MotionOrigin origin(BodyId body) override { return source_->origin(body); }
+  void set_origin(BodyId body, const MotionOrigin& origin) override { source_->set_origin(body, origin); }
+
+  /// Reduces what a response says of a body to what has an effect: a response cannot know which bodies
+  /// earlier responses have removed, disabled or put to sleep.
+  void reduce(BodyId body, std::optional<Vec3>& velocity, std::optional<Vec3>& spin,
+              BodyAction& action) const {
+    if (body == no_body || (!velocity && !spin && action == BodyAction::none)) return;
+    const bool is_there = Preconditions(world_, "run").is_known(body);
+    const Body& now = world_.engine_->bodies()[body.index];
+    if (!is_there || !now.enabled) {
+      velocity = spin = std::nullopt;
+      if (!is_there || action != BodyAction::remove) action = BodyAction::none;
+    } else if (action == BodyAction::sleep) {
+      velocity = now.is_sleeping() ? std::optional<Vec3>() : Vec3{};
+      if (now.is_sleeping()) action = BodyAction::none;
+    }
+  }
+
+  Result<void> check(const Event& event, const Response& answer) const {
+    auto valid = check_action(event, event.first, answer.first_action, "first_action");
+    if (valid) valid = check_action(event, event.second, answer.second_action, "second_action");
+    if (valid) valid = check_velocity_change(event, event.first, answer.first_velocity, "first_velocity");
+    if (valid) valid = check_velocity_change(event, event.second, answer.second_velocity, "second_velocity");
+    if (valid)
+      valid = check_spin(event, event.first, answer.first_angular_velocity, "first_angular_velocity");
+    return valid ? check_spin(event, event.second, answer.second_angular_velocity, "second_angular_velocity")
+                 : valid;
+  }
+
+  Result<void> check_action(const Event& event, BodyId body, BodyAction action,
+                            std::string_view argument) const {
+    if (action == BodyAction::none) return {};
+    return check_argument(event, argument, [&](std::string_view call) {
+      const Preconditions check(world_, call);
+      return action == BodyAction::sleep ? check.can_sleep(body) : check.known(body);
+    });
+  }
+
+  Result<void> check_velocity_change(const Event& event, BodyId body, const std::optional<Vec3>& velocity,
+                                     std::string_view argument) const {
+    if (!velocity) return {};
+    return check_argument(event, argument, [&](std::string_view call) {
+      auto valid = Preconditions(world_, call).can_turn(body);
+      return valid ? check_velocity(*velocity, body, world_.definition(), call) : valid;
+    });
+  }
+
+  Result<void> check_spin(const Event& event, BodyId body, const std::optional<Vec3>& spin,
+                          std::string_view argument) const {
+    if (!spin) return {};
+    return check_argument(event, argument, [&](std::string_view call) -> Result<void> {
+      auto valid = Preconditions(world_, call).can_spin(body, *spin);
+      if (!valid || !world_.engine_->bodies().rigid.probe) return valid;
+      return Error{ErrorCode::unsupported, std::string(argument), body,
+                   std::string(call) + ": must be given by the rotation probe of the world"};
+    });
+  }
+
+  World& world_;
+  double until_;
+  const Probe& probe_;
+  const EventFn& on_event_;
+  PoolLease lease_;
+  ThreadGain* gain_ = nullptr;               ///< nullptr if the threads never stand back
+  std::optional<SpeculativeRunner> runner_;  ///< created when several threads are used
+  /// End of the epoch in which speculative execution does not pay off: until then, events are processed one
+  /// by one.
+  std::optional<double> one_by_one_{};
+  /// Time of an instant whose events are processed one by one (SpeculativeRunner::exclusive).
+  std::optional<double> exclusive_{};
+  bool stops_ = false;  ///< the response to the last event has Response::stop, and the sink is still to come
+  MotionSource* source_ = nullptr;
+  const ResponseFn* respond_ = nullptr;
+};
+
 std::optional<Event> World::UndeliveredEvents::take() {
   if (events.empty()) return std::exchange(unanswered, std::nullopt);
   std::optional<Event> first = events.front();
@@ -68,211 +303,8 @@ Result<void> World::run(double until, const Probe& probe, const EventFn& sink, W
   return Run(*this, until, probe, sink, workers).go();
 }
 
-Result<void> World::Run::go() {
-  if (auto valid = check_time(until_, world_.time()); !valid) return renamed(valid.error());
-  if (!lease_) {
-    return Error{ErrorCode::workers_busy, "workers", no_body,
-                 "run: workers must not be at work in another run, but are"};
-  }
-  if (!world_.undelivered_) world_.undelivered_ = std::make_unique<UndeliveredEvents>();
-  world_.undelivered_->ended = false;
-  world_.running_ = true;
-  const ScopeGuard stop([&] { world_.running_ = false; });
-  if (!deliver()) return {};
-  world_.changeable().begin_call(until_);
-  gain_ = lease_.gain();
-  for (;;) {
-    const auto done = work();
-    if (!done) return done.error();
-    if (!deliver()) return {};
-    if (*done) return {};
-  }
-}
-
 void World::end_run() {
   if (undelivered_ && undelivered_->delivering) undelivered_->ended = true;
-}
-
-/// Passes the events to the sink. Returns false if the sink ends the run.
-bool World::Run::deliver() {
-  UndeliveredEvents& undelivered = *world_.undelivered_;
-  while (!undelivered.events.empty() && !undelivered.ended) {
-    const Event event = undelivered.events.front();
-    undelivered.events.pop_front();
-    world_.changeable().note_delivery();
-    world_.open_ = std::exchange(stops_, false);
-    undelivered.delivering = true;
-    const ScopeGuard close([&] { world_.open_ = undelivered.delivering = false; });
-    on_event_(event);
-  }
-  return !undelivered.ended;
-}
-
-Result<bool> World::Run::work() {
-  if (exclusive_) return step(*exclusive_, nullptr);
-  if (!shares_work()) return step(until_, nullptr);
-  // Each epoch is tried anew.
-  const double epoch_end = world_.engine_->epoch_end();
-  if (stands_back()) return step(std::min(until_, epoch_end), nullptr);
-  if (epoch_end == one_by_one_) return step(std::min(until_, epoch_end), &lease_);
-  return step_batch();
-}
-
-/// Returns false if one thread does all, however many there are. What few bodies need is done before other
-/// threads have begun. Recording and profiling require events to be processed one at a time, and a rotation
-/// probe has to be called in the order of time.
-bool World::Run::shares_work() const {
-  constexpr std::size_t fewest_bodies = 1024;
-  if (gain_ != nullptr && world_.engine_->bodies().table().live_count() < fewest_bodies) return false;
-  return lease_.count() > 1 && !world_.recorder_ && !world_.profiling_ &&
-         !world_.engine_->bodies().rigid.probe && world_.undelivered_->empty();
-}
-
-/// Returns true if one thread does all for some time, because the processors are busy.
-bool World::Run::stands_back() {
-  if (gain_ == nullptr) return false;
-  if (const auto [cpu, wall] = lease_.take_sharing(); cpu > 0.0)
-    gain_->note_sharing(cpu, wall, ThreadGain::Clock::now());
-  return !gain_->uses_threads(ThreadGain::Clock::now);
-}
-
-/// Processes many events at once if possible, otherwise one.
-Result<bool> World::Run::step_batch() {
-  Engine& engine = world_.changeable();
-  const auto can_begin = engine.prepare_batch(probe_, lease_);
-  if (!can_begin) return renamed(can_begin.error());
-  if (*can_begin) {
-    if (!runner_) runner_.emplace(engine.runner(lease_, probe_, respond_ != nullptr ? this : nullptr));
-    if (runner_->run(until_, world_.undelivered_->events)) {
-      exclusive_ = runner_->exclusive();
-      return engine.time() == until_ && !engine.is_due();
-    }
-    one_by_one_ = engine.epoch_end();
-  }
-  return step(std::min(until_, engine.epoch_end()), &lease_);
-}
-
-/// Processes one event, or advances to `until` if there is none before. The threads of `sharing` share window
-/// starts; without it, one thread does all.
-Result<bool> World::Run::step(double until, PoolLease* sharing) {
-  UndeliveredEvents& undelivered = *world_.undelivered_;
-  const auto event = next(until, sharing);
-  if (!event) return renamed(event.error());
-  if (!*event) {
-    exclusive_.reset();
-    return until == until_;
-  }
-  if (respond_ != nullptr) {
-    // Keeps the event unless its response is applied, also if the callback throws.
-    ScopeGuard keep([&] { undelivered.unanswered = *event; });
-    if (auto answered = answer_one(**event); !answered) return answered.error();
-    keep.dismiss();
-  }
-  undelivered.events.push_back(**event);
-  return false;
-}
-
-Result<std::optional<Event>> World::Run::next(double until, PoolLease* sharing) {
-  if (auto event = world_.undelivered_->take()) return event;
-  if (sharing == nullptr) return world_.engine_advance(until, probe_);
-  return world_.changeable().advance(until, probe_, *sharing);
-}
-
-Result<void> World::Run::answer_one(const Event& event) {
-  const auto checked = respond(event);
-  if (!checked) return checked.error();
-  if (auto turned = apply(event, *checked); !turned) return turned;
-  const auto update = [this](BodyId body, const std::optional<Vec3>& velocity) {
-    if (velocity) world_.changing(step::SetVelocity{body, *velocity}).set_velocity(body, *velocity);
-  };
-  update(event.first, checked->first_velocity);
-  update(event.second, checked->second_velocity);
-  const auto turn = [this](BodyId body, const std::optional<Vec3>& spin) {
-    if (spin) world_.changing(step::SetAngularVelocity{body, *spin}).set_angular_velocity(body, *spin);
-  };
-  turn(event.first, checked->first_angular_velocity);
-  turn(event.second, checked->second_angular_velocity);
-  act(event.first, checked->first_action);
-  act(event.second, checked->second_action);
-  stops_ = checked->stop;
-  return {};
-}
-
-void World::Run::act(BodyId body, BodyAction action) {
-  switch (action) {
-    case BodyAction::none:
-      return;
-    case BodyAction::remove:
-      return world_.changing(step::Remove{body}).remove(body);
-    case BodyAction::disable:
-      return world_.changing(step::Disable{body}).disable(body);
-    case BodyAction::sleep:
-      return world_.changing(step::SleepBody{body}).sleep(body);
-  }
-}
-
-Result<Response> World::Run::respond(const Event& event) {
-  Response answer = (*respond_)(event);
-  reduce(event.first, answer.first_velocity, answer.first_angular_velocity, answer.first_action);
-  reduce(event.second, answer.second_velocity, answer.second_angular_velocity, answer.second_action);
-  if (auto valid = check(event, answer); !valid) return valid.error();
-  return answer;
-}
-
-/// Reduces what a response says of a body to what has an effect: a response cannot know which bodies earlier
-/// responses have removed, disabled or put to sleep.
-void World::Run::reduce(BodyId body, std::optional<Vec3>& velocity, std::optional<Vec3>& spin,
-                        BodyAction& action) const {
-  if (body == no_body || (!velocity && !spin && action == BodyAction::none)) return;
-  const bool is_there = Preconditions(world_, "run").is_known(body);
-  const Body& now = world_.engine_->bodies()[body.index];
-  if (!is_there || !now.enabled) {
-    velocity = spin = std::nullopt;
-    if (!is_there || action != BodyAction::remove) action = BodyAction::none;
-  } else if (action == BodyAction::sleep) {
-    velocity = now.is_sleeping() ? std::optional<Vec3>() : Vec3{};
-    if (now.is_sleeping()) action = BodyAction::none;
-  }
-}
-
-Result<void> World::Run::check(const Event& event, const Response& answer) const {
-  auto valid = check_action(event, event.first, answer.first_action, "first_action");
-  if (valid) valid = check_action(event, event.second, answer.second_action, "second_action");
-  if (valid) valid = check_velocity_change(event, event.first, answer.first_velocity, "first_velocity");
-  if (valid) valid = check_velocity_change(event, event.second, answer.second_velocity, "second_velocity");
-  if (valid) valid = check_spin(event, event.first, answer.first_angular_velocity, "first_angular_velocity");
-  return valid ? check_spin(event, event.second, answer.second_angular_velocity, "second_angular_velocity")
-               : valid;
-}
-
-Result<void> World::Run::check_action(const Event& event, BodyId body, BodyAction action,
-                                      std::string_view argument) const {
-  if (action == BodyAction::none) return {};
-  return check_argument(event, argument, [&](std::string_view call) {
-    const Preconditions check(world_, call);
-    return action == BodyAction::sleep ? check.can_sleep(body) : check.known(body);
-  });
-}
-
-Result<void> World::Run::check_spin(const Event& event, BodyId body, const std::optional<Vec3>& spin,
-                                    std::string_view argument) const {
-  if (!spin) return {};
-  return check_argument(event, argument, [&](std::string_view call) -> Result<void> {
-    auto valid = Preconditions(world_, call).can_spin(body, *spin);
-    if (!valid || !world_.engine_->bodies().rigid.probe) return valid;
-    return Error{ErrorCode::unsupported, std::string(argument), body,
-                 std::string(call) + ": must be given by the rotation probe of the world"};
-  });
-}
-
-Result<void> World::Run::check_velocity_change(const Event& event, BodyId body,
-                                               const std::optional<Vec3>& velocity,
-                                               std::string_view argument) const {
-  if (!velocity) return {};
-  return check_argument(event, argument, [&](std::string_view call) {
-    auto valid = Preconditions(world_, call).can_turn(body);
-    return valid ? check_velocity(*velocity, body, world_.definition(), call) : valid;
-  });
 }
 
 }  // namespace kinesphere
