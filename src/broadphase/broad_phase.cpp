@@ -12,61 +12,61 @@ Box BroadPhase::box_of(std::uint32_t number, double now) const {
 
 std::size_t BroadPhase::size() const {
   std::size_t all = 0;
-  for (const GridLevel& layer : levels_) all += layer.spheres.size();
+  for (const GridLevel& level : levels_) all += level.spheres.size();
   return all;
 }
 
 std::size_t BroadPhase::size_of(const Window& window) const {
   std::size_t all = 0;
-  for (const GridLevel& layer : levels_)
-    if (layer.window == window) all += layer.spheres.size();
+  for (const GridLevel& level : levels_)
+    if (level.window == window) all += level.spheres.size();
   return all;
 }
 
 std::size_t BroadPhase::moving() const {
   std::size_t all = 0;
-  for (const GridLevel& layer : levels_)
-    if (layer.window.end < infinity) all += layer.spheres.size();
+  for (const GridLevel& level : levels_)
+    if (level.window.end < infinity) all += level.spheres.size();
   return all;
 }
 
 double BroadPhase::least_width() const {
   double least = infinity;
-  for (const GridLevel& layer : levels_)
-    if (!layer.is_empty()) least = std::min(least, layer.widest());
+  for (const GridLevel& level : levels_)
+    if (!level.is_empty()) least = std::min(least, level.widest());
   return least;
 }
 
 /// Returns the index of the grid level with this window and size class. If there is none, an unused level is
 /// taken or one is added; it has no frame until open().
-std::uint32_t BroadPhase::level_for(const Window& window, int level) {
+std::uint32_t BroadPhase::level_for(const Window& window, int size_class) {
   std::uint32_t free = none;
   for (std::uint32_t k = 0; k < levels_.size(); ++k) {
-    const GridLevel& layer = levels_[k];
-    if (layer.is_of(window, level)) return k;
+    const GridLevel& level = levels_[k];
+    if (level.is_of(window, size_class)) return k;
     // An empty level whose window has ended can be reused, even while other windows last.
     const bool over =
-        !layer.fresh && layer.is_empty() && window.end < infinity && layer.window.end <= window.begin();
-    if ((layer.window.end == -infinity || over) && free == none) free = k;
+        !level.fresh && level.is_empty() && window.end < infinity && level.window.end <= window.begin();
+    if ((level.window.end == -infinity || over) && free == none) free = k;
   }
   if (free == none) {
     free = static_cast<std::uint32_t>(levels_.size());
     levels_.emplace_back();
   }
-  GridLevel& layer = levels_[free];
-  layer = {.window = window, .size_class = level, .spheres = std::move(layer.spheres)};
+  GridLevel& level = levels_[free];
+  level = {.window = window, .size_class = size_class, .spheres = std::move(level.spheres)};
   return free;
 }
 
-void BroadPhase::open(GridLevel& layer, double origin) {
-  layer.open(base_, origin, size_classes_.coarseness(layer.window.rung, layer.size_class));
-  layer.spheres.set_spare_slots(has_many_changes_ && layer.window.end < infinity);
-  next_end_ = std::min(next_end_, layer.window.end);
+void BroadPhase::open(GridLevel& level, double origin) {
+  level.open(base_, origin, size_classes_.coarseness(level.window.rung, level.size_class));
+  level.spheres.set_spare_slots(has_many_changes_ && level.window.end < infinity);
+  next_end_ = std::min(next_end_, level.window.end);
 }
 
-void BroadPhase::add(std::uint32_t number, std::uint32_t layer, const InflatedBound& bound, double now) {
-  GridLevel& to = levels_[layer];
-  registrations_[number] = {to.window.end, layer,
+void BroadPhase::add(std::uint32_t number, std::uint32_t level, const InflatedBound& bound, double now) {
+  GridLevel& to = levels_[level];
+  registrations_[number] = {to.window.end, level,
                             to.spheres.add(number, to.swept_sphere(bound, now), to.time(now))};
 }
 
@@ -75,10 +75,10 @@ BroadPhase::Entry BroadPhase::prepare(std::uint32_t number, const InflatedBound&
   Entry entry{.size_class = size_classes_.size_class_to_enter(SizeClasses::size_class_of(bound, window))};
   if (!contains(number)) return entry;
   const Registration& here = registrations_[number];
-  const GridLevel& layer = levels_[here.level];
-  if (!layer.is_of(window, entry.size_class)) return entry;
-  entry.sphere = layer.swept_sphere(bound, now);
-  const auto looseness = layer.spheres.looseness_at(here.slot, entry.sphere, layer.time(now));
+  const GridLevel& level = levels_[here.level];
+  if (!level.is_of(window, entry.size_class)) return entry;
+  entry.sphere = level.swept_sphere(bound, now);
+  const auto looseness = level.spheres.looseness_at(here.slot, entry.sphere, level.time(now));
   if (!looseness) return entry;
   entry.level = here.level;
   entry.slot = here.slot;
@@ -88,8 +88,8 @@ BroadPhase::Entry BroadPhase::prepare(std::uint32_t number, const InflatedBound&
 
 /// Thread safety: concurrent calls for different bodies are safe.
 void BroadPhase::replace(const Entry& entry, double now, SweptSphereGrid::Growth& growth) {
-  GridLevel& layer = levels_[entry.level];
-  layer.spheres.replace(entry.slot, entry.sphere, layer.time(now), entry.looseness, growth);
+  GridLevel& level = levels_[entry.level];
+  level.spheres.replace(entry.slot, entry.sphere, level.time(now), entry.looseness, growth);
 }
 
 /// The order in which bodies enter does not change what searches find: a body's size class depends on its
@@ -103,21 +103,21 @@ void BroadPhase::enter(std::uint32_t number, const InflatedBound& bound, double 
     return levels_[entry.level].grow(growth);
   }
   if (number >= registrations_.size()) registrations_.resize(number + std::size_t{1});
-  const std::uint32_t layer = level_for(window, entry.size_class);
-  ++levels_[layer].changes;
-  if (registrations_[number].level == layer) {
+  const std::uint32_t level = level_for(window, entry.size_class);
+  ++levels_[level].changes;
+  if (registrations_[number].level == level) {
     take_out(number);
   } else if (registrations_[number].level != none) {
     leave(number);
   }
-  if (!levels_[layer].has_frame) {
+  if (!levels_[level].has_frame) {
     if (!has_base_) base_ = bound.moved.centre;
     has_base_ = true;
     // A window that begins later than now is entered early, as at the last take_over().
     const double begin = window.end < infinity ? window.begin() : 0.0;
-    open(levels_[layer], begin > now && window.end < infinity ? taken_over_ : begin);
+    open(levels_[level], begin > now && window.end < infinity ? taken_over_ : begin);
   }
-  add(number, layer, bound, now);
+  add(number, level, bound, now);
 }
 
 void BroadPhase::leave(std::uint32_t number) {
@@ -133,21 +133,21 @@ void BroadPhase::take_out(std::uint32_t number) {
   here.level = none;
 }
 
-void BroadPhase::sort(GridLevel& layer, PoolLease& lease) {
-  layer.spheres.sort(
+void BroadPhase::sort(GridLevel& level, PoolLease& lease) {
+  level.spheres.sort(
       lease, [this](std::uint32_t number, std::uint32_t slot) { registrations_[number].slot = slot; });
 }
 
 void BroadPhase::tidy(PoolLease& lease) {
-  for (GridLevel& layer : levels_)
-    if (layer.spheres.is_untidy()) sort(layer, lease);
+  for (GridLevel& level : levels_)
+    if (level.spheres.is_untidy()) sort(level, lease);
 }
 
 std::optional<std::string> BroadPhase::check(std::uint32_t number) const {
   const Registration& here = registrations_[number];
-  if (here.level >= levels_.size()) return "is in a layer that is not there";
-  if (!is_in_its_level(number)) return "is not where its layer has it";
-  if (here.end != levels_[here.level].window.end) return "is not in the window of its layer";
+  if (here.level >= levels_.size()) return "is in a level that is not there";
+  if (!is_in_its_level(number)) return "is not where its level has it";
+  if (here.end != levels_[here.level].window.end) return "is not in the window of its level";
   return std::nullopt;
 }
 
@@ -205,8 +205,8 @@ bool BroadPhase::is_valid_successor(std::size_t bodies, bool is_surveyed, bool h
   std::size_t in_levels = size();
   for (const Opening& opening : filling_.openings) in_levels += opening.unsorted.numbers.size();
   return registered == in_levels &&
-         std::all_of(levels_.begin(), levels_.end(), [this](const GridLevel& layer) {
-           return layer.is_valid() && (layer.is_empty() || next_end_ <= layer.window.end);
+         std::all_of(levels_.begin(), levels_.end(), [this](const GridLevel& level) {
+           return level.is_valid() && (level.is_empty() || next_end_ <= level.window.end);
          });
 }
 

@@ -124,7 +124,7 @@ class BroadPhase {
   /// Number of sorted slots of the grid levels in which bodies have started since the last end_windows().
   std::size_t started_slots() const;
 
-  // A start that is prepared in a broad phase of its own, while the present windows last.
+  // Windows whose start is prepared in another broad phase, a successor, while the present ones last.
 
   /// Returns an empty broad phase in which windows that begin at `begin` can start, to be taken over at
   /// `entry`. `changes`, the number of bodies that have changed within the last windows, decides whether it
@@ -140,18 +140,18 @@ class BroadPhase {
   double search_begin() const { return search_begin_; }
   /// True if the pair was registered at take_over() and is unchanged since, and one of the two came from the
   /// successor: they are certified until search_begin() at most, and a search for that one finds them.
-  bool await_search(std::uint32_t a, std::uint32_t b) const {
+  bool pair_awaits_search(std::uint32_t a, std::uint32_t b) const {
     return search_of(a) != Search::none && search_of(b) != Search::none &&
            (awaits_search(a) || awaits_search(b));
   }
   /// True if the body came from the successor at take_over(), and is unchanged since.
   bool awaits_search(std::uint32_t number) const { return search_of(number) >= Search::starts; }
-  /// True if, besides, searches for the started slots do not include it: it is behind the sorted ones.
+  /// True if awaits_search(), and the body is behind the sorted slots, which the search does not include.
   bool awaits_search_alone(std::uint32_t number) const { return search_of(number) == Search::starts_alone; }
-  /// No body awaits a search any more.
+  /// Ends the state that take_over() began: no body awaits a search any more.
   void end_search();
-  /// In a result of take_over(), takes those out of the slots first <= k < last below started_slots() that
-  /// is_gone(number) tells.
+  /// Frees the slots first <= k < last below started_slots() of bodies for which is_gone(number) is true. For
+  /// results of take_over().
   template <class IsGone>
   void take_out_started(std::size_t first, std::size_t last, IsGone is_gone);
   /// Keeps a list of the bodies that enter or leave from now on, or stops that.
@@ -175,10 +175,10 @@ class BroadPhase {
   /// True if the deserialized result of a take_over() is consistent in a world with `bodies` bodies.
   bool is_valid_copy(std::size_t bodies) const;
   static void serialize(auto& self, auto& archive) {
-    auto& [space, registrations, layers, levels, base, has_base, next_end, many_changes, filling, records,
-           changed, awaiting, search_begin, taken_over] = self;
-    archive(registrations, layers, levels, base, has_base, next_end, many_changes, filling, records, changed,
-            awaiting, search_begin, taken_over);
+    auto& [space, registrations, levels, size_classes, base, has_base, next_end, many_changes, filling,
+           records, changed, awaiting, search_begin, taken_over] = self;
+    archive(registrations, levels, size_classes, base, has_base, next_end, many_changes, filling, records,
+            changed, awaiting, search_begin, taken_over);
   }
 
  private:
@@ -219,10 +219,10 @@ class BroadPhase {
   Entry prepare(std::uint32_t number, const InflatedBound& bound, double now, const Window& window) const;
   void replace(const Entry& entry, double now, SweptSphereGrid::Growth& growth);
   void take_out(std::uint32_t number);
-  void add(std::uint32_t number, std::uint32_t layer, const InflatedBound& bound, double now);
-  std::uint32_t level_for(const Window& window, int level);
-  void open(GridLevel& layer, double origin);
-  void sort(GridLevel& layer, PoolLease& lease);
+  void add(std::uint32_t number, std::uint32_t level, const InflatedBound& bound, double now);
+  std::uint32_t level_for(const Window& window, int size_class);
+  void open(GridLevel& level, double origin);
+  void sort(GridLevel& level, PoolLease& lease);
   template <class Visit>
   void for_each_ended(double now, bool all, Visit visit) const;
   std::vector<std::uint32_t> choose_levels(std::span<const Starter> starters);
@@ -239,7 +239,7 @@ class BroadPhase {
     if (number < awaiting_.size()) awaiting_[number] = Search::none;
   }
   template <class Sort>
-  void sort_to_start(GridLevel& layer, Sort sort_layer);
+  void sort_to_start(GridLevel& level, Sort sort_level);
   void merge_size_classes(const Sizes& sizes);
 
   Space space_;
@@ -289,8 +289,8 @@ void BroadPhase::enter_all(std::span<const Arrival> arrivals, BoundOf bound_of, 
     }
   });
   for (const Arrival& arrival : arrivals) note_change(arrival.number);
-  for (const std::vector<SweptSphereGrid::Growth>& of_layers : growth)
-    for (std::size_t layer = 0; layer < of_layers.size(); ++layer) levels_[layer].grow(of_layers[layer]);
+  for (const std::vector<SweptSphereGrid::Growth>& of_levels : growth)
+    for (std::size_t level = 0; level < of_levels.size(); ++level) levels_[level].grow(of_levels[level]);
   // Sorted, so that the order of entering does not depend on which thread prepared which arrival.
   std::vector<std::size_t> rest;
   for (const std::vector<std::size_t>& some : others) rest.insert(rest.end(), some.begin(), some.end());

@@ -12,10 +12,11 @@ namespace {
 /// A grid level that lasts through a restart is sorted again if its changes since the last sort exceed this
 /// number plus half of its bodies.
 constexpr std::uint64_t least_changes = 64;
-/// Grid levels get spare slots if more than one body in so many has changed in the windows before. Fewer
+/// Grid levels get spare slots if more than one body in this number has changed in the windows before. Fewer
 /// changes cost less than longer searches.
 constexpr std::uint64_t bodies_for_a_change = 3;
-/// They get none if bodies have changed more often than this on average: the slots would soon be taken.
+/// Grid levels get no spare slots if bodies have changed more often than this on average: the slots would
+/// soon be taken.
 constexpr std::uint64_t most_changes_of_a_body = 3;
 
 bool has_ended(double end, double now, bool all) { return all ? end < infinity : end <= now; }
@@ -28,17 +29,17 @@ bool has_ended(double end, double now, bool all) { return all ? end < infinity :
 template <class Visit>
 void BroadPhase::for_each_ended(double now, bool all, Visit visit) const {
   std::size_t most = 0;
-  for (const GridLevel& layer : levels_)
-    if (has_ended(layer.window.end, now, all)) most += layer.spheres.size();
+  for (const GridLevel& level : levels_)
+    if (has_ended(level.window.end, now, all)) most += level.spheres.size();
   constexpr std::size_t few_of_all = 16;
   if (few_of_all * most >= registrations_.size()) {
     for (std::uint32_t number = 0; number < registrations_.size(); ++number)
       if (contains(number) && has_ended(registrations_[number].end, now, all)) visit(number);
     return;
   }
-  for (const GridLevel& layer : levels_) {
-    if (!has_ended(layer.window.end, now, all)) continue;
-    const SweptSphereTable& table = layer.spheres.table();
+  for (const GridLevel& level : levels_) {
+    if (!has_ended(level.window.end, now, all)) continue;
+    const SweptSphereTable& table = level.spheres.table();
     for (std::uint32_t slot = 0; slot < table.slots(); ++slot) {
       const std::uint32_t number = table.number_at(slot);
       if (number != SweptSphereTable::free_slot) visit(number);
@@ -59,15 +60,15 @@ void BroadPhase::end_windows(double now, bool all) {
   for_each_ended(now, all, [this](std::uint32_t number) { registrations_[number].level = none; });
   std::uint64_t changes = 0;
   std::uint64_t bodies = 0;
-  for (GridLevel& layer : levels_) {
-    layer.fresh = false;
-    if (has_ended(layer.window.end, now, all) || layer.is_empty()) {
-      changes += std::exchange(layer.changes, 0);
-      bodies += layer.spheres.size();
-      layer.spheres.clear({});
-      layer.window.end = -infinity;
+  for (GridLevel& level : levels_) {
+    level.fresh = false;
+    if (has_ended(level.window.end, now, all) || level.is_empty()) {
+      changes += std::exchange(level.changes, 0);
+      bodies += level.spheres.size();
+      level.spheres.clear({});
+      level.window.end = -infinity;
     } else {
-      next_end_ = std::min(next_end_, layer.window.end);
+      next_end_ = std::min(next_end_, level.window.end);
     }
   }
   note_changes_of_ended(changes, bodies);
@@ -81,15 +82,15 @@ void BroadPhase::note_changes_of_ended(std::uint64_t changes, std::uint64_t bodi
 
 std::vector<int> BroadPhase::held_rungs() const {
   std::vector<int> held;
-  for (const GridLevel& layer : levels_)
-    if (!layer.fresh && !layer.is_empty()) held.push_back(layer.window.rung);
+  for (const GridLevel& level : levels_)
+    if (!level.fresh && !level.is_empty()) held.push_back(level.window.rung);
   return held;
 }
 
 std::size_t BroadPhase::started_slots() const {
   std::size_t all = 0;
-  for (const GridLevel& layer : levels_)
-    if (layer.fresh) all += layer.spheres.sorted_slots();
+  for (const GridLevel& level : levels_)
+    if (level.fresh) all += level.spheres.sorted_slots();
   return all;
 }
 
@@ -106,15 +107,15 @@ std::vector<std::uint32_t> BroadPhase::choose_levels(std::span<const Starter> st
     if (size == sizes.end() || size->first != starter.size_class)
       size = sizes.try_emplace(starter.size_class).first;
     ++size->second;
-    const int level = size_classes_.size_class_to_start(starter.size_class);
+    const int size_class = size_classes_.size_class_to_start(starter.size_class);
     const auto suits = [&](const Opening& opening) {
-      return levels_[opening.level].is_of(starter.window, level);
+      return levels_[opening.level].is_of(starter.window, size_class);
     };
     if (at >= openings.size() || !suits(openings[at])) {
       const auto found = std::find_if(openings.begin(), openings.end(), suits);
       at = static_cast<std::size_t>(found - openings.begin());
       if (found == openings.end()) {
-        openings.push_back({level_for(starter.window, level)});
+        openings.push_back({level_for(starter.window, size_class)});
         first_bodies.push_back(starter.number);
         levels_[openings.back().level].fresh = true;
       }
@@ -154,9 +155,9 @@ void BroadPhase::survey(PoolLease& lease) {
 void BroadPhase::choose_cells(PoolLease& lease) {
   if (!filling_.is_surveyed) survey(lease);
   for (Opening& opening : filling_.openings) {
-    GridLevel& layer = levels_[opening.level];
+    GridLevel& level = levels_[opening.level];
     sort_to_start(
-        layer, [&] { layer.spheres.choose_cells(opening.unsorted, opening.spread, opening.cells, lease); });
+        level, [&] { level.spheres.choose_cells(opening.unsorted, opening.spread, opening.cells, lease); });
   }
   filling_.has_cells = true;
 }
@@ -169,12 +170,12 @@ void BroadPhase::finish_start(PoolLease& lease) {
     levels_[opening.level].spheres.fill(
         opening.unsorted, opening.cells, lease,
         [&](std::uint32_t number, std::uint32_t slot) { registrations_[number].slot = slot; });
-  for (GridLevel& layer : levels_)
-    if (!layer.fresh && layer.changes > least_changes + layer.spheres.size() / 2) {
+  for (GridLevel& level : levels_)
+    if (!level.fresh && level.changes > least_changes + level.spheres.size() / 2) {
       // Which levels are sorted depends on the number of threads, so their coarseness is not recorded.
-      layer.spheres.set_coarseness(size_classes_.coarseness(layer.window.rung, layer.size_class));
-      sort(layer, lease);
-      layer.changes = 0;
+      level.spheres.set_coarseness(size_classes_.coarseness(level.window.rung, level.size_class));
+      sort(level, lease);
+      level.changes = 0;
     }
   merge_size_classes(filling_.sizes);
   filling_ = {};
@@ -277,13 +278,13 @@ std::vector<std::uint32_t> BroadPhase::take_changes() {
 /// Sorts a level from the coarseness recorded in size_classes_, so that the result does not depend on what
 /// has changed in the level or in which order.
 template <class Sort>
-void BroadPhase::sort_to_start(GridLevel& layer, Sort sort_layer) {
-  const float before = size_classes_.coarseness(layer.window.rung, layer.size_class);
-  layer.spheres.set_coarseness(before);
-  sort_layer();
-  layer.changes = 0;
-  const float after = layer.spheres.coarseness();
-  if (after != before) size_classes_.set_coarseness(layer.window.rung, layer.size_class, after);
+void BroadPhase::sort_to_start(GridLevel& level, Sort sort_level) {
+  const float before = size_classes_.coarseness(level.window.rung, level.size_class);
+  level.spheres.set_coarseness(before);
+  sort_level();
+  level.changes = 0;
+  const float after = level.spheres.coarseness();
+  if (after != before) size_classes_.set_coarseness(level.window.rung, level.size_class, after);
 }
 
 /// Chooses merged size classes for the next start, if at least half of all bodies have started now.
@@ -291,13 +292,13 @@ void BroadPhase::merge_size_classes(const Sizes& sizes) {
   const bool flat = space_.is_flat();
   double volume = 0.0;
   std::size_t all = 0;
-  for (const GridLevel& layer : levels_) {
-    if (!layer.fresh || layer.is_empty()) continue;
-    all += layer.spheres.size();
-    const double unit = SizeClasses::unit_of(layer.size_class);
+  for (const GridLevel& level : levels_) {
+    if (!level.fresh || level.is_empty()) continue;
+    all += level.spheres.size();
+    const double unit = SizeClasses::unit_of(level.size_class);
     const double units = flat ? unit * unit : unit * unit * unit;
     volume =
-        std::max(volume, static_cast<double>(layer.spheres.size()) * units / layer.spheres.density(flat));
+        std::max(volume, static_cast<double>(level.spheres.size()) * units / level.spheres.density(flat));
   }
   if (2 * all >= size()) size_classes_.merge(sizes, volume, flat);
 }

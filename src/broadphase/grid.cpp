@@ -1,6 +1,5 @@
 #include "broadphase/grid.hpp"
 
-#include <cmath>
 #include <limits>
 #include <utility>
 

@@ -50,7 +50,7 @@ class SweptSphereSpread {
 
  private:
   friend class Grid;
-  /// Of the absolute values of cell coordinates, so that sums of several do not overflow.
+  /// Limit of the absolute values of cell coordinates, so that sums of several do not overflow.
   static constexpr float limit = 0x1p29f;
 
   std::array<float, 3> lower_;

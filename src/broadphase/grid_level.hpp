@@ -21,8 +21,8 @@ struct GridLevel {
   SweptSphereGrid spheres{};
   std::uint64_t changes = 0;  ///< entries, replacements and removals since the last sort at a restart
 
-  bool is_of(const Window& its_window, int its_level) const {
-    return window == its_window && size_class == its_level;
+  bool is_of(const Window& its_window, int its_size_class) const {
+    return window == its_window && size_class == its_size_class;
   }
   /// Strict order of grid levels. Of two fresh levels, the bodies of the lesser one search the other level.
   bool is_before(const GridLevel& other) const {

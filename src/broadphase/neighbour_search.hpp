@@ -43,11 +43,11 @@ class NeighbourSearch {
                                          double now, BoundOf bound_of) {
     constexpr std::size_t bodies_at_once = 16;
     pairs_.clear();
-    const bool beyond_their_layer = has_several_images(windows);
+    const bool beyond_their_level = has_several_images(windows);
     while (k < last) {
       const Started some = started_at(windows.levels(), k, std::min(last - k, bodies_at_once));
       search_behind(some, now);
-      if (beyond_their_layer) {
+      if (beyond_their_level) {
         bounds_.clear();
         for (std::uint32_t one = 0; one < some.count; ++one)
           bounds_.push_back(some.is_free(one) ? std::nullopt : std::optional(bound_of(some.number_at(one))));
@@ -74,10 +74,10 @@ class NeighbourSearch {
   };
 
   static bool has_several_images(const BroadPhase& windows);
-  static Started started_at(std::span<const GridLevel> layers, std::size_t k, std::size_t most);
+  static Started started_at(std::span<const GridLevel> levels, std::size_t k, std::size_t most);
   void search_behind(const Started& some, double now);
   void search_other_levels(const BroadPhase& windows, const Started& some, double now);
-  void search_level(const Space& space, const GridLevel& layer, std::uint32_t number,
+  void search_level(const Space& space, const GridLevel& level, std::uint32_t number,
                     const InflatedBound& bound, double now, double end, const SweptSphere* entered);
 
   SweptSphereSearches searches_;                      ///< queries for one grid level

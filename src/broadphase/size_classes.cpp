@@ -26,22 +26,22 @@ int SizeClasses::size_class_of(const InflatedBound& bound, const Window& window)
                     : -((powers_in_a_size_class - 1 - power) / powers_in_a_size_class);
 }
 
-double SizeClasses::unit_of(int level) { return power_of_two(powers_in_a_size_class * level); }
+double SizeClasses::unit_of(int size_class) { return power_of_two(powers_in_a_size_class * size_class); }
 
-bool SizeClasses::is_size_class(int level) {
-  return -largest_size_class <= level && level <= largest_size_class;
+bool SizeClasses::is_size_class(int size_class) {
+  return -largest_size_class <= size_class && size_class <= largest_size_class;
 }
 
-int SizeClasses::size_class_to_start(int level) const {
+int SizeClasses::size_class_to_start(int size_class) const {
   for (const Merged& merged : merged_)
-    if (merged.size_class == level) return merged.into;
-  return level;
+    if (merged.size_class == size_class) return merged.into;
+  return size_class;
 }
 
-int SizeClasses::size_class_to_enter(int level) const {
+int SizeClasses::size_class_to_enter(int size_class) const {
   for (const Merged& merged : merged_)
-    if (merged.size_class >= level) return merged.into;
-  return level;
+    if (merged.size_class >= size_class) return merged.into;
+  return size_class;
 }
 
 /// Joins a size class to the next larger one if a search there would find few of its bodies.
@@ -60,22 +60,22 @@ void SizeClasses::merge(const std::map<int, std::size_t>& bodies, double volume,
     const double width = units_searched * unit_of(next == bodies.end() ? 0 : next->first);
     const double found = density * (flat ? width * width : width * width * width);
     if (next != bodies.end() && found < few_found) continue;
-    for (const int level : together) next_merged_.push_back({level, at->first});
+    for (const int size_class : together) next_merged_.push_back({size_class, at->first});
     together.clear();
     density = 0.0;
   }
 }
 
-float SizeClasses::coarseness(int rung, int level) const {
+float SizeClasses::coarseness(int rung, int size_class) const {
   for (const Coarseness& known : coarse_)
-    if (known.rung == rung && known.size_class == level) return known.coarseness;
+    if (known.rung == rung && known.size_class == size_class) return known.coarseness;
   return 1.0f;
 }
 
-void SizeClasses::set_coarseness(int rung, int level, float coarseness) {
-  std::erase_if(coarse_,
-                [=](const Coarseness& known) { return known.rung == rung && known.size_class == level; });
-  if (coarseness != 1.0f) coarse_.push_back({rung, level, coarseness});
+void SizeClasses::set_coarseness(int rung, int size_class, float coarseness) {
+  std::erase_if(
+      coarse_, [=](const Coarseness& known) { return known.rung == rung && known.size_class == size_class; });
+  if (coarseness != 1.0f) coarse_.push_back({rung, size_class, coarseness});
 }
 
 bool SizeClasses::is_valid() const {

@@ -1,5 +1,5 @@
 // Size classes of swept spheres: which classes share a grid level, and how coarse a level's cells have to be.
-// These facts are measured when windows start, and used at the next start.
+// A start of windows measures this for the next one.
 #pragma once
 
 #include <cstddef>
@@ -18,14 +18,14 @@ class SizeClasses {
   /// Returns the size class of the body's swept sphere for the whole window, however much of it has passed.
   static int size_class_of(const InflatedBound& bound, const Window& window);
   /// Returns the least width of a size class (length), a power of two.
-  static double unit_of(int level);
-  static bool is_size_class(int level);
+  static double unit_of(int size_class);
+  static bool is_size_class(int size_class);
 
   /// Returns the size class whose grid level a body of this class starts in, at a start of many bodies.
-  int size_class_to_start(int level) const;
+  int size_class_to_start(int size_class) const;
   /// Returns the size class whose grid level a body of this class enters alone. Few bodies enter alone, and a
   /// grid level just for them does not pay.
-  int size_class_to_enter(int level) const;
+  int size_class_to_enter(int size_class) const;
   /// Puts the result of the last merge() into effect.
   void use_merged() { merged_ = next_merged_; }
   /// Chooses which size classes will share a grid level. `bodies` holds the number of bodies of each class
@@ -34,8 +34,8 @@ class SizeClasses {
 
   /// Returns the SweptSphereGrid::coarseness() that grid levels of this rung and size class have turned out
   /// to need; at first 1.
-  float coarseness(int rung, int level) const;
-  void set_coarseness(int rung, int level, float coarseness);
+  float coarseness(int rung, int size_class) const;
+  void set_coarseness(int rung, int size_class, float coarseness);
 
   /// True if the deserialized state is consistent.
   bool is_valid() const;

@@ -31,7 +31,7 @@ namespace {
   const auto is_updated = [this](std::uint32_t number) {
     return log_ && log_->last_update(number) != nullptr;
   };
-  return windows_.await_search(a, b) && !is_updated(a) && !is_updated(b)
+  return windows_.pair_awaits_search(a, b) && !is_updated(a) && !is_updated(b)
              ? std::min(end, windows_.search_begin())
              : end;
 }

@@ -210,12 +210,12 @@ void World::Engine::Queries::add_around(const Vec3& point, std::size_t count,
         std::count_if(all.begin(), all.end(), [=](const NearestHit& n) { return n.upper <= reach; });
     if (static_cast<std::size_t>(within) >= count || is_everyone) return;
   }
-  std::vector<std::uint32_t> main;
+  std::vector<std::uint32_t> present;
   for (std::uint32_t number = 0; number < engine_.bodies().numbers(); ++number)
-    if (engine_.bodies()[number].present()) main.push_back(number);
-  restrict(main);
+    if (engine_.bodies()[number].present()) present.push_back(number);
+  restrict(present);
   all.clear();
-  add_distances(main, point, all);
+  add_distances(present, point, all);
 }
 
 void World::Engine::Queries::nearest(const Vec3& point, std::size_t count,

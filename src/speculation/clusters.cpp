@@ -8,28 +8,28 @@ namespace {
 
 /// Moves a range to the end of its list, so that it can grow.
 template <class T>
-void move_to_end(std::vector<T>& list, IndexRange& stretch) {
-  if (stretch.end == list.size()) return;
+void move_to_end(std::vector<T>& list, IndexRange& range) {
+  if (range.end == list.size()) return;
   const auto begin = static_cast<std::uint32_t>(list.size());
-  const std::uint32_t size = stretch.size();
+  const std::uint32_t size = range.size();
   list.resize(begin + std::size_t{size});
-  std::copy_n(list.begin() + stretch.begin, size, list.begin() + begin);
-  stretch = {begin, begin + size};
+  std::copy_n(list.begin() + range.begin, size, list.begin() + begin);
+  range = {begin, begin + size};
 }
 
 template <class T>
-void append(std::vector<T>& list, IndexRange& stretch, const IndexRange& more) {
-  move_to_end(list, stretch);
+void append(std::vector<T>& list, IndexRange& range, const IndexRange& more) {
+  move_to_end(list, range);
   list.resize(list.size() + more.size());
-  std::copy_n(list.begin() + more.begin, more.size(), list.begin() + stretch.end);
-  stretch.end += more.size();
+  std::copy_n(list.begin() + more.begin, more.size(), list.begin() + range.end);
+  range.end += more.size();
 }
 
 template <class T>
-void append(std::vector<T>& list, IndexRange& stretch, const T& one) {
-  move_to_end(list, stretch);
+void append(std::vector<T>& list, IndexRange& range, const T& one) {
+  move_to_end(list, range);
   list.push_back(one);
-  ++stretch.end;
+  ++range.end;
 }
 
 }  // namespace

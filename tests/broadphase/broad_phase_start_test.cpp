@@ -118,9 +118,9 @@ TEST_F(BroadPhaseStart, ASuccessorTakesOverItsStartersAndLeavesTheOthers) {
   EXPECT_EQ(windows.end_of(1), main.end) << "no starter";
   EXPECT_TRUE(windows.awaits_search(0) && windows.awaits_search(2));
   EXPECT_FALSE(windows.awaits_search(3)) << "found by others, but does not start";
-  EXPECT_TRUE(windows.await_search(0, 3));
-  EXPECT_FALSE(windows.await_search(0, 1)) << "its window ends before the search";
-  EXPECT_FALSE(windows.await_search(3, 4));
+  EXPECT_TRUE(windows.pair_awaits_search(0, 3));
+  EXPECT_FALSE(windows.pair_awaits_search(0, 1)) << "its window ends before the search";
+  EXPECT_FALSE(windows.pair_awaits_search(3, 4));
   EXPECT_EQ(searched.started_slots(), 2u);
   EXPECT_TRUE(searched.is_valid_copy(5));
   enter(0, later, 0.5);
