@@ -73,7 +73,8 @@ void BoundDetector::move_on_to(double time) {
 std::optional<Event> BoundDetector::deliver() {
   std::optional<Event> event = instant_.pop(
       contacts_, [this](BodyId id) { return bodies_[id.index].present; },
-      [this](std::uint32_t number) { return sphere(number); }, definition_.box);
+      [this](std::uint32_t number) { return sphere(number); }, [](const Event&) { return Senses::neither; },
+      definition_.box);
   if (!event) return event;
   ++counters_.events[static_cast<std::size_t>(event->kind)];
   if (event->repeated) ++counters_.repeated_contacts;

@@ -100,7 +100,8 @@ class FixedStep final : public Detector {
   std::optional<Event> deliver() {
     std::optional<Event> event = instant_.pop(
         contacts_, [this](BodyId id) { return bodies_[id.index].present; },
-        [this](std::uint32_t number) { return sphere(number); }, definition_.box);
+        [this](std::uint32_t number) { return sphere(number); }, [](const Event&) { return Senses::neither; },
+        definition_.box);
     instant_.changed().clear();
     if (!event) return event;
     ++counters_.events[static_cast<std::size_t>(event->kind)];

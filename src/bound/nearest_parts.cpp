@@ -100,17 +100,6 @@ RigidExtent at_rest(const RigidPose& body) {
   return {{.position = body.position, .radius = radius}, radius, body.parts, body.balls, {body.orientation}};
 }
 
-template <class Solid>
-NearestParts nearest_to_solid(const RigidPose& body, const Solid& solid) {
-  NearestParts nearest{.gap = infinity};
-  for (std::uint32_t k = 0; k < body.parts.size(); ++k) {
-    NearestParts found = of_part_and_solid(PlacedPart(body, body.parts[k]), solid);
-    found.first_part = k;
-    keep_nearer(nearest, found);
-  }
-  return nearest;
-}
-
 }  // namespace
 
 NearestParts nearest_parts(const RigidPose& first, const RigidPose& second) {
@@ -127,14 +116,18 @@ NearestParts nearest_parts(const RigidPose& first, const RigidPose& second) {
   return nearest;
 }
 
-NearestParts nearest_parts(const RigidPose& first, const HalfSpace& second) {
-  return nearest_to_solid(first, second);
+template <class Solid>
+NearestParts nearest_parts(const RigidPose& body, const Solid& solid) {
+  NearestParts nearest{.gap = infinity};
+  for (std::uint32_t k = 0; k < body.parts.size(); ++k) {
+    NearestParts found = of_part_and_solid(PlacedPart(body, body.parts[k]), solid);
+    found.first_part = k;
+    keep_nearer(nearest, found);
+  }
+  return nearest;
 }
-NearestParts nearest_parts(const RigidPose& first, const Box& second) {
-  return nearest_to_solid(first, second);
-}
-NearestParts nearest_parts(const RigidPose& first, const Triangle& second) {
-  return nearest_to_solid(first, second);
-}
+template NearestParts nearest_parts(const RigidPose&, const HalfSpace&);
+template NearestParts nearest_parts(const RigidPose&, const Box&);
+template NearestParts nearest_parts(const RigidPose&, const Triangle&);
 
 }  // namespace kinesphere

@@ -29,9 +29,9 @@ struct NearestParts {
 };
 
 NearestParts nearest_parts(const RigidPose& first, const RigidPose& second);
-/// Does the above for a shape at rest; the gap to a half-space or a box may be less.
-NearestParts nearest_parts(const RigidPose& first, const HalfSpace& second);
-NearestParts nearest_parts(const RigidPose& first, const Box& second);
-NearestParts nearest_parts(const RigidPose& first, const Triangle& second);
+/// Returns the part that is nearest to a shape at rest. The gap to a half-space or a box may be less than
+/// minus the radius of the part.
+template <class Solid>
+NearestParts nearest_parts(const RigidPose& first, const Solid& second);
 
 }  // namespace kinesphere

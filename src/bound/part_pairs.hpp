@@ -2,7 +2,6 @@
 // are left out by what is certain of the balls around them.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -175,7 +174,7 @@ void for_each_part_pair(const RigidExtent& body, const RigidExtent& other, doubl
         return;
 }
 
-/// Does the same for the parts of one body beside a wall: visit(part).
+/// Calls visit(part) for parts of a body beside a wall, as for_each_part_pair() does for pairs.
 template <class Skips, class Visit>
 void for_each_part_towards(const RigidExtent& body, const HalfSpace& wall, double time, PartPair first,
                            Skips skips, Visit visit) {

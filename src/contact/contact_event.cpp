@@ -141,14 +141,6 @@ void describe_as_seen(Event& event, const Sphere& first, const Sphere& second) {
 
 }  // namespace
 
-Event contact_event(EventKind kind, double time, const Sphere& a, const Sphere& b) {
-  const Sphere& first = a.id < b.id ? a : b;
-  const Sphere& second = a.id < b.id ? b : a;
-  Event event{.kind = kind, .time = time, .first = first.id, .second = second.id};
-  describe_as_seen(event, first, second);
-  return event;
-}
-
 Event contact_event(EventKind kind, double time, const Sphere& a, const Sphere& b, const Space& space) {
   const Sphere& first = a.id < b.id ? a : b;
   const Sphere& second = a.id < b.id ? b : a;

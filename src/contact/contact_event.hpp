@@ -41,11 +41,9 @@ inline ContactEvents wanted_of(const Sphere& first, const Sphere& second) {
   return first.wanted | second.wanted;
 }
 
-/// Event::first becomes the body with the smaller id, in whichever order the two are passed.
-Event contact_event(EventKind kind, double time, const Sphere& a, const Sphere& b);
-/// Does the above in a space that may be periodic: the image of Event::second nearest to Event::first is
-/// described.
-Event contact_event(EventKind kind, double time, const Sphere& a, const Sphere& b, const Space& space);
+/// Event::first becomes the body with the smaller id, in whichever order the two are passed. In periodic
+/// space the image of Event::second nearest to Event::first is described.
+Event contact_event(EventKind kind, double time, const Sphere& a, const Sphere& b, const Space& space = {});
 Event wall_event(EventKind kind, double time, const Sphere& sphere, const Box& box, Wall wall);
 /// Recomputes all geometric fields of a contact or wall event from the present spheres.
 void describe(Event& event, const Sphere& first, const Sphere& second, const Space& space);
@@ -55,8 +53,8 @@ void describe(Event& event, const Sphere& sphere, const Box& box);
 /// point of a shape; +infinity where the normal is that of a wall or a half-space. The bound covers rounding
 /// by the caller in positions and velocities: a few units in the last place each.
 double approach_error(const State& first, const State& second, double arm);
-/// Does the above for an event that describe() has filled in. Rigid bodies count with their velocities at the
-/// contact point.
+/// Bounds the rounding error of Event::approach_speed after describe(). Rigid bodies count with their
+/// velocities at the contact point.
 double approach_error(const Event& event, double arm);
 double approach_error(const Event& event, const Sphere& first, const Sphere& second);
 /// Returns a woke event. The body stands at the centre of the sphere.

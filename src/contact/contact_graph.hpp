@@ -67,7 +67,7 @@ class ContactGraph {
     const ContactState* const state = contact_of(a, b);
     return {.within = state != nullptr, .wanted = wanted, .state = state ? *state : ContactState{}};
   }
-  /// Does the above for a body and a wall.
+  /// Returns the threshold of a contact between a body and a wall.
   Threshold wall_threshold(std::uint32_t body, Wall wall, ContactEvents wanted) const {
     return {.within = touches_wall(body, wall), .wanted = wanted, .state = wall_state(body, wall)};
   }
@@ -109,9 +109,9 @@ class ContactGraph {
   /// Marks the begin of a contact as repeated or jammed, and counts it for later marks.
   void note_contact(Event& begin);
   struct Jam {
-    /// From now on the two are let through until they have separated.
+    /// True if the two are let through from now on until they have separated.
     bool is_last;
-    /// The caller must be notified of that, or of an overlap.
+    /// True if the caller must be notified: of the last jam, or of an overlap.
     bool is_news;
   };
   /// Counts a jam of the contact. It can be the last one only if responses have returned speed at events

@@ -110,19 +110,6 @@ class ContactPredictor {
 /// then the gap never shrinks again.
 bool recede_for_good(const Bound& a, const Bound& b, double now);
 
-extern template class ContactPredictor<Bound>;
-extern template class ContactPredictor<HalfSpace>;
-extern template class ContactPredictor<Box>;
-extern template class ContactPredictor<Triangle>;
-extern template class ContactPredictor<CarriedShape<Box>>;
-extern template class ContactPredictor<CarriedShape<Triangle>>;
-extern template class ContactPredictor<RigidPair<RigidExtent>>;
-extern template class ContactPredictor<RigidPair<HalfSpace>>;
-extern template class ContactPredictor<RigidPair<Box>>;
-extern template class ContactPredictor<RigidPair<Triangle>>;
-extern template class ContactPredictor<RigidPair<CarriedShape<Box>>>;
-extern template class ContactPredictor<RigidPair<CarriedShape<Triangle>>>;
-
 /// Returns the walls of the box that the body may come within the tolerance of before `until`, as the box
 /// with infinite limits on all other axes. Conservative: may include walls that are not reached. Cost: O(1),
 /// without roots.

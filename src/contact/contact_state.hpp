@@ -7,14 +7,14 @@ namespace kinesphere {
 
 /// What an approach of two partners in touch means.
 enum class ApproachState : std::uint8_t {
-  /// They do not approach, as far as is known. Their next approach is an event.
+  /// The partners do not approach, as far as is known. Their next approach is an event.
   watched,
-  /// Their present approach has been reported. They may pass through each other.
+  /// The present approach has been reported. The partners may pass through each other.
   reported,
-  /// Reported, but the caller has changed one of the two since: fresh reports decide whether they still
+  /// As `reported`, but the caller has changed one of the two since: fresh reports decide whether they still
   /// approach.
   turned,
-  /// No approach is an event until they have separated: responses do not part them
+  /// No approach is an event until the partners have separated: responses do not part them
   /// (ContactGraph::note_jam()).
   ignored,
 };

@@ -92,14 +92,6 @@ class PendingEvents {
     return event;
   }
 
-  /// Does the above in a world without sensors.
-  template <class IsThere, class SphereNow>
-  std::optional<Event> pop(ContactGraph& graph, IsThere is_there, SphereNow sphere,
-                           const std::optional<Box>& box) {
-    return pop(
-        graph, is_there, sphere, [](const Event&) { return Senses::neither; }, box);
-  }
-
   /// Takes note of the response to the last delivered begin: if the two still approach with more than half of
   /// their speed, they are let through until that changes; otherwise their next approach is an event. pop()
   /// does this before it delivers another event. Call it before velocities change for another reason, and

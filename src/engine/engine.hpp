@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <span>
@@ -19,7 +18,6 @@
 #include "processor/bodies_in.hpp"
 #include "processor/event_processor.hpp"
 #include "processor/overlaps.hpp"
-#include "processor/window_choice.hpp"
 #include "processor/world_state.hpp"
 #include "speculation/speculative_runner.hpp"
 

@@ -1,10 +1,10 @@
 #include "engine/prepared_start.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "number/infinity.hpp"
+#include "processor/window_choice.hpp"
 
 namespace kinesphere {
 namespace {
@@ -148,7 +148,7 @@ void PreparedStart::update(const Work& work) {
   std::vector<std::uint32_t> again;
   for (const std::uint32_t number : work.state.broad_phase.take_changes()) {
     if (next_.contains(number)) next_.remove_starter(number);
-    // Those of later slices are left to these.
+    // A later slice makes the swept spheres of its own bodies.
     if (starts(work, number) && (number >= numbers_ || number < begun(slice_))) again.push_back(number);
   }
   WindowPolicy::Sample uncounted(work.state.window_policy, true);
@@ -199,8 +199,8 @@ bool PreparedStart::awaits_search(const Work& work, std::uint32_t number) {
 }
 
 /// As awaits_search(), of a pair one of which has started.
-bool PreparedStart::await_search(const Work& work, std::uint32_t a, std::uint32_t b) {
-  return work.state.broad_phase.await_search(a, b) && !work.state.bodies[a].dirty &&
+bool PreparedStart::pair_awaits_search(const Work& work, std::uint32_t a, std::uint32_t b) {
+  return work.state.broad_phase.pair_awaits_search(a, b) && !work.state.bodies[a].dirty &&
          !work.state.bodies[b].dirty;
 }
 
@@ -238,7 +238,8 @@ void PreparedStart::search_sorted(const Work& work, std::size_t part) {
       last - first, searches_at_once, [&](std::size_t from, std::size_t to, std::size_t worker) {
         SearchResults& found = work.found[worker];
         for (const auto& [a, b] : found.search.near_started(next_, first + from, first + to, end(), bound_of))
-          if (await_search(work, a, b) && !windows.awaits_search_alone(b)) certifier.certify(a, b, found);
+          if (pair_awaits_search(work, a, b) && !windows.awaits_search_alone(b))
+            certifier.certify(a, b, found);
       });
 }
 
@@ -256,7 +257,7 @@ void PreparedStart::search_alone(const Work& work, std::span<const std::uint32_t
     ++found.searches;
     const InflatedBound bound = inflated_bound(work.state.bodies, number, end());
     for (const std::uint32_t other : found.search.near(next_, number, bound, end(), windows.end_of(number)))
-      if (await_search(work, number, other) && !(windows.awaits_search_alone(other) && other < number))
+      if (pair_awaits_search(work, number, other) && !(windows.awaits_search_alone(other) && other < number))
         certifier.certify(number, other, found);
   });
 }
@@ -293,7 +294,7 @@ void PreparedStart::finish(const Work& work) {
   starting.find_links(started);
   const PairCertifier certifier = starting.certifier();
   for (const PairCertificate& pair : linked_)
-    if (await_search(work, pair.first, pair.second) && !certifier.are_linked(pair.first, pair.second))
+    if (pair_awaits_search(work, pair.first, pair.second) && !certifier.are_linked(pair.first, pair.second))
       certifier.certify(pair.first, pair.second, work.found.front());
   std::erase_if(at_walls_, [&](std::uint32_t number) { return !awaits_search(work, number); });
   std::copy_if(started.begin(), started.end(), std::back_inserter(at_walls_),

@@ -19,7 +19,7 @@
 // Invariant from entry_time() to end(), of any two bodies in windows that last beyond end(), one of which
 // starts:
 // - one has changed since entry_time(), and was then certified with the other, or
-// - BroadPhase::await_search(): they are certified until end(), and
+// - BroadPhase::pair_awaits_search(): they are certified until end(), and
 //   - a slice has certified them from end() on, or a later one will, or
 //   - the two touched or sensed each other when a slice found them, and are in the list linked_.
 #pragma once
@@ -80,7 +80,7 @@ class PreparedStart {
     return static_cast<std::uint32_t>(numbers_ * slice / slices_);
   }
   static bool awaits_search(const Work& work, std::uint32_t number);
-  static bool await_search(const Work& work, std::uint32_t a, std::uint32_t b);
+  static bool pair_awaits_search(const Work& work, std::uint32_t a, std::uint32_t b);
   std::vector<int> lasting_rungs(const Work& work) const;
   bool starts(const Work& work, std::uint32_t number) const;
   void begin(const Work& work);

@@ -14,7 +14,6 @@
 #include "archive/fields.hpp"
 #include "bodies/validation.hpp"
 #include "engine/engine.hpp"
-#include "input/input_check.hpp"
 #include "kinesphere/limits.hpp"
 #include "number/infinity.hpp"
 

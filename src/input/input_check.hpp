@@ -36,8 +36,9 @@ struct Subject {
 
 /// Chain of input checks. Frequent checks are inlined into the caller and format nothing unless they fail,
 /// since nearly all input is valid. Every check returns *this, so that checks can be chained:
-///   const auto check = InputCheck("SteeredMotion::create").start(states, time).positive({"interval"},
-///   interval); if (check.error()) return *check.error();
+///
+///   const auto check = InputCheck("SteeredMotion::create").positive({"interval"}, interval);
+///   if (check.error()) return *check.error();
 class InputCheck {
  public:
   /// `call` is the name that begins the message; it must outlive this object.

@@ -1,7 +1,7 @@
 // Public calls of a monitor: argument checks, then calls into the engine.
 #include "kinesphere/monitor/monitor.hpp"
 
-#include <cmath>
+#include <array>
 
 #include "input/input_check.hpp"
 #include "kinesphere/limits.hpp"
@@ -11,39 +11,18 @@
 namespace kinesphere {
 
 std::string_view name_of(MonitorEventKind kind) {
-  switch (kind) {
-    case MonitorEventKind::verdict:
-      return "verdict";
-    case MonitorEventKind::predicted:
-      return "predicted";
-    case MonitorEventKind::prediction_ended:
-      return "prediction_ended";
-    case MonitorEventKind::contradiction:
-      return "contradiction";
-    case MonitorEventKind::resolved:
-      return "resolved";
-    case MonitorEventKind::stale:
-      return "stale";
-    case MonitorEventKind::resumed:
-      return "resumed";
-    case MonitorEventKind::dropped:
-      return "dropped";
-    case MonitorEventKind::reclassified:
-      return "reclassified";
-  }
-  return "unknown";
+  constexpr std::array<std::string_view, 9> names{"verdict",       "predicted", "prediction_ended",
+                                                  "contradiction", "resolved",  "stale",
+                                                  "resumed",       "dropped",   "reclassified"};
+  static_assert(names.size() == static_cast<std::size_t>(MonitorEventKind::reclassified) + 1);
+  const auto index = static_cast<std::size_t>(kind);
+  return index < names.size() ? names[index] : "unknown";
 }
 
 std::string_view name_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::apart:
-      return "apart";
-    case Verdict::undecided:
-      return "undecided";
-    case Verdict::within:
-      return "within";
-  }
-  return "unknown";
+  constexpr std::array<std::string_view, 3> names{"apart", "undecided", "within"};
+  const auto index = static_cast<std::size_t>(verdict);
+  return index < names.size() ? names[index] : "unknown";
 }
 
 Result<Monitor> Monitor::create(const MonitorDefinition& definition) {

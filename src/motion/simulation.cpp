@@ -1,11 +1,8 @@
 // Simulation: owns a world, its motions and the map between them; clones them together.
 #include "kinesphere/simulation.hpp"
 
-#include <algorithm>
 #include <string>
 #include <typeinfo>
-
-#include "input/input_check.hpp"
 
 namespace kinesphere {
 

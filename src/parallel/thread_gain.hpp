@@ -21,7 +21,7 @@ class ThreadGain {
   }
   /// Notes parallel sections that took `wall` seconds until `now`, in which all threads together had `cpu`
   /// seconds of processor time. The threads stand back if that is hardly more than one thread would have
-  /// had: for longer, the more often that has been so.
+  /// had: twice as long each time in a row.
   void note_sharing(double cpu, double wall, Clock::time_point now) {
     cpu_ += cpu;
     wall_ += wall;
@@ -33,20 +33,19 @@ class ThreadGain {
   }
 
  private:
-  /// Real time of the parallel sections of one look at processor times (seconds): some slices of a busy
-  /// system.
+  /// Minimum real time of a measurement (seconds): several time slices of a busy system.
   static constexpr double least_wall = 0.003;
-  /// Processor time of all threads for each second. One free processor gives 1.
+  /// Least CPU time of all threads per second for which several threads pay. One free processor gives 1.
   static constexpr double least_sharing = 1.2;
-  // In these times a look takes 3 percent and less.
+  // Pauses without threads. A measurement of `least_wall` takes at most 3 percent of them.
   static constexpr auto shortest_pause = std::chrono::milliseconds(100);
   static constexpr auto longest_pause = std::chrono::milliseconds(1600);
 
   bool stands_back_ = false;
-  std::chrono::milliseconds pause_ = shortest_pause / 2;  ///< in which the threads stand back
+  std::chrono::milliseconds pause_ = shortest_pause / 2;  ///< without threads
   Clock::time_point back_at_{};
-  double cpu_ = 0.0;  ///< of the look in progress, as wall_
-  double wall_ = 0.0;
+  double cpu_ = 0.0;   ///< CPU seconds of the measurement in progress
+  double wall_ = 0.0;  ///< its real seconds
 };
 
 }  // namespace kinesphere

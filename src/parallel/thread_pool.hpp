@@ -73,7 +73,7 @@ class Workers::Pool {
   /// Processes all items on the calling thread, as worker 0, and on others, each with its own number less
   /// than count(). Returns when all have stopped.
   virtual void run(SharedRange& items) = 0;
-  /// The same, and notes its times.
+  /// Calls run(), and adds its times to those of take_sharing().
   void run_timed(SharedRange& items) {
     using Clock = std::chrono::steady_clock;
     const auto begin = Clock::now();

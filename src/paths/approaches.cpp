@@ -1,8 +1,6 @@
 #include "kinesphere/approaches.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <tuple>
 
 #include "input/input_check.hpp"

@@ -1,7 +1,6 @@
 // Pairs of bodies that may come near each other during a step.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>

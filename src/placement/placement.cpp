@@ -1,7 +1,6 @@
 #include "kinesphere/placement.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <optional>
 #include <utility>

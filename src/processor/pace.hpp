@@ -24,19 +24,18 @@ class Pace {
     instants_ = 0;
   }
   /// Counts an instant. Returns an error that names the body with the shortest windows if, at the pace of the
-  /// last block, the end of the call is more instants away than a processor can work off in a day. A
-  /// call that ends later than any real one is to go on until an event, and gets no error.
+  /// last block, the end of the call is more instants away than a processor can work off in a day.
   Result<void> note_instant(const Bodies& bodies, double time) {
     return ++instants_ < block ? Result<void>() : check(bodies, time);
   }
 
  private:
-  /// A crowded moment has fewer instants. They take a second, or some if each calls a slow probe.
+  /// Instants between two checks: more than a crowded moment has. They take a second, or several where each
+  /// calls a slow probe.
   static constexpr std::uint32_t block = 1u << 20;
-  /// Half a microsecond each for 38 hours. So many for each 1024 bodies: a large crowd has more of
-  /// them.
+  /// Instants for each 1024 bodies that a call may have left: at half a microsecond each they take 38 hours.
   static constexpr double most_instants = 0x1p38;
-  /// Longer calls have no end in mind (time).
+  /// A call that advances farther (time) goes on until an event, and gets no error.
   static constexpr double longest_call = 1e6;
 
   [[gnu::cold]] Result<void> check(const Bodies& bodies, double time);

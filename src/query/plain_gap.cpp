@@ -158,25 +158,18 @@ double PlainGap::growth(double time) const {
   return static_cast<double>(growth_of(moving_, time) + growth_of(other_, time));
 }
 
-PlainGap::Limits PlainGap::of_bounds(double time) const { return of_bounds(time, distance(time)); }
-
-PlainGap::Limits PlainGap::of_bounds(double time, const Limits& distance) const {
-  const double less = radii() + growth(time);
-  const double margin = 0x1p-50 * (std::abs(distance.upper) + less);
-  return {distance.lower - less - margin, distance.upper - less + margin};
-}
-
-PlainGap::Limits PlainGap::at_farthest(double time) const { return at_farthest(time, distance(time)); }
-
-PlainGap::Limits PlainGap::at_farthest(double time, const Limits& distance) const {
-  const double more = growth(time) - radii();
-  const double margin = 0x1p-50 * (std::abs(distance.upper) + radii() + growth(time));
-  return {distance.lower + more - margin, distance.upper + more + margin};
-}
-
-PlainGap::Limits PlainGap::of_bodies(double time) const {
+PlainGap::Limits PlainGap::of_bounds(double time) const {
   const Limits limits = distance(time);
-  return {of_bounds(time, limits).lower, at_farthest(time, limits).upper};
+  const double less = radii() + growth(time);
+  const double margin = 0x1p-50 * (std::abs(limits.upper) + less);
+  return {limits.lower - less - margin, limits.upper - less + margin};
+}
+
+PlainGap::Limits PlainGap::at_farthest(double time) const {
+  const Limits limits = distance(time);
+  const double more = growth(time) - radii();
+  const double margin = 0x1p-50 * (std::abs(limits.upper) + radii() + growth(time));
+  return {limits.lower + more - margin, limits.upper + more + margin};
 }
 
 double PlainGap::largest_speed(double from, double to) const {

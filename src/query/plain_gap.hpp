@@ -27,7 +27,7 @@ class PlainGap {
   /// Largest gap that two bodies inside these bounds can have.
   Limits at_farthest(double time) const;
   /// Gap of two bodies anywhere inside these bounds.
-  Limits of_bodies(double time) const;
+  Limits of_bodies(double time) const { return {of_bounds(time).lower, at_farthest(time).upper}; }
 
   /// Upper bound of the rate at which these gaps change between the two times (length / time).
   double largest_speed(double from, double to) const;
@@ -37,8 +37,6 @@ class PlainGap {
 
  private:
   Limits distance(double time) const;
-  Limits of_bounds(double time, const Limits& distance) const;
-  Limits at_farthest(double time, const Limits& distance) const;
   double radii() const;
   double growth(double time) const;
 

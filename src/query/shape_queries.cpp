@@ -40,20 +40,6 @@ bool certainly_meets(const Triangle& shape, const Bound& sphere, double from, do
   return certainly_crosses(shape, sphere.centre_at(from), sphere.centre_at(to));
 }
 
-template <class Solid>
-RayLimits touch(const Bound& sphere, const Solid& shape, double length) {
-  const double first = earliest_meeting(sphere, shape, 0.0, length);
-  if (first == infinity) return {infinity, infinity};
-  // The shape is met shortly after `first`, or perhaps not at all: search on in doubling steps.
-  double step = 0x1p-50 * (norm_one(sphere.position) + sphere.radius + length);
-  for (double at = first;; at += step, step *= 2.0) {
-    const double end = std::min(at, length);
-    if (gap_limits(sphere, shape, end).upper <= 0.0) return {first, end};
-    if (certainly_meets(shape, sphere, std::max(0.0, first - step), end)) return {first, end};
-    if (!(at < length) || !(step > 0.0)) return {first, infinity};
-  }
-}
-
 }  // namespace
 
 GapLimits gap_limits(const Box& region, const HalfSpace& shape) {
@@ -89,14 +75,21 @@ GapLimits gap_limits(const Box& region, const Triangle& shape) {
   return {gap - wrong, gap + 16.0 * wrong / thick};
 }
 
-RayLimits first_touch(const Bound& sphere, const HalfSpace& shape, double length) {
-  return touch(sphere, shape, length);
+template <class Solid>
+RayLimits first_touch(const Bound& sphere, const Solid& shape, double length) {
+  const double first = earliest_meeting(sphere, shape, 0.0, length);
+  if (first == infinity) return {infinity, infinity};
+  // The shape is met shortly after `first`, or perhaps not at all: search on in doubling steps.
+  double step = 0x1p-50 * (norm_one(sphere.position) + sphere.radius + length);
+  for (double at = first;; at += step, step *= 2.0) {
+    const double end = std::min(at, length);
+    if (gap_limits(sphere, shape, end).upper <= 0.0) return {first, end};
+    if (certainly_meets(shape, sphere, std::max(0.0, first - step), end)) return {first, end};
+    if (!(at < length) || !(step > 0.0)) return {first, infinity};
+  }
 }
-RayLimits first_touch(const Bound& sphere, const Box& shape, double length) {
-  return touch(sphere, shape, length);
-}
-RayLimits first_touch(const Bound& sphere, const Triangle& shape, double length) {
-  return touch(sphere, shape, length);
-}
+template RayLimits first_touch(const Bound&, const HalfSpace&, double);
+template RayLimits first_touch(const Bound&, const Box&, double);
+template RayLimits first_touch(const Bound&, const Triangle&, double);
 
 }  // namespace kinesphere

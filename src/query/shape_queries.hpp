@@ -20,8 +20,7 @@ struct RayLimits {
 
 /// Intersects the path of a sphere with a shape. Precondition: sphere.velocity is a unit vector, so that
 /// times equal distances along the path.
-RayLimits first_touch(const Bound& sphere, const HalfSpace& shape, double length);
-RayLimits first_touch(const Bound& sphere, const Box& shape, double length);
-RayLimits first_touch(const Bound& sphere, const Triangle& shape, double length);
+template <class Solid>
+RayLimits first_touch(const Bound& sphere, const Solid& shape, double length);
 
 }  // namespace kinesphere

@@ -24,7 +24,8 @@ class ContactGraphTest : public ::testing::Test {
   std::optional<Event> deliver() {
     return instant.pop(
         book, [this](BodyId id) { return alive[id.index]; },
-        [this](std::uint32_t body) { return sphere(body); }, Box{{-1, -9, -9}, {9, 9, 9}});
+        [this](std::uint32_t body) { return sphere(body); }, [](const Event&) { return Senses::neither; },
+        Box{{-1, -9, -9}, {9, 9, 9}});
   }
 
   ContactEvents wanted = ContactEvents::impacts;
