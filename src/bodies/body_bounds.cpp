@@ -34,7 +34,7 @@ Bound bound_now(const BodyDefinition& body, double now) {
 Bound bound_with(const Bodies& bodies, std::uint32_t number, const BodyDefinition& changed, double now) {
   const Body& body = bodies[number];
   if (body.fresh(now)) return bound_of(changed, {body.bound.position, body.bound.velocity}, now);
-  // The old limits held until now, and the next report comes before time advances.
+  // The old limits held until now. The next report, which begins the new ones, comes before time advances.
   Bound bound = body.bound;
   bound.radius = changed.radius + (bound.radius - body.radius);
   return bound;

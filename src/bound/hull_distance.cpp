@@ -205,7 +205,7 @@ NearestInHulls nearest_in_hulls(std::span<const Vec3> first, std::span<const Vec
     try_direction(-simplex.normal);
   }
   nearest.distance = simplex.distance;
-  // Weights that are rounded differ from a sum of 1 where heights are small.
+  // Rounded weights may have a sum other than 1, above all those of flat simplices: so divide them by it.
   double sum = 0.0;
   for (std::size_t k = 0; k < simplex.count; ++k) sum += simplex.weights[k];
   for (std::size_t k = 0; k < simplex.count; ++k)

@@ -38,7 +38,7 @@ struct BallNow {
 struct GapNow {
   static constexpr double rounding_lost = 0x1p-40;
 
-  double least;    ///< now
+  double least;    ///< lower bound of the gap now
   double opening;  ///< rate at which it grows, at least
   double closing;  ///< largest acceleration against that
 
@@ -48,7 +48,7 @@ struct GapNow {
         opening(dot(way, a.velocity - b.velocity) - (a.speed + b.speed) -
                 rounding_lost * (norm_one(a.velocity) + norm_one(b.velocity))),
         closing((a.acceleration + b.acceleration) * (1.0 + rounding_lost)) {}
-  /// Along the line of centres.
+  /// The gap along the line of the centres.
   [[gnu::always_inline]] GapNow(const BallNow& a, const BallNow& b) : GapNow(a, b, direction(a, b)) {}
 
   [[gnu::always_inline]] static Vec3 direction(const BallNow& a, const BallNow& b) {

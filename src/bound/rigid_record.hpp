@@ -63,7 +63,7 @@ struct RigidRecord {
     if (is_fresh) rotation = now;
     is_changed = !is_fresh;
   }
-  /// Keeps all that reports and changes of the rotation change.
+  /// Stores the present rotation for go_back().
   void keep() { kept = {rotation, origin, origin_time, is_changed}; }
   /// Undoes the reports and changes since keep().
   void go_back() { std::tie(rotation, origin, origin_time, is_changed) = kept; }

@@ -201,11 +201,11 @@ class CertificateQueue {
   std::vector<PairCertificate> sorted_;  ///< the current bucket, in order from next_ on
   std::size_t next_ = 0;
   std::vector<PairCertificate> heap_;  ///< certificates added to the current bucket since it was sorted
-  // The later buckets: a linked list for each. They are numbered by time; as many as there are heads, from
-  // the current one on, have one of these each, and all later ones together are the last bucket.
-  std::vector<Node> nodes_;
-  std::vector<std::uint32_t> heads_;  ///< a power of two
-  std::uint32_t beyond_ = none;       ///< head of the last bucket
+  std::vector<Node> nodes_;            ///< of linked lists, one for each later bucket
+  /// Heads of these lists; a power of two. Buckets are numbered by time: bucket b has the head b modulo their
+  /// number, and all buckets too late for that together are the last bucket.
+  std::vector<std::uint32_t> heads_;
+  std::uint32_t beyond_ = none;  ///< head of the last bucket
   std::uint32_t free_ = none;
   std::size_t waiting_ = 0;
   std::size_t waiting_beyond_ = 0;  ///< of these, in the last bucket

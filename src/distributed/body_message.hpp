@@ -21,11 +21,6 @@ struct BodyMessage {
     std::uint32_t other;
     /// Made in a batch by a cluster without the other body, from that body's state when the batch began.
     bool is_of_batch_start = false;
-
-    static void serialize(auto& self, auto& archive) {
-      auto& [time, other, is_of_batch_start] = self;
-      archive(time, other, is_of_batch_start);
-    }
   };
 
   std::uint32_t name = 0;

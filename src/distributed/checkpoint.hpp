@@ -29,11 +29,6 @@ struct Checkpoint {
     std::uint64_t parts = 0;
     double time = 0.0;
     std::array<std::uint64_t, 2> hash{};
-
-    static void serialize(auto& self, auto& archive) {
-      auto& [parts, time, hash] = self;
-      archive(parts, time, hash);
-    }
     friend bool operator==(const Identity&, const Identity&) = default;
   };
 

@@ -20,20 +20,10 @@ struct JoinList {
     std::int32_t owner;
     bool is_registered;
     Box box;  ///< around its swept sphere; valid if it is registered
-
-    static void serialize(auto& self, auto& archive) {
-      auto& [name, owner, is_registered, box] = self;
-      archive(name, owner, is_registered, box);
-    }
   };
   std::vector<Member> together{};
   /// Names of bodies in the cluster's read set, which the cluster assumes to belong to no cluster.
   std::vector<std::uint32_t> read_set{};
-
-  static void serialize(auto& self, auto& archive) {
-    auto& [together, read_set] = self;
-    archive(together, read_set);
-  }
 };
 
 /// Update of a swept sphere. The body is identified by name, as its number differs between ranks.
@@ -56,10 +46,6 @@ struct RoundMessage {
   std::vector<NamedUpdate> updates{};
 
   bool is_empty() const { return bodies.empty() && lists.empty() && wanted.empty() && updates.empty(); }
-  static void serialize(auto& self, auto& archive) {
-    auto& [bodies, lists, wanted, updates] = self;
-    archive(bodies, lists, wanted, updates);
-  }
 };
 
 /// All messages that a rank has collected for the next round.

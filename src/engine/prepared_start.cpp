@@ -23,7 +23,7 @@ constexpr std::size_t most_slices = 128;
 /// Minimum pairs of searches per parallel chunk; below this, dispatch costs more than the work.
 constexpr std::size_t searches_at_once = 256;
 
-/// While it lives, the world chooses windows by the policy of the next ones.
+/// Makes the world choose windows by the policy of the next ones as long as this object lives.
 class PolicySwap {
  public:
   PolicySwap(const PreparedStart::Work& work, WindowPolicy& policy)

@@ -100,7 +100,7 @@ class PreparedStart {
   Window present_;
   double begin_ = 0.0;         ///< time of the first slice
   std::size_t slices_ = 1;     ///< parts of the bodies, and of the sorted slots
-  std::size_t slice_ = 0;      ///< the next one
+  std::size_t slice_ = 0;      ///< index of the next slice
   std::uint32_t numbers_ = 0;  ///< numbers below this are those of bodies in the slices
   bool has_begun_ = false;
   std::uint64_t near_ = 0;  ///< near pairs found

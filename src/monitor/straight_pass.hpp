@@ -9,9 +9,8 @@ namespace kinesphere {
 
 /// Times are absolute. Estimates, not bounds.
 struct StraightPass {
-  double begin =
-      infinity;  ///< The two first are within the separation, from now on; +infinity if they never are.
-  double end = infinity;  ///< They are within it no longer. At least `begin`.
+  double begin = infinity;  ///< when the two are first within the separation; +infinity if never
+  double end = infinity;    ///< when they are no longer within it; at least `begin`
   double closest_time = 0.0;
   double closest_distance = 0.0;  ///< length; for a cylinder, in the plane
 

@@ -20,11 +20,12 @@ class WellClearCourse {
   /// True if the two certainly have lost well clear, or would if the limit were larger by the tolerance.
   bool is_lost() const { return lost_for(now_discs_, outer_limits_) > 0.0; }
 
-  /// Returns a time before which the above holds, or +infinity if it holds up to the horizon.
+  /// Return a time before which is_clear() or is_lost() stays true, or +infinity if it does up to the
+  /// horizon.
   double clear_until(double horizon) const;
   double lost_until(double horizon) const;
-  /// Returns a time before which time alone cannot prove the above, but for the next `least`: errors are
-  /// taken not to grow from now on. Or +infinity, if that time is after the horizon.
+  /// Return a time before which time alone does not make is_clear() or is_lost() true, but perhaps in the
+  /// next `least`: errors are taken not to grow from now on. +infinity if that time is after the horizon.
   double may_be_clear(double horizon) const;
   double may_be_lost(double horizon) const;
 

@@ -34,7 +34,7 @@ ArcBounds bounds_of(const PolynomialPaths& paths, std::size_t arc) {
       const auto n = static_cast<double>(k);
       const double term = std::abs(c[k]) * power;
       size += term;
-      // The derivatives of T_n are largest at 1, as those of a power.
+      // Chebyshev polynomials in [-1, 1] and powers in [0, 1] have their largest derivatives at 1.
       speed += term * (is_chebyshev ? n * n : n);
       jerk +=
           term * (is_chebyshev ? n * n * (n * n - 1.0) * (n * n - 4.0) / 15.0 : n * (n - 1.0) * (n - 2.0));

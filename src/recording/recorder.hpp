@@ -16,7 +16,7 @@ class Recorder {
   /// Returns a probe that asks `probe` and records its answers; an empty one if `probe` is empty. The
   /// recorder must outlive it.
   RotationProbe listen_to(RotationProbe probe);
-  /// Returns the probe that is listened to.
+  /// Returns the probe that listen_to() was given.
   const RotationProbe& rotation_probe() const { return rotation_probe_; }
 
   /// Returns the complete recording and leaves the recorder empty.
