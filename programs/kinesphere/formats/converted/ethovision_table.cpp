@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "base/ascii_text.hpp"
+#include "base/program_error.hpp"
 #include "formats/converted/converted_table.hpp"
 #include "formats/fields/field_text.hpp"
 #include "formats/tables/row_reader.hpp"
-#include "base/program_error.hpp"
 
 namespace kinesphere::program {
 namespace {

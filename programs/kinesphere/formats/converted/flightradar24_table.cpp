@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
+#include "base/program_error.hpp"
 #include "formats/converted/converted_table.hpp"
 #include "formats/fields/field_text.hpp"
-#include "base/program_error.hpp"
 
 namespace kinesphere::program {
 
