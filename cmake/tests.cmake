@@ -22,7 +22,7 @@ kinesphere_optimise_test(kinesphere_test_headers_little)
 # Tests that take long and repeat themselves over more streams, scenes or bytes than others, or mostly wait: filters of
 # GoogleTest by executable. They have the label `long` (scripts/test.sh --all).
 set(kinesphere_long_stream Long/*:*RandomCrowds*:AnyReports.OtherSmall*:Mended.StrangeNumbers*)
-set(kinesphere_long_world BadSnapshot.AnyTwo*:PlainGap.*:MoreChaos.*:ClustersThatWereInterrupted.*)
+set(kinesphere_long_world BadSnapshot.AnyTwo*:FastSpins.AreNamed*:PlainGap.*:MoreChaos.*:ClustersThatWereInterrupted.*)
 set(kinesphere_long_simulation Pile.Thousand*)
 set(kinesphere_long_program WatchNats.*)
 
@@ -36,7 +36,7 @@ function(kinesphere_add_tests name)
   kinesphere_compile(${test})
   kinesphere_batches_of(${test} 16)
   # These tests take longer to run than to compile.
-  if(name MATCHES "^(bound|stream)$")
+  if(name MATCHES "^(bound|stream|mixed_worlds)$")
     target_precompile_headers(${test} REUSE_FROM kinesphere_test_headers)
   else()
     kinesphere_optimise_test(${test})

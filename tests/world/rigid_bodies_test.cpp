@@ -20,6 +20,7 @@
 #include "support/expect_error.hpp"
 #include "support/placed_parts.hpp"
 #include "support/scenes_of_each.hpp"
+#include "support/spin.hpp"
 #include "world/surroundings.hpp"
 
 namespace kinesphere::rigid_bodies_test {
@@ -30,21 +31,6 @@ using namespace placed_parts;
 constexpr double eps = 1e-5;
 
 // The scene.
-
-/// The true rotation since a time: about an axis, with a constant angular acceleration.
-struct Spin {
-  double since = 0.0;
-  Quaternion orientation{};
-  Vec3 axis{0, 0, 1};
-  double speed = 0.0;
-  double acceleration = 0.0;
-
-  Rotation at(double time) const {
-    const double s = time - since;
-    return {after(rotation_by(axis * ((speed + 0.5 * acceleration * s) * s)), orientation),
-            axis * (speed + acceleration * s)};
-  }
-};
 
 struct Kind {
   std::uint64_t seed;
@@ -223,7 +209,7 @@ class RandomRigidBodies : public testing::TestWithParam<Kind> {
       if (!spins_change() || thing.parts.empty()) continue;
       Spin& spin = spins[id];
       const double now = p.world.time();
-      const double speed = spin.speed + spin.acceleration * (now - spin.since);
+      const double speed = spin.speed_at(now);
       const double largest = GetParam().largest_spin;
       const double sign = speed > std::min(0.8 * largest, largest - longest * GetParam().angular_acceleration)
                               ? -1.0
