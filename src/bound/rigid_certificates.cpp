@@ -4,6 +4,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "bound/all_turns.hpp"
+#include "bound/beside_solid.hpp"
 #include "bound/hull_distance.hpp"
 #include "bound/part_pairs.hpp"
 #include "bound/reach.hpp"
@@ -299,45 +301,6 @@ GapLimits gap(const PartBound& a, const HalfSpace& wall, double t) {
 
 // A part and a box or a triangle, at rest or carried.
 
-/// The motion of a bound relative to a solid.
-template <class Solid>
-BoundBesideBound beside(const Bound& bound, const Solid&, double) {
-  return BoundBesideBound(bound);
-}
-template <class Solid>
-BoundBesideBound beside(const Bound& bound, const CarriedShape<Solid>& shape, double time) {
-  return {bound, shape.carrier, time, shape.radius};
-}
-template <class Solid>
-const Solid& solid_of(const Solid& solid) {
-  return solid;
-}
-template <class Solid>
-const Solid& solid_of(const CarriedShape<Solid>& shape) {
-  return shape.solid;
-}
-
-/// The bound of a point of a solid.
-template <class Solid>
-Bound bound_of_point(const Solid&, const Vec3& point, double time) {
-  return {.time = time, .position = point};
-}
-template <class Solid>
-Bound bound_of_point(const CarriedShape<Solid>& shape, const Vec3& point, double) {
-  Bound bound = shape.carrier;
-  bound.position += point;
-  return bound;
-}
-/// Part of that bound's radius that does not count.
-template <class Solid>
-double radius_of(const Solid&) {
-  return 0.0;
-}
-template <class Solid>
-double radius_of(const CarriedShape<Solid>& shape) {
-  return shape.radius;
-}
-
 /// A hull and a solid at a time: nearest points and the direction between them.
 template <class Shape>
 struct HullBesideSolid {
@@ -520,11 +483,22 @@ RigidPair<Other> foreseen(const RigidPair<Other>& pair, double time) {
   return pair.is_exact() ? pair.at(time) : pair;
 }
 
-}  // namespace
+/// Returns the largest angle (radians) by which one of the two keeps turning about the same axis.
+template <class Other>
+double turned_about_an_axis(const RigidPair<Other>& pair, double duration) {
+  const auto of = [&](const RigidExtent& body) {
+    return body.spin_growth == 0.0 && body.spin > 0.0 ? body.spin * duration : 0.0;
+  };
+  if constexpr (std::is_same_v<Other, RigidExtent>)
+    return std::max(of(pair.body), of(pair.other));
+  else
+    return of(pair.body);
+}
+/// Turns (radians) up to the horizon beyond which certificates of all turns are worth their cost.
+constexpr double many_turns = 64.0;
 
 template <class Other>
-double earliest_meeting(const Bound&, const RigidPair<Other>& pair, double from, double until,
-                        double distance) {
+double earliest_meeting_in_steps(const RigidPair<Other>& pair, double from, double until, double distance) {
   FirstParts first;
   double time = meeting(foreseen(pair, from), from, until, distance, first);
   if (!pair.is_exact()) return time;
@@ -549,10 +523,23 @@ double earliest_meeting(const Bound&, const RigidPair<Other>& pair, double from,
   return time;
 }
 
+}  // namespace
+
+template <class Other>
+double earliest_meeting(const Bound&, const RigidPair<Other>& pair, double from, double until,
+                        double distance) {
+  const double time = earliest_meeting_in_steps(pair, from, until, distance);
+  if (time == infinity || !(turned_about_an_axis(pair, until - from) > many_turns)) return time;
+  return std::max(time, earliest_meeting_in_all_turns(pair, from, until, distance));
+}
+
 template <class Other>
 double earliest_separation(const Bound&, const RigidPair<Other>& pair, double from, double until,
                            double distance) {
   double last = from;
+  if (turned_about_an_axis(pair, until - from) > many_turns)
+    last = earliest_separation_in_all_turns(pair, from, until, distance);
+  if (last == infinity) return last;
   for_each_part(
       foreseen(pair, from), from, {}, [&](const GapNow& gap) { return gap.least > distance; },
       [&](const PartBound& part, const auto& partner) {

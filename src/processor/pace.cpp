@@ -30,11 +30,16 @@ PromisedWay longest_way(const Bodies& bodies, double step) {
          {"planned_acceleration", norm(bound.planned_acceleration)},
          {"velocity_error", bodies.velocity_error(number)},
          {"velocity", norm(bound.velocity)}}};
+    const auto consider = [&](double way, double promised, std::string_view argument) {
+      if (way > longest.way) longest = {way, promised, argument, bodies.id_of(number)};
+    };
     for (std::size_t k = 0; k < promises.size(); ++k) {
       const auto& [argument, promised] = promises[k];
-      const double way = promised * (k < 2 ? by_acceleration : step);
-      if (way > longest.way) longest = {way, promised, argument, bodies.id_of(number)};
+      consider(promised * (k < 2 ? by_acceleration : step), promised, argument);
     }
+    if (const RigidRecord* const turning = bodies.rigid.find(bodies[number]))
+      consider(turning->surface_acceleration(bodies[number].radius) * by_acceleration, turning->spin(),
+               turning->keeps_spin() ? "angular_velocity" : "largest_angular_speed");
   }
   return longest;
 }

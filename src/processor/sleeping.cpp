@@ -14,6 +14,7 @@ void Sleeping::sleep(std::uint32_t number) {
   bodies().sleep_records.add(body, {number, limits});
   if (known) body.stand_still();
   state_.contacts.turn_reported(number);
+  processor_.events().drop_woken(bodies().id_of(number));
   processor_.invalidate(number);
 }
 

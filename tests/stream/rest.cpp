@@ -112,6 +112,7 @@ void Player::rest(BodyId id) {
   if (!done) throw Disagreement("rest: " + done.error().message);
   require(world_.body(id).value().sleeping, "a body does not rest");
   if (rested) return;
+  woken_.erase(id);
   truth_.rest(id);
   told_.redirected(id);
   changed();

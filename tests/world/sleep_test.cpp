@@ -220,6 +220,23 @@ TEST(Sleep, OfABodyThatMovesIsABrokenPromise) {
   EXPECT_NEAR(events[0].velocity_excess, 1.0, 1e-9);
 }
 
+TEST(Sleep, AfterItHasBeenBrokenIsNotToldToBeOver) {
+  Rested p({.contacts = ContactEvents::impacts});
+  const BodyId sleeper = p.ball({});
+  p.rest(sleeper);
+  p.run(1.0);
+  const BodyId thrown = p.ball({5, 0, 0}, {-1, 0, 0});
+  const auto events = p.run(20.0, [&](const Event& event) {
+    if (event.kind != EventKind::contact_begin) return;
+    EXPECT_FALSE(p.resting(sleeper));
+    p.set_velocity(thrown, {1, 0, 0});
+    p.rest(sleeper);
+  });
+  EXPECT_EQ(of_kind(events, EventKind::contact_begin).size(), 1u);
+  EXPECT_TRUE(of_kind(events, EventKind::woke).empty()) << events;
+  EXPECT_TRUE(p.resting(sleeper));
+}
+
 TEST(Sleep, RefusesWhatCannotRest) {
   Rested p;
   const BodyId id = p.ball({});
@@ -304,6 +321,7 @@ class RandomScene {
           p_.world.sleep(id).value();
           ++rests_;
           EXPECT_TRUE(resting(id));
+          awaited_.erase(id);
       }
       note_woken(before);
     }

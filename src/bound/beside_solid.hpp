@@ -1,0 +1,47 @@
+// A solid, at rest or carried, as a partner: motions relative to it, and bounds of its points.
+#pragma once
+
+#include "bound/carried_shape.hpp"
+
+namespace kinesphere {
+
+/// The motion of a bound relative to a solid from a time on.
+template <class Solid>
+BoundBesideBound beside(const Bound& bound, const Solid&, double) {
+  return BoundBesideBound(bound);
+}
+template <class Solid>
+BoundBesideBound beside(const Bound& bound, const CarriedShape<Solid>& shape, double time) {
+  return {bound, shape.carrier, time, shape.radius};
+}
+template <class Solid>
+const Solid& solid_of(const Solid& solid) {
+  return solid;
+}
+template <class Solid>
+const Solid& solid_of(const CarriedShape<Solid>& shape) {
+  return shape.solid;
+}
+
+/// The bound of a point of a solid.
+template <class Solid>
+Bound bound_of_point(const Solid&, const Vec3& point, double time) {
+  return {.time = time, .position = point};
+}
+template <class Solid>
+Bound bound_of_point(const CarriedShape<Solid>& shape, const Vec3& point, double) {
+  Bound bound = shape.carrier;
+  bound.position += point;
+  return bound;
+}
+/// Part of that bound's radius that does not count.
+template <class Solid>
+double radius_of(const Solid&) {
+  return 0.0;
+}
+template <class Solid>
+double radius_of(const CarriedShape<Solid>& shape) {
+  return shape.radius;
+}
+
+}  // namespace kinesphere
