@@ -26,10 +26,11 @@ std::vector<TrackClass> classes_of(const MonitorDefinition& definition) {
   return classes;
 }
 
-/// Order of the events of one time. A track that starts anew does so before all that follows for it.
+/// Order of the events of one time. A track that ends or starts anew does so before all that follows for its
+/// id.
 auto order_of(const MonitorEvent& event) {
-  return std::tuple(event.kind != MonitorEventKind::reclassified, event.kind, event.first, event.second,
-                    event.level);
+  const bool is_end = event.kind == MonitorEventKind::dropped || event.kind == MonitorEventKind::reclassified;
+  return std::tuple(!is_end, event.kind, event.first, event.second, event.level);
 }
 
 }  // namespace

@@ -169,11 +169,12 @@ Result<void> Monitor::Engine::remove(TrackId id) {
 void Monitor::Engine::drop(std::uint32_t number, MonitorEventKind kind) {
   KnownTrack& track = tracks_[number];
   predictions_.remove(number);
-  // A track that starts anew has no events from before.
-  if (kind == MonitorEventKind::reclassified)
-    std::erase_if(events_, [&](const MonitorEvent& event) {
-      return is_of_pair(event.kind) && (event.first == track.id || event.second == track.id);
-    });
+  // A track that ends or starts anew has no events from before, but those of earlier tracks of its id.
+  std::erase_if(events_, [&](const MonitorEvent& event) {
+    if (is_of_pair(event.kind)) return event.first == track.id || event.second == track.id;
+    return event.first == track.id && kind == MonitorEventKind::dropped &&
+           event.kind != MonitorEventKind::dropped;
+  });
   for (const std::uint32_t other : track.open) {
     pair_records_.remove(number, other);
     std::erase(tracks_[other].open, number);

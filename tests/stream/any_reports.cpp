@@ -99,6 +99,7 @@ class Sky {
     for (std::uint32_t k = 2 + choices_.below(5); k > 0; --k) add_track();
     definition_.classes[0].largest_speed =
         has_speed_ ? ErrorBound(static_cast<double>(fastest_) * 1.0001 + 1e-9) : ErrorBound(infinity());
+    loosen_other_class();
     auto made = Monitor::create(definition_);
     if (!made) throw BadResult(made.error());
     monitor_.emplace(std::move(*made));
@@ -112,9 +113,12 @@ class Sky {
         case 0:
         case 1:
           now = std::min(end, now + unit_ * (0.02 + 0.3 * choices_.part()));
+          // The clock leaps, so that tracks become stale.
+          if (choices_.one_in(16)) now = std::min(end, now + unit_ * choices_.of({1.0, 3.0}));
           break;
         case 2:
           if (choices_.one_in(4)) restore();
+          if (choices_.one_in(8)) remove();
           break;
         case 3:
           file_plan(now);
@@ -162,6 +166,19 @@ class Sky {
     definition_.separations = {{0, 0, levels}};
   }
 
+  /// The other class has looser limits, which the tracks keep, too, and the same separations.
+  void loosen_other_class() {
+    TrackClass loose = definition_.classes[0];
+    loose.acceleration_limit = 2.0 * limit_ + 0.1 / (unit_ * unit_);
+    loose.largest_speed = loose.largest_speed * 2.0;
+    definition_.classes.push_back(loose);
+    const std::vector<Separation> levels = definition_.separations[0].levels;
+    definition_.separations.push_back({0, 1, levels});
+    definition_.separations.push_back({1, 1, levels});
+    if (choices_.one_in(3)) definition_.stale_after = unit_ * choices_.of({0.5, 2.0});
+    if (choices_.one_in(3)) definition_.drop_after = unit_ * choices_.of({1.0, 4.0});
+  }
+
   Vec3 flat(Vec3 v) const {
     if (definition_.dimensions == 2) v.z = 0.0;
     return v;
@@ -193,12 +210,13 @@ class Sky {
     truths_.push_back(std::move(truth));
     since_wrong_.push_back(0);
     latest_.push_back({});
+    classes_.push_back(0);
   }
 
   /// Returns a report that keeps its limits, with a timestamp of `time`.
   TrackReport report_of(std::size_t track, double time) {
     const Truth& truth = truths_[track];
-    TrackReport report{.timestamp = time};
+    TrackReport report{.timestamp = time, .track_class = classes_[track]};
     const double error = choices_.of({1e-6, 0.1, 1.0}) * (1.0 + 1e-6 * size_),
                  velocity_error = choices_.of({1e-6, 0.1, 1.0}) / unit_;
     report.position_error = error;
@@ -255,6 +273,11 @@ class Sky {
     const double end = start_ + unit_ * segments;
     const double time =
         std::clamp(now + unit_ * choices_.of({0.0, -0.2, -1.3, 0.3}), start_, end - 0.01 * unit_);
+    if (choices_.one_in(24)) {
+      classes_[track] = 1 - classes_[track];
+      start_anew(track);
+      ++watched_.reclassified;
+    }
     tell_plans_that_begin(time + 0.1 * unit_);
     TrackReport report = report_of(track, time);
     if (choices_.one_in(2)) add_plan(track, time, report);
@@ -273,6 +296,48 @@ class Sky {
     }
     known_.insert(track);
     if (const auto taken = monitor_->report(track, report); !taken) fail("report: " + taken.error().message);
+  }
+
+  void remove() {
+    if (known_.empty()) return;
+    const std::vector<std::size_t> known(known_.begin(), known_.end());
+    const std::size_t track = known[choices_.below(static_cast<std::uint32_t>(known.size()))];
+    monitor_->remove(track).value();
+    ++watched_.removed;
+    removed_.insert(track);
+    start_anew(track);
+  }
+
+  /// The monitor forgets the track with its plans.
+  void start_anew(std::size_t track) {
+    known_.erase(track);
+    since_wrong_[track] = 0;
+    latest_[track].reset();
+    for (FiledPlan& filed : truths_[track].plans) filed.reported = false;
+  }
+
+  /// All that was told about the pairs of a track is over.
+  void forget_pairs(TrackId track) {
+    std::erase_if(told_, [&](const auto& entry) {
+      return std::get<0>(entry.first) == track || std::get<1>(entry.first) == track;
+    });
+  }
+
+  void hear(const MonitorEvent& event) {
+    ++watched_.events;
+    if (event.kind == MonitorEventKind::dropped || event.kind == MonitorEventKind::reclassified)
+      forget_pairs(event.first);
+    if (event.kind == MonitorEventKind::dropped) {
+      const auto removed = removed_.find(event.first);
+      if (removed == removed_.end())
+        start_anew(event.first);
+      else
+        removed_.erase(removed);
+    }
+    if (event.kind != MonitorEventKind::verdict) return;
+    Verdict& verdict = told_[{event.first, event.second, event.level}];
+    if (verdict != event.before) return fail("an event tells of another verdict before");
+    verdict = event.verdict;
   }
 
   void restore() {
@@ -301,11 +366,7 @@ class Sky {
       auto event = asks ? monitor_->advance(time, poll) : monitor_->advance(time);
       if (!event) return fail("advance: " + event.error().message);
       if (!*event) break;
-      ++watched_.events;
-      if ((*event)->kind != MonitorEventKind::verdict) continue;
-      Verdict& verdict = told_[{(*event)->first, (*event)->second, (*event)->level}];
-      if (verdict != (*event)->before) return fail("an event tells of another verdict before");
-      verdict = (*event)->verdict;
+      hear(**event);
     }
     const MonitorCounters& counters = monitor_->counters();
     if (counters.windows > 200'000 || counters.rechecks > 20'000'000) fail("too many steps");
@@ -419,6 +480,8 @@ class Sky {
   std::vector<int> since_wrong_;
   std::vector<std::optional<TrackReport>> latest_;
   std::set<std::size_t> known_;
+  std::multiset<std::size_t> removed_;  ///< the event of whose removal has not come yet
+  std::vector<std::size_t> classes_;
   std::optional<Monitor> monitor_;
   std::map<std::tuple<TrackId, TrackId, std::uint32_t>, Verdict> told_;
   std::map<std::tuple<std::size_t, std::size_t, std::uint32_t>, Promised> promises_;

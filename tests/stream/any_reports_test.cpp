@@ -38,15 +38,23 @@ TEST(AnyReports, OfRandomSkiesAreNeverTakenWrongly) {
     all.inevitable += watched.inevitable;
     all.plans += watched.plans;
     all.wrong += watched.wrong;
+    all.removed += watched.removed;
+    all.reclassified += watched.reclassified;
   }
-  std::printf("%zu reports, %zu events, %zu certain, %zu promised, %zu inevitable, %zu plans, %zu wrong\n",
-              all.reports, all.events, all.certain, all.promised, all.inevitable, all.plans, all.wrong);
+  std::printf(
+      "%zu reports, %zu events, %zu certain, %zu promised, %zu inevitable, %zu plans, %zu wrong, %zu "
+      "removed, "
+      "%zu of another class\n",
+      all.reports, all.events, all.certain, all.promised, all.inevitable, all.plans, all.wrong, all.removed,
+      all.reclassified);
   EXPECT_GT(all.events, 10 * skies());
   EXPECT_GT(all.certain, 1000 * skies());
   EXPECT_GT(all.promised, 100 * skies());
   EXPECT_GT(all.inevitable, skies() / 10);
   EXPECT_GT(all.plans, skies());
   EXPECT_GT(all.wrong, skies());
+  EXPECT_GT(all.removed, skies());
+  EXPECT_GT(all.reclassified, skies());
 }
 
 TEST(AnyReports, DamagedSnapshotsOfMonitorsAreRefusedOrHarmless) {

@@ -25,7 +25,6 @@ void restore_and_use(const Snapshot& snapshot, std::uint64_t seed) {
 Snapshot snapshot_of_stream(std::uint64_t seed) {
   Bytes stream = random_stream(seed, 40);
   stream[1] = 9;  // at most 12 bodies
-  stream = without_rigid_bodies(stream);
   Player player(kind_of(stream));
   for (const Operation& operation : operations_of(stream)) player.perform(operation);
   return player.world().save().value();

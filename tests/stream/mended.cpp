@@ -56,7 +56,6 @@ Content whole(const Original& parts) {
 Content of_stream(std::uint64_t seed, int operations, bool many) {
   Bytes bytes = random_stream(seed, static_cast<std::size_t>(operations));
   if (!many) bytes[1] = 9;
-  bytes = without_rigid_bodies(bytes);
   Player player(kind_of(bytes));
   for (const Operation& operation : operations_of(bytes)) player.perform(operation);
   return player.world().save().value();
@@ -85,6 +84,7 @@ class Crowd {
                           .user_data = std::uint64_t(k)};
       if (const auto id = world_.add(body)) keep(*id, state);
     }
+    for (int k = 0; k < bodies; k += 5) add_rigid_body(k, flat);
     const bool repeats = definition.periodic.x || definition.periodic.y;
     for (int k = 0; k < 3; ++k) {
       Vec3 place{2.0 * k + 1.0, k == 0 ? 8.0 : 4.0, flat ? 0.0 : 4.0};
@@ -93,6 +93,18 @@ class Crowd {
       if (!repeats && k == 2) shape = HalfSpace{{0, 1, 0}, 0.1};
       if (const auto id = world_.add_static({.shape = shape})) keep(*id, {place, {}});
     }
+  }
+
+  /// Adds a capsule or a dumbbell that keeps its angular velocity.
+  void add_rigid_body(int number, bool flat) {
+    State state{{random_.uniform(0.5, 7.5), random_.uniform(0.5, 7.5), random_.uniform(0.5, 7.5)},
+                random_.point_in_ball()};
+    if (flat) state.position.z = state.velocity.z = 0.0;
+    RigidBody body{.body = {.position = state.position, .velocity = state.velocity},
+                   .parts = {{{-0.3, 0, 0}, {0.3, 0, 0}, 0.1}},
+                   .rotation = {.angular_velocity = {0, 0, random_.uniform(-2.0, 2.0)}}};
+    if (number % 2 == 1) body.parts = {{{-0.3, 0, 0}, {-0.3, 0, 0}, 0.1}, {{0.3, 0, 0}, {0.3, 0, 0}, 0.2}};
+    if (const auto id = world_.add_rigid_body(body)) keep(*id, state);
   }
 
   void go(double duration, bool bounces = true) {
@@ -260,13 +272,16 @@ void use(World world) {
     }
   };
   const Probe probe = answers;
+  Random turns(8);
+  if (world.bodies().size() % 2 == 0) give_random_rotations(world, turns);
   const auto restored = World::restore(world.save().value());
   demand(static_cast<bool>(restored), "what was restored is refused when it is saved");
   try {
     ask(world, random, probe);
     for (int k = 0; k < 30; ++k) {
       const double step = k % 4 == 0 ? 1e-3 : k % 4 == 1 ? 10.0 : 0.5;
-      const auto event = world.advance(std::min(1e30, world.time() + step), probe);
+      const auto event =
+          world.advance(std::min(1e30, world.time() + duration_of_few_turns(world, step)), probe);
       if (!event) break;
       if (k % 3 == 0) change(world, random);
     }

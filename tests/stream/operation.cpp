@@ -220,11 +220,6 @@ Bytes crowd_stream(std::uint64_t seed, std::size_t operations) {
   return bytes;
 }
 
-Bytes without_rigid_bodies(Bytes bytes) {
-  if (kind_of(bytes).rigid) bytes[4] ^= 8;
-  return bytes;
-}
-
 Bytes without(const Bytes& bytes, std::size_t from, std::size_t to) {
   const auto place = [&](std::size_t operation) {
     return bytes.begin() +

@@ -97,10 +97,6 @@ Bytes random_stream(std::uint64_t seed, std::size_t operations);
 /// Returns a stream for a crowd of hundreds, in which every other operation is a run.
 Bytes crowd_stream(std::uint64_t seed, std::size_t operations);
 
-/// Returns the stream for a world without rigid bodies. A damaged snapshot of these may turn so fast that
-/// time hardly goes on.
-Bytes without_rigid_bodies(Bytes bytes);
-
 /// Returns the stream without operations [from, to).
 Bytes without(const Bytes& bytes, std::size_t from, std::size_t to);
 
