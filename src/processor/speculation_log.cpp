@@ -43,7 +43,7 @@ void EventProcessor::certify_speculatively(std::uint32_t number, std::uint32_t o
   if (log_->batch->is_in_batch(until)) {
     log_->conflicts.add(other);
   } else {
-    log_->read_set.add({other, time_});
+    log_->read_set.add({other, time_, until < infinity});
   }
 }
 

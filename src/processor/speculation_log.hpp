@@ -6,7 +6,8 @@
 // is read-only, and new swept spheres are stored here. If such a body may meet one outside the cluster within
 // the batch, that one is a conflict: the cluster stops, and is executed again from the start of the batch
 // with that body. If it may meet one later, that one joins the read set: it must be unchanged since the start
-// of the batch up to the time of the velocity change.
+// of the batch up to the time of the velocity change. So does one that parts or shapes, not the balls around
+// the two, show not to be met.
 #pragma once
 
 #include <algorithm>
@@ -67,6 +68,7 @@ struct EventInRound {
 struct ReadEntry {
   std::uint32_t number;
   double time;
+  bool is_certified = false;  ///< the cluster has created a certificate for the two
 };
 
 /// A body whose origin was changed, and its origin before the change.
@@ -144,7 +146,7 @@ struct SpeculationLog {
   SegmentedList<SweptSphereUpdate> updates;   ///< ordered by time
   SegmentedList<PairCertificate> late_pairs;  ///< certificates due after the batch
   SegmentedList<std::uint32_t> conflicts;     ///< bodies that the cluster needs
-  SegmentedList<ReadEntry> read_set;  ///< bodies outside the cluster with certificates due after the batch
+  SegmentedList<ReadEntry> read_set;          ///< bodies outside the cluster that its certificates depend on
   SegmentedList<UndoEntry> undo_log;
   std::vector<WorkCounters> work;
   double stop = infinity;  ///< RunRecord::stop

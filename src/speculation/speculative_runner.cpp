@@ -280,12 +280,12 @@ bool SpeculativeRunner::merge_read_sets() {
     Cluster& cluster = clusters_.all()[k];
     if (cluster.is_merged()) return;
     cluster.superseded = 0;
-    for (const auto& [number, time] : read_set_of(cluster)) {
+    for (const auto& [number, time, is_certified] : read_set_of(cluster)) {
       const BodyCheckpoint* const before = checkpoint_of(number);
       if (before == nullptr) continue;
       // merge_updates() compares the new swept sphere of the body with those of other clusters.
       if (before->first_change.invalidated < time && sizer_.may_decline()) {
-        ++cluster.superseded;
+        cluster.superseded += is_certified ? 1 : 0;
       } else if (before->first_change.changed <= time) {
         found[worker].emplace_back(cluster.index, number);
       }
