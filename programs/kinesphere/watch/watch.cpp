@@ -26,11 +26,11 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
   command
       ->add_option(
           "FILE", options.file,
-          "The stream, plain or gzipped; - for standard input; tcp://HOST:PORT for what a server sends "
+          "The stream, one file, plain or gzipped; - for standard input; tcp://HOST:PORT for what a server "
+          "sends "
           "there; udp://127.0.0.1:PORT for datagrams to this port; nats://HOST:PORT/SUBJECT for what "
           "a server of NATS has")
       ->capture_default_str();
-  command->add_option("MORE", options.more_files)->group("");
   // Options that may be given several times take one value each: the FILE may come behind it.
   command
       ->add_option(
@@ -199,12 +199,6 @@ int watch(const WatchOptions& options) {
   if (options.separations.empty())
     throw ProgramError(
         "--separation: expected it, as sphere:50 or cylinder:5NM:1000ft: how near is too near (see --help)");
-  if (!options.more_files.empty())
-    throw ProgramError(
-        fmt::format("watch: expected one stream, but got {} and {}: join tables of one header in the order "
-                    "of their times, "
-                    "as sort does, or take tracks, which reads several files",
-                    options.file, options.more_files.front()));
   const OutputPath outputs[] = {{"--summary", options.summary},
                                 {"--snapshot", options.snapshot},
                                 {"--alerts", is_nats_address(options.alerts) ? "" : options.alerts}};

@@ -14,7 +14,6 @@ namespace kinesphere::program {
 
 struct WatchOptions {
   std::string file = "-";
-  std::vector<std::string> more_files;  ///< refused with a word about them
   FormatChoices choices;
   std::vector<std::string> separations;
   std::string look_ahead, confirm, hold;

@@ -291,8 +291,6 @@ TEST_F(WatchProgram, TakesItsFileBehindAnyOption) {
 TEST_F(WatchProgram, RefusesWrongOptions) {
   const std::string file = write("s.jsonl", head_on(2));
   expect_wrong_input("watch " + file, {"--separation"});
-  expect_wrong_input("watch " + file + " other.csv --separation sphere:3" + promises,
-                     {"expected one stream, but got", "and other.csv", "tracks, which reads several files"});
   expect_wrong_input("watch " + file + " --separation cube:3" + promises, {"--separation", "cube:3"});
   expect_wrong_input("watch " + file + " --separation sphere:3 --position-error 1",
                      {"--acceleration, --largest-speed", "jsonl"});
