@@ -633,6 +633,24 @@ TEST_F(TablesOfTheField, ClockTimesAreNoSeconds) {
             std::string::npos);
 }
 
+TEST_F(TablesOfTheField, ClocksWithoutADateCountFromMidnight) {
+  const std::string clocks =
+      "id,time,x,y\nu,23:59:59,0,0\nu,24:00:00.5,0,0\nv,11:59:59 PM,0,0.5\nv,24:00:01,0,0.5\n";
+  EXPECT_NE(approaches(clocks, "--distance 1").find("or say --time-unit clock to count from midnight"),
+            std::string::npos);
+  EXPECT_EQ(approaches(clocks, "--distance 1 --time-unit clock --contacts " + path("c.csv")), "1");
+  EXPECT_NE(read_text(path("c.csv")).find("\n86399,86400.5,"), std::string::npos) << read_text(path("c.csv"));
+  // Minutes and seconds of films; 86399 is a number of seconds.
+  EXPECT_EQ(approaches("id,time,x,y\nu,01:05.25,0,0\nu,1:06.0,0,0\nv,65.25,0,0\nv,66,0,0\n",
+                       "--distance 1 --time-unit clock"),
+            "1");
+  for (const char* unclear : {"01:65", "9:30", "01:65:00", "9:30 XM"})
+    EXPECT_NE(approaches(fmt::format("id,time,x,y\nu,{},0,0\n", unclear), "--distance 1 --time-unit clock")
+                  .find("write 9:30 as 09:30:00, or as 00:09:30"),
+              std::string::npos)
+        << unclear;
+}
+
 TEST_F(TablesOfTheField, TimesComeBackAsTheyWere) {
   const std::string text =
       "id,time,x,y\nu,0,0,0\nu,12,0,0\nu,24.975016,0,0\nv,1.648337,0.5,0\nv,1.673317,0.5,0\n"

@@ -200,7 +200,7 @@ TEST(TrackFile, TakesWhatIsSaid) {
   EXPECT_EQ(error_in(times, options), "t.txt: expected --frame-rate with --time-unit frames");
   options.hints.time_unit = "fortnight";
   EXPECT_EQ(error_in(times, options),
-            "--time-unit: expected s, ms, us, ns, min, h, d or frames, but got 'fortnight'");
+            "--time-unit: expected s, ms, us, ns, min, h, d, frames or clock, but got 'fortnight'");
   options.hints.time_unit = "";
   EXPECT_EQ(parse("id,time_ms,x_cm,y_cm\na,0,0,0\na,500,100,0\n").tracks[0].samples[1].time, 0.5);
   EXPECT_EQ(parse("id,time_ms,x_cm,y_cm\na,0,0,0\na,500,100,0\n").tracks[0].samples[1].position.x, 1.0);

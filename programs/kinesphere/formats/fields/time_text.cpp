@@ -264,6 +264,39 @@ std::string_view name_of(TimeKind kind) {
   return "";
 }
 
+std::optional<FileTime> parse_clock(std::string_view text) {
+  Reader reader(text);
+  // Durations and days of more than 24 hours.
+  constexpr std::size_t most_digits = 5;
+  std::int64_t whole = 0;
+  int parts = 0;
+  for (; parts < 3 && (parts == 0 || reader.take(':')); ++parts) {
+    const auto number = reader.few_digits(most_digits);
+    if (!number || (parts > 0 && *number >= 60)) return std::nullopt;
+    whole = 60 * whole + *number;
+  }
+  const bool has_decimals = reader.take('.') || reader.take(',');
+  FileTime time{};
+  if (has_decimals) {
+    const std::string_view digits = reader.all_digits_ahead();
+    if (digits.empty()) return std::nullopt;
+    set_fraction(digits, time);
+  }
+  reader.take(' ');
+  const bool after_noon = reader.take_word("pm") || reader.take_word("p.m.");
+  const bool of_twelve = after_noon || reader.take_word("am") || reader.take_word("a.m.");
+  // 9:30 may be hours and minutes, or minutes and seconds.
+  if (parts == 2 && of_twelve && !has_decimals)
+    whole *= 60;
+  else if (parts == 2 && !has_decimals)
+    return std::nullopt;
+  time.whole += whole;
+  const std::int64_t hour = whole / 3600;
+  if (parts < 2 || !reader.at_end() || (of_twelve && (hour < 1 || hour > 12))) return std::nullopt;
+  if (of_twelve) time.whole += 3600 * (hour % 12 + (after_noon ? 12 : 0) - hour);
+  return time;
+}
+
 std::optional<FileTime> parse_decimal_time(std::string_view text) {
   const auto number = parse_number(text);
   if (!number || std::abs(*number) >= too_large) return std::nullopt;

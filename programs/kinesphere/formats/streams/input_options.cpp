@@ -31,7 +31,9 @@ void add_input_options(CLI::App& command, FormatChoices& choices, const char* po
       .add_option("--frame-rate", hints.frame_rate, "Frames per second, when the time column counts frames")
       ->check(finite_number())
       ->group(input_group);
-  add("--time-unit", hints.time_unit, "Unit of times that are numbers", "s|ms|us|ns|min|h|d|frames");
+  add("--time-unit", hints.time_unit,
+      "Unit of times that are numbers; clock: times such as 09:30:15 count from midnight",
+      "s|ms|us|ns|min|h|d|frames|clock");
   add("--unit", hints.unit, "Unit of the file's lengths; all other lengths are then in metres",
       "m|km|cm|mm|um|ft|nmi|yd|mi|deg");
   add_choice<DateOrder>(command, "--dates", hints.dates,

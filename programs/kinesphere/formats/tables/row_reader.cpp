@@ -225,6 +225,8 @@ std::optional<TimeField> RowReader::time(Quantity quantity) {
     return std::nullopt;
   }
   if (!time && columns_.decimal_comma) time = time_field(with_decimal_point(text, buffer_), columns_.dates);
+  if (!time && columns_.times_are_clocks)
+    if (const auto clock = parse_clock(text)) time = TimeField{*clock, TimeKind::number};
   if (!time) {
     if (parse_date_time(text, DateOrder::any))
       throw OpenQuestion(
@@ -234,9 +236,10 @@ std::optional<TimeField> RowReader::time(Quantity quantity) {
     if (text.find_first_of("-/:") == std::string_view::npos)
       throw WrongInput(wrong_text(column->place, "a number as time") + number_advice(field(column->place)));
     throw WrongInput(wrong_text(column->place, "a time") +
-                     (is_clock(text)
+                     (columns_.times_are_clocks ? ": write 9:30 as 09:30:00, or as 00:09:30"
+                      : is_clock(text)
                           ? ", which has no date: write it as in 2024-01-31T12:30:00Z, or the date in a "
-                            "column called date"
+                            "column called date, or say --time-unit clock to count from midnight"
                           : " (dates are read as in 2024-01-31T12:30:00Z)"));
   }
   if (time->kind != TimeKind::number) return time;

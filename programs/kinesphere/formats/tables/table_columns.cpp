@@ -857,10 +857,11 @@ void understand_time(const TableHead& head, ColumnUse use, TableColumns& columns
 void apply_time_hints(const ColumnHints& hints, TableColumns& columns) {
   const std::string& unit = hints.time_unit;
   const bool frames = unit == "frames";
-  const auto known = time_unit_named(unit);
+  columns.times_are_clocks = unit == "clock";
+  const auto known = columns.times_are_clocks ? TimeUnit{} : time_unit_named(unit);
   if (!unit.empty() && !frames && !known)
     throw ProgramError(
-        fmt::format("--time-unit: expected s, ms, us, ns, min, h, d or frames, but got '{}'", unit));
+        fmt::format("--time-unit: expected s, ms, us, ns, min, h, d, frames or clock, but got '{}'", unit));
   if (known && hints.frame_rate)
     throw ProgramError(
         fmt::format("--frame-rate: expected only where frames are counted, not with --time-unit {}", unit));

@@ -47,6 +47,7 @@ struct TableColumns {
   TimeKind time_kind = TimeKind::number;  ///< number or frames, where the times turn out to be numbers
   TimeUnit time_unit{};                   ///< unit of numbers; its rate is that of frames
   bool time_unit_said = false;            ///< not only taken for seconds because the column is called time
+  bool times_are_clocks = false;          ///< times of day without a date count from midnight
   std::string time_problem;               ///< not empty: why numbers cannot be taken as times
   std::string height_advice;              ///< how to say the unit of heights
   std::string time_advice;                ///< how to leave the column of dates out
