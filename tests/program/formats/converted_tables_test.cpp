@@ -1,4 +1,6 @@
 // Files of other formats that tracks reads: GPX, XYZ, dumps of LAMMPS.
+#include <fmt/format.h>
+
 #include "program/support.hpp"
 #include "tracks/track_file.hpp"
 
@@ -234,6 +236,17 @@ TEST(ConvertedTables, ReadsJsonRecords) {
 }
 
 /// Values inside each other without end would exhaust the stack.
+TEST(ConvertedTables, SaysHowRecordsInListsAreTakenOut) {
+  std::string players;
+  for (int k = 0; k < 5; ++k)
+    players += fmt::format(R"({}{{"id":{},"x":{},"y":0}})", k == 0 ? "" : ",", k, k);
+  const std::string frame = R"({"frame":1,"players":[)" + players + "]}\n";
+  EXPECT_EQ(error_in(frame + frame),
+            "f: expected records with a position each, but they are in a list 'players': say jq -c '. + "
+            ".players[] | del(.players)' f | kinesphere tracks -");
+  EXPECT_EQ(error_in("[" + frame + "]"), error_in(frame));
+}
+
 TEST(ConvertedTables, RefusesDeepJson) {
   constexpr std::size_t deep = 200'000;
   std::string objects, ends;

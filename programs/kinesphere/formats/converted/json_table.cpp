@@ -17,6 +17,20 @@
 namespace kinesphere::program {
 namespace {
 
+/// Returns the table. Throws ProgramError for records whose positions are in a list of each.
+std::optional<ConvertedTable> table_with_positions(const JsonRows& rows, const std::string& file) {
+  const bool has_position = std::ranges::any_of(rows.names(), [](const std::string& name) {
+    const auto meaning = meaning_of_ending(name);
+    return meaning && (meaning->quantity == Quantity::x || meaning->quantity == Quantity::longitude);
+  });
+  if (const std::string& list = rows.long_list(); !list.empty() && !has_position)
+    throw ProgramError(fmt::format(
+        "{0}: expected records with a position each, but they are in a list '{1}': say jq -c '. + .{1}[] | "
+        "del(.{1})' {0} | kinesphere tracks -",
+        file, list));
+  return table_of(rows);
+}
+
 /// [{...}, {...}]
 std::optional<ConvertedTable> table_of_list(std::string_view text, const std::string& file) {
   JsonDocumentReader reader;
@@ -31,7 +45,7 @@ std::optional<ConvertedTable> table_of_list(std::string_view text, const std::st
     }
     require_end(document, "one list of JSON records");
   });
-  return table_of(rows);
+  return table_with_positions(rows, file);
 }
 
 /// Reads objects, or lists of objects, one in each line.
@@ -48,7 +62,7 @@ std::optional<ConvertedTable> table_of_lines(std::string_view text, const std::s
       rows.add_document(document, number);
     }
   });
-  return table_of(rows);
+  return table_with_positions(rows, file);
 }
 
 /// Returns a field of a table for a number, or nothing.

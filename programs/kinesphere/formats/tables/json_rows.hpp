@@ -42,6 +42,8 @@ class JsonRows {
   }
 
   const std::vector<std::string>& names() const { return names_; }
+  /// Returns the name of a list of objects that was too long for columns; empty if there was none.
+  const std::string& long_list() const { return long_list_; }
   /// Returns the names as the header of a table.
   std::string header() const {
     std::string header;
@@ -76,7 +78,7 @@ class JsonRows {
         // Longer lists are no positions.
         constexpr std::size_t longest = 3;
         ondemand::array list = value.get_array();
-        if (list.count_elements() > longest) return;
+        if (list.count_elements() > longest) return note_list(name, list);
         std::size_t place = 0;
         for (ondemand::value element : list)
           add_value(fmt::format("{}.{}", name, place++), element, depth + 1);
@@ -102,6 +104,14 @@ class JsonRows {
   }
 
  private:
+  void note_list(const std::string& name, ondemand::array& list) {
+    if (!long_list_.empty()) return;
+    for (ondemand::value element : list) {
+      if (element.type() == ondemand::json_type::object) long_list_ = name;
+      break;
+    }
+  }
+
   struct Row {
     std::size_t line;
     /// Columns and texts; the last text of a column counts. Many rows have few of all columns.
@@ -147,6 +157,7 @@ class JsonRows {
   }
 
   std::vector<std::string> names_;
+  std::string long_list_;
   std::unordered_map<std::string, std::size_t> columns_;
   std::vector<Row> rows_;
 };
