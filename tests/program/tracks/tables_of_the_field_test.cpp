@@ -177,6 +177,8 @@ TEST_F(TablesOfTheField, CornersOfBoxesAreNoBodies) {
   EXPECT_NE(approaches(boxes, "--distance 2").find("the corners of boxes: say --format table"),
             std::string::npos);
   EXPECT_EQ(approaches(boxes, "--distance 2 --format table"), "1");
+  EXPECT_NE(approaches("time,x0,y0,x1,y1\n0,0,0,0,1\n", "--distance 2").find("the corners of boxes"),
+            std::string::npos);
   EXPECT_EQ(approaches("seconds,x1,y1,p1,x2,y2,p2\n0,0,0,1,0,1,1\n1,0,0,1,0,1,1\n", "--distance 2"), "1");
 }
 

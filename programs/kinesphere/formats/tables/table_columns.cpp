@@ -479,14 +479,14 @@ void find_pairs(const TableHead& head, const ColumnHints& hints, TableColumns& c
   if (heights != 0 && heights != std::ssize(bodies))
     throw ProgramError(fmt::format("{}: expected a height for each pair of columns or for none; it has {}",
                                    head.file, head.text()));
-  // Of the bodies, as x1 and p1 are, or the time.
+  // Of the bodies, as x1 and p1 are (x0, y0, x1, y1 are mostly corners), or the time.
   const auto is_usual = [&](std::size_t place) {
     const std::string& name = head.names[place];
     const auto meaning = meaning_of(name);
     const bool is_said = std::any_of(columns.of.begin(), columns.of.end(),
                                      [&](const auto& column) { return column && column->place == place; });
     const bool is_of_body = std::any_of(bodies.begin(), bodies.end(), [&](const TableColumns::Body& body) {
-      return body.x == place || body.y == place || body.z == place;
+      return body.id != "0" && (body.x == place || body.y == place || body.z == place);
     });
     return is_of_body || name.ends_with('1') || name.ends_with('2') || is_said ||
            (meaning && (meaning->quantity == Quantity::time || meaning->quantity == Quantity::frame));
