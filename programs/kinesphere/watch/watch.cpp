@@ -27,9 +27,8 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
       ->add_option(
           "FILE", options.file,
           "The stream, one file, plain or gzipped; - for standard input; tcp://HOST:PORT for what a server "
-          "sends "
-          "there; udp://127.0.0.1:PORT for datagrams to this port; nats://HOST:PORT/SUBJECT for what "
-          "a server of NATS has")
+          "sends there; udp://127.0.0.1:PORT for datagrams to this port; nats://HOST:PORT/SUBJECT for what a "
+          "server of NATS has")
       ->capture_default_str();
   // Options that may be given several times take one value each: the FILE may come behind it.
   command

@@ -31,21 +31,20 @@ std::optional<double> number_field(std::string_view text, bool decimal_comma) {
 
 std::string number_advice(std::string_view field) {
   constexpr std::string_view digits = "0123456789";
-  const std::size_t first = field.find_first_of(digits);
-  if (first == std::string_view::npos || first > 1) return {};
-  const std::size_t other = std::min(field.find_first_not_of("0123456789+-eE.", first), field.size());
-  if (field.find(',') == other && field.find_first_not_of(digits, other + 1) == std::string_view::npos &&
-      field.find('.') == std::string_view::npos)
-    return ": decimal commas are read where ; or tabs separate; else sed -E 's/([0-9]),([0-9])/\\1.\\2/g' "
-           "makes "
-           "them points";
-  if (std::string_view(".,' \xC2\xE2\xA0").find(other < field.size() ? field[other] : '.') !=
-          std::string_view::npos &&
-      field.substr(std::min(other + 1, field.size())).find_first_of(digits) != std::string_view::npos)
-    return ": leave out what separates thousands";
-  if (other < field.size() && field.find_first_of(digits, other) == std::string_view::npos)
+  const std::size_t end = std::min(field.find_first_not_of("0123456789+-eE."), field.size());
+  const std::string_view number = field.substr(0, end), rest = field.substr(end);
+  if (number.find_first_of(digits) == std::string_view::npos || rest.empty()) return {};
+  const bool is_decimal_comma = rest[0] == ',' && number.find('.') == std::string_view::npos &&
+                                rest.find_first_not_of(digits, 1) == std::string_view::npos;
+  if (is_decimal_comma)
+    return ": decimal commas are read where ; or tabs separate; else make them points, as sed -E "
+           "'s/([0-9]),([0-9])/\\1.\\2/g' does";
+  if (rest.find_first_of(digits) == std::string_view::npos)
     return ": leave units out, and say them in the name of the column or with --columns";
-  return {};
+  // Narrow blanks and the apostrophe of typography begin with the last three bytes.
+  return std::string_view(",' \xA0\xC2\xE2").find(rest[0]) == std::string_view::npos
+             ? ""
+             : ": leave out what separates thousands";
 }
 
 std::optional<double> angle_field(std::string_view text, bool decimal_comma, std::string_view letters) {
