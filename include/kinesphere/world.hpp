@@ -285,7 +285,8 @@ class World {
   /// other calls, which would change the world or call the predicate again, fail with filter_in_progress;
   /// Inspection::audit() returns a finding that says so. Cost: all bodies search again at the next advance.
   Result<void> set_pair_filter(PairFilter filter);
-  /// Informs the world that the pair filter's results for this body have changed.
+  /// Informs the world that the pair filter's results for this body have changed. Cost: O(contacts and sensor
+  /// overlaps of the body) here, and its search at the next advance.
   Result<void> refresh_filter(BodyId body);
 
   /// Sets the sensor of all bodies of this class from now on; a class without a sensor senses nothing. For
@@ -298,7 +299,7 @@ class World {
   /// Returns the sensor of a class; without distances if it has none.
   const Sensor& sensor(SensorClass sensor_class) const;
 
-  /// Returns BodyDefinition::user_data; cheaper than body().
+  /// Returns BodyDefinition::user_data; cheaper than body(). Cost: O(1).
   Result<std::uint64_t> user_data(BodyId body) const;
 
   /// Returns a range over all events up to time `until`:
@@ -370,9 +371,9 @@ class World {
   const WorldDefinition& definition() const;
   /// True if this world issued the id and the body has not been removed.
   bool contains(BodyId body) const;
-  /// Returns what the world knows of a body now.
+  /// Returns what the world knows of a body now. Cost: O(1); of a rigid body, O(its points).
   Result<BodyView> body(BodyId id) const;
-  /// Returns all bodies that have not been removed, including disabled ones, by index.
+  /// Returns all bodies that have not been removed, including disabled ones, by index. Cost: O(n).
   std::vector<BodyId> bodies() const;
   /// Returns the counts of work so far.
   const Counters& counters() const;
@@ -380,10 +381,10 @@ class World {
   // Current contacts and sensor overlaps, as the events so far have reported them.
 
   /// Returns the bodies in contact with the body, in the order in which the contacts began; those of a static
-  /// body in no particular order after a run() with several workers.
+  /// body in no particular order after a run() with several workers. Cost: O(result).
   Result<std::vector<BodyId>> touching(BodyId body) const;
   /// Returns the sensor distances that the body is within, ordered by partner and, for each partner, from
-  /// the largest distance to the smallest.
+  /// the largest distance to the smallest. Cost: O(result).
   Result<std::vector<SensorOverlap>> sensor_overlaps(BodyId body) const;
 
   // Facets: groups of calls, each in a header of its own. A facet refers to the world.
