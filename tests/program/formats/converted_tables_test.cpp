@@ -243,7 +243,11 @@ TEST(ConvertedTables, SaysHowRecordsInListsAreTakenOut) {
   const std::string frame = R"({"frame":1,"players":[)" + players + "]}\n";
   EXPECT_EQ(error_in(frame + frame),
             "f: expected records with a position each, but they are in a list 'players': say jq -c '. + "
-            ".players[] | del(.players)' f | kinesphere tracks -");
+            ".players[] | del(.players)' FILE | kinesphere tracks -");
+  EXPECT_NE(error_in(R"({"tracks":[{"id":1,"points":[{"x":1},{"x":2},{"x":3},{"x":4}]}]})")
+                .find("'. + .tracks[] |"),
+            std::string::npos);
+  EXPECT_EQ(error_in("[{\"x\":1},[{\"x\":2}]]"), "f:1: expected JSON records: objects, or one list of them");
   EXPECT_EQ(error_in("[" + frame + "]"), error_in(frame));
 }
 

@@ -26,7 +26,7 @@ std::optional<ConvertedTable> table_with_positions(const JsonRows& rows, const s
   if (const std::string& list = rows.long_list(); !list.empty() && !has_position)
     throw ProgramError(fmt::format(
         "{0}: expected records with a position each, but they are in a list '{1}': say jq -c '. + .{1}[] | "
-        "del(.{1})' {0} | kinesphere tracks -",
+        "del(.{1})' FILE | kinesphere tracks -",
         file, list));
   return table_of(rows);
 }

@@ -42,7 +42,8 @@ class JsonRows {
   }
 
   const std::vector<std::string>& names() const { return names_; }
-  /// Returns the name of a list of objects that was too long for columns; empty if there was none.
+  /// Returns the name of a list of objects that was too long for columns, or of the list that it is in; empty
+  /// if there was none.
   const std::string& long_list() const { return long_list_; }
   /// Returns the names as the header of a table.
   std::string header() const {
@@ -107,8 +108,13 @@ class JsonRows {
   void note_list(const std::string& name, ondemand::array& list) {
     if (!long_list_.empty()) return;
     for (ondemand::value element : list) {
-      if (element.type() == ondemand::json_type::object) long_list_ = name;
-      break;
+      if (element.type() != ondemand::json_type::object) return;
+      // tracks of tracks.0.points.
+      std::size_t end = name.find('.');
+      while (end < name.size() && !(name[end + 1] >= '0' && name[end + 1] <= '9'))
+        end = name.find('.', end + 1);
+      long_list_ = name.substr(0, end);
+      return;
     }
   }
 
@@ -187,7 +193,9 @@ void read_json(const std::string& file, const std::size_t& line, Action read) {
   try {
     read();
   } catch (const simdjson::simdjson_error& error) {
-    throw ProgramError(fmt::format("{}:{}: expected JSON records: {}", file, line, error.what()));
+    const bool is_other_type = error.error() == simdjson::INCORRECT_TYPE;
+    throw ProgramError(fmt::format("{}:{}: expected JSON records: {}", file, line,
+                                   is_other_type ? "objects, or one list of them" : error.what()));
   } catch (const MalformedRecord& error) {
     throw ProgramError(fmt::format("{}:{}: {}", file, line, error.what()));
   }
