@@ -1,0 +1,127 @@
+// Tables in which each body has columns of its own.
+#include "formats/tables/paired_columns.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "base/number_text.hpp"
+#include "base/program_error.hpp"
+#include "formats/tables/column_units.hpp"
+#include "formats/tables/column_words.hpp"
+#include "formats/tables/likely_columns.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+/// Finds the bodies whose columns are called after an axis and the body: x1 and y1, car_1.lon and car_1.lat.
+/// Each has `along` and `across`, and perhaps z.
+std::vector<TableColumns::Body> bodies_in_names(const TableHead& head, Quantity along, Quantity across) {
+  struct Named {
+    std::string body;
+    std::optional<std::size_t> x, y, z;
+  };
+  std::vector<Named> all;
+  for (std::size_t place = 0; place < head.names.size(); ++place) {
+    const auto [axis, body] = axis_and_body(head.names[place]);
+    if (body.empty()) continue;
+    auto known = std::find_if(all.begin(), all.end(),
+                              [&, &name = body](const Named& each) { return each.body == name; });
+    if (known == all.end()) known = all.insert(all.end(), {.body = body, .x = {}, .y = {}, .z = {}});
+    if (axis == along) known->x = place;
+    if (axis == across) known->y = place;
+    if (axis == Quantity::z) known->z = place;
+  }
+  std::vector<TableColumns::Body> bodies;
+  for (const Named& each : all)
+    if (each.x && each.y && !is_of_no_place(each.body))
+      bodies.push_back({each.body, *each.x, *each.y, each.z});
+  return bodies;
+}
+
+/// True for bodies that are told apart by a number alone: 1 and 2, car_1 and car_2.
+bool are_numbered(const std::vector<TableColumns::Body>& bodies) {
+  const auto kind_of = [](std::string_view body) {
+    return body.substr(0, body.find_last_not_of("0123456789") + 1);
+  };
+  return std::all_of(bodies.begin(), bodies.end(), [&](const TableColumns::Body& each) {
+    return kind_of(each.id).size() < each.id.size() && kind_of(each.id) == kind_of(bodies.front().id);
+  });
+}
+
+/// True for a name that ends as an id does: MetaData.MMSI.
+bool has_likely_id(const TableHead& head) {
+  return std::any_of(head.names.begin(), head.names.end(), [](const std::string& name) {
+    const auto meaning = meaning_of_ending(name);
+    return meaning && meaning->quantity == Quantity::id;
+  });
+}
+
+/// Takes the unit of the first body's column, which must be that of the others.
+void take_unit_of_bodies(const TableHead& head, Quantity quantity, TableColumns& columns) {
+  Column& column = *columns[quantity];
+  take_unit_of_column(head, quantity, column);
+  for (const TableColumns::Body& body : columns.bodies) {
+    const bool is_across = quantity == Quantity::y || quantity == Quantity::latitude;
+    const std::size_t place = quantity == Quantity::z ? *body.z : is_across ? body.y : body.x;
+    if (unit_of_column(head, place, quantity) != unit_of_column(head, column.place, quantity))
+      throw ProgramError(fmt::format("{}: expected one unit of {}, but {} and {} have different ones",
+                                     head.file, key_of(quantity), column_text(head, column.place),
+                                     column_text(head, place)));
+  }
+}
+
+}  // namespace
+
+void find_pairs(const TableHead& head, const ColumnHints& hints, TableColumns& columns) {
+  if (columns[Quantity::id] || columns[Quantity::x] || columns[Quantity::longitude]) return;
+  const auto plane = bodies_in_names(head, Quantity::x, Quantity::y);
+  const auto earth = bodies_in_names(head, Quantity::longitude, Quantity::latitude);
+  const bool is_earth = plane.empty() || (!earth.empty() && hints.positions == "lonlat");
+  if (!plane.empty() && !earth.empty() && hints.positions.empty())
+    throw ProgramError(
+        fmt::format("{}: columns '{}' and '{}' may both be meant: say --positions plane or lonlat", head.file,
+                    head.names[plane[0].x], head.names[earth[0].x]));
+  const std::vector<TableColumns::Body>& bodies = is_earth ? earth : plane;
+  const bool numbered = are_numbered(bodies);
+  if (bodies.empty() || (!numbered && (bodies.size() == 1 || has_likely_id(head)))) return;
+  const auto heights =
+      std::count_if(bodies.begin(), bodies.end(), [](const auto& each) { return each.z.has_value(); });
+  if (heights != 0 && heights != std::ssize(bodies))
+    throw ProgramError(fmt::format("{}: expected a height for each pair of columns or for none; it has {}",
+                                   head.file, head.text()));
+  // Of the bodies, as x1 and p1 are (x0, y0, x1, y1 are mostly corners), or the time.
+  const auto is_usual = [&](std::size_t place) {
+    const std::string& name = head.names[place];
+    const auto meaning = meaning_of(name);
+    const bool is_said = std::any_of(columns.of.begin(), columns.of.end(),
+                                     [&](const auto& column) { return column && column->place == place; });
+    const bool is_of_body = std::any_of(bodies.begin(), bodies.end(), [&](const TableColumns::Body& body) {
+      return body.id != "0" && (body.x == place || body.y == place || body.z == place);
+    });
+    return is_of_body || name.ends_with('1') || name.ends_with('2') || is_said ||
+           (meaning && (meaning->quantity == Quantity::time || meaning->quantity == Quantity::frame));
+  };
+  bool all_usual = true;
+  for (std::size_t place = 0; place < head.names.size(); ++place) all_usual = all_usual && is_usual(place);
+  const bool may_be_corners =
+      bodies.size() == 2 && heights == 0 && parse_number(bodies.front().id) && !all_usual;
+  if ((!numbered || may_be_corners) && hints.format != "table")
+    throw ProgramError(fmt::format(
+        "{}: {}, {}, {} and {} may be two bodies or {}: say --format table if each such pair is a "
+        "body, else say the columns with --columns",
+        head.file, head.names[bodies[0].x], head.names[bodies[0].y], head.names[bodies[1].x],
+        head.names[bodies[1].y], numbered ? "the corners of boxes" : "parts of one"));
+  columns.bodies = bodies;
+  columns.format = fmt::format("{} {} of columns", bodies.size(), heights == 0 ? "pairs" : "triples");
+  const TableColumns::Body& first = columns.bodies.front();
+  columns[is_earth ? Quantity::longitude : Quantity::x] = Column{.place = first.x};
+  columns[is_earth ? Quantity::latitude : Quantity::y] = Column{.place = first.y};
+  if (first.z) columns[Quantity::z] = Column{.place = *first.z};
+  for (const Quantity quantity :
+       {Quantity::x, Quantity::y, Quantity::z, Quantity::longitude, Quantity::latitude})
+    if (columns[quantity]) take_unit_of_bodies(head, quantity, columns);
+}
+
+}  // namespace kinesphere::program

@@ -1,0 +1,119 @@
+// Columns that are said: by --columns, or by a preset.
+#include "formats/tables/said_columns.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "base/program_error.hpp"
+#include "formats/fields/units.hpp"
+#include "formats/tables/column_units.hpp"
+#include "formats/tables/column_words.hpp"
+#include "formats/tables/presets.hpp"
+
+namespace kinesphere::program {
+namespace {
+
+/// Reads the entries KEY=COLUMN[:UNIT] of a list.
+class SaidColumns {
+ public:
+  SaidColumns(const TableHead& head, std::string_view list, const Preset* preset)
+      : head_(head), list_(list), preset_(preset) {}
+
+  TableColumns read() {
+    for (std::string_view rest = list_; !rest.empty();) {
+      const std::string_view entry = rest.substr(0, rest.find(','));
+      rest.remove_prefix(std::min(entry.size() + 1, rest.size()));
+      read_entry(entry);
+    }
+    return std::move(columns_);
+  }
+
+ private:
+  void read_entry(std::string_view entry) {
+    const std::size_t equals = std::min(entry.find('='), entry.size());
+    std::string_view key = entry.substr(0, equals);
+    const bool is_optional = key.ends_with('?');
+    if (is_optional) key.remove_suffix(1);
+    const auto quantity = quantity_of_key(key);
+    if (equals == entry.size() || !quantity)
+      throw ProgramError(fmt::format("--columns: expected KEY=COLUMN with one of the keys {}, but got '{}'",
+                                     key_list(), entry));
+    if (columns_[*quantity]) throw ProgramError(fmt::format("--columns: expected '{}' once", key));
+    std::string_view names = entry.substr(equals + 1), unit;
+    if (const std::size_t colon = names.rfind(':');
+        colon != std::string_view::npos && !column_named(head_, names)) {
+      unit = names.substr(colon + 1);
+      names = names.substr(0, colon);
+    }
+    if (*quantity == Quantity::id && names == "@file") {
+      columns_.id_is_file = true;
+      return;
+    }
+    const auto place = place_of_any(names);
+    if (!place && is_optional) return;
+    if (!place) fail(key, names);
+    Column column{.place = *place};
+    take_unit_of_column(head_, *quantity, column);
+    if (!unit.empty() && !set_unit(column, unit, *quantity))
+      throw ProgramError(fmt::format("--columns: expected a unit ({}) behind the colon, but got '{}'",
+                                     unit_list(measure_of(*quantity)), entry));
+    if (preset_ == nullptr) column.said_unit = unit;
+    columns_[*quantity] = column;
+  }
+
+  std::optional<std::size_t> place_of_any(std::string_view names) const {
+    if (preset_ == nullptr) return place_of(head_, names);
+    while (!names.empty()) {
+      const std::string_view name = names.substr(0, names.find('|'));
+      names.remove_prefix(std::min(name.size() + 1, names.size()));
+      if (const auto place = preset_column(head_, name)) return place;
+      if (const auto place = place_of(head_, name)) return place;
+    }
+    return std::nullopt;
+  }
+
+  [[noreturn]] void fail(std::string_view key, std::string_view name) const {
+    if (preset_ != nullptr)
+      throw ProgramError(fmt::format("{}: expected {} with --format {}, but it has {}", head_.file,
+                                     preset_->header.empty()
+                                         ? fmt::format("{} columns or more", preset_->least_columns)
+                                         : fmt::format("the columns {}", preset_->header),
+                                     preset_->name, head_.text()));
+    throw ProgramError(fmt::format(
+        "--columns: expected '{}' to be a column's name or number from 1 to {}, but got '{}': {} has {}", key,
+        head_.columns(), name, head_.file, head_.text()));
+  }
+
+  const TableHead& head_;
+  std::string_view list_;
+  const Preset* preset_;
+  TableColumns columns_;
+};
+
+}  // namespace
+
+TableColumns said_columns(const TableHead& head, std::string_view list, const Preset* preset) {
+  return SaidColumns(head, list, preset).read();
+}
+
+TableColumns preset_columns(const TableHead& head, const Preset& preset) {
+  if (head.columns() < preset.least_columns)
+    throw ProgramError(fmt::format("{}: expected {} columns or more with --format {}, but it has {}",
+                                   head.file, preset.least_columns, preset.name, head.text()));
+  TableColumns columns = said_columns(head, preset.columns, &preset);
+  columns.format = preset.title;
+  columns.has_own_heights = preset.has_own_heights;
+  columns.has_own_origin = preset.has_own_origin;
+  columns.film = preset.film;
+  columns.dates = preset.dates;
+  columns.where = preset.where;
+  if (preset.frame_rate > 0.0) {
+    columns.time_unit.rate = preset.frame_rate;
+    columns.time_unit_said = true;
+  }
+  return columns;
+}
+
+}  // namespace kinesphere::program
