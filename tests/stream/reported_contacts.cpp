@@ -143,6 +143,7 @@ void ReportedContacts::gone(const std::vector<Before>& before) {
 }
 
 void ReportedContacts::replaced(const World& world, BodyId id, const std::vector<Before>& before) {
+  truth_.note_acceleration(id);
   for (const Before& b : before) {
     // Of a rigid body these are the limits of the ball around it, which may be in touch when no part is.
     const bool certain =
@@ -161,6 +162,7 @@ void ReportedContacts::refiltered(BodyId id, const std::vector<Before>& before) 
 }
 
 void ReportedContacts::redirected(BodyId id) {
+  truth_.note_acceleration(id);
   for_each(id, [this](const Contact& contact) {
     if (contact.sensed) return;
     ReportedState& state = reported(contact);
@@ -172,6 +174,7 @@ void ReportedContacts::redirected(BodyId id) {
 }
 
 void ReportedContacts::appeared(BodyId id) {
+  truth_.note_acceleration(id);
   const auto count = static_cast<std::uint32_t>(truth_.bodies().size());
   pairs_.resize(count);
   for (PairTable<ReportedState>& pairs : sensed_) pairs.resize(count);
@@ -257,11 +260,16 @@ void ReportedContacts::settle_ends() {
   ends_.clear();
 }
 
-bool ReportedContacts::comes_within(BodyId id, double part) const {
+bool ReportedContacts::comes_within(BodyId id, bool certainly) const {
   const TrueBody& body = truth_.at(id);
   if (body.fixed) return false;
-  const double acceleration = body.definition.acceleration_limit + norm(body.definition.planned_acceleration);
-  return truth_.time() - body.last_contact < part * rule_.zeno_interval(acceleration);
+  const auto [least, greatest] = truth_.largest_accelerations(id);
+  const double of_least = rule_.zeno_interval(least);
+  // The less a body accelerates, the longer is its interval, unless it does not accelerate at all.
+  const double longest = least > 0.0 || greatest == 0.0 ? of_least : infinity;
+  // A world stores the interval with few digits: near its end either mark is correct.
+  const double shortest = (1.0 - 0x1p-20) * std::min(of_least, rule_.zeno_interval(greatest));
+  return truth_.time() - body.last_contact < (certainly ? shortest : longest);
 }
 
 /// In periodic space a state may be reported in another image, and rounded.
@@ -303,7 +311,7 @@ void ReportedContacts::begin(const Event& event, const Contact& contact) {
   if (!truth_.may_be_reported(contact)) fail("a begin of bodies that may not touch", contact, event.gap);
   const double gap = truth_.gap(contact);
   const double told_gap = event.gap - event.distance;
-  const bool is_deep = truth_.turns(contact) && gap < -1e-3;
+  const bool is_deep = truth_.hides_depth(contact) && gap < -1e-3;
   if (!is_deep && std::abs(gap - told_gap) > slack(contact))
     fail("a begin with a wrong gap", contact, event.gap);
   if (!is_deep && std::abs(truth_.exact_gap(contact) - told_gap) > slack(contact))
@@ -316,15 +324,19 @@ void ReportedContacts::begin(const Event& event, const Contact& contact) {
   if (!same_spin(event.first_angular_velocity, contact.first) ||
       (pair && !same_spin(event.second_angular_velocity, contact.second)))
     fail("a begin with wrong angular velocities", contact, gap);
-  // A world stores the Zeno interval of a body with few digits: near its end either mark is correct.
-  constexpr double checkpoint = 1.0 - 0x1p-20;
-  const auto comes_within_part = [&](double part) {
+  const auto repeats = [&](bool certainly) {
     return !contact.sensed &&
-           (comes_within(contact.first, part) || (pair && comes_within(contact.second, part)));
+           (comes_within(contact.first, certainly) || (pair && comes_within(contact.second, certainly)));
   };
-  // That of a rigid body depends on when the world heard how it turns.
-  if (!truth_.turns(contact) && (event.repeated ? !comes_within_part(1.0) : comes_within_part(checkpoint)))
+  if (event.repeated ? !repeats(false) : repeats(true))
     fail("a begin wrongly marked as repeated", contact, gap);
+  if (truth_.turns(contact)) {
+    const auto [least, greatest] = truth_.closing_speeds(contact);
+    if (!(event.approach_speed >= least && event.approach_speed <= greatest))
+      fail("a begin with the approach speed " + std::to_string(event.approach_speed) + ", not one from " +
+               std::to_string(least) + " to " + std::to_string(greatest),
+           contact, gap);
+  }
   if (!contact.sensed) {
     truth_.at(contact.first).last_contact = truth_.time();
     if (pair) truth_.at(contact.second).last_contact = truth_.time();

@@ -90,8 +90,8 @@ class ReportedContacts {
   bool take_end(const Event& event, const Contact& contact);
   void begin(const Event& event, const Contact& contact);
   void end(const Event& event, const Contact& contact);
-  /// Returns true if the body's last contact was less than this part of its Zeno interval ago.
-  bool comes_within(BodyId id, double part) const;
+  /// Returns true if the body's last contact may have been, or certainly was, within its Zeno interval.
+  bool comes_within(BodyId id, bool certainly) const;
   std::vector<Ball> ways_until(double time) const;
   bool may_meet(const Ball& a, const Ball& b) const;
   bool any_reported(const Contact& contact) const;

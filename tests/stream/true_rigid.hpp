@@ -1,10 +1,12 @@
 // The truth about a rigid body: its parts, and how it turns.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "kinesphere/rigid_body.hpp"
+#include "number/infinity.hpp"
 #include "support/placed_parts.hpp"
 
 namespace kinesphere::stream {
@@ -24,12 +26,26 @@ struct Turning {
   }
 };
 
+struct Range {
+  double least = infinity;
+  double greatest = -infinity;
+
+  void include(double value) {
+    least = std::min(least, value);
+    greatest = std::max(greatest, value);
+  }
+};
+
 struct TrueRigid {
   std::vector<RigidPart> parts;
   std::vector<true_hulls::Hull> hulls;  ///< of the parts
   double angular_acceleration_limit;
   double largest_angular_speed;
   Turning turning{};
+  /// Limits that the acceleration of its position has had since it was added, and what turning has added to
+  /// that of its points: the world may know earlier ones.
+  Range accelerations{};
+  Range turning_accelerations{};
 
   explicit TrueRigid(const RigidBody& body, double now)
       : parts(body.parts),

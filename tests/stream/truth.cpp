@@ -45,6 +45,16 @@ WideVec place_at(const TrueBody& body, double time) {
                       exact::wide(path.acceleration), s * s / 2);
 }
 
+double acceleration_limit(const TrueBody& body) {
+  return body.definition.acceleration_limit + norm(body.definition.planned_acceleration);
+}
+
+/// Returns what turning adds to the acceleration of the points of a rigid body, at most.
+double turning_acceleration(const TrueBody& body) {
+  const double spin = body.rigid->spin();
+  return (body.rigid->angular_acceleration_limit + spin * spin) * body.definition.radius;
+}
+
 std::string text_of(BodyId id) { return std::to_string(id.index) + "." + std::to_string(id.generation); }
 
 }  // namespace
@@ -111,6 +121,13 @@ void Truth::swing(BodyId id, double part, const Vec3& axis) {
   const double most = std::min(0.99 * rigid.angular_acceleration_limit, room);
   const Vec3 along = speed > 0.0 ? now.angular_velocity / speed : axis;
   rigid.turning = {time_, now, along * (part * most)};
+}
+
+void Truth::note_acceleration(BodyId id) {
+  TrueBody& body = at(id);
+  if (!body.rigid) return;
+  body.rigid->accelerations.include(acceleration_limit(body));
+  body.rigid->turning_accelerations.include(turning_acceleration(body));
 }
 
 void Truth::remove(BodyId id) {
@@ -232,6 +249,27 @@ double Truth::turning_speed(const Contact& contact) const {
   const auto of = [this](BodyId id) {
     const TrueBody& body = at(id);
     return body.rigid ? body.rigid->spin() * body.definition.radius : 0.0;
+  };
+  return of(contact.first) + (contact.wall == Wall::none ? of(contact.second) : 0.0);
+}
+
+Range Truth::largest_accelerations(BodyId id) const {
+  const TrueBody& body = at(id);
+  if (body.fixed) return {0.0, 0.0};
+  if (!body.rigid) return {acceleration_limit(body), acceleration_limit(body)};
+  const auto& [least, greatest] = body.rigid->accelerations;
+  const auto& [least_turning, greatest_turning] = body.rigid->turning_accelerations;
+  return {least + least_turning, greatest + greatest_turning};
+}
+
+/// Returns the least sum of radii that two parts have.
+double Truth::least_radius(const Contact& contact) const {
+  const auto of = [this](BodyId id) {
+    const TrueBody& body = at(id);
+    if (!body.rigid) return body.shape ? 0.0 : body.definition.radius;
+    double least = infinity;
+    for (const RigidPart& part : body.rigid->parts) least = std::min(least, part.radius);
+    return least;
   };
   return of(contact.first) + (contact.wall == Wall::none ? of(contact.second) : 0.0);
 }
@@ -366,6 +404,23 @@ double Truth::approach_to_shape(const Contact& contact) const {
   const WideVec next = exact::moved(centre, exact::wide(state(mover(contact).id).velocity), moment);
   const Shape& solid = *shape(contact);
   return static_cast<double>((distance_from(solid, centre) - distance_from(solid, next)) / moment);
+}
+
+/// In a step speeds change by the accelerations of points and, as axes or hulls slide past each other, by the
+/// square of the speed over their distance.
+Range Truth::closing_speeds(const Contact& contact) const {
+  constexpr double step = 1e-6;
+  constexpr double rounding = 1e-9;
+  const double now = gap_at(contact, time_);
+  const double before = (gap_at(contact, time_ - step) - now) / step;
+  const double after = (now - gap_at(contact, time_ + step)) / step;
+  const double speed = norm(relative(contact).velocity) + turning_speed(contact);
+  const double distance = now + contact.sensed.value_or(0.0) + least_radius(contact);
+  const double bend = largest_accelerations(contact.first).greatest +
+                      (contact.wall == Wall::none ? largest_accelerations(contact.second).greatest : 0.0) +
+                      (distance > 0.0 ? speed * speed / distance : infinity);
+  const double slack = rounding / step + bend * step;
+  return {std::min(before, after) - slack, std::max(before, after) + slack};
 }
 
 double Truth::approach_speed(const Contact& contact) const {

@@ -84,6 +84,10 @@ class Truth {
   void turn(BodyId id, const Rotation& rotation) { at(id).rigid->turning = {time_, rotation}; }
   /// The rigid body swings from now on, with this part of its largest angular acceleration.
   void swing(BodyId id, double part, const Vec3& axis);
+  /// Notes the limits of accelerations of a rigid body, after each change of the body.
+  void note_acceleration(BodyId id);
+  /// Returns limits of the largest acceleration of a point of the body, as the world may know it.
+  Range largest_accelerations(BodyId id) const;
   void remove(BodyId id);
   void move(BodyId id, const State& state);
   /// Sets the acceleration; a sleeping body gets it when it wakes.
@@ -100,8 +104,7 @@ class Truth {
   bool is_present(BodyId id) const { return is_alive(id) && at(id).enabled; }
   State state(BodyId id) const { return at(id).path.front().state_at(time_); }
   Rotation rotation(BodyId id, double time) const { return at(id).rigid->turning.at(time); }
-  /// Returns true if one of the bodies is rigid. Then deep overlaps have no exact gap, and speeds of approach
-  /// are unknown.
+  /// Returns true if one of the bodies is rigid. Then approach_speed() is unknown.
   bool turns(const Contact& contact) const {
     return at(contact.first).rigid || (contact.wall == Wall::none && at(contact.second).rigid);
   }
@@ -118,6 +121,10 @@ class Truth {
   /// Returns true if a body with this definition touches the other when they meet.
   bool may_touch(BodyId a, const BodyDefinition& definition_of_a, BodyId b) const;
 
+  /// Returns true if gap() does not tell how deep the bodies overlap: axes and hulls in boxes and triangles.
+  bool hides_depth(const Contact& contact) const {
+    return turns(contact) && shape(contact) != nullptr && !inside(contact);
+  }
   /// Returns the gap at the present time; for a sensor, beyond its distance.
   double gap(const Contact& contact) const;
   /// Returns the gap in quadruple precision, by formulas other than the library's.
@@ -131,6 +138,9 @@ class Truth {
   GapLimits limits(const CollisionShape& a, const CollisionShape& b) const;
   /// Returns the present closing speed of the gap.
   double approach_speed(const Contact& contact) const;
+  /// Returns limits of the present closing speed of the gap of a rigid body: of before and of after this
+  /// instant, at which the nearest points may change.
+  Range closing_speeds(const Contact& contact) const;
   /// Returns false only if the gap certainly stays above (falls_to) or below (rises_to) the level until then.
   bool may_reach(const Contact& contact, LevelCrossing overlap, double level, double until) const;
   /// Returns true if the gap opens at some time between now and `until`.
@@ -147,6 +157,7 @@ class Truth {
   double approach_to_shape(const Contact& contact) const;
   double extent(const Contact& contact) const;
   double turning_speed(const Contact& contact) const;
+  double least_radius(const Contact& contact) const;
   std::vector<placed_parts::PlacedPart> placed(const TrueBody& body, double time, const Vec3& shift) const;
   template <class Visit>
   void for_each_image(Visit visit) const;
