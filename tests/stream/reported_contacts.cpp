@@ -145,9 +145,10 @@ void ReportedContacts::gone(const std::vector<Before>& before) {
 void ReportedContacts::replaced(const World& world, BodyId id, const std::vector<Before>& before) {
   truth_.note_acceleration(id);
   for (const Before& b : before) {
-    // Of a rigid body these are the limits of the ball around it, which may be in touch when no part is.
-    const bool certain =
-        limits(world, b.contact).lower >= b.contact.sensed.value_or(0.0) + rule_.separation_distance();
+    // Of a rigid body these are the limits of the ball around it. They say nothing of parts that are known
+    // less well since an earlier report: the world may end such a contact now, or with the next report.
+    const bool certain = !b.turns && limits(world, b.contact).lower >=
+                                         b.contact.sensed.value_or(0.0) + rule_.separation_distance();
     const bool opened = truth_.gap(b.contact) >= rule_.separation_distance() - slack(b.contact);
     if (certain || b.is_over || (opened && truth_.turns(b.contact))) expect_end(b, certain);
     if (opened) reported(b.contact).opened = true;
