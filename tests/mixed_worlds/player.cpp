@@ -39,6 +39,7 @@ void Player::play() {
       if (scenario().copies && draw_.one_in(5)) send_back();
       if (scenario().recorded && stop == scenario().stops / 2) replay();
     }
+    if (scenario().recorded) replay();
   } catch (const CutShort&) {
     tally_.cut_short = true;
   }
