@@ -268,7 +268,8 @@ class World {
   ///     one whose gap to it is at most the separation distance plus the tolerance. A whole island therefore
   ///     wakes together.
   /// ContactEvents::impacts has no contact_end: a body that sleeps upon an awake body does not wake when that
-  /// body leaves. A call for a sleeping body changes nothing. Errors: disabled_body, static_body.
+  /// body leaves. A call for a sleeping body changes nothing; one for a body that woke at this time
+  /// cancels its event `woke`, if that has not come yet. Errors: disabled_body, static_body.
   Result<void> sleep(BodyId body);
   /// Wakes the body and its island. A call for an awake body changes nothing. Errors: disabled_body,
   /// static_body.

@@ -32,7 +32,8 @@ enum class MonitorEventKind {
   /// A stale track has reported again.
   resumed,
   /// A track was dropped: it was removed, or its latest report has reached the age
-  /// MonitorDefinition::drop_after. Its open pairs remain undecided, and no more events about it follow.
+  /// MonitorDefinition::drop_after. Its open pairs remain undecided, and no more events about it follow. This
+  /// event comes before all others of its time, so that the id may report again at once.
   dropped,
   /// A report has given the track another class. The track starts anew: its open pairs and predictions are
   /// over, without events of their own, and it is decided again, with the limits and separations of its new
