@@ -248,7 +248,7 @@ def test_what_happens_to_tracks_is_told() -> None:
     monitor.report(1, 7.0, (200, 0, 0), (0, 0, 0))
     monitor.remove([2])
     see(monitor.run(40.0))
-    assert seen[:2] == [("resolved", 1, None, 0), ("dropped", 2, None, 0)]
+    assert seen[:2] == [("dropped", 2, None, 0), ("resolved", 1, None, 0)]
     assert seen[2:] == [("stale", 1, None, 0), ("dropped", largest_id, None, 0), ("dropped", 1, None, 0)]
     assert len(monitor) == 0 and monitor.counters.contradictions == 1
 
