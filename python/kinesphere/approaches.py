@@ -107,6 +107,23 @@ def tracks(
     ...
 
 
+@overload
+def tracks(
+    t: npt.ArrayLike,
+    x: npt.ArrayLike,
+    y: npt.ArrayLike,
+    z: Optional[npt.ArrayLike] = None,
+    *,
+    id: npt.ArrayLike,
+    distance: float,
+    interpolate: Literal["spline", "linear"] = "spline",
+    max_gap: Optional[Duration] = None,
+    tolerance: Optional[float] = None,
+    radii: Optional[npt.ArrayLike] = None,
+) -> Approaches:
+    ...
+
+
 def tracks(
     t: Any,
     x: Any = None,

@@ -26,7 +26,7 @@ def tracks_in(
     where: Optional[str] = None,
     dates: Optional[Literal["day-first", "month-first"]] = None,
     frame_rate: Optional[float] = None,
-    time_unit: Optional[Literal["s", "ms", "us", "ns", "min", "h", "d", "frames"]] = None,
+    time_unit: Optional[Literal["s", "ms", "us", "ns", "min", "h", "d", "frames", "clock"]] = None,
     unit: Optional[Literal["m", "km", "cm", "mm", "um", "ft", "nmi", "yd", "mi", "deg"]] = None,
     positions: Optional[str] = None,
     projection: Literal["auto", "plane", "earth"] = "auto",
