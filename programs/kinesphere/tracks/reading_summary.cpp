@@ -11,7 +11,7 @@ namespace kinesphere::program {
 namespace {
 
 /// Share of all rows above which dropped rows cause a warning.
-constexpr double many = 0.03;
+constexpr double large_part = 0.03;
 
 std::string format_text(const Recording& recording) {
   std::string text = fmt::format("{}, {}", recording.format, recording.is_plane ? "2D" : "3D");
@@ -93,7 +93,7 @@ std::vector<std::string> warnings_of(const Recording& recording) {
   std::vector<std::string> warnings = recording.warnings;
   const auto add = [&](std::size_t part, std::string_view what) {
     const auto rows = static_cast<double>(recording.rows);
-    if (static_cast<double>(part) > many * rows)
+    if (static_cast<double>(part) > large_part * rows)
       warnings.push_back(fmt::format("{} of {} rows ({}) {}", grouped(part), grouped(recording.rows),
                                      percent(static_cast<double>(part), rows), what));
   };

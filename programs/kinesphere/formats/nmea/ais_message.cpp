@@ -17,7 +17,7 @@ struct PositionPlaces {
 };
 
 /// Units of coordinates to a degree: 1/10,000 minute, and 1/10 minute in message 27.
-constexpr double fine = 600'000.0, coarse = 600.0;
+constexpr double fine_units = 600'000.0, coarse_units = 600.0;
 
 /// Returns the angle in degrees if it is at most `most`; AIS has 181 and 91 for "not available".
 std::optional<double> angle(std::int32_t value, double units, double most) {
@@ -34,8 +34,8 @@ void require_bits(const AisBits& bits, std::size_t least, int type) {
 
 void read_place(const AisBits& bits, const PositionPlaces& at, AisPosition& position) {
   position.is_accurate = bits.flag(at.accuracy);
-  position.longitude = angle(bits.signed_number(at.longitude, 28), fine, 180.0);
-  position.latitude = angle(bits.signed_number(at.longitude + 28, 27), fine, 90.0);
+  position.longitude = angle(bits.signed_number(at.longitude, 28), fine_units, 180.0);
+  position.latitude = angle(bits.signed_number(at.longitude + 28, 27), fine_units, 90.0);
   const auto second = static_cast<int>(bits.number(at.second, 6));
   if (second < 60) position.second = second;
   if (second == 61) position.origin = AisPosition::Origin::manual;
@@ -91,8 +91,8 @@ AisPosition long_range_position(const AisBits& bits) {
   AisPosition position{.station = AisStation::class_a, .is_coarse = true};
   position.is_accurate = bits.flag(38);
   position.status = status_of(bits.number(40, 4));
-  position.longitude = angle(bits.signed_number(44, 18), coarse, 180.0);
-  position.latitude = angle(bits.signed_number(62, 17), coarse, 90.0);
+  position.longitude = angle(bits.signed_number(44, 18), coarse_units, 180.0);
+  position.latitude = angle(bits.signed_number(62, 17), coarse_units, 90.0);
   const std::uint32_t speed = bits.number(79, 6), course = bits.number(85, 9);
   if (speed < 63) position.speed = speed;
   if (course < 360) position.course = course;
