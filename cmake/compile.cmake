@@ -27,6 +27,11 @@ function(kinesphere_compile target)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(${target} PRIVATE -Wno-restrict -Wno-stringop-overflow)
   endif()
+  # clang++ takes names of the other sources that are compiled together for shadowed ones, and counts changes of
+  # signedness among conversions, as g++ does not.
+  if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    target_compile_options(${target} PRIVATE -Wno-shadow -Wno-sign-conversion)
+  endif()
   if(KINESPHERE_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()

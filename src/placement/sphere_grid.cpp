@@ -40,7 +40,9 @@ void SphereGrid::divide(Level& level) const {
   }
   for (int axis = 0; axis < room_.dimensions; ++axis)
     level.cells_per_length[axis] = level.cells[axis] / room_.size(axis);
-  level.first.assign(static_cast<std::size_t>(level.cells[0]) * level.cells[1] * level.cells[2], none);
+  std::size_t cells = 1;
+  for (const int along : level.cells) cells *= static_cast<std::size_t>(along);
+  level.first.assign(cells, none);
 }
 
 void SphereGrid::clear() {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -48,7 +47,7 @@ class SphereGrid {
   struct Level {
     double range = 0.0;  ///< the largest
     std::uint32_t spheres = 0;
-    std::array<int, 3> cells{1, 1, 1};
+    int cells[3] = {1, 1, 1};
     Vec3 cells_per_length{};
     std::vector<std::uint32_t> first;  ///< of each cell, the sphere that entered last
   };
@@ -70,7 +69,7 @@ class SphereGrid {
   }
   template <class Visit>
   bool all_near(const Level& level, const Vec3& centre, double distance, Visit visit) const {
-    std::array<int, 3> low, high;
+    int low[3], high[3];
     for (int axis = 0; axis < 3; ++axis) {
       const int last = level.cells[axis] - 1;
       low[axis] = index(level, axis, centre[axis] - distance);

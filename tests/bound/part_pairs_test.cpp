@@ -26,13 +26,15 @@ HalfSpace whole(const HalfSpace& wall) { return wall; }
 
 template <class Partner>
 void expect_those_of_all_pairs(const Thing& thing, const Partner& partner, Random& random) {
-  const RigidPair pair{thing.extent, whole(partner)};
+  // clang++ 14 does not deduce the arguments of aggregates.
+  using Pair = RigidPair<decltype(whole(partner))>;
+  const Pair pair{thing.extent, whole(partner)};
   const double distance = random.uniform() < 0.5 ? 0.0 : random.uniform(-0.2, 0.2);
   GapLimits gap{infinity, infinity};
   double first = infinity;
   for (std::size_t k = 0; k < thing.parts.size(); ++k)
     for (std::size_t m = 0; m < parts_in(partner); ++m) {
-      const RigidPair alone{thing.with(k), with(partner, m)};
+      const Pair alone{thing.with(k), with(partner, m)};
       const GapLimits own = gap_limits(alone.body.bound, alone, now);
       gap = {std::min(gap.lower, own.lower), std::min(gap.upper, own.upper)};
       first = std::min(first, earliest_meeting(alone.body.bound, alone, now, until, distance));

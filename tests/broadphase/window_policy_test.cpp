@@ -158,7 +158,7 @@ TEST(WindowPolicy, CostsOfKicksAreOfAMainWindow) {
 }
 
 TEST(WindowPolicy, PairsOfKicksCostAsThoseOfStarts) {
-  for (const std::uint64_t near : {6, 18}) {
+  for (const std::uint64_t near : {6u, 18u}) {
     for (const std::uint64_t of_kicks : {std::uint64_t{0}, near}) {
       WindowPolicy window_policy = chosen();
       double now = 0.0;

@@ -15,8 +15,8 @@ std::vector<Vec3> corners_of(const Shape& shape) {
                        k & 4 ? box->upper.z : box->lower.z});
   const auto coordinates = [](const Vec3& v) { return std::tie(v.x, v.y, v.z); };
   std::ranges::sort(corners, {}, coordinates);
-  const auto same = std::ranges::unique(corners);
-  corners.erase(same.begin(), same.end());
+  const auto same = std::unique(corners.begin(), corners.end());
+  corners.erase(same, corners.end());
   return corners;
 }
 

@@ -109,7 +109,7 @@ void Truth::for_each_contact(Visit visit) const {
       const auto& others = sensors[b.definition.sensor_class].distances;
       distances.insert(distances.end(), others.begin(), others.end());
       std::ranges::sort(distances);
-      distances.erase(std::ranges::unique(distances).begin(), distances.end());
+      distances.erase(std::unique(distances.begin(), distances.end()), distances.end());
       for (const double distance : distances) tell({a.id, b.id, Wall::none, distance});
     }
     for (int wall = 1; wall <= wall_count; ++wall) tell({a.id, no_body, static_cast<Wall>(wall)});

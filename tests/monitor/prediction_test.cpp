@@ -246,8 +246,10 @@ TEST(Predictions, AgreeWithSampledPaths) {
           EXPECT_EQ(told.erase(key), 1u);
         }
       }
-      for (const auto& [a, one] : tracks)
-        for (const auto& [b, other] : tracks) {
+      for (const auto& [a, first] : tracks)
+        for (const auto& [b, second] : tracks) {
+          // clang++ 14 cannot capture structured bindings.
+          const auto &one = first, &other = second;
           if (b <= a || (one.track_class == 1 && other.track_class == 1)) continue;
           const auto& rule = made.separations[one.track_class != other.track_class ? 1 : 0];
           for (std::uint32_t level = 0; level < rule.levels.size(); ++level) {

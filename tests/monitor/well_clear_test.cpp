@@ -231,8 +231,11 @@ TEST(WellClear, IsPredictedWhenItsLossComesInTheLookAheadTime) {
       for (const auto& [a, first] : tracks)
         for (const auto& [b, second] : tracks) {
           if (b <= a) continue;
-          const auto& [from, one] = first;
-          const auto& [since, other] = second;
+          // clang++ 14 cannot capture structured bindings.
+          const auto& from = first.first;
+          const auto& one = first.second;
+          const auto& since = second.first;
+          const auto& other = second.second;
           const Vec3 v = one.velocity - other.velocity;
           const auto is_within = [&](double t, double factor) {
             const Vec3 s = one.position_at(t - from) - other.position_at(t - since);

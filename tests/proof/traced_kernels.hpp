@@ -34,6 +34,9 @@ namespace traced_kinesphere {
 using namespace kinesphere;  // NOLINT
 }
 
+#if defined(__clang__)
+#pragma clang diagnostic ignored "-Wkeyword-macro"
+#endif
 #define double traced::Double
 #define float traced::Single
 #define std traced_std

@@ -125,8 +125,6 @@ TEST(Molecules, WrongOnesNameLineAndColumns) {
 
 /// A ball that goes straight on through the faces of a cell is read as it moves.
 TEST(Molecules, GoOnThroughTheFacesOfACell) {
-  constexpr std::uint64_t seed = 532;
-  Random random(seed);
   const Vec3 a{4, 0, 0}, b{1.5, 5, 0}, c{-1, 2, 6};
   const Vec3 velocity{0.6, -0.5, 0.7};
   std::vector<Frame> straight, wrapped;

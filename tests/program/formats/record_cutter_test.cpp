@@ -34,7 +34,7 @@ std::vector<Cut> records_in(RecordCutter::Kind kind, std::string_view text, std:
 }
 
 void expect_records(RecordCutter::Kind kind, std::string_view text, const std::vector<Cut>& expected) {
-  for (const std::size_t at_once : {1, 2, 3, 7, 64, 100000})
+  for (const std::size_t at_once : {1u, 2u, 3u, 7u, 64u, 100000u})
     EXPECT_EQ(records_in(kind, text, at_once), expected) << "in pieces of " << at_once;
 }
 

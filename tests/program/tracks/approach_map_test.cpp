@@ -17,7 +17,7 @@ class ApproachMapOf : public ProgramTest {
     std::string text = heights ? "id,time,lon,lat,alt\n" : "id,time,lon,lat\n";
     const std::array<const char*, 2> times =
         dates ? std::array{"2024-05-01T08:00:00Z", "2024-05-01T08:10:00Z"} : std::array{"0", "600"};
-    for (int k = 0; k < 2; ++k) {
+    for (const std::size_t k : {0u, 1u}) {
       text += std::string("<A&B>,") + times[k] + (k == 0 ? ",8.00,54.0" : ",8.02,54.0") +
               (heights ? ",100" : "") + "\n";
       text += std::string("c,") + times[k] + (k == 0 ? ",8.02,54.0" : ",8.00,54.0") +

@@ -221,7 +221,8 @@ TEST_F(WatchPolicy, ACapSaysWhatItHoldsBack) {
   std::vector<Path> paths;
   std::vector<std::string> ids;
   for (int k = 0; k < 15; ++k) ids.push_back(fmt::format("t{:02}", k));
-  for (int k = 0; k < 15; ++k) paths.push_back({ids[k].c_str(), 2.0 * k, 0, 3, 0});
+  for (const std::string& id : ids)
+    paths.push_back({id.c_str(), 2.0 * static_cast<double>(paths.size()), 0, 3, 0});
   const auto lines = alerts(reports(paths, 5), "--separation sphere:50 --most-alerts 10 --only within");
   ASSERT_EQ(lines.size(), 11u);
   EXPECT_EQ(lines[10]["event"], "held_back");
@@ -276,7 +277,7 @@ TEST_F(WatchPolicy, TracksThatStandAtOnePlaceAreAGroup) {
   std::vector<std::string> ids;
   for (int k = 0; k < 60; ++k) ids.push_back(fmt::format("t{:02}", k));
   std::vector<Path> paths;
-  for (int k = 0; k < 60; ++k) paths.push_back({ids[k].c_str(), 3.0, 4.0, 0, 0});
+  for (const std::string& id : ids) paths.push_back({id.c_str(), 3.0, 4.0, 0, 0});
   paths.push_back({"visitor", -300, 4, 10, 0});
   paths.push_back({"own", 3, 4, 0, 0});
   const auto lines = alerts(reports(paths), "--separation sphere:50 --hold 5 --only within,predicted");
