@@ -151,8 +151,9 @@ double earliest_meeting_in_all_turns(const RigidPair<Other>& pair, double from, 
 inline double earliest_separation_in_all_turns(const RigidPair<RigidExtent>& pair, double from, double until,
                                                double distance) {
   double latest = from;
+  const AllTurns partner(pair.other);
   AllTurns(pair.body).for_each_orbit([&](const Bound& own, double radius) {
-    AllTurns(pair.other).for_each_orbit([&](const Bound& other, double other_radius) {
+    partner.for_each_orbit([&](const Bound& other, double other_radius) {
       if (latest < infinity)
         latest = std::max(latest,
                           earliest_separation(own, other, from, until, distance - (radius + other_radius)));
