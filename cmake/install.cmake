@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/kinesphere)
 install(TARGETS kinesphere EXPORT kinesphere INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-# src/distributed installs the headers of the component mpi.
+# distributed installs the headers of the component mpi.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/ ${PROJECT_BINARY_DIR}/include/
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp" PATTERN distributed EXCLUDE)
 
