@@ -11,11 +11,11 @@ namespace {
 
 // Parts of the present windows.
 constexpr double part_before_slices = 0.02;
-/// Before the sort: about as long as its slices take. An earlier sort makes longer swept spheres; but bodies
-/// that change after it start at once, without another search at the end.
-constexpr double part_before_survey = 0.34;
-/// For the survey, the choice of cells and the sort, which take longer than any other slice.
-constexpr double part_for_sort = 0.12;
+/// Before the sort. An earlier sort makes longer swept spheres; but bodies that change after it start at
+/// once, without another search at the end. So slices before it and after it take about equally long.
+constexpr double part_before_sort = 0.28;
+/// For the survey, the choice of cells, the sort and the entry, which take longer than any other slice.
+constexpr double part_for_sort = 0.18;
 /// Smaller slices make frames more even.
 constexpr std::size_t bodies_in_a_slice = 128;
 constexpr std::size_t least_slices = 4;
@@ -49,22 +49,24 @@ PreparedStart::PreparedStart(const Space& space, const WindowPolicy& policy, con
       policy_(policy),
       next_(space) {}
 
-double PreparedStart::entry_time() const {
-  return begin_ + (part_before_survey + 0.85 * part_for_sort) * (end() - begin_);
-}
+double PreparedStart::entry_time() const { return time_of(entry_slice()); }
 
-double PreparedStart::next_slice() const {
-  if (slice_ == entry_slice()) return entry_time();
-  if (slice_ == last_slice()) return end();
-  if (is_done()) return infinity;
-  const auto part = [this](std::size_t slices) {
-    return static_cast<double>(slices) / static_cast<double>(slices_);
+double PreparedStart::next_slice() const { return is_done() ? infinity : time_of(slice_); }
+
+/// Returns the time of a slice. Those of the sort are as far from each other as possible, so that a frame has
+/// few.
+double PreparedStart::time_of(std::size_t slice) const {
+  if (slice == last_slice()) return end();
+  const auto part = [](std::size_t slices, std::size_t all) {
+    return static_cast<double>(slices) / static_cast<double>(all);
   };
-  constexpr double part_entered = part_before_survey + part_for_sort;
-  double done = part_before_survey * part(slice_);
-  if (slice_ == survey_slice()) done = part_before_survey + 0.15 * part_for_sort;
-  if (slice_ == cells_slice()) done = part_before_survey + 0.5 * part_for_sort;
-  if (have_entered()) done = part_entered + (1.0 - part_entered) * part(slice_ - entry_slice() - 1);
+  constexpr double part_entered = part_before_sort + part_for_sort;
+  double done = part_before_sort * part(slice, slices_);
+  if (slice > entry_slice()) {
+    done = part_entered + (1.0 - part_entered) * part(slice - entry_slice() - 1, slices_);
+  } else if (slice >= survey_slice()) {
+    done = part_before_sort + part_for_sort * part(2 * (slice - survey_slice()) + 1, 8);
+  }
   return begin_ + done * (end() - begin_);
 }
 
@@ -76,6 +78,8 @@ Result<void> PreparedStart::prepare_slice(const Work& work) {
     survey(work);
   } else if (slice_ == cells_slice()) {
     next_.choose_cells(work.lease);
+  } else if (slice_ == sort_slice()) {
+    next_.finish_start(work.lease);
   } else if (slice_ == entry_slice()) {
     enter_windows(work);
   } else if (slice_ < last_slice()) {
@@ -96,13 +100,16 @@ void PreparedStart::begin(const Work& work) {
   numbers_ = static_cast<std::uint32_t>(work.state.bodies.numbers());
 }
 
+bool PreparedStart::is_dirty(const Work& work, std::uint32_t number) {
+  return work.main.dirty().lists(work.state.bodies, number);
+}
+
 /// Returns true if the body starts at end(), with most. Those whose windows end earlier, until which alone
 /// they are certified, start by themselves. So do those in windows that are much shorter: from now to the end
 /// of the next one, their bounds might grow too much.
 bool PreparedStart::starts(const Work& work, std::uint32_t number) const {
   const BroadPhase& present = work.state.broad_phase;
-  if (!present.contains(number) || present.end_of(number) != end() || work.state.bodies[number].dirty)
-    return false;
+  if (!present.contains(number) || present.end_of(number) != end() || is_dirty(work, number)) return false;
   if (present.window_of(number) == present_) return true;
   const SpeedBound speed_bound = speed_bound_of(BoundAt(work.state.bodies[number].bound, end()));
   return work.state.window_policy.rung_for(speed_bound) >= work.state.window_policy.main_rung();
@@ -127,7 +134,7 @@ Result<void> PreparedStart::add_slice(const Work& work) {
     if (starts(work, number)) numbers.push_back(number);
   WindowStart starting(work.state, work.main, work.lease, work.found, next_, end());
   if (auto probed = starting.refresh(numbers); !probed) return probed;
-  std::erase_if(numbers, [&](std::uint32_t number) { return work.state.bodies[number].dirty; });
+  std::erase_if(numbers, [&](std::uint32_t number) { return is_dirty(work, number); });
   work.main.work().counters.starts += numbers.size();
   WindowPolicy::Sample slice(work.state.window_policy, true);
   add(work, std::move(numbers), slice);
@@ -177,14 +184,13 @@ void PreparedStart::enter_changed(const Work& work) {
   }
 }
 
-/// Sorts the swept spheres, and replaces the present windows.
+/// Replaces the present windows.
 void PreparedStart::enter_windows(const Work& work) {
   BroadPhase& windows = work.state.broad_phase;
-  next_.finish_start(work.lease);
   enter_changed(work);
   windows.record_changes(false);
   for (const std::uint32_t number : work.main.dirty().numbers())
-    if (work.state.bodies[number].dirty && next_.contains(number)) next_.leave(number);
+    if (is_dirty(work, number) && next_.contains(number)) next_.leave(number);
   policy_.keep_fast(work.state.window_policy);
   work.state.window_policy = policy_;
   next_ = windows.take_over(std::move(next_));
@@ -195,13 +201,12 @@ void PreparedStart::enter_windows(const Work& work) {
 /// Returns true if the body has started at entry_time(), and not changed since. A dirty one is certified with
 /// all others at this instant.
 bool PreparedStart::awaits_search(const Work& work, std::uint32_t number) {
-  return work.state.broad_phase.awaits_search(number) && !work.state.bodies[number].dirty;
+  return work.state.broad_phase.awaits_search(number) && !is_dirty(work, number);
 }
 
 /// As awaits_search(), of a pair one of which has started.
 bool PreparedStart::pair_awaits_search(const Work& work, std::uint32_t a, std::uint32_t b) {
-  return work.state.broad_phase.pair_awaits_search(a, b) && !work.state.bodies[a].dirty &&
-         !work.state.bodies[b].dirty;
+  return work.state.broad_phase.pair_awaits_search(a, b) && !is_dirty(work, a) && !is_dirty(work, b);
 }
 
 /// Returns a part of the bodies that await a search, by number.
@@ -310,6 +315,7 @@ void PreparedStart::finish(const Work& work) {
 
 bool PreparedStart::is_valid(const WorldState& state) const {
   const std::size_t bodies = state.bodies.numbers();
+  const bool is_sorted = slice_ > sort_slice();
   const auto is_number = [=](std::uint32_t number) { return number < bodies; };
   if (!have_entered()) {
     std::vector<bool> has_changed(bodies);
@@ -319,10 +325,11 @@ bool PreparedStart::is_valid(const WorldState& state) const {
   }
   return present_.is_valid() && present_.end < infinity && begin_ <= end() && begin_ >= -Window::latest_end &&
          slices_ > 0 && slices_ <= most_slices && slice_ <= last_slice() && numbers_ <= bodies &&
-         (have_entered()
-              ? next_.is_valid_copy(bodies) && state.broad_phase.search_begin() == end()
-              : next_.is_valid_successor(bodies, slice_ > survey_slice(), slice_ > cells_slice()) &&
-                    next_.started_slots() == 0 && state.broad_phase.search_begin() == -infinity) &&
+         (have_entered() ? next_.is_valid_copy(bodies) && state.broad_phase.search_begin() == end()
+                         : next_.is_valid_successor(bodies, survey_slice() < slice_ && !is_sorted,
+                                                    cells_slice() < slice_ && !is_sorted) &&
+                               (is_sorted ? !next_.has_starters() : next_.started_slots() == 0) &&
+                               state.broad_phase.search_begin() == -infinity) &&
          (slice_ == 0 || has_begun_) && policy_.is_valid() &&
          std::all_of(at_walls_.begin(), at_walls_.end(), is_number) &&
          std::all_of(linked_.begin(), linked_.end(), [&](const PairCertificate& pair) {

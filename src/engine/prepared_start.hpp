@@ -3,8 +3,8 @@
 //
 // Most windows end together, at end(). The bodies in them get their next windows earlier than that, all at
 // one instant, entry_time(). Until then their next swept spheres are made, for one part of the bodies after
-// the other; these hold from entry_time() until the next windows end. Then their cells are chosen. At
-// entry_time() they are sorted into grid levels, which replace those of the present windows
+// the other; these hold from entry_time() until the next windows end. Then their cells are chosen, and they
+// are sorted into grid levels, which at entry_time() replace those of the present windows
 // (BroadPhase::take_over). From then on they are searched, one part after the other, and pairs are certified
 // from end() on. When a pair is certified depends on the slots of swept spheres, so these must not depend on
 // the number of threads.
@@ -68,17 +68,20 @@ class PreparedStart {
   /// Time at which the present windows end and the next ones begin.
   double end() const { return present_.end; }
   double entry_time() const;
-  // Slices in their order: parts of the bodies, the survey, the choice of cells, the entry, parts of the
-  // sorted slots, the end.
+  double time_of(std::size_t slice) const;
+  // Slices in their order: parts of the bodies, the survey, the choice of cells, the sort, the entry, parts
+  // of the sorted slots, the end.
   std::size_t survey_slice() const { return slices_; }
   std::size_t cells_slice() const { return slices_ + 1; }
-  std::size_t entry_slice() const { return slices_ + 2; }
-  std::size_t last_slice() const { return 2 * slices_ + 3; }
+  std::size_t sort_slice() const { return slices_ + 2; }
+  std::size_t entry_slice() const { return slices_ + 3; }
+  std::size_t last_slice() const { return 2 * slices_ + 4; }
   bool have_entered() const { return slice_ > entry_slice(); }
   /// Returns the number of the first body of a slice.
   std::uint32_t begun(std::size_t slice) const {
     return static_cast<std::uint32_t>(numbers_ * slice / slices_);
   }
+  static bool is_dirty(const Work& work, std::uint32_t number);
   static bool awaits_search(const Work& work, std::uint32_t number);
   static bool pair_awaits_search(const Work& work, std::uint32_t a, std::uint32_t b);
   std::vector<int> lasting_rungs(const Work& work) const;

@@ -18,6 +18,10 @@ class DirtyList {
   void reserve(std::size_t bodies) { numbers_.reserve(bodies); }
   bool empty() const { return numbers_.empty(); }
   const std::vector<std::uint32_t>& numbers() const { return numbers_; }
+  /// Returns true if the body is dirty. Cost: its record is not accessed while the list is empty.
+  bool lists(const Bodies& bodies, std::uint32_t number) const {
+    return !numbers_.empty() && bodies[number].dirty;
+  }
   void add(Bodies& bodies, std::uint32_t number) {
     if (bodies[number].dirty) return;
     bodies[number].dirty = true;

@@ -77,6 +77,19 @@ TEST_F(PreparedStartTest, HasSlicesInOrderUntilTheWindowsEnd) {
   EXPECT_EQ(prepared->next_slice(), infinity);
 }
 
+TEST_F(PreparedStartTest, DoesTheStepsOfTheSortFarFromEachOther) {
+  // The survey, the choice of cells, the sort and the entry take longer than other slices.
+  std::vector<double> times;
+  for (; !prepared->is_done(); go_on(times.back())) {
+    if (HasFailure()) return;
+    times.push_back(prepared->next_slice());
+  }
+  const auto in_sort = [this](double time) { return time > 0.3 * present.end && time < 0.47 * present.end; };
+  std::erase_if(times, [&](double time) { return !in_sort(time); });
+  ASSERT_EQ(times.size(), 4u);
+  for (std::size_t k = 1; k < times.size(); ++k) EXPECT_GE(times[k] - times[k - 1], 0.04 * present.end);
+}
+
 TEST_F(PreparedStartTest, LeavesAllInTheirNextWindows) {
   go_on(present.end);
   ASSERT_TRUE(prepared->is_done());
@@ -112,18 +125,19 @@ TEST_F(PreparedStartTest, CertifiesEachPairFromTheEndOn) {
     }
 }
 
-TEST_F(PreparedStartTest, TakesTwoThatChangeOnTheWay) {
-  go_on(0.2 * present.end);
-  world.main.advance_clock(std::max(world.main.time(), 0.2 * present.end));
-  world.set_velocity(3, {0, 0.5, 0});
-  ASSERT_TRUE(world.main.recertify());
-  go_on(0.7 * present.end);
-  world.main.advance_clock(std::max(world.main.time(), 0.7 * present.end));
-  world.set_velocity(5, {0, 0, 0.5});
-  ASSERT_TRUE(world.main.recertify());
+TEST_F(PreparedStartTest, TakesThoseThatChangeOnTheWay) {
+  // Amid the swept spheres, between the sort and the entry, and amid the searches.
+  const std::pair<double, std::uint32_t> changes[] = {{0.2, 3}, {0.42, 4}, {0.7, 5}};
+  for (const auto& [part, number] : changes) {
+    go_on(part * present.end);
+    world.main.advance_clock(std::max(world.main.time(), part * present.end));
+    world.set_velocity(number, {0, 0.5, 0});
+    ASSERT_TRUE(world.main.recertify());
+  }
   go_on(present.end);
   ASSERT_TRUE(prepared->is_done());
-  for (const std::uint32_t number : {3u, 5u}) EXPECT_GT(world.state.broad_phase.end_of(number), present.end);
+  for (const auto& [part, number] : changes)
+    EXPECT_GT(world.state.broad_phase.end_of(number), present.end) << part;
 }
 
 TEST_F(PreparedStartTest, GoesOnAsBeforeAfterItWasBytes) {
