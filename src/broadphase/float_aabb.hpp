@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -19,11 +20,9 @@ struct FloatAabb {
   float width(std::size_t axis) const { return upper[axis] - lower[axis]; }
   /// Returns the greatest width on any axis; +infinity if a width is NaN.
   float widest() const {
-    constexpr float infinite = std::numeric_limits<float>::infinity();
-    float widest = 0.0f;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if (!(width(axis) <= widest)) widest = width(axis) < infinite ? width(axis) : infinite;
-    return widest;
+    // Without a branch: which axis has it is unpredictable.
+    const float widest = std::max({0.0f, width(0), width(1), width(2)});
+    return std::isfinite(width(0) + width(1) + width(2)) ? widest : std::numeric_limits<float>::infinity();
   }
 };
 

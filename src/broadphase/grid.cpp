@@ -105,17 +105,18 @@ Grid::Cell Grid::nearest_image(std::uint32_t index, const Cell& to) const {
 }
 
 float Grid::looseness(const Cell& cell, const FloatAabb& aabb) const {
-  constexpr float infinite = std::numeric_limits<float>::infinity();
+  // Without a branch: which side reaches out farthest is unpredictable.
   float most = 0.0f;
+  float sum = 0.0f;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto here = static_cast<float>(cell[axis]);
     const float below = here * edge_[axis] - aabb.lower[axis];
     const float above = aabb.upper[axis] - (here + 1.0f) * edge_[axis];
-    // A NaN does not compare, and counts as infinite.
-    for (const float out : {below, above})
-      if (!(out <= most)) most = out < infinite ? out : infinite;
+    most = std::max(most, std::max(below, above));
+    sum += aabb.lower[axis] + aabb.upper[axis];
   }
-  return most * (1.0f + 0x1p-20f);
+  // A coordinate that is infinite or NaN makes the sum so.
+  return std::isfinite(sum) ? most * (1.0f + 0x1p-20f) : std::numeric_limits<float>::infinity();
 }
 
 Box Grid::box_of(const Cell& cell) const {
