@@ -164,18 +164,21 @@ void WindowPolicy::start_main(double now, const RenewalCounts& updates) {
   main_start_ = now;
 }
 
-/// Returns the length of a quantum: a power of two, about 2^-12 of the typical way.
-double WindowPolicy::Sample::quantum() const {
-  constexpr int quanta_in_way = 12;
-  return power_of_two(exponent_of(std::max(policy_->typical_way_, shortest_way)) - quanta_in_way);
-}
+/// Takes about 2^-12 of the typical way as the quantum.
+WindowPolicy::Sample::Sample(const WindowPolicy& policy, bool most)
+    : policy_(&policy),
+      most_(most),
+      quantum_(power_of_two(exponent_of(std::max(policy.typical_way_, shortest_way)) - 12)),
+      per_quantum_(1.0 / quantum_) {}
 
 /// Returns a length in quanta, rounded up and at most 2^33. Lengths far beyond the typical way are cut to
 /// that, and those far below it count as one quantum; a sum of 2^30 of the longest still fits 64 bits.
 std::uint64_t WindowPolicy::Sample::quanta_in(double length) const {
-  constexpr double most = 0x1p33;
-  const double quanta = std::ceil(length / quantum());
-  return static_cast<std::uint64_t>(quanta < most ? quanta : most);
+  constexpr std::uint64_t most = std::uint64_t{1} << 33;
+  const double quanta = length * per_quantum_;
+  if (!(quanta < static_cast<double>(most))) return most;
+  const auto whole = static_cast<std::uint64_t>(quanta);
+  return whole + (static_cast<double>(whole) < quanta ? 1 : 0);
 }
 
 void WindowPolicy::Sample::add(double width, const SpeedBound& speed_bound, double time, double most) {
@@ -217,10 +220,9 @@ WindowPolicy::Starts& WindowPolicy::Starts::operator+=(const Sample& round) {
   bodies += round.bodies_;
   in_main += round.in_main_;
   for (std::size_t k = 0; k < magnitudes; ++k) ways_gone[k] += round.ways_gone_[k];
-  const double quantum = round.quantum();
-  widths += quantum * static_cast<double>(round.widths_);
-  ways += quantum * static_cast<double>(round.ways_);
-  growths += quantum * static_cast<double>(round.growths_);
+  widths += round.quantum_ * static_cast<double>(round.widths_);
+  ways += round.quantum_ * static_cast<double>(round.ways_);
+  growths += round.quantum_ * static_cast<double>(round.growths_);
   return *this;
 }
 

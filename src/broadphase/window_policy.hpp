@@ -187,7 +187,7 @@ class WindowPolicy::Sample {
  public:
   /// Makes an empty sample. `most` is true if most bodies start, after start_main(). Precondition: the policy
   /// does not change while the sample is in use.
-  Sample(const WindowPolicy& window_policy, bool most) : policy_(&window_policy), most_(most) {}
+  Sample(const WindowPolicy& policy, bool most);
 
   /// Adds a body that starts in a window of this rung. `width` (length) is the width of its swept sphere
   /// without its way.
@@ -209,12 +209,13 @@ class WindowPolicy::Sample {
 
  private:
   friend class WindowPolicy;
-  double quantum() const;
   std::uint64_t quanta_in(double length) const;
   void add(double width, const SpeedBound& speed_bound, double time, double most);
 
   const WindowPolicy* policy_;
   bool most_;
+  double quantum_;  ///< a power of two (length)
+  double per_quantum_;
   std::uint64_t bodies_ = 0;
   std::uint64_t in_main_ = 0;
   std::array<std::uint64_t, magnitudes> ways_gone_{};
