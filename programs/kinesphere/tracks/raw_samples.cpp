@@ -11,9 +11,11 @@
 #include <numeric>
 #include <utility>
 
+#include "base/ascii_text.hpp"
 #include "base/program_error.hpp"
 #include "formats/converted/converted_table.hpp"
 #include "formats/converted/file_kind.hpp"
+#include "formats/tables/header_line.hpp"
 #include "formats/tables/row_reader.hpp"
 
 namespace kinesphere::program {
@@ -274,11 +276,27 @@ void RawRecording::read(std::string text, const std::string& file) {
     if (const std::string other = other_file_kind(text); !other.empty())
       throw ProgramError(fmt::format("{}: expected a table in a text file, but it is {}", file, other));
     if (text.find('\0') != std::string::npos)
-      throw ProgramError(fmt::format("{}: expected a text file, but it has zero bytes", file));
+      throw ProgramError(
+          fmt::format("{}: expected a text file, but it has zero bytes: if it is one that was cut off, leave "
+                      "them out with tr -d '\\0'",
+                      file));
   }
   if (converted && converted->is_one_body) add_file_id(id_of_file(file));
   FileReader reader(*this, format, choices, converted ? &*converted : nullptr);
-  reader.read(text);
+  const std::size_t rows_before = counts_.rows;
+  try {
+    reader.read(text);
+  } catch (const ProgramError&) {
+    const bool may_be_below = is_table(format) && !converted && counts_.rows == rows_before;
+    const auto header = may_be_below ? line_of_later_header(text) : std::nullopt;
+    if (!header) throw;
+    const std::string from = fmt::format("tail -n +{}", *header), word = shell_word(file);
+    throw ProgramError(fmt::format(
+        "{}: expected the header as the first line, but line {} looks like it: leave out what is above, with "
+        "{} | kinesphere tracks - ...",
+        file, *header,
+        file.ends_with(".gz") ? fmt::format("zcat {} | {}", word, from) : fmt::format("{} {}", from, word)));
+  }
   if (files_.size() == 1) head_ = reader.rows() != nullptr ? reader.rows()->head() : TableHead{.file = file};
 }
 

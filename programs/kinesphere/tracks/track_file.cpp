@@ -154,6 +154,32 @@ std::optional<std::string> warning_of_radians(const RawRecording& raw) {
       raw.head().file, farthest.y, farthest.y, farthest.x, farthest.x);
 }
 
+/// Returns a warning where no two tracks of several bodies are there at one time, as where clocks of files
+/// count from different starts.
+std::optional<std::string> warning_about_lone_tracks(const Recording& recording) {
+  std::vector<const RecordedTrack*> tracks;
+  for (const RecordedTrack& track : recording.tracks) tracks.push_back(&track);
+  const auto begin = [](const RecordedTrack* track) { return track->samples.front().time; };
+  const auto end = [](const RecordedTrack* track) { return track->samples.back().time; };
+  std::sort(tracks.begin(), tracks.end(), [&](const auto* a, const auto* b) { return begin(a) < begin(b); });
+  const RecordedTrack* other = nullptr;
+  double last = -std::numeric_limits<double>::infinity();
+  for (const RecordedTrack* track : tracks) {
+    if (begin(track) <= last) return std::nullopt;
+    last = end(track);
+    if (track->id != tracks.front()->id && other == nullptr) other = track;
+  }
+  if (other == nullptr) return std::nullopt;
+  const auto span = [&](const RecordedTrack* track) {
+    return fmt::format("'{}' from {} to {}", track->id, recording.times.text(begin(track)),
+                       recording.times.text(end(track)));
+  };
+  return fmt::format(
+      "no two bodies are recorded at one time, so that there is no pair: {}, {}; clocks of files may count "
+      "from different starts",
+      span(tracks.front()), span(other));
+}
+
 /// The pieces of one id, before they are split at gaps.
 struct Body {
   std::string id;
@@ -192,6 +218,8 @@ class Reading {
       for (const Piece& piece : body.pieces) add_intervals(piece, intervals);
     recording_.sample_interval = median_interval(std::move(intervals));
     for (const Body& body : bodies_) add_tracks(body);
+    if (auto warning = warning_about_lone_tracks(recording_))
+      recording_.warnings.push_back(std::move(*warning));
     return std::move(recording_);
   }
 
@@ -277,6 +305,11 @@ Recording parse_tracks(std::vector<NamedText> texts, const TrackOptions& options
                                      fmt::join(files, ", "), recording.filter));
     if (recording.malformed.count > 0 && recording.malformed.count == recording.rows)
       throw ProgramError(recording.warnings.front());
+    if (recording.too_fast.count > 0)
+      throw ProgramError(
+          fmt::format("{}: expected an id with two samples that can be reached at --max-speed {}, "
+                      "but there is none",
+                      fmt::join(files, ", "), *options.max_speed));
     if (const auto time = only_time(raw))
       throw ProgramError(fmt::format("{}: expected samples at two times or more, but all are at {}",
                                      fmt::join(files, ", "),

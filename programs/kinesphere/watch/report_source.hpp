@@ -26,6 +26,7 @@ class ReportSource {
   enum class Outcome {
     text,   ///< some has come
     quiet,  ///< none has come in time
+    cut,    ///< the connection is lost: what has begun does not go on in later text
     end,    ///< there is no more
   };
   /// Waits for text, at most `patience` or until the program is asked to stop. The text may end anywhere, and

@@ -61,13 +61,11 @@ class TcpSource final : public ReportSource {
     if (!wait_for(POLLIN, patience)) return Outcome::quiet;
     const auto got = ::recv(descriptor_, buffer_.data(), buffer_.size(), 0);
     if (got < 0 && (errno == EINTR || errno == EAGAIN)) return Outcome::quiet;
-    if (got > 0) {
-      text = {buffer_.data(), static_cast<std::size_t>(got)};
-    } else {
+    if (got <= 0) {
       lose_connection(got == 0 ? "the server has ended it" : std::strerror(errno));
-      // Nothing goes on in another connection.
-      text = "\n";
+      return Outcome::cut;
     }
+    text = {buffer_.data(), static_cast<std::size_t>(got)};
     handed_over_ += text.size();
     return Outcome::text;
   }

@@ -22,7 +22,7 @@ bool is_tcp_address(std::string_view text);
 TcpAddress parse_tcp_address(std::string_view text);
 
 /// Connects to the server, and connects again, each second, whenever the connection ends: with a warning
-/// unless `is_quiet`. A record that is cut off ends with its connection. Nothing is read again: what the
+/// unless `is_quiet`. A record that is cut off by that does not count. Nothing is read again: what the
 /// server sends meanwhile is lost. `from` is where an earlier run was, or null. Throws ProgramError if the
 /// first attempt fails.
 std::unique_ptr<ReportSource> make_tcp_source(const TcpAddress& address, const StopSignals& stop,

@@ -30,6 +30,7 @@ CLI::App* add_watch_command(CLI::App& program, WatchOptions& options) {
           "sends there; udp://127.0.0.1:PORT for datagrams to this port; nats://HOST:PORT/SUBJECT for what a "
           "server of NATS has")
       ->capture_default_str();
+  command->add_option("more", options.more_files)->group("");
   // Options that may be given several times take one value each: the FILE may come behind it.
   command
       ->add_option(
@@ -198,6 +199,12 @@ int watch(const WatchOptions& options) {
   if (options.separations.empty())
     throw ProgramError(
         "--separation: expected it, as sphere:50 or cylinder:5NM:1000ft: how near is too near (see --help)");
+  if (!options.more_files.empty())
+    throw ProgramError(fmt::format(
+        "expected one stream, but got {} and {}: join them in the order of their times, as sort -m does with "
+        "lines that begin with a time; kinesphere tracks {} {} --distance LENGTH reads several recordings",
+        options.file, options.more_files.front(), shell_word(options.file),
+        shell_word(options.more_files.front())));
   const OutputPath outputs[] = {{"--summary", options.summary},
                                 {"--snapshot", options.snapshot},
                                 {"--alerts", is_nats_address(options.alerts) ? "" : options.alerts}};

@@ -14,6 +14,7 @@ namespace kinesphere::program {
 
 struct WatchOptions {
   std::string file = "-";
+  std::vector<std::string> more_files;  ///< that are refused
   FormatChoices choices;
   std::vector<std::string> separations;
   std::string look_ahead, confirm, hold;

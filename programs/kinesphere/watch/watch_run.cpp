@@ -154,6 +154,10 @@ std::optional<StreamFormat> format_of(const WatchOptions& options,
     const auto outcome = source.next(std::chrono::milliseconds(1000), text);
     has_ended = outcome == ReportSource::Outcome::end;
     if (outcome == ReportSource::Outcome::text) cutter.feed(text);
+    if (outcome == ReportSource::Outcome::cut) {
+      cutter.rest();
+      examined = 0;
+    }
   }
   return std::nullopt;
 }
@@ -243,6 +247,7 @@ void WatchRun::run() {
       cutter_.feed(text);
       take();
     }
+    if (outcome == ReportSource::Outcome::cut) take_cut_off();
     const bool is_later = source_->has_clock() ? outcome == ReportSource::Outcome::text
                                                : outcome == ReportSource::Outcome::quiet;
     if (by_machine && is_later) pass_time();
@@ -276,6 +281,14 @@ void WatchRun::take() {
   while (const auto record = cutter_.next()) read(*record);
   if (!source_->has_whole_records()) return;
   if (const auto cut_off = cutter_.rest()) read(*cut_off);
+}
+
+void WatchRun::take_cut_off() {
+  auto record = cutter_.rest();
+  if (!record) return;
+  // A row whose last number lacks digits looks whole; an object shows its end.
+  record->is_whole = record->is_whole && record->text.ends_with('}');
+  read(*record);
 }
 
 void WatchRun::finish() {

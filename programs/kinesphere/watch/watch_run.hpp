@@ -39,6 +39,8 @@ class WatchRun {
   std::unique_ptr<AlertOutput> open_alerts() const;
   /// Processes the text that has arrived.
   void take();
+  /// Hands over what a lost connection has cut off.
+  void take_cut_off();
   void read(Record record);
   void finish();
   void pass_time();

@@ -79,6 +79,11 @@ TEST(ConvertedTables, ReadsKml) {
   ASSERT_EQ(flat.tracks.size(), 1u);
   EXPECT_EQ(flat.tracks[0].id, "a");
   EXPECT_TRUE(flat.is_plane) << "heights are not those of the sea";
+  for (const char* mode : {"", "<altitudeMode>relativeToGround</altitudeMode>"})
+    EXPECT_EQ(parse(kml(mode, two)).warnings,
+              std::vector<std::string>{
+                  "f: heights whose altitudeMode is not absolute are not above the sea, and are not used"});
+  EXPECT_TRUE(parse(kml("", "<gx:coord>8 47 0</gx:coord><gx:coord>8 47</gx:coord>")).warnings.empty());
   EXPECT_NEAR(norm(flat.tracks[0].samples[1].position - flat.tracks[0].samples[0].position), 7.6, 0.1);
   EXPECT_TRUE(parse(kml("<altitudeMode>absolute</altitudeMode>", two)).has_heights);
   EXPECT_EQ(error_in(kml("", "<gx:coord>8.0 47.0 10</gx:coord>")),
@@ -118,6 +123,15 @@ TEST(ConvertedTables, ReadsGeoJson) {
       error_in(collection(area)).starts_with("f: expected points with properties such as id and time"));
   EXPECT_EQ(error_in(collection(point(0, "8, 47") + ",\n" + point(5, "8, \"north\""))),
             "f:3: expected numbers as coordinates");
+  const auto of_system = [&](const std::string& name) {
+    return "{\"type\": \"FeatureCollection\", \"crs\": " + name + ", \"features\": [" + line + "]}";
+  };
+  EXPECT_EQ(error_in(of_system(R"({"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::25832"}})")),
+            "f: expected longitudes and latitudes, but its coordinates are of urn:ogc:def:crs:EPSG::25832: "
+            "convert them with ogr2ogr -t_srs EPSG:4326 degrees.geojson f");
+  for (const char* degrees : {"null", R"({"type": "name", "properties": {"name": "EPSG:4326"}})",
+                              R"({"type": "name", "properties": {"name": "urn:ogc:def:crs:OGC:1.3:CRS84"}})"})
+    EXPECT_EQ(parse(of_system(degrees)).tracks.size(), 1u) << degrees;
   EXPECT_TRUE(error_in(collection("{\"type\": \"Feature\", ")).starts_with("f:1: expected JSON"));
   EXPECT_TRUE(error_in(collection(area) + "\n" + collection(area)).starts_with("f:1: expected JSON"));
 }

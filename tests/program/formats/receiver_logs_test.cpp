@@ -235,5 +235,48 @@ TEST(ReceiverLogs, WrongOnesOfGlidersNameLineAndColumns) {
             "f.igc:2: expected a date (a record HFDTE) before the first fix");
 }
 
+TEST(ReceiverLogs, ReadsPlt) {
+  const auto plt = [](const std::string& title, const std::string& datum, const std::string& rows) {
+    return title + "\n" + datum + "\nAltitude is in Feet\nReserved 3\n0,2,255,My Track,0,0,2,8421376\n0\n" +
+           rows;
+  };
+  const std::string ozi_title = "OziExplorer Track Point File Version 2.1";
+  // Days are rounded: these are 14:04:30 and 14:04:35.
+  const std::string geolife = plt("Geolife trajectory", "WGS 84",
+                                  "39.906631,116.385564,0,492,40097.5864583333,2009-10-11,14:04:30\r\n"
+                                  "39.906554,116.385625,0,492,40097.5865162037,2009-10-11,14:04:35\r\n");
+  const std::string row = "  39.906631, 116.385564,1,{}, {}, 11-Oct-09, 14:04:30\n";
+  const auto ozi = [&](const char* height) {
+    return plt(ozi_title, "WGS 84",
+               fmt::format(fmt::runtime(row), 492, "40097.5864583") +
+                   fmt::format(fmt::runtime(row), height, "40097.5864612"));
+  };
+  TrackOptions options;
+  options.max_gap = 10.0;
+  const Recording recording = parse({{"walks/20091011.plt", geolife}, {"b.plt", ozi("492")}}, options);
+  EXPECT_EQ(recording.format, "PLT");
+  EXPECT_TRUE(recording.has_heights);
+  ASSERT_EQ(recording.tracks.size(), 2u);
+  EXPECT_EQ(recording.tracks[0].id, "20091011");
+  const auto time = [&](std::size_t track, std::size_t sample) {
+    return recording.times.text(recording.tracks[track].samples[sample].time);
+  };
+  EXPECT_EQ(time(0, 0), "2009-10-11T14:04:30Z");
+  EXPECT_EQ(time(0, 1), "2009-10-11T14:04:35Z");
+  EXPECT_EQ(time(1, 0), "2009-10-11T14:04:30Z");
+  EXPECT_EQ(time(1, 1), "2009-10-11T14:04:30.248Z") << "parts of a second stay";
+  const auto& places = recording.tracks;
+  // Both begin at one place, and 492 ft high.
+  EXPECT_NEAR(norm(places[0].samples[0].position - places[1].samples[0].position), 0.0, 1e-6);
+  EXPECT_NEAR(recording.coordinates.as_in_file(places[0].samples[0].position).z, 492.0, 1e-6);
+  const Recording without = parse({{"b.plt", ozi("-777")}});
+  EXPECT_FALSE(without.has_heights);
+  EXPECT_EQ(without.warnings.size(), 1u);
+  EXPECT_NE(error_in(plt(ozi_title, "Tokyo", "")).find(":2: expected places of WGS 84"), std::string::npos);
+  EXPECT_NE(error_in(plt(ozi_title, "WGS 84", "47,8,0,1\n"))
+                .find(":7: expected latitude, longitude, break, height, days since 1899, but got '47,8,0,1'"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace kinesphere::program::receiver_logs_test

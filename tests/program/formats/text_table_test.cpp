@@ -144,7 +144,8 @@ TEST(TextTable, WantsARow) {
   EXPECT_EQ(error_of_file("# c\nid,x\n"),
             "t.txt: expected rows of numbers, but found none: its first line is 'id x'");
   EXPECT_EQ(error_of_file(std::string("1,2\n\0,3\n", 8)),
-            "t.txt: expected a text file, but it has zero bytes");
+            "t.txt: expected a text file, but it has zero bytes: if it is one that was cut off, leave them "
+            "out with tr -d '\\0'");
 }
 
 TEST(TextTable, NumbersAreWholeFieldsAndFinite) {

@@ -482,6 +482,18 @@ TEST_F(TablesOfTheField, DegreesAndMinutesOfSailors) {
                        "3,0\nu,1,-3,0\nv,0,-3,0\nv,1,-3,0\n",
                        "--distance 1"),
             "1");
+  EXPECT_NE(approaches("id,t,x,y\nu,0,-5.0D+00,0\n", "--distance 1")
+                .find("'-5.0D+00': exponents of Fortran are read as 1.5E+00, which sed -E "
+                      "'s/([0-9.])[Dd]([-+0-9])/\\1E\\2/g' writes"),
+            std::string::npos);
+  // Seconds that were rounded up are 60, as many programs write them.
+  const std::string parts = "id,t,lat,lon\nu,0,{0},{1}\nu,1,{0},{1}\nv,0,47.5,-0.2\nv,1,47.5,-0.2\n";
+  for (const auto& [lat, lon] : {std::pair{"47 29 60.000", "-0 11 60"}, std::pair{"47 30", "-0 12"},
+                                 std::pair{"47 30 00 N", "0 12 W"}, std::pair{"47:29:60.0", "-00:12:00"}})
+    EXPECT_EQ(approaches(fmt::format(fmt::runtime(parts), lat, lon), "--distance 1"), "1") << lat;
+  EXPECT_NE(approaches(fmt::format(fmt::runtime(parts), "47 30 61", "-0 12"), "--distance 1")
+                .find("expected a number as latitude"),
+            std::string::npos);
 }
 
 TEST_F(TablesOfTheField, HemispheresAreSigns) {
@@ -562,7 +574,78 @@ TEST_F(TablesOfTheField, RowsThatGoBackInTimeAreTold) {
       warning(back).find(":4: this row and 0 others are earlier than the row of their id before (id 'u')"),
       std::string::npos);
   EXPECT_EQ(warning("id,time,x,y\nu,2,0,0\nu,1,0,0\nu,0,0,0\n"), "") << "a file that begins with its end";
-  EXPECT_EQ(warning("id,time,x,y\nu,0,0,0\nv,5,0,0\nu,1,0,0\nv,6,0,0\n"), "");
+  EXPECT_EQ(warning("id,time,x,y\nu,0,0,0\nv,0.5,0,9\nu,1,0,0\nv,1.5,0,9\n"), "");
+}
+
+TEST_F(TablesOfTheField, BodiesThatAreNeverThereAtOneTimeAreTold) {
+  const auto warning = [&](const std::string& text, const std::string& other) {
+    return run("tracks " + write("t.csv", text) + " " + write("u.csv", other) + " --distance 1").err;
+  };
+  const std::string u = "id,time,x,y\nu,0,0,0\nu,1,0,0\nu,2,0,0\n";
+  const std::string told = warning(u, "id,time,x,y\nv,1700000000,0,0\nv,1700000001,0,0\n");
+  EXPECT_NE(
+      told.find("no two bodies are recorded at one time, so that there is no pair: 'u' from 0 to 2, 'v' "
+                "from 1700000000 to 1700000001"),
+      std::string::npos)
+      << told;
+  EXPECT_EQ(warning(u, "id,time,x,y\nv,2,0,0\nv,3,0,0\n"), "");
+  EXPECT_EQ(warning(u, "id,time,x,y\nv,1.2,0,9\nv,1.3,0,9\n"), "");
+  EXPECT_EQ(warning(u, "id,time,x,y\nu,10,0,0\nu,11,0,0\n"), "") << "one body";
+}
+
+TEST_F(TablesOfTheField, HeadersBelowOtherLinesAreFound) {
+  const std::string rows = "id,time,x,y\nu,0,0,0\nu,1,0,0\nv,0,0,0.5\nv,1,0,0.5\n";
+  for (const std::string above : {"Device: XY 3\nDate: 2024-01-01\n\n", "Device,XY,,\nRate,25,,\n,,,\n",
+                                  "Position\n====\nof all\n", "a,\"b\nc,\"d\ne\n"}) {
+    const std::string told = approaches(above + rows, "--distance 1");
+    EXPECT_NE(told.find("line 4 looks like it: leave out what is above, with tail -n +4 " + path("t.csv") +
+                        " | kinesphere tracks - ..."),
+              std::string::npos)
+        << told;
+  }
+  EXPECT_EQ(approaches(rows, "--distance 1"), "1");
+  EXPECT_EQ(approaches(rows + "one,two\n", "--distance 1").find("looks like"), std::string::npos);
+}
+
+TEST_F(TablesOfTheField, NamesOfZones) {
+  const auto at = [&](const char* first, const char* second) {
+    return approaches(fmt::format("id,time,x,y\nu,{0},0,0\nu,{1},0,0\nv,2024-10-27T00:59:50Z,0,0\n"
+                                  "v,2024-10-27T01:00:10Z,0,0\n",
+                                  first, second),
+                      "--distance 1");
+  };
+  EXPECT_EQ(at("2024-10-27T02:59:50+02:00[Europe/Berlin]", "2024-10-27T02:00:10+01:00[Europe/Berlin]"), "1");
+  EXPECT_EQ(at("2024-10-27T00:59:50Z[UTC]", "2024-10-27 02:00:10 +0100 CET"), "1");
+  EXPECT_NE(
+      at("2024-10-27 02:59:50 CEST", "2024-10-27 02:00:10 CET").find("write offsets, such as +01:00 for CET"),
+      std::string::npos);
+  for (const char* wrong : {"2024-10-27T02:59:50[Europe/Berlin]", "2024-10-27T02:59:50+02:00[Europe/Berlin"})
+    EXPECT_NE(at(wrong, wrong).find("expected a time"), std::string::npos);
+}
+
+TEST_F(TablesOfTheField, SlipsInOptionsAreNamed) {
+  const std::string rows = "id,time,x,y\nu,0,0,0\nu,1,9,0\nv,0,0,5\nv,1,9,5\n";
+  for (const auto& [columns, part] :
+       {std::pair{"id=id,time=time,x=x,y=x", "expected two columns for x and y, but both are x"},
+        std::pair{"id=1,time=2,x=3,y=4,z=4", "expected two columns for y and z, but both are y"},
+        std::pair{"id=1,time=2,lon=4,lat=4", "expected two columns for lon and lat, but both are y"}})
+    EXPECT_NE(approaches(rows, fmt::format("--distance 1 --columns {}", columns)).find(part),
+              std::string::npos)
+        << columns;
+  EXPECT_NE(approaches(rows, "--distance 1 --max-speed 0.5")
+                .find("expected an id with two samples that can be reached at --max-speed 0.5"),
+            std::string::npos);
+}
+
+TEST_F(TablesOfTheField, TimesAreNoFramesOfAnObsmat) {
+  const std::string atc = "{0},9990000,100,0,1700,1000,0,0\n{0},9990001,100,0,200,1000,0,0\n";
+  const auto with_times = [&](const char* first, const char* second) {
+    return approaches(fmt::format(fmt::runtime(atc), first) + fmt::format(fmt::runtime(atc), second),
+                      "--distance 1");
+  };
+  EXPECT_NE(with_times("780", "790").find("it looks like an obsmat"), std::string::npos);
+  for (const char* time : {"1351038605.213", "1351038605"})
+    EXPECT_NE(with_times(time, "1351038606").find("it has no header and 8 columns"), std::string::npos);
 }
 
 TEST_F(TablesOfTheField, IdsThatASpreadsheetHasRounded) {
@@ -616,6 +699,10 @@ TEST_F(TablesOfTheField, ClockTimesAreNoSeconds) {
                       "2024-01-31T12:30:15, or say --time-unit s"),
             std::string::npos);
   EXPECT_EQ(approaches(clock, "--distance 1 --time-unit s"), "1");
+  // A few seconds, from one minute into the next.
+  EXPECT_NE(approaches("id,t,x,y\nu,120058,0,0\nu,120059,1,0\nu,120100,2,0\nu,120101,3,0\n", "--distance 1")
+                .find("the times 120058 to 120101 may be those of a clock"),
+            std::string::npos);
   EXPECT_EQ(approaches("id,t,x,y\nu,101530,0,0\nu,101660,0,0\nv,101530,0,0\nv,101660,0,0\n", "--distance 1"),
             "1");
   EXPECT_NE(approaches("id,t,x,y\nu,20240131101530,0,0\n", "--distance 1").find("read as 20240131T123015"),
@@ -624,6 +711,19 @@ TEST_F(TablesOfTheField, ClockTimesAreNoSeconds) {
       approaches("id,t,x,y\nu,2460380.5,0,0\nu,2460380.50001,0,0\n", "--distance 1").find("may be days"),
       std::string::npos)
       << "Julian dates";
+  // Clocks of a spreadsheet are parts of a day.
+  const auto parts_of_a_day = [&](double step, const char* unit) {
+    std::string text = "id,t,x,y\n";
+    for (int k = 0; k < 9; ++k) text += fmt::format("u,{0:.9f},0,0\nv,{0:.9f},0,1\n", 0.5 + k * step);
+    return approaches(text, fmt::format("--distance 2{}", unit));
+  };
+  for (const double seconds : {1.0, 10.0, 60.0}) {
+    const std::string asked = parts_of_a_day(seconds / 86400, "");
+    EXPECT_NE(asked.find("say --time-unit d, or s if they are seconds"), std::string::npos) << asked;
+  }
+  EXPECT_EQ(parts_of_a_day(1.0 / 86400, " --time-unit d"), "1");
+  for (const double per_second : {1000.0, 240.0, 120.0, 30.0})
+    EXPECT_EQ(parts_of_a_day(1 / per_second, ""), "1");
   EXPECT_EQ(approaches("id,t,x,y\nu,2024.01.31 10:00:00,0,0\nu,2024.01.31 10:00:01,0,0\n", "--distance 1"),
             "0");
   // The day of a year.
@@ -646,7 +746,18 @@ TEST_F(TablesOfTheField, ClocksWithoutADateCountFromMidnight) {
   EXPECT_EQ(approaches("id,time,x,y\nu,01:05.25,0,0\nu,1:06.0,0,0\nv,65.25,0,0\nv,66,0,0\n",
                        "--distance 1 --time-unit clock"),
             "1");
-  for (const char* unclear : {"01:65", "9:30", "01:65:00", "9:30 XM"})
+  // Durations as pandas and Python write them.
+  const std::string durations =
+      "id;time;x;y\nu;{0}0:00:01;0;0\nu;{0}0:00:02.5;0;0\nv;{0}00:00:02;0;0\nv;{0}00:00:03;0;0\n";
+  for (const char* days : {"0 days ", "2 days ", "1 day, "}) {
+    const std::string text = fmt::format(fmt::runtime(durations), days);
+    EXPECT_NE(approaches(text, "--distance 1").find("or say --time-unit clock"), std::string::npos);
+    EXPECT_EQ(approaches(text, "--distance 1 --time-unit clock --contacts " + path("c.csv")), "1");
+    const int from = 86400 * (days[0] - '0');
+    EXPECT_NE(read_text(path("c.csv")).find(fmt::format("\n{},{}.5,", from + 2, from + 2)), std::string::npos)
+        << read_text(path("c.csv"));
+  }
+  for (const char* unclear : {"01:65", "9:30", "01:65:00", "9:30 XM", "1 days 9:30"})
     EXPECT_NE(approaches(fmt::format("id,time,x,y\nu,{},0,0\n", unclear), "--distance 1 --time-unit clock")
                   .find("write 9:30 as 09:30:00, or as 00:09:30"),
               std::string::npos)
@@ -697,6 +808,18 @@ TEST_F(TablesOfTheField, OtherFilesAreNamed) {
            {"---\ncreator: LAMMPS\ntimestep: 0\n", "dump_style custom"},
            {"CCSDS_OPM_VERS = 2.0\n", "OPM"},
            {"header: \n  seq: 0\n", "rostopic echo -p"},
+           {"*******************************************************************************\nEphemeris / "
+            "WWW_USER Mon Jan  1 00:00:00 2024 Pasadena, USA      / Horizons\n",
+            "JPL Horizons: write its rows between $$SOE and $$EOE as CSV"},
+           {"Type,Local Number,Message,Field 1,Value 1,Units 1,Field 2\nData,0,record,timestamp,\"1\",s,\n",
+            "a FIT file as its SDK prints it"},
+           {"1000:1,0,3,-1000,0,1.00;1,1,4,50,-1000,1.00;:0,0,0,5.2,H,Alive;:\n", "tracking data of TRACAB"},
+           {",,,Home,,Home,,,\n,,,11,,1,,,\nPeriod,Frame,Time [s],Player11,,Player1,,Ball,\n",
+            "tracking data of Metrica, in parts of the pitch"},
+           {"AA_BB LSZH EDDF A320 120000 120100 300 310 0 ABC1 240101 240101 2838 510 2839 510 1 1 0.3 0\n",
+            "segments of flights (SO6)"},
+           {"<?xml version=\"1.0\"?>\n<events version=\"1.0\">\n<event time=\"1.0\"/></events>\n",
+            "events of MATSim, which say links and no places"},
            {"<?xml version=\"1.0\"?>\n<mvnx version=\"4\"/>", "MVNX"}}) {
     const std::string message = approaches(text, "--distance 1");
     EXPECT_NE(message.find("expected a table in a text file, but it is "), std::string::npos) << message;

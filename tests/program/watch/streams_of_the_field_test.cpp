@@ -1,10 +1,12 @@
 // Streams as their senders write them: what cannot be used is told, and nothing is dropped without a word.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "program/support.hpp"
+#include "program/watch/live_watch.hpp"
 
 namespace kinesphere::program::streams_of_the_field_test {
 namespace {
@@ -175,6 +177,84 @@ TEST_F(StreamsOfTheField, AStreamOfWhichNothingCanBeUsedIsAnError) {
   EXPECT_NE(blind.err.find("most reports cannot be used: 0 taken, 100 without a position or its time"),
             std::string::npos)
       << blind.err;
+  // Lines of other messages, none of which has a number of its own, are no headers.
+  const std::string aprs =
+      "FLR01>OGFLR,qAS,LSZH:/235950h4718.00N/00829.21En/A=001322\nFLR02>OGFLR,qAS,LSZH:/235951h4717.46N\n";
+  expect_refused(aprs, promises, {"expected columns for id, time", "it has the columns FLR01>OGFLR, qAS"});
+  expect_refused("hello, to, all, of, you\n", promises, {"it has the columns hello, to, all, of, you"});
+  verdicts("id,time,x,y\n", promises);
+  EXPECT_EQ(summary_["reports"], 0) << "a stream without reports";
+  std::string endless = aprs;
+  for (int k = 0; k < 20; ++k) endless += aprs;
+  LiveWatch living("-" + promises, path("err"));
+  living.write(endless);
+  EXPECT_EQ(living.wait(), 2) << "before the stream ends";
+  EXPECT_NE(living.err().find("it has the columns FLR01>OGFLR, qAS"), std::string::npos) << living.err();
+}
+
+TEST_F(StreamsOfTheField, ClocksGoOnBehindMidnight) {
+  // From 23:59:50 on; the report of v at 23:59:59 comes late. Once without days, and once with them.
+  const auto stream = [](std::string_view before, std::string_view behind, std::size_t count) {
+    std::vector<std::string> rows;
+    for (int k = 0; k < 20; ++k)
+      for (const char id : {'u', 'v'})
+        rows.push_back(fmt::format("{},{}:{:02},0,{}\n", id, k < 10 ? before : behind, (50 + k) % 60,
+                                   id == 'u' ? 0 : 20 - k));
+    std::rotate(rows.begin() + 19, rows.begin() + 20, rows.begin() + 24);
+    std::string text = "id,time,x,y\n";
+    for (std::size_t k = 0; k < count; ++k) text += rows[k];
+    return text;
+  };
+  const std::string clock = promises + "--time-unit clock ";
+  const std::string expected = verdicts(stream("2024-02-29 23:59", "2024-03-01 00:00", 40), promises);
+  EXPECT_TRUE(expected.ends_with("within ")) << expected;
+  EXPECT_EQ(verdicts(stream("23:59", "00:00", 40), clock), expected);
+  EXPECT_EQ(summary_["reports"], 40);
+  EXPECT_EQ(summary_["too_old"], 0);
+  // Also where it is started again behind midnight.
+  const std::string kept = clock + "--snapshot " + path("state") + " ";
+  const std::string before = verdicts(stream("23:59", "00:00", 26), kept);
+  EXPECT_EQ(before + verdicts(stream("23:59", "00:00", 40), kept), expected);
+  EXPECT_EQ(summary_["too_old"], 0);
+}
+
+TEST_F(StreamsOfTheField, OneStreamAtATime) {
+  const std::string row = "id,time,x,y\nu,0,0,0\n";
+  const std::string a = write("a.csv", row), b = write("b b.csv", row);
+  expect_wrong_input("watch " + a + " --separation sphere:5 '" + b + "'",
+                     {"expected one stream, but got", "b b.csv", "kinesphere tracks " + a + " '" + b + "'"});
+}
+
+TEST_F(StreamsOfTheField, RecordsOfReceiversInJson) {
+  const std::string limits =
+      " --separation sphere:500m --acceleration 1 --largest-speed 30 "
+      "--position-error 10 --velocity-error 1 --only all --look-ahead 0 ";
+  std::string catcher, features;
+  for (int k = 0; k < 3; ++k) {
+    for (int ship = 0; ship < 2; ++ship) {
+      catcher += fmt::format(
+          R"({{"class":"AIS","rxtime":"20240331235950","channel":"A","nmea":["!AIVDM,1,1,,A,13u?etPv2;0n:dDPwUM)"
+          R"(1U1Cb069D,0*24"],"type":1,"mmsi":{},"lon":8.{}2,"lat":54,"rxuxtime":{}}})"
+          "\n",
+          211000000 + ship, ship, 1711929590 + k);
+      features += fmt::format(
+          R"({{"type":"Feature","geometry":{{"type":"Point","coordinates":[8.{}2,54]}},"properties":{{"id":"u{}",)"
+          R"("time":{}}}}})"
+          "\n",
+          ship, ship, 1711929590 + k);
+    }
+  }
+  verdicts(catcher, limits);
+  EXPECT_EQ(summary_["reports"], 6);
+  verdicts(features, limits +
+                         "--columns "
+                         "id=properties.id,time=properties.time,lon=geometry.coordinates.0,lat=geometry."
+                         "coordinates.1 ");
+  EXPECT_EQ(summary_["reports"], 6);
+  expect_refused(
+      features, limits,
+      {"say --columns id=properties.id,time=properties.time,lon=geometry.coordinates.0,lat=geometry."
+       "coordinates.1"});
 }
 
 TEST_F(StreamsOfTheField, LengthsOfUnknownUnit) {

@@ -72,6 +72,49 @@ TEST_F(TcpProgram, ReadsAServerAndConnectsAgain) {
     EXPECT_NE(watch.err().find(said), std::string::npos) << watch.err();
 }
 
+/// Digits may be missing, so that such a row means another place.
+TEST_F(TcpProgram, ARowThatALostConnectionCutsOffIsNone) {
+  TcpServer server;
+  LiveWatch watch(fmt::format("tcp://localhost:{} --separation sphere:9 --largest-speed 2 --position-error "
+                              "0.1 --only all",
+                              server.port()),
+                  path("err"));
+  server.accept();
+  server.send("id,time,y,x\na,0,0,0\nb,0,0,99\na,40,0,0\nb,40,0,9");
+  server.end_connection();
+  server.accept();
+  server.send("id,time,y,x\na,41,0,0\nb,41,0,99\na,42,0,0\nb,42,0,5\n");
+  // The first alert would be of 40.
+  const std::string alert = watch.line();
+  EXPECT_EQ(alert.find(R"("time": 40,)"), std::string::npos) << alert;
+  watch.signal(SIGINT);
+  EXPECT_EQ(watch.wait(), 0);
+  EXPECT_NE(watch.err().find("expected a whole line, but it is too long or cut off"), std::string::npos)
+      << watch.err();
+}
+
+/// An object shows where it ends.
+TEST_F(TcpProgram, ARecordOfEachConnectionNeedsNoLineEnd) {
+  TcpServer server;
+  LiveWatch watch(
+      fmt::format("tcp://localhost:{} --separation sphere:9 --largest-speed 2 --position-error 0.1",
+                  server.port()),
+      path("err"));
+  for (const char* record :
+       {R"({"id": "a", "time": 0, "x": 0, "y": 0})"
+        "\n",
+        R"({"id": "b", "time": 0, "x": 5, "y": 0})", R"({"id": "a", "time": 1, "x": 0, "y": 0})"}) {
+    server.accept();
+    server.send(record);
+    server.end_connection();
+  }
+  const std::string alert = watch.line();
+  EXPECT_NE(alert.find(R"("verdict": "within")"), std::string::npos) << alert;
+  watch.signal(SIGINT);
+  EXPECT_EQ(watch.wait(), 0);
+  EXPECT_EQ(watch.err().find("malformed"), std::string::npos) << watch.err();
+}
+
 TEST_F(TcpProgram, SaysWhichAddressesThereAre) {
   for (const char* address :
        {"tcp://127.0.0.1", "tcp://:30003", "tcp://127.0.0.1:x", "tcp://127.0.0.1:70000"})

@@ -14,11 +14,26 @@ std::optional<ConvertedTable> convert_to_table(std::string_view text, const std:
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   if (auto table = convert_json_trace(text, file, geometric)) return table;
   if (auto table = convert_igc(text, file, geometric)) return table;
-  for (auto* const convert :
-       {&convert_gpx, &convert_kml, &convert_fcd, &convert_trackmate, &convert_lammps, &convert_xyz,
-        &convert_gro, &convert_pdb, &convert_gps, &convert_deeplabcut, &convert_motion_capture,
-        &convert_vissim, &convert_pneuma, &convert_xvg, &convert_oem, &convert_ethovision,
-        &convert_flightradar24, &convert_geojson, &convert_json_records})
+  for (auto* const convert : {&convert_gpx,
+                              &convert_kml,
+                              &convert_fcd,
+                              &convert_trackmate,
+                              &convert_lammps,
+                              &convert_xyz,
+                              &convert_gro,
+                              &convert_pdb,
+                              &convert_gps,
+                              &convert_deeplabcut,
+                              &convert_motion_capture,
+                              &convert_vissim,
+                              &convert_pneuma,
+                              &convert_xvg,
+                              &convert_oem,
+                              &convert_ethovision,
+                              &convert_flightradar24,
+                              &convert_plt,
+                              &convert_geojson,
+                              &convert_json_records})
     if (auto table = convert(text, file)) return table;
   return std::nullopt;
 }
@@ -48,6 +63,7 @@ std::string_view kind_of_recording(std::string_view beginning) {
       {"coordinates of GROMACS (.xvg)", is_xvg},
       {"an export of EthoVision", is_ethovision},
       {"a flight of Flightradar24", is_flightradar24},
+      {"a track of OziExplorer or GeoLife (PLT)", is_plt},
       {"an ephemeris (OEM)",
        [](std::string_view each) { return trimmed(each.substr(0, 100)).starts_with("CCSDS_OEM_VERS"); }},
       {"GeoJSON", is_geojson},

@@ -37,9 +37,9 @@ struct ConvertedTable {
 /// Converts GPX (tracks of a GPS receiver), KML, GeoJSON, logs of NMEA 0183 and IGC, FCD output of SUMO,
 /// orbit ephemeris messages, XYZ and extended XYZ, GRO, PDB, dumps of LAMMPS, tables of DeepLabCut, of
 /// EthoVision and of motion capture, records of Vissim, tables of pNEUMA, coordinates of GROMACS, traces of
-/// tar1090, flights of Flightradar24, and JSON records; returns nothing for other text. `geometric`: heights
-/// of aircraft are those of satellite navigation. Throws ProgramError naming `file` and the line for a
-/// damaged file.
+/// tar1090, flights of Flightradar24, PLT of OziExplorer and GeoLife, and JSON records; returns nothing for
+/// other text. `geometric`: heights of aircraft are those of satellite navigation. Throws ProgramError naming
+/// `file` and the line for a damaged file.
 std::optional<ConvertedTable> convert_to_table(std::string_view text, const std::string& file,
                                                bool geometric);
 
@@ -66,6 +66,7 @@ std::optional<ConvertedTable> convert_pneuma(std::string_view text, const std::s
 std::optional<ConvertedTable> convert_xvg(std::string_view text, const std::string& file);
 std::optional<ConvertedTable> convert_ethovision(std::string_view text, const std::string& file);
 std::optional<ConvertedTable> convert_flightradar24(std::string_view text, const std::string& file);
+std::optional<ConvertedTable> convert_plt(std::string_view text, const std::string& file);
 
 /// Returns what a text with this beginning is that convert_to_table() turns into a table, as "GPX"; empty for
 /// another text. Sentences of NMEA 0183 are such only if none of AIS follows.
@@ -85,6 +86,7 @@ bool is_pneuma(std::string_view text);
 bool is_xvg(std::string_view text);
 bool is_ethovision(std::string_view text);
 bool is_flightradar24(std::string_view text);
+bool is_plt(std::string_view text);
 bool is_motion_capture(std::string_view text);
 bool is_json_trace(std::string_view text);
 bool is_geojson(std::string_view text);

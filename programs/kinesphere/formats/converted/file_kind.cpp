@@ -7,6 +7,7 @@
 #include <array>
 
 #include "formats/converted/converted_table.hpp"
+#include "formats/fields/line_text.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -28,6 +29,12 @@ constexpr std::string_view mode_s =
     "or aircraft.json";
 constexpr std::string_view vtk =
     "data of VTK: write the points of all steps as CSV, with ParaView: save data, all time steps";
+constexpr std::string_view horizons =
+    "an ephemeris of JPL Horizons: write its rows between $$SOE and $$EOE as CSV, with columns id, time, x, "
+    "y, "
+    "z";
+constexpr std::string_view as_players =
+    "write it as a table with the columns frame, id, x and y, a row for each player, with kloppy for example";
 constexpr std::string_view sp3 = "an ephemeris (SP3): write it as CSV, with columns id, time, x, y, z";
 
 /// Files that begin with certain bytes.
@@ -86,6 +93,14 @@ constexpr FileKind kinds_by_bytes[] = {
      "motion capture as angles of joints (AMC): write positions as TRC or CSV, with Blender"},
     {"CCSDS_OPM_VERS"sv, "one state of an orbit (OPM), no path: propagate it, and write an OEM or CSV"},
     {"MTrackJ "sv, "tracks of MTrackJ: write them as CSV, with Measure, which shows a table of points"},
+    {"*******************************************************************************\nEphemeris / "sv,
+     horizons},
+    {"*******************************************************************************\r\nEphemeris / "sv,
+     horizons},
+    {"Type,Local Number,Message,Field 1,Value 1,Units 1"sv,
+     "a FIT file as its SDK prints it: write the .fit file as GPX, with gpsbabel -i garmin_fit -f FILE -o "
+     "gpx "
+     "-F FILE.gpx"},
     {"header: \n"sv, "messages as rostopic echo prints them: write a table, with rostopic echo -p"},
     {"header:\n"sv,
      "messages as rostopic echo prints them: write a table, with rostopic echo -p (ros2 topic "
@@ -96,6 +111,9 @@ constexpr FileKind kinds_by_bytes[] = {
 constexpr FileKind kinds_of_xml[] = {
     {"<TrainingCenterDatabase",
      "a TCX file: write it as GPX, with gpsbabel -i gtrnctr -f FILE -o gpx -F FILE.gpx"},
+    {"<events ",
+     "events of MATSim, which say links and no places: write positions as CSV, with Via, or the "
+     "end of each link with its time"},
     {"<oem", "an ephemeris (OEM): write its rows as CSV, with columns id, time, x, y, z"},
     {"<TrackMate", "a file of TrackMate: export its tracks to XML, or the spots as CSV"},
     {"<VTKFile", vtk},
@@ -118,6 +136,21 @@ bool are_orbital_elements(std::string_view first, std::string_view second) {
   return is_line(first, '1') && is_line(second, '2') && first.substr(2, 5) == second.substr(2, 5);
 }
 
+/// A frame of TRACAB: its number, "team,id,shirt,x,y,speed;" of each player, and the ball, with : between
+/// them.
+bool is_tracab(std::string_view line) {
+  const std::size_t colon = line.find_first_not_of("0123456789");
+  return colon != 0 && line.substr(std::min(colon, line.size())).starts_with(':') && line.ends_with(":") &&
+         line.find(';') != line.npos;
+}
+
+/// A segment of SO6: its name, A_B, 20 words in all, of which the eleventh and twelfth are days, yymmdd.
+bool is_so6(std::string_view line) {
+  const auto words = words_of(line);
+  return words.size() == 20 && words[0].find('_') != words[0].npos && words[10].size() == 6 &&
+         words[11].size() == 6 && words[10].find_first_not_of("0123456789") == words[10].npos;
+}
+
 /// Files that are known by their first lines.
 std::string kind_by_lines(std::string_view text) {
   constexpr auto elements =
@@ -132,6 +165,13 @@ std::string kind_by_lines(std::string_view text) {
   }
   if (are_orbital_elements(lines[0], lines[1]) || are_orbital_elements(lines[1], lines[2]))
     return fmt::format(elements, "TLE");
+  if (is_tracab(lines[0])) return fmt::format("tracking data of TRACAB: {}", as_players);
+  if (lines[0].starts_with(",,,Home,") || lines[0].starts_with(",,,Away,"))
+    return fmt::format("tracking data of Metrica, in parts of the pitch: {}", as_players);
+  if (is_so6(lines[0]))
+    return "segments of flights (SO6): write both ends of each as rows of a table with the columns id, time, "
+           "lon, "
+           "lat and FL; its angles are minutes";
   if (lines[0].starts_with('*') && lines[0].ends_with(';') &&
       lines[0].find_first_not_of("0123456789abcdefABCDEF", 1) == lines[0].size() - 1)
     return std::string(mode_s);

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstddef>
 
+#include "base/ascii_text.hpp"
 #include "formats/converted/converted_table.hpp"
 #include "formats/converted/track_labels.hpp"
 #include "formats/fields/field_text.hpp"
@@ -26,7 +27,9 @@ class GeoJsonReader {
     ondemand::document document = reader.open(text);
     JsonLine line(document);
     for (auto field : document.get_object()) {
-      if (std::string_view(field.unescaped_key()) != "features") continue;
+      const std::string_view key = field.unescaped_key();
+      if (key == "crs") check_system(field.value());
+      if (key != "features") continue;
       for (ondemand::value feature : field.value().get_array()) {
         ++features_;
         line_ = line.now();
@@ -48,6 +51,19 @@ class GeoJsonReader {
   }
 
  private:
+  /// Refuses coordinates of another system than longitudes and latitudes, as GeoJSON of 2008 could have them.
+  void check_system(ondemand::value value) const {
+    ondemand::object system;
+    std::string_view name;
+    if (value.get_object().get(system) || system["properties"]["name"].get_string().get(name)) return;
+    for (const std::string_view degrees : {"CRS84", "4326", "4979", "4258", "4269"})
+      if (name.ends_with(degrees)) return;
+    throw ProgramError(
+        fmt::format("{}: expected longitudes and latitudes, but its coordinates are of {}: convert them with "
+                    "ogr2ogr -t_srs EPSG:4326 degrees.geojson {}",
+                    file_, name, shell_word(file_)));
+  }
+
   void add(ondemand::object feature) {
     std::string kind;
     if (ondemand::object geometry; !feature["geometry"].get_object().get(geometry))

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/number_text.hpp"
 #include "base/program_error.hpp"
 #include "formats/converted/converted_table.hpp"
 #include "formats/converted/track_labels.hpp"
@@ -26,9 +27,14 @@ class KmlReader final : XmlElements {
           "{}: expected tracks with times (gx:Track), but there are none: other lines of KML have "
           "no times",
           file()));
-    return table_of_places("KML", file(), "id,time,lon,lat", "alt", places_, [](const Place& place) {
-      return fmt::format("{},{},{},{}", place.track, place.time, place.longitude, place.latitude);
-    });
+    ConvertedTable table =
+        table_of_places("KML", file(), "id,time,lon,lat", "alt", places_, [](const Place& place) {
+          return fmt::format("{},{},{},{}", place.track, place.time, place.longitude, place.latitude);
+        });
+    if (has_other_heights_)
+      table.warnings.push_back(fmt::format(
+          "{}: heights whose altitudeMode is not absolute are not above the sea, and are not used", file()));
+    return table;
   }
 
  private:
@@ -64,6 +70,7 @@ class KmlReader final : XmlElements {
     const auto word = [&](std::size_t place) {
       return std::string(place < words.size() ? words[place] : "");
     };
+    has_other_heights_ = has_other_heights_ || (!has_heights_ && parse_number(word(2)).value_or(0.0) != 0.0);
     places_.push_back({.track = name_,
                        .time = {},
                        .longitude = word(0),
@@ -85,7 +92,7 @@ class KmlReader final : XmlElements {
   std::string name_;                ///< of the placemark
   TrackLabels labels_;
   std::size_t placemarks_ = 0, places_before_ = 0;
-  bool is_in_track_ = false, has_heights_ = false, has_label_ = false;
+  bool is_in_track_ = false, has_heights_ = false, has_other_heights_ = false, has_label_ = false;
 };
 
 #endif

@@ -39,6 +39,10 @@ std::string number_advice(std::string_view field) {
   if (is_decimal_comma)
     return ": decimal commas are read where ; or tabs separate; else make them points, as sed -E "
            "'s/([0-9]),([0-9])/\\1.\\2/g' does";
+  if (rest.size() > 1 && (rest[0] == 'D' || rest[0] == 'd') &&
+      rest.find_first_not_of("+-0123456789", 1) == rest.npos)
+    return ": exponents of Fortran are read as 1.5E+00, which sed -E 's/([0-9.])[Dd]([-+0-9])/\\1E\\2/g' "
+           "writes";
   if (rest.find_first_of(digits) == std::string_view::npos)
     return ": leave units out, and say them in the name of the column or with --columns";
   // Narrow blanks and the apostrophe of typography begin with the last three bytes.
@@ -79,12 +83,13 @@ std::optional<double> angle_field(std::string_view text, bool decimal_comma, std
     const std::string_view word = rest.substr(0, rest.find(' '));
     rest = trimmed(rest.substr(word.size()));
     const auto number = parse_number(word);
-    if (!number || parts == 3 || (parts > 0 && !(*number >= 0.0 && *number < 60.0))) return std::nullopt;
+    if (!number || parts == 3 || (parts > 0 && !(*number >= 0.0 && *number <= 60.0))) return std::nullopt;
     degrees = parts == 0 ? *number : degrees + std::copysign(*number / unit, degrees);
     unit *= 60.0;
   }
   const bool is_signed = numbers.find_first_of("+-") != std::string::npos;
-  if (parts == 0 || hemispheres > 1 || (hemispheres == 0 && !has_signs) || (hemispheres == 1 && is_signed))
+  if (parts == 0 || hemispheres > 1 || (hemispheres == 0 && !has_signs && parts < 2) ||
+      (hemispheres == 1 && is_signed))
     return std::nullopt;
   return sign * degrees;
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace kinesphere::program {
@@ -17,10 +18,16 @@ void TimeCheck::add(const FileTime& time) {
   const double number = static_cast<double>(time.whole) + time.fraction;
   least_ = std::min(least_, number);
   largest_ = std::max(largest_, number);
+  // As parts of a day with 8 decimals or more. Few numbers of fewer decimals are whole seconds of a day.
+  constexpr double day = 86'400.0, shortest = 1e5;
+  const double second = number * day, decimals = number * shortest;
+  are_parts_of_days_ = are_parts_of_days_ && std::abs(second - std::round(second)) < 1e-3;
+  has_decimals_ = has_decimals_ || std::abs(decimals - std::round(decimals)) > 1e-4;
 }
 
 std::string TimeCheck::clock_suspicion() const {
-  if (!is_clock_ || !has_seconds_ || last_clock_ < 10'000 || last_clock_ - first_clock_ < 100) return {};
+  if (!is_clock_ || !has_seconds_ || last_clock_ < 10'000 || last_clock_ / 100 == first_clock_ / 100)
+    return {};
   return fmt::format(
       "the times {} to {} may be those of a clock (hhmmss): write them as in 2024-01-31T12:30:15, or say "
       "--time-unit s if they are seconds",
@@ -43,7 +50,11 @@ std::string TimeCheck::day_suspicion(std::size_t samples) const {
         "they "
         "are seconds",
         least_, largest_);
-  if (!may_be_days || !(span < 0.01 * count)) return {};
+  // About a minute. Cameras of 120 or 240 frames a second have longer steps, which are whole seconds, too.
+  constexpr double longest_step = 7.5e-4;
+  const bool are_parts_of_a_day =
+      are_parts_of_days_ && has_decimals_ && least_ >= 0.0 && largest_ <= 2.0 && span < longest_step * count;
+  if (!are_parts_of_a_day && !(may_be_days && span < 0.01 * count)) return {};
   return fmt::format(
       "the times {} to {} may be days, as spreadsheets, MATLAB and astronomers have them: say --time-unit d, "
       "or s if they are seconds",

@@ -80,6 +80,12 @@ class Reader {
     rest_.remove_prefix(word.size());
     return true;
   }
+  /// Reads [text]; returns true if there is none.
+  bool pass_over_brackets() {
+    if (!take('[')) return true;
+    rest_.remove_prefix(std::min(rest_.find(']'), rest_.size()));
+    return take(']');
+  }
   std::string_view all_digits_ahead() { return ahead(is_digit); }
   std::string_view letters_ahead() { return ahead(is_letter); }
 
@@ -270,6 +276,16 @@ std::optional<FileTime> parse_clock(std::string_view text) {
   constexpr std::size_t most_digits = 5;
   std::int64_t whole = 0;
   int parts = 0;
+  std::int64_t days = 0;
+  // As Python writes them: 1 days 02:03:04, or 1 day, 2:03:04.
+  Reader ahead = reader;
+  if (const auto count = ahead.few_digits(most_digits);
+      count && ahead.take(' ') && (ahead.take_word("days") || ahead.take_word("day"))) {
+    days = *count;
+    reader = ahead;
+    reader.take(',');
+    reader.take(' ');
+  }
   for (; parts < 3 && (parts == 0 || reader.take(':')); ++parts) {
     const auto number = reader.few_digits(most_digits);
     if (!number || (parts > 0 && *number >= 60)) return std::nullopt;
@@ -290,7 +306,7 @@ std::optional<FileTime> parse_clock(std::string_view text) {
     whole *= 60;
   else if (parts == 2 && !has_decimals)
     return std::nullopt;
-  time.whole += whole;
+  time.whole += 86'400 * days + whole;
   const std::int64_t hour = whole / 3600;
   if (parts < 2 || !reader.at_end() || (of_twelve && (hour < 1 || hour > 12))) return std::nullopt;
   if (of_twelve) time.whole += 3600 * (hour % 12 + (after_noon ? 12 : 0) - hour);
@@ -339,7 +355,8 @@ std::optional<DateTime> parse_date_time(std::string_view text, DateOrder order) 
   if (reader.at_end()) return result;
   reader.take(' ');
   const auto offset = read_offset(reader);
-  if (!offset || !reader.at_end()) return std::nullopt;
+  // Java writes the name of the zone behind its offset.
+  if (!offset || !reader.pass_over_brackets() || !reader.at_end()) return std::nullopt;
   result.time.whole -= *offset;
   result.has_offset = true;
   return result;

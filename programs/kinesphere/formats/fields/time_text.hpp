@@ -78,8 +78,8 @@ struct DateTime {
 /// with . or - between them, where `order` says which. Month, day and hour may have one digit, and AM or PM
 /// may stand behind the clock, but for a time without - and :.
 std::optional<DateTime> parse_date_time(std::string_view text, DateOrder order = DateOrder::unknown);
-/// Parses a time of day, or a duration, such as 25:00:15.5, 9:30 PM, or 05:12.3 (minutes). Returns seconds
-/// since midnight; nothing for 9:30, which may be either.
+/// Parses a time of day, or a duration, such as 25:00:15.5, 9:30 PM, 0 days 00:00:15, or 05:12.3 (minutes).
+/// Returns seconds since midnight; nothing for 9:30, which may be either.
 std::optional<FileTime> parse_clock(std::string_view text);
 
 struct TimeField {

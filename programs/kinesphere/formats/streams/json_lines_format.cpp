@@ -18,7 +18,7 @@ struct ErrorPair {
 class JsonLinesFormat final : public ReportFormat {
  public:
   void read(const Record& record, ReportSink& sink) override try {
-    if (!record.is_whole) throw MalformedRecord("expected a line, but it is too long");
+    if (!record.is_whole) throw MalformedRecord("expected a whole line, but it is too long or cut off");
     if (record.text.find_first_not_of(" \t\r") == std::string_view::npos) return;
     ondemand::document document = reader_.open(record.text);
     fields_ = {};

@@ -18,7 +18,7 @@ class JsonRecordsFormat final : public ReportFormat {
   }
 
   void read(const Record& record, ReportSink& sink) override {
-    if (!record.is_whole) throw MalformedRecord("expected a line, but it is too long");
+    if (!record.is_whole) throw MalformedRecord("expected a whole line, but it is too long or cut off");
     if (record.text.find_first_not_of(" \t\r") == std::string_view::npos) return;
     const std::size_t known = rows_.names().size();
     try {

@@ -51,7 +51,7 @@ class NmeaFormat final : public ReportFormat {
   }
 
   void read(const Record& record, ReportSink& sink) override {
-    if (!record.is_whole) throw MalformedRecord("expected a line, but it is too long");
+    if (!record.is_whole) throw MalformedRecord("expected a whole line, but it is too long or cut off");
     NmeaLine line = parse_nmea_line(record.text);
     const auto fix = line.sentence ? std::nullopt : gps_fix_in(record.text);
     // The clock of a log whose lines have no times.

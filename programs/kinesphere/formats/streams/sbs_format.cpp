@@ -31,7 +31,7 @@ class SbsFormat final : public ReportFormat {
   explicit SbsFormat(FormatChoices choices) : choices_(std::move(choices)) { row_.set_separator(','); }
 
   void read(const Record& record, ReportSink& sink) override {
-    if (!record.is_whole) throw MalformedRecord("expected a line, but it is too long");
+    if (!record.is_whole) throw MalformedRecord("expected a whole line, but it is too long or cut off");
     row_.begin(record.text);
     row_.read(fields_);
     const std::string_view message = fields_[sbs::message];

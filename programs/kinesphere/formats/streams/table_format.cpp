@@ -53,13 +53,20 @@ class CsvFormat final : public ReportFormat {
   void finish(ReportSink& /*sink*/) override {
     if (choices_.is_recording && !reader_)
       throw UnusableStream("expected rows of numbers, but found none" + first_text());
+    if (!reader_) check_header();
     ask();
   }
   const RowReader* rows() const override { return reader_ ? &*reader_ : nullptr; }
 
-  nlohmann::json save() const override { return table_.beginning(); }
+  nlohmann::json save() const override {
+    nlohmann::json state{{"lines", table_.beginning()}, {"midnights", midnights_}};
+    if (last_clock_) state["clock"] = *last_clock_;
+    return state;
+  }
   void restore(const nlohmann::json& state) override {
-    for (const std::string line : state)
+    midnights_ = state.at("midnights");
+    if (state.contains("clock")) last_clock_ = state.at("clock").get<std::int64_t>();
+    for (const std::string line : state.at("lines"))
       if (table_.read({.text = line}) != nullptr) begin();
     has_handed_over_ = reader_.has_value();
     // The earlier run has asked.
@@ -76,14 +83,25 @@ class CsvFormat final : public ReportFormat {
                : fmt::format(": its first line is {}", shown_field(fmt::format("{}", fmt::join(names, " "))));
   }
 
-  /// Finds the columns. Precondition: the head of the table is complete.
-  void begin() {
-    const TableHead& head = table_.head();
+  TableColumns columns_of(const TableHead& head) const {
     ColumnHints hints = choices_.hints;
     // Of several presets of ships the header chooses one; others have the usual names.
     if (hints.format == "csv" || (is_ais_ && hints.format == "ais")) hints.format.clear();
-    TableColumns columns =
-        find_columns(head, hints, choices_.is_recording ? ColumnUse::positions : ColumnUse::reports);
+    return find_columns(head, hints, choices_.is_recording ? ColumnUse::positions : ColumnUse::reports);
+  }
+  /// Throws for a stream whose lines are no rows, such as messages of another kind: the first of them is no
+  /// header. A header alone may be that of a stream without reports.
+  void check_header() const {
+    TableHead head = table_.head();
+    if (head.names.empty()) return;
+    head.first.resize(head.names.size());
+    columns_of(head);
+  }
+
+  /// Finds the columns. Precondition: the head of the table is complete.
+  void begin() {
+    const TableHead& head = table_.head();
+    TableColumns columns = columns_of(head);
     if (!choices_.title.empty()) columns.format = choices_.title;
     reader_.emplace(head, std::move(columns));
     for (const TableColumns::Body& body : reader_->columns().bodies)
@@ -140,6 +158,7 @@ class CsvFormat final : public ReportFormat {
     if (!stamp || !position) return sink.take_incomplete(report);
     report.written.position = *position;
     scale(*stamp, columns.time_unit.seconds / columns.time_unit.rate);
+    if (columns.times_are_clocks && !choices_.is_recording) add_days(stamp->time);
     report.stamp = stamp->time;
     report.time_kind = stamp->kind;
     report.geographic = columns.geographic;
@@ -163,6 +182,17 @@ class CsvFormat final : public ReportFormat {
     sink.take(report);
   }
 
+  /// Makes a time of day one since the first midnight. A clock that falls by half a day or more has passed
+  /// midnight; one that is ahead by 23 hours or more is late, from before it.
+  void add_days(FileTime& time) {
+    constexpr std::int64_t hour = 3600, day = 24 * hour;
+    if (time.whole >= day) return;
+    const std::int64_t ahead = time.whole - last_clock_.value_or(time.whole);
+    const bool is_late = ahead >= 23 * hour;
+    if (ahead <= -12 * hour) ++midnights_;
+    if (!is_late) last_clock_ = time.whole;
+    time.whole += day * (midnights_ - (is_late && midnights_ > 0 ? 1 : 0));
+  }
   /// Returns half the diagonal of length and width; 0 if one of them is not known, which is also said by 0.
   double radius() {
     const auto length = number(Quantity::length), width = number(Quantity::width);
@@ -266,6 +296,8 @@ class CsvFormat final : public ReportFormat {
   std::optional<RowReader> reader_;  ///< empty before the first row of values
   bool has_handed_over_ = false;
   std::size_t columns_needed_ = 0;
+  std::optional<std::int64_t> last_clock_;  ///< the latest time of day; seconds
+  std::int64_t midnights_ = 0;              ///< that clocks have passed
   std::optional<std::size_t> name_column_;
   std::optional<std::size_t> status_, type_, mobile_;  ///< columns
   std::vector<MotionPreset> sayable_;

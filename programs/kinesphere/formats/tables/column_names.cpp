@@ -32,7 +32,7 @@ constexpr QuantityNames quantities[quantity_count] = {
      "t timestamp datetime basedatetime utc timeutc timestamputc datetimeutc unixtime epoch stamp tstamp "
      "headerstamp fixtime utctime date/time date&time epochutc timegmt datetimegmt localtime timestamplocal "
      "zeit uhrzeit zeitstempel temps tiempo msgtime trialtime simt simtime seconds:s secs:s sec:s "
-     "milliseconds:ms"},
+     "milliseconds:ms rxuxtime"},
     {Quantity::frame, "frame", Measure::none,
      "frameid frameno framenr framenumber frameindex frameidx framenum framecount imagenumber fnum fr "
      "timestep"},
@@ -46,10 +46,11 @@ constexpr QuantityNames quantities[quantity_count] = {
      "points1"},
     {Quantity::z, "z", Measure::length,
      "posz zpos positionz zposition posepositionz pz centerz zcenter centroidz zcentroid points2 alt "
-     "altitude ele elevation flightlevel:FL fl:FL"},
+     "altitude ele elevation geometrycoordinates2 flightlevel:FL fl:FL"},
     {Quantity::longitude, "lon", Measure::angle,
-     "lng long longitude locationlong locationlon gpslon gpslongitude decimallongitude"},
-    {Quantity::latitude, "lat", Measure::angle, "latitude locationlat gpslat gpslatitude decimallatitude"},
+     "lng long longitude locationlong locationlon gpslon gpslongitude decimallongitude geometrycoordinates0"},
+    {Quantity::latitude, "lat", Measure::angle,
+     "latitude locationlat gpslat gpslatitude decimallatitude geometrycoordinates1"},
     {Quantity::vx, "vx", Measure::speed, "velx velocityx"},
     {Quantity::vy, "vy", Measure::speed, "vely velocityy"},
     {Quantity::vz, "vz", Measure::speed, "velz velocityz"},

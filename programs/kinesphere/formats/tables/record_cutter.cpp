@@ -162,7 +162,9 @@ std::optional<Record> RecordCutter::next_document() {
 }
 
 std::optional<Record> RecordCutter::rest() {
-  if (skips_line_ || begin_ == text_.size()) return std::nullopt;
+  if (skips_line_) begin_ = at_ = text_.size();
+  skips_line_ = false;
+  if (begin_ == text_.size()) return std::nullopt;
   const bool is_whole = kind_ != Kind::documents;
   Record record = cut(text_.size(), text_.size(), is_whole);
   if (record.text.ends_with('\r')) record.text.remove_suffix(1);

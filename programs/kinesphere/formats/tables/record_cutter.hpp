@@ -37,7 +37,7 @@ class RecordCutter {
   void feed(std::string_view text);
   /// Returns the next complete record; nothing if more text is needed.
   std::optional<Record> next();
-  /// Returns the remaining text as a record. Precondition: there is no more text, and next() returned
+  /// Returns the remaining text as a record. Precondition: no later text continues it, and next() returned
   /// nothing.
   std::optional<Record> rest();
   /// Text that was fed and has not been cut.

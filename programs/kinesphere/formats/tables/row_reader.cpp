@@ -27,10 +27,19 @@ bool is_one_of(std::string_view value, std::string_view words) {
   return false;
 }
 
-/// True for a time of day such as 9:30, 09:30:15.5, 09:30:15 PM.
+/// True for a time of day such as 9:30, 09:30:15.5, 09:30:15 PM, and for a duration such as 0 days 09:30:15.
 bool is_clock(std::string_view text) {
+  if (const std::size_t day = text.find(" day"); day <= 5) return parse_clock(text).has_value();
   const std::size_t colon = text.find(':');
   return colon != std::string_view::npos && colon >= 1 && colon <= 2 && parse_number(text.substr(0, colon));
+}
+
+/// True for a date and a clock with the name of a zone behind them: 2024-01-31 12:30:00 CET.
+bool ends_in_zone(std::string_view text, DateOrder order) {
+  const std::size_t blank = std::min(text.rfind(' '), text.size());
+  const std::string_view name = text.substr(std::min(blank + 1, text.size()));
+  const bool are_letters = std::all_of(name.begin(), name.end(), [](char c) { return 'A' <= c && c <= 'Z'; });
+  return name.size() >= 2 && are_letters && parse_date_time(text.substr(0, blank), order).has_value();
 }
 
 /// True for a number that a spreadsheet has rounded: 2.19E+08, which has fewer digits than it should.
@@ -235,12 +244,15 @@ std::optional<TimeField> RowReader::time(Quantity quantity) {
                       parse_date_time(text, DateOrder::year_first) ? ", or year-first" : ""));
     if (text.find_first_of("-/:") == std::string_view::npos)
       throw WrongInput(wrong_text(column->place, "a number as time") + number_advice(field(column->place)));
-    throw WrongInput(wrong_text(column->place, "a time") +
-                     (columns_.times_are_clocks ? ": write 9:30 as 09:30:00, or as 00:09:30"
-                      : is_clock(text)
-                          ? ", which has no date: write it as in 2024-01-31T12:30:00Z, or the date in a "
+    throw WrongInput(
+        wrong_text(column->place, "a time") +
+        (columns_.times_are_clocks ? ": write 9:30 as 09:30:00, or as 00:09:30"
+         : is_clock(text) ? ", which has no date: write it as in 2024-01-31T12:30:00Z, or the date in a "
                             "column called date, or say --time-unit clock to count from midnight"
-                          : " (dates are read as in 2024-01-31T12:30:00Z)"));
+         : ends_in_zone(text, columns_.dates)
+             ? ": of names of zones UTC and GMT are read, as others may be of several zones: write "
+               "offsets, such as +01:00 for CET"
+             : " (dates are read as in 2024-01-31T12:30:00Z)"));
   }
   if (time->kind != TimeKind::number) return time;
   time->kind = columns_.time_kind;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "base/program_error.hpp"
@@ -27,6 +28,7 @@ class SaidColumns {
       rest.remove_prefix(std::min(entry.size() + 1, rest.size()));
       read_entry(entry);
     }
+    if (preset_ == nullptr) require_different_coordinates();
     return std::move(columns_);
   }
 
@@ -61,6 +63,18 @@ class SaidColumns {
                                      unit_list(measure_of(*quantity)), entry));
     if (preset_ == nullptr) column.said_unit = unit;
     columns_[*quantity] = column;
+  }
+
+  /// Refuses one column for two coordinates, a slip that would be a recording on a line.
+  void require_different_coordinates() const {
+    constexpr Quantity coordinates[] = {Quantity::x, Quantity::y, Quantity::z, Quantity::longitude,
+                                        Quantity::latitude};
+    for (const Quantity& one : coordinates)
+      for (const Quantity* other = &one + 1; other != std::end(coordinates); ++other)
+        if (columns_[one] && columns_[*other] && columns_[one]->place == columns_[*other]->place)
+          throw ProgramError(fmt::format("--columns: expected two columns for {} and {}, but both are {}",
+                                         key_of(one), key_of(*other),
+                                         column_word(head_, columns_[one]->place)));
   }
 
   std::optional<std::size_t> place_of_any(std::string_view names) const {

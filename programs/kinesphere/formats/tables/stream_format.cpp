@@ -121,7 +121,7 @@ std::optional<StreamFormat> recognised_format(std::string_view beginning) {
   std::string_view line = first_line(beginning);
   if (line.empty()) line = beginning.substr(first);
   if (line.ends_with('\r')) line.remove_suffix(1);
-  if (looks_like_nmea(line) || (!line.starts_with('{') && has_ais_sentence(beginning.substr(0, 4096))))
+  if (!line.starts_with('{') && (looks_like_nmea(line) || has_ais_sentence(beginning.substr(0, 4096))))
     return StreamFormat::nmea;
   if (is_sbs(line)) return StreamFormat::sbs;
   if (line.starts_with('{')) {

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/ascii_text.hpp"
@@ -80,10 +81,14 @@ void ask_for_heights(const TableHead& head, const TableColumns& columns) {
       heights.size() == 1 ? "it" : "one", columns_option(others)));
 }
 
-/// True for rows of person and frame: frame id x z(=0) y vx vz(=0) vy, without a header.
+/// True for rows of person and frame: frame id x z(=0) y vx vz(=0) vy, without a header. Numbers that are no
+/// frames may be times, as in the recordings of ATC: time id x y z speed and two angles.
 bool looks_like_obsmat(const TableHead& head) {
+  constexpr double most_frames = 1e8;
   const auto& fields = head.first;
-  return head.names.empty() && fields.size() == 8 && parse_number(fields[3]) == 0.0 &&
+  if (!head.names.empty() || fields.size() != 8) return false;
+  const auto frame = parse_number(fields[0]);
+  return frame && *frame == std::floor(*frame) && *frame < most_frames && parse_number(fields[3]) == 0.0 &&
          parse_number(fields[6]) == 0.0;
 }
 

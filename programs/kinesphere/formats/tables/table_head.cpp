@@ -51,7 +51,10 @@ bool TableHeadReader::row(const std::vector<std::string_view>& fields) {
           name.begin(), name.end(), [](char c) { return c == '\r' || c == '\n'; }, ' ');
     return false;
   }
-  if (!has_number && is_below_header(fields)) {
+  // Messages without numbers of their own, as of APRS, may share a word with the first of them.
+  constexpr int most_below = 8;
+  if (!has_number && rows_below_ < most_below && is_below_header(fields)) {
+    ++rows_below_;
     if (std::any_of(fields.begin(), fields.end(), is_unit)) head_.units.assign(fields.begin(), fields.end());
     return false;
   }

@@ -42,6 +42,7 @@ class TableHeadReader {
   bool is_below_header(const std::vector<std::string_view>& fields) const;
 
   TableHead head_;
+  int rows_below_ = 0;  ///< of the header, that belong to it
 };
 
 }  // namespace kinesphere::program

@@ -39,7 +39,7 @@ bool have_row_name(const std::vector<std::string_view>& fields, std::string_view
 }  // namespace
 
 const std::vector<std::string_view>* TextTable::read(const Record& record) {
-  if (!record.is_whole) throw WrongInput("expected a line, but it is too long");
+  if (!record.is_whole) throw WrongInput("expected a whole line, but it is too long or cut off");
   std::string_view text = record.text;
   // Files that were put together have it in the middle, too.
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
