@@ -705,8 +705,20 @@ TEST_F(TablesOfTheField, ClockTimesAreNoSeconds) {
             std::string::npos);
   EXPECT_EQ(approaches("id,t,x,y\nu,101530,0,0\nu,101660,0,0\nv,101530,0,0\nv,101660,0,0\n", "--distance 1"),
             "1");
-  EXPECT_NE(approaches("id,t,x,y\nu,20240131101530,0,0\n", "--distance 1").find("read as 20240131T123015"),
-            std::string::npos);
+  for (const auto& [packed, parts] :
+       {std::pair{"20240131101530", R"(([0-9]{8})([0-9]{6})\b/\1T\2/')"},
+        std::pair{"20240131101530250", R"(([0-9]{8})([0-9]{6})([0-9]{3})\b/\1T\2.\3/')"},
+        std::pair{"202401311015", R"(([0-9]{8})([0-9]{4})\b/\1T\200/')"},
+        std::pair{"240131101530", R"(([0-9]{6})([0-9]{6})\b/20\1T\2/')"}}) {
+    const std::string asked = approaches(fmt::format("id,t,x,y\nu,{},0,0\n", packed), "--distance 1");
+    EXPECT_NE(asked.find(std::string("read as 20240131T123015, which sed -E 's/\\b") + parts),
+              std::string::npos)
+        << asked;
+  }
+  // A moment of 2024 in milliseconds is none.
+  EXPECT_NE(
+      approaches("id,t,x,y\nu,1711929590000,0,0\n", "--distance 1").find("say --time-unit ms, us or ns"),
+      std::string::npos);
   EXPECT_NE(
       approaches("id,t,x,y\nu,2460380.5,0,0\nu,2460380.50001,0,0\n", "--distance 1").find("may be days"),
       std::string::npos)

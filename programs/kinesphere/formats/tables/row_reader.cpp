@@ -58,6 +58,18 @@ bool is_packed_date(std::int64_t number) {
          date % 100 <= 31;
 }
 
+/// Returns how sed separates YYYYMMDDhhmmss, with milliseconds or without seconds, or YYMMDDhhmmss; empty for
+/// another number.
+std::string_view parts_of_packed_date(std::int64_t number) {
+  constexpr std::int64_t thirteen_digits = 1'000'000'000'000, year_69 = 690'000'000'000;
+  if (is_packed_date(number)) return R"(([0-9]{8})([0-9]{6})\b/\1T\2)";
+  if (is_packed_date(number / 1000)) return R"(([0-9]{8})([0-9]{6})([0-9]{3})\b/\1T\2.\3)";
+  if (number < thirteen_digits && is_packed_date(number * 100)) return R"(([0-9]{8})([0-9]{4})\b/\1T\200)";
+  if (number < year_69 && is_packed_date(20 * thirteen_digits + number))
+    return R"(([0-9]{6})([0-9]{6})\b/20\1T\2)";
+  return {};
+}
+
 /// True for a number with which files say that they have none.
 bool is_marker(double value) {
   constexpr double markers[] = {-999.0, -9999.0, -99999.0, -999999.0, 9999.0, 99999.0, 999999.0};
@@ -291,9 +303,11 @@ void RowReader::check_date(std::string_view text, const FileTime& time) const {
 /// of our time as milliseconds since 1970 is that.
 void RowReader::check_size(const FileTime& time) {
   if (std::abs(time.whole) <= last_likely_second) return;
-  if (is_packed_date(time.whole))
-    throw OpenQuestion(wrong_text(columns_[Quantity::time]->place, "a time") +
-                       ", which may be a date without separators: these are read as 20240131T123015");
+  if (const std::string_view parts = parts_of_packed_date(time.whole); !parts.empty())
+    throw OpenQuestion(
+        fmt::format("{}, which may be a date without separators: these are read as "
+                    "20240131T123015, which sed -E 's/\\b{}/' writes",
+                    wrong_text(columns_[Quantity::time]->place, "a time"), parts));
   constexpr std::int64_t year_1990 = 631'152'000'000, year_2100 = 4'102'444'800'000;
   if (!columns_.geographic || has_time_ || time.whole < year_1990 || time.whole > year_2100)
     throw OpenQuestion(wrong_text(columns_[Quantity::time]->place, "seconds as time") +
