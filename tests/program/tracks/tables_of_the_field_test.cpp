@@ -821,8 +821,8 @@ TEST_F(TablesOfTheField, OtherFilesAreNamed) {
            {"CCSDS_OPM_VERS = 2.0\n", "OPM"},
            {"header: \n  seq: 0\n", "rostopic echo -p"},
            {"*******************************************************************************\nEphemeris / "
-            "WWW_USER Mon Jan  1 00:00:00 2024 Pasadena, USA      / Horizons\n",
-            "JPL Horizons: write its rows between $$SOE and $$EOE as CSV"},
+            "WWW_USER Mon Jan  1 00:00:00 2024 Pasadena, USA\n",
+            "JPL (HORIZONS): write its rows between $$SOE and $$EOE as CSV"},
            {"Type,Local Number,Message,Field 1,Value 1,Units 1,Field 2\nData,0,record,timestamp,\"1\",s,\n",
             "a FIT file as its SDK prints it"},
            {"1000:1,0,3,-1000,0,1.00;1,1,4,50,-1000,1.00;:0,0,0,5.2,H,Alive;:\n", "tracking data of TRACAB"},
@@ -908,6 +908,8 @@ const Shape shapes[] = {
      "LABEL,ID,TRACK_ID,POSITION_X,POSITION_Y,POSITION_Z,POSITION_T,FRAME\n"
      "Label,Spot ID,Track ID,X,Y,Z,T,Frame\n,,,(micron),(micron),(micron),(sec),\n",
      "ID{1},{1}{0},{0},{2},{3},0,{1},{1}\nID9{1},9{1}{0},,0,0,0,{1},{1}\n", "--unit um"},
+    {"Imaris (positions)", "Position X,Position Y,Position Z,Unit,Category,Collection,Time,TrackID,ID,\n",
+     "{2},{3},0,um,Spot,Position,{1},100000{0},{1}{0},\n", "--frame-rate 10"},
     {"table", "y,x,mass,size,frame,particle\n", "{3},{2},100,2,{1},{0}\n", "--frame-rate 10"},
     {"TUM", "", "160000000{1} {2} {3} 0 0 0 0 1\n", "", 2},
     {"TUM", "", "{1}.5 {2}.5 {3} 0 0 0 0 1\n", "", 2},

@@ -218,6 +218,21 @@ TEST_F(StreamsOfTheField, ClocksGoOnBehindMidnight) {
   EXPECT_EQ(summary_["too_old"], 0);
 }
 
+/// The numbers of such rows would be those of other columns.
+TEST_F(StreamsOfTheField, RowsWithMoreFieldsThanTheHeaderAreMalformed) {
+  std::string decimal_commas = "id,time,x,y\n", merged = decimal_commas;
+  for (int k = 0; k < 9; ++k) decimal_commas += fmt::format("u,{},5,{},5,0,0\nv,{},5,{},5,9,0\n", k, k, k, k);
+  expect_refused(
+      decimal_commas, promises,
+      {"18 malformed", "expected 4 columns as in the header, but got 7 (decimal commas are read where"});
+  merged += "u,0,0,0\nu,1,0,0u,2,0,0\nv,2,0,9\nu,3,0,0,\n";
+  verdicts(merged, promises);
+  EXPECT_EQ(summary_["reports"], 3);
+  EXPECT_EQ(summary_["malformed"], 1);
+  verdicts("u,0,0,0\nu,1,0,0,0\nv,2,0,9\n", promises + "--columns id=1,time=2,x=3,y=4");
+  EXPECT_EQ(summary_["malformed"], 1) << "without a header, more than the first row has";
+}
+
 TEST_F(StreamsOfTheField, OneStreamAtATime) {
   const std::string row = "id,time,x,y\nu,0,0,0\n";
   const std::string a = write("a.csv", row), b = write("b b.csv", row);

@@ -29,8 +29,9 @@ constexpr std::string_view mode_s =
     "or aircraft.json";
 constexpr std::string_view vtk =
     "data of VTK: write the points of all steps as CSV, with ParaView: save data, all time steps";
-constexpr std::string_view horizons =
-    "an ephemeris of JPL Horizons: write its rows between $$SOE and $$EOE as CSV, with columns id, time, x, "
+constexpr std::string_view jpl =
+    "an ephemeris of JPL (HORIZONS): write its rows between $$SOE and $$EOE as CSV, with columns id, time, "
+    "x, "
     "y, "
     "z";
 constexpr std::string_view as_players =
@@ -93,10 +94,9 @@ constexpr FileKind kinds_by_bytes[] = {
      "motion capture as angles of joints (AMC): write positions as TRC or CSV, with Blender"},
     {"CCSDS_OPM_VERS"sv, "one state of an orbit (OPM), no path: propagate it, and write an OEM or CSV"},
     {"MTrackJ "sv, "tracks of MTrackJ: write them as CSV, with Measure, which shows a table of points"},
-    {"*******************************************************************************\nEphemeris / "sv,
-     horizons},
+    {"*******************************************************************************\nEphemeris / "sv, jpl},
     {"*******************************************************************************\r\nEphemeris / "sv,
-     horizons},
+     jpl},
     {"Type,Local Number,Message,Field 1,Value 1,Units 1"sv,
      "a FIT file as its SDK prints it: write the .fit file as GPX, with gpsbabel -i garmin_fit -f FILE -o "
      "gpx "

@@ -37,6 +37,14 @@ class CsvFormat final : public ReportFormat {
     if (fields_->size() < columns_needed_)
       throw MalformedRecord(
           fmt::format("expected {} columns or more, but got {}", columns_needed_, fields_->size()));
+    const TableHead& head = table_.head();
+    const std::size_t columns = head.names.empty() ? head.columns() : head.names.size();
+    // Those behind a comma or a tab too many are in the wrong columns.
+    if (fields_->size() > columns)
+      throw MalformedRecord(
+          fmt::format("expected {} columns as in the {}, but got {}{}", columns,
+                      head.names.empty() ? "first row" : "header", fields_->size(),
+                      head.separator == ',' ? " (decimal commas are read where ; or tabs separate)" : ""));
     reader_->set_row(*fields_);
     for (std::size_t body = 0; body < reader_->bodies(); ++body) {
       reader_->set_body(body);
