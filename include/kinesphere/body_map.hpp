@@ -40,9 +40,10 @@ struct MovedBody {
 
 /// Lifetimes: a motion must keep its address while the map refers to its bodies. A map cannot be moved or
 /// copied, and neither can a struct that holds it beside its motions: the references would dangle. A
-/// Simulation (simulation.hpp) owns world, motions and map, and can be moved and cloned. Changes go to the
-/// motion first, then to the world: after an error of the motion nothing has changed; after an error of the
-/// world the motion has changed. One map may serve clones of a world, because clones keep the ids.
+/// Simulation (simulation.hpp) owns world, motions and map, and can be moved and cloned. Errors: a call that
+/// returns an error has changed neither the motion nor the world. One map serves one world, and clones of it,
+/// because clones keep the ids: a body of another world takes the place of the one with its index, which the
+/// map then no longer knows.
 class BodyMap {
  public:
   BodyMap() = default;
@@ -113,11 +114,12 @@ class BodyMap {
   /// Returns a callable for World::advance() and all other calls that take a probe; it queries each body's
   /// motion. The callable throws as state(), and World::advance() lets the exception pass. The map must
   /// outlive it.
-  auto probe() const {
+  auto probe() const& {
     return [this](std::span<const BodyId> ids, double time, std::span<State> states) {
       for (std::size_t k = 0; k < ids.size(); ++k) states[k] = state(ids[k], time);
     };
   }
+  void probe() const&& = delete;
 
   /// Motion source for World::run(). The map must outlive it. It throws BadResult: unknown_body, and as
   /// state(), origin() and set_origin() of the motions.
@@ -132,13 +134,15 @@ class BodyMap {
    private:
     const BodyMap& bodies_;
   };
-  MapSource source() const { return MapSource(*this); }
+  MapSource source() const& { return MapSource(*this); }
+  MapSource source() const&& = delete;
 
  private:
   struct Entry {
     Motion* motion = nullptr;  ///< null if no body of this index is known
     std::uint32_t number = 0;
     std::uint32_t generation = 0;
+    std::uint32_t world = 0;  ///< BodyId::world; 0 for any
   };
 
   Result<std::vector<BodyId>> add_with_radii(World& world, Motion& motion, std::span<const double> radii,
@@ -149,7 +153,8 @@ class BodyMap {
   const Entry* entry(BodyId body) const {
     if (body.index >= entries_.size()) return nullptr;
     const Entry& found = entries_[body.index];
-    return found.motion != nullptr && found.generation == body.generation ? &found : nullptr;
+    const bool is_same_world = found.world == body.world || found.world == 0 || body.world == 0;
+    return found.motion != nullptr && found.generation == body.generation && is_same_world ? &found : nullptr;
   }
 
   std::vector<Entry> entries_;  ///< by BodyId::index

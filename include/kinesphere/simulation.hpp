@@ -121,7 +121,8 @@ class Simulation {
   Result<void> run(double until, const ResponseFn& respond, const EventFn& sink, Workers* workers = nullptr);
   /// Returns a probe for the predictions and queries of the world. It stays valid until the simulation is
   /// assigned to or destroyed.
-  auto probe() const { return known_bodies("probe").probe(); }
+  auto probe() const& { return known_bodies("probe").probe(); }
+  void probe() const&& = delete;
 
  private:
   Result<std::vector<BodyId>> add_with_radii(MotionId<> motion, std::span<const double> radii,

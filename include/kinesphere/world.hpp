@@ -258,9 +258,9 @@ class World {
 
   /// Puts the body to sleep: it stays exactly where it is until it wakes. A sleeping body is not probed,
   /// its bound stays constant, and its contacts with static and other sleeping bodies persist without being
-  /// rechecked. The next advance probes the body once if its last report is older than this call; its
-  /// velocity must then be zero. The event EventKind::woke reports that a body is awake again, with its
-  /// former motion limits. A body wakes by
+  /// rechecked. The next advance probes the body once if its last report is older than this call or has a
+  /// velocity; its velocity must then be zero, or a bound_violation reports it. The event EventKind::woke
+  /// reports that a body is awake again, with its former motion limits. A body wakes by
   ///   - an event contact_begin or contact_end in which it takes part;
   ///   - set_velocity, teleport and a change of the radius or of the motion limits of the body itself, and
   ///     wake();
@@ -454,6 +454,12 @@ class World {
   void require_idle(const char* done) const noexcept;
   /// Returns the engine; throws BadResult with moved_from if there is none.
   const Engine& engine(std::string_view call) const;
+
+  // A BodyMap changes a motion first, and only what the world will accept.
+  friend class BodyMap;
+  /// Return the error that the call would return, and change nothing.
+  Result<void> check_set_velocity(BodyId body, const Vec3& velocity) const;
+  Result<void> check_teleport(BodyId body, const State& state) const;
 
   // Every change of the engine goes through one of these functions, so that a recording captures it.
   Engine& changeable();

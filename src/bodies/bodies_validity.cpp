@@ -104,7 +104,7 @@ bool Bodies::is_valid(std::uint32_t number, double now) const {
   // The bound's radius includes an error. Only the bound of a disabled body can be out of date.
   if (body.bound.radius < body.radius) return false;
   // A pending change requires a report before time advances.
-  return body.change_number == Body::none || (body.dirty && !body.fresh(now));
+  return body.change_number == Body::none || body.dirty;
 }
 
 /// Checks the motion limits that take effect later; definition_of() returns only one set of them.

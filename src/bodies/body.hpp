@@ -60,8 +60,10 @@ struct Body {
     bound.growth_speed = bound.acceleration_limit = 0.0;
   }
   void mark_visited() { dirty = visited = relocated = false; }
-  /// Returns true if the state at `time` is known without a probe.
-  bool fresh(double time) const { return bound.time == time || is_static() || is_at_rest(); }
+  /// Returns true if the state at `time` is known without a probe: no change waits for a report.
+  bool fresh(double time) const {
+    return (bound.time == time || is_static() || is_sleeping()) && change_number == none;
+  }
   double largest_acceleration() const { return bound.acceleration_limit + norm(bound.planned_acceleration); }
 
   static void serialize(auto& self, auto& archive) {

@@ -204,14 +204,15 @@ Result<void> check_shape(const Shape& shape, const WorldDefinition& world, std::
 }
 
 Result<void> check_carried_shape(const Shape& shape, const WorldDefinition& world, std::string_view call) {
+  const auto unsupported = [&](std::string_view wanted) {
+    return Error{ErrorCode::unsupported, "shape", no_body,
+                 std::string(call) + ": shape must " + std::string(wanted)};
+  };
+  if (world.periodic.any())
+    return unsupported("not move where space repeats; add_rigid_body() takes boxes there");
   if (auto valid = check_shape(shape, world, call); !valid) return valid;
-  if (!world.periodic.any() &&
-      (std::holds_alternative<Box>(shape) || std::holds_alternative<Triangle>(shape)))
-    return {};
-  const std::string_view wanted = world.periodic.any() ? "at rest where space repeats"
-                                                       : "a box or a triangle; a body is a ball without one";
-  return Error{ErrorCode::unsupported, "shape", no_body,
-               std::string(call) + ": shape must be " + std::string(wanted)};
+  if (std::holds_alternative<Box>(shape) || std::holds_alternative<Triangle>(shape)) return {};
+  return unsupported("be a box or a triangle; a body is a ball without one");
 }
 
 /// It may be anywhere, since walls do not meet it.

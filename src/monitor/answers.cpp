@@ -35,6 +35,11 @@ Result<PairAnswer> Monitor::Engine::answer(TrackId first, TrackId second, std::u
   if (!definition_.shard.contains(std::min(first, second)))
     return Error{ErrorCode::out_of_range, "second", no_body,
                  "answer: first and second must be of a shard that is watched"};
+  if (levels.empty())
+    return Error{ErrorCode::out_of_range, "second", no_body,
+                 "answer: no separation is watched between first, of class " +
+                     std::to_string(tracks_[a].track_class) + ", and second, of class " +
+                     std::to_string(tracks_[b].track_class)};
   if (level >= levels.size())
     return Error{ErrorCode::out_of_range, "level", no_body,
                  "answer: level must be less than " + std::to_string(levels.size()) + ", but is " +

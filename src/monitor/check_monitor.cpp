@@ -55,6 +55,8 @@ void require_rule(InputCheck& check, const MonitorDefinition& definition, std::s
   for (const std::size_t of : {rule.first_class, rule.second_class})
     check.require(of < definition.classes.size(), ErrorCode::out_of_range, subject("class"),
                   "must be less than the number of classes", definition.classes.size(), of);
+  check.require(!rule.levels.empty(), ErrorCode::out_of_range, subject("levels"), "must name at least one",
+                rule.levels.size());
   const auto length = [&](std::string_view part, double value) {
     check.positive(subject(part), value)
         .require(value >= definition.tolerance && value <= definition.tolerance * limits::largest_length,

@@ -13,7 +13,8 @@ namespace {
 Error unknown(std::string_view call, BodyId body) {
   return {ErrorCode::unknown_body, "body", body,
           "BodyMap::" + std::string(call) + ": body: " + text_of(body) +
-              " of the world was not added through this map, or has been removed from it"};
+              " of the world was not added through this map, or has been removed from it, or the map has" +
+              " served another world since"};
 }
 
 /// Returns `like` with the state and the motion limits of a body of the motion at `time`.
@@ -31,7 +32,7 @@ Result<BodyDefinition> definition_of(std::string_view call, const Motion& motion
 
 void BodyMap::note(BodyId body, Motion& motion, std::uint32_t number) {
   if (body.index >= entries_.size()) entries_.resize(std::size_t{body.index} + 1);
-  entries_[body.index] = {&motion, number, body.generation};
+  entries_[body.index] = {&motion, number, body.generation, body.world};
 }
 
 Result<void> BodyMap::connect(BodyId body, Motion& motion, std::uint32_t number) {
@@ -44,7 +45,8 @@ Result<void> BodyMap::connect(BodyId body, Motion& motion, std::uint32_t number)
 std::vector<BodyId> BodyMap::bodies() const {
   std::vector<BodyId> bodies;
   for (std::uint32_t index = 0; index < entries_.size(); ++index)
-    if (entries_[index].motion != nullptr) bodies.push_back({index, entries_[index].generation});
+    if (const Entry& known = entries_[index]; known.motion != nullptr)
+      bodies.push_back({index, known.generation, known.world});
   return bodies;
 }
 
@@ -105,6 +107,7 @@ Result<std::vector<BodyId>> BodyMap::add_with_radii(World& world, Motion& motion
 Result<void> BodyMap::set_velocity(World& world, BodyId body, const Vec3& velocity) {
   const Entry* const found = entry(body);
   if (found == nullptr) return unknown("set_velocity", body);
+  if (auto valid = world.check_set_velocity(body, velocity); !valid) return valid;
   if (auto turned = found->motion->set_velocity(found->number, world.time(), velocity); !turned)
     return turned;
   return world.set_velocity(body, velocity);
@@ -113,6 +116,7 @@ Result<void> BodyMap::set_velocity(World& world, BodyId body, const Vec3& veloci
 Result<void> BodyMap::teleport(World& world, BodyId body, const State& state) {
   const Entry* const found = entry(body);
   if (found == nullptr) return unknown("teleport", body);
+  if (auto valid = world.check_teleport(body, state); !valid) return valid;
   if (auto moved = found->motion->teleport(found->number, world.time(), state); !moved) return moved;
   return world.teleport(body, state);
 }
@@ -120,10 +124,14 @@ Result<void> BodyMap::teleport(World& world, BodyId body, const State& state) {
 Result<void> BodyMap::remove(World& world, BodyId body) {
   const Entry* const found = entry(body);
   if (found == nullptr) return unknown("remove", body);
+  if (const auto error = wrong_body("remove", *found->motion, found->number)) return *error;
+  if (world.contains(body)) {
+    if (auto removed = world.remove(body); !removed) return removed;
+  }
   auto removed = found->motion->remove(found->number);
   if (!removed && removed.error().code != ErrorCode::unsupported) return removed;
   entries_[body.index] = {};
-  return world.contains(body) ? world.remove(body) : Result<void>();
+  return {};
 }
 
 Result<void> BodyMap::remove_gone(World& world, const Event& event, const ResponseFn& respond) {
@@ -143,7 +151,7 @@ Result<void> BodyMap::push(World& world, FrameMotion& frames, std::span<const Ve
   std::vector<BodyId> ids(frames.size(), no_body);
   for (std::uint32_t index = 0; index < entries_.size(); ++index) {
     const Entry& known = entries_[index];
-    if (known.motion == &frames) ids[known.number] = {index, known.generation};
+    if (known.motion == &frames) ids[known.number] = {index, known.generation, known.world};
   }
   return frames.push("BodyMap::push", world, ids, positions);
 }

@@ -68,6 +68,8 @@ Result<std::vector<double>> repeated(std::span<const double> radii, const Sphere
   if (packing == 0.0) return std::vector<double>(radii.begin(), radii.end());
   const double of_each = filled_part(radii, room) / static_cast<double>(radii.size());
   InputCheck check("place_spheres");
+  check.require(!radii.empty(), ErrorCode::out_of_range, {"radii"}, "must name at least one for a packing of",
+                packing, radii.size());
   check.require(packing < of_each * no_body.index, ErrorCode::out_of_range, {"packing"},
                 "must be 0 where this part takes more spheres than", std::size_t{no_body.index}, packing);
   if (check.error()) return *check.error();

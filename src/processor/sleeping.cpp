@@ -9,7 +9,8 @@ void Sleeping::sleep(std::uint32_t number) {
   Body& body = bodies()[number];
   if (body.is_sleeping()) return;
   const MotionLimits limits = motion_limits_of(bodies().definition_of(number));
-  const bool known = body.bound.time == processor_.time();
+  // A report of now that has a velocity is not believed: the next advance asks whether the body stands still.
+  const bool known = body.bound.time == processor_.time() && body.bound.velocity == Vec3{};
   if (!known) bodies().change_of(number).velocity = Vec3{};
   bodies().sleep_records.add(body, {number, limits});
   if (known) body.stand_still();

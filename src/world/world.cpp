@@ -127,9 +127,13 @@ Result<void> World::remove(BodyIds bodies) {
   return {};
 }
 
-Result<void> World::set_velocity(BodyId body, const Vec3& velocity) {
+Result<void> World::check_set_velocity(BodyId body, const Vec3& velocity) const {
   auto valid = Preconditions(*this, "set_velocity").mobile(body);
-  if (valid) valid = check_velocity(velocity, body, engine_->definition(), "set_velocity");
+  return valid ? check_velocity(velocity, body, engine_->definition(), "set_velocity") : valid;
+}
+
+Result<void> World::set_velocity(BodyId body, const Vec3& velocity) {
+  auto valid = check_set_velocity(body, velocity);
   if (valid) changing(step::SetVelocity{body, velocity}).set_velocity(body, velocity);
   return valid;
 }
@@ -152,9 +156,13 @@ Result<void> World::set_velocities(std::span<const BodyId> bodies, std::span<con
   return {};
 }
 
-Result<void> World::teleport(BodyId body, const State& state) {
+Result<void> World::check_teleport(BodyId body, const State& state) const {
   auto valid = Preconditions(*this, "teleport").mobile(body);
-  if (valid) valid = Preconditions(*this, "teleport").moved(body, state);
+  return valid ? Preconditions(*this, "teleport").moved(body, state) : valid;
+}
+
+Result<void> World::teleport(BodyId body, const State& state) {
+  auto valid = check_teleport(body, state);
   if (valid) changing(step::Teleport{body, state}).teleport(body, state);
   return valid;
 }

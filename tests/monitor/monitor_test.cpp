@@ -41,6 +41,12 @@ std::vector<MonitorEvent> all(MonitorEventRange events) {
   return list;
 }
 
+template <class Object>
+concept HasEvents = requires(Object&& object) {
+  static_cast<Object&&>(object).events(1.0);
+};
+static_assert(HasEvents<Monitor&> && !HasEvents<Monitor>, "a temporary monitor ends before the loop begins");
+
 TEST(Monitor, TellsWhenTwoMayMeetAndWhenTheyCertainlyHave) {
   Monitor monitor = made(definition(0.0));
   monitor.report(1, at(0.0, {0, 0, 0})).value();
@@ -339,7 +345,9 @@ TEST(Monitor, ClassesMayHaveDifferentSeparationsOrNone) {
   // 1-2, 2-3, 3-4 at both levels, 1-4 at the outer one.
   EXPECT_EQ(monitor.open_pairs().size(), 7u);
   EXPECT_EQ(monitor.answer(1, 4, 1)->verdict, Verdict::apart);
-  expect_refused(monitor.answer(1, 3), ErrorCode::out_of_range, "level");
+  expect_refused(monitor.answer(1, 3), ErrorCode::out_of_range,
+                 "no separation is watched between first, of class 1, and second, of class 1");
+  expect_refused(monitor.answer(1, 4, 2), ErrorCode::out_of_range, "level must be less than 2");
 }
 
 // Polling.
@@ -456,6 +464,8 @@ TEST(Monitor, RefusesWhatCannotBe) {
   expect_refused(Monitor::create({.classes = {{.acceleration_limit = 1.0}},
                                   .separations = {{0, 0, {Separation::sphere(0.0)}}}}),
                  ErrorCode::out_of_range, "separations");
+  expect_refused(Monitor::create({.classes = {{.acceleration_limit = 1.0}}, .separations = {{0, 0, {}}}}),
+                 ErrorCode::out_of_range, "levels");
   expect_refused(Monitor::create({.classes = {{.acceleration_limit = 1.0}},
                                   .separations = {{0, 0, {Separation::sphere(1.0)}}},
                                   .window = 0.0}),

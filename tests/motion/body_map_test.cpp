@@ -9,6 +9,8 @@
 #include "kinesphere/motion/ballistic.hpp"
 #include "kinesphere/motion/recorded_tracks.hpp"
 #include "kinesphere/motion/steered_motion.hpp"
+#include "kinesphere/queries.hpp"
+#include "kinesphere/simulation.hpp"
 #include "motion/still.hpp"
 #include "support/expect_error.hpp"
 
@@ -112,6 +114,68 @@ TEST(BodyMap, SaysWhatIsWrong) {
   EXPECT_FALSE(tracks.contains(0));
   EXPECT_FALSE(world.contains(recorded));
 }
+
+TEST(BodyMap, ChangesNeitherTheMotionNorTheWorldAfterAnError) {
+  const Box room{{-9, -9, -9}, {9, 9, 9}};
+  SteeredMotion ships = SteeredMotion::create({.start = {{}}, .acceleration_limits = {1}}).value();
+  FrameMotion frames = FrameMotion::create({.start = {{5, 0, 0}}, .interval = 1.0}).value();
+  World world = World::create({.box = room}).value(), plane = World::create({.dimensions = 2}).value();
+  BodyMap map, flat;
+  const BodyId ship = map.add(world, ships, 0).value(), framed = map.add(world, frames, 0).value();
+  const BodyId disc = flat.add(plane, ships, 0).value();
+  const State before = ships.state(0, 0.0);
+  expect_error(map.teleport(world, ship, {{99, 0, 0}, {}}), ErrorCode::outside_domain, "position",
+               "teleport: ", ship);
+  expect_error(map.teleport(world, framed, {{99, 0, 0}, {}}), ErrorCode::outside_domain, "position",
+               "teleport: ", framed);
+  expect_error(flat.set_velocity(plane, disc, {0, 0, 1}), ErrorCode::out_of_range, "velocity",
+               "set_velocity: ", disc);
+  world.disable(framed).value();
+  expect_error(map.set_velocity(world, framed, {1, 0, 0}), ErrorCode::disabled_body, "body",
+               "set_velocity: ", framed);
+  const auto probe = [&](std::span<const BodyId> ids, double t, std::span<State> states) {
+    expect_error(map.remove(world, ship), ErrorCode::probe_in_progress, "probe", "remove: ");
+    map.probe()(ids, t, states);
+  };
+  EXPECT_FALSE(world.advance(0.0, probe).value());
+  world.add({.acceleration_limit = 1, .position = {3, 0, 0}}).value();
+  EXPECT_FALSE(world.queries(probe).refresh(ship).value()) << "its report is from now";
+  EXPECT_EQ(ships.state(0, 0.0), before);
+  EXPECT_EQ(frames.latest().front(), (Vec3{5, 0, 0}));
+  EXPECT_TRUE(ships.contains(0));
+  EXPECT_TRUE(map.find(ship));
+}
+
+TEST(BodyMap, ThatHasServedAnotherWorldSinceSaysSo) {
+  Ballistic balls = rows(2, 0), others = rows(1, 50);
+  World world = World::create({}).value(), other = World::create({}).value();
+  BodyMap map;
+  const auto ids = map.add_all(world, balls).value();
+  const World copy = world.clone().value();
+  EXPECT_EQ(map.find(copy.bodies()[0])->motion, &balls) << "clones keep the ids";
+  const BodyId taken = map.add(other, others, 0).value();
+  EXPECT_EQ(taken, ids[0]) << "equal but for the world";
+  EXPECT_EQ(map.find(taken)->motion, &others);
+  EXPECT_FALSE(map.find(ids[0]));
+  EXPECT_EQ(map.find(ids[1])->motion, &balls);
+  expect_error(map.set_velocity(world, ids[0], {1, 0, 0}), ErrorCode::unknown_body, "body",
+               "BodyMap::set_velocity: ", ids[0]);
+  try {
+    static_cast<void>(map.state(ids[0], 0.0));
+    FAIL() << "the state of another body";
+  } catch (const BadResult& error) {
+    EXPECT_NE(error.error().message.find("another world"), std::string::npos) << error.what();
+  }
+  EXPECT_TRUE(map.find(BodyId{0, 0})) << "an id that names no world";
+  EXPECT_EQ(map.bodies()[0].world, taken.world);
+}
+
+template <class Object>
+concept HasProbe = requires(Object&& object) {
+  static_cast<Object&&>(object).probe();
+};
+static_assert(HasProbe<Ballistic&> && HasProbe<const BodyMap&> && HasProbe<Simulation&>);
+static_assert(!HasProbe<Ballistic> && !HasProbe<BodyMap> && !HasProbe<Simulation>, "its probe would dangle");
 
 TEST(BodyMap, IsMadeAgainForWhatWasRestored) {
   Ballistic balls = rows(3, 0);

@@ -273,7 +273,7 @@ TEST(Placement, refuses_wrong_arguments_by_name) {
   refused("packing", {1.0}, box, {.packing = 1.0});
   refused("packing", {1.0}, box, {.packing = nan});
   refused("packing", {0.0}, box, {.packing = 0.1});
-  refused("packing", {}, box, {.packing = 0.1});
+  refused("radii", {}, box, {.packing = 0.1});
   refused("packing", {1e-5}, box, {.packing = 0.1});
   refused("gap", {1.0}, box, {.gap = -1.0});
   refused("gap", {1.0}, box, {.gap = nan}, no_body, ErrorCode::not_finite);

@@ -380,7 +380,9 @@ TEST(MovingShapes, AreRefusedWithAReason) {
   World periodic =
       World::create({.box = Box{{0, 0, 0}, {9, 9, 9}}, .periodic = {.x = true, .y = true, .z = true}})
           .value();
-  expect_error(periodic.add_moving_shape({{}, plate}), ErrorCode::unsupported, "shape", "add_moving_shape");
+  const auto moving = periodic.add_moving_shape({{}, plate});
+  expect_error(moving, ErrorCode::unsupported, "shape", "add_moving_shape");
+  EXPECT_NE(moving.error().message.find("must not move where space repeats"), std::string::npos);
   World tight = World::create({.allow_overlap = false}).value();
   const BodyId ball = tight.add({.radius = 1.0, .position = {0, 0, 2}}).value();
   tight.add_moving_shape({{}, plate}).value();

@@ -220,6 +220,51 @@ TEST(Sleep, OfABodyThatMovesIsABrokenPromise) {
   EXPECT_NEAR(events[0].velocity_excess, 1.0, 1e-9);
 }
 
+TEST(Sleep, OfABodyThatMovesIsABrokenPromiseAlsoWhereItsReportIsFromNow) {
+  for (const bool stops : {false, true}) {
+    SCOPED_TRACE(stops ? "stops" : "moves on");
+    Rested p;
+    const BodyId id = p.ball({}, {1, 0, 0}), other = p.ball({20, 0, 0});
+    if (stops) p.set_velocity_unseen(id, {});
+    p.world.sleep(id).value();
+    EXPECT_TRUE(is_clean(p.world));
+    const auto restored = World::restore(p.world.save().value());
+    EXPECT_TRUE(restored) << restored.error().message;
+    const auto events = p.run(0.0);
+    ASSERT_EQ(events.size(), stops ? 0u : 1u) << events;
+    for (const Event& event : events) {
+      EXPECT_EQ(event.kind, EventKind::bound_violation);
+      EXPECT_NEAR(event.velocity_excess, 1.0, 1e-9);
+    }
+    EXPECT_TRUE(p.resting(id));
+    EXPECT_EQ(p.world.body(id).value().bound.velocity, Vec3{});
+    EXPECT_TRUE(is_clean(p.world));
+    // Awake again in the same instant, before anyone has asked where it is.
+    p.world.set_velocity(other, {-1, 0, 0}).value();
+    p.world.sleep(other).value();
+    p.world.wake(other).value();
+    p.set_velocity_unseen(other, {-1, 0, 0});
+    EXPECT_TRUE(is_clean(p.world));
+    EXPECT_EQ(of_kind(p.run(0.0), EventKind::woke).size(), 1u);
+    p.world.set_velocity(other, {-1, 0, 0}).value();
+    EXPECT_TRUE(of_kind(p.run(1.0), EventKind::bound_violation).empty());
+    EXPECT_TRUE(is_clean(p.world));
+  }
+}
+
+TEST(Sleep, AtAnEventIsABrokenPromiseOfABodyThatMovesOn) {
+  Rested p;
+  const BodyId id = p.ball({}, {1, 0, 0});
+  p.ball({5, 0, 0});
+  const auto events = p.run(10.0, [&](const Event& event) {
+    if (event.kind == EventKind::contact_begin) p.world.sleep(id).value();
+  });
+  ASSERT_EQ(events.size(), 2u) << events;
+  EXPECT_EQ(events[0].kind, EventKind::contact_begin);
+  EXPECT_EQ(events[1].kind, EventKind::bound_violation);
+  EXPECT_EQ(events[1].first, id);
+}
+
 TEST(Sleep, AfterItHasBeenBrokenIsNotToldToBeOver) {
   Rested p({.contacts = ContactEvents::impacts});
   const BodyId sleeper = p.ball({});

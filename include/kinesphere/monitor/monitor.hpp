@@ -261,8 +261,11 @@ class Monitor {
   /// answered.
   Result<std::optional<MonitorEvent>> advance(double until, const Poll& poll);
   /// Returns all events up to a time, for a range-for. Errors are thrown as BadResult.
-  [[nodiscard]] MonitorEventRange events(double until);
-  [[nodiscard]] MonitorEventRange events(double until, Poll poll);
+  [[nodiscard]] MonitorEventRange events(double until) &;
+  [[nodiscard]] MonitorEventRange events(double until, Poll poll) &;
+  /// A temporary monitor would be gone before the loop began.
+  MonitorEventRange events(double until) && = delete;
+  MonitorEventRange events(double until, Poll poll) && = delete;
 
   /// Return the current time, the definition, and the counts of work so far.
   double time() const;
@@ -339,7 +342,8 @@ class [[nodiscard]] MonitorEventRange {
   };
 
   /// Monitor::events() makes a range.
-  MonitorEventRange(Monitor& monitor, double until, std::optional<Poll> poll)
+  MonitorEventRange(Monitor& monitor, double until) : monitor_(&monitor), until_(until) {}
+  MonitorEventRange(Monitor& monitor, double until, Poll poll)
       : monitor_(&monitor), until_(until), poll_(std::move(poll)) {}
   /// Advances to the first event.
   Iterator begin() {
@@ -356,11 +360,13 @@ class [[nodiscard]] MonitorEventRange {
 
   Monitor* monitor_;
   double until_;
-  std::optional<Poll> poll_;
+  std::optional<Poll> poll_{};
   std::optional<MonitorEvent> event_;
 };
 
-inline MonitorEventRange Monitor::events(double until) { return {*this, until, std::nullopt}; }
-inline MonitorEventRange Monitor::events(double until, Poll poll) { return {*this, until, std::move(poll)}; }
+inline MonitorEventRange Monitor::events(double until) & { return {*this, until}; }
+inline MonitorEventRange Monitor::events(double until, Poll poll) & {
+  return {*this, until, std::move(poll)};
+}
 
 }  // namespace kinesphere

@@ -63,7 +63,7 @@ enum class Verdict {
 struct SeparationRule {
   std::size_t first_class = 0;
   std::size_t second_class = 0;
-  std::vector<Separation> levels;
+  std::vector<Separation> levels{};
 
   friend bool operator==(const SeparationRule&, const SeparationRule&) = default;
 };

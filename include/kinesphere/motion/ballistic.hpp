@@ -15,9 +15,9 @@ namespace kinesphere {
 /// The bodies of a Ballistic motion.
 struct BallisticDefinition {
   /// States at start_time, by body.
-  std::vector<State> start;
+  std::vector<State> start{};
   /// Gravity of all bodies (length / time^2).
-  Vec3 gravity;
+  Vec3 gravity{};
   double start_time = 0.0;
 
   friend bool operator==(const BallisticDefinition&, const BallisticDefinition&) = default;

@@ -29,7 +29,7 @@ class World;
 /// Frame 0 of a FrameMotion, and what its bodies promise.
 struct FrameMotionDefinition {
   /// Positions (length) in frame 0, by body.
-  std::vector<Vec3> start;
+  std::vector<Vec3> start{};
   /// Velocities (length / time) in frame 0, by body; empty means zero.
   std::vector<Vec3> velocities{};
   /// A >= 0 (length / time^2), by body, gravity included; infinite for a body without a limit. Empty means

@@ -94,11 +94,12 @@ class Motion {
   /// Returns an independent copy, including all changes.
   virtual std::unique_ptr<Motion> clone() const = 0;
 
-  /// Returns a callable for World::advance(), for worlds whose BodyId::index is the number in this motion.
+  /// Returns a callable for World::advance(), for worlds whose BodyId::index is the number in this motion,
+  /// which must outlive it.
   /// It throws BadResult, which passes through World::advance(): the errors of state(), and unknown_body
   /// for a body that this motion does not have, or that reused the index of a removed body (its index need
   /// not be the number here).
-  auto probe() const {
+  auto probe() const& {
     return [this](std::span<const BodyId> ids, double time, std::span<State> states) {
       const std::size_t bodies = size();
       for (std::size_t k = 0; k < ids.size(); ++k) {
@@ -107,6 +108,8 @@ class Motion {
       }
     };
   }
+  /// A temporary motion would be gone before the world asks.
+  void probe() const&& = delete;
 
  private:
   friend class SingleMotionSource;

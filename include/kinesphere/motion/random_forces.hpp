@@ -15,9 +15,9 @@ namespace kinesphere {
 /// The bodies of a RandomForces motion, and their forces.
 struct RandomForcesDefinition {
   /// States at start_time, by body.
-  std::vector<State> start;
+  std::vector<State> start{};
   /// A >= 0 (length / time^2), by body.
-  std::vector<double> acceleration_limits;
+  std::vector<double> acceleration_limits{};
   /// > 0 (time): forces change at its multiples.
   double interval = 0.2;
   std::uint64_t seed = 1;

@@ -18,9 +18,9 @@ namespace kinesphere {
 /// The bodies of a SteeredMotion.
 struct SteeredMotionDefinition {
   /// States at start_time, by body.
-  std::vector<State> start;
+  std::vector<State> start{};
   /// A >= 0 (length / time^2), by body.
-  std::vector<double> acceleration_limits;
+  std::vector<double> acceleration_limits{};
   double start_time = 0.0;
 
   friend bool operator==(const SteeredMotionDefinition&, const SteeredMotionDefinition&) = default;

@@ -21,7 +21,7 @@ namespace kinesphere {
 /// The field has no divergence, no flow through the walls, and w = speed in the middle. Outside the box it
 /// equals the field at the nearest point of the box.
 struct Circulation {
-  Box box;             ///< with lower < upper on every axis
+  Box box{};           ///< with lower < upper on every axis
   double speed = 0.0;  ///< (length / time)
 
   /// Returns the velocity at a position.
@@ -34,9 +34,9 @@ struct VelocityFieldDefinition {
   /// finite value for the same argument.
   std::function<Vec3(const Vec3&)> field;
   /// States at start_time, by body.
-  std::vector<State> start;
+  std::vector<State> start{};
   /// A >= 0 (length / time^2), by body.
-  std::vector<double> acceleration_limits;
+  std::vector<double> acceleration_limits{};
   /// > 0 (time): bodies sample the field at its multiples, and when their velocity is set.
   double interval = 0.1;
   /// > 0 (time): time in which a body would reach the velocity of the field if its limit permits. Less than
