@@ -1,9 +1,7 @@
-// Reading a world: bodies, counters, certificates, answers and queries.
+// Reading a world: bodies, counters, certificates and defects.
 #include "body.hpp"
 #include "exchange.hpp"
-#include "kinesphere/certificates.hpp"
 #include "kinesphere/inspection.hpp"
-#include "kinesphere/queries.hpp"
 
 namespace kinesphere::browser {
 
@@ -127,82 +125,6 @@ KINESPHERE_EXPORT(world_cells) void world_cells(const World* world) {
   for (const CellView& cell : world->inspection().cells())
     answer().insert(answer().end(), {cell.box.lower.x, cell.box.lower.y, cell.box.lower.z, cell.box.upper.x,
                                      cell.box.upper.y, cell.box.upper.z, static_cast<double>(cell.bodies)});
-}
-
-/// Answers time, partner, wall, touching or within.
-KINESPHERE_EXPORT(world_safe_until) bool world_safe_until(const World* world) {
-  const auto safe = world->certificates().safe_until();
-  if (safe) answer().assign({safe->time, no_id, 0.0, safe->touching ? 1.0 : 0.0});
-  return is_good(safe);
-}
-KINESPHERE_EXPORT(world_safe_until_of_pair)
-bool world_safe_until_of_pair(const World* world, double first, double second) {
-  const auto safe = world->certificates().safe_until(body_of(first), body_of(second));
-  if (safe) answer().assign({safe->time, no_id, 0.0, safe->touching ? 1.0 : 0.0});
-  return is_good(safe);
-}
-KINESPHERE_EXPORT(world_earliest_contact) bool world_earliest_contact(const World* world, double body) {
-  const auto contact = world->certificates().earliest_contact(body_of(body));
-  if (contact)
-    answer().assign({contact->time, number_of(contact->partner), static_cast<double>(contact->wall),
-                     contact->touching ? 1.0 : 0.0});
-  return is_good(contact);
-}
-KINESPHERE_EXPORT(world_earliest_approach)
-bool world_earliest_approach(const World* world, double body, double distance) {
-  const auto approach = world->certificates().earliest_approach(body_of(body), distance);
-  if (approach)
-    answer().assign({approach->time, number_of(approach->partner), static_cast<double>(approach->wall),
-                     approach->within ? 1.0 : 0.0});
-  return is_good(approach);
-}
-
-namespace {
-
-/// Answers an id, 1 if certain, and two limits for each.
-template <class Results>
-bool answer_all(const Results& results) {
-  if (!is_good(results)) return false;
-  answer().clear();
-  for (const auto& found : *results)
-    answer().insert(answer().end(),
-                    {number_of(found.body), found.certainty == Certainty::certainly ? 1.0 : 0.0, found.lower,
-                     found.upper});
-  return true;
-}
-
-/// Answers an id and 1 if certain for each.
-bool answer_overlaps(const Result<std::vector<OverlapHit>>& results) {
-  if (!is_good(results)) return false;
-  answer().clear();
-  for (const OverlapHit& found : *results)
-    answer().insert(answer().end(),
-                    {number_of(found.body), found.certainty == Certainty::certainly ? 1.0 : 0.0});
-  return true;
-}
-
-}  // namespace
-
-KINESPHERE_EXPORT(world_nearest)
-bool world_nearest(const World* world, const double* point, std::size_t count) {
-  return answer_all(world->queries().nearest(vector_at(point), count));
-}
-KINESPHERE_EXPORT(world_ray_cast)
-bool world_ray_cast(const World* world, const double* origin, const double* direction, double length) {
-  return answer_all(world->queries().ray_cast(vector_at(origin), vector_at(direction), length));
-}
-KINESPHERE_EXPORT(world_sphere_cast)
-bool world_sphere_cast(const World* world, const double* origin, const double* direction, double length,
-                       double radius) {
-  return answer_all(world->queries().sphere_cast(vector_at(origin), radius, vector_at(direction), length));
-}
-KINESPHERE_EXPORT(world_overlapping)
-bool world_overlapping(const World* world, const double* centre, double radius) {
-  return answer_overlaps(world->queries().overlapping(vector_at(centre), radius));
-}
-KINESPHERE_EXPORT(world_overlapping_box)
-bool world_overlapping_box(const World* world, const double* corners) {
-  return answer_overlaps(world->queries().overlapping(Box{vector_at(corners), vector_at(corners + 3)}));
 }
 
 /// Answers an empty text if there is no defect.

@@ -212,6 +212,22 @@ KINESPHERE_EXPORT(world_wake) bool world_wake(World* world, double body) {
 KINESPHERE_EXPORT(world_set_filter) bool world_set_filter(World* world, double body, const double* filter) {
   return is_good(world->change(body_of(body), {.filter = filter_at(filter)}));
 }
+/// Calls the package's pair filter of this number; one that throws lets the pair touch, and the package
+/// throws what it threw when the running call ends.
+KINESPHERE_IMPORT(filter) bool javascript_filter(double filter, double first, double second);
+/// A number below 0 stands for none.
+KINESPHERE_EXPORT(world_set_pair_filter) bool world_set_pair_filter(World* world, double filter) {
+  PairFilter asked;
+  if (filter >= 0.0) {
+    asked = [filter](BodyId first, BodyId second) {
+      return javascript_filter(filter, number_of(first), number_of(second));
+    };
+  }
+  return is_good(world->set_pair_filter(std::move(asked)));
+}
+KINESPHERE_EXPORT(world_refresh_filter) bool world_refresh_filter(World* world, double body) {
+  return is_good(world->refresh_filter(body_of(body)));
+}
 KINESPHERE_EXPORT(world_set_solid) bool world_set_solid(World* world, double body, bool solid) {
   return is_good(world->change(body_of(body), {.solid = solid}));
 }

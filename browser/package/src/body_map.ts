@@ -22,8 +22,7 @@ const existing = Symbol("existing");
  *     for (const event of world.events(frames.latestTime, bodies))
  *       if (event.second === bullet) bodies.remove(world, bullet);
  *
- * Changes go to the motion first, then to the world: after an error of the motion nothing has changed; after an error of
- * the world the motion has changed.
+ * A call that throws has changed neither the motion nor the world.
  */
 export class BodyMap extends Owned {
   /** The motions in the order in which the module has them. */

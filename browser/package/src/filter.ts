@@ -15,6 +15,13 @@ export interface Filter {
   group?: number;
 }
 
+/**
+ * Returns whether two bodies whose filters let them touch may do so: the same for both orders, and for the same two until
+ * World.setPairFilter() or refreshFilter() is called. It may read the world that asks (body, touching, contains, time and
+ * the like), and call nothing else of it.
+ */
+export type PairFilter = (first: number, second: number) => boolean;
+
 const filterKeys: Keys<Filter> = { category: "number", mask: "number", group: "number" };
 
 /** Returns numbers in the order of filter_at() in browser/module/world.cpp. */

@@ -7,6 +7,7 @@ export {
   type MotionDefinition, RandomForces, type RandomForcesOptions, RecordedTracks, SteeredMotion, type Track,
 } from "./motion.js";
 export { bounce, type Bounce, type BounceOptions, type Bounces } from "./response.js";
+export type { AnswerOptions, Limits, PairOptions, QueryOptions } from "./answers.js";
 export type { Answer, BodyAction, Probe, ProbeFunction, RespondFunction, RunOptions } from "./asking.js";
 export type {
   BodyBatch, BodyDefinition, BodyOptions, MotionLimits, MovedBodyDefinition, MovedOptions, Shape, ShapeCarrier, StaticOptions,
@@ -20,7 +21,7 @@ export {
   type BodyView, type BusyBody, type Certain, type Counters, type Earliest, type Located, type ProbeReason, World, WorldView,
 } from "./world.js";
 export type { Box, ContactEvents, Definition, WorldDefinition } from "./definition.js";
-export type { Filter } from "./filter.js";
+export type { Filter, PairFilter } from "./filter.js";
 export { Scene, sceneNames, type SceneSettings } from "./scene.js";
 export { Replay } from "./replay.js";
 export {

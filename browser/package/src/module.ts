@@ -1,6 +1,7 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 // The WebAssembly module: its memory, its functions, and its errors as exceptions.
-import { checkKeys, type Keys, shown } from "./options.js";
+import type { PairFilter } from "./filter.js";
+import { checkKeys, type Keys, refusePromise, shown } from "./options.js";
 
 /** The reason of a failed call: one of the error codes of the library (kinesphere/result.hpp). */
 export type ErrorCode =
@@ -36,6 +37,9 @@ interface Callbacks {
   rotate(count: number, ids: number, time: number, rotations: number): void;
   poll(count: number, tracks: number, time: number, reports: number): void;
 }
+
+/** A pair filter in the module. The worlds that have it keep this object. */
+export interface KeptFilter { readonly number: number }
 
 /** Memory of the module for the duration of a call. */
 export class Scratch {
@@ -91,6 +95,11 @@ export class Module {
   /** Running calls, the innermost last: their callbacks and the addresses of their objects. */
   private readonly asking: { callbacks: Partial<Callbacks>; addresses: readonly number[] }[] = [];
   private thrown: { value: unknown } | null = null;
+  /** Pair filters by number: any call of a world may ask them. */
+  private readonly filters = new Map<number, PairFilter>();
+  private readonly forgottenFilters = new FinalizationRegistry<number>((number) => this.filters.delete(number));
+  private lastFilter = 0;
+  private filterThrown: { value: unknown } | null = null;
   private written = "";
   /** The last called export that is no part of reading an error. */
   private called = "";
@@ -114,6 +123,7 @@ export class Module {
     const instance = new WebAssembly.Instance(compiled, {
       kinesphere: {
         probe: asked("probe"), respond: asked("respond"), stop: asked("stop"), rotate: asked("rotate"), poll: asked("poll"),
+        filter: (number: number, first: number, second: number) => this.mayTouch(number, first, second) ? 1 : 0,
       },
       env: { emscripten_notify_memory_growth: () => {} },
       wasi_snapshot_preview1: {
@@ -137,7 +147,41 @@ export class Module {
     for (const value of values)
       if (!isNumeric(value)) throw new TypeError(`${callOf(name)}: arguments must be numbers, but one is ${shown(value)}`);
     if (!name.startsWith("error_") && name !== "release") this.called = name;
-    return this.exports[name]!(...values);
+    const result = this.exports[name]!(...values);
+    // World.advance() has to keep its event first.
+    if (name !== "world_advance" && !name.startsWith("answer_")) this.rethrowOfFilter();
+    return result;
+  }
+
+  /** Keeps a pair filter until the returned object is forgotten, and gives it a number. */
+  keepFilter(filter: PairFilter): KeptFilter {
+    const kept = { number: this.lastFilter++ };
+    this.filters.set(kept.number, filter);
+    this.forgottenFilters.register(kept, kept.number);
+    return kept;
+  }
+  /** True if a pair filter threw during the last call, which then has to rethrow. */
+  get filterHasThrown(): boolean {
+    return this.filterThrown !== null;
+  }
+  /** Throws what a pair filter threw during the last call. */
+  rethrowOfFilter(): void {
+    if (this.filterThrown === null) return;
+    const { value } = this.filterThrown;
+    this.filterThrown = null;
+    throw value;
+  }
+  private mayTouch(number: number, first: number, second: number): boolean {
+    if (this.filterThrown !== null) return true;
+    try {
+      const may: unknown = this.filters.get(number)!(first, second);
+      refusePromise(may, "pair filter");
+      if (typeof may !== "boolean") throw new TypeError(`pair filter: the result must be a boolean, but is ${shown(may)}`);
+      return may;
+    } catch (value) {
+      this.filterThrown = { value };
+      return true;
+    }
   }
 
   /** Makes a call with callbacks, which may not free the objects at these addresses. Rethrows what a callback threw. */

@@ -1,4 +1,7 @@
 // The world: moving spheres with unknown trajectories, and every contact among them, in time order.
+import {
+  type AnswerOptions, answerKeys, type Limits, noProbe, type PairOptions, pairKeys, queryNumbers, type QueryOptions,
+} from "./answers.js";
 import { asking, moving, type Probe, responded, runKeys, type RunOptions } from "./asking.js";
 import {
   batchKeys, type BodyBatch, type BodyDefinition, bodyKeys, bodyNumbers, limitKeys, type MotionLimits, movedKeys,
@@ -10,10 +13,10 @@ import {
   type Box, boxKeys, type Definition, definitionAt, definitionNumbers, type WorldDefinition,
 } from "./definition.js";
 import { Event, type EventKind, eventKinds, Events, type Wall, wallOf } from "./event.js";
-import { type Filter, filterFrom, filterNumbers, maskNumber } from "./filter.js";
-import { Owned, type Scratch, theModule } from "./module.js";
+import { type Filter, filterFrom, filterNumbers, maskNumber, type PairFilter } from "./filter.js";
+import { type KeptFilter, Owned, type Scratch, theModule } from "./module.js";
 import { Motion, type MotionDefinition } from "./motion.js";
-import { checkKeys, requireBytes, requireNumbers, whole } from "./options.js";
+import { checkKeys, requireBytes, requireNumbers, shown, whole } from "./options.js";
 import {
   numbersOfRotation, partsFrom, rigidArguments, type RigidBodyDefinition, type RigidPart, type Rotation, rotationFrom,
   type RotationProbeFunction,
@@ -271,48 +274,71 @@ export class WorldView extends Owned {
     return module.answer();
   }
 
-  /** Returns a time before which no contact begins: in the whole world, or of the two bodies. */
+  // Predictions and queries. They answer from what the world knows; with a probe in the options, as well as fresh reports
+  // of undecided bodies allow.
+
+  /**
+   * Returns a time before which no contact begins in the whole world, or of the two bodies; with a distance in the options,
+   * one before which the two surfaces do not come that near.
+   */
   safeUntil(): number;
-  /** Returns a time before which the two bodies do not begin to touch. */
-  safeUntil(first: BodyId, second: BodyId): number;
-  safeUntil(first?: BodyId, second?: BodyId): number {
-    if (first === undefined) return this.earliest("world_safe_until").time;
-    return this.earliest("world_safe_until_of_pair", first, second!).time;
+  safeUntil(options: AnswerOptions): number;
+  safeUntil(first: BodyId, second: BodyId, options?: PairOptions): number;
+  safeUntil(first: BodyId | AnswerOptions = {}, second?: BodyId, options: PairOptions = {}): number {
+    const call = "safeUntil";
+    if (typeof first === "object") {
+      checkKeys(first, answerKeys, "options", call);
+      return this.earliest("world_safe_until", call, first).time;
+    }
+    checkKeys(options, pairKeys, "options", call);
+    return this.earliest("world_safe_until_of_pair", call, options, first, second!, options.distance ?? NaN).time;
   }
   /** Returns the first possible contact of the body. */
-  earliestContact(body: BodyId): Earliest {
-    return this.earliest("world_earliest_contact", body);
+  earliestContact(body: BodyId, options: AnswerOptions = {}): Earliest {
+    checkKeys(options, answerKeys, "options", "earliestContact");
+    return this.earliest("world_earliest_contact", "earliestContact", options, body);
   }
   /**
    * Returns the first time at which another body may be within `distance` (length >= 0) of the body, between surfaces.
    */
-  earliestApproach(body: BodyId, distance: number): Earliest {
-    return this.earliest("world_earliest_approach", body, distance);
+  earliestApproach(body: BodyId, distance: number, options: AnswerOptions = {}): Earliest {
+    checkKeys(options, answerKeys, "options", "earliestApproach");
+    return this.earliest("world_earliest_approach", "earliestApproach", options, body, distance);
+  }
+  /** Returns limits of the distance between the surfaces of two bodies now or at a later time; negative where they overlap. */
+  distanceLimits(first: BodyId, second: BodyId, time = this.time, options: AnswerOptions = {}): Limits {
+    checkKeys(options, answerKeys, "options", "distanceLimits");
+    const [lower, upper] = this.ask("world_distance_limits", "distanceLimits", options.probe, first, second, time);
+    return { lower: lower!, upper: upper! };
   }
   /** Returns all bodies that may be among the `count` nearest to a point. */
-  nearest(point: Vec3, count: number): Located[] {
-    return this.located("world_nearest", [vector(point, "point", "nearest")], whole(count, 2 ** 32 - 1, "count", "nearest"));
+  nearest(point: Vec3, count: number, options: QueryOptions = {}): Located[] {
+    const call = "nearest";
+    return this.located("world_nearest", call, options, [vector(point, "point", call)],
+                        whole(count, 2 ** 32 - 1, "count", call));
   }
   /** Returns all bodies that may be the first on a way. */
-  rayCast(origin: Vec3, direction: Vec3, length: number): Located[] {
-    return this.located("world_ray_cast",
-                        [vector(origin, "origin", "rayCast"), vector(direction, "direction", "rayCast")], length);
+  rayCast(origin: Vec3, direction: Vec3, length: number, options: QueryOptions = {}): Located[] {
+    const call = "rayCast";
+    return this.located("world_ray_cast", call, options,
+                        [vector(origin, "origin", call), vector(direction, "direction", call)], length);
   }
   /** Returns all bodies that a sphere of this radius may hit first on its way. */
-  sphereCast(origin: Vec3, radius: number, direction: Vec3, length: number): Located[] {
+  sphereCast(origin: Vec3, radius: number, direction: Vec3, length: number, options: QueryOptions = {}): Located[] {
     const call = "sphereCast";
-    return this.located("world_sphere_cast", [vector(origin, "origin", call), vector(direction, "direction", call)],
-                        length, radius);
+    return this.located("world_sphere_cast", call, options,
+                        [vector(origin, "origin", call), vector(direction, "direction", call)], length, radius);
   }
   /** Returns the bodies that may overlap a sphere. */
-  overlapping(centre: Vec3, radius: number): Certain[] {
-    return this.overlaps("world_overlapping", vector(centre, "centre", "overlapping"), radius);
+  overlapping(centre: Vec3, radius: number, options: QueryOptions = {}): Certain[] {
+    const call = "overlapping";
+    return this.overlaps("world_overlapping", call, options, vector(centre, "centre", call), radius);
   }
   /** Returns the bodies that may overlap a box. */
-  overlappingBox(box: Box): Certain[] {
+  overlappingBox(box: Box, options: QueryOptions = {}): Certain[] {
     const call = "overlappingBox";
     checkKeys(box, boxKeys, "box", call);
-    return this.overlaps("world_overlapping_box",
+    return this.overlaps("world_overlapping_box", call, options,
                          [...vector(box.lower, "box.lower", call), ...vector(box.upper, "box.upper", call)]);
   }
   /** Checks all invariants from scratch; returns the first defect, or null. For tests: it takes long. */
@@ -333,10 +359,15 @@ export class WorldView extends Owned {
     return World.at(module.require(module.call("world_clone", this.address)));
   }
 
-  private earliest(name: string, ...values: number[]): Earliest {
+  /** @internal Calls an export with this probe, if there is one, and returns its answer. */
+  protected ask(name: string, call: string, probe: Probe | undefined, ...values: number[]): Float64Array {
+    if (probe !== undefined) throw new TypeError(`${call}: the world of a replay cannot ask a probe`);
     const module = theModule();
-    module.require(module.call(name, this.address, ...values));
-    const numbers = module.answer();
+    module.require(module.call(name, this.address, ...values, ...noProbe));
+    return module.answer();
+  }
+  private earliest(name: string, call: string, { probe }: AnswerOptions, ...values: number[]): Earliest {
+    const numbers = this.ask(name, call, probe, ...values);
     return {
       time: numbers[0]!,
       partner: numbers[1]! < 0 ? null : numbers[1]!,
@@ -344,21 +375,17 @@ export class WorldView extends Owned {
       now: numbers[3] === 1,
     };
   }
-  private overlaps(name: string, region: number[], ...values: number[]): Certain[] {
-    const module = theModule();
-    const numbers = module.with((scratch) => {
-      module.require(module.call(name, this.address, scratch.numbers(region), ...values));
-      return module.answer();
-    });
+  private overlaps(name: string, call: string, options: QueryOptions, region: number[], ...values: number[]): Certain[] {
+    const found = queryNumbers(options, call);
+    const numbers = theModule().with((scratch) =>
+      this.ask(name, call, options.probe, scratch.numbers(region), scratch.numbers(found), ...values));
     return Array.from({ length: numbers.length / 2 }, (_, k) =>
       ({ body: numbers[2 * k]!, certainly: numbers[2 * k + 1] === 1 }));
   }
-  private located(name: string, points: number[][], ...values: number[]): Located[] {
-    const module = theModule();
-    const numbers = module.with((scratch) => {
-      module.require(module.call(name, this.address, ...points.map((point) => scratch.numbers(point)), ...values));
-      return module.answer();
-    });
+  private located(name: string, call: string, options: QueryOptions, points: number[][], ...values: number[]): Located[] {
+    const found = queryNumbers(options, call);
+    const numbers = theModule().with((scratch) =>
+      this.ask(name, call, options.probe, ...points.map((point) => scratch.numbers(point)), scratch.numbers(found), ...values));
     return Array.from({ length: numbers.length / 4 }, (_, k) => ({
       body: numbers[4 * k]!,
       certainly: numbers[4 * k + 1] === 1,
@@ -372,6 +399,9 @@ const existing = Symbol("existing");
 
 export class World extends WorldView {
   #rotationProbe: RotationProbeFunction | null = null;
+  #pairFilter: KeptFilter | null = null;
+  /** An event at which the pair filter threw: the next advance returns it. */
+  #kept: Event | null = null;
   #warnedOfHops = false;
 
   /** Throws KinesphereError for an invalid definition. */
@@ -542,6 +572,8 @@ export class World extends WorldView {
   override clone(): World {
     const copy = super.clone();
     copy.#rotationProbe = this.#rotationProbe;
+    copy.#pairFilter = this.#pairFilter;
+    copy.#kept = this.#kept;
     return copy;
   }
   /** Puts a body elsewhere; later probes must agree with it. BodyMap.teleport() tells the motion, too. */
@@ -603,6 +635,27 @@ export class World extends WorldView {
   setFilter(body: BodyId, filter: Filter): void {
     this.change("world_set_filter", body, filterNumbers(filter, "setFilter"));
   }
+  /**
+   * Sets a predicate of your own for pairs whose filters let them touch; null removes it. Clones have it, too, but not
+   * snapshots. What it throws comes out of the call that asked, after which the world goes on, and the pair may touch until
+   * refreshFilter() or another pair filter.
+   */
+  setPairFilter(filter: PairFilter | null): void {
+    if (filter !== null && typeof filter !== "function")
+      throw new TypeError(`setPairFilter: filter must be a function or null, but is ${shown(filter)}`);
+    const module = theModule();
+    const kept = filter === null ? null : module.keepFilter(filter);
+    const before = this.#pairFilter;
+    this.#pairFilter = kept;
+    // Throws what the filter threw about a pair in touch; the world has it all the same.
+    if (module.call("world_set_pair_filter", this.address, kept?.number ?? -1) !== 0) return;
+    this.#pairFilter = before;
+    throw module.error();
+  }
+  /** Says that the results of the pair filter for this body have changed. */
+  refreshFilter(body: BodyId): void {
+    this.change("world_refresh_filter", body);
+  }
   /** Sets whether the body has contacts from now on. */
   setSolid(body: BodyId, solid: boolean): void {
     const module = theModule();
@@ -634,15 +687,35 @@ export class World extends WorldView {
     module.require(module.call("world_set_user_data", this.address, body, data));
   }
 
+  /** @internal */
+  protected override ask(name: string, call: string, probe: Probe | undefined, ...values: number[]): Float64Array {
+    if (probe === undefined) return super.ask(name, call, probe, ...values);
+    const module = theModule();
+    module.require(this.callWith(probe, call, (addresses) => [name, ...values, 1, ...addresses]));
+    return module.answer();
+  }
+  /** Makes a call with a probe, whose addresses the arguments contain. */
+  private callWith(probe: Probe, call: string, made: (addresses: number[]) => [name: string, ...values: number[]]): number {
+    const module = theModule();
+    if (!(probe instanceof Motion) && !(probe instanceof BodyMap) && typeof probe !== "function")
+      throw new TypeError(`${call}: probe must be a function, a Motion or a BodyMap`);
+    const addresses = moving(probe);
+    const [name, ...values] = made(addresses);
+    const callbacks = asking(module, typeof probe === "function" ? probe : null, null, this.#rotationProbe);
+    return module.callWith(callbacks, [this.address, ...addresses], name, this.address, ...values);
+  }
+
   /** Advances to the next event and returns it, or to `until`, and returns null. */
   advance(until: number, probe: Probe): Event | null {
     const module = theModule();
-    if (!(probe instanceof Motion) && !(probe instanceof BodyMap) && typeof probe !== "function")
-      throw new TypeError("advance: probe must be a function, a Motion or a BodyMap");
-    const asked = typeof probe === "function" ? probe : null;
-    const addresses = moving(probe);
-    const result = module.callWith(asking(module, asked, null, this.#rotationProbe), [this.address, ...addresses],
-                                   "world_advance", this.address, until, ...addresses);
+    if (this.#kept !== null) {
+      const event = this.#kept;
+      this.#kept = null;
+      return event;
+    }
+    const result = this.callWith(probe, "advance", (addresses) => ["world_advance", until, ...addresses]);
+    if (module.filterHasThrown && result > 0) this.#kept = new Event(module.answer());
+    module.rethrowOfFilter();
     if (result < 0) throw module.error();
     return result === 0 ? null : new Event(module.answer());
   }
@@ -663,6 +736,7 @@ export class World extends WorldView {
     if (!(options?.motion instanceof Motion) && !(options?.motion instanceof BodyMap))
       throw new TypeError("run: motion must be a Motion or a BodyMap");
     checkKeys(options, runKeys, "options", "run");
+    if (this.#kept !== null) throw new Error("run: the pair filter threw at an event, which advance() has yet to return");
     if (options.atStop !== undefined && typeof options.atStop !== "function")
       throw new TypeError("run: atStop must be a function of an event");
     const [responding, bounces, scene, asked] = responded(options.respond);
