@@ -171,4 +171,7 @@ test("what a pair filter may not do is named, and no event is lost", () => {
   strict.add({ position: [0, 0, 0] });
   strict.setPairFilter(() => { throw new Error("mine"); });
   assert.throws(() => strict.add({ position: [1, 0, 0] }), { message: "mine" });
+  strict.setPairFilter(() => { strict.free(); return true; });
+  assert.throws(() => strict.add({ position: [1, 0, 0] }), /cannot be freed/);
+  assert.equal(strict.size, 1, "the two may touch then, so the second is refused");
 });

@@ -100,6 +100,7 @@ export class Module {
   private readonly forgottenFilters = new FinalizationRegistry<number>((number) => this.filters.delete(number));
   private lastFilter = 0;
   private filterThrown: { value: unknown } | null = null;
+  private filtering = 0;
   private written = "";
   /** The last called export that is no part of reading an error. */
   private called = "";
@@ -173,6 +174,7 @@ export class Module {
   }
   private mayTouch(number: number, first: number, second: number): boolean {
     if (this.filterThrown !== null) return true;
+    ++this.filtering;
     try {
       const may: unknown = this.filters.get(number)!(first, second);
       refusePromise(may, "pair filter");
@@ -181,6 +183,8 @@ export class Module {
     } catch (value) {
       this.filterThrown = { value };
       return true;
+    } finally {
+      --this.filtering;
     }
   }
 
@@ -200,9 +204,9 @@ export class Module {
     }
   }
 
-  /** True if the object is in the middle of a call. */
+  /** True if the object is, or may be, in the middle of a call. */
   isInUse(address: number): boolean {
-    return this.asking.some(({ addresses }) => addresses.includes(address));
+    return this.filtering > 0 || this.asking.some(({ addresses }) => addresses.includes(address));
   }
 
   /** Returns the error of the last failed call. World::change() of C++ is several functions here. */
