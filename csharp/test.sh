@@ -10,9 +10,11 @@ source=$(realpath "$(dirname "${BASH_SOURCE[0]}")")
 mkdir -p "$work"
 mcs -unsafe -warnaserror -target:library -out:"$work/Kinesphere.dll" "$source"/src/*.cs
 compile() { mcs -warnaserror -r:"$work/Kinesphere.dll" -r:System.Core -out:"$work/$2.exe" "$source/$1/$2.cs"; }
+compile examples FirstContact
 compile examples GameLoop
 compile examples Tower
 compile test SharedScene
+diff <(mono "$work/FirstContact.exe") <("${game_loop%/*}/example_c_first_contact")
 diff <(mono "$work/GameLoop.exe") <("$game_loop")
 diff <(mono "$work/Tower.exe") <("$monitor")
 "$source/../tests/c/has_hash.sh" "$hash" mono "$work/SharedScene.exe"
