@@ -177,7 +177,11 @@ Result<void> FrameMotion::push(std::string_view call, World& world, std::span<co
     informed.push_back(ids[body]);
   }
   if (check.error()) return *check.error();
-  if (auto told = inform(world, std::move(informed), std::move(next->velocities)); !told) return told;
+  if (const auto told = inform(world, std::move(informed), std::move(next->velocities)); !told) {
+    Error error = told.error();
+    error.message = std::string(call) + ": " + error.message;
+    return error;
+  }
   append(std::move(*next), positions);
   return {};
 }

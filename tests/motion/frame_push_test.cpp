@@ -91,13 +91,19 @@ TEST(PushedFrames, ChangeNothingOnAnError) {
   expect_error(game.bodies.push(game.world, game.frames, Places{{1, 0, 0}, {10, nan, 0}, {}}),
                ErrorCode::not_finite, "positions", "BodyMap::push: ", game.ids[1]);
   expect_error(game.bodies.push(game.world, game.frames, Places{{1, 0, 0}, {1e110, 0, 0}, {}}),
-               ErrorCode::out_of_range, "velocity", "set_velocities: ", game.ids[1]);
+               ErrorCode::out_of_range, "velocity", "BodyMap::push: set_velocities: ", game.ids[1]);
   BodyMap stranger;
   expect_error(stranger.push(game.world, game.frames, moved), ErrorCode::unknown_body, "frames",
                "BodyMap::push: ", BodyId{0, 0});
   World later = World::create({.start_time = 0.5}).value();
   expect_error(game.frames.push(later, moved), ErrorCode::out_of_range, "world", "push: ");
   unchanged();
+  // One who removes a body from the world alone is told which.
+  game.world.remove(game.ids[2]).value();
+  const auto forgotten = game.bodies.push(game.world, game.frames, Places{{}, {10, 0, 0}, {21, 0, 0}});
+  expect_error(forgotten, ErrorCode::stale_body, "body",
+               "BodyMap::push: set_velocities: body 2 has been removed", game.ids[2]);
+  EXPECT_EQ(game.frames.latest(), game.places);
   // One who forgets to advance the world is told in the next frame.
   game.bodies.push(game.world, game.frames, moved).value();
   expect_error(game.bodies.push(game.world, game.frames, moved), ErrorCode::out_of_range, "world",
