@@ -344,3 +344,27 @@ def test_errors_can_be_caught_as_python_does_and_pickled() -> None:
         things.w.stop_recording()
     again = pickle.loads(pickle.dumps(value.value))
     assert (again.code, again.argument, str(again)) == ("not_finite", "position", str(value.value))
+
+
+def test_a_refused_change_through_a_map_leaves_the_motion() -> None:
+    motion = ks.Ballistic([(1, 1, 1)], [(1, 0, 0)])
+    world, bodies = ks.World(box=((0, 0, 0), (9, 9, 9))), ks.BodyMap()
+    ids = bodies.add_all(world, motion, 0.5)
+    with pytest.raises(ks.InvalidValue, match="position of body 0 must lie in the box"):
+        bodies.teleport(world, int(ids[0]), (99, 0, 0), (0, 0, 0))
+    assert np.array_equal(motion.states(0.0)[0], [(1, 1, 1)])
+
+
+def test_a_map_that_served_another_world_since_says_so() -> None:
+    world, other, bodies = ks.World(), ks.World(), ks.BodyMap()
+    bodies.add_all(world, ks.Ballistic([(0, 0, 0), (5, 0, 0)], [(1, 0, 0), (0, 0, 0)]), 0.5)
+    bodies.add_all(other, ks.Ballistic([(0, 9, 0), (5, 0, 0)], [(0, 0, 0), (0, 0, 0)]), 0.5)
+    with pytest.raises(ks.BodyError, match="the map has served another world since"):
+        world.run(10.0, bodies)
+
+
+def test_a_body_that_sleeps_and_moves_on_breaks_its_promise() -> None:
+    motion, world = ks.Ballistic([(0, 0, 0)], [(1, 0, 0)]), ks.World()
+    ids = world.add_motion(motion, 0.5)
+    world.sleep(ids)
+    assert [event.kind for event in world.events(1.0, motion)] == [ks.EventKind.bound_violation]
