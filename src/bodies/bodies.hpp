@@ -99,11 +99,16 @@ class Bodies {
            (!definition_.wall_filter || kinesphere::meets_walls(definition_, filters.of(number)));
   }
 
-  /// Returns the largest acceleration of a point of the body (length / time^2).
+  /// Returns the largest acceleration of a point of the body (length / time^2), with the limits of its
+  /// pending change, if it has one.
   double largest_acceleration(std::uint32_t number) const {
     const Body& body = table_[number];
     const RigidRecord* const turning = rigid.find(body);
-    return body.largest_acceleration() + (turning ? turning->surface_acceleration(body.radius) : 0.0);
+    const Change* const pending = changes.find(body);
+    const double of_position =
+        pending ? pending->limits.acceleration_limit + norm(pending->limits.planned_acceleration)
+                : body.largest_acceleration();
+    return of_position + (turning ? turning->surface_acceleration(body.radius) : 0.0);
   }
 
   /// Returns the contact events that a pair reports; for a body and its walls, `b` is the body again.

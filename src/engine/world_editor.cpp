@@ -74,6 +74,7 @@ void World::WorldEditor::insert_at(std::uint32_t number, const Bound& bound) {
   Body& body = state_.bodies[number];
   body.bound = bound;
   body.relocated = true;
+  if (!body.is_static()) state_.spot_checks.note_arrival(time());
   BroadPhase& windows = state_.broad_phase;
   if (windows.contains(number)) windows.leave(number);
   main_.invalidate(number);
@@ -188,10 +189,7 @@ void World::WorldEditor::set_motion_limits(BodyId id, const MotionLimits& limits
   ChangingRadius* const changing = state_.bodies.radii.find(id.index);
   if (changing && body.enabled && body.fresh(time())) changing->velocity_error = limits.velocity_error;
   if (!body.enabled || !body.fresh(time())) state_.bodies.change_of(id.index).limits = limits;
-  const RigidRecord* const turning = bodies().rigid.find(body);
-  state_.contacts.set_largest_acceleration(id.index,
-                                           limits.acceleration_limit + norm(limits.planned_acceleration) +
-                                               (turning ? turning->surface_acceleration(body.radius) : 0.0));
+  state_.contacts.set_largest_acceleration(id.index, bodies().largest_acceleration(id.index));
 }
 
 void World::WorldEditor::disable(BodyId id) {

@@ -826,6 +826,29 @@ TEST(RigidBodies, EndContactsAsTheyAreTurnedByThen) {
   EXPECT_NEAR(event->gap, point_to_segment({0, 1.5, 0}, {-tip, tip, 0.0}) - 0.2, 1e-12);
 }
 
+/// The limits that a body gets with a new angular velocity hold from then on, also for the Zeno interval.
+TEST(RigidBodies, TakeNewLimitsWithANewAngularVelocity) {
+  for (const bool at_once : {false, true}) {
+    Playground p({.box = Box{{-50, -50, 0}, {50, 50, 4}}});
+    // Under its first limit a hop within the tolerance takes 4 s.
+    const BodyId ball =
+        p.add_rigid_body({.body = {.acceleration_limit = 1e-6, .position = {0, 0, 2}, .velocity = {0, 0, 3}},
+                          .parts = {{{}, {}, 1.0}}});
+    p.run(0.1);
+    BodyChange limits{.motion_limits = MotionLimits{.acceleration_limit = 100.0}};
+    if (at_once) limits.angular_velocity = Vec3{0, 0, 1e-3};
+    p.world.change(ball, limits).value();
+    std::size_t contacts = 0;
+    p.run(3.0, [&](const Event& event) {
+      if (event.kind != EventKind::wall_begin) return;
+      ++contacts;
+      EXPECT_FALSE(event.repeated) << event;
+      p.set_velocity(ball, bounce(event, 1.0).first_velocity);
+    });
+    EXPECT_GE(contacts, 3u);
+  }
+}
+
 TEST(RigidBodies, LieOnAFloorThoughTheBallAroundThemReachesBelow) {
   World world = World::create({.box = Box{{-5, -5, 0}, {5, 5, 9}}, .allow_overlap = false}).value();
   const RigidBody plank{.body = {.position = {0, 0, 0.25}}, .parts = {{{-2, 0, 0}, {2, 0, 0}, 0.25}}};
