@@ -696,7 +696,9 @@ KS_API int32_t ks_probe_motions(const ks_body_id* bodies, size_t count, double t
 KS_API KS_MUST_CHECK ks_status ks_world_advance(ks_world world, double until, ks_probe probe, void* user,
                                                 ks_event* event);
 
-/// Chooses what an event does to its bodies; `response` is ks_new_response() at first. It must give the same
+/// Chooses what an event does to its bodies; `response` is ks_new_response() at first. It is called at every
+/// event, at ends too: look at ks_event::kind first, as velocities that are exchanged at each
+/// KS_EVENT_CONTACT_END turn the two back to each other, for ever. It must give the same
 /// answer for the same event at any time, and must not call the world. With several threads it is called by
 /// several at a time. A number other than 0 stops the run.
 typedef int32_t (*ks_respond)(const ks_event* event, ks_response* response, void* user);

@@ -36,7 +36,8 @@ namespace Kinesphere
         }
 
         /// <summary>Advances to time `until` and answers all events by bouncing, which with a resting speed lets heaps come
-        /// to rest, or by `respond`. Motions must move all
+        /// to rest, or by `respond`. It is called at every event, at ends too: look at Event.Kind first, as velocities that
+        /// are exchanged at each end turn the two back to each other, for ever. Motions must move all
         /// bodies; one that a response removes leaves its motion, too. The sink receives each event, in order, and may read
         /// the world. At an event whose response has Stop the world is at the time of the event, and the sink may change it;
         /// elsewhere such calls throw "run_in_progress", as Advance and Run always do.</summary>

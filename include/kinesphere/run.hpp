@@ -96,10 +96,12 @@ struct Response {
   friend constexpr bool operator==(const Response&, const Response&) = default;
 };
 
-/// Any callable `Response(const Event&)`. It must return the same response for the same event, at any time
-/// and in any thread: several threads may call it concurrently, and again for an event that it has already
-/// handled. It may read data that does not change during the run, such as masses by BodyId::index or by
-/// user data. It must not call the world. It may throw. Lifetimes: as for Probe.
+/// Any callable `Response(const Event&)`. It is called at every event, at ends too, so it looks at
+/// Event::kind first: velocities that are exchanged at a contact_end as well turn the two back to each other,
+/// for ever. bounce() and settle() leave ends as they are. It must return the same response for the same
+/// event, at any time and in any thread: several threads may call it concurrently, and again for an event
+/// that it has already handled. It may read data that does not change during the run, such as masses by
+/// BodyId::index or by user data. It must not call the world. It may throw. Lifetimes: as for Probe.
 using ResponseFn = Callback<Response(const Event& event)>;
 
 /// Any callable `void(const Event&)`. It receives each event once, in the order of events, in the thread

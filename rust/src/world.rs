@@ -150,7 +150,8 @@ pub enum Run<'a> {
         restitution: f64,
         resting_speed: f64,
     },
-    /// The same answer for the same event. With several threads it is called by several at a time.
+    /// The same answer for the same event. It is asked at every event, at ends too: look at `Event::kind` first, as
+    /// velocities that are exchanged at each end turn the two back to each other, for ever. With several threads it is called by several at a time.
     Respond(&'a (dyn Fn(&Event) -> Response + Sync)),
 }
 

@@ -36,7 +36,11 @@ export interface Answer {
   /** Calls `atStop` of the run with this event. */
   stop?: boolean;
 }
-/** Precondition: equal events get equal answers. `bounce` is such a function. */
+/**
+ * Is called at every event, at ends too: look at `event.kind` first, as velocities that are exchanged at each
+ * `contact_end` turn the two back to each other, for ever. Precondition: equal events get equal answers. `bounce` is such
+ * a function, which leaves ends as they are.
+ */
 export type RespondFunction = (event: Event) => Answer | undefined;
 /** What a run may be told besides its motion and its end. */
 export interface RunOptions {
