@@ -12,7 +12,7 @@ namespace kinesphere {
 namespace {
 
 constexpr Envelope envelope{{'K', 'i', 'n', 'e', 'd', 'w', '\r', '\n'},
-                            7,
+                            8,
                             "part of a distributed world",
                             "restore",
                             "parts",
@@ -57,7 +57,8 @@ Result<void> gather_common(Communicator& communicator, std::span<const Checkpoin
   if (!here.empty()) {
     writer(here.size());
     for (const Checkpoint& checkpoint : here) writer(checkpoint.identity, checkpoint.part);
-    writer(here[0].definition, here[0].window_policy, here[0].sensors, here[0].epoch_end);
+    writer(here[0].definition, here[0].window_policy, here[0].sensors, here[0].epoch_end,
+           here[0].spot_checks);
   }
   std::vector<std::uint64_t> found;
   bool of_one_world = true;
@@ -72,7 +73,7 @@ Result<void> gather_common(Communicator& communicator, std::span<const Checkpoin
       of_one_world = of_one_world && (found.size() == 1 || identity == common.identity);
       common.identity = identity;
     }
-    reader(common.definition, common.window_policy, common.sensors, common.epoch_end);
+    reader(common.definition, common.window_policy, common.sensors, common.epoch_end, common.spot_checks);
   }
   std::sort(found.begin(), found.end());
   const bool once = std::adjacent_find(found.begin(), found.end()) == found.end();

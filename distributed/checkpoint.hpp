@@ -19,6 +19,7 @@
 #include "kinesphere/result.hpp"
 #include "kinesphere/world_definition.hpp"
 #include "number/infinity.hpp"
+#include "processor/spot_checks.hpp"
 
 namespace kinesphere {
 
@@ -39,6 +40,7 @@ struct Checkpoint {
   std::vector<std::byte> window_policy{};
   SensorTable sensors{};
   double epoch_end = infinity;
+  SpotChecks spot_checks{};
   // State of this part alone.
   RenewalCounts recertified{};
   Counters counters{};
@@ -47,7 +49,7 @@ struct Checkpoint {
 
   static void serialize(auto& self, auto& archive) {
     archive(self.identity, self.part, self.definition, self.window_policy, self.sensors, self.epoch_end,
-            self.recertified, self.counters, self.hash, self.bodies);
+            self.spot_checks, self.recertified, self.counters, self.hash, self.bodies);
   }
 
   std::vector<std::byte> write() const;

@@ -1,5 +1,6 @@
 #include "distributed/rank_engine.hpp"
 
+#include <algorithm>
 #include <exception>
 #include <string>
 #include <utility>
@@ -7,6 +8,7 @@
 #include "bodies/shaped_body.hpp"
 #include "bodies/validation.hpp"
 #include "distributed/batch_exchange.hpp"
+#include "distributed/guarded.hpp"
 #include "number/infinity.hpp"
 #include "processor/overlaps.hpp"
 
@@ -162,6 +164,9 @@ Result<void> DistributedWorld::RankEngine::go(double until, const OrderedEventFn
     if (rank_.main.epoch_end() <= time()) {
       if (auto started = starts_.start(lease, false, {}); !started) return started;
     }
+    if (rank_.state.spot_checks.next() <= time()) {
+      if (auto checked = spot_check(lease); !checked) return checked;
+    }
     const auto stop = run_batch(until, infinity, runner);
     if (!stop) return stop.error();
     deliver(sink);
@@ -170,10 +175,24 @@ Result<void> DistributedWorld::RankEngine::go(double until, const OrderedEventFn
   return consensus_.agree_on_noted();
 }
 
+/// Checks the first bodies, as World::Engine::end_epoch() does.
+Result<void> DistributedWorld::RankEngine::spot_check(PoolLease& lease) {
+  const std::vector<std::uint32_t> first = rank_.first_bodies();
+  const auto checked = guarded([&] { return rank_.main.spot_check_first(first, lease); });
+  if (auto agreed = agree(checked); !agreed) return agreed;
+  const auto concerned = std::count_if(first.begin(), first.end(), [this](std::uint32_t number) {
+    return SpotChecks::concerns(rank_.bodies()[number]);
+  });
+  const bool any = communicator_.sum(static_cast<std::uint64_t>(concerned)) > 0;
+  rank_.state.spot_checks.note_check(rank_.state.window_policy, time(), any);
+  return {};
+}
+
 /// Recertifies and registers added bodies without advancing time.
 Result<void> DistributedWorld::RankEngine::start_arrivals(PoolLease& lease, SpeculativeRunner& runner) {
   const Arrivals arrivals = starts_.count_arrivals();
   if (arrivals.everywhere == 0) return {};
+  rank_.state.spot_checks.note_arrival(time());
   if (auto unique = agree(names_.check(communicator_)); !unique) return unique;
   if (auto started = starts_.start_with(arrivals, lease); !started) return started;
   if (auto recertified = run_batch(time(), time(), runner); !recertified) return recertified.error();

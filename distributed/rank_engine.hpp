@@ -68,6 +68,7 @@ class DistributedWorld::RankEngine {
   Result<void> check_run(double until, const PoolLease& lease) const;
   Result<void> go(double until, const OrderedEventFn& sink, PoolLease& lease, SpeculativeRunner& runner);
   Result<void> start_arrivals(PoolLease& lease, SpeculativeRunner& runner);
+  Result<void> spot_check(PoolLease& lease);
   Result<double> run_batch(double until, double latest, SpeculativeRunner& runner);
   void deliver(const OrderedEventFn& sink);
   Result<void> resume(const Checkpoint& common, std::vector<Checkpoint>& parts);

@@ -21,6 +21,7 @@ Result<std::vector<std::byte>> DistributedWorld::RankEngine::save() {
   checkpoint.window_policy = window_policy.take();
   checkpoint.sensors = rank_.bodies().sensors;
   checkpoint.epoch_end = rank_.main.epoch_end();
+  checkpoint.spot_checks = rank_.state.spot_checks;
   checkpoint.recertified = rank_.main.work().recertified;
   checkpoint.counters = counters();
   checkpoint.hash = hash_.parts();
@@ -56,6 +57,7 @@ Result<std::unique_ptr<DistributedWorld::RankEngine>> DistributedWorld::RankEngi
 Result<void> DistributedWorld::RankEngine::resume(const Checkpoint& common, std::vector<Checkpoint>& parts) {
   rank_.main.advance_clock(common.identity.time);
   rank_.main.begin_epoch(common.epoch_end);
+  rank_.state.spot_checks = common.spot_checks;
   auto valid = read_window_policy(common.window_policy, rank_.state.window_policy);
   rank_.bodies().sensors = common.sensors;
   std::vector<BodyMessage> messages;

@@ -26,7 +26,9 @@ struct State {
 struct BodyDefinition {
   /// Radius r >= 0 (length).
   double radius = 1.0;
-  /// A >= 0 (length / time^2): the largest deviation from the planned acceleration; 0 for a ballistic body.
+  /// A >= 0 (length / time^2): the largest deviation from the planned acceleration; 0 for a ballistic body. A
+  /// body with limit 0 that accelerates breaks its promise. It is seldom probed, and contacts are missed
+  /// until spot checks report it as bound_violation (docs/guarantee.md).
   double acceleration_limit = 0.0;
   /// g (length / time^2): known acceleration, such as gravity or a flight plan; zero if unknown.
   Vec3 planned_acceleration{};

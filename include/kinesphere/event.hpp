@@ -10,8 +10,9 @@ namespace kinesphere {
 
 /// Kinds of events. The order of the enumerators is the order of delivery within one instant.
 enum class EventKind : std::uint8_t {
-  /// A probed state contradicts the motion limits of its body. The world continues from the new report;
-  /// certificates since the previous report may have been wrong.
+  /// A probed state contradicts the motion limits of its body: its limit is too small, gravity or a change of
+  /// velocity was not declared, or the velocity is not that of the position. The world continues from the new
+  /// report; certificates since the previous report may have been wrong.
   bound_violation,
   /// Two bodies begin to touch: their gap has shrunk to at most the contact tolerance. Or two bodies that
   /// have not separated since approach again (Event::already_touching): an approach is reported once, and

@@ -16,7 +16,10 @@ std::optional<BoundViolation> bound_violation(const Bound& before, const Bound& 
   const double position_slack = contact_tolerance / 16.0;
   const double deviation = norm(way);
   const double change = norm(turn);
-  const double velocity_slack = 0x1p-30 * (norm(after.velocity) + norm(expected) + change_limit);
+  // At the top of a throw the expected velocity is the difference of two larger ones.
+  const double expected_terms =
+      new_velocity ? norm(*new_velocity) : norm(before.velocity) + norm(before.planned_acceleration) * s;
+  const double velocity_slack = 0x1p-30 * (norm(after.velocity) + expected_terms + change_limit);
   const bool left = deviation > deviation_limit + position_slack;
   const bool jumped = change > change_limit + velocity_slack;
   if (!left && !jumped) return std::nullopt;

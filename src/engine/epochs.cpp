@@ -1,5 +1,6 @@
 // Epochs: windows end, and new windows start for their bodies, or for all bodies if many were relocated.
 #include <algorithm>
+#include <numeric>
 
 #include "engine/engine.hpp"
 #include "number/infinity.hpp"
@@ -79,14 +80,26 @@ std::vector<std::uint32_t> World::Engine::take_slow(std::vector<std::uint32_t>& 
   return taken;
 }
 
-/// Does what is due of the preparation of the next start, and starts windows at the end of the epoch.
+/// Does what is due of the preparation of the next start, starts windows at the end of the epoch, and checks
+/// the first bodies when that is due.
 Result<void> World::Engine::end_epoch(PoolLease& lease) {
   while (prepared_ && prepared_->next_slice() <= time()) {
     if (auto done = prepared_->prepare_slice({state_, main_, lease, found_}); !done) return done;
     main_.set_next_slice(prepared_->next_slice());
     if (prepared_->is_done()) plan_next_start();
   }
-  return main_.epoch_end() <= time() ? start_windows(lease, false) : Result<void>();
+  if (main_.epoch_end() <= time()) {
+    if (auto started = start_windows(lease, false); !started) return started;
+  }
+  if (state_.spot_checks.next() > time()) return {};
+  std::vector<std::uint32_t> first(std::min(bodies().numbers(), SpotChecks::first_names));
+  std::iota(first.begin(), first.end(), 0u);
+  if (auto checked = main_.spot_check_first(first, lease); !checked) return checked;
+  const bool any = std::any_of(first.begin(), first.end(), [this](std::uint32_t number) {
+    return SpotChecks::concerns(bodies()[number]);
+  });
+  state_.spot_checks.note_check(state_.window_policy, time(), any);
+  return {};
 }
 
 /// Prepares the next start of most bodies from now on, if they are many.

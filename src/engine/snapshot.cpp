@@ -39,7 +39,7 @@ template <class Self, class Archive>
 void World::Engine::serialize(Self& self, Archive& archive) {
   // The definition comes first, since an engine is constructed from it. The tag is omitted (BodyId::world).
   archive(self.state_.bodies, self.state_.contacts, self.state_.broad_phase, self.state_.window_policy,
-          self.main_);
+          self.state_.spot_checks, self.main_);
   if constexpr (std::is_const_v<Self>) {
     archive(self.prepared_.has_value());
   } else {

@@ -2,7 +2,9 @@
 // they changed are recertified before time advances.
 #include "processor/event_processor.hpp"
 
+#include <algorithm>
 #include <cassert>
+#include <iterator>
 
 #include "archive/heap_counter.hpp"
 #include "processor/sleeping.hpp"
@@ -66,6 +68,13 @@ std::optional<Event> EventProcessor::pop() {
   return event;
 }
 
+/// Counts probes. They are counted first, so that a probe that throws leaves the same state as one that gives
+/// no answer.
+void EventProcessor::note_probes(std::span<const std::uint32_t> numbers, ProbeCause cause) {
+  work_.counters.probes += numbers.size();
+  if (reports_.profile() != nullptr) reports_.profile()->note_probes(bodies().table(), numbers, cause);
+}
+
 Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers, ProbeCause cause) {
   PoolLease alone;
   return probe(numbers, cause, alone);
@@ -73,9 +82,7 @@ Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers, Probe
 
 Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers, ProbeCause cause,
                                    PoolLease& lease) {
-  // Probes are counted first, so that a probe that throws leaves the same state as one that gives no answer.
-  work_.counters.probes += numbers.size();
-  if (reports_.profile() != nullptr) reports_.profile()->note_probes(bodies().table(), numbers, cause);
+  note_probes(numbers, cause);
   if (log_)
     for (const std::uint32_t number : numbers) log_->note_change(number, time_);
   const auto broken = reports_.take(bodies(), time_, numbers, lease);
@@ -97,6 +104,24 @@ Result<bool> EventProcessor::probe_stale(std::span<const std::uint32_t> numbers,
   if (stale.empty()) return false;
   if (auto probed = probe(stale, cause, lease); !probed) return probed.error();
   return true;
+}
+
+Result<void> EventProcessor::spot_check(std::span<const std::uint32_t> numbers, PoolLease& lease) {
+  if (numbers.empty()) return {};
+  note_probes(numbers, ProbeCause::window);
+  const auto broken = reports_.contradicted(bodies(), time_, numbers, lease);
+  if (!broken) return broken.error();
+  for (const std::uint32_t number : *broken) dirty_.add(bodies(), number);
+  return {};
+}
+
+Result<void> EventProcessor::spot_check_first(std::span<const std::uint32_t> first, PoolLease& lease) {
+  const SpotChecks& checks = state_->spot_checks;
+  std::vector<std::uint32_t> due;
+  std::copy_if(first.begin(), first.end(), std::back_inserter(due), [&](std::uint32_t number) {
+    return SpotChecks::may_check(bodies()[number], time_) && checks.is_due(bodies()[number], time_);
+  });
+  return spot_check(due, lease);
 }
 
 void EventProcessor::invalidate(std::uint32_t number) {

@@ -145,6 +145,11 @@ class alignas(128) EventProcessor {
   Result<void> probe(std::span<const std::uint32_t> numbers, ProbeCause cause, PoolLease& lease);
   /// Probes the enabled bodies whose state at the current time is unknown. Returns true if there were any.
   Result<bool> probe_stale(std::span<const std::uint32_t> numbers, ProbeCause cause, PoolLease& lease);
+  /// Probes exact bodies, for which SpotChecks::may_check(). The reports change nothing, but a body whose
+  /// report violates its bound becomes dirty, so that recertify() probes it.
+  Result<void> spot_check(std::span<const std::uint32_t> numbers, PoolLease& lease);
+  /// Checks as above those of `first` that are due. Precondition: SpotChecks::next() has come.
+  Result<void> spot_check_first(std::span<const std::uint32_t> first, PoolLease& lease);
 
   /// Starts the execution of a cluster at the start of its batch. Its initial work is certificates that are
   /// due, bodies to recertify first, and events that are known already.
@@ -156,9 +161,9 @@ class alignas(128) EventProcessor {
   /// one by one, for which the queue contains window_end certificates.
   double epoch_end() const { return epoch_end_; }
   void begin_epoch(double end) { epoch_end_ = end; }
-  /// Time before which certificates are processed without a pause: the end of the epoch, or the next slice of
-  /// a prepared start, whichever is earlier.
-  double pause() const { return std::min(epoch_end_, next_slice_); }
+  /// Time before which certificates are processed without a pause: the end of the epoch, the next slice of a
+  /// prepared start or the next spot check, whichever is earliest.
+  double pause() const { return std::min({epoch_end_, next_slice_, state_->spot_checks.next()}); }
   double next_slice() const { return next_slice_; }
   void set_next_slice(double time) { next_slice_ = time; }
 
@@ -178,6 +183,7 @@ class alignas(128) EventProcessor {
   ContactGraph& contacts() { return state_->contacts; }
   const ContactGraph& contacts() const { return state_->contacts; }
 
+  void note_probes(std::span<const std::uint32_t> numbers, ProbeCause cause);
   void turn_reported(std::uint32_t number);
   void recertify_changed(std::uint32_t a, std::uint32_t b);
   Result<void> recertify_dirty();

@@ -76,6 +76,24 @@ Result<std::span<const Reports::Violation>> Reports::take(Bodies& bodies, double
   return std::span<const Violation>(violations_);
 }
 
+Result<std::vector<std::uint32_t>> Reports::contradicted(const Bodies& bodies, double time,
+                                                         std::span<const std::uint32_t> numbers,
+                                                         PoolLease& lease) {
+  ask_for(bodies, time, numbers, lease);
+  std::vector<std::uint32_t> broken;
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    if (auto valid = check_report(states_[k], ids_[k], time, bodies.definition(), call_); !valid)
+      return valid.error();
+    const Body& body = bodies[numbers[k]];
+    Bound after = body.bound;
+    restart(after, time, states_[k]);
+    after.position += bodies.space().shift_to_nearest(after.position, body.bound.centre_at(time));
+    if (bound_violation(body.bound, after, body.radius, {}, bodies.definition().contact_tolerance))
+      broken.push_back(numbers[k]);
+  }
+  return broken;
+}
+
 /// Probes one or two bodies, as nearly all calls do. Applies the reports if they are valid, keep the limits
 /// of the bodies, and change nothing but their bounds and known rotations, as nearly all do. Otherwise keeps
 /// them, and returns false.

@@ -42,6 +42,10 @@ class Reports {
   /// Errors: an invalid state; then all bounds are unchanged.
   Result<std::span<const Violation>> take(Bodies& bodies, double time, std::span<const std::uint32_t> numbers,
                                           PoolLease& lease);
+  /// Probes exact bodies as take() does, without changing anything. Returns those whose reports violate their
+  /// bounds. Errors: an invalid state.
+  Result<std::vector<std::uint32_t>> contradicted(const Bodies& bodies, double time,
+                                                  std::span<const std::uint32_t> numbers, PoolLease& lease);
   std::size_t bytes() const;
 
  private:

@@ -45,17 +45,30 @@ void WindowStart::choose_policy(const MotionStatistics& statistics) {
 }
 
 Result<void> WindowStart::refresh(std::span<const std::uint32_t> ending) {
+  enum : std::uint8_t { unasked, asked, checked };
   const WindowChoice choice(state_, time_);
-  std::vector<std::uint8_t> is_asked(ending.size());
+  const auto turn = SpotChecks::turn(state_.window_policy, time_);
+  const auto is_checked = [&](std::uint32_t number) {
+    return turn && (bodies().table().name_of(number) + *turn) % SpotChecks::windows_between == 0 &&
+           SpotChecks::may_check(bodies()[number], main_.time());
+  };
+  std::vector<std::uint8_t> needs(ending.size());
   lease_.parallel_for(ending.size(), bodies_at_once, [&](std::size_t from, std::size_t to, std::size_t) {
-    for (std::size_t k = from; k < to; ++k)
-      is_asked[k] = !bodies()[ending[k]].dirty && choice.needs_report(ending[k], main_.time()) ? 1 : 0;
+    for (std::size_t k = from; k < to; ++k) {
+      if (bodies()[ending[k]].dirty) continue;
+      if (choice.needs_report(ending[k], main_.time())) {
+        needs[k] = asked;
+      } else if (is_checked(ending[k])) {
+        needs[k] = checked;
+      }
+    }
   });
-  std::vector<std::uint32_t> asked;
+  std::vector<std::uint32_t> to_ask;
+  std::vector<std::uint32_t> to_check;
   for (std::size_t k = 0; k < ending.size(); ++k)
-    if (is_asked[k] != 0) asked.push_back(ending[k]);
-  if (asked.empty()) return {};
-  return main_.probe(asked, ProbeCause::window, lease_);
+    if (needs[k] != unasked) (needs[k] == asked ? to_ask : to_check).push_back(ending[k]);
+  if (auto done = main_.spot_check(to_check, lease_); !done || to_ask.empty()) return done;
+  return main_.probe(to_ask, ProbeCause::window, lease_);
 }
 
 std::vector<BroadPhase::Starter> WindowStart::choose_windows(std::span<const std::uint32_t> numbers,

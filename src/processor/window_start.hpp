@@ -35,8 +35,8 @@ class WindowStart {
   /// Chooses the window policy. Most bodies travel about a quarter of their spacing in the first main window.
   void choose_policy(const MotionStatistics& statistics);
 
-  /// Probes now the bodies that will start, if a larger swept sphere would cost more than a report. Errors:
-  /// those of probe().
+  /// Probes now the bodies that will start, if a larger swept sphere would cost more than a report, and
+  /// checks those whose turn it is (SpotChecks). Errors: those of probe().
   Result<void> refresh(std::span<const std::uint32_t> ending);
   /// Returns windows for bodies that have none, of rungs other than `held` (Window::free_at). A body for
   /// which there is no window is omitted and marked dirty.

@@ -5,6 +5,7 @@
 #include "broadphase/broad_phase.hpp"
 #include "broadphase/window_policy.hpp"
 #include "contact/contact_graph.hpp"
+#include "processor/spot_checks.hpp"
 
 namespace kinesphere {
 
@@ -19,6 +20,7 @@ struct WorldState {
   ContactGraph contacts;
   BroadPhase broad_phase;
   WindowPolicy window_policy;
+  SpotChecks spot_checks;
 };
 
 }  // namespace kinesphere

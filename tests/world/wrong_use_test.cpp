@@ -189,7 +189,7 @@ TEST_F(WrongUse, 27_AnEmptyFunctionAsProbe) {
 
 TEST_F(WrongUse, 28_AProbeThatForgetsToAnswer) {
   expect_error(world.advance(20.0, [](auto, double, auto) {}), ErrorCode::not_finite, "position",
-               "advance:", other);
+               "advance:", ball);
 }
 
 TEST_F(WrongUse, 29_AProbeThatAnswersNaN) {
@@ -197,7 +197,7 @@ TEST_F(WrongUse, 29_AProbeThatAnswersNaN) {
     motion.probe()(ids, time, states);
     states[0].velocity.y = nan;
   };
-  expect_error(world.advance(20.0, wild), ErrorCode::not_finite, "velocity", "advance:", other);
+  expect_error(world.advance(20.0, wild), ErrorCode::not_finite, "velocity", "advance:", ball);
   EXPECT_TRUE(world.advance(20.0, motion.probe())) << "and the call may be repeated";
 }
 
