@@ -2,6 +2,7 @@
 // meet or separate no earlier than certified.
 #include <gtest/gtest.h>
 
+#include "bound/bound_violation.hpp"
 #include "support/bound_checks.hpp"
 
 namespace kinesphere::bound_violation_test {
@@ -212,6 +213,18 @@ TEST(PromiseOnALine, is_used_up_by_the_worst_behaviour) {
     ASSERT_NEAR(gap, 0.0, 1e-8 * (1.0 + until * until)) << "seed " << seed << ", case " << k;
     ASSERT_GE(gap, 0.0) << "seed " << seed << ", case " << k;
   }
+}
+
+/// At the top of a throw the velocity that is left is the rounding of the two that cancel.
+TEST(BoundViolations, AllowForTheRoundingOfAPlannedVelocity) {
+  const Bound before{.velocity = {0, 0, 9.81}, .planned_acceleration = {0, 0, -9.81}};
+  Bound after = before;
+  after.time = 1.0;
+  after.position = {0, 0, 4.905};
+  after.velocity = {0, 0, 1e-14};
+  EXPECT_FALSE(bound_violation(before, after, 0.0, {}, 1e-6));
+  after.velocity = {0, 0, 1e-6};
+  EXPECT_TRUE(bound_violation(before, after, 0.0, {}, 1e-6));
 }
 
 }  // namespace
