@@ -336,9 +336,11 @@ def test_busiest_names_what_costs_probes_and_why() -> None:
 
     world.run(0.2, probe)
     busiest = world.busiest()
-    assert sorted(one.body for one in busiest) == balls
-    assert far in world and far not in [one.body for one in busiest]
-    assert {one.reason for one in busiest} == {"touching"} and "sleep" in busiest[0].advice
+    *touching, seldom = busiest
+    assert sorted(one.body for one in touching) == balls
+    # The far one promises to stay where it is: spot checks alone ask about it.
+    assert seldom.body == far and seldom.window == seldom.probes <= 5
+    assert {one.reason for one in touching} == {"touching"} and "sleep" in busiest[0].advice
     assert busiest[0].touching > 100 and busiest[0].acceleration_limit == 10.0
     assert busiest[0].largest_acceleration == 0.0
     assert sum(one.probes for one in busiest) == world.counters.probes

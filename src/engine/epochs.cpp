@@ -91,7 +91,8 @@ Result<void> World::Engine::end_epoch(PoolLease& lease) {
   if (main_.epoch_end() <= time()) {
     if (auto started = start_windows(lease, false); !started) return started;
   }
-  if (state_.spot_checks.next() > time()) return {};
+  // Bodies that have arrived enter their windows first: the window policy says when they are checked.
+  if (state_.spot_checks.next() > time() || !main_.is_recertified()) return {};
   std::vector<std::uint32_t> first(std::min(bodies().numbers(), SpotChecks::first_names));
   std::iota(first.begin(), first.end(), 0u);
   if (auto checked = main_.spot_check_first(first, lease); !checked) return checked;

@@ -9,9 +9,11 @@ void Sleeping::sleep(std::uint32_t number) {
   Body& body = bodies()[number];
   if (body.is_sleeping()) return;
   const MotionLimits limits = motion_limits_of(bodies().definition_of(number));
-  // A report of now that has a velocity is not believed: the next advance asks whether the body stands still.
-  const bool known = body.bound.time == processor_.time() && body.bound.velocity == Vec3{};
+  // A body with a velocity in a report of now stops; the next advance asks whether it does.
+  const bool is_fresh = body.bound.time == processor_.time();
+  const bool known = is_fresh && body.bound.velocity == Vec3{};
   if (!known) bodies().change_of(number).velocity = Vec3{};
+  if (is_fresh) body.bound.velocity = {};
   bodies().sleep_records.add(body, {number, limits});
   if (known) body.stand_still();
   state_.contacts.turn_reported(number);

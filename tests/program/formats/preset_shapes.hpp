@@ -69,6 +69,9 @@ constexpr PresetShape preset_shapes[] = {
      "LABEL,ID,TRACK_ID,POSITION_X,POSITION_Y,POSITION_Z,POSITION_T,FRAME\n"
      "Label,Spot ID,Track ID,X,Y,Z,T,Frame\n,,,(micron),(micron),(micron),(sec),\n",
      "ID1,1,{id},{x},{y},0,{s},{frame}\n", 1e-6, no_heights, "", false, "ID1,1,,0,0,0,{s},{frame}\n"},
+    {"imaris", "Position X,Position Y,Position Z,Unit,Category,Collection,Time,TrackID,ID\n",
+     "{x},{y},0,um,Spot,Position,{frame},{id},1\n", 1e-6, no_heights, "25", false,
+     "0,0,0,um,Spot,Position,{frame},,2\n"},
     {"nfl", "time,x,y,s,event,nflId,displayName,frame.id,gameId,playId\n",
      "{date}Z,{x},{y},0,NA,{id},p,{frame},1,1\n", 0.9144, no_heights, "", false,
      "{date}Z,0,0,0,NA,NA,ball,{frame},1,1\n"},
