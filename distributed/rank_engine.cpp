@@ -192,7 +192,7 @@ Result<void> DistributedWorld::RankEngine::spot_check(PoolLease& lease) {
 Result<void> DistributedWorld::RankEngine::start_arrivals(PoolLease& lease, SpeculativeRunner& runner) {
   const Arrivals arrivals = starts_.count_arrivals();
   if (arrivals.everywhere == 0) return {};
-  rank_.state.spot_checks.note_arrival(time());
+  if (arrivals.has_first) rank_.state.spot_checks.note_arrival(time());
   if (auto unique = agree(names_.check(communicator_)); !unique) return unique;
   if (auto started = starts_.start_with(arrivals, lease); !started) return started;
   if (auto recertified = run_batch(time(), time(), runner); !recertified) return recertified.error();

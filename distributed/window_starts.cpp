@@ -5,17 +5,22 @@
 
 #include "archive/archive.hpp"
 #include "distributed/guarded.hpp"
+#include "processor/spot_checks.hpp"
 
 namespace kinesphere {
 
 Arrivals WindowStarts::count_arrivals() {
   std::vector<std::uint32_t> arrived = rank_.main.dirty().arrivals(rank_.bodies());
+  const auto first = std::count_if(arrived.begin(), arrived.end(), [this](std::uint32_t number) {
+    return rank_.bodies().table().name_of(number) < SpotChecks::first_names &&
+           !rank_.bodies()[number].is_static();
+  });
   std::uint64_t sums[] = {arrived.size(), rank_.own_registered(), rank_.own_moving(),
-                          rank_.bodies().are_balls() ? 0u : 1u};
+                          rank_.bodies().are_balls() ? 0u : 1u, static_cast<std::uint64_t>(first)};
   communicator_.sum(sums);
   // What is certified of two balls depends on whether all bodies of the world are balls.
   if (sums[3] > 0) rank_.bodies().rigid.note_elsewhere();
-  return {std::move(arrived), sums[0], sums[1], sums[2]};
+  return {std::move(arrived), sums[0], sums[1], sums[2], sums[4] > 0};
 }
 
 Result<void> WindowStarts::start_with(const Arrivals& arrivals, PoolLease& lease) {

@@ -45,6 +45,10 @@ Result<bool> World::Engine::prepare_batch(const Probe& probe, PoolLease& lease) 
     }
   }
   if (auto recertified = recertify(lease); !recertified) return recertified.error();
+  if (main_.pause() <= time()) {
+    // A spot check waits until all is recertified.
+    if (auto checked = end_epoch(lease); !checked) return checked.error();
+  }
   return main_.is_certified();
 }
 

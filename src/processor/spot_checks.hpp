@@ -32,7 +32,7 @@ class SpotChecks {
     return concerns(body) && !body.dirty && body.change_number == Body::none && !body.fresh(time);
   }
 
-  /// Notes that a body was added, teleported or enabled.
+  /// Notes that one of the first bodies was added, teleported or enabled.
   void note_arrival(double time) { arrived_ = next_ = time; }
   /// Returns when the first bodies are to be checked next.
   double next() const { return next_; }
