@@ -339,7 +339,7 @@ def test_busiest_names_what_costs_probes_and_why() -> None:
     *touching, seldom = busiest
     assert sorted(one.body for one in touching) == balls
     # The far one promises to stay where it is: spot checks alone ask about it.
-    assert seldom.body == far and seldom.window == seldom.probes <= 5
+    assert seldom.body == far and seldom.windows == seldom.probes <= 5
     assert {one.reason for one in touching} == {"touching"} and "sleep" in busiest[0].advice
     assert busiest[0].touching > 100 and busiest[0].acceleration_limit == 10.0
     assert busiest[0].largest_acceleration == 0.0

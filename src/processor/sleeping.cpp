@@ -10,10 +10,9 @@ void Sleeping::sleep(std::uint32_t number) {
   if (body.is_sleeping()) return;
   const MotionLimits limits = motion_limits_of(bodies().definition_of(number));
   // A body with a velocity in a report of now stops; the next advance asks whether it does.
-  const bool is_fresh = body.bound.time == processor_.time();
-  const bool known = is_fresh && body.bound.velocity == Vec3{};
+  const bool known = body.fresh(processor_.time()) && body.bound.velocity == Vec3{};
   if (!known) bodies().change_of(number).velocity = Vec3{};
-  if (is_fresh) body.bound.velocity = {};
+  if (body.bound.time == processor_.time()) body.bound.velocity = {};
   bodies().sleep_records.add(body, {number, limits});
   if (known) body.stand_still();
   state_.contacts.turn_reported(number);
