@@ -19,6 +19,9 @@ function(kinesphere_compile target)
   # on compiler, optimisation level and machine. Users of the library need no such flag: nothing that they compile from
   # its headers computes results (see vec3.hpp).
   target_compile_options(${target} PRIVATE -ffp-contract=off)
+  if(NOT KINESPHERE_WARNINGS AND NOT KINESPHERE_WERROR)
+    return()
+  endif()
   # Designated initialisers that leave the other members at their defaults are the style of the library, so
   # they get no warning.
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion

@@ -21,7 +21,7 @@ class SourceDistribution(sdist):
 
     def make_release_tree(self, base_dir: str, files: Any) -> None:
         super().make_release_tree(base_dir, files)
-        for part in ["include", "src", "simulation", "cmake", "CMakeLists.txt", "LICENSE"]:
+        for part in ["include", "src", "toolkit", "simulation", "cmake", "CMakeLists.txt", "LICENSE"]:
             target = Path(base_dir) / "library" / part
             if (library / part).is_dir():
                 shutil.copytree(library / part, target)

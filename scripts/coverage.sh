@@ -9,5 +9,5 @@ build=build/coverage
 mkdir -p "$build/report"
 find "$build" -name "*.gcda" -delete
 KINESPHERE_PRESET=coverage scripts/test.sh "$@"
-gcovr --root . --filter src/ --filter distributed/ --filter include/ --filter simulation/ --filter programs/ --exclude-throw-branches \
+gcovr --root . --filter src/ --filter toolkit/ --filter distributed/ --filter include/ --filter simulation/ --filter programs/ --exclude-throw-branches \
   --html-details "$build/report/index.html" --print-summary "$build/src" "$build/distributed" "$build/simulation" "$build/programs" "$build/tests"

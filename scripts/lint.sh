@@ -12,27 +12,29 @@ build=build/lint
 part=${1:-all}
 if [[ ! $part =~ ^(all|text|research)$ ]]; then echo "lint: usage: lint.sh [text | research]" >&2 && exit 2; fi
 
-find include src distributed c simulation programs research browser/module python/module examples tests \( -name '*.[ch]' -o -name '*.[ch]pp' \) \
+find include src toolkit distributed c simulation programs research browser/module python/module examples tests \( -name '*.[ch]' -o -name '*.[ch]pp' \) \
   -print0 | xargs -0 clang-format --dry-run -Werror
 /usr/bin/black --config python/pyproject.toml --quiet --diff --check python docs scripts packaging
 
 scripts/set_version.sh
 
-if grep -rn '#include ["<]\(simulation\|research\)/' include examples src distributed c ||
+if grep -rn '#include ["<]\(simulation\|research\)/' include examples src toolkit distributed c ||
   grep -rn '#include ["<]research/' simulation programs browser python tests; then
   echo "lint: the library may not include simulation/, and nothing but research/ itself may include research/" >&2
   exit 1
 fi
-if grep -rn '#include ["<]kinesphere\.h[">]' include src distributed simulation programs research browser python; then
+if grep -rn '#include ["<]kinesphere\.h[">]' include src toolkit distributed simulation programs research browser python; then
   echo "lint: the C interface is for users; nothing here but c/ and its examples and tests may include it" >&2
   exit 1
 fi
 
-# The folders of src, in the order of docs/architecture.md: each includes only those before it.
-rooms=(number input archive parallel bound space placement broadphase contact bodies processor speculation engine query
-  monitor paths recording world motion)
-if ! diff <(printf '%s\n' "${rooms[@]}" | sort) <(basename -a src/*/ | sort); then
-  echo "lint: scripts/lint.sh and docs/architecture.md must list all folders of src" >&2
+# The folders of src and then of toolkit, in the order of docs/architecture.md: each includes only those before it.
+engine=(number input archive parallel bound space broadphase contact bodies processor speculation engine query recording
+  world)
+toolkit=(placement motion paths monitor)
+if ! diff <(printf '%s\n' "${engine[@]}" | sort) <(basename -a src/*/ | sort) ||
+  ! diff <(printf '%s\n' "${toolkit[@]}" | sort) <(basename -a toolkit/*/ | sort); then
+  echo "lint: scripts/lint.sh and docs/architecture.md must list all folders of src and toolkit" >&2
   exit 1
 fi
 # Usage: includes_only_earlier <folder> <prefix of its rooms in includes> <room>...
@@ -47,26 +49,32 @@ includes_only_earlier() {
     fi
   done
 }
-includes_only_earlier src '' "${rooms[@]}"
-if grep -rnE '#include "distributed/' src simulation c programs/kinesphere; then
+includes_only_earlier src '' "${engine[@]}"
+includes_only_earlier toolkit '' "${toolkit[@]}"
+of_toolkit=$(IFS='|' && echo "${toolkit[*]}")
+if grep -rnE "#include \"($of_toolkit)/" src distributed; then
+  echo "lint: src is the engine and knows nothing of toolkit, which stands on it" >&2
+  exit 1
+fi
+if grep -rnE '#include "distributed/' src toolkit simulation c programs/kinesphere; then
   echo "lint: distributed/ is for worlds over MPI; the library and its other users may not include it" >&2
   exit 1
 fi
 includes_only_earlier programs/kinesphere '' base formats serving scenes tracks view watch
 includes_only_earlier programs/kinesphere/formats formats/ fields nmea tables converted streams
-beyond_input=$(IFS='|' && echo "${rooms[*]:2}")
-if grep -rnE "#include \"($beyond_input|distributed)/" c; then
+beyond_input=$(IFS='|' && echo "${engine[*]:2}")
+if grep -rnE "#include \"($beyond_input|$of_toolkit|distributed)/" c; then
   echo "lint: of src, c/ may include number/ and input/ alone" >&2
   exit 1
 fi
 
-if grep -rnE '#include .*\.cpp[">]' include src distributed c simulation programs research browser python/module examples; then
+if grep -rnE '#include .*\.cpp[">]' include src toolkit distributed c simulation programs research browser python/module examples; then
   echo "lint: a source includes another" >&2
   exit 1
 fi
 
 # Functions that IEEE 754 does not round correctly, of which each machine has its own; plain_gap.cpp is for audits alone.
-if grep -rnE 'std::(a?(sin|cos|tan)h?|atan2|exp(2|m1)?|log(2|10|1p)?|pow|cbrt|hypot|fma|[lt]gamma|erfc?)\(' src distributed include \
+if grep -rnE 'std::(a?(sin|cos|tan)h?|atan2|exp(2|m1)?|log(2|10|1p)?|pow|cbrt|hypot|fma|[lt]gamma|erfc?)\(' src toolkit distributed include \
   --exclude=plain_gap.cpp; then
   echo "lint: results of the library must be equal on every machine; src/number/angles.hpp has sines" >&2
   exit 1
@@ -101,7 +109,7 @@ if command -v mpicxx >/dev/null && find /usr/include /usr/local/include -name zo
 if [[ $mpi == OFF ]]; then echo "lint: without MPI and Zoltan, so clang-tidy leaves out distributed"; fi
 for batch in target file; do
   cmake -S . -B "$build/$batch" -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
-    -DCMAKE_CXX_FLAGS_RELEASE=-O3 -DKINESPHERE_BATCH=$batch -DKINESPHERE_BUILD_PROGRAM=ON -DKINESPHERE_BUILD_RESEARCH=ON \
+    -DCMAKE_CXX_FLAGS_RELEASE=-O3 -DKINESPHERE_WARNINGS=ON -DKINESPHERE_BATCH=$batch -DKINESPHERE_BUILD_PROGRAM=ON -DKINESPHERE_BUILD_RESEARCH=ON \
     -DKINESPHERE_BUILD_MPI=$mpi -DKINESPHERE_BUILD_C=ON >"$build/lint.log" 2>&1 ||
     { cat "$build/lint.log"; exit 1; }
 done
@@ -123,7 +131,7 @@ for source in "${sources[@]}"; do check -p "$build/target" $batches "$source"; d
 # The check that skips included batches, classes and functions.
 using() { grep -rlE '^using [^=]*::[^=]*;' "$@" --include='*.cpp' || true; }
 unused=-checks=-*,misc-unused-using-decls
-if [[ $part == research ]]; then folders=(research); else folders=(src distributed c simulation programs examples); fi
+if [[ $part == research ]]; then folders=(research); else folders=(src toolkit distributed c simulation programs examples); fi
 for source in $(using "${folders[@]}"); do check -p "$build/file" "$unused" "$source"; done
 
 check_examples() {
@@ -144,7 +152,7 @@ check_browser() {
   local sysroot=/usr/share/emscripten/cache/sysroot
   if [[ ! -d $sysroot ]]; then echo "lint: without emscripten, so clang-tidy leaves out browser/module" && return; fi
   local wasm=(-target wasm32-unknown-emscripten --sysroot=$sysroot -isystem $sysroot/include/c++/v1 -std=c++20 -I.
-    -Iinclude -Isrc -I"$build/target/include")
+    -Iinclude -Isrc -Itoolkit -I"$build/target/include")
   printf "#include \"$PWD/%s\"\n" browser/module/*.cpp >"$build/faces.cpp"
   check $batches "$build/faces.cpp" -- "${wasm[@]}"
   for source in $(using browser/module); do check "$unused" "$source" -- "${wasm[@]}"; done

@@ -12,7 +12,7 @@ build=build/mutants/build
 scripts/setup.sh test
 rm -rf "$copy"
 mkdir -p "$copy"
-git ls-files -z CMakeLists.txt cmake include src distributed simulation research tests | xargs -0 cp --parents -t "$copy"
+git ls-files -z CMakeLists.txt cmake include src toolkit distributed simulation research tests | xargs -0 cp --parents -t "$copy"
 cmake -S "$copy" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O1 \
   -DKINESPHERE_BUILD_TESTS=ON -DKINESPHERE_BUILD_MPI=ON -DKINESPHERE_BUILD_RESEARCH=ON >/dev/null
 

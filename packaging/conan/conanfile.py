@@ -25,7 +25,7 @@ class Kinesphere(ConanFile):
 
     def export_sources(self):
         root = Path(self.recipe_folder).parents[1]
-        for pattern in ("CMakeLists.txt", "LICENSE", "cmake/*", "include/*", "src/*"):
+        for pattern in ("CMakeLists.txt", "LICENSE", "cmake/*", "include/*", "src/*", "toolkit/*"):
             copy(self, pattern, root, self.export_sources_folder)
 
     def layout(self):
