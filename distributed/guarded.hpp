@@ -11,7 +11,8 @@ namespace kinesphere {
 /// Returns the result of f(), or callback_threw if f() throws. The error of a BadResult keeps its argument
 /// and body.
 template <class F>
-Result<void> guarded(F f) {
+auto guarded(F f)
+    -> std::conditional_t<std::is_void_v<std::invoke_result_t<F>>, Result<void>, std::invoke_result_t<F>> {
   try {
     if constexpr (std::is_void_v<std::invoke_result_t<F>>) {
       f();

@@ -1,6 +1,5 @@
 #include "distributed/rank_engine.hpp"
 
-#include <algorithm>
 #include <exception>
 #include <string>
 #include <utility>
@@ -177,13 +176,9 @@ Result<void> DistributedWorld::RankEngine::go(double until, const OrderedEventFn
 
 /// Checks the first bodies, as World::Engine::end_epoch() does.
 Result<void> DistributedWorld::RankEngine::spot_check(PoolLease& lease) {
-  const std::vector<std::uint32_t> first = rank_.first_bodies();
-  const auto checked = guarded([&] { return rank_.main.spot_check_first(first, lease); });
-  if (auto agreed = agree(checked); !agreed) return agreed;
-  const auto concerned = std::count_if(first.begin(), first.end(), [this](std::uint32_t number) {
-    return SpotChecks::concerns(rank_.bodies()[number]);
-  });
-  const bool any = communicator_.sum(static_cast<std::uint64_t>(concerned)) > 0;
+  const auto concerned = guarded([&] { return rank_.main.spot_check_first(rank_.first_bodies(), lease); });
+  if (auto agreed = agree(concerned ? Result<void>() : concerned.error()); !agreed) return agreed;
+  const bool any = communicator_.sum(std::uint64_t{*concerned}) > 0;
   rank_.state.spot_checks.note_check(rank_.state.window_policy, time(), any);
   return {};
 }

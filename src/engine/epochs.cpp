@@ -95,11 +95,9 @@ Result<void> World::Engine::end_epoch(PoolLease& lease) {
   if (state_.spot_checks.next() > time() || !main_.is_recertified()) return {};
   std::vector<std::uint32_t> first(std::min(bodies().numbers(), SpotChecks::first_names));
   std::iota(first.begin(), first.end(), 0u);
-  if (auto checked = main_.spot_check_first(first, lease); !checked) return checked;
-  const bool any = std::any_of(first.begin(), first.end(), [this](std::uint32_t number) {
-    return SpotChecks::concerns(bodies()[number]);
-  });
-  state_.spot_checks.note_check(state_.window_policy, time(), any);
+  const auto concerned = main_.spot_check_first(first, lease);
+  if (!concerned) return concerned.error();
+  state_.spot_checks.note_check(state_.window_policy, time(), *concerned);
   return {};
 }
 

@@ -115,13 +115,15 @@ Result<void> EventProcessor::spot_check(std::span<const std::uint32_t> numbers, 
   return {};
 }
 
-Result<void> EventProcessor::spot_check_first(std::span<const std::uint32_t> first, PoolLease& lease) {
+Result<bool> EventProcessor::spot_check_first(std::span<const std::uint32_t> first, PoolLease& lease) {
   const SpotChecks& checks = state_->spot_checks;
   std::vector<std::uint32_t> due;
   std::copy_if(first.begin(), first.end(), std::back_inserter(due), [&](std::uint32_t number) {
     return SpotChecks::may_check(bodies()[number], time_) && checks.is_due(bodies()[number], time_);
   });
-  return spot_check(due, lease);
+  if (auto checked = spot_check(due, lease); !checked) return checked.error();
+  return std::any_of(first.begin(), first.end(),
+                     [this](std::uint32_t number) { return SpotChecks::concerns(bodies()[number]); });
 }
 
 void EventProcessor::invalidate(std::uint32_t number) {

@@ -85,9 +85,9 @@ Result<std::vector<std::uint32_t>> Reports::contradicted(const Bodies& bodies, d
     if (auto valid = check_report(states_[k], ids_[k], time, bodies.definition(), call_); !valid)
       return valid.error();
     const Body& body = bodies[numbers[k]];
+    move_to_nearest_image(bodies.space(), body.bound, time, states_[k]);
     Bound after = body.bound;
     restart(after, time, states_[k]);
-    after.position += bodies.space().shift_to_nearest(after.position, body.bound.centre_at(time));
     if (bound_violation(body.bound, after, body.radius, {}, bodies.definition().contact_tolerance))
       broken.push_back(numbers[k]);
   }
