@@ -231,6 +231,9 @@ class World {
   /// (beyond limits.hpp, or z other than 0 in two dimensions); probe_in_progress. Cost: O(1) here, and a
   /// search at the next advance.
   Result<void> set_velocity(BodyId body, const Vec3& velocity);
+  /// Returns the error that set_velocity() would return now, and changes nothing: for a caller who changes
+  /// the body's motion first, as a BodyMap does. Cost: O(1).
+  Result<void> check_set_velocity(BodyId body, const Vec3& velocity) const;
   /// Sets the velocities of all these bodies or, on an error, of none. Errors: as set_velocity(), naming the
   /// body; out_of_range if the number of velocities differs from the number of bodies.
   Result<void> set_velocities(std::span<const BodyId> bodies, std::span<const Vec3> velocities);
@@ -245,6 +248,9 @@ class World {
   /// Puts the body into another state from the current time on. A static body moves by set_shape(). The
   /// body's next approach to any partner is reported, also in touch. Errors: disabled_body, static_body.
   Result<void> teleport(BodyId body, const State& state);
+  /// Returns the error that teleport() would return now, and changes nothing, as check_set_velocity() does.
+  /// Cost: O(1); a search if allow_overlap is false.
+  Result<void> check_teleport(BodyId body, const State& state) const;
   /// Changes one property of the body or several from the current time on or, on an error, none. Several
   /// are changed in the order of BodyChange, and each must be valid after those before it.
   Result<void> change(BodyId body, const BodyChange& change);
@@ -454,12 +460,6 @@ class World {
   void require_idle(const char* done) const noexcept;
   /// Returns the engine; throws BadResult with moved_from if there is none.
   const Engine& engine(std::string_view call) const;
-
-  // A BodyMap changes a motion first, and only what the world will accept.
-  friend class BodyMap;
-  /// Return the error that the call would return, and change nothing.
-  Result<void> check_set_velocity(BodyId body, const Vec3& velocity) const;
-  Result<void> check_teleport(BodyId body, const State& state) const;
 
   // Every change of the engine goes through one of these functions, so that a recording captures it.
   Engine& changeable();
