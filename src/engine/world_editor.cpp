@@ -11,40 +11,34 @@ void World::WorldEditor::reserve(std::size_t bodies) {
   main_.dirty().reserve(bodies);
 }
 
-BodyId World::WorldEditor::add(const BodyDefinition& definition) {
+/// Adds a body. `give_form(number)` makes it other than a ball.
+BodyId World::WorldEditor::insert(const BodyDefinition& definition, auto give_form) {
   const std::uint32_t number = state_.bodies.add(definition, time());
+  give_form(number);
   insert_at(number, bound_now(definition, time()));
-  state_.contacts.add(number, bodies()[number].largest_acceleration());
+  state_.contacts.add(number, bodies().largest_acceleration(number));
+  if (bodies()[number].has_shape()) state_.contacts.set_shape(number, bodies()[number].is_static());
   return bodies().id_of(number);
+}
+
+BodyId World::WorldEditor::add(const BodyDefinition& definition) {
+  return insert(definition, [](std::uint32_t) {});
 }
 
 BodyId World::WorldEditor::add_static(const StaticDefinition& definition) {
-  const BodyDefinition at_rest = body_of(definition);
-  const std::uint32_t number = state_.bodies.add(at_rest, time());
-  state_.bodies.give_shape(number, definition.shape, false);
-  state_.contacts.add(number, 0.0);
-  state_.contacts.set_shape(number, true);
-  insert_at(number, bound_now(at_rest, time()));
-  return bodies().id_of(number);
+  return insert(body_of(definition),
+                [&](std::uint32_t number) { state_.bodies.give_shape(number, definition.shape, false); });
 }
 
 BodyId World::WorldEditor::add_moving_shape(const MovingShape& definition) {
-  const BodyDefinition body = body_of(definition, bodies().definition());
-  const std::uint32_t number = state_.bodies.add(body, time());
-  state_.bodies.give_shape(number, definition.shape, true);
-  state_.contacts.add(number, bodies()[number].largest_acceleration());
-  state_.contacts.set_shape(number, false);
-  insert_at(number, bound_now(body, time()));
-  return bodies().id_of(number);
+  return insert(body_of(definition, bodies().definition()),
+                [&](std::uint32_t number) { state_.bodies.give_shape(number, definition.shape, true); });
 }
 
 BodyId World::WorldEditor::add_rigid_body(const RigidBody& definition) {
-  const BodyDefinition body = body_of(definition);
-  const std::uint32_t number = state_.bodies.add(body, time());
-  state_.bodies.make_rigid(number, record_of(definition, time()));
-  insert_at(number, bound_now(body, time()));
-  state_.contacts.add(number, bodies().largest_acceleration(number));
-  return bodies().id_of(number);
+  return insert(body_of(definition), [&](std::uint32_t number) {
+    state_.bodies.make_rigid(number, record_of(definition, time()));
+  });
 }
 
 void World::WorldEditor::set_angular_velocity(BodyId id, const Vec3& angular_velocity) {

@@ -55,6 +55,7 @@ class World::WorldEditor {
   const Bodies& bodies() const { return state_.bodies; }
   double time() const { return main_.time(); }
   Sleeping sleeping() { return {state_, main_}; }
+  BodyId insert(const BodyDefinition& definition, auto give_form);
   void insert_at(std::uint32_t number, const Bound& bound);
   void replace(std::uint32_t number, const Bound& bound);
   void end_contacts_outside(std::uint32_t number, const CollisionShape& replacement);
