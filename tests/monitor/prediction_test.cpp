@@ -287,13 +287,14 @@ TEST(Predictions, AgreeWithSampledPaths) {
             const double between = norm(one.state.velocity - other.state.velocity) * separation.look_ahead /
                                    samples / std::min(separation.horizontal, separation.vertical);
             const double now = gauge_at(time);
-            if (now < 0.99 ||
-                (least_until(early) < 0.99 && (is_passed_at(early) || gauge_at(early) > 1.01))) {
-              EXPECT_TRUE(is_predicted) << a << " " << b << " level " << level << " at " << time;
-            }
-            if (now > 1.01 &&
-                (least_until(late) > 1.01 + between || (!is_passed_at(late) && gauge_at(late) < 0.99))) {
-              EXPECT_FALSE(is_predicted) << a << " " << b << " level " << level << " at " << time;
+            if (is_predicted) {
+              const bool is_excluded = now > 1.01 && (least_until(late) > 1.01 + between ||
+                                                      (!is_passed_at(late) && gauge_at(late) < 0.99));
+              EXPECT_FALSE(is_excluded) << a << " " << b << " level " << level << " at " << time;
+            } else {
+              const bool is_certain = now < 0.99 || ((is_passed_at(early) || gauge_at(early) > 1.01) &&
+                                                     least_until(early) < 0.99);
+              EXPECT_FALSE(is_certain) << a << " " << b << " level " << level << " at " << time;
             }
             ++seen;
             predicted_count += is_predicted ? 1u : 0u;
