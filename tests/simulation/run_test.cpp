@@ -96,13 +96,20 @@ std::string outcome_of(const SimulationResult& result) {
   return text.str();
 }
 
-constexpr int thread_counts[] = {1, 2, 3, 8};
+/// Runs with these numbers of threads.
+class RunScenes : public testing::TestWithParam<std::vector<int>> {
+ protected:
+  void expect_runs_as_loops(const std::vector<Scene>& scenes) const;
+};
 
-void expect_runs_as_loops(const std::vector<Scene>& scenes) {
+INSTANTIATE_TEST_SUITE_P(Of, RunScenes, testing::Values(std::vector{1, 3}));
+INSTANTIATE_TEST_SUITE_P(Long, RunScenes, testing::Values(std::vector{2, 8}));
+
+void RunScenes::expect_runs_as_loops(const std::vector<Scene>& scenes) const {
   for (const Scene& scene : scenes) {
     const SimulationResult looped = simulate(scene, make_world_detector).value();
     EXPECT_GT(looped.counters.probes, 500u) << scene.name;
-    for (const int threads : thread_counts) {
+    for (const int threads : GetParam()) {
       Workers workers = eager_workers(threads).value();
       EXPECT_EQ(outcome_of(simulate(scene, make_world_detector, {}, &workers).value()), outcome_of(looped))
           << scene.name << " with " << threads << " threads";
@@ -110,12 +117,12 @@ void expect_runs_as_loops(const std::vector<Scene>& scenes) {
   }
 }
 
-TEST(RunScenes, EndsAsALoopDoes) { expect_runs_as_loops(scenes()); }
+TEST_P(RunScenes, EndsAsALoopDoes) { expect_runs_as_loops(scenes()); }
 
-TEST(RunScenes, EndsAsALoopDoesWhereManyAreKicked) { expect_runs_as_loops(dense_scenes()); }
+TEST_P(RunScenes, EndsAsALoopDoesWhereManyAreKicked) { expect_runs_as_loops(dense_scenes()); }
 
-TEST(RunScenes, CanBeRecorded) {
-  for (const int threads : thread_counts) {
+TEST_P(RunScenes, CanBeRecorded) {
+  for (const int threads : GetParam()) {
     Workers workers = eager_workers(threads).value();
     const Scene scene = coming_and_going();
     std::vector<std::byte> recording;

@@ -29,6 +29,7 @@ struct Kind {
   bool passes = false;  ///< no responses
   bool lies = false;    ///< one in three accelerates more than it promises
   double end = 3.0;
+  std::vector<int> threads{};  ///< numbers of threads of the runs
 };
 
 /// Bodies of some sizes that bounce in a box.
@@ -80,7 +81,7 @@ TEST_P(SpeculativeRunner, AreAsOneLoop) {
   Hall looped(GetParam());
   looped.loop(looped.kind.end);
   EXPECT_GT(looped.reported, 300u);
-  for (const int threads : {1, 2, 3, 8}) {
+  for (const int threads : looped.kind.threads) {
     SCOPED_TRACE(threads);
     Workers workers = eager_workers(threads).value();
     Hall run(GetParam());
@@ -231,17 +232,23 @@ TEST(ClustersThatWereInterrupted, LeaveBodiesWhereQueriesFindThem) {
   EXPECT_EQ(not_found, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Of, SpeculativeRunner,
-    ::testing::Values(Kind{.name = "bouncing"}, Kind{.name = "impacts", .contacts = ContactEvents::impacts},
-                      Kind{.name = "dense", .side = 9, .spacing = 1.45, .end = 1.0},
-                      Kind{.name = "bullets", .faster = 60.0}, Kind{.name = "periodic", .periodic = true},
-                      Kind{.name = "sensors", .sensors = true},
-                      Kind{.name = "fixed", .sensors = true, .fixed = true},
-                      Kind{.name = "passing", .sensors = true, .passes = true},
-                      Kind{.name = "lying", .passes = true, .lies = true, .end = 8.0},
-                      Kind{.name = "lying_impacts", .contacts = ContactEvents::impacts, .lies = true}),
-    [](const auto& kind) { return kind.param.name; });
+std::vector<Kind> all_kinds(const std::vector<int>& threads) {
+  std::vector<Kind> kinds{{.name = "bouncing"},
+                          {.name = "impacts", .contacts = ContactEvents::impacts},
+                          {.name = "dense", .side = 9, .spacing = 1.45, .end = 1.0},
+                          {.name = "bullets", .faster = 60.0},
+                          {.name = "periodic", .periodic = true},
+                          {.name = "sensors", .sensors = true},
+                          {.name = "fixed", .sensors = true, .fixed = true},
+                          {.name = "passing", .sensors = true, .passes = true},
+                          {.name = "lying", .passes = true, .lies = true, .end = 8.0},
+                          {.name = "lying_impacts", .contacts = ContactEvents::impacts, .lies = true}};
+  for (Kind& kind : kinds) kind.threads = threads;
+  return kinds;
+}
+const auto name_of_kind = [](const auto& kind) { return kind.param.name; };
+INSTANTIATE_TEST_SUITE_P(Of, SpeculativeRunner, ::testing::ValuesIn(all_kinds({1, 3})), name_of_kind);
+INSTANTIATE_TEST_SUITE_P(Long, SpeculativeRunner, ::testing::ValuesIn(all_kinds({2, 8})), name_of_kind);
 
 }  // namespace
 }  // namespace kinesphere::speculation_test
