@@ -35,7 +35,7 @@ function(kinesphere_add_tests name)
   target_compile_definitions(${test} PRIVATE KINESPHERE_DEFAULT_DATA="${default_data}")
   target_link_libraries(${test} PRIVATE kinesphere_simulation GTest::gtest_main rapidcheck rapidcheck_gtest)
   kinesphere_compile(${test})
-  kinesphere_batches_of(${test} 16)
+  kinesphere_batches_of(${test} 24)
   # These tests take longer to run than to compile.
   if(name MATCHES "^(bound|stream|mixed_worlds)$")
     target_precompile_headers(${test} REUSE_FROM kinesphere_test_headers)
