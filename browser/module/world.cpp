@@ -72,9 +72,19 @@ KINESPHERE_EXPORT(release) void release(void* memory) { std::free(memory); }
 KINESPHERE_EXPORT(world_create) World* world_create(const double* definition) {
   return handle_of(World::create(definition_at(definition)));
 }
+/// Calls the package's pair filter of this number; one that throws lets the pair touch, and the package
+/// throws what it threw when the running call ends.
+KINESPHERE_IMPORT(filter) bool javascript_filter(double filter, double first, double second);
+/// Returns the pair filter of this number; a number below 0 stands for none.
+static PairFilter pair_filter_of(double filter) {
+  if (filter < 0.0) return {};
+  return [filter](BodyId first, BodyId second) {
+    return javascript_filter(filter, number_of(first), number_of(second));
+  };
+}
 KINESPHERE_EXPORT(world_restore)
-World* world_restore(const std::byte* snapshot, std::size_t size) {
-  return handle_of(World::restore({snapshot, size}));
+World* world_restore(const std::byte* snapshot, std::size_t size, double filter) {
+  return handle_of(World::restore({snapshot, size}, pair_filter_of(filter)));
 }
 KINESPHERE_EXPORT(world_clone) World* world_clone(const World* world) { return handle_of(world->clone()); }
 KINESPHERE_EXPORT(world_free) void world_free(World* world) { delete world; }
@@ -212,18 +222,9 @@ KINESPHERE_EXPORT(world_wake) bool world_wake(World* world, double body) {
 KINESPHERE_EXPORT(world_set_filter) bool world_set_filter(World* world, double body, const double* filter) {
   return is_good(world->change(body_of(body), {.filter = filter_at(filter)}));
 }
-/// Calls the package's pair filter of this number; one that throws lets the pair touch, and the package
-/// throws what it threw when the running call ends.
-KINESPHERE_IMPORT(filter) bool javascript_filter(double filter, double first, double second);
-/// A number below 0 stands for none.
+/// As for world_restore.
 KINESPHERE_EXPORT(world_set_pair_filter) bool world_set_pair_filter(World* world, double filter) {
-  PairFilter asked;
-  if (filter >= 0.0) {
-    asked = [filter](BodyId first, BodyId second) {
-      return javascript_filter(filter, number_of(first), number_of(second));
-    };
-  }
-  return is_good(world->set_pair_filter(std::move(asked)));
+  return is_good(world->set_pair_filter(pair_filter_of(filter)));
 }
 KINESPHERE_EXPORT(world_refresh_filter) bool world_refresh_filter(World* world, double body) {
   return is_good(world->refresh_filter(body_of(body)));

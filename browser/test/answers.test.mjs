@@ -124,6 +124,10 @@ test("a pair filter lets pairs pass, until it is refreshed or removed", () => {
   const none = row();
   none.world.setPairFilter(() => false);
   assert.deepEqual(pairs(none.world.events(4, none.motion)), []);
+  const snapshot = none.world.save();
+  refuses(() => World.restore(snapshot), "bad_snapshot", /pair_filter must be given/);
+  assert.throws(() => World.restore(snapshot, 3), /pairFilter must be a function or null, but is 3/);
+  assert.deepEqual(pairs(World.restore(snapshot, () => false).events(20, none.motion.clone())), []);
   none.world.setPairFilter(null);
   assert.deepEqual(pairs(none.world.events(20, none.motion)), [[0, 1], [0, 2]]);
 });

@@ -278,6 +278,19 @@ impl World {
         })?;
         Ok(World::of(handle))
     }
+    /// Returns the world of a snapshot of a world that had this pair filter, which clones share.
+    pub fn restore_with_pair_filter(
+        snapshot: &[u8],
+        filter: impl Fn(BodyId, BodyId) -> bool + Send + Sync + 'static,
+    ) -> Result<World> {
+        let filter: Arc<Guarded<PairFilter>> = Arc::new(Guarded::new(Box::new(filter)));
+        let user = Arc::as_ptr(&filter) as *mut c_void;
+        let mut handle = sys::ks_world { value: 0 };
+        check(unsafe {
+            sys::ks_world_restore(snapshot.as_ptr(), snapshot.len(), Some(pair_filter), user, &mut handle)
+        })?;
+        Ok(World { handle, filter: Some(filter), rotations: None })
+    }
 
     pub fn add(&mut self, body: &BodyDefinition) -> Result<BodyId> {
         let mut id = BodyId::default();

@@ -366,8 +366,14 @@ fn snapshots_queries_and_predictions() {
     let (world, [left, right], probe) = two_balls();
     let mut restored = World::restore(&world.save().unwrap()).unwrap();
     assert_eq!(restored.bodies().unwrap(), [left, right]);
-    let first = restored.advance(20.0, probe).unwrap().unwrap();
+    let first = restored.advance(20.0, &probe).unwrap().unwrap();
     assert!((first.time - 4.0).abs() < 1e-5);
+    let mut filtered = World::restore(&world.save().unwrap()).unwrap();
+    filtered.set_pair_filter(|_, _| false).unwrap();
+    let snapshot = filtered.save().unwrap();
+    assert!(World::restore(&snapshot).err().unwrap().argument == "pair_filter");
+    let mut filtered = World::restore_with_pair_filter(&snapshot, |_, _| false).unwrap();
+    assert!(filtered.advance(20.0, &probe).unwrap().is_none());
     let contact = world.earliest_contact(left).unwrap();
     assert!(contact.partner == Some(right) && contact.time > 3.9 && contact.time <= 4.0);
     assert!(world.safe_until().unwrap().time <= 4.0);

@@ -22,7 +22,7 @@ namespace {
 
 /// Raise the version if the fields change, or if the engine would continue differently from the same fields.
 constexpr Envelope world_envelope{{'K', 'i', 'n', 'e', 's', 'p', '\r', '\n'},
-                                  26,
+                                  27,
                                   "world",
                                   "World::restore",
                                   "snapshot",
@@ -60,7 +60,7 @@ void World::Engine::serialize(Self& self, Archive& archive) {
 
 std::vector<std::byte> World::Engine::save() const {
   ByteWriter content;
-  content(definition());
+  content(definition(), bodies().filters.has_pair_filter());
   serialize(*this, content);
   return world_envelope.seal(content.bytes());
 }
@@ -71,9 +71,14 @@ Result<std::unique_ptr<World::Engine>> World::Engine::restore(std::span<const st
   if (!content) return content.error();
   ByteReader reader(*content);
   WorldDefinition definition;
-  reader(definition);
+  bool needs_filter = false;
+  reader(definition, needs_filter);
   if (reader.failed() || !check_world(definition))
     return refusal("must hold a world that can be, but its definition is impossible");
+  if (needs_filter && !pair_filter) {
+    return Error{ErrorCode::bad_snapshot, "pair_filter", no_body,
+                 "World::restore: pair_filter must be given, as the saved world had one, but is empty"};
+  }
   auto engine = std::make_unique<Engine>(definition);
   serialize(*engine, reader);
   if (reader.failed() || reader.remaining() != 0)

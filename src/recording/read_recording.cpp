@@ -56,7 +56,7 @@ Result<RecordingContent> read_content(std::span<const std::byte> recording) {
 Result<RecordedRun> read_recording(std::span<const std::byte> recording) {
   const auto content = read_content(recording);
   if (!content) return content.error();
-  const auto world = World::restore(content->snapshot);
+  const auto world = World::restore(content->snapshot, [](BodyId, BodyId) { return true; });
   if (!world) return world.error();
   RecordedRun run;
   run.start_time = world->time();

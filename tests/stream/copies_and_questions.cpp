@@ -16,7 +16,7 @@ void Player::restore(const Operation& operation) {
   if (twin_ && twin_saves_the_same_)
     require(twin_->save().value() == bytes, "a restored world is not what the saved one became");
   twin_.reset();
-  auto restored = operation.byte(1) % 4 == 0 ? world_.clone() : World::restore(bytes);
+  auto restored = operation.byte(1) % 4 == 0 ? world_.clone() : World::restore(bytes, pair_filter());
   if (!restored) throw Disagreement("restore: " + restored.error().message);
   require(restored->save().value() == bytes, "a restored world saves other bytes");
   give_rotation_probe(*restored);

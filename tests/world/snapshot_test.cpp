@@ -213,6 +213,17 @@ TEST(SnapshotOfAWorld, GoesOnTheSameWithThePairFilterThatItHad) {
   EXPECT_EQ(finish(true), finish(false));
 }
 
+TEST(SnapshotOfAWorld, NeedsThePairFilterThatItHad) {
+  World world = World::create({}).value();
+  EXPECT_TRUE(World::restore(world.save().value()));
+  world.set_pair_filter([](BodyId, BodyId) { return false; }).value();
+  expect_error(World::restore(world.save().value()), ErrorCode::bad_snapshot, "pair_filter",
+               "World::restore");
+  EXPECT_TRUE(World::restore(world.save().value(), [](BodyId, BodyId) { return false; }));
+  world.set_pair_filter({}).value();
+  EXPECT_TRUE(World::restore(world.save().value()));
+}
+
 TEST(SnapshotOfAWorld, AfterABadAnswerGoesOnTheSame) {
   const auto finish = [](bool restore) {
     Crowd crowd(ContactEvents::begin_and_end, Answer::pass_through, 40);
@@ -337,7 +348,7 @@ TEST(BadSnapshot, SaysWhatIsWrong) {
   EXPECT_TRUE(is_refused(Bytes(1000, std::byte{'x'}), "mark of a world"));
   Bytes newer = bytes;
   newer[8] = std::byte{200};
-  EXPECT_TRUE(is_refused(newer, "format version 26, but is of version 200"));
+  EXPECT_TRUE(is_refused(newer, "format version 27, but is of version 200"));
   Bytes damaged = bytes;
   damaged[bytes.size() / 2] ^= std::byte{1};
   EXPECT_TRUE(is_refused(damaged, "checksum"));

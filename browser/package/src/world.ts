@@ -415,12 +415,19 @@ export class World extends WorldView {
   static at(address: number): World {
     return new World(existing, address);
   }
-  /** Restores a world from save(), called here or in any other program. */
-  static restore(snapshot: Uint8Array): World {
+  /**
+   * Restores a world from save(), called here or in any other program. A world that had a pair filter needs the same one.
+   */
+  static restore(snapshot: Uint8Array, pairFilter: PairFilter | null = null): World {
     requireBytes(snapshot, "snapshot", "World.restore");
+    if (pairFilter !== null && typeof pairFilter !== "function")
+      throw new TypeError(`World.restore: pairFilter must be a function or null, but is ${shown(pairFilter)}`);
     const module = theModule();
-    return World.at(module.with((scratch) =>
-      module.require(module.call("world_restore", scratch.bytes(snapshot), snapshot.length))));
+    const kept = pairFilter === null ? null : module.keepFilter(pairFilter);
+    const world = World.at(module.with((scratch) => module.require(
+      module.call("world_restore", scratch.bytes(snapshot), snapshot.length, kept?.number ?? -1))));
+    world.#pairFilter = kept;
+    return world;
   }
 
   /** Adds a body at the current time. */
@@ -636,8 +643,8 @@ export class World extends WorldView {
     this.change("world_set_filter", body, filterNumbers(filter, "setFilter"));
   }
   /**
-   * Sets a predicate of your own for pairs whose filters let them touch; null removes it. Clones have it, too, but not
-   * snapshots. What it throws comes out of the call that asked, after which the world goes on, and the pair may touch until
+   * Sets a predicate of your own for pairs whose filters let them touch; null removes it. Clones have it, too, and
+   * restore() takes it. What it throws comes out of the call that asked, after which the world goes on, and the pair may touch until
    * refreshFilter() or another pair filter.
    */
   setPairFilter(filter: PairFilter | null): void {
