@@ -285,7 +285,8 @@ class World {
   /// touch. The world calls it for pairs that may meet soon, in audit(), and in the search for certain
   /// overlaps (with the id that a new body is about to get), and for the contacts of a body in
   /// refresh_filter() and a change of its filter. Its results must not change between calls of
-  /// set_pair_filter() and refresh_filter(). It must be symmetric and must not throw.
+  /// set_pair_filter() and refresh_filter(). It must be symmetric. An exception that leaves it ends the
+  /// program (std::terminate), because contacts would be missed otherwise.
   ///
   /// Inside the predicate, these members of this world may be called: body(), bodies(), user_data(),
   /// contains(), touching(), sensor_overlaps(), sensor(), time(), size(), definition() and counters(). All
@@ -423,8 +424,8 @@ class World {
   Result<std::vector<std::byte>> save() const;
   /// Restores the world that save() wrote. `pair_filter` must be the filter that the world had; setting it
   /// later makes all bodies search again. Errors: bad_snapshot for bytes that are foreign, truncated,
-  /// damaged, of another format version, or that describe an impossible world. Arbitrary bytes cause no
-  /// other failure.
+  /// damaged, of another format version, or that describe an impossible world, and for a world that had a
+  /// pair filter if none is given. Arbitrary bytes cause no other failure.
   static Result<World> restore(std::span<const std::byte> snapshot, PairFilter pair_filter = {});
   /// Returns an independent copy that continues as this world does: the fast way to roll back within one
   /// process. The copy is not recorded. Errors: probe_in_progress. Cost: O(n).

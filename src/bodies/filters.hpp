@@ -48,7 +48,9 @@ class Filters {
  private:
   friend class Bodies;  // Bodies::serialize() archives the fields
 
-  bool ask(BodyId a, BodyId b) const {
+  /// An exception of the pair filter would leave a search half done, and contacts unseen: it ends the
+  /// program.
+  bool ask(BodyId a, BodyId b) const noexcept {
     const FilterQuestion question(this);
     return pair_filter_(a, b);
   }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <set>
+#include <stdexcept>
 
 #include "kinesphere/certificates.hpp"
 #include "kinesphere/inspection.hpp"
@@ -287,6 +288,24 @@ TEST(PairFilter, CannotMakeOtherCallsToTheWorldThatAsksIt) {
 }
 
 /// The filter of a world may query another world, also one with a filter that queries back.
+TEST(PairFilterDeathTest, EndsTheProgramByWhatItThrows) {
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  EXPECT_DEATH(
+      {
+        Playground space;
+        space.add({.radius = 1, .velocity = {1, 0, 0}});
+        space.add({.radius = 1, .position = {5, 0, 0}});
+        try {
+          space.world.set_pair_filter([](BodyId, BodyId) -> bool { throw std::out_of_range("no such team"); })
+              .value();
+          space.advance(10.0);
+        } catch (const std::exception&) {
+          // A caller that goes on here would miss the contact at 3.
+        }
+      },
+      "no such team");
+}
+
 TEST(PairFilter, OfOneWorldMayAskAnother) {
   Playground p;
   const BodyId a = p.add({.radius = 1, .velocity = {0.5, 0, 0}});
