@@ -17,7 +17,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <ranges>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "kinesphere/body.hpp"
@@ -28,7 +30,8 @@
 namespace kinesphere {
 
 /// Paths as polynomials of time, arc after arc: for each arc its body, its times, and for each axis (x, y, z)
-/// `terms` coefficients. It refers to arrays of the caller, which must stay as they are during a call.
+/// `terms` coefficients. It refers to arrays of the caller, which must stay as they are during a call; a
+/// temporary array does not compile.
 ///
 /// The arcs of a body are in the order of time and do not overlap. A body exists during its arcs: one may
 /// begin later than others, end earlier, or be absent in between. Where one arc ends and the next begins at
@@ -41,15 +44,29 @@ struct PolynomialPaths {
   };
   /// Largest number of coefficients of an axis.
   static constexpr std::size_t most_terms = 24;
+  /// An array of the caller, by reference: whatever std::span takes, but for temporaries that own their
+  /// numbers.
+  template <class T>
+  class Array : public std::span<const T> {
+   public:
+    Array() = default;
+    template <class Numbers>
+    requires std::is_constructible_v<std::span<const T>, Numbers> && std::ranges::borrowed_range<Numbers>
+    Array(Numbers&& numbers) : std::span<const T>(numbers) {}
+    /// A temporary would be gone before the call.
+    template <class Numbers>
+    requires std::is_constructible_v<std::span<const T>, Numbers> &&
+        (!std::ranges::borrowed_range<Numbers>)Array(Numbers&&) = delete;
+  };
 
   Basis basis = Basis::chebyshev;
-  std::size_t terms = 0;                    ///< coefficients for each axis, from 1 to most_terms
-  std::span<const std::uint32_t> bodies{};  ///< number of each arc's body; must not decrease
-  std::span<const double> begins{};         ///< begin of each arc (time)
-  std::span<const double> ends{};           ///< end of each arc (time), after its begin
-  std::span<const double> coefficients{};   ///< 3 * terms of each arc: those of x, of y, of z
+  std::size_t terms = 0;          ///< coefficients for each axis, from 1 to most_terms
+  Array<std::uint32_t> bodies{};  ///< number of each arc's body; must not decrease
+  Array<double> begins{};         ///< begin of each arc (time)
+  Array<double> ends{};           ///< end of each arc (time), after its begin
+  Array<double> coefficients{};   ///< 3 * terms of each arc: those of x, of y, of z
   /// For each body how far it may be from its polynomials (length, >= 0). Empty: nothing for all.
-  std::span<const double> errors{};
+  Array<double> errors{};
 
   /// Number of bodies: those of `errors`, or one more than the largest number in `bodies`.
   std::size_t body_count() const;

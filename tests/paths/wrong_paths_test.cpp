@@ -1,7 +1,11 @@
 // Paths that are refused, each with its culprit.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
+#include <span>
+#include <type_traits>
+#include <vector>
 
 #include "paths/path_set.hpp"
 #include "support/expect_error.hpp"
@@ -54,6 +58,17 @@ TEST(WrongPaths, TimesAndNumbers) {
   paths = good();
   paths.errors[2] = -1;
   refuse(paths, ErrorCode::out_of_range, "paths.errors", BodyId{.index = 2});
+}
+
+TEST(WrongPaths, OfTemporariesDoNotCompile) {
+  using Numbers = PolynomialPaths::Array<double>;
+  EXPECT_FALSE((std::is_assignable_v<Numbers&, std::vector<double>>));
+  EXPECT_FALSE((std::is_constructible_v<Numbers, const std::vector<double>>));
+  EXPECT_FALSE((std::is_constructible_v<Numbers, std::array<double, 3>>));
+  EXPECT_TRUE((std::is_assignable_v<Numbers&, std::vector<double>&>));
+  EXPECT_TRUE((std::is_assignable_v<Numbers&, const std::vector<double>&>));
+  EXPECT_TRUE((std::is_assignable_v<Numbers&, const double(&)[3]>));
+  EXPECT_TRUE((std::is_assignable_v<Numbers&, std::span<double>>));
 }
 
 TEST(WrongPaths, Sizes) {
