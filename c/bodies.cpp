@@ -22,6 +22,7 @@ ks_status change_body(std::string_view call, ks_world world, ks_body_id body, co
 }
 
 StaticDefinition static_of(std::string_view call, const ks_static_definition& body) {
+  refuse_zeros(call, body.filter, body.solid, 0.0, "ks_default_static_definition()");
   return {.shape = shape_of(call, body.shape),
           .filter = filter_of(body.filter),
           .solid = body.solid != 0,

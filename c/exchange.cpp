@@ -42,7 +42,16 @@ Shape shape_of(std::string_view call, const ks_shape& shape) {
   return Triangle{a, b, c};
 }
 
+void refuse_zeros(std::string_view call, const ks_filter& filter, std::int32_t solid, double mass,
+                  const char* defaults) {
+  if (solid != 0 || mass != 0.0 || filter_of(filter) != Filter{.category = 0, .mask = 0}) return;
+  throw Failure{KS_ERROR_BAD_STRUCT, "filter",
+                std::string(call) + ": a definition must begin with " + defaults +
+                    ": this body would touch nothing, as its filter, solid and mass are 0"};
+}
+
 BodyDefinition body_of(std::string_view call, const ks_body_definition& body) {
+  refuse_zeros(call, body.filter, body.solid, body.mass, "ks_default_body_definition()");
   require_number(call, "contacts", body.contacts, KS_CONTACTS_OF_WORLD, KS_CONTACTS_ALL);
   BodyDefinition definition{.radius = body.radius,
                             .acceleration_limit = body.acceleration_limit,

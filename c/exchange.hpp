@@ -73,6 +73,10 @@ void require_number(std::string_view call, std::string_view argument, std::int64
                     std::int64_t most);
 SensorClass sensor_class_of(std::string_view call, std::int32_t number);
 Shape shape_of(std::string_view call, const ks_shape& shape);
+/// Throws a Failure if a definition of a body was filled from zeros instead of the defaults, which the
+/// function `defaults` gives: its body would touch and sense nothing.
+void refuse_zeros(std::string_view call, const ks_filter& filter, std::int32_t solid, double mass,
+                  const char* defaults);
 BodyDefinition body_of(std::string_view call, const ks_body_definition& body);
 ks_body_definition c_body(const BodyDefinition& body);
 ErrorBound bound_of(std::string_view call, const ks_error_bound& bound);

@@ -64,6 +64,17 @@ MotionId<> add(std::string_view call, Simulation& simulation, const ks_motion_de
                                    .value());
 }
 
+/// Returns a motion of frames. Throws out_of_range for any other one.
+const FrameMotion& frame_motion(std::string_view call, const Simulation& simulation, std::uint32_t motion) {
+  const auto* const frames = dynamic_cast<const FrameMotion*>(&simulation.motion(MotionId<>{motion}));
+  if (frames == nullptr) {
+    detail::bad_result(
+        {ErrorCode::out_of_range, "motion", no_body,
+         std::string(call) + ": motion " + std::to_string(motion) + " must be of kind KS_MOTION_FRAMES"});
+  }
+  return *frames;
+}
+
 /// Adds a body to a motion of one of the four kinds, and returns its number there.
 std::uint32_t add_one(std::string_view call, Motion& motion, const ks_motion_definition& definition,
                       std::size_t k, double time) {
@@ -222,6 +233,7 @@ ks_status ks_world_steer(ks_world world, ks_body_id body, ks_vec3 acceleration) 
 ks_status ks_world_push_frame(ks_world world, uint32_t motion, const ks_vec3* positions, size_t count) {
   return changing(__func__, world, [&, call = __func__](WorldObject& object) {
     require_array(call, positions, count, "positions");
+    (void)frame_motion(call, object.simulation, motion);
     object.simulation.push({motion}, vectors_of(positions, count)).value();
   });
 }
@@ -229,15 +241,15 @@ ks_status ks_world_push_frame(ks_world world, uint32_t motion, const ks_vec3* po
 ks_status ks_world_latest_frame(ks_world world, uint32_t motion, ks_vec3* positions, size_t capacity,
                                 size_t* count) {
   return reading(__func__, world, [&, call = __func__](const WorldObject& object) {
-    write_all(call, object.simulation.motion(MotionId<FrameMotion>{motion}).latest(), positions, capacity,
-              count, c_vector);
+    write_all(call, frame_motion(call, object.simulation, motion).latest(), positions, capacity, count,
+              c_vector);
   });
 }
 
 ks_status ks_world_latest_frame_time(ks_world world, uint32_t motion, double* time) {
   return reading(__func__, world, [&, call = __func__](const WorldObject& object) {
     require_pointer(call, time, "time");
-    *time = object.simulation.motion(MotionId<FrameMotion>{motion}).latest_time();
+    *time = frame_motion(call, object.simulation, motion).latest_time();
   });
 }
 

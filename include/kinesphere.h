@@ -40,8 +40,8 @@
 //
 // Records. A record that begins with struct_size may get more fields in later versions of the library. A
 // function ks_default_...() or ks_new_...() sets struct_size; a size that this library does not know is
-// refused. All other records stay as they are for as long as KS_ABI_VERSION does. Bool fields are int32_t: 0
-// means false.
+// refused, and so is a body whose filter, solid and mass are 0, as in a record filled from zeros. All other
+// records stay as they are for as long as KS_ABI_VERSION does. Bool fields are int32_t: 0 means false.
 //
 // Arrays. A call that fills an array takes its capacity, sets *count to the number of elements that there
 // are, and fails with KS_ERROR_BUFFER_TOO_SMALL if they do not fit; the array is then untouched. An array
@@ -372,7 +372,8 @@ typedef struct ks_motion_limits {
 } ks_motion_limits;
 
 /// Decides whether two bodies whose filters let them touch may do so: 0 means no. It must be symmetric, and
-/// its answers must stay the same until ks_world_refresh_filter(). It may make the calls that only read.
+/// its answers must stay the same until ks_world_refresh_filter(). An exception of C++ that leaves it ends
+/// the program. It may make the calls that only read.
 typedef int32_t (*ks_pair_filter)(ks_body_id first, ks_body_id second, void* user);
 
 /// Creates a world without bodies. Destroy it with ks_world_destroy().
@@ -385,8 +386,8 @@ KS_API ks_status ks_world_clone(ks_world world, ks_world* copy);
 /// fit.
 KS_API ks_status ks_world_save(ks_world world, void* bytes, size_t capacity, size_t* count);
 /// Creates the world of a snapshot, which continues as the saved one did. It has no motions: a probe moves
-/// its bodies. `filter` is the pair filter that the world had, or NULL. Errors: KS_ERROR_BAD_SNAPSHOT for any
-/// bytes that ks_world_save() did not write.
+/// its bodies. `filter` is the pair filter that the world had, or NULL if it had none. Errors:
+/// KS_ERROR_BAD_SNAPSHOT for any bytes that ks_world_save() did not write, and where the filter is missing.
 KS_API KS_MUST_CHECK ks_status ks_world_restore(const void* bytes, size_t count, ks_pair_filter filter,
                                                 void* user, ks_world* world);
 

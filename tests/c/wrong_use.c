@@ -189,6 +189,14 @@ static void wrong_records(ks_world world) {
   ks_body_id both[2];
   REFUSED(ks_world_add(world, two, 2, both), NOT_FINITE);
   CHECK(strncmp(ks_last_error_message(), "add_all: bodies[1]: velocity", 28) == 0);
+  // Filled from zeros: both would touch nothing.
+  const ks_body_definition bare = {.struct_size = sizeof bare, .radius = 1.0};
+  REFUSED(ks_world_add(world, &bare, 1, &id), BAD_STRUCT);
+  CHECK(strstr(ks_last_error_message(), "ks_default_body_definition()") != NULL);
+  const ks_static_definition bare_wall = {.struct_size = sizeof bare_wall,
+                                          .shape = ks_ball(vec3(0, 0, 0), 1)};
+  REFUSED(ks_world_add_static(world, &bare_wall, 1, &id), BAD_STRUCT);
+  CHECK(strstr(ks_last_error_message(), "ks_default_static_definition()") != NULL);
   ks_shape shape = ks_ball(vec3(0, 0, 0), 1);
   shape.kind = 9;
   REFUSED(ks_world_add_zone(world, &shape, 0, &id), OUT_OF_RANGE);
@@ -370,7 +378,9 @@ static void wrong_motions(void) {
   flight.masses = NULL;
   CHECK_OK(ks_world_add_motion(world, &flight, &motion, &id));
   const ks_vec3 position = {5, 5, 5};
-  REFUSED(ks_world_push_frame(world, motion, &position, 1), OUT_OF_RANGE);  // no frames
+  REFUSED(ks_world_push_frame(world, motion, &position, 1), OUT_OF_RANGE);
+  CHECK(strcmp(ks_last_error_message(), "ks_world_push_frame: motion 0 must be of kind KS_MOTION_FRAMES") ==
+        0);
   REFUSED(ks_world_steer(world, id, vec3(0, 0, 0)), UNSUPPORTED);
   REFUSED(ks_world_push_frame(world, 99, &position, 1), OUT_OF_RANGE);
   ks_run_definition run = ks_default_run_definition();
@@ -473,6 +483,11 @@ static void wrong_responses(void) {
   REFUSED(ks_bounce(&event, 1.0, 0.0, &response), BAD_STRUCT);
 }
 
+static int32_t no_pairs(ks_body_id first, ks_body_id second, void* user) {
+  (void)first, (void)second, (void)user;
+  return 0;
+}
+
 static void wrong_snapshots(ks_world world) {
   unsigned char bytes[1 << 16];
   size_t count;
@@ -486,6 +501,13 @@ static void wrong_snapshots(ks_world world) {
   REFUSED(ks_world_restore(bytes, count, NULL, NULL, &restored), BAD_SNAPSHOT);
   REFUSED(ks_world_restore(NULL, count, NULL, NULL, &restored), NULL_ARGUMENT);
   REFUSED(ks_monitor_restore(bytes, count, &monitor), BAD_SNAPSHOT);
+  CHECK_OK(ks_world_set_pair_filter(world, no_pairs, NULL));
+  CHECK_OK(ks_world_save(world, bytes, sizeof bytes, &count));
+  CHECK_OK(ks_world_set_pair_filter(world, NULL, NULL));
+  REFUSED(ks_world_restore(bytes, count, NULL, NULL, &restored), BAD_SNAPSHOT);
+  CHECK(strcmp(ks_last_error_argument(), "pair_filter") == 0);
+  CHECK_OK(ks_world_restore(bytes, count, no_pairs, NULL, &restored));
+  CHECK_OK(ks_world_destroy(restored));
 }
 
 static int32_t record_inside(const ks_body_id* bodies, size_t count, double time, ks_state* states,
