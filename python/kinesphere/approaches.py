@@ -167,6 +167,9 @@ def tracks(
         raise TypeError("tracks: columns must come with a data frame")
     if distance is None:
         raise TypeError("tracks: distance must be given")
+    for name, given in {"t": t, "x": x, "y": y, "z": z, "id": id, "radii": radii}.items():
+        if _ma.is_masked(given):
+            raise TypeError(f"tracks: {name} must be numbers, but has masked entries: leave their rows out")
     clock, times = _clock_of(t)
     plane = z is None
     coordinates = [_column("x", x, len(times)), _column("y", y, len(times))]
@@ -302,6 +305,9 @@ def _sizes(radii: Any, who: npt.NDArray[Any], bodies: int) -> Optional[npt.NDArr
     sizes = np.zeros(bodies)
     np.maximum.at(sizes, who, of_samples)
     return sizes
+
+
+_ma: Any = np.ma  # its functions have no types
 
 
 def _refused(argument: str, why: str) -> InvalidValue:

@@ -30,8 +30,17 @@ def _shown(value: object) -> str:
 
 def _kind(signature: str, name: str) -> str:
     """The type that a signature gives an argument, such as "float" or "World"."""
-    found = re.search(rf"[(,] ?{name}: ([\w.]+)(?=[,)]| = )", signature)
+    found = re.search(rf"[(,] ?{name}: (?:Optional\[)?([\w.]+)(?=[,)\]]| = )", signature)
     return found[1].split(".")[-1] if found else "object"
+
+
+def _has_a_number(value: object) -> bool:
+    """Arrays and times of NumPy have __float__, whatever they hold."""
+    try:
+        float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        return False
+    return True
 
 
 def _expected(kind: str, value: object) -> Optional[str]:
@@ -40,7 +49,7 @@ def _expected(kind: str, value: object) -> Optional[str]:
         return None
     if kind == "float":
         fits = hasattr(value, "__float__") or hasattr(value, "__index__")
-        return None if fits else "must be a number"
+        return None if fits and _has_a_number(value) else "must be a number"
     if kind == "int":
         if not hasattr(value, "__index__"):
             return "must be a whole number"
@@ -74,12 +83,14 @@ def _in_one(call: str, overload: Overload, args: Sequence[object], kwargs: dict[
     wrong = {
         name: expected
         for name, value in given.items()
-        if (expected := _expected(_kind(signature, name), value)) is not None
+        if not (value is None and f"{name}: Optional[" in signature)
+        and (expected := _expected(_kind(signature, name), value)) is not None
     }
     # The range of a whole number is not known, so one that is not small is blamed only if there is no other.
     certain = [name for name, expected in wrong.items() if not expected.endswith("range")]
     if not certain and len(wrong) != 1:
-        return None
+        shown = ", ".join(_shown(value) for value in args[is_method:])
+        return f"{call}: the arguments ({shown}) fit no call of {signature.split(' -> ')[0]}"
     name = (certain or list(wrong))[0]
     return f"{call}: {name} {wrong[name]}, but is {_shown(given[name])}"
 

@@ -147,6 +147,10 @@ class _Table(Sequence[Row], Generic[Row, Kind]):
 
     def of_kind(self, *kinds: Kind) -> Self:
         """Those of one of these kinds."""
+        for kind in kinds:
+            if not isinstance(kind, (int, np.integer)):
+                known = f"{type(self)._kinds.__name__}.{next(iter(type(self)._kinds)).name}"
+                raise TypeError(f"of_kind: kinds must be members such as {known}, but one is {kind!r}")
         return self[np.isin(self["kind"], [int(kind) for kind in kinds])]
 
     def _categories(self, column: str, kinds: type[IntEnum]) -> Any:

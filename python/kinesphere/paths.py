@@ -15,6 +15,8 @@ from .events import columns_of
 if TYPE_CHECKING:
     import pandas as pd
 
+_ma: Any = np.ma  # its functions have no types
+
 
 class PathApproaches:
     """All approaches, certified: outside of them two bodies are farther apart than the distance.
@@ -81,6 +83,16 @@ class PolynomialPaths:
     ) -> None:
         if basis not in ("chebyshev", "monomial"):
             raise _refused("basis", f'must be "chebyshev" or "monomial", but is {basis!r}')
+        arrays = {
+            "bodies": bodies,
+            "begins": begins,
+            "ends": ends,
+            "coefficients": coefficients,
+            "errors": errors,
+        }
+        for name, array in arrays.items():
+            if _ma.is_masked(array):
+                raise _refused(name, "must be numbers, but has masked entries: leave their arcs out")
         numbers = np.asarray(bodies)
         if numbers.ndim != 1 or (numbers.size > 0 and numbers.dtype.kind not in "iu"):
             raise _refused(

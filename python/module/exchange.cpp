@@ -12,12 +12,19 @@ constexpr bool is_little = std::endian::native == std::endian::little;
 
 std::string text_of(py::handle object) { return py::str(object).cast<std::string>(); }
 
+/// Returns true for an array of numpy.ma, some of whose numbers may be missing.
+bool may_be_masked(py::handle given) {
+  return std::string_view(Py_TYPE(given.ptr())->tp_name) == "MaskedArray";
+}
+
 /// Returns an array of real numbers (kinds "fiu") or whole numbers ("iu").
 py::object as_array(py::handle given, const Argument& argument, std::string_view kinds, const char* wanted) {
   const auto fail = [&](const std::string& found) {
     throw py::type_error(std::string(argument.call) + ": " + std::string(argument.name) + " must be " +
                          wanted + ", but " + found);
   };
+  if (may_be_masked(given) && numpy("ma").attr("is_masked")(given).cast<bool>())
+    fail("has masked entries: leave their rows out");
   py::object array;
   try {
     array = numpy("asarray")(given);
@@ -135,7 +142,7 @@ Numbers::Numbers(py::handle given, const Argument& argument) {
 Numbers::~Numbers() { PyBuffer_Release(&buffer_); }
 
 bool Numbers::take(py::handle given) {
-  if (PyObject_CheckBuffer(given.ptr()) == 0) return false;
+  if (PyObject_CheckBuffer(given.ptr()) == 0 || may_be_masked(given)) return false;
   if (PyObject_GetBuffer(given.ptr(), &buffer_, PyBUF_RECORDS_RO) != 0) {
     PyErr_Clear();
     buffer_ = {};

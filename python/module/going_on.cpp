@@ -36,11 +36,51 @@ void require_added(WorldHandle& handle, const py::object& motion, std::string_vi
          "there are none");
 }
 
+void warn(const std::string& text) {
+  if (PyErr_WarnEx(PyExc_RuntimeWarning, text.c_str(), 1) != 0) throw py::error_already_set();
+}
+
+void note_promise(WorldHandle& handle, const Event& event) {
+  if (event.kind == EventKind::bound_violation && !handle.warned_of_promises && !handle.broken)
+    handle.broken = event;
+}
+
+/// Warns once of a world of a broken promise: what comes of it is easily overlooked. A warning may be an
+/// exception, so it comes where no event is lost.
+void warn_of_promise(WorldHandle& handle, std::string_view call) {
+  if (!handle.broken) return;
+  const Event event = *std::exchange(handle.broken, std::nullopt);
+  handle.warned_of_promises = true;
+  warn(std::string(call) + ": body " + to_string(event.first) + " broke its promise (bound_violation at " +
+       py::str(py::float_(event.time)).cast<std::string>() +
+       "), so contacts may have been missed before: its acceleration_limit or planned_acceleration is not "
+       "that "
+       "of its motion, its velocity is not that of its positions, or the world was not told of a change");
+}
+
+/// Warns of a caller that gives the length of a step in place of its end: nothing would ever happen.
+void warn_of_duration(WorldHandle& handle, double until, std::string_view call) {
+  constexpr int many = 16;
+  if (++handle.idle_calls != many) return;
+  warn(std::string(call) + ": until is a time, not a duration: " + std::to_string(many) +
+       " calls in a row ended where the world stood, at " + py::str(py::float_(until)).cast<std::string>() +
+       "; world.time + dt goes on by dt");
+}
+
 /// Calls advance() once; returns its Event, or nothing. Precondition: the GIL is held.
 std::optional<Event> advanced(WorldHandle& handle, double until, Asked& asked) {
   const auto turn = handle.take("advance");
   asked.interruptions().at_each_look([&] { handle.reached = handle.world.time(); });
-  return without_gil(handle, [&] { return handle.world.advance(until, asked.probe()); }).value();
+  warn_of_promise(handle, "advance");
+  const double before = handle.world.time();
+  const std::optional<Event> event =
+      without_gil(handle, [&] { return handle.world.advance(until, asked.probe()); }).value();
+  if (event) note_promise(handle, *event);
+  if (event || until != before)
+    handle.idle_calls = 0;
+  else
+    warn_of_duration(handle, until, "advance");
+  return event;
 }
 
 py::object advance(WorldHandle& handle, double until, const py::object& probe) {
@@ -86,7 +126,7 @@ class Responding {
       bouncing_ = &given.cast<const Bouncing&>();
     } else if (py::isinstance<SceneHandle>(given)) {
       scene_ = &given.cast<const SceneHandle&>();
-    } else if (PyCallable_Check(given.ptr()) == 0) {
+    } else if (PyCallable_Check(given.ptr()) == 0 || PyType_Check(given.ptr()) != 0) {
       throw py::type_error("run: respond must be a Bouncing, a Scene or a function of an event, but is " +
                            py::repr(given).cast<std::string>());
     }
@@ -138,7 +178,7 @@ void warn_of_hops(WorldHandle& handle) {
       "run: " + std::to_string(repeated) + " of " + std::to_string(contacts) +
       " contacts followed another one at once, as those of bodies that lie upon each other, "
       "and took no energy: Bouncing(restitution=..., resting_speed=...) lets stacks settle";
-  if (PyErr_WarnEx(PyExc_RuntimeWarning, text.c_str(), 1) != 0) throw py::error_already_set();
+  warn(text);
 }
 
 /// Tells a function, or the bar of the package for True, which time a run has reached.
@@ -195,7 +235,11 @@ py::object run(WorldHandle& handle, double until, const py::object& motion, cons
   const Progress tell(progress, handle.world.time(), until);
   asked.interruptions().at_each_look([&] { tell(handle.reached = handle.world.time()); });
   const auto answer = [&](const Event& event) { return responding(event); };
+  const double before = handle.world.time();
+  bool has_event = false;
   const auto receive = [&](const Event& event) {
+    has_event = true;
+    note_promise(handle, event);
     if (responding && asked.map() != nullptr) require(asked.map()->remove_gone(handle.world, event, answer));
     if (sink.is_none()) {
       handle.undelivered.push_back(record_of(event));
@@ -213,6 +257,11 @@ py::object run(WorldHandle& handle, double until, const py::object& motion, cons
   require(done);
   tell(handle.world.time());
   if (responding.hops()) warn_of_hops(handle);
+  warn_of_promise(handle, "run");
+  if (has_event || until != before)
+    handle.idle_calls = 0;
+  else
+    warn_of_duration(handle, until, "run");
   const py::object table = table_of(handle.undelivered);
   handle.undelivered = {};
   return table;

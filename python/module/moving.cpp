@@ -57,7 +57,7 @@ Asked::Asked(const py::object& given, std::string_view call, bool plane)
     mover_ = interruptible(map_->source(), interruptions_);
   } else if (py::isinstance<MoverHandle>(given)) {
     mover_ = std::make_unique<FunctionMover>(given.cast<MoverHandle&>(), interruptions_, call_, plane_);
-  } else if (PyCallable_Check(given.ptr()) == 0) {
+  } else if (PyCallable_Check(given.ptr()) == 0 || PyType_Check(given.ptr()) != 0) {
     throw py::type_error(call_ + ": probe must be a motion or a function of (ids, t), but is " +
                          py::repr(given).cast<std::string>());
   }

@@ -34,6 +34,11 @@ struct WorldHandle {
   std::shared_ptr<FilterTrouble> filter_trouble{};
   bool has_rotation_probe = false;
   bool warned_of_hops = false;
+  /// The first broken promise until the caller has been warned of it.
+  std::optional<Event> broken{};
+  bool warned_of_promises = false;
+  /// Calls in a row that could not advance, as `until` was the time of the world, and found no event.
+  int idle_calls = 0;
 
   /// For other threads: a time that the world has reached. The thread that uses the world sets it, and each
   /// thread reads it, under the GIL.

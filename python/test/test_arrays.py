@@ -82,6 +82,22 @@ def test_what_is_no_real_number_is_refused(kind: Any) -> None:
         ks.World().add(np.ones((2, 3)).astype("i8").astype(kind))
 
 
+def test_masked_entries_are_refused() -> None:
+    ma: Any = np.ma  # its functions have no types
+    masked = ma.masked_array(positions.copy(), mask=np.zeros(positions.shape, dtype=bool))
+    assert events_with(masked) == expected
+    masked[3, 1] = ma.masked
+    refusal = "must be .*numbers, but has masked entries"
+    with pytest.raises(TypeError, match=f"add: positions {refusal}"):
+        ks.World().add(masked)
+    with pytest.raises(TypeError, match=f"radii {refusal}"):
+        ks.World().add(positions, radii=ma.masked_less(np.arange(20.0), 1))
+    with pytest.raises(TypeError, match=f"x {refusal}"):
+        ks.tracks([0, 1, 0, 1], ma.masked_equal([0.0, 1, 2, 3], 2), np.zeros(4), None, [1, 1, 2, 2], 1.0)
+    with pytest.raises(ks.InvalidValue, match=f"errors {refusal}"):
+        ks.PolynomialPaths([0], [0], [1], np.zeros((1, 3, 2)), errors=ma.masked_equal([0.0], 0))
+
+
 @pytest.mark.parametrize("shape", [(3, 2), (2, 4), (3, 3, 3), (), (6,), (3, 1), (0, 5)])
 def test_wrong_shapes_name_argument_and_shape(shape: tuple[int, ...]) -> None:
     with pytest.raises(ValueError, match=r"add: positions must have shape .* but has shape \(") as caught:

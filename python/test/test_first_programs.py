@@ -3,7 +3,7 @@
 import inspect
 import textwrap
 import warnings
-from typing import Any
+from typing import Any, Callable
 
 import numpy as np
 import pytest
@@ -127,3 +127,83 @@ def test_a_stack_that_hops_for_ever_warns_and_names_what_lets_it_settle(restitut
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert run(resting_speed=0.1) < 0.1
+
+
+def falling(**limits: Any) -> tuple[ks.World, Any]:
+    """A ball that falls from 10 onto another one at 0, and its probe."""
+    world = ks.World()
+    world.add([(0, 0, 10), (0, 0, 0)], radii=1.0, **limits)
+
+    def probe(ids: NDArray[Any], t: float) -> tuple[Doubles, Doubles]:
+        return np.array([(0, 0, 10 - 5 * t * t), (0, 0, 0)])[ids], np.array([(0, 0, -10 * t), (0, 0, 0)])[ids]
+
+    return world, probe
+
+
+def test_a_forgotten_gravity_warns_once_in_runs_and_loops() -> None:
+    ways: list[Callable[[ks.World, Any], object]] = [
+        lambda world, probe: [world.run(t, probe) for t in (0.5, 1.0, 2.0)],
+        lambda world, probe: [event for t in (0.5, 1.0, 2.0) for event in world.events(t, probe)],
+    ]
+    for go in ways:
+        with pytest.warns(
+            RuntimeWarning, match="body 0 broke its promise.*contacts may have been missed"
+        ) as told:
+            go(*falling())
+        assert len(told) == 1
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            go(*falling(planned_accelerations=[(0, 0, -10), (0, 0, 0)]))
+
+
+def test_a_warning_that_is_an_error_loses_no_event() -> None:
+    expected = [[str(event.kind) for event in world.run(2.0, probe)] for world, probe in [falling()]][0]
+    assert "bound_violation" in expected
+    world, probe = falling()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(RuntimeWarning):
+            world.run(2.0, probe)
+        assert [str(event.kind) for event in world.run(2.0, probe)] == expected
+        world, probe = falling()
+        found = []
+        for raises in (True, False):
+            try:
+                for event in world.events(2.0, probe):
+                    found.append(str(event.kind))
+            except RuntimeWarning:
+                assert raises
+        assert found == expected
+
+
+def test_the_length_of_a_step_in_place_of_its_end_warns() -> None:
+    def play(until: Any) -> int:
+        motion = ks.Ballistic([(0, 0, 0), (5, 0, 0)], [(1, 0, 0), (0, 0, 0)])
+        world = ks.World()
+        world.add_motion(motion, radii=1.0)
+        return sum(len(world.run(until(world, 0.1), motion)) for _ in range(100))
+
+    with pytest.warns(RuntimeWarning, match=r"until is a time, not a duration.*world.time \+ dt") as told:
+        assert play(lambda world, dt: dt) == 0
+    assert len(told) == 1
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert play(lambda world, dt: world.time + dt) == 2
+
+
+def test_kinds_are_no_texts() -> None:
+    world, probe = falling(planned_accelerations=[(0, 0, -10), (0, 0, 0)])
+    events = world.run(2.0, probe)
+    kind = events[0].kind
+    assert kind == ks.EventKind.contact_begin and kind != ks.EventKind.contact_end and kind == 1 and kind != 2
+    assert {kind: "begin"}[1] == "begin"  # type: ignore[index]
+    with pytest.raises(TypeError, match="compare with EventKind.contact_end, not with 'contact_end'"):
+        kind == "contact_end"
+    with pytest.raises(TypeError, match="compare with EventKind.contact_begin, not with 'contact'"):
+        kind != "contact"
+    with pytest.raises(TypeError, match="Verdict.within"):
+        ks.Verdict.apart in ("within", "undecided")
+    with pytest.raises(
+        TypeError, match="of_kind: kinds must be .*EventKind.bound_violation, but one is 'contact_begin'"
+    ):
+        events.of_kind("contact_begin")  # type: ignore[arg-type]
