@@ -18,10 +18,10 @@ namespace {
 /// Relative slack for a recorded time over one computed now. The two are lower bounds of the same true time,
 /// and each iteration stops a little early. A larger slack hides late certificates; a smaller one reports
 /// false findings.
-constexpr double slack = 1e-3;
+constexpr double most_slack = 1e-3;
 
 bool too_late(double recorded, double computed, double now) {
-  return recorded > computed + slack * (computed - now) + 1e-12 * (1.0 + std::abs(computed));
+  return recorded > computed + most_slack * (computed - now) + 1e-12 * (1.0 + std::abs(computed));
 }
 
 std::string times(double recorded, double computed) {
