@@ -17,6 +17,7 @@
 #include "formats/converted/file_kind.hpp"
 #include "formats/tables/header_line.hpp"
 #include "formats/tables/row_reader.hpp"
+#include "tracks/midnights.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -59,6 +60,8 @@ class RawRecording::FileReader final : public ReportSink {
     if (const auto record = cutter.rest()) read(*record);
     guarded([&] { reader_->finish(*this); });
     if (is_table(format_)) {
+      if (reader_->rows()->columns().times_are_clocks) recording_.pass_clocks_through_midnights();
+      note_orders();
       note_ids();
       if (reader_->rows()->columns().id_is_file) recording_.add_file_id(reader_->rows()->file_id());
       return recording_.add_columns(reader_->rows()->columns(), file());
@@ -88,7 +91,6 @@ class RawRecording::FileReader final : public ReportSink {
     } else {
       track.radius = std::max(track.radius, report.extent);
       add_scenes(*report.row, time.time);
-      note_order(track, time.time);
     }
     track.samples.push_back({time.time, position, place_});
   }
@@ -103,7 +105,7 @@ class RawRecording::FileReader final : public ReportSink {
       throw WrongInput(report.row->wrong_text(missing.column, fmt::format("a number as {}", missing.what)) +
                        " (see --missing)");
     recording_.count(recording_.counts_.missing, place_);
-    if (time && policy == MissingPolicy::split) track.breaks.push_back(time->time);
+    if (time && policy == MissingPolicy::split) track.breaks.push_back({time->time, place_});
   }
   void time_is(const FileTime&, TimeKind) override {}
   void pass_over(Passed reason) override {
@@ -202,13 +204,21 @@ class RawRecording::FileReader final : public ReportSink {
     const bool is_of_craft = !names.empty() && (is_of_aircraft(names[id->place]) || rows.columns().is_ais);
     if (!is_of_craft) recording_.id_column_ = id->place;
   }
-  /// Counts the rows of a track by their order in time.
-  void note_order(RawTrack& track, const FileTime& time) const {
-    if (track.samples.empty() || track.samples.back().place.file != place_.file) return;
-    const FileTime& before = track.samples.back().time;
-    if (is_earlier(before, time)) ++track.forward;
-    if (!is_earlier(time, before)) return;
-    if (track.backward++ == 0) track.first_backward = place_;
+  std::uint32_t this_file() const { return static_cast<std::uint32_t>(recording_.files_.size() - 1); }
+
+  /// Counts the rows of each track by their order in time.
+  void note_orders() const {
+    for (RawTrack& track : recording_.tracks_) {
+      const RawSample* before = nullptr;
+      for (const RawSample& sample : track.samples) {
+        if (sample.place.file != this_file()) continue;
+        const RawSample* const earlier = std::exchange(before, &sample);
+        if (earlier == nullptr) continue;
+        if (is_earlier(earlier->time, sample.time)) ++track.forward;
+        if (!is_earlier(sample.time, earlier->time)) continue;
+        if (track.backward++ == 0) track.first_backward = sample.place;
+      }
+    }
   }
 
   /// Leaves out messages without a height where others have one.
@@ -298,6 +308,21 @@ void RawRecording::read(std::string text, const std::string& file) {
         file.ends_with(".gz") ? fmt::format("zcat {} | {}", word, from) : fmt::format("{} {}", from, word)));
   }
   if (files_.size() == 1) head_ = reader.rows() != nullptr ? reader.rows()->head() : TableHead{.file = file};
+}
+
+void RawRecording::pass_clocks_through_midnights() {
+  const Midnights midnights = pass_midnights(tracks_, static_cast<std::uint32_t>(files_.size() - 1));
+  constexpr std::string_view advice = "write dates before the times";
+  if (midnights.unclear)
+    throw ProgramError(
+        fmt::format("{}: the clock passes midnight in this file, and this row may be of either "
+                    "day: {}",
+                    name(*midnights.unclear), advice));
+  if (passed_midnight_.value_or(midnights.has_passed) != midnights.has_passed)
+    throw ProgramError(
+        fmt::format("{}: the clock passes midnight {}, so that the day of this file is unclear: {}",
+                    files_.back(), midnights.has_passed ? "in this file alone" : "in another file", advice));
+  passed_midnight_ = midnights.has_passed;
 }
 
 void RawRecording::add_file_id(const std::string& id) {

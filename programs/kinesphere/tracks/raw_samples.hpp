@@ -37,7 +37,12 @@ struct RawTrack {
   double radius = 0.0;             ///< of a disc that covers the body (metres); 0 where no size is known
   std::size_t forward = 0, backward = 0;  ///< rows that are later, or earlier, than the row before
   Place first_backward;                   ///< row
-  std::vector<FileTime> breaks;           ///< times at which the track does not go on (MissingPolicy::split)
+  /// Times at which the track does not go on (MissingPolicy::split).
+  struct Break {
+    FileTime time;
+    Place place;
+  };
+  std::vector<Break> breaks;
 };
 
 class RawRecording {
@@ -74,6 +79,9 @@ class RawRecording {
   StreamFormat format_of(std::string_view text) const;
   /// Notes the body of a file. Throws ProgramError if another file has the same.
   void add_file_id(const std::string& id);
+  /// Makes clock times of the last file go on behind midnight. Throws ProgramError naming a row of which the
+  /// day is unclear.
+  void pass_clocks_through_midnights();
   /// Takes the columns of a file; all files have the units and the kind of times of the first. Throws
   /// ProgramError naming the file.
   void add_columns(const TableColumns& columns, const std::string& file);
@@ -88,6 +96,7 @@ class RawRecording {
   Place first_time_;
   std::vector<RawTrack> tracks_;
   std::unordered_map<std::string, std::size_t> track_of_;
+  std::optional<bool> passed_midnight_;                   ///< by clock times
   std::optional<std::size_t> id_column_;                  ///< of ids that may be other bodies in other files
   std::unordered_map<std::string, std::string> file_of_;  ///< of the bodies that are called like their file
   ReadCounts counts_;

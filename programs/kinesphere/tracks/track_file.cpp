@@ -239,7 +239,7 @@ class Reading {
     } else {
       body.pieces.push_back(std::move(samples));
     }
-    for (const FileTime& time : track.breaks) body.breaks.push_back(recording_.times.seconds(time));
+    for (const RawTrack::Break& at : track.breaks) body.breaks.push_back(recording_.times.seconds(at.time));
     std::sort(body.breaks.begin(), body.breaks.end());
     return body;
   }

@@ -26,12 +26,18 @@ void ask_to_stop(int) {
 }
 
 void handle_stops(void (*handler)(int)) {
-  struct sigaction action {};
-  action.sa_handler = handler;
-  // Interrupted writes continue, and poll() returns. A second signal stops the program at once.
-  action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
-  ::sigemptyset(&action.sa_mask);
-  for (const int signal : {SIGINT, SIGTERM}) ::sigaction(signal, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction action {};
+    // Under nohup the end of the terminal does not end the program.
+    if (signal == SIGHUP && ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN)
+      continue;
+    action.sa_handler = handler;
+    // Interrupted writes continue, and poll() returns. A second signal stops the program at once, but a
+    // terminal that closes may send two: one of its shell, and one of the system.
+    action.sa_flags = SA_RESTART | (signal == SIGHUP ? 0 : static_cast<int>(SA_RESETHAND));
+    ::sigemptyset(&action.sa_mask);
+    ::sigaction(signal, &action, nullptr);
+  }
 }
 
 }  // namespace

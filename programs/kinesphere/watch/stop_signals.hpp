@@ -1,10 +1,10 @@
-// Turns SIGINT and SIGTERM into a flag and a descriptor to wait for.
+// Turns SIGINT, SIGTERM and SIGHUP into a flag and a descriptor to wait for.
 #pragma once
 
 namespace kinesphere::program {
 
 /// While an object lives, the first of each of these signals requests the program to end and does not stop
-/// it. At most one object may exist.
+/// it. SIGHUP is left alone where it is ignored, as under nohup. At most one object may exist.
 class StopSignals {
  public:
   StopSignals();

@@ -42,8 +42,8 @@ struct WatchOptions {
 
 /// `options` must live until the command line has been parsed.
 CLI::App* add_watch_command(CLI::App& program, WatchOptions& options);
-/// Watches until the stream ends or the process is asked to stop (SIGINT, SIGTERM); returns the exit code.
-/// Throws ProgramError.
+/// Watches until the stream ends or the process is asked to stop (SIGINT, SIGTERM, SIGHUP); returns the exit
+/// code. Throws ProgramError.
 int watch(const WatchOptions& options);
 
 }  // namespace kinesphere::program

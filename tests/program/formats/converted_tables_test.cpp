@@ -262,7 +262,10 @@ TEST(ConvertedTables, SaysHowRecordsInListsAreTakenOut) {
                 .find("'. + .tracks[] |"),
             std::string::npos);
   EXPECT_EQ(error_in("[{\"x\":1},[{\"x\":2}]]"), "f:1: expected JSON records: objects, or one list of them");
-  EXPECT_EQ(error_in("[" + frame + "]"), error_in(frame));
+  EXPECT_EQ(
+      error_in("[" + frame + "]"),
+      "f: expected records with a position each, but they are in a list 'players': say jq -c '.[] | . + "
+      ".players[] | del(.players)' FILE | kinesphere tracks -");
 }
 
 TEST(ConvertedTables, RefusesDeepJson) {

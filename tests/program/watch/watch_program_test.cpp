@@ -1,6 +1,7 @@
 // `kinesphere watch` in use: alerts, their times, refused input, its end, the served state.
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
@@ -384,7 +385,7 @@ TEST_F(WatchProgram, WatchesVesselsWithDates) {
 }
 
 TEST_F(WatchProgram, TellsAtOnceAndEndsWhenAskedTo) {
-  for (const int signal : {SIGTERM, SIGINT}) {
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
     LiveWatch live("--separation sphere:30 --summary '" + path("sum.json") + "'" + promises, path("err"));
     const std::string text = head_on();
     live.write(text);
@@ -397,6 +398,31 @@ TEST_F(WatchProgram, TellsAtOnceAndEndsWhenAskedTo) {
     EXPECT_EQ(summary["alerts"], 4);
     EXPECT_NE(live.err().find("42"), std::string::npos) << live.err();
   }
+}
+
+TEST_F(WatchProgram, KeepsItsStateWhenItsTerminalCloses) {
+  LiveWatch live("--separation sphere:30 --snapshot '" + path("state") + "'" + promises, path("err"));
+  live.write(head_on());
+  EXPECT_EQ(Json::parse(live.line())["verdict"], "undecided");
+  // The shell sends one, and the system another.
+  live.signal(SIGHUP);
+  live.signal(SIGHUP);
+  EXPECT_EQ(live.wait(), 0);
+  EXPECT_TRUE(std::filesystem::exists(path("state")));
+}
+
+TEST_F(WatchProgram, GoesOnUnderNohup) {
+  const auto before = std::signal(SIGHUP, SIG_IGN);
+  LiveWatch live("--separation sphere:30" + promises, path("err"));
+  std::signal(SIGHUP, before);
+  const std::string text = head_on();
+  live.write(text.substr(0, text.size() / 2));
+  EXPECT_EQ(Json::parse(live.line())["verdict"], "undecided");
+  live.signal(SIGHUP);
+  live.write(text.substr(text.size() / 2));
+  live.end_input();
+  EXPECT_EQ(live.wait(), 0);
+  EXPECT_NE(live.err().find("42"), std::string::npos) << live.err();
 }
 
 TEST_F(WatchProgram, WaitsForNothingThatIsNotNeeded) {

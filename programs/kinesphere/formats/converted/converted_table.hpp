@@ -96,6 +96,8 @@ bool is_json_list(std::string_view text);
 bool are_json_lines(std::string_view text);
 /// Lists of values, one for each name, such as {"time":[0,1],"x":[2,3]}.
 bool is_columnar_json(std::string_view text);
+/// A document of CZML, for CesiumJS.
+bool is_czml(std::string_view text);
 /// Streams of an activity of Strava, which are such lists.
 bool is_strava(std::string_view text);
 

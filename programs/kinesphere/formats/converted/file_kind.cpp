@@ -38,6 +38,11 @@ constexpr std::string_view as_players =
     "write it as a table with the columns frame, id, x and y, a row for each player, with kloppy for example";
 constexpr std::string_view sp3 = "an ephemeris (SP3): write it as CSV, with columns id, time, x, y, z";
 
+constexpr std::string_view packets =
+    "a recording of a network (pcap): write what it carries as text, with tshark";
+constexpr std::string_view pickle =
+    "a pickle of Python: write it as CSV, with pandas: read_pickle(...).to_csv(...)";
+
 /// Files that begin with certain bytes.
 constexpr FileKind kinds_by_bytes[] = {
     {"\xFF\xFE\0\0"sv, "text in UTF-32: convert it with iconv -f UTF-32 -t UTF-8"},
@@ -51,6 +56,7 @@ constexpr FileKind kinds_by_bytes[] = {
      "7zXZ"sv,
      "compressed by xz: unpack it with xz -d, or use gzip"},
     {"\x28\xB5\x2F\xFD"sv, "compressed by zstd: unpack it with zstd -d, or use gzip"},
+    {"\x1F\x8B"sv, "compressed by gzip twice: unpack it with gzip -d first"},
     {"BZh"sv, "compressed by bzip2: unpack it with bzip2 -d, or use gzip"},
     {"\xD0\xCF\x11\xE0"sv, "a sheet of old Excel (.xls): save it as CSV"},
     {"Obj\1"sv, "an Avro file: write it as CSV"},
@@ -69,6 +75,12 @@ constexpr FileKind kinds_by_bytes[] = {
     {"\x1A\x32"sv, mode_s},
     {"\x1A\x33"sv, mode_s},
     {"%PDF"sv, "a PDF file"},
+    {"\xD4\xC3\xB2\xA1"sv, packets},
+    {"\n\r\r\n"sv, packets},
+    {"\x80\4"sv, pickle},
+    {"\x80\5"sv, pickle},
+    {"version https://git-lfs"sv, "what Git keeps in place of a large file: fetch that with git lfs pull"},
+    {"{'"sv, "dictionaries as Python prints them: write each with json.dumps"},
     {"{\\rtf"sv, "a document of RTF: save it as text"},
     {"\0\0\x07\xCB"sv, molecular},
     {"\0\0\x07\xC9"sv, molecular},
@@ -172,7 +184,7 @@ std::string kind_by_lines(std::string_view text) {
     return "segments of flights (SO6): write both ends of each as rows of a table with the columns id, time, "
            "lon, "
            "lat and FL; its angles are minutes";
-  if (lines[0].starts_with('*') && lines[0].ends_with(';') &&
+  if ((lines[0].starts_with('*') || lines[0].starts_with('@')) && lines[0].ends_with(';') &&
       lines[0].find_first_not_of("0123456789abcdefABCDEF", 1) == lines[0].size() - 1)
     return std::string(mode_s);
   return {};
@@ -206,6 +218,8 @@ std::string other_file_kind(std::string_view beginning) {
   if (has_begin(beginning, "\xEF\xBB\xBF")) beginning.remove_prefix(3);
   beginning.remove_prefix(std::min(beginning.find_first_not_of(" \t\r\n"), beginning.size()));
   // Lines of logs may begin with [INFO].
+  if (is_czml(beginning))
+    return "CZML, whose positions are in a list of each body: write it as KML, GeoJSON or CSV";
   const bool is_json = has_begin(beginning, "{") ||
                        (has_begin(beginning, "[") && beginning.find_first_of("{[\"0123456789-]", 1) ==
                                                          beginning.find_first_not_of(" \t\r\n", 1));

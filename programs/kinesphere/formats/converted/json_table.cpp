@@ -18,16 +18,25 @@ namespace kinesphere::program {
 namespace {
 
 /// Returns the table. Throws ProgramError for records whose positions are in a list of each.
-std::optional<ConvertedTable> table_with_positions(const JsonRows& rows, const std::string& file) {
+std::optional<ConvertedTable> table_with_positions(const JsonRows& rows, const std::string& file,
+                                                   bool is_list = false) {
   const bool has_position = std::ranges::any_of(rows.names(), [](const std::string& name) {
     const auto meaning = meaning_of_ending(name);
     return meaning && (meaning->quantity == Quantity::x || meaning->quantity == Quantity::longitude);
   });
-  if (const std::string& list = rows.long_list(); !list.empty() && !has_position)
-    throw ProgramError(fmt::format(
-        "{0}: expected records with a position each, but they are in a list '{1}': say jq -c '. + .{1}[] | "
-        "del(.{1})' FILE | kinesphere tracks -",
-        file, list));
+  const std::string& list = rows.long_list();
+  if (!list.empty() && !has_position && rows.has_several_lists())
+    throw ProgramError(
+        fmt::format("{}: expected records with a position each, but they are in several lists, such as '{}': "
+                    "if each is of "
+                    "one body, say jq -c 'to_entries[] | {{id: .key}} + .value[]' FILE | kinesphere tracks -",
+                    file, list));
+  if (!list.empty() && !has_position)
+    throw ProgramError(
+        fmt::format("{0}: expected records with a position each, but they are in a list '{1}': say jq -c "
+                    "'{2}. + .{1}[] | "
+                    "del(.{1})' FILE | kinesphere tracks -",
+                    file, list, is_list ? ".[] | " : ""));
   return table_of(rows);
 }
 
@@ -45,7 +54,7 @@ std::optional<ConvertedTable> table_of_list(std::string_view text, const std::st
     }
     require_end(document, "one list of JSON records");
   });
-  return table_with_positions(rows, file);
+  return table_with_positions(rows, file, true);
 }
 
 /// Reads objects, or lists of objects, one in each line.
@@ -154,6 +163,11 @@ bool is_columnar_json(std::string_view text) {
          (inner.name == "data" && inner.value.starts_with('['));
 }
 
+bool is_czml(std::string_view text) {
+  const FirstField first = first_field(inside_bracket(text, '[').value_or(""));
+  return first.name == "id" && inside_bracket(first.value, '"').value_or("").starts_with("document\"");
+}
+
 bool is_strava(std::string_view text) {
   return is_columnar_json(text) &&
          (text.find("\"latlng\"") != text.npos || text.find("\"series_type\"") != text.npos);
@@ -183,7 +197,7 @@ bool is_json_list(std::string_view text) {
   const std::size_t second =
       first == std::string_view::npos ? first : text.find_first_not_of(" \t\r\n", first + 1);
   return second != std::string_view::npos && text[first] == '[' && text[second] == '{' &&
-         !is_columnar_json(text);
+         !is_columnar_json(text) && !is_czml(text);
 }
 
 bool are_json_lines(std::string_view text) {
@@ -191,8 +205,8 @@ bool are_json_lines(std::string_view text) {
   const std::string_view line = trimmed(text.substr(0, text.find('\n')));
   // A stream may have the beginning of a long line only.
   const bool may_be_whole = line.ends_with('}') || text.find('\n') == text.npos;
-  return line.starts_with('{') && may_be_whole && line.find("\"features\"") == line.npos &&
-         !is_columnar_json(text);
+  return line.starts_with('{') && !line.starts_with("{'") && may_be_whole &&
+         line.find("\"features\"") == line.npos && !is_columnar_json(text);
 }
 
 std::optional<ConvertedTable> table_of(const JsonRows& rows) {

@@ -36,6 +36,9 @@ std::string number_advice(std::string_view field) {
   if (number.find_first_of(digits) == std::string_view::npos || rest.empty()) return {};
   const bool is_decimal_comma = rest[0] == ',' && number.find('.') == std::string_view::npos &&
                                 rest.find_first_not_of(digits, 1) == std::string_view::npos;
+  constexpr std::size_t of_thousands = 4;
+  if (is_decimal_comma && rest.size() == of_thousands && number.find_first_of("123456789") == 0)
+    return ": leave out what separates thousands, or make a decimal comma a point";
   if (is_decimal_comma)
     return ": decimal commas are read where ; or tabs separate; else make them points, as sed -E "
            "'s/([0-9]),([0-9])/\\1.\\2/g' does";
@@ -99,7 +102,11 @@ bool is_missing(std::string_view field) {
       "", "nan", "-nan", "inf", "-inf", "+inf", "infinity", "-infinity", "na", "n/a", "#n/a", "<na>", "nat",
       "null", "nil", "none", "\\N", "-", "--", "?", "nodata",
       // Of spreadsheets, of programs for Windows, and of aircraft that stand.
-      "#value!", "#ref!", "#div/0!", "#num!", "1.#qnan", "-1.#ind", "nan(ind)", "-nan(ind)", "ground"};
+      "#value!", "#ref!", "#div/0!", "#num!", "nan(ind)", "-nan(ind)", "ground",
+      // Of SAS and Stata, and long dashes.
+      ".", "\xE2\x80\x93", "\xE2\x80\x94"};
+  // 1.#QNAN0, -1.#IND and 1.#INF, of older programs for Windows.
+  if (field.starts_with("1.#") || field.starts_with("-1.#")) return true;
   return std::any_of(std::begin(names), std::end(names),
                      [field](std::string_view name) { return same_name(field, name); });
 }

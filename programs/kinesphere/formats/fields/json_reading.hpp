@@ -3,9 +3,11 @@
 
 #include <simdjson.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "formats/fields/wrong_input.hpp"
 
@@ -13,13 +15,39 @@ namespace kinesphere::program {
 
 namespace ondemand = simdjson::ondemand;
 
+/// Replaces NaN, Infinity and -Infinity outside strings, which Python and JavaScript write although JSON has
+/// none of them, by null.
+inline void replace_no_numbers(std::string& text) {
+  if (text.find("NaN") == text.npos && text.find("Infinity") == text.npos) return;
+  std::string replaced;
+  bool is_string = false;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::string_view rest = std::string_view(text).substr(at);
+    std::size_t taken = 0;
+    for (const std::string_view word : {"NaN", "-Infinity", "Infinity"})
+      if (!is_string && taken == 0 && rest.starts_with(word)) taken = word.size();
+    if (taken > 0) {
+      replaced += "null";
+      at += taken;
+      continue;
+    }
+    // What a backslash stands before belongs to the string.
+    const std::size_t size = is_string && rest[0] == '\\' ? std::min<std::size_t>(2, rest.size()) : 1;
+    if (rest[0] == '"') is_string = !is_string;
+    replaced += rest.substr(0, size);
+    at += size;
+  }
+  text = std::move(replaced);
+}
+
 /// Keeps the text of a document, with the padding that simdjson requires.
 class JsonDocumentReader {
  public:
   /// Returns the document, valid until the next call. Throws MalformedRecord.
   ondemand::document open(std::string_view text) {
     text_.assign(text);
-    text_.reserve(text.size() + simdjson::SIMDJSON_PADDING);
+    replace_no_numbers(text_);
+    text_.reserve(text_.size() + simdjson::SIMDJSON_PADDING);
     ondemand::document document;
     if (const auto error = parser_.iterate(text_.data(), text_.size(), text_.capacity()).get(document))
       throw MalformedRecord(std::string("expected JSON: ") + simdjson::error_message(error));

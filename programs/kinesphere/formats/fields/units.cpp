@@ -53,7 +53,8 @@ constexpr NamedUnit time_units[] = {{"s sec secs second seconds", 1.0},
                                     {"d day days", 86400.0}};
 constexpr NamedUnit angle_units[] = {{"deg degree degrees \xC2\xB0 \xB0", 1.0},
                                      {"rad radian radians", 180.0 / 3.14159265358979323846},
-                                     {"degE7", 1e-7}};
+                                     {"degE7", 1e-7},
+                                     {"semicircles semicircle", 180.0 / 2147483648.0}};
 
 std::span<const NamedUnit> units_of(Measure measure) {
   switch (measure) {

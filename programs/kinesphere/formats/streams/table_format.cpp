@@ -116,6 +116,8 @@ class CsvFormat final : public ReportFormat {
       columns_needed_ = std::max({columns_needed_, body.x + 1, body.y + 1, body.z.value_or(0) + 1});
     for (const auto& column : reader_->columns().of)
       if (column) columns_needed_ = std::max(columns_needed_, column->place + 1);
+    if (const auto rest = reader_->columns().nanoseconds)
+      columns_needed_ = std::max(columns_needed_, *rest + 1);
     name_column_ = column_of_names(head);
     find_class_columns(head);
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <utility>
 
 #include "base/ascii_text.hpp"
@@ -27,30 +28,35 @@ constexpr QuantityNames quantities[quantity_count] = {
      "vesselid shipid sourcemmsi deviceid droneid drone uavid uav robotid playerid entityid icao24 hex "
      "trajectoryid particle particleid tag tagid animalid individuallocalidentifier identity objid targetid "
      "instanceid cellid carid persid personnr bodyid individual individualid individualidentifier subjectid "
-     "birdid fishid actorid satid satelliteid noradid noradcatid nodeid"},
+     "birdid fishid actorid satid satelliteid noradid noradcatid nodeid userid identifiant taxiid busid "
+     "boatid "
+     "aircraftid "
+     "tracknumber tracknum trackno tracknr"},
     {Quantity::time, "time", Measure::time,
      "t timestamp datetime basedatetime utc timeutc timestamputc datetimeutc unixtime epoch stamp tstamp "
      "headerstamp fixtime utctime date/time date&time epochutc timegmt datetimegmt localtime timestamplocal "
      "zeit uhrzeit zeitstempel temps tiempo msgtime trialtime simt simtime seconds:s secs:s sec:s "
-     "milliseconds:ms rxuxtime"},
+     "milliseconds:ms rxuxtime tst heure hora"},
     {Quantity::frame, "frame", Measure::none,
      "frameid frameno framenr framenumber frameindex frameidx framenum framecount imagenumber fnum fr "
      "timestep"},
-    {Quantity::date, "date", Measure::none, "datum utcdate dateutc gpsdate localdate"},
+    {Quantity::date, "date", Measure::none, "datum utcdate dateutc gpsdate localdate fecha"},
     {Quantity::arrival, "arrival", Measure::time, "received"},
     {Quantity::x, "x", Measure::length,
      "posx xpos positionx xposition posepositionx px centerx xcenter centroidx xcentroid east easting "
-     "points0"},
+     "points0 position0 pos0"},
     {Quantity::y, "y", Measure::length,
      "posy ypos positiony yposition posepositiony py centery ycenter centroidy ycentroid north northing "
-     "points1"},
+     "points1 position1 pos1"},
     {Quantity::z, "z", Measure::length,
-     "posz zpos positionz zposition posepositionz pz centerz zcenter centroidz zcentroid points2 alt "
+     "posz zpos positionz zposition posepositionz pz centerz zcenter centroidz zcentroid points2 position2 "
+     "pos2 alt "
      "altitude ele elevation geometrycoordinates2 flightlevel:FL fl:FL"},
     {Quantity::longitude, "lon", Measure::angle,
-     "lng long longitude locationlong locationlon gpslon gpslongitude decimallongitude geometrycoordinates0"},
+     "lng long longitude locationlong locationlon gpslon gpslongitude decimallongitude geometrycoordinates0 "
+     "positionlong"},
     {Quantity::latitude, "lat", Measure::angle,
-     "latitude locationlat gpslat gpslatitude decimallatitude geometrycoordinates1"},
+     "latitude locationlat gpslat gpslatitude decimallatitude geometrycoordinates1 positionlat"},
     {Quantity::vx, "vx", Measure::speed, "velx velocityx"},
     {Quantity::vy, "vy", Measure::speed, "vely velocityy"},
     {Quantity::vz, "vz", Measure::speed, "velz velocityz"},
@@ -244,7 +250,7 @@ AxisAndBody axis_and_body(std::string_view column_name) {
       std::string_view rest =
           std::string_view(name).substr(is_first ? word.size() : 0, name.size() - word.size());
       const bool is_apart =
-          std::string_view(" _-.").find(is_first ? rest.front() : rest.back()) != std::string_view::npos;
+          std::string_view(" _-./").find(is_first ? rest.front() : rest.back()) != std::string_view::npos;
       if (is_apart) rest = rest.substr(is_first ? 1 : 0, rest.size() - 1);
       const bool is_number = is_first && rest.find_first_not_of("0123456789") == std::string_view::npos;
       if (!rest.empty() && (is_apart || is_number)) return {axis, std::string(rest)};
@@ -282,6 +288,34 @@ bool is_part_of_time(std::string_view column_name) {
              "nsec nsecs nanosec nanosecs nanoseconds usec usecs microsec microseconds msec msecs millis "
              "millisec fraction") ||
          is_word_of(plain_name(column_name), "gpsweek gpswk");
+}
+
+bool is_part_of_clock(std::string_view column_name) {
+  return is_word_of(plain_name(column_name),
+                    "seconds secs sec second minutes minute mins min hours hour hrs hr milliseconds");
+}
+
+namespace {
+
+/// Returns the name without the first of these endings that it has; empty for others.
+std::string without_ending(std::string_view name, std::initializer_list<std::string_view> endings) {
+  for (const std::string_view ending : endings)
+    if (name.ends_with(ending)) return '.' + std::string(name.substr(0, name.size() - ending.size()));
+  return {};
+}
+
+}  // namespace
+
+bool is_whole_seconds(std::string_view column_name) {
+  const std::string name = plain_name(column_name);
+  return (name.ends_with("sec") || name.ends_with("secs")) && !is_part_of_time(column_name);
+}
+
+bool are_parts_of_time(std::string_view seconds, std::string_view nanoseconds) {
+  const std::string of_both = without_ending(plain_name(seconds), {"secs", "sec", "seconds"});
+  return !of_both.empty() &&
+         of_both ==
+             without_ending(plain_name(nanoseconds), {"nanosecs", "nanosec", "nanoseconds", "nsecs", "nsec"});
 }
 
 bool looks_like_angle(std::string_view column_name, Quantity angle) {

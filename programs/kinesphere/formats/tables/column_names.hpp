@@ -74,6 +74,12 @@ std::string_view unit_in_name(std::string_view column_name, Measure measure);
 bool looks_like_height(std::string_view column_name);
 /// True for a column that may have a part of a time, beside another with its seconds: nanosec, gps_week.
 bool is_part_of_time(std::string_view column_name);
+/// True for seconds, minutes and hours, of which a time may need all.
+bool is_part_of_clock(std::string_view column_name);
+/// True for a name that ends as whole seconds do: stamp.sec, secs.
+bool is_whole_seconds(std::string_view column_name);
+/// True for whole seconds and their nanoseconds: stamp.sec and stamp.nanosec.
+bool are_parts_of_time(std::string_view seconds, std::string_view nanoseconds);
 /// True for a name that has a word for longitudes or latitudes, as `angle` says: geo_lon, X_WGS84.
 bool looks_like_angle(std::string_view column_name, Quantity angle);
 /// Returns the values with which a column says that its row means nothing, such as "true 1" of `lost`; empty

@@ -142,6 +142,17 @@ void ask_for_units_of_craft(const TableHead& head, const TableColumns& columns) 
     return same_name(name, "mmsi") || same_name(name, "sourcemmsi") || same_name(name, "imo");
   };
   ask_beside_whole_degrees(head, columns);
+  const auto has = [&](std::string_view plain) {
+    return std::any_of(head.names.begin(), head.names.end(),
+                       [&](const std::string& name) { return plain_name(name) == plain; });
+  };
+  const auto& speed = columns[Quantity::speed];
+  if (speed && !speed->has_unit && has("fixtime") && has("deviceid"))
+    throw ProgramError(
+        fmt::format("{}: {} does not say its unit, which is kt in positions of Traccar (fixTime, deviceId): "
+                    "say {} (or :m/s)",
+                    head.file, column_text(head, speed->place),
+                    columns_option(columns_text(head, columns, Quantity::speed, ":kt"))));
   const auto craft = std::find_if(head.names.begin(), head.names.end(), [&](const std::string& name) {
     return is_of_aircraft(name) || is_of_ships(name);
   });

@@ -45,6 +45,8 @@ class JsonRows {
   /// Returns the name of a list of objects that was too long for columns, or of the list that it is in; empty
   /// if there was none.
   const std::string& long_list() const { return long_list_; }
+  /// True if another list of objects was too long for columns.
+  bool has_several_lists() const { return has_several_lists_; }
   /// Returns the names as the header of a table.
   std::string header() const {
     std::string header;
@@ -106,14 +108,16 @@ class JsonRows {
 
  private:
   void note_list(const std::string& name, ondemand::array& list) {
-    if (!long_list_.empty()) return;
+    if (has_several_lists_) return;
     for (ondemand::value element : list) {
       if (element.type() != ondemand::json_type::object) return;
       // tracks of tracks.0.points.
       std::size_t end = name.find('.');
       while (end < name.size() && !(name[end + 1] >= '0' && name[end + 1] <= '9'))
         end = name.find('.', end + 1);
-      long_list_ = name.substr(0, end);
+      const std::string outer = name.substr(0, end);
+      has_several_lists_ = !long_list_.empty() && long_list_ != outer;
+      if (long_list_.empty()) long_list_ = outer;
       return;
     }
   }
@@ -164,6 +168,7 @@ class JsonRows {
 
   std::vector<std::string> names_;
   std::string long_list_;
+  bool has_several_lists_ = false;
   std::unordered_map<std::string, std::size_t> columns_;
   std::vector<Row> rows_;
 };

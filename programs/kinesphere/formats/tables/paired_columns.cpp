@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "base/ascii_text.hpp"
 #include "base/number_text.hpp"
 #include "base/program_error.hpp"
 #include "formats/tables/column_units.hpp"
@@ -50,6 +51,42 @@ bool are_numbered(const std::vector<TableColumns::Body>& bodies) {
   });
 }
 
+/// True for a column that names a body: id1 or name_1 beside x1, robots.0.id beside robots.0.x.
+bool is_name_of_body(const std::string& column, const std::string& body) {
+  constexpr std::string_view between = " _-./";
+  std::string_view rest = column;
+  if (rest.size() <= body.size()) return false;
+  if (same_name(rest.substr(0, body.size()), body)) {
+    rest = rest.substr(std::min(rest.find_first_not_of(between, body.size()), rest.size()));
+  } else if (same_name(rest.substr(rest.size() - body.size()), body)) {
+    rest = rest.substr(0, rest.find_last_not_of(between, rest.size() - body.size() - 1) + 1);
+  } else {
+    return false;
+  }
+  const auto meaning = meaning_of(rest);
+  return (meaning && meaning->quantity == Quantity::id) || may_be_id(rest);
+}
+
+/// Asks about bodies that have names beside their positions, which may be others in each row.
+void ask_about_names(const TableHead& head, const std::vector<TableColumns::Body>& bodies) {
+  for (const TableColumns::Body& body : bodies) {
+    const auto name =
+        std::find_if(head.names.begin(), head.names.end(),
+                     [&, &id = body.id](const auto& each) { return is_name_of_body(each, id); });
+    if (name == head.names.end()) continue;
+    // Of a list in JSON.
+    const std::string list = body.id.substr(0, body.id.rfind('.'));
+    const bool is_list =
+        list.size() < body.id.size() && list.find_first_of("0123456789.") == std::string::npos;
+    throw ProgramError(fmt::format(
+        "{}: '{}' may name another body in each row than '{}' and '{}' of the row before: write "
+        "a row for each "
+        "body{}, or say --format table if it is one and the same in all rows",
+        head.file, *name, head.names[body.x], head.names[body.y],
+        is_list ? fmt::format(", with jq -c '(arrays[], objects) | . + .{0}[] | del(.{0})'", list) : ""));
+  }
+}
+
 /// True for a name that ends as an id does: MetaData.MMSI.
 bool has_likely_id(const TableHead& head) {
   return std::any_of(head.names.begin(), head.names.end(), [](const std::string& name) {
@@ -86,6 +123,7 @@ void find_pairs(const TableHead& head, const ColumnHints& hints, TableColumns& c
   const std::vector<TableColumns::Body>& bodies = is_earth ? earth : plane;
   const bool numbered = are_numbered(bodies);
   if (bodies.empty() || (!numbered && (bodies.size() == 1 || has_likely_id(head)))) return;
+  if (hints.format != "table") ask_about_names(head, bodies);
   const auto heights =
       std::count_if(bodies.begin(), bodies.end(), [](const auto& each) { return each.z.has_value(); });
   if (heights != 0 && heights != std::ssize(bodies))

@@ -239,7 +239,7 @@ std::optional<TimeField> RowReader::time(Quantity quantity) {
   const auto& column = columns_[quantity];
   if (!column) return std::nullopt;
   std::string_view text = field(column->place);
-  if (quantity == Quantity::time) text = with_date(text);
+  if (quantity == Quantity::time) text = with_nanoseconds(with_date(text));
   auto time = time_field(text, columns_.dates);
   if (!time && is_missing(text)) {
     if (!missing_) missing_ = {column->place, "time"};
@@ -267,6 +267,7 @@ std::optional<TimeField> RowReader::time(Quantity quantity) {
              : " (dates are read as in 2024-01-31T12:30:00Z)"));
   }
   if (time->kind != TimeKind::number) return time;
+  if (columns_.decimal_comma) check_decimals(column->place);
   time->kind = columns_.time_kind;
   if (quantity != Quantity::time) return time;
   if (!columns_.time_problem.empty()) throw OpenQuestion(columns_.time_problem, false);
@@ -285,6 +286,21 @@ std::string_view RowReader::with_date(std::string_view clock) {
   if (date.find(':') != std::string::npos) date.resize(std::min(date.find_first_of(" T"), date.size()));
   if (date.size() == 8 && parse_number(date)) date.insert(6, "-").insert(4, "-");
   date_and_clock_ = date + ' ' + std::string(clock);
+  return date_and_clock_;
+}
+
+/// Returns whole seconds with their nanoseconds; nothing if these are missing.
+std::string_view RowReader::with_nanoseconds(std::string_view seconds) {
+  if (!columns_.nanoseconds || is_missing(seconds)) return seconds;
+  const std::string_view rest = field(*columns_.nanoseconds);
+  if (is_missing(rest)) return {};
+  constexpr double most = 1e9;
+  const auto whole = parse_number(seconds), nanoseconds = parse_number(rest);
+  if (!whole || std::floor(*whole) != *whole || *whole < 0.0)
+    throw WrongInput(wrong_text(columns_[Quantity::time]->place, "whole seconds beside nanoseconds"));
+  if (!nanoseconds || std::floor(*nanoseconds) != *nanoseconds || *nanoseconds < 0.0 || *nanoseconds >= most)
+    throw WrongInput(wrong_text(*columns_.nanoseconds, "nanoseconds from 0 to 999999999"));
+  date_and_clock_ = fmt::format("{:.0f}.{:09.0f}", *whole, *nanoseconds);
   return date_and_clock_;
 }
 
@@ -317,11 +333,36 @@ void RowReader::check_size(const FileTime& time) {
   columns_.format += ", times in ms since 1970";
 }
 
+/// Refuses a table in which 1.234 may be a thousand, as other numbers have decimal commas, or 1,234, as
+/// others have decimal points.
+void RowReader::check_decimals(std::size_t column) {
+  constexpr std::string_view digits = "0123456789";
+  std::string_view text = field(column);
+  const std::size_t mark = text.find_first_of(".,");
+  if (mark == std::string_view::npos || text.find_first_of(".,", mark + 1) != std::string_view::npos) return;
+  const std::size_t first_digit = std::min(text.find_first_of("123456789"), mark);
+  const std::size_t before = mark - first_digit, behind = text.size() - mark - 1;
+  const bool may_be_thousands = before >= 1 && before <= 3 && first_digit <= 1 && behind == 3 &&
+                                text.find_first_not_of(digits, mark + 1) == std::string_view::npos;
+  const std::size_t sign = text[mark] == ',' ? 1 : 0;
+  const Marked& other = marked_[1 - sign];
+  const std::string& unlike = may_be_thousands && other.thousands.empty() ? other.decimal : other.thousands;
+  if (!unlike.empty())
+    throw WrongInput(fmt::format("{}, unlike {} before: leave out what separates thousands",
+                                 wrong_text(column, "the same decimal sign in all numbers"),
+                                 shown_field(unlike)));
+  std::string& first_seen = may_be_thousands ? marked_[sign].thousands : marked_[sign].decimal;
+  if (first_seen.empty()) first_seen = text;
+}
+
 std::optional<double> RowReader::number(Quantity quantity) {
   const auto& column = columns_[quantity];
   if (!column) return std::nullopt;
   const std::string_view text = field(column->place);
-  if (const auto number = number_field(text, columns_.decimal_comma)) return number;
+  if (const auto number = number_field(text, columns_.decimal_comma)) {
+    if (columns_.decimal_comma) check_decimals(column->place);
+    return number;
+  }
   if (!is_missing(text))
     throw WrongInput(wrong_text(column->place, fmt::format("a number as {}", name_of(quantity))) +
                      number_advice(text));
@@ -335,6 +376,7 @@ std::optional<double> RowReader::degrees(Quantity quantity, const std::optional<
                                          std::string_view letters) {
   const std::size_t column = columns_[quantity]->place;
   auto degrees = number_field(field(column), columns_.decimal_comma);
+  if (degrees && columns_.decimal_comma) check_decimals(column);
   if (!degrees) degrees = angle_field(field(column), columns_.decimal_comma, letters);
   if (!degrees) degrees = number(quantity);  // missing, or wrong
   if (!degrees || !hemisphere) return degrees;
@@ -367,7 +409,11 @@ std::optional<Vec3> RowReader::position() {
     constexpr double least_whole = 1e6;
     const char* const unit_advice =
         std::abs(*x) >= least_whole || std::abs(*y) >= least_whole
-            ? ": say --columns ...,lon=...:degE7,lat=...:degE7 if it is in 1e-7 degrees"
+            ? ": say --columns ...,lon=...:degE7,lat=...:degE7 if it is in 1e-7 degrees, or :semicircles if "
+              "it "
+              "is of FIT"
+        : std::abs(*x) <= 18e3 && std::abs(*y) <= 9e3
+            ? ": degrees and minutes are read with a blank between them, 47 30.25 for 4730.25"
             : "";
     if (!(std::abs(longitude) <= 360.0))
       throw WrongInput(wrong_text(columns_.x().place, "a longitude from -360 to 360 degrees") + unit_advice);

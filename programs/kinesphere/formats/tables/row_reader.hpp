@@ -89,6 +89,8 @@ class RowReader {
   std::string_view name_of(Quantity quantity) const;
   void check_size(const FileTime& time);
   std::string_view with_date(std::string_view clock);
+  std::string_view with_nanoseconds(std::string_view seconds);
+  void check_decimals(std::size_t column);
   void check_date(std::string_view text, const FileTime& time) const;
   std::optional<double> degrees(Quantity quantity, const std::optional<std::size_t>& hemisphere,
                                 std::string_view letters);
@@ -112,6 +114,12 @@ class RowReader {
   bool has_time_ = false;  ///< a row had a time
   std::size_t body_ = 0;
   std::array<Span, 3> spans_;
+  /// Numbers with a point, and with a comma, of tables that may have both as decimal signs: the first that
+  /// certainly has decimals, and the first in which thousands may be separated.
+  struct Marked {
+    std::string decimal, thousands;
+  };
+  std::array<Marked, 2> marked_;
   std::string file_id_, id_, buffer_, date_and_clock_;
 };
 

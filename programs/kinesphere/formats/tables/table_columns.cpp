@@ -225,13 +225,13 @@ void find_hemispheres(const TableHead& head, TableColumns& columns) {
 
 void list_unused(const TableHead& head, TableColumns& columns) {
   for (std::size_t place = 0; place < head.columns(); ++place) {
-    const bool is_used = std::any_of(columns.of.begin(), columns.of.end(),
-                                     [&](const auto& column) { return column && column->place == place; }) ||
-                         std::any_of(columns.bodies.begin(), columns.bodies.end(),
-                                     [&](const auto& body) {
-                                       return body.x == place || body.y == place || body.z == place;
-                                     }) ||
-                         columns.east_or_west == place || columns.north_or_south == place;
+    const bool is_used =
+        std::any_of(columns.of.begin(), columns.of.end(),
+                    [&](const auto& column) { return column && column->place == place; }) ||
+        std::any_of(
+            columns.bodies.begin(), columns.bodies.end(),
+            [&](const auto& body) { return body.x == place || body.y == place || body.z == place; }) ||
+        columns.east_or_west == place || columns.north_or_south == place || columns.nanoseconds == place;
     if (!is_used) columns.unused.push_back(place);
   }
 }
@@ -251,7 +251,7 @@ TableColumns find_columns(const TableHead& head, const ColumnHints& hints, Colum
   understand_places(head, hints, columns);
   require_columns(head, hints, columns);
   if (hints.columns.empty() && !columns.has_own_heights) ask_for_heights(head, columns);
-  ask_for_parts_of_time(head, columns);
+  find_parts_of_time(head, columns);
   understand_lengths(head, hints, columns);
   understand_time(head, use, columns);
   apply_time_hints(hints, columns);

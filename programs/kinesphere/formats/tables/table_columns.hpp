@@ -74,7 +74,8 @@ struct TableColumns {
   std::vector<Body> bodies;
   /// Columns with E or W, and with N or S, where degrees are without a sign.
   std::optional<std::size_t> east_or_west, north_or_south;
-  std::vector<std::size_t> unused;  ///< columns that are not read
+  std::optional<std::size_t> nanoseconds;  ///< column with the rest of whole seconds
+  std::vector<std::size_t> unused;         ///< columns that are not read
   bool decimal_comma = false;
 
   /// Columns of x and y: longitude and latitude if geographic.

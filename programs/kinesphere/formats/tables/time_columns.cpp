@@ -29,15 +29,19 @@ std::optional<double> frame_rate_in(const TableHead& head) {
 
 }  // namespace
 
-void ask_for_parts_of_time(const TableHead& head, const TableColumns& columns) {
+void find_parts_of_time(const TableHead& head, TableColumns& columns) {
   const auto& time = columns[Quantity::time];
   if (!time || head.names.empty()) return;
-  const std::string name = plain_name(head.names[time->place]);
-  const bool is_whole = name.ends_with("sec") || name.ends_with("secs");
+  const std::string& name = head.names[time->place];
+  const bool is_whole = is_whole_seconds(name);
   const bool is_given = columns.format == "columns as given" && is_whole && time->said_unit.empty();
   if (columns.format != "table" && !is_given) return;
   for (std::size_t place = 0; place < head.names.size(); ++place)
-    if (place != time->place && is_part_of_time(head.names[place]))
+    if (are_parts_of_time(name, head.names[place])) columns.nanoseconds = place;
+  const bool is_part = is_part_of_clock(name);
+  for (std::size_t place = 0; place < head.names.size(); ++place)
+    if (place != time->place && place != columns.nanoseconds &&
+        (is_part_of_time(head.names[place]) || (is_part && is_part_of_clock(head.names[place]))))
       throw ProgramError(
           fmt::format("{}: {} may be a part of the time, as {} is: write both as one column of times, "
                       "or say {} to use the latter alone",

@@ -34,6 +34,11 @@ class UsualColumns {
     // Frame numbers are not needed if there are times, nor dates without a clock.
     if (!places(Quantity::time).empty()) forget({Quantity::frame});
     auto& times = places_[static_cast<std::size_t>(Quantity::time)];
+    std::erase_if(times, [&, all = times](std::size_t rest) {
+      return std::any_of(all.begin(), all.end(), [&](std::size_t whole) {
+        return are_parts_of_time(head.names[whole], head.names[rest]);
+      });
+    });
     if (times.empty() && places(Quantity::frame).empty())
       times.swap(places_[static_cast<std::size_t>(Quantity::date)]);
   }
