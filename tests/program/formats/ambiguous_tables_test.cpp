@@ -60,6 +60,30 @@ TEST(AmbiguousTables, ListsOfNamedBodiesAreNoColumnsOfBodies) {
   EXPECT_EQ(parse({{"f", places}}).tracks[1].id, "at.1");
 }
 
+TEST(AmbiguousTables, AnotherHeaderInTheMiddleIsNoRow) {
+  const std::string first = "id,time,x,y\na,0,0,5\na,1,1,5\n";
+  EXPECT_EQ(error_in(first + "id,time,y,x\na,2,5,2\n"),
+            "f: line 4 is another header, whose columns are not in the places of the first: what follows it "
+            "has to be "
+            "read by itself");
+  EXPECT_EQ(parse({{"f", first + "id,time,x,y\na,2,2,5\n"}}).samples, 3u);
+}
+
+TEST(AmbiguousTables, WideTablesOfGames) {
+  const std::string wide =
+      "period_id,timestamp,frame_id,ball_x,ball_y,home_1_x,home_1_y,home_1_d,away_2_x,away_2_y\n"
+      "1,0.00,0,50,50,0,0,,9,1\n1,0.04,1,50,50,1,0,,8,1\n";
+  EXPECT_NE(error_in(wide).find("--format table if each such pair is a body"), std::string::npos)
+      << error_in(wide);
+  TrackOptions bodies;
+  bodies.hints.format = "table";
+  EXPECT_EQ(parse({{"f", wide}}, bodies).tracks.size(), 3u);
+  // The clock begins again.
+  EXPECT_NE(error_in(wide + "2,0.00,2,50,50,0,0,,9,1\n2,0.04,3,50,50,1,0,,8,1\n", bodies)
+                .find("--where 'period_id = 1'"),
+            std::string::npos);
+}
+
 TEST(AmbiguousTables, SecondsBesideMinutesAreAskedAbout) {
   for (const char* header : {"id,hours,minutes,seconds,x,y", "id,hr,min,sec,x,y", "id,hour,minute,secs,x,y"})
     EXPECT_NE(
@@ -198,6 +222,16 @@ TEST(AmbiguousTables, FilesThatAreNoTables) {
   EXPECT_NE(error_in("[{\"id\":\"document\",\"version\":\"1.0\"},{\"id\":\"a\"}]").find("CZML"),
             std::string::npos);
   EXPECT_NE(error_in("{'id': 'a', 'time': 0}\n").find("json.dumps"), std::string::npos);
+  for (const char* before : {"data: ", "robots/a/pose ", "\x1E"})
+    EXPECT_NE(
+        error_in(std::string(before) + "{\"id\":\"a\",\"time\":0,\"x\":0}\n").find("JSON behind other text"),
+        std::string::npos);
+  EXPECT_NE(error_in("$node_(0) set X_ 5.0\n").find("ns-2"), std::string::npos);
+  EXPECT_NE(
+      error_in("id,time,geometry\na,0,POINT (8.5 47.25)\n").find("both coordinates of column 'geometry'"),
+      std::string::npos);
+  EXPECT_EQ(error_in("id;time;a;b\na;0;47,25;8,5\n").find("both coordinates"), std::string::npos);
+  EXPECT_NE(error_in("X1\tY1\tX2\tY2\n0\t0\t1\t1\n").find("NR-2\"\\t\"$0}' numbers them"), std::string::npos);
   EXPECT_NE(error_in("@0000016CE3671C8D4CA1FA58C901375147EFD09357;\n").find("Mode S"), std::string::npos);
   const std::string bodies =
       R"({"a":[{"x":0},{"x":1},{"x":2},{"x":3}],"b":[{"x":0},{"x":1},{"x":2},{"x":3}]})";

@@ -163,6 +163,12 @@ bool is_so6(std::string_view line) {
          words[11].size() == 6 && words[10].find_first_not_of("0123456789") == words[10].npos;
 }
 
+/// An object of JSON behind other text, as mosquitto_sub -v and servers that send events write it.
+bool has_json_behind_text(std::string_view line) {
+  const std::size_t object = line.find("{\"");
+  return object != 0 && object != line.npos && line.ends_with('}') && line.find_first_of(",;[") > object;
+}
+
 /// Files that are known by their first lines.
 std::string kind_by_lines(std::string_view text) {
   constexpr auto elements =
@@ -177,6 +183,12 @@ std::string kind_by_lines(std::string_view text) {
   }
   if (are_orbital_elements(lines[0], lines[1]) || are_orbital_elements(lines[1], lines[2]))
     return fmt::format(elements, "TLE");
+  if (has_json_behind_text(lines[0]) || has_json_behind_text(lines[1]))
+    return "JSON behind other text: leave that out, with sed -n 's/^[^{]*{/{/p' (-u in a pipe)";
+  if (lines[0].starts_with("$node_(") || lines[0].starts_with("$ns_ at"))
+    return "movements of ns-2, which say where each goes next and how fast: write the time and place at both "
+           "ends "
+           "of each move as a row of a table with the columns id, time, x and y";
   if (is_tracab(lines[0])) return fmt::format("tracking data of TRACAB: {}", as_players);
   if (lines[0].starts_with(",,,Home,") || lines[0].starts_with(",,,Away,"))
     return fmt::format("tracking data of Metrica, in parts of the pitch: {}", as_players);
@@ -231,7 +243,9 @@ std::string other_file_kind(std::string_view beginning) {
            "lines=True)";
   if (is_json)
     return "JSON of none of the formats that are read (docs/tables.md): write it as CSV, for example with jq "
-           "-r '[.id,.time,.x,.y]|@csv'";
+           "-r '[.id,.time,.x,.y]|@csv'; jq -c . writes records over several lines, or several in one, each "
+           "in a "
+           "line";
   if (!has_begin(beginning, "<")) return {};
   const std::string_view head = beginning.substr(0, 4000);
   for (const FileKind& kind : kinds_of_xml)

@@ -56,6 +56,13 @@ std::optional<TimeField> time_of_receipt(std::string_view text) {
   return field;
 }
 
+/// Returns the text without what may stand around a time: brackets, quotes and separators.
+std::string_view without_marks(std::string_view text) {
+  constexpr std::string_view marks = " \t\r,;:\"'()[]<>|";
+  text.remove_prefix(std::min(text.find_first_not_of(marks), text.size()));
+  return text.substr(0, text.find_last_not_of(marks) + 1);
+}
+
 AisSentence sentence_of(std::string_view content) {
   std::string_view fields[7];
   std::size_t count = 0;
@@ -175,10 +182,8 @@ CheckedText split_checksum(std::string_view text) {
 }
 
 std::optional<TimeField> read_head(std::string_view head, NmeaLine& line) {
-  std::string_view time = trimmed(head.substr(0, head.find('\\')));
-  while (!time.empty() && (time.back() == ',' || time.back() == ';'))
-    time = trimmed(time.substr(0, time.size() - 1));
-  std::optional<TimeField> received = time_of_receipt(time);
+  line.before = trimmed(head.substr(0, head.find('\\')));
+  std::optional<TimeField> received = time_of_receipt(without_marks(line.before));
   for (std::size_t begin = head.find('\\'); begin < head.size();) {
     const std::size_t end = head.find('\\', begin + 1);
     if (end == std::string_view::npos) break;
@@ -199,6 +204,24 @@ std::optional<TimeField> read_head(std::string_view head, NmeaLine& line) {
   return received;
 }
 
+std::size_t first_line_in(std::string_view text) {
+  const std::size_t end = std::min(text.find('\r'), text.size());
+  const std::string_view line = text.substr(0, end);
+  const std::size_t first = ais_sentence_in(line);
+  const std::size_t star = first == line.npos ? line.npos : line.find('*', first);
+  constexpr std::size_t of_checksum = 3;
+  if (star != line.npos && star + of_checksum < line.size()) {
+    const std::size_t behind = star + of_checksum;
+    const std::size_t next = ais_sentence_in(line.substr(behind));
+    // A tag block or a time may stand before it.
+    if (next != line.npos) {
+      const std::size_t tag = line.find('\\', behind);
+      return std::min(tag, behind + next);
+    }
+  }
+  return std::min(end + 1, text.size());
+}
+
 NmeaLine parse_nmea_line(std::string_view text) {
   text = trimmed(text);
   if (text.empty() || text[0] == '#') return {};
@@ -209,7 +232,7 @@ NmeaLine parse_nmea_line(std::string_view text) {
   line.sentence = sentence_of(checked_sentence(rest));
   line.received = read_head(text.substr(0, begin), line);
   if (const std::size_t comma = rest.rfind(','); !line.received && comma != std::string_view::npos)
-    line.received = time_of_receipt(trimmed(rest.substr(comma + 1)));
+    line.received = time_of_receipt(without_marks(rest.substr(comma + 1)));
   return line;
 }
 

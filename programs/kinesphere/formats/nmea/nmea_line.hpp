@@ -27,6 +27,7 @@ struct NmeaLine {
   std::optional<TimeField> received;
   /// The time is that of the next line: the line is a tag block alone, or a sentence $PGHP of Gatehouse.
   bool is_of_next = false;
+  std::string_view before;  ///< text before the sentence, and before its tag blocks
   std::string_view source;  ///< s of a tag block
   std::string_view group;   ///< the identifier of the group of lines, from g of a tag block
 };
@@ -50,6 +51,10 @@ std::optional<TimeField> read_head(std::string_view head, NmeaLine& line);
 /// Longest payload of a sentence that is read, in characters. A sentence that keeps the standard has at most
 /// 82 characters.
 inline constexpr std::size_t longest_ais_payload = 1024;
+
+/// Returns the size of the first line in a text: lines may end with CR alone, or have lost their ends, so
+/// that a sentence begins behind the checksum of another. 0 for an empty text.
+std::size_t first_line_in(std::string_view text);
 
 /// Reads a line; blank ones and those that begin with # are empty. A damaged tag block, and other text before
 /// the sentence, is passed over: then the line has no time. Throws MalformedRecord for a damaged sentence

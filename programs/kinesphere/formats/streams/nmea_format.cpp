@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "formats/converted/gps_fix.hpp"
+#include "formats/fields/field_text.hpp"
 #include "formats/fields/units.hpp"
 #include "formats/nmea/ais_message.hpp"
 #include "formats/nmea/nmea_line.hpp"
@@ -52,22 +53,18 @@ class NmeaFormat final : public ReportFormat {
 
   void read(const Record& record, ReportSink& sink) override {
     if (!record.is_whole) throw MalformedRecord("expected a whole line, but it is too long or cut off");
-    NmeaLine line = parse_nmea_line(record.text);
-    const auto fix = line.sentence ? std::nullopt : gps_fix_in(record.text);
-    // The clock of a log whose lines have no times.
-    if (fix && !line.received && !record.read_at)
-      line.received = TimeField{fix->time, latest_ ? latest_->kind : TimeKind::utc};
-    find_time(line, record, sink);
-    if (fix && !choices_.own_by_gps.empty()) report_own(*fix, *line.received, sink);
-    if (!line.sentence) return;
-    has_sentences_ = true;
-    if (line.sentence->is_own && !choices_.own_by_gps.empty()) return;
-    const auto whole = assembler_.add(line, record.line, sink);
-    if (!whole) return;
-    if (whole->received)
-      take(whole->bits, *whole->received, 0.0, sink);
-    else
-      keep_untimed(whole->bits, record.line, sink);
+    Record each = record;
+    std::string_view rest = record.text;
+    while (const std::size_t size = first_line_in(rest)) {
+      each.text = rest.substr(0, size);
+      rest.remove_prefix(size);
+      try {
+        read_line(each, sink);
+      } catch (const MalformedRecord& error) {
+        if (rest.empty()) throw;
+        sink.refuse(record.line, error.what());
+      }
+    }
   }
 
   void finish(ReportSink& sink) override {
@@ -126,6 +123,26 @@ class NmeaFormat final : public ReportFormat {
     return TimeField{{saved.at(0), saved.at(1), saved.at(2)}, static_cast<TimeKind>(saved.at(3).get<int>())};
   }
 
+  void read_line(const Record& record, ReportSink& sink) {
+    NmeaLine line = parse_nmea_line(record.text);
+    const auto fix = line.sentence ? std::nullopt : gps_fix_in(record.text);
+    // The clock of a log whose lines have no times.
+    if (fix && !line.received && !record.read_at)
+      line.received = TimeField{fix->time, latest_ ? latest_->kind : TimeKind::utc};
+    find_time(line, record, sink);
+    if (fix && !choices_.own_by_gps.empty()) report_own(*fix, *line.received, sink);
+    if (!line.sentence) return;
+    has_sentences_ = true;
+    if (line.sentence->is_own && !choices_.own_by_gps.empty()) return;
+    const auto whole = assembler_.add(line, record.line, sink);
+    if (!whole) return;
+    if (!line.received && before_first_.empty()) before_first_ = line.before;
+    if (whole->received)
+      take(whole->bits, *whole->received, 0.0, sink);
+    else
+      keep_untimed(whole->bits, record.line, sink);
+  }
+
   /// Gives the line the time of its group or of the line before it if it has none of its own, else that at
   /// which it was read.
   void find_time(NmeaLine& line, const Record& record, ReportSink& sink) {
@@ -179,11 +196,20 @@ class NmeaFormat final : public ReportFormat {
   static void refuse_without_time(std::size_t line, ReportSink& sink) {
     sink.refuse(line, "expected a time of receipt, in this line or in others around it");
   }
-  [[noreturn]] static void fail_without_times() {
-    throw UnusableStream(
-        "expected the time at which each sentence was received, but there is none: record it in a tag block "
+  [[noreturn]] void fail_without_times() const {
+    const std::string before =
+        before_first_.empty()
+            ? ""
+            : fmt::format(
+                  " that is read (before the first stands {}, no date and clock as in 2024-01-31T12:30:15Z "
+                  "and no seconds since 1970)",
+                  shown_field(before_first_));
+    throw UnusableStream(fmt::format(
+        "expected the time at which each sentence was received, but there is none{}: record it in a tag "
+        "block "
         "(\\c:1700000000*5F\\!AIVDM...) or before the sentence; what comes from a receiver right now can be "
-        "read from udp://, a device, or standard input with --clock arrival");
+        "read from udp://, a device, or standard input with --clock arrival",
+        before));
   }
 
   /// `received`: the time of receipt, or at most `earlier` seconds after it.
@@ -301,6 +327,7 @@ class NmeaFormat final : public ReportFormat {
   std::optional<TimeField> group_time_;
   std::optional<TimeField> announced_;  ///< of the next line, from one before it
   bool has_sentences_ = false;
+  std::string before_first_;         ///< text before the first sentence without a time
   std::optional<TimeField> latest_;  ///< time of receipt of the latest sentence that has one
   std::vector<Untimed> untimed_;     ///< since then, in their order
 };

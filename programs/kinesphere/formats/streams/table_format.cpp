@@ -33,6 +33,7 @@ class CsvFormat final : public ReportFormat {
     fields_ = table_.read(record);
     if (fields_ == nullptr) return;
     if (!reader_) begin();
+    refuse_other_header(record.line);
     if (reader_->leaves_out(*fields_)) return sink.pass_over(Passed::filtered);
     if (fields_->size() < columns_needed_)
       throw MalformedRecord(
@@ -104,6 +105,23 @@ class CsvFormat final : public ReportFormat {
     if (head.names.empty()) return;
     head.first.resize(head.names.size());
     columns_of(head);
+  }
+
+  /// A row of names in another order begins rows whose numbers would be taken for others.
+  void refuse_other_header(std::size_t line) const {
+    const auto& names = table_.head().names;
+    const auto may_be_number = [](std::string_view field) {
+      return !field.empty() && std::string_view("0123456789+-.").find(field[0]) != std::string_view::npos;
+    };
+    if (names.empty() || std::any_of(fields_->begin(), fields_->end(), may_be_number)) return;
+    const auto known = std::count_if(fields_->begin(), fields_->end(), [&](std::string_view field) {
+      return !field.empty() && std::find(names.begin(), names.end(), field) != names.end();
+    });
+    if (known >= 3)
+      throw UnusableStream(
+          fmt::format("line {} is another header, whose columns are not in the places of the first: what "
+                      "follows it has to be read by itself",
+                      line));
   }
 
   /// Finds the columns. Precondition: the head of the table is complete.

@@ -345,7 +345,7 @@ bool is_scene(std::string_view column_name) {
   return is_word_of(
       plain,
       "scene scenario case recording session trial video clip match game experiment replicate run "
-      "simulation arena camera cam cameraid sensor tank cage well plate");
+      "simulation arena camera cam cameraid sensor tank cage well plate period half quarter");
 }
 
 bool may_be_id(std::string_view column_name) {

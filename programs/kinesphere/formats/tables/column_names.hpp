@@ -85,7 +85,8 @@ bool looks_like_angle(std::string_view column_name, Quantity angle);
 /// Returns the values with which a column says that its row means nothing, such as "true 1" of `lost`; empty
 /// for other columns.
 std::string_view void_values_of(std::string_view column_name);
-/// True for a column that says to which scene, trial or match a row belongs: scene_id, case, gameId.
+/// True for a column that says to which scene, trial, match or part of it a row belongs: scene_id, gameId,
+/// period.
 bool is_scene(std::string_view column_name);
 /// True for a column that may have ids, or kinds of bodies: name, vehicle.
 bool may_be_id(std::string_view column_name);

@@ -54,17 +54,23 @@ bool are_numbered(const std::vector<TableColumns::Body>& bodies) {
 /// True for a column that names a body: id1 or name_1 beside x1, robots.0.id beside robots.0.x.
 bool is_name_of_body(const std::string& column, const std::string& body) {
   constexpr std::string_view between = " _-./";
-  std::string_view rest = column;
-  if (rest.size() <= body.size()) return false;
-  if (same_name(rest.substr(0, body.size()), body)) {
-    rest = rest.substr(std::min(rest.find_first_not_of(between, body.size()), rest.size()));
-  } else if (same_name(rest.substr(rest.size() - body.size()), body)) {
-    rest = rest.substr(0, rest.find_last_not_of(between, rest.size() - body.size() - 1) + 1);
-  } else {
-    return false;
+  if (column.size() <= body.size()) return false;
+  const auto is_name = [](std::string_view name) {
+    const auto meaning = meaning_of(name);
+    return (meaning && meaning->quantity == Quantity::id) || may_be_id(name);
+  };
+  const std::string_view begin = std::string_view(column).substr(0, body.size());
+  if (same_name(begin, body)) {
+    std::string_view rest = std::string_view(column).substr(body.size());
+    rest.remove_prefix(std::min(rest.find_first_not_of(between), rest.size()));
+    const std::string plain = plain_name(rest);
+    return is_name(rest) || rest.ends_with("Id") || rest.ends_with("_id") || plain == "trackableobject" ||
+           plain == "uuid" || plain == "token";
   }
-  const auto meaning = meaning_of(rest);
-  return (meaning && meaning->quantity == Quantity::id) || may_be_id(rest);
+  std::string_view rest = std::string_view(column).substr(0, column.size() - body.size());
+  if (!same_name(std::string_view(column).substr(rest.size()), body)) return false;
+  rest = rest.substr(0, rest.find_last_not_of(between) + 1);
+  return is_name(rest);
 }
 
 /// Asks about bodies that have names beside their positions, which may be others in each row.
@@ -91,7 +97,7 @@ void ask_about_names(const TableHead& head, const std::vector<TableColumns::Body
 bool has_likely_id(const TableHead& head) {
   return std::any_of(head.names.begin(), head.names.end(), [](const std::string& name) {
     const auto meaning = meaning_of_ending(name);
-    return meaning && meaning->quantity == Quantity::id;
+    return meaning && meaning->quantity == Quantity::id && !is_scene(name);
   });
 }
 

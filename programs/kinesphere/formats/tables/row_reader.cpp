@@ -249,11 +249,12 @@ std::optional<TimeField> RowReader::time(Quantity quantity) {
   if (!time && columns_.times_are_clocks)
     if (const auto clock = parse_clock(text)) time = TimeField{*clock, TimeKind::number};
   if (!time) {
+    const bool has_date = text.data() == date_and_clock_.data();
     if (parse_date_time(text, DateOrder::any))
-      throw OpenQuestion(
-          fmt::format("{}: say --dates day-first or --dates month-first{}",
-                      wrong_text(column->place, "a date whose order of day and month is known"),
-                      parse_date_time(text, DateOrder::year_first) ? ", or year-first" : ""));
+      throw OpenQuestion(fmt::format("{}: say --dates day-first or --dates month-first{}",
+                                     wrong_text(has_date ? columns_[Quantity::date]->place : column->place,
+                                                "a date whose order of day and month is known"),
+                                     parse_date_time(text, DateOrder::year_first) ? ", or year-first" : ""));
     if (text.find_first_of("-/:") == std::string_view::npos)
       throw WrongInput(wrong_text(column->place, "a number as time") + number_advice(field(column->place)));
     throw WrongInput(

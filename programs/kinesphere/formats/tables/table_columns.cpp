@@ -167,6 +167,36 @@ void understand_places(const TableHead& head, const ColumnHints& hints, TableCol
   columns.geographic = lon.has_value();
 }
 
+/// True for a field with two coordinates: POINT (8.5 47), (1, 2) or 47.5,8.5.
+bool has_two_coordinates(std::string_view field) {
+  constexpr std::string_view number = "0123456789+-.";
+  const std::size_t begin = field.find_first_of(number), end = field.find_last_of(number);
+  if (begin == std::string_view::npos) return false;
+  const std::string_view pair = field.substr(begin, end + 1 - begin);
+  const std::size_t gap = std::min(pair.find_first_not_of(number), pair.size());
+  const std::size_t second = std::min(pair.find_first_not_of(", ", gap), pair.size());
+  const std::string_view one = pair.substr(0, gap), other = pair.substr(second);
+  const bool are_numbers = second > gap && parse_number(one) && parse_number(other);
+  // 47,5 is one number.
+  const bool are_decimals = one.find('.') != one.npos && other.find('.') != other.npos;
+  return are_numbers && (begin > 0 || are_decimals);
+}
+
+/// Returns what to do about a table without a column that others of its kind have; empty for others.
+std::string advice_on_columns(const TableHead& head, const TableColumns& columns) {
+  for (std::size_t place = 0; place < std::min(head.first.size(), head.names.size()); ++place)
+    if (has_two_coordinates(head.first[place]))
+      return fmt::format(" (both coordinates of {} have to be in columns of their own)",
+                         column_text(head, place));
+  const char separator = head.separator;
+  if (!columns.bodies.empty() && !columns[Quantity::time] && !columns[Quantity::frame])
+    return fmt::format(
+        " (if each row is a frame, awk 'NR==1{{print \"frame{0}\"$0;next}}{{print NR-2\"{0}\"$0}}' numbers "
+        "them)",
+        separator == '\t' ? std::string("\\t") : std::string(1, separator));
+  return {};
+}
+
 /// Returns the message about columns that were not found, with those that were.
 std::string missing_columns_text(const TableHead& head, const TableColumns& columns) {
   const std::string text = fmt::format(
@@ -184,7 +214,8 @@ std::string missing_columns_text(const TableHead& head, const TableColumns& colu
   add_likely_columns(head, likely);
   if (columns_text(head, likely).empty() && head.names.size() < fewest)
     return fmt::format("{} ({})", text, above);
-  return fmt::format("{}: say {}", text, whole_columns_option(head, columns));
+  return fmt::format("{}: say {}{}", text, whole_columns_option(head, columns),
+                     advice_on_columns(head, columns));
 }
 
 void require_columns(const TableHead& head, const ColumnHints& hints, const TableColumns& columns) {

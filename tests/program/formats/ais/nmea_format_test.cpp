@@ -117,6 +117,11 @@ TEST(NmeaFormat, ReadsTheTimesOfLines) {
       .read(tag_block("g:2-2-77") + vdm(class_b_message({.mmsi = 1, .longitude = 0, .latitude = 0})));
   ASSERT_EQ(group.reports.size(), 2u);
   EXPECT_EQ(group.reports[1].stamp.whole, 1700000000);
+  for (const char* before :
+       {"[2023-11-14 22:13:20] ", "\"2023-11-14T22:13:20Z\",", "2023-11-14T22:13:20Z: ", "<1700000000>"})
+    EXPECT_EQ(stamp_of(before + plain), 1700000000.0) << before;
+  EXPECT_EQ(stamp_of("\"2023-11-14 22:13:20\",\"" + plain + "\""), 1700000000.0);
+  EXPECT_EQ(stamp_of("\"" + plain + "\",\"2023-11-14 22:13:20\""), 1700000000.0);
   EXPECT_EQ(stamp_of("12.5 " + plain), -1.0) << "since when?";
   // A line before the sentence has its time, and that of no other.
   const std::string pghp = "PGHP,1,2023,11,14,22,13,20,250,338,2,,1,09";
@@ -318,6 +323,37 @@ TEST(NmeaFormat, CountsSizesAndSteps) {
       {.mmsi = 111'232'511, .longitude = 0, .latitude = 0, .speed = 100, .course = 0}));
   EXPECT_EQ(kept.reports.at(4).said_kind, MotionPreset::search_aircraft);
   EXPECT_NEAR(kept.reports[4].velocity->y, 100.0 * knot, 1e-9);
+}
+
+TEST(NmeaFormat, TakesSentencesThatShareALine) {
+  const std::string first = vdm(class_a_message(ship()), "1700000000"),
+                    second = vdm(class_b_message(ship()), "1700000001");
+  std::string damaged = first;
+  damaged.back() = damaged.back() == '0' ? '1' : '0';
+  for (const char* between : {"", "\r", "\r\r", " "}) {
+    NmeaReports kept;
+    kept.read(first + between + second + "\r");
+    ASSERT_EQ(kept.reports.size(), 2u) << between;
+    EXPECT_EQ(kept.reports[1].stamp.whole, 1700000001);
+    EXPECT_TRUE(kept.refused.empty());
+    NmeaReports rest;
+    rest.read(damaged + between + second).read(second + between + damaged);
+    EXPECT_EQ(rest.reports.size(), 2u) << between;
+    EXPECT_EQ(rest.refused.size(), 2u) << between;
+  }
+}
+
+TEST(NmeaFormat, SaysWhatStandsBeforeSentences) {
+  NmeaReports kept;
+  kept.read("Nov 14 22:13:20 host ais: " + vdm(class_a_message(ship())));
+  try {
+    kept.format->finish(kept);
+    FAIL() << "it has no year";
+  } catch (const UnusableStream& error) {
+    EXPECT_NE(std::string(error.what()).find("before the first stands 'Nov 14 22:13:20 host ais:'"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(NmeaFormat, AsksForTimes) {
