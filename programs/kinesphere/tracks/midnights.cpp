@@ -13,16 +13,16 @@ struct ClockRow {
   std::int64_t midnights = 0;  ///< before it
 };
 
-/// Counts midnights. A clock that falls by half a day or more has passed one; one that is ahead by 23 hours
-/// or more is late, from before it.
+/// Counts midnights: a clock that falls by half a day or more has passed one.
 class MidnightCounter {
  public:
-  /// Returns the midnights before the next time; nothing for a time that falls by less, but for late rows.
+  /// Returns the midnights before the next time, one less for a row that is a little late, from before the
+  /// last midnight. Nothing for a time that falls by less than half a day, but for late rows.
   std::optional<std::int64_t> add(const FileTime& time) {
-    constexpr double latest = 600.0, half_a_day = 43'200.0, of_late = 82'800.0;
+    constexpr double latest = 600.0, half_a_day = 43'200.0, whole_day = 86'400.0;
     const double ahead = last_ ? seconds_between(*last_, time) : 0.0;
     if (ahead < -latest && ahead > -half_a_day) return std::nullopt;
-    if (passed_ > 0 && ahead >= of_late) return passed_ - 1;
+    if (ahead >= whole_day - latest && time.whole < 86'400) return passed_ - 1;
     if (ahead <= -half_a_day) ++passed_;
     last_ = time;
     return passed_;
@@ -99,6 +99,8 @@ Midnights pass_midnights(std::vector<RawTrack>& tracks, std::uint32_t file) {
     const auto midnights = counters[together ? clock.track : 0].add(*clock.time);
     if (!midnights) return {};
     clock.midnights = *midnights;
+    // It is late, from before the first row, or the clock stood still for a day.
+    if (*midnights < 0) return {.has_passed = true, .unclear = clock.place};
     result.has_passed = result.has_passed || *midnights > 0;
   }
   if (!result.has_passed) return result;

@@ -150,6 +150,11 @@ TEST(AmbiguousTables, ClocksGoOnBehindMidnight) {
   const Recording each = parse({{"f", bodies}}, clocks());
   EXPECT_EQ(times_of(each, "a"), (Times{"72000", "93600", "115200"}));
   EXPECT_EQ(times_of(each, "b"), (Times{"72000", "93600"}));
+  // A pause of most of the day.
+  const std::string pause = "id,time,x,y\na,00:00:00,0,0\na,00:10:00,1,0\na,23:50:00,1,0\na,23:59:00,1,0\n";
+  TrackOptions whole = clocks();
+  whole.max_gap = 1e6;
+  EXPECT_EQ(times_of(parse({{"f", pause}}, whole), "a"), (Times{"0", "600", "85800", "86340"}));
   // The same day for all, though the second body begins half a day before the end of the first.
   const std::string day = "id,time,x,y\na,08:00:00,0,0\na,21:00:00,1,0\nb,08:00:00,9,0\nb,21:00:00,8,0\n";
   EXPECT_EQ(times_of(parse({{"f", day}}, clocks()), "b"), (Times{"28800", "75600"}));
@@ -161,6 +166,9 @@ TEST(AmbiguousTables, ClocksOfAnUnclearDayAreRefused) {
       "f:4: the clock passes midnight in this file, and this row may be of either day: write dates before "
       "the "
       "times");
+  // A row from before midnight behind the first of the day, or the newest rows first.
+  EXPECT_TRUE(error_in("id,time,x,y\na,00:00:01,0,0\na,23:59:59,1,0\na,00:00:02,1,0\n", clocks())
+                  .starts_with("f:3: the clock passes midnight in this file"));
   // Two of one scene, and then two of another, which may be at the same time.
   const std::string scenes =
       "id,time,x,y\na,08:00:00,0,0\nb,08:00:00,0,0\na,21:00:00,1,0\nb,21:00:00,1,0\nc,08:00:00,9,0\n"

@@ -349,9 +349,9 @@ void RowReader::check_decimals(std::size_t column) {
   const Marked& other = marked_[1 - sign];
   const std::string& unlike = may_be_thousands && other.thousands.empty() ? other.decimal : other.thousands;
   if (!unlike.empty())
-    throw WrongInput(fmt::format("{}, unlike {} before: leave out what separates thousands",
-                                 wrong_text(column, "the same decimal sign in all numbers"),
-                                 shown_field(unlike)));
+    throw WrongInput(
+        fmt::format("{}, unlike {} before: leave out what separates thousands, or write all decimals alike",
+                    wrong_text(column, "the same decimal sign in all numbers"), shown_field(unlike)));
   std::string& first_seen = may_be_thousands ? marked_[sign].thousands : marked_[sign].decimal;
   if (first_seen.empty()) first_seen = text;
 }
