@@ -29,7 +29,7 @@ class PendingEvents {
   void queue(const Event& event);
   /// Queues an event that has already taken effect. It is delivered unchanged, before all events of queue().
   void queue_first(const Event& event) { ended_.insert(event); }
-  /// Drops the event that a body woke, as it sleeps again before the caller was told.
+  /// Drops the event that a body woke, as it sleeps again or is gone before the caller was told.
   void drop_woken(BodyId body) {
     std::erase_if(
         ended_, [body](const Event& event) { return event.kind == EventKind::woke && event.first == body; });

@@ -139,6 +139,8 @@ void EventProcessor::set_velocity(std::uint32_t number, const Vec3& velocity) {
   } else {
     assert(log_ == nullptr && "clusters share the table of changes");
     bodies().change_of(number).velocity = velocity;
+    // With a report of now, only a body that has just been put to sleep awaits another one.
+    if (body.bound.time == time_) body.bound.velocity = velocity;
   }
   turn_reported(number);
 }
@@ -172,6 +174,7 @@ void EventProcessor::detach(std::uint32_t number) {
   }
   events_.end_all_contacts(
       contacts(), number, time_, [this](std::uint32_t other) { return sphere(other); }, bodies().walls());
+  events_.drop_woken(bodies().id_of(number));
   Body& body = bodies()[number];
   ++body.revision;
   body.dirty = body.relocated = false;

@@ -130,6 +130,7 @@ void Player::add_static(const Operation& operation) {
 
 void Player::leave(BodyId id, const std::vector<Before>& before) {
   told_.gone(before);
+  woken_.erase(id);
   truth_.remove(id);
   if (removed_.size() == 8) removed_.erase(removed_.begin());
   removed_.push_back(id);
@@ -276,6 +277,7 @@ void Player::turn_off(const Operation& operation) {
   const auto before = told_.before(world_, *id);
   accepted(waking(island_of(*id), [&](World& world) { return world.disable(*id); }));
   told_.gone(before);
+  woken_.erase(*id);
   truth_.at(*id).enabled = false;
   changed();
 }

@@ -235,6 +235,8 @@ void Player::advance_with_bad_probe(const Operation& operation) {
   const double until = world_.time() + 0.02 * operation.fraction(0);
   const auto result = on_world([&](World& world) -> Result<std::optional<Event>> {
     int left = operation.byte(1) % 8;
+    // A spot check asks for no rotation and leaves a bad one to the next probe.
+    bad_rotation_.reset();
     const auto bad = [&](std::span<const BodyId> ids, double time, std::span<State> states) {
       probe()(ids, time, states);
       if (left-- != 0) return;

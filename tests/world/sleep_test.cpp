@@ -265,6 +265,36 @@ TEST(Sleep, AtAnEventIsABrokenPromiseOfABodyThatMovesOn) {
   EXPECT_EQ(events[1].first, id);
 }
 
+TEST(Sleep, OfABodyThatMovesOnOtherwiseInTheSameInstantEndsWithItsNewVelocity) {
+  Rested p;
+  const BodyId id = p.ball({}, {1, 0, 0});
+  p.ball({5, 1.5, 0});
+  p.ball({5, -1.5, 0});
+  const Vec3 velocity{1, 0.125, 0};
+  const auto events =
+      of_kind(p.run(10.0,
+                    [&](const Event& event) {
+                      if (event.kind != EventKind::contact_begin || p.state(id).velocity.y > 0.0) return;
+                      p.world.sleep(id).value();
+                      p.set_velocity(id, velocity);
+                    }),
+              EventKind::contact_begin);
+  ASSERT_EQ(events.size(), 2u) << events;
+  EXPECT_EQ(events[0].time, events[1].time);
+  EXPECT_EQ(events[0].first_state.velocity, (Vec3{1, 0, 0}));
+  EXPECT_EQ(events[1].first_state.velocity, velocity);
+}
+
+TEST_P(Modes, ABodyThatIsRemovedIsNotToldToWake) {
+  Rested p({.contacts = GetParam()});
+  const auto balls = row(p, 3, {0, 0, 0});
+  p.run(0.0);
+  for (const BodyId id : balls) p.rest(id);
+  p.world.remove({balls[0], balls[1]}).value();
+  p.world.disable(balls[2]).value();
+  EXPECT_TRUE(woke(p.run(1.0)).empty());
+}
+
 TEST(Sleep, AfterItHasBeenBrokenIsNotToldToBeOver) {
   Rested p({.contacts = ContactEvents::impacts});
   const BodyId sleeper = p.ball({});
