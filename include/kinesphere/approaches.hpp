@@ -50,6 +50,7 @@ struct PolynomialPaths {
   class Array : public std::span<const T> {
    public:
     Array() = default;
+    /// Refers to `numbers`, which must live until the call is over.
     template <class Numbers>
     requires std::is_constructible_v<std::span<const T>, Numbers> && std::ranges::borrowed_range<Numbers>
     Array(Numbers&& numbers) : std::span<const T>(numbers) {}

@@ -388,7 +388,9 @@ class RandomScene {
           p_.world.wake(id).value();
           break;
         case 2:
-          if (bodies.size() > 6) p_.world.remove(id).value();
+          if (bodies.size() <= 6) break;
+          p_.world.remove(id).value();
+          awaited_.erase(id);
           break;
         default:
           p_.set_velocity_unseen(id, {});
