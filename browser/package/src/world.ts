@@ -277,12 +277,12 @@ export class WorldView extends Owned {
   // Predictions and queries. They answer from what the world knows; with a probe in the options, as well as fresh reports
   // of undecided bodies allow.
 
+  /** Returns a time before which no contact begins in the whole world. */
+  safeUntil(options?: AnswerOptions): number;
   /**
-   * Returns a time before which no contact begins in the whole world, or of the two bodies; with a distance in the options,
-   * one before which the two surfaces do not come that near.
+   * Returns a time before which no contact of the two bodies begins; with a distance in the options, one before which the
+   * two surfaces do not come that near.
    */
-  safeUntil(): number;
-  safeUntil(options: AnswerOptions): number;
   safeUntil(first: BodyId, second: BodyId, options?: PairOptions): number;
   safeUntil(first: BodyId | AnswerOptions = {}, second?: BodyId, options: PairOptions = {}): number {
     const call = "safeUntil";
