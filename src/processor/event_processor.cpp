@@ -134,14 +134,12 @@ void EventProcessor::invalidate(std::uint32_t number) {
 void EventProcessor::set_velocity(std::uint32_t number, const Vec3& velocity) {
   Body& body = bodies()[number];
   if (body.is_sleeping()) Sleeping(*state_, *this).wake(number);
-  if (body.fresh(time_)) {
-    body.bound.velocity = velocity;
-  } else {
+  if (!body.fresh(time_)) {
     assert(log_ == nullptr && "clusters share the table of changes");
     bodies().change_of(number).velocity = velocity;
-    // With a report of now, only a body that has just been put to sleep awaits another one.
-    if (body.bound.time == time_) body.bound.velocity = velocity;
   }
+  // A body with a report of now moves on with it at once, also if it awaits another report, having slept.
+  if (body.bound.time == time_) body.bound.velocity = velocity;
   turn_reported(number);
 }
 
