@@ -58,10 +58,12 @@ void warn_of_promise(WorldHandle& handle, std::string_view call) {
        "of its motion, its velocity is not that of its positions, or the world was not told of a change");
 }
 
-/// Warns of a caller that gives the length of a step in place of its end: nothing would ever happen.
-void warn_of_duration(WorldHandle& handle, double until, std::string_view call) {
+/// Counts idle calls, which could not advance and found no event, and warns of a caller that gives the length
+/// of a step in place of its end: nothing would ever happen.
+void warn_of_duration(WorldHandle& handle, bool is_idle, double until, std::string_view call) {
   constexpr int many = 16;
-  if (++handle.idle_calls != many) return;
+  handle.idle_calls = is_idle ? handle.idle_calls + 1 : 0;
+  if (handle.idle_calls != many) return;
   warn(std::string(call) + ": until is a time, not a duration: " + std::to_string(many) +
        " calls in a row ended where the world stood, at " + py::str(py::float_(until)).cast<std::string>() +
        "; world.time + dt goes on by dt");
@@ -76,10 +78,7 @@ std::optional<Event> advanced(WorldHandle& handle, double until, Asked& asked) {
   const std::optional<Event> event =
       without_gil(handle, [&] { return handle.world.advance(until, asked.probe()); }).value();
   if (event) note_promise(handle, *event);
-  if (event || until != before)
-    handle.idle_calls = 0;
-  else
-    warn_of_duration(handle, until, "advance");
+  warn_of_duration(handle, !event && until == before, until, "advance");
   return event;
 }
 
@@ -258,10 +257,7 @@ py::object run(WorldHandle& handle, double until, const py::object& motion, cons
   tell(handle.world.time());
   if (responding.hops()) warn_of_hops(handle);
   warn_of_promise(handle, "run");
-  if (has_event || until != before)
-    handle.idle_calls = 0;
-  else
-    warn_of_duration(handle, until, "run");
+  warn_of_duration(handle, !has_event && until == before, until, "run");
   const py::object table = table_of(handle.undelivered);
   handle.undelivered = {};
   return table;
