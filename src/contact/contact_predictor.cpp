@@ -173,14 +173,18 @@ template class ContactPredictor<Bound>;
 template class ContactPredictor<HalfSpace>;
 template class ContactPredictor<Box>;
 template class ContactPredictor<Triangle>;
+template class ContactPredictor<Mesh>;
 template class ContactPredictor<CarriedShape<Box>>;
 template class ContactPredictor<CarriedShape<Triangle>>;
+template class ContactPredictor<CarriedShape<Mesh>>;
 template class ContactPredictor<RigidPair<RigidExtent>>;
 template class ContactPredictor<RigidPair<HalfSpace>>;
 template class ContactPredictor<RigidPair<Box>>;
 template class ContactPredictor<RigidPair<Triangle>>;
+template class ContactPredictor<RigidPair<Mesh>>;
 template class ContactPredictor<RigidPair<CarriedShape<Box>>>;
 template class ContactPredictor<RigidPair<CarriedShape<Triangle>>>;
+template class ContactPredictor<RigidPair<CarriedShape<Mesh>>>;
 
 namespace {
 
