@@ -56,11 +56,11 @@ class MeshTree;
 /// there is one contact. Immutable; copies share the triangles, and are made in O(1) by any thread.
 ///
 /// The body that has the mesh touches another one as a whole: while a ball rests on the floor of a mesh and
-/// rolls against a wall of the same mesh, ContactEvents::impacts tells the impact, and begin_and_end does not.
-/// What should begin and end apart has a mesh of its own.
+/// rolls against a wall of the same mesh, ContactEvents::impacts tells the impact, and begin_and_end does
+/// not. What should begin and end apart has a mesh of its own.
 class Mesh {
  public:
-  /// A mesh without triangles, which no world takes.
+  /// A mesh without triangles, which no world takes. It is infinitely far from everything.
   Mesh() = default;
 
   /// Returns the mesh with one triangle for each triple of indices into `vertices`; events name a triangle by
@@ -114,8 +114,8 @@ struct MovingShape {
   /// As for World::add(), with any position. The radius is replaced by that of the smallest ball around the
   /// position that contains the shape. A mass of infinity makes a body that no contact turns.
   BodyDefinition body{};
-  /// A Box, a Triangle or a Mesh, relative to the body's position. The position should be near the middle of the
-  /// shape: the world searches within that ball.
+  /// A Box, a Triangle or a Mesh, relative to the body's position. The position should be near the middle of
+  /// the shape: the world searches within that ball.
   Shape shape = Box{};
 
   friend bool operator==(const MovingShape&, const MovingShape&) = default;
@@ -123,9 +123,9 @@ struct MovingShape {
 
 /// Returns one body for each triple of indices into `vertices`, a triangle with this filter; user_data is the
 /// number of the triple. They are met one by one, also at the edges that they share: a surface on which
-/// bodies slide or roll should be a Mesh, which is one body. Errors: out_of_range for an invalid index and for a triangle
-/// with two equal corners or three nearly collinear ones (its least height below 2^-20 of its longest
-/// side); not_finite.
+/// bodies slide or roll should be a Mesh, which is one body. Errors: out_of_range for an invalid index and
+/// for a triangle with two equal corners or three nearly collinear ones (its least height below 2^-20 of its
+/// longest side); not_finite.
 Result<std::vector<StaticDefinition>> mesh(std::span<const Vec3> vertices,
                                            std::span<const std::array<std::uint32_t, 3>> corners,
                                            const Filter& filter = {});

@@ -37,8 +37,8 @@ void serialize(Some<Event> auto& self, auto& archive) {
           second_part, first_angular_velocity, second_angular_velocity, first_spin_gain, second_spin_gain);
 }
 
-/// The hierarchy of the triangles is made anew where a mesh is read. A mesh that Mesh::create() refuses is read
-/// as one without triangles.
+/// The hierarchy of the triangles is made anew where a mesh is read. A mesh that Mesh::create() refuses is
+/// read as one without triangles.
 void serialize(Some<Mesh> auto& self, auto& archive) {
   using Archive = std::remove_reference_t<decltype(archive)>;
   if constexpr (std::same_as<Archive, HeapCounter>) {

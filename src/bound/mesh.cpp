@@ -110,8 +110,9 @@ Result<Mesh> Mesh::create(std::span<const Vec3> vertices,
   if (check.error()) return *check.error();
   for (std::size_t k = 0; k < corners.size(); ++k)
     if (const auto error = error_of(call, vertices, corners[k], k)) return *error;
-  return Mesh(std::make_shared<const MeshTree>(std::vector<Vec3>(vertices.begin(), vertices.end()),
-                                               std::vector<MeshTree::Corners>(corners.begin(), corners.end())));
+  return Mesh(
+      std::make_shared<const MeshTree>(std::vector<Vec3>(vertices.begin(), vertices.end()),
+                                       std::vector<MeshTree::Corners>(corners.begin(), corners.end())));
 }
 
 std::size_t Mesh::size() const { return tree_ ? tree_->corners().size() : 0; }
@@ -145,7 +146,9 @@ Result<std::vector<StaticDefinition>> mesh(std::span<const Vec3> vertices,
 }
 
 Vec3 steadied(const Vec3& direction, const Triangle& triangle, double distance, double size) {
-  const Vec3 normal = TriangleFrame(triangle).normal();
+  // Divided by its length, a normal along an axis is exact.
+  const Vec3 given = TriangleFrame(triangle).normal();
+  const Vec3 normal = given / norm(given);
   // Directions of points that hardly have a distance mean little; approach_error() has the same limit.
   constexpr double most_tilted = 0x1p-20;
   const double lost = 0x1p-45 * (size + size_of(triangle));
@@ -158,6 +161,7 @@ MeshPoint nearest_in(const Mesh& mesh, const Vec3& from) {
   const double size = norm_one(from);
   MeshPoint nearest;
   nearest.surface.distance = infinity;
+  if (mesh.size() == 0) return nearest;
   Triangle at;
   tree_of(mesh).search([&](const Box& box) { return distance_key(box, from, size); },
                        [&] { return nearest.surface.distance; },
@@ -178,19 +182,21 @@ SurfacePoint nearest_point(const Mesh& shape, const Vec3& from) { return nearest
 
 double earliest_meeting(const Bound& bound, const Mesh& shape, double from, double until, double distance) {
   double first = infinity;
+  if (shape.size() == 0) return first;
   const auto limit = [&] { return std::min(first, until); };
-  tree_of(shape).search(
-      [&](const Box& box) { return earliest_meeting(bound, box, from, limit(), distance); }, limit,
-      [&](std::uint32_t, const Triangle& triangle) {
-        first = std::min(first, earliest_meeting(bound, triangle, from, limit(), distance));
-        return first > from;
-      });
+  tree_of(shape).search([&](const Box& box) { return earliest_meeting(bound, box, from, limit(), distance); },
+                        limit,
+                        [&](std::uint32_t, const Triangle& triangle) {
+                          first = std::min(first, earliest_meeting(bound, triangle, from, limit(), distance));
+                          return first > from;
+                        });
   return first;
 }
 
 double earliest_separation(const Bound& bound, const Mesh& shape, double from, double until,
                            double distance) {
   double time = from;
+  if (shape.size() == 0) return time;
   for (int round = 0; round < most_rounds; ++round) {
     // Whatever triangle is chosen, the mesh is not farther than it.
     const Triangle nearest = shape.triangle(nearest_in(shape, bound.centre_at(time)).triangle);
@@ -208,6 +214,7 @@ GapLimits gap_limits(const Bound& bound, const Mesh& shape, double t) {
   const double size = norm_one(centre) + bound.radius_at(t);
   if (!(size <= limits::largest_size)) return {-infinity, infinity};
   GapLimits limits{infinity, infinity};
+  if (shape.size() == 0) return limits;
   tree_of(shape).search([&](const Box& box) { return distance_key(box, centre, size); },
                         [&] { return limits.upper + bound.radius; },
                         [&](std::uint32_t, const Triangle& triangle) {

@@ -1,8 +1,8 @@
 // The triangles of a mesh in a hierarchy of boxes, and searches in it.
 //
-// All that is certain of a mesh is certain of its triangles (docs/guarantee.md, "Meshes"). A search leaves out
-// boxes of which the same is certain as of what is in them: a triangle is no nearer than its box, and is not
-// met before.
+// All that is certain of a mesh is certain of its triangles (docs/guarantee.md, "Meshes"). A search leaves
+// out boxes of which the same is certain as of what is in them: a triangle is no nearer than its box, and is
+// not met before.
 #pragma once
 
 #include <array>

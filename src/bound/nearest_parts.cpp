@@ -142,22 +142,22 @@ NearestParts nearest_parts(const RigidPose& body, const Mesh& mesh) {
     const Vec3 middle = body.position + rotated(body.orientation, body.balls[k].middle);
     const Bound around{.position = middle, .radius = body.balls[k].radius * (1.0 + 0x1p-40)};
     const double size = norm_one(middle) + around.radius;
-    tree_of(mesh).search(
-        [&](const Box& box) { return gap_limits(around, box, 0.0).lower; }, [&] { return nearest.gap; },
-        [&](std::uint32_t number, const Triangle& triangle) {
-          NearestParts found = of_part_and_solid(part, triangle);
-          if (found.arm > rounding::margin * (size + size_of(triangle))) {
-            found.normal = steadied(found.normal, triangle, found.arm, size);
-          } else {
-            const TriangleFrame frame(triangle);
-            const bool below = frame.above_plane(middle - frame.origin()) < 0.0;
-            found.normal = below ? frame.normal() : -frame.normal();
-          }
-          found.first_part = k;
-          found.second_part = number;
-          keep_nearer(nearest, found);
-          return true;
-        });
+    tree_of(mesh).search([&](const Box& box) { return gap_limits(around, box, 0.0).lower; },
+                         [&] { return nearest.gap; },
+                         [&](std::uint32_t number, const Triangle& triangle) {
+                           NearestParts found = of_part_and_solid(part, triangle);
+                           if (found.arm > rounding::margin * (size + size_of(triangle))) {
+                             found.normal = steadied(found.normal, triangle, found.arm, size);
+                           } else {
+                             const TriangleFrame frame(triangle);
+                             const bool below = frame.above_plane(middle - frame.origin()) < 0.0;
+                             found.normal = below ? frame.normal() : -frame.normal();
+                           }
+                           found.first_part = k;
+                           found.second_part = number;
+                           keep_nearer(nearest, found);
+                           return true;
+                         });
   }
   return nearest;
 }

@@ -1,4 +1,5 @@
-// Support function of boxes, triangles and meshes, the magnitude of their coordinates, and planes beside them.
+// Support function of boxes, triangles and meshes, the magnitude of their coordinates, and planes beside
+// them.
 #pragma once
 
 #include <algorithm>

@@ -428,12 +428,15 @@ double meeting(const PartBound& part, const Shape& mesh, double from, double unt
   double first = infinity;
   const auto limit = [&] { return std::min(first, until); };
   tree_of(solid_of(mesh))
-      .search([&](const Box& box) {
-        return earliest_meeting(around, placed_like(mesh, box), from, limit(), reached);
-      }, limit, [&](std::uint32_t, const Triangle& triangle) {
-        first = std::min(first, meeting(part, placed_like(mesh, triangle), from, limit(), distance));
-        return first > from;
-      });
+      .search(
+          [&](const Box& box) {
+            return earliest_meeting(around, placed_like(mesh, box), from, limit(), reached);
+          },
+          limit,
+          [&](std::uint32_t, const Triangle& triangle) {
+            first = std::min(first, meeting(part, placed_like(mesh, triangle), from, limit(), distance));
+            return first > from;
+          });
   return first;
 }
 
@@ -444,7 +447,8 @@ void for_each_near_triangle(const PartBound& part, const Shape& mesh, double t, 
   double least = infinity;
   tree_of(solid_of(mesh))
       .search([&](const Box& box) { return gap_limits(around, placed_like(mesh, box), t).lower; },
-              [&] { return least; }, [&](std::uint32_t, const Triangle& triangle) {
+              [&] { return least; },
+              [&](std::uint32_t, const Triangle& triangle) {
                 const GapLimits own = gap(part, placed_like(mesh, triangle), t);
                 least = std::min(least, own.upper);
                 visit(own, triangle);
@@ -468,8 +472,7 @@ double separation(const PartBound& part, const Shape& mesh, double from, double 
 }
 
 template <class Shape>
-requires is_mesh<Shape>
-GapLimits gap(const PartBound& part, const Shape& mesh, double t) {
+requires is_mesh<Shape> GapLimits gap(const PartBound& part, const Shape& mesh, double t) {
   if (part.is_ball()) return gap_limits(part.ball(), mesh, t);
   GapLimits limits{infinity, infinity};
   for_each_near_triangle(part, mesh, t, [&](const GapLimits& own, const Triangle&) {
