@@ -84,7 +84,7 @@ template <class Solid>
 NearestParts of_part_and_solid(const PlacedPart& part, const Solid& solid) {
   if (part.is_hull())
     return of_hulls(nearest_in_hulls(part.points(), corners_near(part.points(), solid).all()), part, 0.0);
-  const Vec3 from = part.axis().at(nearest_on_segment(part.axis(), solid));
+  const Vec3 from = part.axis().at(nearest_on_segment(part.axis(), solid).position);
   return from_surface(from, nearest_point(solid, from), part.radius());
 }
 

@@ -337,14 +337,16 @@ struct HullBesideSolid {
 struct AxisBesideSolid {
   Vec3 nearest;
   Vec3 normal;
+  bool crosses;  ///< true if the axis has a part in the solid, however deep
 
   template <class Shape>
   AxisBesideSolid(const PartBound& part, const Shape& shape, double time) {
     const auto& solid = solid_of(shape);
     const LineSegment axis = part.axis(time, bound_of_point(shape, {}, time).centre_at(time));
-    const double position = nearest_on_segment(axis, solid);
-    nearest = on_axis(part, position);
-    normal = nearest_point(solid, axis.at(position)).normal;
+    const NearestOnSegment at = nearest_on_segment(axis, solid);
+    nearest = on_axis(part, at.position);
+    normal = nearest_point(solid, axis.at(at.position)).normal;
+    crosses = at.crosses;
   }
 };
 
@@ -362,26 +364,38 @@ double meeting_along(const PartBound& part, const Vec3& normal, const Shape& sha
   return first;
 }
 
+/// Parts do not know how deep their axes or hulls reach into a solid: see meeting_of_hulls().
 template <class Shape>
 double meeting(const PartBound& part, const Shape& shape, double from, double until, double distance) {
   if (part.is_ball()) return earliest_meeting(part.ball(), shape, from, until, distance);
   const double deepest = -part.part().radius;
   return repeated(from, [&](double time) {
-    if (!part.is_hull())
-      return meeting_along(part, AxisBesideSolid(part, shape, time).normal, shape, time, until, distance);
-    const NearestInHulls nearest = HullBesideSolid(part, shape, time).nearest;
-    if (distance < deepest && time == from && !part.is_foreseen() && nearest.overlap()) return infinity;
-    return meeting_along(part, nearest.normal, shape, time, until, std::max(distance, deepest));
+    const auto along = [&](const Vec3& normal, bool overlap) {
+      if (distance < deepest && time == from && !part.is_foreseen() && overlap) return infinity;
+      return meeting_along(part, normal, shape, time, until, std::max(distance, deepest));
+    };
+    if (part.is_hull()) {
+      const NearestInHulls nearest = HullBesideSolid(part, shape, time).nearest;
+      return along(nearest.normal, nearest.overlap());
+    }
+    const AxisBesideSolid now(part, shape, time);
+    return along(now.normal, now.crosses);
   });
 }
 
+/// A point that is fixed in an axis may leave at once a solid that the axis goes on to cross; witnesses slide
+/// along the axis.
 template <class Shape>
 double separation(const PartBound& part, const Shape& shape, double from, double until, double distance) {
   if (part.is_ball()) return earliest_separation(part.ball(), shape, from, until, distance);
   return repeated(from, [&](double time) {
-    if (part.is_hull()) return HullBesideSolid(part, shape, time).witness().separation(until, distance);
-    const Bound nearest = part.of_point(AxisBesideSolid(part, shape, time).nearest);
-    return earliest_separation(nearest, shape, time, until, distance);
+    const auto of_witness = [&] {
+      return HullBesideSolid(part, shape, time).witness().separation(until, distance);
+    };
+    if (part.is_hull()) return of_witness();
+    const AxisBesideSolid now(part, shape, time);
+    const double fixed = earliest_separation(part.of_point(now.nearest), shape, time, until, distance);
+    return now.crosses && fixed < infinity ? std::max(fixed, of_witness()) : fixed;
   });
 }
 
@@ -602,7 +616,134 @@ double earliest_meeting_in_steps(const RigidPair<Other>& pair, double from, doub
   return time;
 }
 
+// Points that sink.
+
+/// A direction between two parts that turns at a constant rate: it is `normal + turn s`, with `s` the time
+/// from `from` on, up to `until`.
+struct TurningDirection {
+  Vec3 normal;  ///< unit vector from the second part towards the first
+  Vec3 turn{};  ///< normal to it (1 / time)
+  double from;
+  double until;
+
+  /// Returns the time before which a point, of which this is the motion relative to a point of the other
+  /// part, keeps its distance, or `until`. The motion is projected onto the direction: with P, V and G the
+  /// position, velocity and plan of the point, and N and M normal and turn, its distance is at least
+  ///   N P + (N V + M P) s + (N G / 2 + M V) s^2 + M G s^3 / 2
+  /// over the length of N + M s, which is at most 1 + M^2 s^2 / 2.
+  double first_crossing(BoundBesideBound motion, const Sinking& sinking) const {
+    Bound& bound = motion.bound;
+    const double duration = until - from;
+    const double along = dot(turn, bound.position);
+    const double closing = bound.growth_speed - dot(normal, bound.velocity) - along;
+    const double distance = (closing > sinking.speed ? sinking.approaching : sinking.receding) + motion.slack;
+    if (turn != Vec3{}) {
+      const double turned = norm_one(turn);
+      const double kept = std::max(bound.radius + distance, 0.0) +
+                          (bound.growth_speed + 0.5 * bound.acceleration_limit * duration) * duration;
+      bound.acceleration_limit += turned * norm_one(bound.planned_acceleration) * duration +
+                                  norm_squared(turn) * kept * (1.0 + rounding::margin) +
+                                  rounding::margin * 4.0 * turned * norm_one(bound.velocity);
+      bound.growth_speed += rounding::margin * 2.0 * turned * norm_one(bound.position);
+      bound.planned_acceleration += normal * (2.0 * dot(turn, bound.velocity));
+      bound.velocity += normal * along;
+    }
+    return std::min(until, earliest_meeting(bound, HalfSpace{normal, 0.0}, from, until, distance));
+  }
+};
+
+/// Returns the turn of the normal with which the points that are nearest now stay equally far along it: the
+/// direction stays normal to the edges and faces that are nearest.
+Vec3 turn_with(const NearestInHulls& nearest, const std::array<BoundBesideBound, 4>& motions) {
+  const Vec3& n = nearest.normal;
+  const auto way = [&](std::size_t k) {
+    const Vec3 d = motions[k].bound.position - motions[0].bound.position;
+    return d - n * dot(n, d);
+  };
+  const auto rate = [&](std::size_t k) {
+    return -dot(n, motions[k].bound.velocity - motions[0].bound.velocity);
+  };
+  Vec3 turn;
+  if (nearest.count == 2) {
+    turn = way(1) * (rate(1) / norm_squared(way(1)));
+  } else if (nearest.count == 3) {
+    const Vec3 u = way(1);
+    const Vec3 v = way(2);
+    const double uu = norm_squared(u), vv = norm_squared(v), uv = dot(u, v);
+    const double determinant = uu * vv - uv * uv;
+    turn =
+        u * ((rate(1) * vv - rate(2) * uv) / determinant) + v * ((rate(2) * uu - rate(1) * uv) / determinant);
+    turn -= n * dot(n, turn);
+  }
+  return std::isfinite(norm_one(turn)) ? turn : Vec3{};
+}
+
+/// Two parts, or a part and a solid: their points, how these move relative to each other, and which are
+/// nearest. `motion(k, j)` returns that of two points.
+template <class Motion>
+double sinking_of(const NearestInHulls& nearest, std::size_t first_count, std::size_t second_count,
+                  double deepest, double from, double until, const Sinking& sinking, Motion motion) {
+  if (nearest.overlap()) return until;
+  const Sinking kept{std::max(sinking.approaching, deepest), sinking.receding, sinking.speed};
+  const auto along = [&](const Vec3& turn) {
+    double first = until;
+    for (std::size_t k = 0; k < first_count; ++k)
+      for (std::size_t j = 0; j < second_count && first > from; ++j)
+        first = TurningDirection{nearest.normal, turn, from, first}.first_crossing(motion(k, j), kept);
+    return first;
+  };
+  const double fixed = along({});
+  if (fixed == until || nearest.count < 2) return fixed;
+  std::array<BoundBesideBound, 4> motions{BoundBesideBound{Bound{}}, BoundBesideBound{Bound{}},
+                                          BoundBesideBound{Bound{}}, BoundBesideBound{Bound{}}};
+  for (std::size_t k = 0; k < nearest.count; ++k)
+    motions[k] = motion(nearest.pairs[k].first, nearest.pairs[k].second);
+  return std::max(fixed, along(turn_with(nearest, motions)));
+}
+
+double sinking_of(const PartBound& a, const PartBound& b, double from, double until, const Sinking& sinking) {
+  return sinking_of(
+      nearest_of(a, b, from), point_count(a.part()), point_count(b.part()),
+      -(a.part().radius + b.part().radius), from, until, sinking,
+      [&](std::size_t k, std::size_t j) { return BoundBesideBound(a.point(k), b.point(j), from); });
+}
+
+double sinking_of(const PartBound& part, const HalfSpace& wall, double from, double until,
+                  const Sinking& sinking) {
+  double first = until;
+  part.for_each_point([&](const Bound& point) {
+    BoundBesideBound motion(point);
+    motion.slack = wall.offset;
+    first = TurningDirection{wall.normal, {}, from, first}.first_crossing(motion, sinking);
+  });
+  return first;
+}
+
+template <class Shape>
+double sinking_of(const PartBound& part, const Shape& shape, double from, double until,
+                  const Sinking& sinking) {
+  const HullBesideSolid now(part, shape, from);
+  return sinking_of(now.nearest, point_count(part.part()), now.corners.all().size(), -part.part().radius,
+                    from, until, sinking, [&](std::size_t k, std::size_t j) {
+                      return BoundBesideBound(part.point(k),
+                                              bound_of_point(shape, now.corners.all()[j], from), from,
+                                              radius_of(shape));
+                    });
+}
+
 }  // namespace
+
+template <class Other>
+double earliest_sinking(const RigidPair<Other>& pair, double from, double until, const Sinking& sinking) {
+  double first = until;
+  for_each_part(
+      pair, from, {}, [&](const GapNow& gap) { return gap.exceeds(sinking.approaching, first - from); },
+      [&](const PartBound& part, const auto& partner) {
+        first = std::min(first, sinking_of(part, partner, from, first, sinking));
+        return first > from;
+      });
+  return first < until ? first : infinity;
+}
 
 template <class Other>
 double earliest_meeting(const Bound&, const RigidPair<Other>& pair, double from, double until,
@@ -654,6 +795,7 @@ bool is_beyond(const RigidPair<Other>& pair, double t, double distance) {
 
 #define KINESPHERE_RIGID_PAIR(Other)                                                                  \
   template double earliest_meeting(const Bound&, const RigidPair<Other>&, double, double, double);    \
+  template double earliest_sinking(const RigidPair<Other>&, double, double, const Sinking&);          \
   template double earliest_separation(const Bound&, const RigidPair<Other>&, double, double, double); \
   template GapLimits gap_limits(const Bound&, const RigidPair<Other>&, double);                       \
   template bool is_beyond(const RigidPair<Other>&, double, double);

@@ -29,6 +29,8 @@ struct RigidExtent {
 
   /// True if the body flies and turns exactly as the last report says.
   bool is_exact() const { return spin_growth == 0.0 && bound.is_exact(); }
+  /// Returns the largest speed (length / time), relative to its position, of a point that is fixed in the body.
+  double turning_speed() const { return spin * radius; }
   /// Returns the same body with a report at `time`, which is not earlier. Precondition: is_exact().
   RigidExtent at(double time) const {
     if (time == bound.time) return *this;
@@ -71,6 +73,25 @@ struct RigidPair {
       return body.is_exact() && other.is_exact();
     else
       return body.is_exact() && !requires { other.carrier; };
+  }
+  /// Returns an upper limit of the speed (length / time) at which any two points, one fixed in each of the two,
+  /// move relative to each other at `time`, but for the errors of the reports.
+  double relative_speed(double time) const {
+    const Vec3 velocity = body.bound.velocity_at(time);
+    if constexpr (requires { other.turning_speed(); })
+      return norm(velocity - other.bound.velocity_at(time)) + body.turning_speed() + other.turning_speed();
+    else if constexpr (requires { other.carrier; })
+      return norm(velocity - other.carrier.velocity_at(time)) + body.turning_speed();
+    else
+      return norm(velocity) + body.turning_speed();
+  }
+  /// Returns the pair with a sum of growths that is less by `excess` (length / time) from `time` on.
+  /// Precondition: both reports are of `time`, or their bodies stand still.
+  RigidPair with_less_growth(double excess, double time) const {
+    RigidPair pair = *this;
+    pair.body.bound.growth_speed -= excess;
+    pair.body.bound.time = time;
+    return pair;
   }
   /// Returns the two with later reports. Precondition: is_exact().
   RigidPair at(double time) const {

@@ -101,11 +101,17 @@ inline std::optional<double> crossing(const LineSegment& segment, const Triangle
   return part;
 }
 
-/// Returns the position on the segment, from 0 at a to 1 at b, of its point nearest to the solid. Unless the
-/// two intersect, that point is an end, or the nearest one to an edge of the solid.
+/// The point of a segment nearest to a solid.
+struct NearestOnSegment {
+  double position = 0.0;  ///< from 0 at a to 1 at b
+  bool crosses = false;   ///< true if the point is in the solid
+};
+
+/// Returns the nearest point to the solid. Unless the two intersect, that point is an end, or the nearest one to
+/// an edge of the solid.
 template <class Solid>
-double nearest_on_segment(const LineSegment& segment, const Solid& solid) {
-  if (const auto inside = crossing(segment, solid)) return *inside;
+NearestOnSegment nearest_on_segment(const LineSegment& segment, const Solid& solid) {
+  if (const auto inside = crossing(segment, solid)) return {*inside, true};
   const double from_a = nearest_point(solid, segment.a).distance;
   const double from_b = nearest_point(solid, segment.b).distance;
   double nearest = from_a <= from_b ? 0.0 : 1.0;
@@ -117,11 +123,7 @@ double nearest_on_segment(const LineSegment& segment, const Solid& solid) {
     least = distance;
     nearest = at.first;
   });
-  return nearest;
-}
-
-inline double nearest_on_segment(const LineSegment& segment, const HalfSpace& space) {
-  return dot(space.normal, segment.a) <= dot(space.normal, segment.b) ? 0.0 : 1.0;
+  return {nearest};
 }
 
 }  // namespace kinesphere

@@ -69,15 +69,63 @@ double ContactPredictor<Partner>::until_reports() const {
 template <class Partner>
 double ContactPredictor<Partner>::meeting(double gap) const {
   const double distance = gap + threshold_.distance;
-  if (is_rigid_pair<Partner> || excess_growth_ == 0.0)
-    return earliest_meeting(bound_, partner_, now_, horizons_.meeting, distance);
-  // Rounding margins count a falling radius as one that grows less; what they lack is far below this part.
-  constexpr double part_kept = 0x1p-44;
+  if (excess_growth_ == 0.0) return earliest_meeting(bound_, partner_, now_, horizons_.meeting, distance);
+  if constexpr (is_rigid_pair<Partner>)
+    return earliest_meeting(bound_, partner_.with_less_growth(true_excess(), now_), now_, horizons_.meeting,
+                            distance);
   Bound true_growth = bound_;
-  true_growth.growth_speed -= (1.0 - part_kept) * excess_growth_;
+  true_growth.growth_speed -= true_excess();
   // A body whose state is known without a report at this time stands still.
   true_growth.time = now_;
   return earliest_meeting(true_growth, partner_, now_, horizons_.meeting, distance);
+}
+
+/// Upper limit of the speed at which any two points, one fixed in each of two bodies, move relative to each
+/// other (length / time), with the rates of radii.
+template <class Partner>
+double ContactPredictor<Partner>::largest_speed(const RelativeLimits& limits) const {
+  if constexpr (is_rigid_pair<Partner>)
+    return partner_.relative_speed(now_) + limits.speed_error + limits.radius_rates;
+  else
+    return infinity;
+}
+
+/// Returns the time of the next check of a pair that does not approach at its nearest points, and whose
+/// certificate fails at `time`: at least the least step of the Zeno guard later. Of several points, others
+/// may approach. So the step ends before a point that approaches is as deep as the gap, or any other point an
+/// eighth of the tolerance deeper; but not before the fastest point can have gone a 64th of the tolerance.
+template <class Partner>
+double ContactPredictor<Partner>::least_check(double time, double gap, double guarded, double speed_error,
+                                              const RelativeLimits& limits) const {
+  const double least = now_ + rule_.least_step(gap, speed_error, limits.acceleration);
+  if (!(time < least)) return time;
+  if constexpr (is_rigid_pair<Partner>) {
+    const Sinking sinking{guarded + threshold_.distance,
+                          gap - ContactRule::most_sinking * rule_.tolerance() + threshold_.distance,
+                          speed_error};
+    const auto pair = excess_growth_ == 0.0 ? partner_ : partner_.with_less_growth(true_excess(), now_);
+    const double sunk = earliest_sinking(pair, now_, least, sinking);
+    return sunk < least ? std::max({time, sunk, soonest_check(gap, limits)}) : least;
+  }
+  return least;
+}
+
+/// Returns a time before which no check is needed: the next that there is or, of several points within the
+/// tolerance, that at which the fastest of them can have gone a 64th of the tolerance.
+template <class Partner>
+double ContactPredictor<Partner>::soonest_check(double gap, const RelativeLimits& limits) const {
+  if constexpr (!is_rigid_pair<Partner>) return just_after(now_);
+  return std::max(just_after(now_), now_ + rule_.least_step(gap, largest_speed(limits), limits.acceleration,
+                                                            ContactRule::least_sinking));
+}
+
+/// Returns a time before which two bodies in touch do not separate, which is later than now by as much as the
+/// fastest of their points makes certain.
+template <class Partner>
+double ContactPredictor<Partner>::separated(double gap, const RelativeLimits& limits) const {
+  const double time = separation(rule_.release_gap());
+  if constexpr (!is_rigid_pair<Partner>) return time;
+  return std::max(time, now_ + rule_.least_time_to_separate(gap, largest_speed(limits), limits.acceleration));
 }
 
 template <class Partner>
@@ -105,7 +153,7 @@ ContactDecision ContactPredictor<Partner>::decide(const Event& current, const Re
   decision.change = rule_.decide(threshold_, beyond, current.approach_speed, error);
   if (decision.is_event()) return decision;
   const bool stays = threshold_.within && decision.change != ContactRule::Change::release;
-  const double apart = stays ? separation(rule_.release_gap()) : infinity;
+  const double apart = stays ? separated(beyond, limits) : infinity;
   decision.approach = threshold_.state.approach;
   if (stays && decision.approach == ApproachState::turned)
     decision.approach =
@@ -119,14 +167,13 @@ ContactDecision ContactPredictor<Partner>::decide(const Event& current, const Re
   // A certificate cannot guard a gap that is closer to the present gap than the certificate's own rounding
   // error. Within the tolerance that can be so, hence the reduction.
   const double gap = beyond > rule_.tolerance() ? beyond : beyond - resolution();
-  double time = meeting(rule_.guarded_gap(gap));
+  const double guarded = rule_.guarded_gap(gap);
+  double time = meeting(guarded);
   const double hidden_approach = std::max(current.approach_speed + error, 0.0);
-  // Certificates of rigid bodies do not know that a ball shrinks.
-  const double unknown_speed = limits.speed_error + (is_rigid_pair<Partner> ? limits.excess_growth : 0.0);
-  const double least = now_ + rule_.least_step(beyond, unknown_speed + hidden_approach, limits.acceleration);
-  if (time < least) {
+  const double later = least_check(time, beyond, guarded, limits.speed_error + hidden_approach, limits);
+  if (time < later) {
     // The Zeno guard: time must advance between two checks of a contact that does not approach.
-    time = least;
+    time = later;
     decision.zeno_step = true;
     decision.breaks_tolerance = rule_.step_breaks_tolerance(beyond);
   }
@@ -136,7 +183,7 @@ ContactDecision ContactPredictor<Partner>::decide(const Event& current, const Re
     // the time.
     if (surfaces <= horizons_.meeting) time = std::min(time, surfaces);
   }
-  decision.next_check = std::max(std::min(time, apart), just_after(now_));
+  decision.next_check = std::max(std::min(time, apart), soonest_check(beyond, limits));
   return decision;
 }
 
@@ -144,7 +191,7 @@ template <class Partner>
 ContactDecision ContactPredictor<Partner>::defer(const Event& current, const RelativeLimits& limits) const {
   const double beyond = current.gap - threshold_.distance;
   const double speed = limits.speed_error + std::max(current.approach_speed, 0.0);
-  const double next_time = now_ + rule_.least_step(beyond, speed, limits.acceleration);
+  const double next_time = least_check(now_, beyond, rule_.guarded_gap(beyond - resolution()), speed, limits);
   return {.next_check = std::max(std::min(next_time, separation(rule_.release_gap())), just_after(now_)),
           .approach = ApproachState::watched,
           .zeno_step = true,
@@ -166,7 +213,11 @@ double ContactPredictor<Partner>::arm(double gap) const {
 template <class Partner>
 double ContactPredictor<Partner>::resolution() const {
   const GapLimits limits = gap_limits(bound_, partner_, now_);
-  return 1.25 * (limits.upper - limits.lower);
+  const double width = limits.upper - limits.lower;
+  // Rounding does not take limits so far apart. These are of an axis that crosses a solid, which no
+  // certificate guards at such a depth.
+  if (is_rigid_pair<Partner> && width > rule_.tolerance()) return 0.0;
+  return 1.25 * width;
 }
 
 template class ContactPredictor<Bound>;

@@ -96,6 +96,14 @@ class ContactPredictor {
   }
   double arm(double gap) const;
   double resolution() const;
+  double largest_speed(const RelativeLimits& limits) const;
+  double least_check(double time, double gap, double guarded, double speed_error,
+                     const RelativeLimits& limits) const;
+  /// Rounding margins count a falling radius as one that grows less; what they lack is far below the part
+  /// that is left of the excess.
+  double true_excess() const { return (1.0 - 0x1p-44) * excess_growth_; }
+  double soonest_check(double gap, const RelativeLimits& limits) const;
+  double separated(double gap, const RelativeLimits& limits) const;
 
   const ContactRule& rule_;
   Threshold threshold_;

@@ -5,6 +5,15 @@
 
 namespace kinesphere {
 
+namespace {
+
+/// Returns the time in which something that starts at this speed and accelerates goes so far.
+double time_for(double way, double speed, double acceleration) {
+  return 2.0 * way / (speed + std::sqrt(speed * speed + 2.0 * acceleration * way));
+}
+
+}  // namespace
+
 ContactRule::ContactRule(const WorldDefinition& definition)
     : tolerance_(definition.contact_tolerance),
       separation_distance_(std::isnan(definition.separation_distance) ? 4.0 * definition.contact_tolerance
@@ -29,10 +38,13 @@ double ContactRule::guarded_gap(double gap) const {
   return gap > -0.25 * tolerance_ ? -0.5 * tolerance_ : gap - 0x1p-20 * tolerance_;
 }
 
-double ContactRule::least_step(double gap, double speed_error, double acceleration) const {
+double ContactRule::least_step(double gap, double speed_error, double acceleration, double sinking) const {
   if (gap > tolerance_ || !(speed_error + acceleration > 0.0)) return 0.0;
-  const double way = 0.125 * tolerance_;
-  return 2.0 * way / (speed_error + std::sqrt(speed_error * speed_error + 2.0 * acceleration * way));
+  return time_for(sinking * tolerance_, speed_error, acceleration);
+}
+
+double ContactRule::least_time_to_separate(double gap, double speed, double acceleration) const {
+  return time_for(std::max(release_gap() - gap, tolerance_), speed, acceleration);
 }
 
 double ContactRule::zeno_interval(double acceleration) const {

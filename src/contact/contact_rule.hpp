@@ -63,12 +63,22 @@ class ContactRule {
 
   /// The Zeno guard: returns the minimum time between two checks of a pair within the tolerance that does not
   /// approach. `speed_error` is the sum of the velocity errors and of the approach that rounding may hide,
-  /// `acceleration` the sum of the largest accelerations. In this time the gap shrinks by at most 1/8 of the
-  /// tolerance. Returns 0 outside the tolerance or if both sums are 0.
-  double least_step(double gap, double speed_error, double acceleration) const;
+  /// `acceleration` the sum of the largest accelerations. In this time the gap shrinks by at most `sinking` of
+  /// the tolerance. Returns 0 outside the tolerance or if both sums are 0.
+  double least_step(double gap, double speed_error, double acceleration,
+                    double sinking = most_sinking) const;
+  static constexpr double most_sinking = 0.125;
+  /// What a step may sink that is as short as the fastest of several points needs it to be. Smaller values make
+  /// more checks of a body that rocks on an edge; larger ones let a body that lands on several points in turn
+  /// sink deeper.
+  static constexpr double least_sinking = 0x1p-6;
+
+  /// Returns a lower bound of the time after which two bodies can have separated whose points move relative to
+  /// each other at this speed at most, and gain speed by this acceleration at most. Infinity if both are 0.
+  double least_time_to_separate(double gap, double speed, double acceleration) const;
 
   /// True if a least_step() from this gap may leave the tolerance, which the caller must be notified of.
-  bool step_breaks_tolerance(double gap) const { return gap < -0.875 * tolerance_; }
+  bool step_breaks_tolerance(double gap) const { return gap < -(1.0 - most_sinking) * tolerance_; }
 
   /// Returns the interval (time) within which a contact counts as repeated after the previous one of a body
   /// with this largest acceleration (limit plus plan). A body that was stopped within the tolerance falls by
