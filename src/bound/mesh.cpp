@@ -6,6 +6,7 @@
 
 #include "bound/mesh_tree.hpp"
 #include "bound/reach.hpp"
+#include "bound/rigid_certificates.hpp"
 #include "bound/safe_steps.hpp"
 #include "bound/triangle.hpp"
 #include "input/input_check.hpp"
@@ -207,6 +208,25 @@ double earliest_separation(const Bound& bound, const Mesh& shape, double from, d
     if (!(gain > (time - from) * negligible_gain)) break;
   }
   return time;
+}
+
+double earliest_sinking(const Bound& bound, const Mesh& mesh, double from, double until,
+                        const Sinking& sinking) {
+  const double outer = std::max(sinking.approaching, sinking.receding);
+  const Vec3 centre = bound.centre_at(from);
+  const Vec3 velocity = bound.velocity_at(from);
+  double first = infinity;
+  const auto limit = [&] { return std::min(first, until); };
+  tree_of(mesh).search(
+      [&](const Box& box) { return earliest_meeting(bound, box, from, limit(), outer); }, limit,
+      [&](std::uint32_t, const Triangle& triangle) {
+        // Along the direction of now, the triangle keeps its distance as long as its plane does.
+        const double closing = bound.growth_speed - dot(nearest_point(triangle, centre).normal, velocity);
+        const double distance = closing > sinking.speed ? sinking.approaching : sinking.receding;
+        first = std::min(first, earliest_meeting(bound, triangle, from, limit(), distance));
+        return first > from;
+      });
+  return first;
 }
 
 GapLimits gap_limits(const Bound& bound, const Mesh& shape, double t) {

@@ -99,4 +99,10 @@ struct MeshPoint {
 };
 MeshPoint nearest_in(const Mesh& mesh, const Vec3& from);
 
+struct Sinking;
+/// Like earliest_sinking() of a rigid pair (rigid_certificates.hpp): the triangles of the mesh are its
+/// points.
+double earliest_sinking(const Bound& bound, const Mesh& mesh, double from, double until,
+                        const Sinking& sinking);
+
 }  // namespace kinesphere

@@ -731,6 +731,26 @@ double sinking_of(const PartBound& part, const Shape& shape, double from, double
                     });
 }
 
+template <class Shape>
+requires is_mesh<Shape>
+double sinking_of(const PartBound& part, const Shape& mesh, double from, double until,
+                  const Sinking& sinking) {
+  const Bound around = part.around();
+  const double outer = std::max({sinking.approaching, sinking.receding, -part.part().radius});
+  double first = until;
+  tree_of(solid_of(mesh))
+      .search(
+          [&](const Box& box) {
+            return earliest_meeting(around, placed_like(mesh, box), from, first, outer);
+          },
+          [&] { return first; },
+          [&](std::uint32_t, const Triangle& triangle) {
+            first = std::min(first, sinking_of(part, placed_like(mesh, triangle), from, first, sinking));
+            return first > from;
+          });
+  return first;
+}
+
 }  // namespace
 
 template <class Other>
