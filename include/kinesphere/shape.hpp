@@ -71,6 +71,15 @@ class Mesh {
   static Result<Mesh> create(std::span<const Vec3> vertices,
                              std::span<const std::array<std::uint32_t, 3>> corners);
 
+  /// Returns the surface of worlds of two dimensions: a chain of segments from each point to the next, all
+  /// with z = 0; repeat the first point at the end to close it. Each segment is a wall of two triangles, as
+  /// far above the plane as below: in events, half the number of the triangle is that of the segment. These
+  /// are the only meshes that a world of two dimensions takes. Errors: out_of_range for fewer than two
+  /// points, for neighbours that are equal and for a z that is not 0; not_finite.
+  static Result<Mesh> chain(std::span<const Vec3> points);
+  /// Returns true if chain() can have made the mesh.
+  bool is_chain() const;
+
   /// Number of triangles.
   std::size_t size() const;
   /// Returns a triangle. Precondition: number < size().

@@ -19,7 +19,12 @@ Vec3 anchor_of(const Ball& ball) { return ball.centre; }
 Vec3 anchor_of(const HalfSpace& solid) { return solid.normal * solid.offset; }
 Vec3 anchor_of(const Box& box) { return 0.5 * box.lower + 0.5 * box.upper; }
 Vec3 anchor_of(const Triangle& t) { return (t.a + t.b + t.c) / 3.0; }
-Vec3 anchor_of(const Mesh& mesh) { return mesh.size() > 0 ? anchor_of(mesh.triangle(0)) : Vec3{}; }
+Vec3 anchor_of(const Mesh& mesh) {
+  if (mesh.size() == 0) return {};
+  const Triangle first = mesh.triangle(0);
+  // Of a chain, the middle of the first segment.
+  return mesh.is_chain() ? 0.5 * (first.a + first.c) : anchor_of(first);
+}
 
 }  // namespace
 

@@ -126,8 +126,8 @@ void require_shape(InputCheck& check, const Triangle& triangle, const WorldDefin
 
 void require_shape(InputCheck& check, const Mesh& mesh, const WorldDefinition& world) {
   check
-      .require(world.dimensions == 3, ErrorCode::unsupported, {"shape"}, "must not be a mesh",
-               std::string_view("one in a plane"))
+      .require(world.dimensions == 3 || mesh.is_chain(), ErrorCode::unsupported, {"shape"},
+               "must be a mesh that Mesh::chain() makes", std::string_view("another one in a plane"))
       .require(mesh.size() > 0, ErrorCode::out_of_range, {"shape"}, "must be a mesh with triangles",
                std::string_view("one without"));
   if (check.error()) return;

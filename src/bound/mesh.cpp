@@ -60,6 +60,21 @@ MeshTree::MeshTree(std::vector<Vec3> vertices, std::vector<Corners> corners)
   nodes_.reserve(order_.size());
   add_node(0, static_cast<std::uint32_t>(order_.size()));
   nodes_.shrink_to_fit();
+  is_chain_ = has_walls_alone();
+}
+
+/// Returns true if each two triangles are the wall over a segment that chain() makes of them.
+bool MeshTree::has_walls_alone() const {
+  const auto is_over = [](const Vec3& a, const Vec3& b) { return a.x == b.x && a.y == b.y && a.z == -b.z; };
+  for (std::size_t k = 0; k < corners_.size(); k += 2) {
+    if (k + 1 == corners_.size()) return false;
+    const Triangle one = triangle(k);
+    const Triangle other = triangle(k + 1);
+    if (!(one.a == other.a && one.c == other.b && one.a.z < 0.0 && one.a.z == one.b.z &&
+          is_over(one.c, one.b) && is_over(other.c, other.a)))
+      return false;
+  }
+  return true;
 }
 
 /// Adds the node of some triangles and all below it. They are halved along the longest axis of their middles;
@@ -115,6 +130,33 @@ Result<Mesh> Mesh::create(std::span<const Vec3> vertices,
       std::make_shared<const MeshTree>(std::vector<Vec3>(vertices.begin(), vertices.end()),
                                        std::vector<MeshTree::Corners>(corners.begin(), corners.end())));
 }
+
+Result<Mesh> Mesh::chain(std::span<const Vec3> points) {
+  InputCheck check("Mesh::chain");
+  check.require(points.size() >= 2, ErrorCode::out_of_range, {"points"}, "must be at least two",
+                points.size());
+  std::vector<Vec3> vertices;
+  std::vector<MeshTree::Corners> corners;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Subject subject{"points", no_body, {}, k};
+    check.finite(subject, points[k])
+        .require(points[k].z == 0.0, ErrorCode::out_of_range, subject, "must have z = 0", points[k])
+        .require(k == 0 || points[k] != points[k - 1], ErrorCode::out_of_range, subject,
+                 "must differ from the point before", points[k]);
+    if (check.error()) return *check.error();
+    if (k == 0) continue;
+    const Vec3 up{0.0, 0.0, 0.5 * norm(points[k] - points[k - 1])};
+    const auto first = static_cast<std::uint32_t>(vertices.size());
+    for (const Vec3& vertex : {points[k - 1] - up, points[k] - up, points[k] + up, points[k - 1] + up})
+      vertices.push_back(vertex);
+    corners.push_back({first, first + 1, first + 2});
+    corners.push_back({first, first + 2, first + 3});
+  }
+  if (check.error()) return *check.error();
+  return create(vertices, corners);
+}
+
+bool Mesh::is_chain() const { return tree_ && tree_->is_chain(); }
 
 std::size_t Mesh::size() const { return tree_ ? tree_->corners().size() : 0; }
 Triangle Mesh::triangle(std::size_t number) const { return tree_->triangle(number); }
@@ -175,7 +217,9 @@ MeshPoint nearest_in(const Mesh& mesh, const Vec3& from) {
                          at = triangle;
                          return true;
                        });
-  nearest.surface.normal = steadied(nearest.surface.normal, at, nearest.surface.distance, size);
+  nearest.surface.normal =
+      as_of_mesh(steadied(nearest.surface.normal, at, nearest.surface.distance, size), mesh);
+  nearest.surface.point = as_of_mesh(nearest.surface.point, mesh);
   return nearest;
 }
 

@@ -31,6 +31,8 @@ class MeshTree {
     const auto& [a, b, c] = corners_[number];
     return {vertices_[a], vertices_[b], vertices_[c]};
   }
+  /// True if chain() can have made the mesh.
+  bool is_chain() const { return is_chain_; }
   /// The box of all triangles.
   const Box& box() const { return nodes_.front().box; }
 
@@ -79,12 +81,14 @@ class MeshTree {
   static constexpr std::uint32_t most_in_leaf = 4;
 
   static Box box_of(const Triangle& t);
+  bool has_walls_alone() const;
   void add_node(std::uint32_t begin, std::uint32_t end);
 
   std::vector<Vec3> vertices_;
   std::vector<Corners> corners_;
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> order_;  ///< numbers of the triangles, leaf by leaf
+  bool is_chain_ = false;
 };
 
 /// Returns the vector of length 1 that events give as the normal: `direction`, or the normal of the triangle
@@ -92,7 +96,12 @@ class MeshTree {
 /// direction; `size`: magnitude of the coordinates that they were computed from.
 Vec3 steadied(const Vec3& direction, const Triangle& triangle, double distance, double size);
 
-/// The point of a mesh nearest to a given point.
+/// Returns a point or a direction in the plane z = 0 as chains have it, without what rounding leaves of z.
+inline Vec3 as_of_mesh(const Vec3& vector, const Mesh& mesh) {
+  return mesh.is_chain() ? Vec3{vector.x, vector.y, 0.0} : vector;
+}
+
+/// The point of a mesh nearest to a given point. That of a chain is in the plane.
 struct MeshPoint {
   SurfacePoint surface;
   std::uint32_t triangle = 0;  ///< of equally near ones the first

@@ -153,6 +153,8 @@ NearestParts nearest_parts(const RigidPose& body, const Mesh& mesh) {
                              const bool below = frame.above_plane(middle - frame.origin()) < 0.0;
                              found.normal = below ? frame.normal() : -frame.normal();
                            }
+                           found.normal = as_of_mesh(found.normal, mesh);
+                           found.point = as_of_mesh(found.point, mesh);
                            found.first_part = k;
                            found.second_part = number;
                            keep_nearer(nearest, found);
