@@ -42,6 +42,11 @@ class PartBound {
     const PartBall& ball = body_.balls[static_cast<std::size_t>(&part_ - body_.parts.data())];
     return body_.of_point(ball.middle, ball.radius * (1.0 + 0x1p-40));
   }
+  /// Largest radius that the part may have at a time, if its radius changes.
+  double largest_radius(double time) const {
+    const double growth = body_.bound.growth_speed * (time - body_.bound.time);
+    return (part_.radius + growth) * (1.0 + rounding::margin);
+  }
   /// Bound of a point that is fixed in the part.
   Bound of_point(const Vec3& point) const { return body_.of_point(point, part_.radius); }
   /// The axis of a ball or capsule, or the points of a hull, where they are at a time if they go straight on,
@@ -270,7 +275,8 @@ GapLimits gap(const PartBound& a, const PartBound& b, double t) {
   if (is_hull(a, b)) {
     const NearestInHulls nearest = nearest_of(a, b, t);
     const double upper = witness_of(a, b, nearest, t).largest_gap();
-    const double lower = std::max(least_gap(a, b, nearest.normal, t), -(a.part().radius + b.part().radius));
+    const double deepest = -(a.largest_radius(t) + b.largest_radius(t));
+    const double lower = std::max(least_gap(a, b, nearest.normal, t), deepest);
     return {std::min(lower, upper), upper};
   }
   const NearestPoints nearest(a, b, t);
@@ -414,7 +420,7 @@ GapLimits gap(const PartBound& part, const Shape& shape, double t) {
   if (part.is_hull()) {
     const HullBesideSolid now(part, shape, t);
     const double upper = now.witness().largest_gap();
-    return {std::min(std::max(least(now.nearest.normal), -part.part().radius), upper), upper};
+    return {std::min(std::max(least(now.nearest.normal), -part.largest_radius(t)), upper), upper};
   }
   const AxisBesideSolid now(part, shape, t);
   GapLimits limits = gap_limits(part.of_point(now.nearest), shape, t);
