@@ -126,19 +126,35 @@ ks_status ks_world_add_static(ks_world world, const ks_static_definition* bodies
                     &World::add_static_all);
 }
 
+namespace {
+
+std::vector<Vec3> vectors_of(const ks_vec3* vectors, std::size_t count) {
+  std::vector<Vec3> found(count);
+  std::transform(vectors, vectors + count, found.begin(),
+                 [](const ks_vec3& vector) { return vector_of(vector); });
+  return found;
+}
+
+}  // namespace
+
 ks_status ks_mesh_create(const ks_vec3* vertices, size_t vertex_count, const uint32_t* corners,
                          size_t triangle_count, ks_mesh* mesh) {
   return guarded([&, call = __func__] {
     require_pointer(call, mesh, "handle");
     require_array(call, vertices, vertex_count, "vertices");
     require_array(call, corners, triangle_count, "corners");
-    std::vector<Vec3> places(vertex_count);
-    std::transform(vertices, vertices + vertex_count, places.begin(),
-                   [](const ks_vec3& vertex) { return vector_of(vertex); });
     std::vector<std::array<std::uint32_t, 3>> triples(triangle_count);
     for (std::size_t k = 0; k < triangle_count; ++k)
       triples[k] = {corners[3 * k], corners[3 * k + 1], corners[3 * k + 2]};
-    create<MeshObject>(call, mesh, Mesh::create(places, triples).value());
+    create<MeshObject>(call, mesh, Mesh::create(vectors_of(vertices, vertex_count), triples).value());
+  });
+}
+
+ks_status ks_mesh_create_chain(const ks_vec3* points, size_t count, ks_mesh* mesh) {
+  return guarded([&, call = __func__] {
+    require_pointer(call, mesh, "handle");
+    require_array(call, points, count, "points");
+    create<MeshObject>(call, mesh, Mesh::chain(vectors_of(points, count)).value());
   });
 }
 

@@ -238,6 +238,9 @@ typedef struct ks_mesh {
 /// ks_mesh_destroy() once all bodies have it. Errors: those of Mesh::create().
 KS_API KS_MUST_CHECK ks_status ks_mesh_create(const ks_vec3* vertices, size_t vertex_count,
                                               const uint32_t* corners, size_t triangle_count, ks_mesh* mesh);
+/// Creates a chain of segments from each point to the next, for worlds of two dimensions. Errors: those of
+/// Mesh::chain().
+KS_API KS_MUST_CHECK ks_status ks_mesh_create_chain(const ks_vec3* points, size_t count, ks_mesh* mesh);
 /// Bodies that have the mesh keep it.
 KS_API ks_status ks_mesh_destroy(ks_mesh mesh);
 /// The shape, for as many bodies as you like; valid until ks_mesh_destroy().

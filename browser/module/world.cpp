@@ -66,11 +66,20 @@ Result<Shape> mesh_at(const double* numbers) {
   return mesh ? Result<Shape>(mesh.value()) : Result<Shape>(mesh.error());
 }
 
+/// `numbers`: how many points there are, and then x and y of each.
+Result<Shape> chain_at(const double* numbers) {
+  std::vector<Vec3> points(static_cast<std::size_t>(numbers[0]));
+  for (std::size_t k = 0; k < points.size(); ++k) points[k] = {numbers[1 + 2 * k], numbers[2 + 2 * k], 0.0};
+  const auto mesh = Mesh::chain(points);
+  return mesh ? Result<Shape>(mesh.value()) : Result<Shape>(mesh.error());
+}
+
 Result<Shape> shape_at(int kind, const double* numbers) {
   if (kind == 0) return Shape(Ball{vector_at(numbers), numbers[3]});
   if (kind == 1) return Shape(HalfSpace{vector_at(numbers), numbers[3]});
   if (kind == 2) return Shape(Box{vector_at(numbers), vector_at(numbers + 3)});
   if (kind == 4) return mesh_at(numbers);
+  if (kind == 5) return chain_at(numbers);
   return Shape(Triangle{vector_at(numbers), vector_at(numbers + 3), vector_at(numbers + 6)});
 }
 

@@ -649,6 +649,14 @@ test("a mesh is one floor", () => {
   assert.throws(() => world.addMesh([0, 0, 0, 1, 0, 0, 0, 1, 0], [0, 1, 1.5]), /triangle 0: corners must be less/);
   assert.throws(() => world.addMesh([0, 0, 0, 1], [0, 1, 2]), /addStatic: vertices must have three numbers each/);
   assert.throws(() => world.addMesh([], []), /corners must have at least one triangle/);
+  const plane = new World({ dimensions: 2 });
+  const ground = plane.addStatic({ chain: [0, 0, 2, 0, 4, 0] });
+  plane.add({ position: [1, 3, 0], velocity: [0, -1, 0], radius: 1 });
+  const landing = plane.advance(5, (bodies, time, states) => states.set([1, 3 - time, 0, 0, -1, 0]));
+  assert.deepEqual([landing.first, Array.from(landing.normal)], [ground, [0, 1, 0]]);
+  assert.equal(plane.shapeOf(ground).mesh.corners.length, 12);
+  assert.throws(() => plane.addStatic({ chain: [0, 0] }), /points must be at least two/);
+  assert.throws(() => plane.addStatic({ chain: [0, 0, 1] }), /addStatic: chain must have two numbers for each point/);
 });
 
 test("a moving shape is met with its velocity", () => {

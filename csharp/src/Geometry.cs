@@ -82,6 +82,14 @@ namespace Kinesphere
             Native.Check(Native.ks_mesh_create(vertices, Arrays.Count(vertices, "vertices"), corners, (UIntPtr)(count / 3),
                                                out handle));
         }
+        Mesh(ulong made) { handle = made; }
+        /// <summary>A chain of segments from each point to the next, for worlds of two dimensions.</summary>
+        public static Mesh Chain(Vector[] points)
+        {
+            ulong made;
+            Native.Check(Native.ks_mesh_create_chain(points, Arrays.Count(points, "points"), out made));
+            return new Mesh(made);
+        }
         ~Mesh() { Native.ks_mesh_destroy(handle); }
         public void Dispose()
         {

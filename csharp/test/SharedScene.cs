@@ -328,6 +328,8 @@ static class SharedScene
             half.Dispose();
             RequireStatus("stale_handle", () => world.SetShape(floor, half.Shape));
             RequireStatus("out_of_range", () => new Mesh(vertices, new uint[] { 0, 1, 4 }));
+            RequireStatus("out_of_range", () => Mesh.Chain(new[] { vertices[0] }));
+            Mesh.Chain(vertices).Dispose();
         }
     }
 

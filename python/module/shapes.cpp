@@ -200,6 +200,17 @@ void bind_shapes(py::module_& module) {
              return mesh_of(vertices, corners, "Mesh");
            }),
            py::arg("vertices"), py::arg("corners"))
+      .def_static(
+          "chain",
+          [](const py::object& points) {
+            return Mesh::chain(vectors_of(points, {"Mesh.chain", "points"}, true)).value();
+          },
+          py::arg("points"),
+          "A surface of segments from each point to the next, shape (n, 2), for worlds of two dimensions: "
+          "the "
+          "only meshes that they take. Repeat the first point at the end to close it. Events name the "
+          "triangle, "
+          "half of which is the segment.")
       .def_property_readonly("vertices", vertices_of)
       .def_property_readonly("corners", corners_of)
       .def("__len__", [](const Mesh& of) { return of.size(); })

@@ -458,8 +458,21 @@ def test_a_mesh_is_a_shape() -> None:
 
     times = [(event.time, event.first) for event in world.events(3.0, states) if event.kind == "contact_begin"]
     assert times == [(pytest.approx(2.5, abs=1e-4), lift)]
-    with pytest.raises(ks.InvalidValue, match="add_static: shape must not be a mesh"):
+    with pytest.raises(ks.InvalidValue, match="add_static: shape must be a mesh that Mesh::chain"):
         ks.World(dimensions=2).add_static(mesh)
+
+
+def test_a_chain_is_the_ground_of_a_plane() -> None:
+    motion = ks.Ballistic([[3.0, 4, 0]], gravity=(0, -10, 0))
+    world = ks.World(dimensions=2, contacts="impacts")
+    world.add_motion(motion, radii=0.5)
+    ground = world.add_static(ks.Mesh.chain([(x, 0.0) for x in range(9)]))
+    event = world.advance(5.0, motion)
+    assert event is not None and event.second == ground
+    assert event.time == pytest.approx(np.sqrt(2 * 3.5 / 10), abs=1e-4)
+    assert event.normal.tolist() == [0, -1, 0] and event.second_part // 2 in (2, 3)
+    with pytest.raises(ks.InvalidValue, match="Mesh::chain: points must be at least two"):
+        ks.Mesh.chain([(0, 0)])
 
 
 def test_a_periodic_plane_is_made_of_corners_with_two_numbers() -> None:

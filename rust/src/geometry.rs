@@ -98,6 +98,12 @@ impl Mesh {
         })?;
         Ok(Mesh { handle })
     }
+    /// A chain of segments from each point to the next, for worlds of two dimensions.
+    pub fn chain(points: &[Vec3]) -> Result<Mesh> {
+        let mut handle = sys::ks_mesh { value: 0 };
+        check(unsafe { sys::ks_mesh_create_chain(points.as_ptr(), points.len(), &mut handle) })?;
+        Ok(Mesh { handle })
+    }
     /// The shape, for as many bodies as you like. Calls refuse it once the mesh has been dropped.
     pub fn shape(&self) -> Shape {
         Shape::Mesh(self.handle)

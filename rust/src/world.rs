@@ -4,7 +4,7 @@ use crate::bodies::{
 };
 use crate::error::{check, filled, Guarded, Result};
 use crate::events::{BodyAction, Event, Response};
-use crate::geometry::{BodyId, Box3, Rotation, Shape, State, Vec3};
+use crate::geometry::{BodyId, Box3, Mesh, Rotation, Shape, State, Vec3};
 use crate::sys;
 use std::mem::size_of;
 use std::os::raw::c_void;

@@ -82,6 +82,8 @@ fn a_ball_lands_on_the_edge_of_a_mesh() {
     drop(mesh);
     assert_eq!(world.set_shape(floor, &shape).unwrap_err().name, "stale_handle");
     assert_eq!(Mesh::new(&vertices, &[[0, 1, 4]]).unwrap_err().argument, "corners");
+    assert!(Mesh::chain(&vertices).is_ok());
+    assert_eq!(Mesh::chain(&vertices[..1]).unwrap_err().argument, "points");
 }
 
 #[test]

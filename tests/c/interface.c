@@ -146,6 +146,9 @@ static void meshes(void) {
   CHECK(ks_mesh_create(vertices, 4, beyond, 1, &mesh) == KS_ERROR_OUT_OF_RANGE);
   CHECK(strcmp(ks_last_error_argument(), "corners") == 0);
   CHECK(ks_mesh_create(vertices, 4, NULL, 1, &mesh) != KS_OK);
+  CHECK_OK(ks_mesh_create_chain(vertices, 4, &mesh));
+  CHECK_OK(ks_mesh_destroy(mesh));
+  CHECK(ks_mesh_create_chain(vertices, 1, &mesh) == KS_ERROR_OUT_OF_RANGE);
   CHECK(ks_mesh_create(NULL, 0, NULL, 0, &mesh) == KS_ERROR_OUT_OF_RANGE);
   CHECK_OK(ks_world_destroy(world));
 }

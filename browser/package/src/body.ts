@@ -61,7 +61,12 @@ export type Shape =
   | { halfSpace: { normal: Vec3; offset: number } }
   | { box: Box }
   | { triangle: readonly [Vec3, Vec3, Vec3] }
-  | { mesh: MeshShape };
+  | { mesh: MeshShape }
+  /**
+   * x and y of points: the surface of segments from each to the next, for worlds of two dimensions. shapeOf() returns it as
+   * the mesh that it is, whose triangles are two for each segment.
+   */
+  | { chain: ArrayLike<number> };
 
 /**
  * A surface of triangles that is one shape: terrain, a level. What slides over its edges meets one surface, and events
@@ -103,8 +108,10 @@ export interface StaticOptions extends ZoneOptions {
 }
 export const zoneKeys: Keys<ZoneOptions> = { filter: true, userData: "number" };
 export const staticKeys: Keys<StaticOptions> = { ...zoneKeys, solid: "boolean", sensorClass: "number" };
-type ShapeName = "ball" | "halfSpace" | "box" | "triangle" | "mesh";
-const shapeKeys: Readonly<Record<ShapeName, true>> = { ball: true, halfSpace: true, box: true, triangle: true, mesh: true };
+type ShapeName = "ball" | "halfSpace" | "box" | "triangle" | "mesh" | "chain";
+const shapeKeys: Readonly<Record<ShapeName, true>> = {
+  ball: true, halfSpace: true, box: true, triangle: true, mesh: true, chain: true,
+};
 const meshKeys: Keys<MeshShape> = { vertices: true, corners: true };
 const ballKeys: Keys<{ centre: Vec3; radius: number }> = { centre: true, radius: "number" };
 const halfSpaceKeys: Keys<{ normal: Vec3; offset: number }> = { normal: true, offset: "number" };
@@ -156,7 +163,14 @@ export function shapeNumbers(shape: Shape, call: string): [kind: number, numbers
   if ("box" in shape) return [2, [...of(shape.box.lower, "lower"), ...of(shape.box.upper, "upper")]];
   if ("triangle" in shape) return [3, shape.triangle.flatMap((corner) => of(corner, "triangle"))];
   if ("mesh" in shape) return [4, meshNumbers(shape.mesh, call)];
-  throw new TypeError(`${call}: shape must be a ball, a halfSpace, a box, a triangle or a mesh`);
+  if ("chain" in shape) return [5, chainNumbers(shape.chain, call)];
+  throw new TypeError(`${call}: shape must be a ball, a halfSpace, a box, a triangle, a mesh or a chain`);
+}
+
+function chainNumbers(chain: ArrayLike<number>, call: string): number[] {
+  requireNumbers(chain, "chain", call);
+  if (chain.length % 2 !== 0) throw new TypeError(`${call}: chain must have two numbers for each point, but there are ${chain.length}`);
+  return [chain.length / 2, ...Array.from(chain)];
 }
 
 function meshNumbers(mesh: MeshShape, call: string): number[] {
