@@ -126,17 +126,6 @@ ks_status ks_world_add_static(ks_world world, const ks_static_definition* bodies
                     &World::add_static_all);
 }
 
-namespace {
-
-std::vector<Vec3> vectors_of(const ks_vec3* vectors, std::size_t count) {
-  std::vector<Vec3> found(count);
-  std::transform(vectors, vectors + count, found.begin(),
-                 [](const ks_vec3& vector) { return vector_of(vector); });
-  return found;
-}
-
-}  // namespace
-
 ks_status ks_mesh_create(const ks_vec3* vertices, size_t vertex_count, const uint32_t* corners,
                          size_t triangle_count, ks_mesh* mesh) {
   return guarded([&, call = __func__] {

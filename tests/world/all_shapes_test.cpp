@@ -406,7 +406,7 @@ std::vector<Kind> kinds() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, AllShapes, testing::ValuesIn(kinds()),
-                         [](const auto& info) { return "Seed" + std::to_string(info.param.seed); });
+                         [](const auto& of) { return "Seed" + std::to_string(of.param.seed); });
 
 }  // namespace
 }  // namespace kinesphere
