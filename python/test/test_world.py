@@ -446,7 +446,7 @@ def test_a_mesh_is_a_shape() -> None:
     assert pickle.loads(pickle.dumps(mesh)) == mesh
     world = ks.World(contacts="impacts")
     zone = world.add_zone(mesh)
-    assert world.body(zone)["shape"] == mesh
+    assert world.shape_of(zone) == mesh
     world.set_shape(zone, ks.Mesh(vertices, [(0, 1, 2)]))
     lift = world.add_moving_shape(mesh, (0, 0, 0), (0, 0, 1), mass=float("inf"))
     ball = world.add((2, 1, 3), radii=0.5)
@@ -456,7 +456,9 @@ def test_a_mesh_is_a_shape() -> None:
         at = np.array([np.array(probe[int(k)][0]) + time * np.array(probe[int(k)][1]) for k in ids])
         return at, np.array([probe[int(k)][1] for k in ids], dtype=float)
 
-    times = [(event.time, event.first) for event in world.events(3.0, states) if event.kind == "contact_begin"]
+    times = [
+        (event.time, event.first) for event in world.events(3.0, states) if event.kind == "contact_begin"
+    ]
     assert times == [(pytest.approx(2.5, abs=1e-4), lift)]
     with pytest.raises(ks.InvalidValue, match="add_static: shape must be a mesh that Mesh::chain"):
         ks.World(dimensions=2).add_static(mesh)
