@@ -457,7 +457,9 @@ def test_a_mesh_is_a_shape() -> None:
         return at, np.array([probe[int(k)][1] for k in ids], dtype=float)
 
     times = [
-        (event.time, event.first) for event in world.events(3.0, states) if event.kind == "contact_begin"
+        (event.time, event.first)
+        for event in world.events(3.0, states)
+        if event.kind == EventKind.contact_begin
     ]
     assert times == [(pytest.approx(2.5, abs=1e-4), lift)]
     with pytest.raises(ks.InvalidValue, match="add_static: shape must be a mesh that Mesh::chain"):
