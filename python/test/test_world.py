@@ -462,7 +462,7 @@ def test_a_mesh_is_a_shape() -> None:
         if event.kind == EventKind.contact_begin
     ]
     assert times == [(pytest.approx(2.5, abs=1e-4), lift)]
-    with pytest.raises(ks.InvalidValue, match="add_static: shape must be a mesh that Mesh::chain"):
+    with pytest.raises(ks.StateError, match="add_static: shape must be a mesh that Mesh::chain"):
         ks.World(dimensions=2).add_static(mesh)
 
 
