@@ -35,6 +35,14 @@ std::optional<Error> error_of(const std::string& call, std::span<const Vec3> ver
   return check.error();
 }
 
+Box around(Box box, const Box& other) {
+  for (int axis = 0; axis < 3; ++axis) {
+    box.lower[axis] = std::min(box.lower[axis], other.lower[axis]);
+    box.upper[axis] = std::max(box.upper[axis], other.upper[axis]);
+  }
+  return box;
+}
+
 /// Distance of a point from a box, less what rounding may add to that of a triangle inside.
 double distance_key(const Box& box, const Vec3& from, double size) {
   Vec3 away;
@@ -58,7 +66,11 @@ MeshTree::MeshTree(std::vector<Vec3> vertices, std::vector<Corners> corners)
     : vertices_(std::move(vertices)), corners_(std::move(corners)), order_(corners_.size()) {
   std::iota(order_.begin(), order_.end(), 0U);
   nodes_.reserve(order_.size());
-  add_node(0, static_cast<std::uint32_t>(order_.size()));
+  std::vector<Vec3> middles;
+  middles.reserve(corners_.size());
+  for (const auto& [a, b, c] : corners_)
+    middles.push_back(0.25 * vertices_[a] + 0.25 * vertices_[b] + 0.25 * vertices_[c]);
+  add_node(0, static_cast<std::uint32_t>(order_.size()), middles);
   nodes_.shrink_to_fit();
   is_chain_ = has_walls_alone();
 }
@@ -79,40 +91,33 @@ bool MeshTree::has_walls_alone() const {
 
 /// Adds the node of some triangles and all below it. They are halved along the longest axis of their middles;
 /// equal middles are ordered by number, so that the same triangles are together everywhere.
-void MeshTree::add_node(std::uint32_t begin, std::uint32_t end) {
-  const auto middle_of = [this](std::uint32_t number, int axis) {
-    const auto& [a, b, c] = corners_[number];
-    return 0.25 * vertices_[a][axis] + 0.25 * vertices_[b][axis] + 0.25 * vertices_[c][axis];
-  };
-  Box box = box_of(triangle(order_[begin]));
-  Vec3 least, most;
-  for (int axis = 0; axis < 3; ++axis) least[axis] = most[axis] = middle_of(order_[begin], axis);
-  for (std::uint32_t k = begin; k < end; ++k) {
-    const Box own = box_of(triangle(order_[k]));
-    for (int axis = 0; axis < 3; ++axis) {
-      box.lower[axis] = std::min(box.lower[axis], own.lower[axis]);
-      box.upper[axis] = std::max(box.upper[axis], own.upper[axis]);
-      least[axis] = std::min(least[axis], middle_of(order_[k], axis));
-      most[axis] = std::max(most[axis], middle_of(order_[k], axis));
-    }
-  }
+void MeshTree::add_node(std::uint32_t begin, std::uint32_t end, std::span<const Vec3> middles) {
   const std::size_t number = nodes_.size();
   const auto from = order_.begin() + begin;
   const auto to = order_.begin() + end;
-  nodes_.push_back({box, begin, end - begin});
-  if (end - begin <= most_in_leaf) return std::sort(from, to);
-  const Vec3 wide = most - least;
+  nodes_.push_back({{}, begin, end - begin});
+  if (end - begin <= most_in_leaf) {
+    std::sort(from, to);
+    Box box = box_of(triangle(*from));
+    std::for_each(from + 1, to, [&](std::uint32_t k) { box = around(box, box_of(triangle(k))); });
+    nodes_[number].box = box;
+    return;
+  }
+  Box box{middles[*from], middles[*from]};
+  std::for_each(from, to, [&](std::uint32_t k) { box = around(box, {middles[k], middles[k]}); });
+  const Vec3 wide = box.upper - box.lower;
   const int axis = wide.x >= wide.y && wide.x >= wide.z ? 0 : wide.y >= wide.z ? 1 : 2;
   const std::uint32_t half = begin + (end - begin) / 2;
   std::nth_element(from, order_.begin() + half, to, [&](std::uint32_t a, std::uint32_t b) {
-    const double at_a = middle_of(a, axis);
-    const double at_b = middle_of(b, axis);
+    const double at_a = middles[a][axis];
+    const double at_b = middles[b][axis];
     return at_a != at_b ? at_a < at_b : a < b;
   });
-  add_node(begin, half);
-  nodes_[number].start = static_cast<std::uint32_t>(nodes_.size());
-  nodes_[number].count = 0;
-  add_node(half, end);
+  add_node(begin, half, middles);
+  const std::size_t second = nodes_.size();
+  add_node(half, end, middles);
+  nodes_[number] = {around(nodes_[number + 1].box, nodes_[second].box), static_cast<std::uint32_t>(second),
+                    0};
 }
 
 Result<Mesh> Mesh::create(std::span<const Vec3> vertices,

@@ -82,7 +82,7 @@ class MeshTree {
 
   static Box box_of(const Triangle& t);
   bool has_walls_alone() const;
-  void add_node(std::uint32_t begin, std::uint32_t end);
+  void add_node(std::uint32_t begin, std::uint32_t end, std::span<const Vec3> middles);
 
   std::vector<Vec3> vertices_;
   std::vector<Corners> corners_;
