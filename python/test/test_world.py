@@ -450,18 +450,17 @@ def test_a_mesh_is_a_shape() -> None:
     world.set_shape(zone, ks.Mesh(vertices, [(0, 1, 2)]))
     lift = world.add_moving_shape(mesh, (0, 0, 0), (0, 0, 1), mass=float("inf"))
     ball = world.add((2, 1, 3), radii=0.5)
-    probe = {lift: ((0, 0, 0), (0, 0, 1)), ball: ((2, 1, 3), (0, 0, 0))}
+    starts = np.array([[0.0, 0, 0], [2, 1, 3]])
+    velocities = np.array([[0.0, 0, 1], [0, 0, 0]])
 
-    def states(ids: np.ndarray, time: float) -> tuple[np.ndarray, np.ndarray]:
-        at = np.array([np.array(probe[int(k)][0]) + time * np.array(probe[int(k)][1]) for k in ids])
-        return at, np.array([probe[int(k)][1] for k in ids], dtype=float)
+    def states(ids: Ids, time: float) -> tuple[Doubles, Doubles]:
+        rows = np.where(ids == lift, 0, 1)
+        return starts[rows] + time * velocities[rows], velocities[rows]
 
-    times = [
-        (event.time, event.first)
-        for event in world.events(3.0, states)
-        if event.kind == EventKind.contact_begin
-    ]
-    assert times == [(pytest.approx(2.5, abs=1e-4), lift)]
+    event = world.advance(3.0, states)
+    assert event is not None and event.kind == EventKind.contact_begin
+    assert (event.first, event.second) == (lift, ball)
+    assert event.time == pytest.approx(2.5, abs=1e-4)
     with pytest.raises(ks.StateError, match="add_static: shape must be a mesh that Mesh::chain"):
         ks.World(dimensions=2).add_static(mesh)
 
