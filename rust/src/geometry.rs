@@ -94,7 +94,13 @@ impl Mesh {
     pub fn new(vertices: &[Vec3], corners: &[[u32; 3]]) -> Result<Mesh> {
         let mut handle = sys::ks_mesh { value: 0 };
         check(unsafe {
-            sys::ks_mesh_create(vertices.as_ptr(), vertices.len(), corners.as_ptr().cast(), corners.len(), &mut handle)
+            sys::ks_mesh_create(
+                vertices.as_ptr(),
+                vertices.len(),
+                corners.as_ptr().cast(),
+                corners.len(),
+                &mut handle,
+            )
         })?;
         Ok(Mesh { handle })
     }

@@ -35,7 +35,7 @@ std::optional<Error> error_of(const std::string& call, std::span<const Vec3> ver
   return check.error();
 }
 
-Box around(Box box, const Box& other) {
+Box united(Box box, const Box& other) {
   for (int axis = 0; axis < 3; ++axis) {
     box.lower[axis] = std::min(box.lower[axis], other.lower[axis]);
     box.upper[axis] = std::max(box.upper[axis], other.upper[axis]);
@@ -99,12 +99,12 @@ void MeshTree::add_node(std::uint32_t begin, std::uint32_t end, std::span<const 
   if (end - begin <= most_in_leaf) {
     std::sort(from, to);
     Box box = box_of(triangle(*from));
-    std::for_each(from + 1, to, [&](std::uint32_t k) { box = around(box, box_of(triangle(k))); });
+    std::for_each(from + 1, to, [&](std::uint32_t k) { box = united(box, box_of(triangle(k))); });
     nodes_[number].box = box;
     return;
   }
   Box box{middles[*from], middles[*from]};
-  std::for_each(from, to, [&](std::uint32_t k) { box = around(box, {middles[k], middles[k]}); });
+  std::for_each(from, to, [&](std::uint32_t k) { box = united(box, {middles[k], middles[k]}); });
   const Vec3 wide = box.upper - box.lower;
   const int axis = wide.x >= wide.y && wide.x >= wide.z ? 0 : wide.y >= wide.z ? 1 : 2;
   const std::uint32_t half = begin + (end - begin) / 2;
@@ -116,7 +116,7 @@ void MeshTree::add_node(std::uint32_t begin, std::uint32_t end, std::span<const 
   add_node(begin, half, middles);
   const std::size_t second = nodes_.size();
   add_node(half, end, middles);
-  nodes_[number] = {around(nodes_[number + 1].box, nodes_[second].box), static_cast<std::uint32_t>(second),
+  nodes_[number] = {united(nodes_[number + 1].box, nodes_[second].box), static_cast<std::uint32_t>(second),
                     0};
 }
 

@@ -432,13 +432,6 @@ GapLimits gap(const PartBound& part, const Shape& shape, double t) {
 // not reach.
 
 template <class Shape>
-constexpr bool is_mesh = false;
-template <>
-constexpr bool is_mesh<Mesh> = true;
-template <>
-constexpr bool is_mesh<CarriedShape<Mesh>> = true;
-
-template <class Shape>
 requires is_mesh<Shape>
 double meeting(const PartBound& part, const Shape& mesh, double from, double until, double distance) {
   if (part.is_ball()) return earliest_meeting(part.ball(), mesh, from, until, distance);

@@ -22,12 +22,6 @@ constexpr bool is_rigid_pair<RigidPair<Other>> = true;
 
 /// Of the triangles of a mesh, others than the nearest may be approached, as of the points of rigid bodies.
 template <class Partner>
-constexpr bool is_mesh = false;
-template <>
-constexpr bool is_mesh<Mesh> = true;
-template <>
-constexpr bool is_mesh<CarriedShape<Mesh>> = true;
-template <class Partner>
 constexpr bool has_several_points = is_rigid_pair<Partner> || is_mesh<Partner>;
 
 /// Returns a lower bound of the distance between the nearest points of the axes.
