@@ -407,6 +407,18 @@ TEST(MeshContact, ACornerOfOneMeshIsNoDeeperThanTheTolerance) {
   }
 }
 
+TEST(MeshWorld, TakesVerticesAndCorners) {
+  World world = World::create({}).value();
+  const Mesh floor = flat_floor(2, 2);
+  const BodyId id = world.add_mesh(floor.vertices(), floor.corners(), {.category = 4}).value();
+  EXPECT_EQ(std::get<Mesh>(world.body(id)->shape), floor);
+  EXPECT_EQ(world.body(id)->definition.filter.category, 4u);
+  EXPECT_TRUE(world.body(id)->is_static);
+  expect_error(world.add_mesh(floor.vertices(), {}), ErrorCode::out_of_range, "corners",
+               "Mesh::create: corners");
+  EXPECT_EQ(world.size(), 1u);
+}
+
 TEST(MeshWorld, OverlapIsRefusedWhereItIsNotAllowed) {
   World world = World::create({.allow_overlap = false}).value();
   const BodyId ball = world.add({.radius = 1, .position = {2, 2, 0.5}}).value();
