@@ -222,9 +222,11 @@ MeshPoint nearest_in(const Mesh& mesh, const Vec3& from) {
                          at = triangle;
                          return true;
                        });
-  nearest.surface.normal =
-      as_of_mesh(steadied(nearest.surface.normal, at, nearest.surface.distance, size), mesh);
-  nearest.surface.point = as_of_mesh(nearest.surface.point, mesh);
+  nearest.surface.normal = steadied(nearest.surface.normal, at, nearest.surface.distance, size);
+  if (mesh.is_chain() && from.z == 0.0) {
+    nearest.surface.normal = without_z(nearest.surface.normal);
+    nearest.surface.point = without_z(nearest.surface.point);
+  }
   return nearest;
 }
 

@@ -96,12 +96,11 @@ class MeshTree {
 /// direction; `size`: magnitude of the coordinates that they were computed from.
 Vec3 steadied(const Vec3& direction, const Triangle& triangle, double distance, double size);
 
-/// Returns a point or a direction in the plane z = 0 as chains have it, without what rounding leaves of z.
-inline Vec3 as_of_mesh(const Vec3& vector, const Mesh& mesh) {
-  return mesh.is_chain() ? Vec3{vector.x, vector.y, 0.0} : vector;
-}
+/// Returns a point or a direction of what is nearest to something in the plane z = 0. A chain is as far above
+/// the plane as below, so z is what rounding leaves of 0.
+inline Vec3 without_z(const Vec3& vector) { return {vector.x, vector.y, 0.0}; }
 
-/// The point of a mesh nearest to a given point. That of a chain is in the plane.
+/// The point of a mesh nearest to a given point. For a chain and a point with z = 0, it has z = 0, too.
 struct MeshPoint {
   SurfacePoint surface;
   std::uint32_t triangle = 0;  ///< of equally near ones the first

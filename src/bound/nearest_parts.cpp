@@ -142,6 +142,9 @@ NearestParts nearest_parts(const RigidPose& body, const Mesh& mesh) {
     const Vec3 middle = body.position + rotated(body.orientation, body.balls[k].middle);
     const Bound around{.position = middle, .radius = body.balls[k].radius * (1.0 + 0x1p-40)};
     const double size = norm_one(middle) + around.radius;
+    const auto points = part.points();
+    const bool is_flat = mesh.is_chain() && std::all_of(points.begin(), points.end(),
+                                                        [](const Vec3& point) { return point.z == 0.0; });
     tree_of(mesh).search([&](const Box& box) { return gap_limits(around, box, 0.0).lower; },
                          [&] { return nearest.gap; },
                          [&](std::uint32_t number, const Triangle& triangle) {
@@ -153,8 +156,10 @@ NearestParts nearest_parts(const RigidPose& body, const Mesh& mesh) {
                              const bool below = frame.above_plane(middle - frame.origin()) < 0.0;
                              found.normal = below ? frame.normal() : -frame.normal();
                            }
-                           found.normal = as_of_mesh(found.normal, mesh);
-                           found.point = as_of_mesh(found.point, mesh);
+                           if (is_flat) {
+                             found.normal = without_z(found.normal);
+                             found.point = without_z(found.point);
+                           }
                            found.first_part = k;
                            found.second_part = number;
                            keep_nearer(nearest, found);

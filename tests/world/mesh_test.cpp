@@ -348,6 +348,23 @@ TEST(MeshChain, IsTheSurfaceOfAPlane) {
   EXPECT_EQ(World::restore(p.world.save().value())->save().value(), p.world.save().value());
 }
 
+/// A wall that a chain could have made, in three dimensions.
+TEST(MeshChain, IsAWallInSpace) {
+  const Mesh wall = Mesh::chain(std::vector<Vec3>{{0, 0, 0}, {2, 0, 0}}).value();
+  EXPECT_LT(norm(nearest_point(wall, {1, 3, 0.25}).point - Vec3{1, 0, 0.25}), 1e-15);
+  EXPECT_LT(norm(nearest_point(wall, {1, 0, 3}).point - Vec3{1, 0, 1}), 1e-15);
+  EXPECT_LT(norm(nearest_point(wall, {1, 0, 3}).normal - Vec3{0, 0, 1}), 1e-15);
+  Surroundings p;
+  p.place(wall);
+  p.add_rigid_body({.body = {.position = {1, 0, 5}, .velocity = {0, 0, -1}},
+                    .parts = {{{-0.3, 0, 0}, {0.3, 0, 0.1}, 0.5}}});
+  const auto events = p.run(4.0);
+  ASSERT_FALSE(events.empty());
+  EXPECT_NEAR(events[0].time, 3.5, 0.1);
+  EXPECT_NEAR(std::abs(events[0].normal.z), 1.0, 1e-6);
+  EXPECT_NEAR(events[0].point.z, 1.0, 1e-3);
+}
+
 /// A disc that slides over a straight chain neither turns nor slows down.
 TEST(MeshChain, OfOneLineIsSmooth) {
   Surroundings p({.dimensions = 2, .contact_tolerance = 1e-3, .contacts = ContactEvents::impacts});
