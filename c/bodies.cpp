@@ -1,5 +1,7 @@
 // Bodies of worlds: adding, changing and removing them; filters, zones and sensors.
 #include <algorithm>
+#include <array>
+#include <vector>
 
 #include "exchange.hpp"
 #include "input/input_check.hpp"
@@ -123,6 +125,29 @@ ks_status ks_world_add_static(ks_world world, const ks_static_definition* bodies
   return add_bodies(__func__, world, bodies, count, ids, static_of, &World::add_static,
                     &World::add_static_all);
 }
+
+ks_status ks_mesh_create(const ks_vec3* vertices, size_t vertex_count, const uint32_t* corners,
+                         size_t triangle_count, ks_mesh* mesh) {
+  return guarded([&, call = __func__] {
+    require_pointer(call, mesh, "handle");
+    require_array(call, vertices, vertex_count, "vertices");
+    require_array(call, corners, triangle_count, "corners");
+    std::vector<std::array<std::uint32_t, 3>> triples(triangle_count);
+    for (std::size_t k = 0; k < triangle_count; ++k)
+      triples[k] = {corners[3 * k], corners[3 * k + 1], corners[3 * k + 2]};
+    create<MeshObject>(call, mesh, Mesh::create(vectors_of(vertices, vertex_count), triples).value());
+  });
+}
+
+ks_status ks_mesh_create_chain(const ks_vec3* points, size_t count, ks_mesh* mesh) {
+  return guarded([&, call = __func__] {
+    require_pointer(call, mesh, "handle");
+    require_array(call, points, count, "points");
+    create<MeshObject>(call, mesh, Mesh::chain(vectors_of(points, count)).value());
+  });
+}
+
+ks_status ks_mesh_destroy(ks_mesh mesh) { return destroy(__func__, mesh); }
 
 ks_status ks_world_add_moving_shape(ks_world world, const ks_body_definition* body, const ks_shape* shape,
                                     ks_body_id* id) {

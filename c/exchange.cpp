@@ -1,8 +1,10 @@
 #include "exchange.hpp"
 
+#include <cstring>
 #include <string>
 
 #include "input/input_check.hpp"
+#include "objects.hpp"
 
 namespace kinesphere::c {
 namespace {
@@ -34,11 +36,16 @@ SensorClass sensor_class_of(std::string_view call, std::int32_t number) {
 }
 
 Shape shape_of(std::string_view call, const ks_shape& shape) {
-  require_number(call, "shape.kind", shape.kind, KS_SHAPE_BALL, KS_SHAPE_TRIANGLE);
+  require_number(call, "shape.kind", shape.kind, KS_SHAPE_BALL, KS_SHAPE_MESH);
   const Vec3 a = vector_of(shape.points[0]), b = vector_of(shape.points[1]), c = vector_of(shape.points[2]);
   if (shape.kind == KS_SHAPE_BALL) return Ball{a, shape.number};
   if (shape.kind == KS_SHAPE_HALF_SPACE) return HalfSpace{a, shape.number};
   if (shape.kind == KS_SHAPE_BOX) return Box{a, b};
+  if (shape.kind == KS_SHAPE_MESH) {
+    ks_mesh mesh;
+    std::memcpy(&mesh.value, &shape.number, sizeof mesh.value);
+    return find(call, mesh)->mesh;
+  }
   return Triangle{a, b, c};
 }
 

@@ -54,6 +54,11 @@ HandleTable<ReplayObject>& table_of(ks_replay) {
   return *table;
 }
 
+HandleTable<MeshObject>& table_of(ks_mesh) {
+  static auto* const table = new HandleTable<MeshObject>(4);
+  return *table;
+}
+
 void refuse_handle(std::string_view call, HandleState state) {
   const bool stale = state == HandleState::stale;
   throw Failure{stale ? KS_ERROR_STALE_HANDLE : KS_ERROR_INVALID_HANDLE, "handle",

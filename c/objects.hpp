@@ -46,6 +46,13 @@ struct ReplayObject {
   Usage usage{};
 };
 
+struct MeshObject {
+  explicit MeshObject(Mesh of) : mesh(std::move(of)) {}
+
+  Mesh mesh;
+  Usage usage{};
+};
+
 /// Throws BadResult inside callbacks of the world: for changes that do not begin with a call of the world.
 inline void require_idle(World& world) { world.reserve(0).value(); }
 
@@ -53,6 +60,7 @@ inline void require_idle(World& world) { world.reserve(0).value(); }
 HandleTable<WorldObject>& table_of(ks_world);
 HandleTable<MonitorObject>& table_of(ks_monitor);
 HandleTable<ReplayObject>& table_of(ks_replay);
+HandleTable<MeshObject>& table_of(ks_mesh);
 
 [[noreturn]] void refuse_handle(std::string_view call, HandleState state);
 [[noreturn]] void refuse_use(std::string_view call);

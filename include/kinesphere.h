@@ -183,13 +183,19 @@ typedef struct ks_box {
 
 /// One of KS_SHAPE_...
 typedef int32_t ks_shape_kind;
-enum { KS_SHAPE_BALL = 0, KS_SHAPE_HALF_SPACE = 1, KS_SHAPE_BOX = 2, KS_SHAPE_TRIANGLE = 3 };
+enum {
+  KS_SHAPE_BALL = 0,
+  KS_SHAPE_HALF_SPACE = 1,
+  KS_SHAPE_BOX = 2,
+  KS_SHAPE_TRIANGLE = 3,
+  KS_SHAPE_MESH = 4
+};
 
 /// Shape of a static body, a zone or a body that carries it, best made by one of the functions below.
 typedef struct ks_shape {
   ks_shape_kind kind;
   ks_vec3 points[3];  ///< centre; normal; lower and upper corner; three corners
-  double number;      ///< radius of a ball, offset of a half-space
+  double number;      ///< radius of a ball, offset of a half-space; of a mesh the bits of its handle
 } ks_shape;
 
 /// Radius >= 0.
@@ -219,6 +225,30 @@ static inline ks_shape ks_triangle(ks_vec3 a, ks_vec3 b, ks_vec3 c) {
   ks_shape shape = ks_solid_box(a, b);
   shape.kind = KS_SHAPE_TRIANGLE;
   shape.points[2] = c;
+  return shape;
+}
+
+/// A surface of triangles that is one shape (Mesh of kinesphere/shape.hpp). A handle of zero never names one.
+typedef struct ks_mesh {
+  uint64_t value;
+} ks_mesh;
+
+/// Creates a mesh with one triangle for each three numbers of vertices in `corners`, which has 3 *
+/// triangle_count of them; both arrays are copied. Events name a triangle by its place. Destroy the mesh with
+/// ks_mesh_destroy() once all bodies have it. Errors: those of Mesh::create().
+KS_API KS_MUST_CHECK ks_status ks_mesh_create(const ks_vec3* vertices, size_t vertex_count,
+                                              const uint32_t* corners, size_t triangle_count, ks_mesh* mesh);
+/// Creates a chain of segments from each point to the next, for worlds of two dimensions. Errors: those of
+/// Mesh::chain().
+KS_API KS_MUST_CHECK ks_status ks_mesh_create_chain(const ks_vec3* points, size_t count, ks_mesh* mesh);
+/// Bodies that have the mesh keep it.
+KS_API ks_status ks_mesh_destroy(ks_mesh mesh);
+/// The shape, for as many bodies as you like; valid until ks_mesh_destroy().
+static inline ks_shape ks_mesh_shape(ks_mesh mesh) {
+  ks_shape shape;
+  memset(&shape, 0, sizeof shape);
+  shape.kind = KS_SHAPE_MESH;
+  memcpy(&shape.number, &mesh.value, sizeof shape.number);
   return shape;
 }
 
@@ -396,8 +426,8 @@ KS_API KS_MUST_CHECK ks_status ks_world_add(ks_world world, const ks_body_defini
                                             ks_body_id* ids);
 KS_API ks_status ks_world_add_static(ks_world world, const ks_static_definition* bodies, size_t count,
                                      ks_body_id* ids);
-/// Adds a body that carries a box or a triangle (kinesphere/shape.hpp), relative to its position; the radius
-/// is ignored. The probe of the world moves it. Errors: those of World::add_moving_shape().
+/// Adds a body that carries a box, a triangle or a mesh (kinesphere/shape.hpp), relative to its position; the
+/// radius is ignored. The probe of the world moves it. Errors: those of World::add_moving_shape().
 KS_API ks_status ks_world_add_moving_shape(ks_world world, const ks_body_definition* body,
                                            const ks_shape* shape, ks_body_id* id);
 /// Adds a rigid body: balls, capsules and hulls that move and turn together; the radius is ignored. The probe
@@ -605,7 +635,7 @@ typedef struct ks_event {
   uint64_t second_user_data;
   double first_mass;
   double second_mass;
-  uint32_t first_part;  ///< of rigid bodies: the part at the contact
+  uint32_t first_part;  ///< of rigid bodies and meshes: the part or the triangle at the contact
   uint32_t second_part;
   ks_vec3 first_angular_velocity;  ///< of rigid bodies (radians / time)
   ks_vec3 second_angular_velocity;

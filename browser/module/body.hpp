@@ -11,8 +11,9 @@ namespace kinesphere::browser {
 constexpr std::size_t body_numbers = 21;
 BodyDefinition body_at(const double* numbers);
 
-/// `kind` and numbers are those of shapeNumbers() in package/src/body.ts.
-Shape shape_at(int kind, const double* numbers);
+/// `kind` and numbers are those of shapeNumbers() in package/src/body.ts. Errors: those of Mesh::create() and
+/// Mesh::chain().
+Result<Shape> shape_at(int kind, const double* numbers);
 
 /// Category, mask and group; -1 is the mask of all.
 Filter filter_at(const double* numbers);

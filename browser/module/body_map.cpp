@@ -46,8 +46,10 @@ KINESPHERE_EXPORT(map_add_moving_shape)
 double map_add_moving_shape(BodyMapHandle* handle, World* world, const MotionHandle* moving, double number,
                             int kind, const double* shape, const double* like) {
   if (auto reason = why_unknown(*moving->motion, number, world->time())) return fail(*reason), no_id;
+  const auto made = shape_at(kind, shape);
+  if (!is_good(made)) return no_id;
   const auto id = handle->map->add_moving_shape(*world, *moving->motion, static_cast<std::uint32_t>(number),
-                                                {body_at(like), shape_at(kind, shape)});
+                                                {body_at(like), *made});
   if (!is_good(id)) return no_id;
   keep(*handle, moving->motion);
   return number_of(*id);

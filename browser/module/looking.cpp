@@ -60,6 +60,12 @@ KINESPHERE_EXPORT(world_shape_of) bool world_shape_of(const World* world, double
     put(triangle->a, at);
     put(triangle->b, at + 3);
     put(triangle->c, at + 6);
+  } else if (const auto* mesh = std::get_if<Mesh>(&shape)) {
+    numbers.resize(3);
+    numbers[1] = static_cast<double>(mesh->vertices().size());
+    numbers[2] = static_cast<double>(mesh->size());
+    for (const Vec3& vertex : mesh->vertices()) numbers.insert(numbers.end(), {vertex.x, vertex.y, vertex.z});
+    for (const auto& triple : mesh->corners()) numbers.insert(numbers.end(), triple.begin(), triple.end());
   }
   return true;
 }

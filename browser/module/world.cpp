@@ -1,5 +1,9 @@
 // Worlds: definitions, bodies, snapshots.
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <cstdlib>
+#include <vector>
 
 #include "body.hpp"
 #include "exchange.hpp"
@@ -41,11 +45,42 @@ void put(const Filter& filter, double* numbers) {
   numbers[2] = filter.group;
 }
 
-Shape shape_at(int kind, const double* numbers) {
-  if (kind == 0) return Ball{vector_at(numbers), numbers[3]};
-  if (kind == 1) return HalfSpace{vector_at(numbers), numbers[3]};
-  if (kind == 2) return Box{vector_at(numbers), vector_at(numbers + 3)};
-  return Triangle{vector_at(numbers), vector_at(numbers + 3), vector_at(numbers + 6)};
+/// `numbers`: how many vertices and triangles there are, and then both.
+Result<Shape> mesh_at(const double* numbers) {
+  std::vector<Vec3> vertices(static_cast<std::size_t>(numbers[0]));
+  std::vector<std::array<std::uint32_t, 3>> corners(static_cast<std::size_t>(numbers[1]));
+  const double* next = numbers + 2;
+  for (Vec3& vertex : vertices) {
+    vertex = vector_at(next);
+    next += 3;
+  }
+  constexpr double most = 0xffffffffu;
+  for (auto& triple : corners)
+    for (std::uint32_t& corner : triple) {
+      const double given = *next++;
+      // No vertex has the largest number.
+      const bool is_whole = given >= 0.0 && given < most && given == std::floor(given);
+      corner = static_cast<std::uint32_t>(is_whole ? given : most);
+    }
+  const auto mesh = Mesh::create(vertices, corners);
+  return mesh ? Result<Shape>(mesh.value()) : Result<Shape>(mesh.error());
+}
+
+/// `numbers`: how many points there are, and then x and y of each.
+Result<Shape> chain_at(const double* numbers) {
+  std::vector<Vec3> points(static_cast<std::size_t>(numbers[0]));
+  for (std::size_t k = 0; k < points.size(); ++k) points[k] = {numbers[1 + 2 * k], numbers[2 + 2 * k], 0.0};
+  const auto mesh = Mesh::chain(points);
+  return mesh ? Result<Shape>(mesh.value()) : Result<Shape>(mesh.error());
+}
+
+Result<Shape> shape_at(int kind, const double* numbers) {
+  if (kind == 0) return Shape(Ball{vector_at(numbers), numbers[3]});
+  if (kind == 1) return Shape(HalfSpace{vector_at(numbers), numbers[3]});
+  if (kind == 2) return Shape(Box{vector_at(numbers), vector_at(numbers + 3)});
+  if (kind == 4) return mesh_at(numbers);
+  if (kind == 5) return chain_at(numbers);
+  return Shape(Triangle{vector_at(numbers), vector_at(numbers + 3), vector_at(numbers + 6)});
 }
 
 BodyDefinition body_at(const double* numbers) {
@@ -148,7 +183,9 @@ bool world_add_all(World* world, std::size_t count, const double* bodies) {
 KINESPHERE_EXPORT(world_add_static)
 double world_add_static(World* world, int kind, const double* shape, const double* filter, bool solid,
                         int sensor_class, double user_data) {
-  const auto id = world->add_static({.shape = shape_at(kind, shape),
+  const auto made = shape_at(kind, shape);
+  if (!is_good(made)) return no_id;
+  const auto id = world->add_static({.shape = *made,
                                      .filter = filter_at(filter),
                                      .solid = solid,
                                      .sensor_class = static_cast<SensorClass>(sensor_class),
@@ -157,12 +194,16 @@ double world_add_static(World* world, int kind, const double* shape, const doubl
 }
 KINESPHERE_EXPORT(world_add_moving_shape)
 double world_add_moving_shape(World* world, int kind, const double* shape, const double* body) {
-  const auto id = world->add_moving_shape({body_at(body), shape_at(kind, shape)});
+  const auto made = shape_at(kind, shape);
+  if (!is_good(made)) return no_id;
+  const auto id = world->add_moving_shape({body_at(body), *made});
   return is_good(id) ? number_of(*id) : no_id;
 }
 KINESPHERE_EXPORT(world_add_zone)
 double world_add_zone(World* world, int kind, const double* shape, const double* filter, double user_data) {
-  const auto id = world->add_zone(shape_at(kind, shape), static_cast<std::uint64_t>(user_data));
+  const auto made = shape_at(kind, shape);
+  if (!is_good(made)) return no_id;
+  const auto id = world->add_zone(*made, static_cast<std::uint64_t>(user_data));
   if (!is_good(id)) return no_id;
   const Filter given = filter_at(filter);
   return given == Filter{} || is_good(world->change(*id, {.filter = given})) ? number_of(*id) : no_id;
@@ -197,7 +238,8 @@ bool world_set_radius_rate(World* world, double body, double rate) {
 }
 KINESPHERE_EXPORT(world_set_shape)
 bool world_set_shape(World* world, double body, int kind, const double* shape) {
-  return is_good(world->set_shape(body_of(body), shape_at(kind, shape)));
+  const auto made = shape_at(kind, shape);
+  return is_good(made) && is_good(world->set_shape(body_of(body), *made));
 }
 KINESPHERE_EXPORT(world_set_mass) bool world_set_mass(World* world, double body, double mass) {
   return is_good(world->change(body_of(body), {.mass = mass}));

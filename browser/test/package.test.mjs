@@ -638,6 +638,27 @@ test("a static body is infinitely heavy, a zone finds its events, and a zone cha
   assert.throws(() => world.setMass(post, 1), { code: "static_body" });
 });
 
+test("a mesh is one floor", () => {
+  const world = new World();
+  const floor = world.addMesh([-4, -4, 0, 4, -4, 0, 4, 4, 0, -4, 4, 0], [0, 1, 2, 0, 2, 3], { userData: 9 });
+  world.add({ position: [1, 1, 3], velocity: [0, 0, -1], radius: 1 });
+  const event = world.advance(5, (bodies, time, states) => states.set([1, 1, 3 - time, 0, 0, -1]));
+  assert.equal(event.kind, "contact_begin");
+  assert.deepEqual([event.first, event.firstPart, Array.from(event.normal)], [floor, 0, [0, 0, 1]]);
+  assert.throws(() => world.addMesh([0, 0, 0, 1, 0, 0, 0, 1, 0], [0, 1, 3]), /triangle 0: corners must be less/);
+  assert.throws(() => world.addMesh([0, 0, 0, 1, 0, 0, 0, 1, 0], [0, 1, 1.5]), /triangle 0: corners must be less/);
+  assert.throws(() => world.addMesh([0, 0, 0, 1], [0, 1, 2]), /addStatic: vertices must have three numbers each/);
+  assert.throws(() => world.addMesh([], []), /corners must have at least one triangle/);
+  const plane = new World({ dimensions: 2 });
+  const ground = plane.addStatic({ chain: [0, 0, 2, 0, 4, 0] });
+  plane.add({ position: [1, 3, 0], velocity: [0, -1, 0], radius: 1 });
+  const landing = plane.advance(5, (bodies, time, states) => states.set([1, 3 - time, 0, 0, -1, 0]));
+  assert.deepEqual([landing.first, Array.from(landing.normal)], [ground, [0, 1, 0]]);
+  assert.equal(plane.shapeOf(ground).mesh.corners.length, 12);
+  assert.throws(() => plane.addStatic({ chain: [0, 0] }), /points must be at least two/);
+  assert.throws(() => plane.addStatic({ chain: [0, 0, 1] }), /addStatic: chain must have two numbers for each point/);
+});
+
 test("a moving shape is met with its velocity", () => {
   const world = new World();
   const lift = world.addMovingShape(
@@ -656,11 +677,12 @@ test("a moving shape is met with its velocity", () => {
   assert.deepEqual(world.shapeOf(lift), { box: { lower: [-1, -1, -0.5], upper: [1, 1, 0] } });
   assert.equal(world.shapeOf(ball).ball.radius, 0.5);
   for (const shape of [{ ball: { centre: [1, 2, 3], radius: 4 } }, { halfSpace: { normal: [0, 0, 1], offset: -5 } },
-                       { triangle: [[0, 0, 9], [1, 0, 9], [0, 1, 9]] }])
+                       { triangle: [[0, 0, 9], [1, 0, 9], [0, 1, 9]] },
+                       { mesh: { vertices: Float64Array.of(0, 0, 9, 1, 0, 9, 0, 1, 9, 1, 1, 9), corners: Uint32Array.of(0, 1, 2, 1, 3, 2) } }])
     assert.deepEqual(world.shapeOf(world.addStatic(shape)), shape);
   assert.throws(() => world.shapeOf(99), /body/);
   assert.throws(() => world.addMovingShape({ halfSpace: { normal: [0, 0, 1], offset: 0 } }, { position: [0, 0, 0] }),
-                /addMovingShape|add_moving_shape: shape must be a box or a triangle/);
+                /addMovingShape|add_moving_shape: shape must be a box, a triangle or a mesh/);
   assert.throws(() => world.addMovingShape({ box: { lower: [0, 0, 0], upper: [1, 1, 1] } }, { position: [0, 0, 0], radius: 1 }),
                 /addMovingShape: body has no key radius/);
 });

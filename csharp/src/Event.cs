@@ -30,7 +30,8 @@ namespace Kinesphere
         public double Gap, ApproachSpeed, PositionExcess, VelocityExcess, Distance;
         public ulong FirstUserData, SecondUserData;
         public double FirstMass, SecondMass;
-        /// <summary>Of rigid bodies: the parts at the contact, and what an impulse along the normal does to them.</summary>
+        /// <summary>Of rigid bodies: the parts at the contact, and what an impulse along the normal does to them. Of a
+        /// mesh: the triangle.</summary>
         public uint FirstPart, SecondPart;
         public Vector FirstAngularVelocity, SecondAngularVelocity, FirstSpinGain, SecondSpinGain;
         public bool Repeated { get { return repeated != 0; } }

@@ -59,5 +59,46 @@ namespace Kinesphere
         }
         public static Shape Box(Vector lower, Vector upper) { return new Shape { kind = 2, a = lower, b = upper }; }
         public static Shape Triangle(Vector a, Vector b, Vector c) { return new Shape { kind = 3, a = a, b = b, c = c }; }
+        internal static Shape Mesh(ulong handle)
+        {
+            return new Shape { kind = 4, number = BitConverter.Int64BitsToDouble((long)handle) };
+        }
+    }
+
+    /// <summary>
+    /// A surface of triangles that is one shape: terrain, a level. What slides over its edges meets one surface, and
+    /// events name the triangle (FirstPart, SecondPart). Bodies that have it keep it when it is disposed.
+    /// </summary>
+    public sealed class Mesh : IDisposable
+    {
+        readonly ulong handle;
+        bool disposed;
+
+        /// <summary>One triangle for each three numbers of vertices in `corners`.</summary>
+        public Mesh(Vector[] vertices, uint[] corners)
+        {
+            var count = (ulong)Arrays.Count(corners, "corners");
+            if (count % 3 != 0) throw new ArgumentException("must have three numbers for each triangle", "corners");
+            Native.Check(Native.ks_mesh_create(vertices, Arrays.Count(vertices, "vertices"), corners, (UIntPtr)(count / 3),
+                                               out handle));
+        }
+        Mesh(ulong made) { handle = made; }
+        /// <summary>A chain of segments from each point to the next, for worlds of two dimensions.</summary>
+        public static Mesh Chain(Vector[] points)
+        {
+            ulong made;
+            Native.Check(Native.ks_mesh_create_chain(points, Arrays.Count(points, "points"), out made));
+            return new Mesh(made);
+        }
+        ~Mesh() { Native.ks_mesh_destroy(handle); }
+        public void Dispose()
+        {
+            if (disposed) return;
+            Native.Check(Native.ks_mesh_destroy(handle));
+            disposed = true;
+            GC.SuppressFinalize(this);
+        }
+        /// <summary>The shape, for as many bodies as you like. Calls refuse it once the mesh is disposed.</summary>
+        public Shape Shape { get { return Kinesphere.Shape.Mesh(handle); } }
     }
 }

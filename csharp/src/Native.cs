@@ -243,6 +243,11 @@ namespace Kinesphere
         [DllImport(library)]
         public static extern int ks_replay_open(byte[] bytes, UIntPtr count, PairFilter filter, IntPtr user, out ulong replay);
         [DllImport(library)] public static extern int ks_replay_destroy(ulong replay);
+        [DllImport(library)]
+        public static extern int ks_mesh_create(Vector[] vertices, UIntPtr vertexCount, uint[] corners, UIntPtr triangleCount, out ulong mesh);
+        [DllImport(library)]
+        public static extern int ks_mesh_create_chain(Vector[] points, UIntPtr count, out ulong mesh);
+        [DllImport(library)] public static extern int ks_mesh_destroy(ulong mesh);
         [DllImport(library)] public static extern int ks_replay_advance(ulong replay, ref Event next);
         [DllImport(library)] public static extern int ks_replay_finished(ulong replay, out int finished);
         [DllImport(library)] public static extern int ks_replay_steps(ulong replay, out UIntPtr repeated, out UIntPtr total);

@@ -30,8 +30,19 @@ namespace Kinesphere
             return ids;
         }
 
+        /// <summary>Adds a surface of triangles as one body that never moves: AddStatic of the shape of a Mesh.</summary>
+        public BodyId AddMesh(Vector[] vertices, uint[] corners)
+        {
+            using (var mesh = new Mesh(vertices, corners))
+            {
+                var body = StaticDefinition.Default;
+                body.Shape = mesh.Shape;
+                return AddStatic(body);
+            }
+        }
+
         /// <summary>
-        /// Adds a body that carries a box or a triangle, relative to its position; the radius is ignored. The probe
+        /// Adds a body that carries a box, a triangle or a mesh, relative to its position; the radius is ignored. The probe
         /// moves it. It meets no walls and no other body with a shape.
         /// </summary>
         public BodyId AddMovingShape(BodyDefinition body, Shape shape)

@@ -301,6 +301,38 @@ static class SharedScene
         }
     }
 
+    // A ball lands on the edge of two triangles, which are one body.
+    static void Meshes()
+    {
+        using (var world = new World(WorldDefinition.Default))
+        {
+            var vertices = new[] { new Vector(-4, -4, 0), new Vector(4, -4, 0), new Vector(4, 4, 0), new Vector(-4, 4, 0) };
+            var floor = world.AddMesh(vertices, new uint[] { 0, 1, 2, 0, 2, 3 });
+            var ball = BodyDefinition.Default;
+            ball.Position = new Vector(1, 1, 3);
+            ball.Velocity.Z = -1;
+            world.Add(ball);
+            Probe probe = (ids, time, states) =>
+            {
+                for (int k = 0; k < ids.Length; ++k)
+                {
+                    states[k].Position = ball.Position + ball.Velocity * time;
+                    states[k].Velocity = ball.Velocity;
+                }
+            };
+            var met = world.Advance(5, probe);
+            Require(met.Kind == EventKind.ContactBegin && Math.Abs(met.Time - 2) < 1e-5, "a ball meets a mesh");
+            Require(met.First.Equals(floor) && met.Normal.X == 0 && met.Normal.Z == 1, "above an edge the floor is flat");
+            var half = new Mesh(vertices, new uint[] { 0, 1, 2 });
+            world.SetShape(floor, half.Shape);
+            half.Dispose();
+            RequireStatus("stale_handle", () => world.SetShape(floor, half.Shape));
+            RequireStatus("out_of_range", () => new Mesh(vertices, new uint[] { 0, 1, 4 }));
+            RequireStatus("out_of_range", () => Mesh.Chain(new[] { vertices[0] }));
+            Mesh.Chain(vertices).Dispose();
+        }
+    }
+
     // A plate rises at 2 towards a ball that falls at 1, from a gap of 2.5.
     static void MovingShape()
     {
@@ -516,6 +548,7 @@ static class SharedScene
         Knowledge();
         Responses();
         WallsWithAFilter();
+        Meshes();
         MovingShape();
         RigidBodies();
         Hulls();

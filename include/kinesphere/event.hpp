@@ -131,7 +131,8 @@ struct Event {
   double first_mass = 1.0;
   double second_mass = 1.0;
   /// Of rigid bodies (World::add_rigid_body), for events of two bodies and of walls: the part at the contact,
-  /// as an index into RigidBody::parts, and the angular velocity (radians / time). 0 for all other bodies.
+  /// as an index into RigidBody::parts, and the angular velocity (radians / time). Of a mesh, the triangle at
+  /// the contact. 0 for all other bodies.
   std::uint32_t first_part = 0;
   std::uint32_t second_part = 0;
   Vec3 first_angular_velocity{};

@@ -24,6 +24,9 @@ inline constexpr double largest_length = 0x1p41;
 /// Largest number of points of a part of a rigid body.
 inline constexpr std::size_t most_hull_points = 64;
 
+/// A mesh has fewer triangles than this.
+inline constexpr std::size_t most_triangles = std::size_t{1} << 31;
+
 /// Largest component of a velocity, and largest velocity error (length / time).
 inline constexpr double largest_speed = 1e100;
 

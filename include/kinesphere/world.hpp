@@ -173,8 +173,8 @@ class World {
   /// or radius beyond limits.hpp, a negative radius, a box without lower <= upper, a triangle thinner than
   /// 2^-20 of its longest side, a normal whose length differs from 1 by more than 10^-6; smaller
   /// differences are normalized); unsupported (on periodic axes every shape but Ball; a triangle in two
-  /// dimensions); overlapping; probe_in_progress. Cost: O(1) here (plus a search if allow_overlap is
-  /// false), and a search at the next advance.
+  /// dimensions, and a mesh there that Mesh::chain() does not make); overlapping; probe_in_progress. Cost:
+  /// O(1) here (plus a search if allow_overlap is false), and a search at the next advance.
   Result<BodyId> add_static(const StaticDefinition& body);
   /// Adds a zone: a static body that has no contacts and reports the bodies that enter and leave it, with
   /// sensor_enter and sensor_leave at distance 0. Zones belong to the sensor class zone_class (255). If
@@ -184,13 +184,16 @@ class World {
   Result<BodyId> add_zone(const Shape& shape, std::uint64_t user_data = 0);
   /// Adds all static bodies or, on an error, none. Errors: as add_static(), naming the body.
   Result<std::vector<BodyId>> add_static_all(std::span<const StaticDefinition> bodies);
+  /// Adds a surface of triangles as one static body that never moves: add_static() of Mesh::create(vertices,
+  /// corners). Errors: those of both.
+  Result<BodyId> add_mesh(std::span<const Vec3> vertices,
+                          std::span<const std::array<std::uint32_t, 3>> corners, const Filter& filter = {});
   /// Adds a body that carries a shape (MovingShape). It moves, is probed and is changed like any body of
   /// add(), and does not turn. Bodies meet its surface; events of the two have the surface's velocity, and
   /// bounce() uses it. It meets no walls and no body with a shape, static ones included, and may be anywhere,
   /// so that a piston slides in the box of the world. Errors: as add(), but for outside_domain, and as
-  /// add_static() for the shape; unsupported for a shape that is neither a Box nor a Triangle, and where an
-  /// axis is periodic. Cost: as add(), with the radius of the ball around the position that contains the
-  /// shape.
+  /// add_static() for the shape; unsupported for a Ball and a HalfSpace, and where an axis is periodic. Cost:
+  /// as add(), with the radius of the ball around the position that contains the shape.
   Result<BodyId> add_moving_shape(const MovingShape& body);
 
   /// Adds a rigid body (RigidBody): balls and capsules that move and turn together. Its parts meet other

@@ -20,7 +20,7 @@ Bodies = Union[SupportsIndex, Sequence[SupportsIndex], npt.NDArray[np.integer[An
 Function = Callable[[Ids, float], tuple[Array, Array]]
 Probe = Union[Motion, BodyMap, MotionSource, Function]
 Response = Union[Bouncing, Scene, Callable[[Event], object]]
-Shape = Union[Ball, Box, HalfSpace, Triangle]
+Shape = Union[Ball, Box, HalfSpace, Triangle, Mesh]
 Parts = Sequence[Union[Ball, Capsule, Hull]]
 # Velocity and angular velocity.
 Turned = tuple[Optional[Doubles], Optional[Doubles]]
@@ -86,6 +86,16 @@ class Triangle:
     def b(self) -> Doubles: ...
     @property
     def c(self) -> Doubles: ...
+
+class Mesh:
+    def __init__(self, vertices: Array, corners: Array) -> None: ...
+    @staticmethod
+    def chain(points: Array) -> Mesh: ...
+    @property
+    def vertices(self) -> Doubles: ...
+    @property
+    def corners(self) -> Ids: ...
+    def __len__(self) -> int: ...
 
 class Capsule:
     def __init__(self, a: Array, b: Array, radius: float) -> None: ...
@@ -737,12 +747,15 @@ class World:
     def add_mesh(
         self,
         vertices: Array,
-        corners: npt.NDArray[np.integer[Any]],
+        corners: Array,
         *,
         category: int = 1,
         mask: int = ...,
         group: int = 0,
-    ) -> Ids: ...
+        solid: bool = True,
+        sensor_class: int = 0,
+        user_data: int = 0,
+    ) -> BodyId: ...
     def reserve(self, bodies: int) -> None: ...
     def remove(self, bodies: Bodies) -> None: ...
     def set_velocity(self, bodies: Bodies, velocities: Array) -> None: ...

@@ -230,22 +230,19 @@ py::object add_zone(WorldHandle& handle, const py::object& shape, std::uint64_t 
 }
 
 py::object add_mesh(WorldHandle& handle, const py::object& vertices, const py::object& corners,
-                    std::uint64_t category, std::uint64_t mask, const py::object& group) {
+                    std::uint64_t category, std::uint64_t mask, const py::object& group, bool solid,
+                    std::uint64_t sensor_class, std::uint64_t user_data) {
   const auto turn = handle.take("add_mesh");
-  const std::vector<Vec3> places = vectors_of(vertices, {"add_mesh", "vertices"}, false);
-  const Argument argument{"add_mesh", "corners"};
-  std::vector<std::array<std::uint32_t, 3>> triples;
-  for (const py::handle item : py::reinterpret_borrow<py::iterable>(corners)) {
-    const std::vector<std::uint64_t> numbers = each_whole_of(item, argument, 3);
-    auto& triple = triples.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k)
-      triple[k] = static_cast<std::uint32_t>(std::min<std::uint64_t>(numbers[k], 0xffffffffu));
-  }
-  const auto triangles =
-      mesh(places, triples, {category, mask, group_of(group, {"add_mesh", "group"})}).value();
-  const std::vector<BodyId> ids = handle.world.add_static_all(triangles).value();
+  const BodyId id =
+      handle.world
+          .add_static({.shape = mesh_of(vertices, corners, "add_mesh"),
+                       .filter = {category, mask, group_of(group, {"add_mesh", "group"})},
+                       .solid = solid,
+                       .sensor_class = sensor_class_of(sensor_class, {"add_mesh", "sensor_class"}),
+                       .user_data = user_data})
+          .value();
   end_call(handle);
-  return array_of(ids);
+  return object_of(id);
 }
 
 void remove(WorldHandle& handle, const py::object& bodies) {
@@ -412,7 +409,7 @@ and promises are the motion's at world.time.)")
       .def("add_static", add_static, py::arg("shape"), py::kw_only(), py::arg("category") = 1,
            py::arg("mask") = all_categories, py::arg("group") = 0, py::arg("solid") = true,
            py::arg("sensor_class") = 0, py::arg("user_data") = 0,
-           R"(Adds a body that never moves: a Ball, Box, HalfSpace or Triangle. Returns its BodyId.
+           R"(Adds a body that never moves: a Ball, Box, HalfSpace, Triangle or Mesh. Returns its BodyId.
 
 It may reach out of the box of the world; it is never probed. Where space repeats it has to be a Ball.)")
       .def(
@@ -422,7 +419,7 @@ It may reach out of the box of the world; it is never probed. Where space repeat
           py::arg("velocity_error") = 0.0, py::arg("category") = 1, py::arg("mask") = all_categories,
           py::arg("group") = 0, py::arg("solid") = true, py::arg("sensor_class") = 0,
           py::arg("user_data") = 0, py::arg("mass") = 1.0,
-          R"(Adds a body that carries a Box or a Triangle, given relative to its position: a lift, a door, a piston.
+          R"(Adds a body that carries a Box, a Triangle or a Mesh, relative to its position: a lift, a door, a piston.
 
 It moves like a body of add(), without turning, and is probed. It meets no walls and no other shapes. A mass of
 inf makes a body that no contact turns. Returns its BodyId.)")
@@ -432,9 +429,12 @@ inf makes a body that no contact turns. Returns its BodyId.)")
 Its events are sensor_enter and sensor_leave at distance 0. Zones are of the sensor class zone_class.)")
       .def("add_mesh", add_mesh, py::arg("vertices"), py::arg("corners"), py::kw_only(),
            py::arg("category") = 1, py::arg("mask") = all_categories, py::arg("group") = 0,
-           R"(Adds a static triangle for each row of corners, which are numbers of vertices.
+           py::arg("solid") = true, py::arg("sensor_class") = 0, py::arg("user_data") = 0,
+           R"(Adds a surface of triangles as one body that never moves: add_static(Mesh(vertices, corners)).
 
-Shapes: vertices (n, 3), corners (m, 3). Returns their ids, shape (m,).)")
+vertices: shape (n, 3). corners: shape (m, 3), numbers of vertices, a row for each triangle. Returns the BodyId.
+What slides over the edges meets one surface. Events name the triangle: second_part, or first_part if the mesh
+is their first body. Cost: O(m log m) once; a ball beside it costs about log m.)")
       .def(
           "reserve",
           [](WorldHandle& handle, std::size_t bodies) {

@@ -252,8 +252,10 @@ cannot be changed.)")
       .def_readonly("second_user_data", &Event::second_user_data)
       .def_readonly("first_mass", &Event::first_mass, "Of add(); infinite for a static body.")
       .def_readonly("second_mass", &Event::second_mass, "Infinite for a static body and for a wall.")
-      .def_readonly("first_part", &Event::first_part,
-                    "Of a rigid body: the number of the part at the contact; 0 for all others.")
+      .def_readonly(
+          "first_part", &Event::first_part,
+          "Of a rigid body: the number of the part at the contact; of a Mesh: that of the triangle; 0 for "
+          "all others.")
       .def_readonly("second_part", &Event::second_part)
       .def_property_readonly(
           "first_angular_velocity", [](const Event& event) { return array_of(event.first_angular_velocity); },

@@ -54,6 +54,23 @@ py::object points_of(const Hull& hull) {
   return array.take();
 }
 
+/// Returns an array of shape (n, 3).
+py::object vertices_of(const Mesh& mesh) {
+  NewArray array = new_doubles({mesh.vertices().size(), 3});
+  double* number = array.data<double>();
+  for (const Vec3& vertex : mesh.vertices())
+    for (int axis = 0; axis < 3; ++axis) *number++ = vertex[axis];
+  return array.take();
+}
+/// Returns an array of shape (m, 3).
+py::object corners_of(const Mesh& mesh) {
+  NewArray array = new_whole_numbers(3 * mesh.size());
+  auto* number = array.data<std::int64_t>();
+  for (const auto& triple : mesh.corners())
+    for (const std::uint32_t corner : triple) *number++ = corner;
+  return array.take().attr("reshape")(mesh.size(), 3);
+}
+
 template <class Class>
 void bind_equality(Class& shape, const char* name) {
   using Kind = typename Class::type;
@@ -78,6 +95,19 @@ void bind_equality(Class& shape, const char* name) {
 
 }  // namespace
 
+Mesh mesh_of(const py::object& vertices, const py::object& corners, const char* call) {
+  const std::vector<Vec3> places = vectors_of(vertices, {call, "vertices"}, false);
+  const Argument argument{call, "corners"};
+  std::vector<std::array<std::uint32_t, 3>> triples;
+  for (const py::handle item : py::reinterpret_borrow<py::iterable>(corners)) {
+    const std::vector<std::uint64_t> numbers = each_whole_of(item, argument, 3);
+    auto& triple = triples.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k)
+      triple[k] = static_cast<std::uint32_t>(std::min<std::uint64_t>(numbers[k], 0xffffffffu));
+  }
+  return Mesh::create(places, triples).value();
+}
+
 std::optional<Box> box_of(const py::object& given, const Argument& argument, bool plane) {
   if (given.is_none()) return {};
   if (py::isinstance<Box>(given)) return given.cast<Box>();
@@ -101,8 +131,9 @@ Shape shape_of(const py::object& given, const Argument& argument) {
   if (py::isinstance<HalfSpace>(given)) return given.cast<HalfSpace>();
   if (py::isinstance<Box>(given)) return given.cast<Box>();
   if (py::isinstance<Triangle>(given)) return given.cast<Triangle>();
+  if (py::isinstance<Mesh>(given)) return given.cast<Mesh>();
   throw py::type_error(std::string(argument.call) + ": " + std::string(argument.name) +
-                       " must be a Ball, Box, HalfSpace or Triangle, but is " +
+                       " must be a Ball, Box, HalfSpace, Triangle or Mesh, but is " +
                        py::repr(given).cast<std::string>());
 }
 
@@ -157,6 +188,45 @@ void bind_shapes(py::module_& module) {
       .def_property_readonly("c", [](const Triangle& of) { return array_of(of.c); });
   triangle.attr("_parts") = py::make_tuple("a", "b", "c");
   bind_equality(triangle, "Triangle");
+
+  py::class_<Mesh> mesh(
+      module, "Mesh",
+      "A surface of triangles as one shape: vertices of shape (n, 3), and for each triangle a row of "
+      "corners, "
+      "which are numbers of vertices, shape (m, 3). Two-sided and without thickness. Immutable; bodies share "
+      "it. What slides over its edges meets one surface, and events name the triangle (first_part, "
+      "second_part).");
+  mesh.def(py::init([](const py::object& vertices, const py::object& corners) {
+             return mesh_of(vertices, corners, "Mesh");
+           }),
+           py::arg("vertices"), py::arg("corners"))
+      .def_static(
+          "chain",
+          [](const py::object& points) {
+            return Mesh::chain(vectors_of(points, {"Mesh.chain", "points"}, true)).value();
+          },
+          py::arg("points"),
+          "A surface of segments from each point to the next, shape (n, 2), for worlds of two dimensions: "
+          "the "
+          "only meshes that they take. Repeat the first point at the end to close it. Events name the "
+          "triangle, "
+          "half of which is the segment.")
+      .def_property_readonly("vertices", vertices_of)
+      .def_property_readonly("corners", corners_of)
+      .def("__len__", [](const Mesh& of) { return of.size(); })
+      .def("__eq__",
+           [](const Mesh& a, const py::object& b) {
+             return py::isinstance<Mesh>(b) && a == b.cast<const Mesh&>();
+           })
+      .def("__repr__",
+           [](const Mesh& of) {
+             return "Mesh(" + std::to_string(of.vertices().size()) + " vertices, " +
+                    std::to_string(of.size()) + " triangles)";
+           })
+      .def("__reduce__", [](const py::object& self) {
+        return py::make_tuple(self.attr("__class__"),
+                              py::make_tuple(self.attr("vertices"), self.attr("corners")));
+      });
 
   py::class_<RigidPart> capsule(
       module, "Capsule",

@@ -13,6 +13,8 @@ namespace kinesphere::python {
 /// numbers: the box then reaches as far above and below z = 0 as half of its longer side.
 std::optional<Box> box_of(const py::object& given, const Argument& argument, bool plane);
 Shape shape_of(const py::object& given, const Argument& argument);
+/// Reads vertices of shape (n, 3) and corners of shape (m, 3). `call` is the name in errors.
+Mesh mesh_of(const py::object& vertices, const py::object& corners, const char* call);
 py::object object_of(const Shape& shape);
 
 /// A part of a rigid body that Python has as a Hull, and not as a Ball or Capsule.

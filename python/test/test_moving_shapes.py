@@ -58,7 +58,7 @@ def test_work_of_a_piston_is_the_gain_of_energy() -> None:
 
 def test_what_is_no_moving_shape_is_refused() -> None:
     world = ks.World()
-    with pytest.raises(ks.StateError, match="add_moving_shape: shape must be a box or a triangle"):
+    with pytest.raises(ks.StateError, match="add_moving_shape: shape must be a box, a triangle or a mesh"):
         world.add_moving_shape(ks.HalfSpace((0, 0, 1), 0), (0, 0, 0))
     with pytest.raises(ks.InvalidValue, match="acceleration_limit"):
         world.add_moving_shape(ks.Box((0, 0, 0), (1, 1, 1)), (0, 0, 0), acceleration_limit=-1)

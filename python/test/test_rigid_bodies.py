@@ -190,7 +190,9 @@ def test_wrong_use_is_refused() -> None:
         world.set_angular_velocity([body], [(0, 0, 3)])
     with pytest.raises(TypeError, match="function must be a function of"):
         world.set_rotation_probe(3)  # type: ignore[arg-type]
-    with pytest.raises(TypeError, match="shape must be a Ball, Box, HalfSpace or Triangle, but is Capsule"):
+    with pytest.raises(
+        TypeError, match="shape must be a Ball, Box, HalfSpace, Triangle or Mesh, but is Capsule"
+    ):
         world.add_static(ks.Capsule((0, 0, 0), (1, 0, 0), 1))  # type: ignore[arg-type]
 
 

@@ -425,11 +425,57 @@ def test_a_mesh() -> None:
     motion = ks.Ballistic([[3.0, 4, 5]], gravity=(0, 0, -10))
     world = ks.World(contacts="impacts")
     world.add_motion(motion, radii=0.5)
-    ids = world.add_mesh(vertices, np.array([[0, 1, 2], [0, 2, 3]]))
-    assert ids.tolist() == [1, 2]
+    floor = world.add_mesh(vertices, np.array([[0, 1, 2], [0, 2, 3]]), user_data=7)
+    assert floor == 1
     event = world.advance(5.0, motion)
-    assert event is not None and event.second in ids
+    assert event is not None and event.second == floor and event.second_user_data == 7
     assert event.time == pytest.approx(np.sqrt(2 * 4.5 / 10), abs=1e-4)
+    assert event.normal.tolist() == [0, 0, -1]
+    assert event.second_part == 1 and event.first_part == 0
+    with pytest.raises(ks.InvalidValue, match="triangle 1: corners must be less than the number of vertices"):
+        world.add_mesh(vertices, [[0, 1, 2], [0, 1, 4]])
+
+
+def test_a_mesh_is_a_shape() -> None:
+    vertices = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0)]
+    mesh = ks.Mesh(vertices, [(0, 1, 2), (0, 2, 3)])
+    assert len(mesh) == 2 and repr(mesh) == "Mesh(4 vertices, 2 triangles)"
+    assert mesh.vertices.tolist() == [list(map(float, vertex)) for vertex in vertices]
+    assert mesh.corners.tolist() == [[0, 1, 2], [0, 2, 3]]
+    assert mesh == ks.Mesh(vertices, mesh.corners) and mesh != ks.Mesh(vertices, [(0, 1, 2)])
+    assert pickle.loads(pickle.dumps(mesh)) == mesh
+    world = ks.World(contacts="impacts")
+    zone = world.add_zone(mesh)
+    assert world.shape_of(zone) == mesh
+    world.set_shape(zone, ks.Mesh(vertices, [(0, 1, 2)]))
+    lift = world.add_moving_shape(mesh, (0, 0, 0), (0, 0, 1), mass=float("inf"))
+    ball = world.add((2, 1, 3), radii=0.5)
+    starts = np.array([[0.0, 0, 0], [2, 1, 3]])
+    velocities = np.array([[0.0, 0, 1], [0, 0, 0]])
+
+    def states(ids: Ids, time: float) -> tuple[Doubles, Doubles]:
+        rows = np.where(ids == lift, 0, 1)
+        return starts[rows] + time * velocities[rows], velocities[rows]
+
+    event = world.advance(3.0, states)
+    assert event is not None and event.kind == EventKind.contact_begin
+    assert (event.first, event.second) == (lift, ball)
+    assert event.time == pytest.approx(2.5, abs=1e-4)
+    with pytest.raises(ks.StateError, match="add_static: shape must be a mesh that Mesh::chain"):
+        ks.World(dimensions=2).add_static(mesh)
+
+
+def test_a_chain_is_the_ground_of_a_plane() -> None:
+    motion = ks.Ballistic([[3.0, 4, 0]], gravity=(0, -10, 0))
+    world = ks.World(dimensions=2, contacts="impacts")
+    world.add_motion(motion, radii=0.5)
+    ground = world.add_static(ks.Mesh.chain([(x, 0.0) for x in range(9)]))
+    event = world.advance(5.0, motion)
+    assert event is not None and event.second == ground
+    assert event.time == pytest.approx(np.sqrt(2 * 3.5 / 10), abs=1e-4)
+    assert event.normal.tolist() == [0, -1, 0] and event.second_part // 2 in (2, 3)
+    with pytest.raises(ks.InvalidValue, match="Mesh::chain: points must be at least two"):
+        ks.Mesh.chain([(0, 0)])
 
 
 def test_a_periodic_plane_is_made_of_corners_with_two_numbers() -> None:

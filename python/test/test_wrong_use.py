@@ -250,7 +250,7 @@ def test_wrong_kinds_of_things_are_named() -> None:
         (lambda: things.w.run(1, things.motion, 5), TypeError, "respond must be"),  # type: ignore[arg-type]
         (lambda: things.w.run(1, things.probe_that_saves, ks.Bouncing()), TypeError, "loop over world.events"),
         (lambda: things.w.run(1, things.motion, threads=-3), ks.InvalidValue, "threads"),
-        (lambda: things.w.add_static((0, 0, 0)), TypeError, "shape must be a Ball, Box, HalfSpace or Triangle"),  # type: ignore[arg-type]
+        (lambda: things.w.add_static((0, 0, 0)), TypeError, "shape must be a Ball, Box, HalfSpace, Triangle or Mesh"),  # type: ignore[arg-type]
         (lambda: things.w.add((0, 0, 0), sensor_classes=300), ks.InvalidValue, r"\[0, 255\]"),
         (lambda: things.w.add((0, 0, 0), masks=-1), ks.InvalidValue, "2\\^64"),
         (lambda: things.w.add((0, 0, 0), group=2**40), ks.InvalidValue, "32 bits"),

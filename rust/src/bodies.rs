@@ -162,6 +162,7 @@ impl Shape {
             Shape::HalfSpace { normal, offset } => (1, [normal, zero, zero], offset),
             Shape::Box(Box3 { lower, upper }) => (2, [lower, upper, zero], 0.0),
             Shape::Triangle(corners) => (3, corners, 0.0),
+            Shape::Mesh(mesh) => (4, [zero; 3], f64::from_bits(mesh.value)),
         };
         sys::ks_shape { kind, points, number }
     }

@@ -92,7 +92,8 @@ pub struct Event {
     pub distance: f64,
     pub first_user_data: u64,
     pub second_user_data: u64,
-    /// Of rigid bodies: the part at the contact, as an index of [`crate::RigidDefinition::parts`].
+    /// Of rigid bodies: the part at the contact, as an index of [`crate::RigidDefinition::parts`]; of a mesh: the
+    /// triangle.
     pub first_part: u32,
     pub second_part: u32,
     /// Of rigid bodies (radians / time).

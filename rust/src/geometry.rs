@@ -1,4 +1,6 @@
 //! Vectors, boxes, shapes and ids.
+use crate::error::{check, Result};
+use crate::sys;
 use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::ops::{Add, AddAssign, Mul, Neg, Sub};
@@ -75,6 +77,50 @@ pub enum Shape {
     HalfSpace { normal: Vec3, offset: f64 },
     Box(Box3),
     Triangle([Vec3; 3]),
+    /// Made by [`Mesh::shape`].
+    Mesh(sys::ks_mesh),
+}
+
+/// A surface of triangles that is one shape (`Mesh` in C++): terrain, a level. What slides over its edges meets one
+/// surface, and events name the triangle (`first_part`, `second_part`). Bodies that have it keep it when it is
+/// dropped.
+#[derive(Debug)]
+pub struct Mesh {
+    handle: sys::ks_mesh,
+}
+
+impl Mesh {
+    /// One triangle for each three numbers of vertices. Errors: "out_of_range", "not_finite".
+    pub fn new(vertices: &[Vec3], corners: &[[u32; 3]]) -> Result<Mesh> {
+        let mut handle = sys::ks_mesh { value: 0 };
+        check(unsafe {
+            sys::ks_mesh_create(
+                vertices.as_ptr(),
+                vertices.len(),
+                corners.as_ptr().cast(),
+                corners.len(),
+                &mut handle,
+            )
+        })?;
+        Ok(Mesh { handle })
+    }
+    /// A chain of segments from each point to the next, for worlds of two dimensions.
+    pub fn chain(points: &[Vec3]) -> Result<Mesh> {
+        let mut handle = sys::ks_mesh { value: 0 };
+        check(unsafe { sys::ks_mesh_create_chain(points.as_ptr(), points.len(), &mut handle) })?;
+        Ok(Mesh { handle })
+    }
+    /// The shape, for as many bodies as you like. Calls refuse it once the mesh has been dropped.
+    pub fn shape(&self) -> Shape {
+        Shape::Mesh(self.handle)
+    }
+}
+
+impl Drop for Mesh {
+    fn drop(&mut self) {
+        // It cannot fail: calls only read it.
+        unsafe { sys::ks_mesh_destroy(self.handle) };
+    }
 }
 
 /// A rotation as a unit quaternion w + x i + y j + z k.

@@ -45,7 +45,7 @@ pub use bodies::{
 };
 pub use error::{Error, Result};
 pub use events::{BodyAction, Event, EventHash, EventKind, Response, Wall};
-pub use geometry::{BodyId, Box3, Quaternion, RigidHull, RigidPart, Rotation, Shape, State, Vec3};
+pub use geometry::{BodyId, Box3, Mesh, Quaternion, RigidHull, RigidPart, Rotation, Shape, State, Vec3};
 pub use monitor::{
     ErrorBound, Monitor, MonitorDefinition, MonitorEvent, MonitorEventKind, OpenPair, PairAnswer, Plan,
     PredictedPair, ReportRequest, Separation, SeparationRule, Shard, TrackClass, TrackPlace, TrackReport,

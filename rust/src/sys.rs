@@ -18,6 +18,12 @@ pub struct ks_world {
 
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ks_mesh {
+    pub value: u64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ks_replay {
     pub value: u64,
 }
@@ -466,6 +472,9 @@ extern "C" {
     pub fn ks_world_save(world: ks_world, bytes: *mut u8, capacity: usize, count: *mut usize) -> ks_status;
     pub fn ks_world_restore(bytes: *const u8, count: usize, filter: Option<ks_pair_filter>, user: *mut c_void, world: *mut ks_world) -> ks_status;
     pub fn ks_world_add(world: ks_world, bodies: *const ks_body_definition, count: usize, ids: *mut BodyId) -> ks_status;
+    pub fn ks_mesh_create(vertices: *const Vec3, vertex_count: usize, corners: *const u32, triangle_count: usize, mesh: *mut ks_mesh) -> ks_status;
+    pub fn ks_mesh_create_chain(points: *const Vec3, count: usize, mesh: *mut ks_mesh) -> ks_status;
+    pub fn ks_mesh_destroy(mesh: ks_mesh) -> ks_status;
     pub fn ks_world_add_moving_shape(world: ks_world, body: *const ks_body_definition, shape: *const ks_shape, id: *mut BodyId) -> ks_status;
     pub fn ks_world_add_static(world: ks_world, bodies: *const ks_static_definition, count: usize, ids: *mut BodyId) -> ks_status;
     pub fn ks_world_add_zone(world: ks_world, shape: *const ks_shape, user_data: u64, id: *mut BodyId) -> ks_status;

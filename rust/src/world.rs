@@ -4,7 +4,7 @@ use crate::bodies::{
 };
 use crate::error::{check, filled, Guarded, Result};
 use crate::events::{BodyAction, Event, Response};
-use crate::geometry::{BodyId, Box3, Rotation, Shape, State, Vec3};
+use crate::geometry::{BodyId, Box3, Mesh, Rotation, Shape, State, Vec3};
 use crate::sys;
 use std::mem::size_of;
 use std::os::raw::c_void;
@@ -312,7 +312,13 @@ impl World {
         Ok(id)
     }
 
-    /// Adds a body that carries a box or a triangle, relative to its position; the radius is ignored. The probe moves
+    /// Adds a surface of triangles as one body that never moves: `add_static` of the shape of a [`Mesh`].
+    pub fn add_mesh(&mut self, vertices: &[Vec3], corners: &[[u32; 3]]) -> Result<BodyId> {
+        let mesh = Mesh::new(vertices, corners)?;
+        self.add_static(&StaticDefinition::new(mesh.shape()))
+    }
+
+    /// Adds a body that carries a box, a triangle or a mesh, relative to its position; the radius is ignored. The probe moves
     /// it. It meets no walls and no other body with a shape. An infinite mass makes a body that no contact turns.
     pub fn add_moving_shape(&mut self, body: &BodyDefinition, shape: &Shape) -> Result<BodyId> {
         let mut id = BodyId::default();

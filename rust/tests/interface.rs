@@ -61,6 +61,32 @@ fn a_ball_meets_a_moving_shape() {
 }
 
 #[test]
+fn a_ball_lands_on_the_edge_of_a_mesh() {
+    let mut world = World::new(&WorldDefinition::default()).unwrap();
+    let corner = |x: f64, y: f64| Vec3::new(4.0 * x, 4.0 * y, 0.0);
+    let vertices = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
+    let corners = [[0, 1, 2], [0, 2, 3]];
+    let floor = world.add_mesh(&vertices, &corners).unwrap();
+    let start = State { position: Vec3::new(1.0, 1.0, 3.0), velocity: Vec3::new(0.0, 0.0, -1.0) };
+    let ball = world.add(&start.into()).unwrap();
+    let probe = |_: &[BodyId], time: f64, states: &mut [State]| {
+        states.fill(State { position: start.position + start.velocity * time, ..start });
+    };
+    let event = world.advance(5.0, probe).unwrap().unwrap();
+    assert_eq!((event.kind, event.first, event.second), (EventKind::ContactBegin, floor, Some(ball)));
+    assert!((event.time - 2.0).abs() < 1e-5);
+    assert_eq!((event.normal, event.first_part), (Vec3::new(0.0, 0.0, 1.0), 0));
+    let mesh = Mesh::new(&vertices, &corners[..1]).unwrap();
+    let shape = mesh.shape();
+    world.set_shape(floor, &shape).unwrap();
+    drop(mesh);
+    assert_eq!(world.set_shape(floor, &shape).unwrap_err().name, "stale_handle");
+    assert_eq!(Mesh::new(&vertices, &[[0, 1, 4]]).unwrap_err().argument, "corners");
+    assert!(Mesh::chain(&vertices).is_ok());
+    assert_eq!(Mesh::chain(&vertices[..1]).unwrap_err().argument, "points");
+}
+
+#[test]
 fn a_ball_turns_a_dumbbell() {
     let mut world = World::new(&WorldDefinition::default()).unwrap();
     let start =

@@ -16,6 +16,8 @@ class HeapCounter {
     (count(values), ...);
   }
   std::size_t bytes() const { return bytes_; }
+  /// Counts bytes that no container shows.
+  void add(std::size_t bytes) { bytes_ += bytes; }
 
  private:
   /// Bytes that allocators usually add to each block.
@@ -34,6 +36,10 @@ class HeapCounter {
   template <class T>
   void count(const std::optional<T>& value) {
     if (value) count(*value);
+  }
+  template <class... Ts>
+  void count(const std::variant<Ts...>& value) {
+    std::visit([this](const auto& held) { count(held); }, value);
   }
   template <class A, class B>
   void count(const std::pair<A, B>& value) {

@@ -37,7 +37,7 @@ struct CollisionShape {
 };
 
 /// Calls visit(partner) with what stands for a body that is not rigid: `ball`, or its shape, which is a
-/// HalfSpace, Box or Triangle at rest, or a CarriedShape.
+/// HalfSpace, Box, Triangle or Mesh at rest, or a CarriedShape.
 template <class BallLike, class Visit>
 auto visit_partner(const CollisionShape& body, const BallLike& ball, Visit visit) {
   if (!body.shape) return visit(ball);

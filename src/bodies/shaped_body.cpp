@@ -19,6 +19,12 @@ Vec3 anchor_of(const Ball& ball) { return ball.centre; }
 Vec3 anchor_of(const HalfSpace& solid) { return solid.normal * solid.offset; }
 Vec3 anchor_of(const Box& box) { return 0.5 * box.lower + 0.5 * box.upper; }
 Vec3 anchor_of(const Triangle& t) { return (t.a + t.b + t.c) / 3.0; }
+Vec3 anchor_of(const Mesh& mesh) {
+  if (mesh.size() == 0) return {};
+  const Triangle first = mesh.triangle(0);
+  // Of a chain, the middle of the first segment.
+  return mesh.is_chain() ? 0.5 * (first.a + first.c) : anchor_of(first);
+}
 
 }  // namespace
 
@@ -39,6 +45,10 @@ BodyDefinition body_of(const MovingShape& definition, const WorldDefinition& wor
     double square = 0.0;
     if constexpr (std::is_same_v<Solid, Triangle>) {
       for (const Vec3& corner : {solid.a, solid.b, solid.c}) square = std::max(square, norm_squared(corner));
+    } else if constexpr (std::is_same_v<Solid, Mesh>) {
+      for (const auto& triple : solid.corners())
+        for (const std::uint32_t corner : triple)
+          square = std::max(square, norm_squared(solid.vertices()[corner]));
     } else if constexpr (std::is_same_v<Solid, Box>) {
       for (int axis = 0; axis < world.dimensions; ++axis)
         square += std::max(solid.lower[axis] * solid.lower[axis], solid.upper[axis] * solid.upper[axis]);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bodies/shaped_body.hpp"
+#include "bound/mesh_tree.hpp"
 #include "bound/triangle.hpp"
 #include "contact/contact_rule.hpp"
 #include "kinesphere/limits.hpp"
@@ -123,6 +124,18 @@ void require_shape(InputCheck& check, const Triangle& triangle, const WorldDefin
                 least_thickness, thick);
 }
 
+void require_shape(InputCheck& check, const Mesh& mesh, const WorldDefinition& world) {
+  check
+      .require(world.dimensions == 3 || mesh.is_chain(), ErrorCode::unsupported, {"shape"},
+               "must be a mesh that Mesh::chain() makes", std::string_view("another one in a plane"))
+      .require(mesh.size() > 0, ErrorCode::out_of_range, {"shape"}, "must be a mesh with triangles",
+               std::string_view("one without"));
+  if (check.error()) return;
+  const Box& box = tree_of(mesh).box();
+  check.within({"shape", no_body, "vertices"}, box.lower, coordinate_limit(world))
+      .within({"shape", no_body, "vertices"}, box.upper, coordinate_limit(world));
+}
+
 void require_contact_events(InputCheck& check, ContactEvents contacts) {
   check.require(contacts >= ContactEvents::impacts && contacts <= ContactEvents::all, ErrorCode::out_of_range,
                 {"contacts"}, "must be impacts, begin_and_end or all", static_cast<double>(contacts));
@@ -211,8 +224,8 @@ Result<void> check_carried_shape(const Shape& shape, const WorldDefinition& worl
   if (world.periodic.any())
     return unsupported("not move where space repeats; add_rigid_body() takes boxes there");
   if (auto valid = check_shape(shape, world, call); !valid) return valid;
-  if (std::holds_alternative<Box>(shape) || std::holds_alternative<Triangle>(shape)) return {};
-  return unsupported("be a box or a triangle; a body is a ball without one");
+  if (!std::holds_alternative<Ball>(shape) && !std::holds_alternative<HalfSpace>(shape)) return {};
+  return unsupported("be a box, a triangle or a mesh; a body is a ball without one");
 }
 
 /// It may be anywhere, since walls do not meet it.

@@ -18,7 +18,7 @@ Result<void> check_world(const WorldDefinition& definition);
 /// `call` is the name of the API function, for the message.
 Result<void> check_body(const BodyDefinition& body, const WorldDefinition& world, std::string_view call);
 Result<void> check_shape(const Shape& shape, const WorldDefinition& world, std::string_view call);
-/// Validates a shape that a body carries: a box or a triangle, where no axis is periodic.
+/// Validates a shape that a body carries: a box, a triangle or a mesh, where no axis is periodic.
 Result<void> check_carried_shape(const Shape& shape, const WorldDefinition& world, std::string_view call);
 /// Validates a moving shape that is to be added, except for the room that it takes. Returns it as a world
 /// keeps it.

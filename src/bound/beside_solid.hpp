@@ -23,6 +23,24 @@ const Solid& solid_of(const CarriedShape<Solid>& shape) {
   return shape.solid;
 }
 
+/// True for a mesh, at rest or carried.
+template <class Shape>
+inline constexpr bool is_mesh = false;
+template <>
+inline constexpr bool is_mesh<Mesh> = true;
+template <>
+inline constexpr bool is_mesh<CarriedShape<Mesh>> = true;
+
+/// Returns what stands for `other` where it is like a solid: at rest, or carried.
+template <class Solid, class Other>
+const Other& placed_like(const Solid&, const Other& other) {
+  return other;
+}
+template <class Solid, class Other>
+CarriedShape<Other> placed_like(const CarriedShape<Solid>& shape, const Other& other) {
+  return {other, shape.carrier, shape.radius};
+}
+
 /// The bound of a point of a solid.
 template <class Solid>
 Bound bound_of_point(const Solid&, const Vec3& point, double time) {

@@ -11,7 +11,7 @@
 
 namespace kinesphere {
 
-/// A box or a triangle whose origin is the centre of `carrier`. Holds references to both.
+/// A box, a triangle or a mesh whose origin is the centre of `carrier`. Holds references to both.
 template <class Solid>
 struct CarriedShape {
   const Solid& solid;

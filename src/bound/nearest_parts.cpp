@@ -6,9 +6,12 @@
 #include <vector>
 
 #include "bound/hull_distance.hpp"
+#include "bound/mesh_tree.hpp"
 #include "bound/part_pairs.hpp"
+#include "bound/reach.hpp"
 #include "bound/rigid_part.hpp"
 #include "bound/segments.hpp"
+#include "bound/triangle.hpp"
 #include "number/infinity.hpp"
 
 namespace kinesphere {
@@ -129,5 +132,41 @@ NearestParts nearest_parts(const RigidPose& body, const Solid& solid) {
 template NearestParts nearest_parts(const RigidPose&, const HalfSpace&);
 template NearestParts nearest_parts(const RigidPose&, const Box&);
 template NearestParts nearest_parts(const RigidPose&, const Triangle&);
+
+/// A part that has crossed a triangle, so that no direction is certain, is pushed back to the side on which
+/// the ball around it has its middle.
+NearestParts nearest_parts(const RigidPose& body, const Mesh& mesh) {
+  NearestParts nearest{.gap = infinity};
+  for (std::uint32_t k = 0; k < body.parts.size(); ++k) {
+    const PlacedPart part(body, body.parts[k]);
+    const Vec3 middle = body.position + rotated(body.orientation, body.balls[k].middle);
+    const Bound around{.position = middle, .radius = body.balls[k].radius * (1.0 + 0x1p-40)};
+    const double size = norm_one(middle) + around.radius;
+    const auto points = part.points();
+    const bool is_flat = mesh.is_chain() && std::all_of(points.begin(), points.end(),
+                                                        [](const Vec3& point) { return point.z == 0.0; });
+    tree_of(mesh).search([&](const Box& box) { return gap_limits(around, box, 0.0).lower; },
+                         [&] { return nearest.gap; },
+                         [&](std::uint32_t number, const Triangle& triangle) {
+                           NearestParts found = of_part_and_solid(part, triangle);
+                           if (found.arm > rounding::margin * (size + size_of(triangle))) {
+                             found.normal = steadied(found.normal, triangle, found.arm, size);
+                           } else {
+                             const TriangleFrame frame(triangle);
+                             const bool below = frame.above_plane(middle - frame.origin()) < 0.0;
+                             found.normal = below ? frame.normal() : -frame.normal();
+                           }
+                           if (is_flat) {
+                             found.normal = without_z(found.normal);
+                             found.point = without_z(found.point);
+                           }
+                           found.first_part = k;
+                           found.second_part = number;
+                           keep_nearer(nearest, found);
+                           return true;
+                         });
+  }
+  return nearest;
+}
 
 }  // namespace kinesphere

@@ -25,7 +25,7 @@ struct NearestParts {
   Vec3 point;   ///< midpoint of the gap
   double arm;   ///< distance between the nearest points of their axes (length)
   std::uint32_t first_part = 0;
-  std::uint32_t second_part = 0;
+  std::uint32_t second_part = 0;  ///< of a mesh, the triangle
 };
 
 NearestParts nearest_parts(const RigidPose& first, const RigidPose& second);
@@ -33,5 +33,6 @@ NearestParts nearest_parts(const RigidPose& first, const RigidPose& second);
 /// minus the radius of the part.
 template <class Solid>
 NearestParts nearest_parts(const RigidPose& first, const Solid& second);
+NearestParts nearest_parts(const RigidPose& first, const Mesh& second);
 
 }  // namespace kinesphere

@@ -7,6 +7,7 @@
 #include "bound/all_turns.hpp"
 #include "bound/beside_solid.hpp"
 #include "bound/hull_distance.hpp"
+#include "bound/mesh_tree.hpp"
 #include "bound/part_pairs.hpp"
 #include "bound/reach.hpp"
 #include "bound/rigid_part.hpp"
@@ -35,6 +36,11 @@ class PartBound {
   /// Bound of one of the points of the part.
   const Bound& point(std::size_t number) const {
     return number == 0 ? a_ : number == 1 ? b_ : more_[number - 2];
+  }
+  /// Bound of the ball around the part.
+  Bound around() const {
+    const PartBall& ball = body_.balls[static_cast<std::size_t>(&part_ - body_.parts.data())];
+    return body_.of_point(ball.middle, ball.radius * (1.0 + 0x1p-40));
   }
   /// Largest radius that the part may have at a time, if its radius changes.
   double largest_radius(double time) const {
@@ -422,6 +428,72 @@ GapLimits gap(const PartBound& part, const Shape& shape, double t) {
   return limits;
 }
 
+// A part and a mesh, at rest or carried: its triangles, but those whose boxes the ball around the part does
+// not reach.
+
+template <class Shape>
+requires is_mesh<Shape>
+double meeting(const PartBound& part, const Shape& mesh, double from, double until, double distance) {
+  if (part.is_ball()) return earliest_meeting(part.ball(), mesh, from, until, distance);
+  const Bound around = part.around();
+  // A hull meets at smaller distances when it begins to overlap.
+  const double reached = std::max(distance, -part.part().radius);
+  double first = infinity;
+  const auto limit = [&] { return std::min(first, until); };
+  tree_of(solid_of(mesh))
+      .search(
+          [&](const Box& box) {
+            return earliest_meeting(around, placed_like(mesh, box), from, limit(), reached);
+          },
+          limit,
+          [&](std::uint32_t, const Triangle& triangle) {
+            first = std::min(first, meeting(part, placed_like(mesh, triangle), from, limit(), distance));
+            return first > from;
+          });
+  return first;
+}
+
+/// Calls visit(gap, triangle) for triangles that may be the nearest, with limits of their gaps.
+template <class Shape, class Visit>
+void for_each_near_triangle(const PartBound& part, const Shape& mesh, double t, Visit visit) {
+  const Bound around = part.around();
+  double least = infinity;
+  tree_of(solid_of(mesh))
+      .search([&](const Box& box) { return gap_limits(around, placed_like(mesh, box), t).lower; },
+              [&] { return least; },
+              [&](std::uint32_t, const Triangle& triangle) {
+                const GapLimits own = gap(part, placed_like(mesh, triangle), t);
+                least = std::min(least, own.upper);
+                visit(own, triangle);
+                return true;
+              });
+}
+
+template <class Shape>
+requires is_mesh<Shape>
+double separation(const PartBound& part, const Shape& mesh, double from, double until, double distance) {
+  if (part.is_ball()) return earliest_separation(part.ball(), mesh, from, until, distance);
+  return repeated(from, [&](double time) {
+    Triangle nearest = solid_of(mesh).triangle(0);
+    double least = infinity;
+    for_each_near_triangle(part, mesh, time, [&](const GapLimits& own, const Triangle& triangle) {
+      if (own.upper < least) nearest = triangle;
+      least = std::min(least, own.upper);
+    });
+    return separation(part, placed_like(mesh, nearest), time, until, distance);
+  });
+}
+
+template <class Shape>
+requires is_mesh<Shape> GapLimits gap(const PartBound& part, const Shape& mesh, double t) {
+  if (part.is_ball()) return gap_limits(part.ball(), mesh, t);
+  GapLimits limits{infinity, infinity};
+  for_each_near_triangle(part, mesh, t, [&](const GapLimits& own, const Triangle&) {
+    limits = {std::min(limits.lower, own.lower), std::min(limits.upper, own.upper)};
+  });
+  return limits;
+}
+
 // Whole bodies.
 
 /// Calls visit(part, partner) for each part of the body, until it returns false.
@@ -658,6 +730,26 @@ double sinking_of(const PartBound& part, const Shape& shape, double from, double
                     });
 }
 
+template <class Shape>
+requires is_mesh<Shape>
+double sinking_of(const PartBound& part, const Shape& mesh, double from, double until,
+                  const Sinking& sinking) {
+  const Bound around = part.around();
+  const double outer = std::max({sinking.approaching, sinking.receding, -part.part().radius});
+  double first = until;
+  tree_of(solid_of(mesh))
+      .search(
+          [&](const Box& box) {
+            return earliest_meeting(around, placed_like(mesh, box), from, first, outer);
+          },
+          [&] { return first; },
+          [&](std::uint32_t, const Triangle& triangle) {
+            first = std::min(first, sinking_of(part, placed_like(mesh, triangle), from, first, sinking));
+            return first > from;
+          });
+  return first;
+}
+
 }  // namespace
 
 template <class Other>
@@ -730,8 +822,10 @@ KINESPHERE_RIGID_PAIR(RigidExtent)
 KINESPHERE_RIGID_PAIR(HalfSpace)
 KINESPHERE_RIGID_PAIR(Box)
 KINESPHERE_RIGID_PAIR(Triangle)
+KINESPHERE_RIGID_PAIR(Mesh)
 KINESPHERE_RIGID_PAIR(CarriedShape<Box>)
 KINESPHERE_RIGID_PAIR(CarriedShape<Triangle>)
+KINESPHERE_RIGID_PAIR(CarriedShape<Mesh>)
 #undef KINESPHERE_RIGID_PAIR
 
 }  // namespace kinesphere

@@ -16,17 +16,18 @@ namespace kinesphere {
 template <class Other>
 double earliest_meeting(const Bound& bound, const RigidPair<Other>& pair, double from, double until,
                         double distance = 0.0);
-/// What the points of two bodies that touch have to keep for some time. Points that approach each other by more
-/// than `speed` (length / time), along the direction between the parts, keep a gap of `approaching`; all others
-/// may sink to `receding` (length).
+/// What the points of two bodies that touch have to keep for some time. Points that approach each other by
+/// more than `speed` (length / time), along the direction between the parts, keep a gap of `approaching`; all
+/// others may sink to `receding` (length).
 struct Sinking {
   double approaching;
   double receding;
   double speed;
 };
-/// Returns a time before which all points of the two keep that, or +infinity if they do until `until`. One step
-/// of earliest_meeting(), along the present directions between parts. Parts whose axes or hulls overlap, which
-/// have no such direction, do not count. Precondition: both reports are of `from`, or their bodies stand still.
+/// Returns a time before which all points of the two keep that, or +infinity if they do until `until`. One
+/// step of earliest_meeting(), along the present directions between parts. Parts whose axes or hulls overlap,
+/// which have no such direction, do not count. Precondition: both reports are of `from`, or their bodies
+/// stand still.
 template <class Other>
 double earliest_sinking(const RigidPair<Other>& pair, double from, double until, const Sinking& sinking);
 template <class Other>

@@ -29,7 +29,8 @@ struct RigidExtent {
 
   /// True if the body flies and turns exactly as the last report says.
   bool is_exact() const { return spin_growth == 0.0 && bound.is_exact(); }
-  /// Returns the largest speed (length / time), relative to its position, of a point that is fixed in the body.
+  /// Returns the largest speed (length / time), relative to its position, of a point that is fixed in the
+  /// body.
   double turning_speed() const { return spin * radius; }
   /// Returns the same body with a report at `time`, which is not earlier. Precondition: is_exact().
   RigidExtent at(double time) const {
@@ -74,8 +75,8 @@ struct RigidPair {
     else
       return body.is_exact() && !requires { other.carrier; };
   }
-  /// Returns an upper limit of the speed (length / time) at which any two points, one fixed in each of the two,
-  /// move relative to each other at `time`, but for the errors of the reports.
+  /// Returns an upper limit of the speed (length / time) at which any two points, one fixed in each of the
+  /// two, move relative to each other at `time`, but for the errors of the reports.
   double relative_speed(double time) const {
     const Vec3 velocity = body.bound.velocity_at(time);
     if constexpr (requires { other.turning_speed(); })

@@ -107,8 +107,8 @@ struct NearestOnSegment {
   bool crosses = false;   ///< true if the point is in the solid
 };
 
-/// Returns the nearest point to the solid. Unless the two intersect, that point is an end, or the nearest one to
-/// an edge of the solid.
+/// Returns the nearest point to the solid. Unless the two intersect, that point is an end, or the nearest one
+/// to an edge of the solid.
 template <class Solid>
 NearestOnSegment nearest_on_segment(const LineSegment& segment, const Solid& solid) {
   if (const auto inside = crossing(segment, solid)) return {*inside, true};

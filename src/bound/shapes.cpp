@@ -1,10 +1,9 @@
-// Shapes at rest: nearest points, bounding boxes, and triangle meshes.
+// Shapes at rest: nearest points and bounding boxes.
 #include <limits>
-#include <string>
 
+#include "bound/mesh_tree.hpp"
 #include "bound/rounding.hpp"
 #include "bound/triangle.hpp"
-#include "input/input_check.hpp"
 
 namespace kinesphere {
 namespace {
@@ -48,6 +47,8 @@ Box box_of(const Triangle& t, double) {
   }
   return box;
 }
+
+Box box_of(const Mesh& mesh, double) { return mesh.size() > 0 ? tree_of(mesh).box() : Box{}; }
 
 /// Returns the nearest point on the surface for a position inside the box.
 SurfacePoint nearest_face(const Box& box, const Vec3& from) {
@@ -97,31 +98,6 @@ SurfacePoint nearest_point(const Triangle& shape, const Vec3& from) {
 
 Box bounding_box(const Shape& shape, double limit) {
   return std::visit([=](const auto& solid) { return box_of(solid, limit); }, shape);
-}
-
-Result<std::vector<StaticDefinition>> mesh(std::span<const Vec3> vertices,
-                                           std::span<const std::array<std::uint32_t, 3>> corners,
-                                           const Filter& filter) {
-  std::vector<StaticDefinition> triangles;
-  triangles.reserve(corners.size());
-  for (const auto& [a, b, c] : corners) {
-    const std::string call = "mesh: triangle " + std::to_string(triangles.size());
-    InputCheck check(call);
-    for (const std::size_t corner : {a, b, c}) {
-      check.require(corner < vertices.size(), ErrorCode::out_of_range, {"corners"},
-                    "must be less than the number of vertices", vertices.size(), corner);
-      if (check.error()) return *check.error();
-      check.finite({"vertices"}, vertices[corner]);
-    }
-    const Triangle triangle{vertices[a], vertices[b], vertices[c]};
-    const double flat = thickness(triangle);
-    check.require(flat >= least_thickness, ErrorCode::out_of_range, {"vertices"},
-                  "must span a triangle, its least height relative to its longest side at least",
-                  least_thickness, flat);
-    if (check.error()) return *check.error();
-    triangles.push_back({.shape = triangle, .filter = filter, .user_data = triangles.size()});
-  }
-  return triangles;
 }
 
 }  // namespace kinesphere

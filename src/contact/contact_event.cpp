@@ -4,6 +4,7 @@
 #include <tuple>
 #include <utility>
 
+#include "bound/mesh_tree.hpp"
 #include "bound/nearest_parts.hpp"
 #include "bound/rigid_part.hpp"
 #include "number/infinity.hpp"
@@ -12,13 +13,16 @@ namespace kinesphere {
 
 namespace {
 
-SurfacePoint nearest_of(const Shape& shape, const Vec3& from) {
+/// Returns the nearest point of a shape and, of a mesh, its triangle.
+MeshPoint nearest_of(const Shape& shape, const Vec3& from) {
   return std::visit(
-      [&]<class Solid>(const Solid& solid) {
+      [&]<class Solid>(const Solid& solid) -> MeshPoint {
         if constexpr (std::is_same_v<Solid, Ball>) {
-          return SurfacePoint{};  // a ball is handled as a sphere
+          return {};  // a ball is handled as a sphere
+        } else if constexpr (std::is_same_v<Solid, Mesh>) {
+          return nearest_in(solid, from);
         } else {
-          return nearest_point(solid, from);
+          return {nearest_point(solid, from)};
         }
       },
       shape);
@@ -37,7 +41,8 @@ void describe_spheres(Event& event, const Sphere& first, const Sphere& second) {
 /// event.first.
 void describe_surface(Event& event, const Sphere& sphere, const Sphere& surface) {
   const Vec3 origin = surface.carries_shape ? surface.state.position : Vec3{};
-  const SurfacePoint nearest = nearest_of(*surface.shape, sphere.state.position - origin);
+  const auto [nearest, triangle] = nearest_of(*surface.shape, sphere.state.position - origin);
+  (event.first == surface.id ? event.first_part : event.second_part) = triangle;
   event.normal = event.first == sphere.id ? -nearest.normal : nearest.normal;
   event.gap = nearest.distance - sphere.radius - surface.position_error;
   event.point = sphere.state.position - nearest.normal * (sphere.radius + 0.5 * event.gap);

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "bound/beside_solid.hpp"
+#include "bound/mesh_tree.hpp"
 #include "bound/rigid_part.hpp"
 #include "bound/sides_in_reach.hpp"
 #include "contact/contact_event.hpp"
@@ -17,6 +19,10 @@ template <class Partner>
 constexpr bool is_rigid_pair = false;
 template <class Other>
 constexpr bool is_rigid_pair<RigidPair<Other>> = true;
+
+/// Of the triangles of a mesh, others than the nearest may be approached, as of the points of rigid bodies.
+template <class Partner>
+constexpr bool has_several_points = is_rigid_pair<Partner> || is_mesh<Partner>;
 
 /// Returns a lower bound of the distance between the nearest points of the axes.
 template <class Other>
@@ -86,6 +92,9 @@ template <class Partner>
 double ContactPredictor<Partner>::largest_speed(const RelativeLimits& limits) const {
   if constexpr (is_rigid_pair<Partner>)
     return partner_.relative_speed(now_) + limits.speed_error + limits.radius_rates;
+  else if constexpr (is_mesh<Partner>)
+    return norm(beside(bound_, partner_, now_).bound.velocity_at(now_)) + limits.speed_error +
+           limits.radius_rates;
   else
     return infinity;
 }
@@ -99,22 +108,39 @@ double ContactPredictor<Partner>::least_check(double time, double gap, double gu
                                               const RelativeLimits& limits) const {
   const double least = now_ + rule_.least_step(gap, speed_error, limits.acceleration);
   if (!(time < least)) return time;
-  if constexpr (is_rigid_pair<Partner>) {
-    const Sinking sinking{guarded + threshold_.distance,
-                          gap - ContactRule::most_sinking * rule_.tolerance() + threshold_.distance,
-                          speed_error};
-    const auto pair = excess_growth_ == 0.0 ? partner_ : partner_.with_less_growth(true_excess(), now_);
-    const double sunk = earliest_sinking(pair, now_, least, sinking);
+  if constexpr (has_several_points<Partner>) {
+    const double sunk = earliest_sinking_below(
+        {guarded + threshold_.distance,
+         gap - ContactRule::most_sinking * rule_.tolerance() + threshold_.distance, speed_error},
+        least);
     return sunk < least ? std::max({time, sunk, soonest_check(gap, limits)}) : least;
   }
   return least;
+}
+
+template <class Partner>
+double ContactPredictor<Partner>::earliest_sinking_below(const Sinking& sinking, double until) const {
+  if constexpr (is_rigid_pair<Partner>) {
+    const auto pair = excess_growth_ == 0.0 ? partner_ : partner_.with_less_growth(true_excess(), now_);
+    return earliest_sinking(pair, now_, until, sinking);
+  } else if constexpr (is_mesh<Partner>) {
+    auto [bound, slack] = beside(bound_, partner_, now_);
+    if (excess_growth_ != 0.0) {
+      bound.growth_speed -= true_excess();
+      bound.time = now_;
+    }
+    return earliest_sinking(bound, solid_of(partner_), now_, until,
+                            {sinking.approaching + slack, sinking.receding + slack, sinking.speed});
+  } else {
+    return infinity;
+  }
 }
 
 /// Returns a time before which no check is needed: the next that there is or, of several points within the
 /// tolerance, that at which the fastest of them can have gone a 64th of the tolerance.
 template <class Partner>
 double ContactPredictor<Partner>::soonest_check(double gap, const RelativeLimits& limits) const {
-  if constexpr (!is_rigid_pair<Partner>) return just_after(now_);
+  if constexpr (!has_several_points<Partner>) return just_after(now_);
   return std::max(just_after(now_), now_ + rule_.least_step(gap, largest_speed(limits), limits.acceleration,
                                                             ContactRule::least_sinking));
 }
@@ -124,7 +150,7 @@ double ContactPredictor<Partner>::soonest_check(double gap, const RelativeLimits
 template <class Partner>
 double ContactPredictor<Partner>::separated(double gap, const RelativeLimits& limits) const {
   const double time = separation(rule_.release_gap());
-  if constexpr (!is_rigid_pair<Partner>) return time;
+  if constexpr (!has_several_points<Partner>) return time;
   return std::max(time, now_ + rule_.least_time_to_separate(gap, largest_speed(limits), limits.acceleration));
 }
 
@@ -224,14 +250,18 @@ template class ContactPredictor<Bound>;
 template class ContactPredictor<HalfSpace>;
 template class ContactPredictor<Box>;
 template class ContactPredictor<Triangle>;
+template class ContactPredictor<Mesh>;
 template class ContactPredictor<CarriedShape<Box>>;
 template class ContactPredictor<CarriedShape<Triangle>>;
+template class ContactPredictor<CarriedShape<Mesh>>;
 template class ContactPredictor<RigidPair<RigidExtent>>;
 template class ContactPredictor<RigidPair<HalfSpace>>;
 template class ContactPredictor<RigidPair<Box>>;
 template class ContactPredictor<RigidPair<Triangle>>;
+template class ContactPredictor<RigidPair<Mesh>>;
 template class ContactPredictor<RigidPair<CarriedShape<Box>>>;
 template class ContactPredictor<RigidPair<CarriedShape<Triangle>>>;
+template class ContactPredictor<RigidPair<CarriedShape<Mesh>>>;
 
 namespace {
 

@@ -99,6 +99,7 @@ class ContactPredictor {
   double largest_speed(const RelativeLimits& limits) const;
   double least_check(double time, double gap, double guarded, double speed_error,
                      const RelativeLimits& limits) const;
+  double earliest_sinking_below(const Sinking& sinking, double until) const;
   /// Rounding margins count a falling radius as one that grows less; what they lack is far below the part
   /// that is left of the excess.
   double true_excess() const { return (1.0 - 0x1p-44) * excess_growth_; }

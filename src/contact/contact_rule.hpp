@@ -63,18 +63,18 @@ class ContactRule {
 
   /// The Zeno guard: returns the minimum time between two checks of a pair within the tolerance that does not
   /// approach. `speed_error` is the sum of the velocity errors and of the approach that rounding may hide,
-  /// `acceleration` the sum of the largest accelerations. In this time the gap shrinks by at most `sinking` of
-  /// the tolerance. Returns 0 outside the tolerance or if both sums are 0.
-  double least_step(double gap, double speed_error, double acceleration,
-                    double sinking = most_sinking) const;
+  /// `acceleration` the sum of the largest accelerations. In this time the gap shrinks by at most `sinking`
+  /// of the tolerance. Returns 0 outside the tolerance or if both sums are 0.
+  double least_step(double gap, double speed_error, double acceleration, double sinking = most_sinking) const;
   static constexpr double most_sinking = 0.125;
-  /// What a step may sink that is as short as the fastest of several points needs it to be. Smaller values make
-  /// more checks of a body that rocks on an edge; larger ones let a body that lands on several points in turn
-  /// sink deeper.
+  /// What a step may sink that is as short as the fastest of several points needs it to be. Smaller values
+  /// make more checks of a body that rocks on an edge; larger ones let a body that lands on several points in
+  /// turn sink deeper.
   static constexpr double least_sinking = 0x1p-6;
 
-  /// Returns a lower bound of the time after which two bodies can have separated whose points move relative to
-  /// each other at this speed at most, and gain speed by this acceleration at most. Infinity if both are 0.
+  /// Returns a lower bound of the time after which two bodies can have separated whose points move relative
+  /// to each other at this speed at most, and gain speed by this acceleration at most. Infinity if both are
+  /// 0.
   double least_time_to_separate(double gap, double speed, double acceleration) const;
 
   /// True if a least_step() from this gap may leave the tolerance, which the caller must be notified of.

@@ -102,9 +102,24 @@ Range from(const Point& centre, const Triangle& triangle) {
   return range;
 }
 
+/// Asks every triangle.
+Range from(const Point& centre, const Mesh& mesh) {
+  Range range{std::numeric_limits<Long>::infinity(), std::numeric_limits<Long>::infinity()};
+  for (std::size_t k = 0; k < mesh.size(); ++k) {
+    const Range own = from(centre, mesh.triangle(k));
+    range = {std::min(range.lower, own.lower), std::min(range.upper, own.upper)};
+  }
+  return range;
+}
+
 Long magnitude_of(const HalfSpace& solid) { return std::abs(solid.offset); }
 Long magnitude_of(const Box& box) { return Long(norm_one(box.lower)) + norm_one(box.upper); }
 Long magnitude_of(const Triangle& t) { return Long(norm_one(t.a)) + norm_one(t.b) + norm_one(t.c); }
+Long magnitude_of(const Mesh& mesh) {
+  double largest = 0.0;
+  for (const Vec3& vertex : mesh.vertices()) largest = std::max(largest, norm_one(vertex));
+  return 3 * Long(largest);
+}
 
 double rounded_down(Long value) {
   const double rounded = static_cast<double>(value);

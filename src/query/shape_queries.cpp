@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "bound/mesh_tree.hpp"
 #include "bound/reach.hpp"
 #include "bound/rounding.hpp"
 #include "bound/triangle.hpp"
@@ -75,6 +76,17 @@ GapLimits gap_limits(const Box& region, const Triangle& shape) {
   return {gap - wrong, gap + 16.0 * wrong / thick};
 }
 
+GapLimits gap_limits(const Box& region, const Mesh& shape) {
+  GapLimits limits{infinity, infinity};
+  tree_of(shape).search([&](const Box& box) { return gap_limits(region, box).lower; }, [] { return 0.0; },
+                        [&](std::uint32_t, const Triangle& triangle) {
+                          const GapLimits own = gap_limits(region, triangle);
+                          limits = {std::min(limits.lower, own.lower), std::min(limits.upper, own.upper)};
+                          return limits.upper > 0.0;
+                        });
+  return limits;
+}
+
 template <class Solid>
 RayLimits first_touch(const Bound& sphere, const Solid& shape, double length) {
   const double first = earliest_meeting(sphere, shape, 0.0, length);
@@ -91,5 +103,17 @@ RayLimits first_touch(const Bound& sphere, const Solid& shape, double length) {
 template RayLimits first_touch(const Bound&, const HalfSpace&, double);
 template RayLimits first_touch(const Bound&, const Box&, double);
 template RayLimits first_touch(const Bound&, const Triangle&, double);
+
+RayLimits first_touch(const Bound& sphere, const Mesh& shape, double length) {
+  RayLimits touch{infinity, infinity};
+  const auto limit = [&] { return std::min(touch.upper, length); };
+  tree_of(shape).search([&](const Box& box) { return earliest_meeting(sphere, box, 0.0, limit()); }, limit,
+                        [&](std::uint32_t, const Triangle& triangle) {
+                          const RayLimits own = first_touch(sphere, triangle, limit());
+                          touch = {std::min(touch.lower, own.lower), std::min(touch.upper, own.upper)};
+                          return true;
+                        });
+  return touch;
+}
 
 }  // namespace kinesphere

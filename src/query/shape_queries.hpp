@@ -10,6 +10,7 @@ namespace kinesphere {
 GapLimits gap_limits(const Box& region, const HalfSpace& shape);
 GapLimits gap_limits(const Box& region, const Box& shape);
 GapLimits gap_limits(const Box& region, const Triangle& shape);
+GapLimits gap_limits(const Box& region, const Mesh& shape);
 
 /// Distance along a ray at which a shape is met: at least `lower`, and at most `upper` if it is certainly
 /// met.
@@ -22,5 +23,6 @@ struct RayLimits {
 /// times equal distances along the path.
 template <class Solid>
 RayLimits first_touch(const Bound& sphere, const Solid& shape, double length);
+RayLimits first_touch(const Bound& sphere, const Mesh& shape, double length);
 
 }  // namespace kinesphere

@@ -82,6 +82,10 @@ std::string to_string(const Shape& shape) {
     std::string operator()(const Triangle& triangle) const {
       return fields("triangle: a", triangle.a, "b", triangle.b, "c", triangle.c);
     }
+    std::string operator()(const Mesh& mesh) const {
+      return fields("mesh: triangles", mesh.size()) +
+             (mesh.size() > 0 ? ", " + fields("in", bounding_box(mesh, 0.0)) : "");
+    }
   };
   return std::visit(Visitor{}, shape);
 }

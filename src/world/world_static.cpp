@@ -12,6 +12,13 @@ Result<BodyId> World::add_static(const StaticDefinition& body) {
   return changing(step::AddStatic{*accepted}).add_static(*accepted);
 }
 
+Result<BodyId> World::add_mesh(std::span<const Vec3> vertices,
+                               std::span<const std::array<std::uint32_t, 3>> corners, const Filter& filter) {
+  const auto mesh = Mesh::create(vertices, corners);
+  if (!mesh) return mesh.error();
+  return add_static({.shape = mesh.value(), .filter = filter});
+}
+
 Result<BodyId> World::add_zone(const Shape& shape, std::uint64_t user_data) {
   const Preconditions check(*this, "add_zone");
   if (auto idle = check.idle(); !idle) return idle.error();

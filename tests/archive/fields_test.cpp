@@ -28,6 +28,12 @@ TEST(Fields, AreReadAsTheyWereWritten) {
   expect_read_back(HalfSpace{a, 2.0});
   expect_read_back(Ball{a, 2.0});
   expect_read_back(Triangle{a, b, c});
+  expect_read_back(Mesh{});
+  const std::array vertices{a, b, Vec3{0, 0, 1}, Vec3{5, 5, 5}};
+  const std::array<std::array<std::uint32_t, 3>, 2> corners{{{0, 1, 2}, {2, 1, 0}}};
+  const Mesh mesh = Mesh::create(vertices, corners).value();
+  expect_read_back(mesh);
+  expect_read_back(Shape(mesh));
   expect_read_back(Rotation{{0.5, 0.5, 0.5, 0.5}, a});
   expect_read_back(RigidPart{a, b, 2.0, {c, a}});
   expect_read_back(Axes{.x = true, .z = true});

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include <string>
 
 #include "bodies/body_bounds.hpp"
@@ -17,6 +19,7 @@ struct Kind {
   std::string operator()(const Bound& seen, const HalfSpace&) const { return name("half-space", seen); }
   std::string operator()(const Bound& seen, const Box&) const { return name("box", seen); }
   std::string operator()(const Bound& seen, const Triangle&) const { return name("triangle", seen); }
+  std::string operator()(const Bound& seen, const Mesh&) const { return name("mesh", seen); }
   template <class Solid>
   std::string operator()(const Bound& seen, const CarriedShape<Solid>&) const {
     return name("carried", seen);
@@ -51,6 +54,11 @@ TEST(CollisionShape, DecidesWhatCertificatesSee) {
   EXPECT_EQ(kind(collision_shape_of(one, box), plain_too), "second to box");
   EXPECT_EQ(kind(plain, collision_shape_of(other, floor)), "half-space");
   EXPECT_EQ(kind(plain, collision_shape_of(other, triangle)), "triangle");
+  const std::array vertices{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}};
+  const std::array<std::array<std::uint32_t, 3>, 1> corners{{{0, 1, 2}}};
+  const Shape mesh = Mesh::create(vertices, corners).value();
+  EXPECT_EQ(kind(plain, collision_shape_of(other, mesh)), "mesh");
+  EXPECT_EQ(kind(plain, carried_shape_of(other, mesh, 2.0)), "carried");
   EXPECT_EQ(kind(plain, collision_shape_of(other, ball)), "bound") << "a ball at rest";
   EXPECT_EQ(kind(plain, carried_shape_of(other, box, 2.0)), "carried");
   EXPECT_EQ(kind(rigid, rigid_too), "rigid with 2");

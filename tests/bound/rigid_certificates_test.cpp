@@ -48,6 +48,24 @@ void expect_certain(const RigidPair<Other>& pair, TrueGap true_gap, Random& rand
   }
 }
 
+/// Returns ten triangles within about `size` of the origin, which share corners.
+Mesh any_mesh(Random& random, double size) {
+  std::vector<Vec3> vertices{size * random.point_in_ball()};
+  for (int k = 0; k < 11; ++k)
+    vertices.push_back(0.5 * vertices.back() + 0.5 * size * random.point_in_ball());
+  std::vector<std::array<std::uint32_t, 3>> corners;
+  for (std::uint32_t k = 0; k < 10; ++k) corners.push_back({k, k + 1, k + 2});
+  const auto made = Mesh::create(vertices, corners);
+  return made ? made.value() : any_mesh(random, size);
+}
+
+double gap_by_brute_force(const RigidPose& pose, const Mesh& mesh) {
+  double least = infinity;
+  for (std::size_t k = 0; k < mesh.size(); ++k)
+    least = std::min(least, nearest_parts(pose, mesh.triangle(k)).gap);
+  return least;
+}
+
 class RigidCertificates : public testing::Test {
  protected:
   /// Calls check(thing, course of it, random) for many things; `course(time)` is its pose.
@@ -82,12 +100,19 @@ TEST_F(RigidCertificates, HoldBesideShapesAtRest) {
     const auto check = [&]<class Solid>(const Solid& solid) {
       expect_certain(
           RigidPair<Solid>{thing.extent, solid},
-          [&](double time) { return nearest_parts(pose(time), solid).gap; }, random);
+          [&](double time) {
+            if constexpr (std::is_same_v<Solid, Mesh>)
+              return gap_by_brute_force(pose(time), solid);
+            else
+              return nearest_parts(pose(time), solid).gap;
+          },
+          random);
     };
     check(HalfSpace{random.unit_vector(), random.uniform(-3.0, -1.0)});
     const Vec3 corner = 3.0 * random.point_in_ball();
     check(Box{corner, corner + Vec3{random.uniform(), random.uniform(), random.uniform()}});
     check(Triangle{corner, corner + random.unit_vector(), corner + random.unit_vector()});
+    check(any_mesh(random, 3.0));
   });
 }
 
@@ -109,6 +134,44 @@ TEST_F(RigidCertificates, HoldBesideCarriedShapes) {
       return nearest_parts(seen, box).gap;
     };
     expect_certain(RigidPair<CarriedShape<Box>>{thing.extent, {box, carrier, radius}}, gap, random);
+  });
+}
+
+TEST_F(RigidCertificates, HoldBesideCarriedMeshes) {
+  for_each_thing(3, [](const Thing& thing, auto pose, Random& random) {
+    const Mesh mesh = any_mesh(random, 1.0);
+    const double radius = 2.0 + 1e-9;
+    const Bound carrier{.time = now - random.uniform(),
+                        .position = 2.0 * random.point_in_ball(),
+                        .velocity = random.point_in_ball(),
+                        .radius = radius,
+                        .acceleration_limit = random.uniform()};
+    const Vec3 push = random.point_in_ball();
+    const auto gap = [&](double time) {
+      const double s = time - carrier.time;
+      RigidPose seen = pose(time);
+      seen.position -= carrier.centre_at(time) + push * (0.5 * carrier.acceleration_limit * s * s);
+      return gap_by_brute_force(seen, mesh);
+    };
+    expect_certain(RigidPair<CarriedShape<Mesh>>{thing.extent, {mesh, carrier, radius}}, gap, random);
+  });
+}
+
+/// The certificates of a mesh are those of its triangles, or are later where these are early.
+TEST_F(RigidCertificates, OfAMeshAreAsLateAsThoseOfItsTriangles) {
+  for_each_thing(4, [](const Thing& thing, auto, Random& random) {
+    const Mesh mesh = any_mesh(random, 3.0);
+    const RigidPair<Mesh> pair{thing.extent, mesh};
+    double meets = infinity, parts = now;
+    for (std::size_t k = 0; k < mesh.size(); ++k) {
+      const RigidPair<Triangle> alone{thing.extent, mesh.triangle(k)};
+      meets = std::min(meets, earliest_meeting(thing.extent.bound, alone, now, until, 0.01));
+      parts = std::max(parts, earliest_separation(thing.extent.bound, alone, now, until, 2.0));
+    }
+    const double found = earliest_meeting(thing.extent.bound, pair, now, until, 0.01);
+    EXPECT_GE(found, now + 0.9 * (std::min(meets, until) - now)) << meets;
+    EXPECT_GE(earliest_separation(thing.extent.bound, pair, now, until, 2.0),
+              now + 0.5 * (std::min(parts, until) - now));
   });
 }
 

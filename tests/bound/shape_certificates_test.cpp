@@ -25,6 +25,10 @@ std::ostream& operator<<(std::ostream& out, const Box& box) {
 std::ostream& operator<<(std::ostream& out, const Triangle& t) {
   return out << "Triangle{" << t.a << ", " << t.b << ", " << t.c << "}";
 }
+std::ostream& operator<<(std::ostream& out, const Mesh& mesh) {
+  for (std::size_t k = 0; k < mesh.size(); ++k) out << (k > 0 ? ", " : "Mesh of ") << mesh.triangle(k);
+  return out;
+}
 template <class Solid>
 std::ostream& operator<<(std::ostream& out, const ShapeCase<Solid>& c) {
   return out << "bound = " << c.bound << std::hexfloat << "\nsolid = " << c.solid << "\nfrom " << c.from
@@ -58,6 +62,27 @@ Triangle random_solid(Random& random, const Vec3& place, double size, Triangle*)
     const double twice_area = norm(cross(t.b - t.a, t.c - t.a));
     if (least > 0.0 && twice_area > 0x1p-19 * longest * longest) return t;
   }
+}
+
+/// Returns up to eight triangles, most of which share corners; some are far away.
+Mesh random_solid(Random& random, const Vec3& place, double size, Mesh*) {
+  std::vector<Vec3> vertices;
+  std::vector<std::array<std::uint32_t, 3>> corners;
+  const std::size_t count = 1 + random.bits() % 8;
+  while (corners.size() < count) {
+    const double far = chance(random, 0.2) ? size * log_uniform(random, 0, 8) : 0.0;
+    const Triangle t =
+        random_solid(random, place + far * random.unit_vector(), size, static_cast<Triangle*>(nullptr));
+    for (const Vec3& corner : {t.a, t.b, t.c}) vertices.push_back(corner);
+    const auto last = static_cast<std::uint32_t>(vertices.size() - 1);
+    corners.push_back({last - 2, last - 1, last});
+    // The corner that two triangles of a fan do not share is random.
+    if (!chance(random, 0.7) || corners.size() == count) continue;
+    vertices.push_back(place + size * random.point_in_ball());
+    corners.push_back({last, last - 1, last + 1});
+    if (!Mesh::create(vertices, corners)) corners.pop_back();
+  }
+  return Mesh::create(vertices, corners).value();
 }
 
 template <class Solid>
@@ -165,6 +190,10 @@ TEST_P(ShapeCertificates, meeting_a_box_is_never_late) { expect_meetings_never_l
 TEST_P(ShapeCertificates, meeting_a_triangle_is_never_late) {
   expect_meetings_never_late<Triangle>(GetParam());
 }
+TEST_P(ShapeCertificates, meeting_a_mesh_is_never_late) { expect_meetings_never_late<Mesh>(GetParam()); }
+TEST_P(ShapeCertificates, separation_from_a_mesh_is_never_late) {
+  expect_separations_never_late<Mesh>(GetParam());
+}
 TEST_P(ShapeCertificates, separation_from_a_box_is_never_late) {
   expect_separations_never_late<Box>(GetParam());
 }
@@ -174,6 +203,7 @@ TEST_P(ShapeCertificates, separation_from_a_triangle_is_never_late) {
 TEST_P(ShapeCertificates, gaps_enclose_the_truth_closely) {
   expect_gaps_enclosed<Box>(GetParam(), 0x1p-43);
   expect_gaps_enclosed<Triangle>(GetParam(), 0x1p-43);
+  expect_gaps_enclosed<Mesh>(GetParam(), 0x1p-43);
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, ShapeCertificates, testing::ValuesIn(all_families), family_name);

@@ -117,6 +117,42 @@ static void zones_sensors_and_filters(void) {
   CHECK_OK(ks_world_destroy(world));
 }
 
+/// A ball falls onto an edge of a floor of two triangles, one body, which is then exchanged, and then rises.
+static void meshes(void) {
+  flight f;
+  memset(&f, 0, sizeof f);
+  const ks_world world = new_world();
+  const ks_vec3 vertices[] = {vec3(-4, -4, 0), vec3(4, -4, 0), vec3(4, 4, 0), vec3(-4, 4, 0)};
+  const uint32_t corners[] = {0, 1, 2, 0, 2, 3};
+  ks_mesh mesh;
+  CHECK_OK(ks_mesh_create(vertices, 4, corners, 2, &mesh));
+  ks_static_definition ground = ks_default_static_definition();
+  ground.shape = ks_mesh_shape(mesh);
+  ks_body_id floor;
+  CHECK_OK(ks_world_add_static(world, &ground, 1, &floor));
+  const ks_body_id ball = add_ball(world, &f, vec3(1, 1, 3), vec3(0, 0, -1));
+  const ks_event event = next_event(world, 5, &f);
+  CHECK(event.kind == KS_EVENT_CONTACT_BEGIN && fabs(event.time - 2) < 1e-5);
+  CHECK(ks_same_body(event.first, floor) && ks_same_body(event.second, ball) && event.first_part == 0);
+  CHECK(event.normal.x == 0 && event.normal.y == 0 && event.normal.z == 1);
+  CHECK_OK(ks_world_set_shape(world, floor, &ground.shape));
+  ks_body_definition lift = ks_default_body_definition();
+  lift.position = vec3(0, 0, -20);
+  ks_body_id moving;
+  CHECK_OK(ks_world_add_moving_shape(world, &lift, &ground.shape, &moving));
+  CHECK_OK(ks_mesh_destroy(mesh));
+  CHECK(ks_world_set_shape(world, floor, &ground.shape) == KS_ERROR_STALE_HANDLE);
+  const uint32_t beyond[] = {0, 1, 4};
+  CHECK(ks_mesh_create(vertices, 4, beyond, 1, &mesh) == KS_ERROR_OUT_OF_RANGE);
+  CHECK(strcmp(ks_last_error_argument(), "corners") == 0);
+  CHECK(ks_mesh_create(vertices, 4, NULL, 1, &mesh) != KS_OK);
+  CHECK_OK(ks_mesh_create_chain(vertices, 4, &mesh));
+  CHECK_OK(ks_mesh_destroy(mesh));
+  CHECK(ks_mesh_create_chain(vertices, 1, &mesh) == KS_ERROR_OUT_OF_RANGE);
+  CHECK(ks_mesh_create(NULL, 0, NULL, 0, &mesh) == KS_ERROR_OUT_OF_RANGE);
+  CHECK_OK(ks_world_destroy(world));
+}
+
 /// A plate rises at 2 towards a ball that falls at 1, from a gap of 2.5.
 static void moving_shapes(void) {
   flight f;
@@ -901,6 +937,7 @@ static void responses(void) {
 int main(void) {
   contacts_and_velocities();
   zones_sensors_and_filters();
+  meshes();
   moving_shapes();
   rigid_bodies();
   rotation_probes();

@@ -10,6 +10,7 @@ HAS_SIZE(ks_vec3, 24);
 HAS_SIZE(ks_state, 48);
 HAS_SIZE(ks_box, 48);
 HAS_SIZE(ks_shape, 88);
+HAS_SIZE(ks_mesh, 8);
 HAS_SIZE(ks_world, 8);
 HAS_SIZE(ks_world_definition, 136);
 HAS_SIZE(ks_filter, 24);

@@ -2,6 +2,7 @@
 #include "stream/operation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "support/needles.hpp"
@@ -82,12 +83,21 @@ Shape Operation::shape(bool flat) const {
       return Box{at, at + edges};
     case 2:
       if (!flat && byte(7) / 4 % 4 == 3) return needle();
+      if (!flat && edges.x > 0.1 && edges.y > 0.1 && byte(7) / 4 % 4 == 2) return tent(at, edges);
       if (!flat && edges.x > 0.1 && edges.y > 0.1)
         return Triangle{at, at + Vec3{edges.x, 0, edges.z}, at + Vec3{0, edges.y, -edges.z}};
       return Box{at, at + 0.5 * edges};
     default:
       return Ball{at, radius()};
   }
+}
+
+/// Returns the four sides of a pyramid, over a rectangle that may stand beside its foot.
+Mesh Operation::tent(const Vec3& at, const Vec3& edges) const {
+  const std::array vertices{at, at + Vec3{edges.x, 0, 0}, at + Vec3{edges.x, edges.y, 0.1 * edges.z},
+                            at + Vec3{0, edges.y, 0}, at + Vec3{0.4 * edges.x, 0.6 * edges.y, edges.z}};
+  const std::array<std::array<std::uint32_t, 3>, 4> corners{{{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}};
+  return Mesh::create(vertices, corners).value();
 }
 
 /// Returns a triangle through the position, a sixteenth to four times as long as the world, and as thin as a

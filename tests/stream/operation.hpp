@@ -70,6 +70,7 @@ struct Operation {
 
  private:
   Triangle needle() const;
+  Mesh tent(const Vec3& at, const Vec3& edges) const;
   double speed(std::size_t k) const { return (byte(k) - 128) / 32.0; }
 };
 

@@ -28,6 +28,7 @@ Ball ball_around(const Shape& shape) {
     const auto& [a, b, c] = *triangle;
     return {a, 1.001 * std::max(norm(b - a), norm(c - a)) + 1e-9};
   }
+  if (std::holds_alternative<Mesh>(shape)) return ball_around(bounding_box(shape, infinity));
   return {{}, infinity};
 }
 

@@ -64,6 +64,13 @@ inline Wide distance(const Triangle& triangle, const WideVec& from) {
   return over ? abs(dot(from - corner[0], normal)) / sqrt(dot(normal, normal)) : least;
 }
 
+/// Asks every triangle.
+inline Wide distance(const Mesh& mesh, const WideVec& from) {
+  Wide least = infinity;
+  for (std::size_t k = 0; k < mesh.size(); ++k) least = min(least, distance(mesh.triangle(k), from));
+  return least;
+}
+
 /// Returns the least height relative to the longest side.
 inline Wide thickness(const Triangle& triangle) {
   const std::array<WideVec, 3> corner{wide(triangle.a), wide(triangle.b), wide(triangle.c)};

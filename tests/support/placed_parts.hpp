@@ -120,6 +120,12 @@ inline double gap_of(const PlacedPart& part, const HalfSpace& space) {
 
 inline double gap_of(const PlacedPart& part, const Shape& shape, const Vec3& origin, bool is_deep,
                      double enough) {
+  if (const auto* mesh = std::get_if<Mesh>(&shape)) {
+    double least = infinity;
+    for (std::size_t k = 0; k < mesh->size(); ++k)
+      least = std::min(least, gap_of(part, mesh->triangle(k), origin, is_deep, enough));
+    return least;
+  }
   if (!part.is_hull) return segment_distance(part.axis, shape, origin) - part.axis.radius;
   if (const auto* space = std::get_if<HalfSpace>(&shape)) return gap_of(part, *space);
   const auto* triangle = std::get_if<Triangle>(&shape);

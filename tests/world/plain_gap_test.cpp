@@ -6,8 +6,10 @@
 #include <cmath>
 #include <string>
 
+#include "bound/triangle.hpp"
 #include "kinesphere/random.hpp"
 #include "number/infinity.hpp"
+
 #include "support/exact_shapes.hpp"
 
 namespace kinesphere::plain_gap_test {
@@ -95,6 +97,11 @@ TEST(PlainGap, OfAShapeHoldsTheExactOne) {
     };
     expect_held_by(box);
     expect_held_by(triangle);
+    if (k % 8 == 0 && thickness(triangle) > 1e-5) {
+      const std::array vertices{triangle.a, triangle.b, triangle.c, margin};
+      const std::array<std::array<std::uint32_t, 3>, 2> corners{{{0, 1, 2}, {0, 1, 3}}};
+      if (const auto mesh = Mesh::create(vertices, corners)) expect_held_by(mesh.value());
+    }
     expect_held_by(HalfSpace{{0.6, 0.0, -0.8}, margin.x});
   }
 }

@@ -33,7 +33,7 @@ class RandomSurroundings : public testing::TestWithParam<Kind> {
 
   Shape any_shape() {
     const Vec3 at = any_point();
-    switch (random.bits() % 4) {
+    switch (random.bits() % 5) {
       case 0:
         return Ball{at, random.uniform()};
       case 1: {
@@ -42,6 +42,8 @@ class RandomSurroundings : public testing::TestWithParam<Kind> {
       }
       case 2:
         return Box{at, at + Vec3{random.uniform(), 2 * random.uniform(), random.uniform()}};
+      case 3:
+        return any_mesh(at);
       default: {
         if (random.bits() % 3 == 0) return needle_through(at);
         const Vec3 side = 3.0 * random.unit_vector();
@@ -49,6 +51,23 @@ class RandomSurroundings : public testing::TestWithParam<Kind> {
         return Triangle{at, at + side, at + other};
       }
     }
+  }
+
+  /// Returns a hill of 32 triangles.
+  Mesh any_mesh(const Vec3& at) {
+    constexpr std::uint32_t sides = 4;
+    std::vector<Vec3> vertices;
+    std::vector<std::array<std::uint32_t, 3>> corners;
+    for (std::uint32_t j = 0; j <= sides; ++j)
+      for (std::uint32_t k = 0; k <= sides; ++k)
+        vertices.push_back(at + 0.7 * Vec3{double(j), double(k), random.uniform()});
+    for (std::uint32_t j = 0; j < sides; ++j)
+      for (std::uint32_t k = 0; k < sides; ++k) {
+        const std::uint32_t first = j * (sides + 1) + k;
+        corners.push_back({first, first + 1, first + sides + 1});
+        corners.push_back({first + sides + 2, first + 1, first + sides + 1});
+      }
+    return Mesh::create(vertices, corners).value();
   }
 
   /// Returns a triangle as long as a world with this tolerance allows, and hardly thicker than the minimum.

@@ -66,6 +66,10 @@ TEST(WrongStaticBody, HasToLieInThePlane) {
   World world = World::create({.dimensions = 2}).value();
   expect_error(world.add_static({.shape = Triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}), ErrorCode::unsupported,
                "shape", "add_static");
+  const std::array<Vec3, 3> vertices{Vec3{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const std::array<std::array<std::uint32_t, 3>, 1> corners{{{0, 1, 2}}};
+  expect_error(world.add_static({.shape = Mesh::create(vertices, corners).value()}), ErrorCode::unsupported,
+               "shape", "add_static");
   expect_error(world.add_static({.shape = Ball{{0, 0, 1}, 1}}), ErrorCode::out_of_range, "shape",
                "add_static");
   expect_error(world.add_static({.shape = HalfSpace{{0, 0, 1}, 0}}), ErrorCode::out_of_range, "shape",

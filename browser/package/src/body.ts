@@ -1,7 +1,7 @@
 // Definitions of bodies, and their tables of numbers for the module.
 import { type Box, boxKeys, type ContactEvents, numberOfContacts } from "./definition.js";
 import { type Filter, filterNumbers } from "./filter.js";
-import { checkKeys, type Keys, whole } from "./options.js";
+import { checkKeys, type Keys, requireNumbers, whole } from "./options.js";
 import { type PerBody, type States, type Vec3, vector } from "./state.js";
 
 /** What a body promises: the fields of BodyDefinition with these names. */
@@ -60,7 +60,24 @@ export type Shape =
   /** All points p with normal . p <= offset are solid. */
   | { halfSpace: { normal: Vec3; offset: number } }
   | { box: Box }
-  | { triangle: readonly [Vec3, Vec3, Vec3] };
+  | { triangle: readonly [Vec3, Vec3, Vec3] }
+  | { mesh: MeshShape }
+  /**
+   * x and y of points: the surface of segments from each to the next, for worlds of two dimensions. shapeOf() returns it as
+   * the mesh that it is, whose triangles are two for each segment.
+   */
+  | { chain: ArrayLike<number> };
+
+/**
+ * A surface of triangles that is one shape: terrain, a level. What slides over its edges meets one surface, and events
+ * name the triangle (firstPart, secondPart).
+ */
+export interface MeshShape {
+  /** x, y and z of each vertex. */
+  vertices: ArrayLike<number>;
+  /** Three numbers of vertices for each triangle. */
+  corners: ArrayLike<number>;
+}
 
 export const limitKeys: Keys<MotionLimits> = {
   accelerationLimit: "number", plannedAcceleration: true, positionError: "number", velocityError: "number",
@@ -91,8 +108,11 @@ export interface StaticOptions extends ZoneOptions {
 }
 export const zoneKeys: Keys<ZoneOptions> = { filter: true, userData: "number" };
 export const staticKeys: Keys<StaticOptions> = { ...zoneKeys, solid: "boolean", sensorClass: "number" };
-type ShapeName = "ball" | "halfSpace" | "box" | "triangle";
-const shapeKeys: Readonly<Record<ShapeName, true>> = { ball: true, halfSpace: true, box: true, triangle: true };
+type ShapeName = "ball" | "halfSpace" | "box" | "triangle" | "mesh" | "chain";
+const shapeKeys: Readonly<Record<ShapeName, true>> = {
+  ball: true, halfSpace: true, box: true, triangle: true, mesh: true, chain: true,
+};
+const meshKeys: Keys<MeshShape> = { vertices: true, corners: true };
 const ballKeys: Keys<{ centre: Vec3; radius: number }> = { centre: true, radius: "number" };
 const halfSpaceKeys: Keys<{ normal: Vec3; offset: number }> = { normal: true, offset: "number" };
 
@@ -125,7 +145,11 @@ export function shapeFrom([kind, ...parts]: number[]): Shape {
   if (kind === 0) return { ball: { centre: at(0), radius: parts[3]! } };
   if (kind === 1) return { halfSpace: { normal: at(0), offset: parts[3]! } };
   if (kind === 2) return { box: { lower: at(0), upper: at(3) } };
-  return { triangle: [at(0), at(3), at(6)] };
+  if (kind === 3) return { triangle: [at(0), at(3), at(6)] };
+  const end = 2 + 3 * parts[0]!;
+  return {
+    mesh: { vertices: Float64Array.from(parts.slice(2, end)), corners: Uint32Array.from(parts.slice(end, end + 3 * parts[1]!)) },
+  };
 }
 
 export function shapeNumbers(shape: Shape, call: string): [kind: number, numbers: number[]] {
@@ -138,5 +162,24 @@ export function shapeNumbers(shape: Shape, call: string): [kind: number, numbers
   if ("halfSpace" in shape) return [1, [...of(shape.halfSpace.normal, "normal"), shape.halfSpace.offset]];
   if ("box" in shape) return [2, [...of(shape.box.lower, "lower"), ...of(shape.box.upper, "upper")]];
   if ("triangle" in shape) return [3, shape.triangle.flatMap((corner) => of(corner, "triangle"))];
-  throw new TypeError(`${call}: shape must be a ball, a halfSpace, a box or a triangle`);
+  if ("mesh" in shape) return [4, meshNumbers(shape.mesh, call)];
+  if ("chain" in shape) return [5, chainNumbers(shape.chain, call)];
+  throw new TypeError(`${call}: shape must be a ball, a halfSpace, a box, a triangle, a mesh or a chain`);
+}
+
+function chainNumbers(chain: ArrayLike<number>, call: string): number[] {
+  requireNumbers(chain, "chain", call);
+  if (chain.length % 2 !== 0) throw new TypeError(`${call}: chain must have two numbers for each point, but there are ${chain.length}`);
+  return [chain.length / 2, ...Array.from(chain)];
+}
+
+function meshNumbers(mesh: MeshShape, call: string): number[] {
+  checkKeys(mesh, meshKeys, "mesh", call);
+  const counts = (["vertices", "corners"] as const).map((name) => {
+    requireNumbers(mesh[name], name, call);
+    if (mesh[name].length % 3 !== 0)
+      throw new TypeError(`${call}: ${name} must have three numbers each, but there are ${mesh[name].length}`);
+    return mesh[name].length / 3;
+  });
+  return [...counts, ...Array.from(mesh.vertices), ...Array.from(mesh.corners)];
 }

@@ -46,7 +46,7 @@ export class BodyMap extends Owned {
     this.keep(motion);
     return id;
   }
-  /** Adds a body of a motion that carries a box or a triangle: see World.addMovingShape(). Returns its id. */
+  /** Adds a body of a motion that carries a box, a triangle or a mesh: see World.addMovingShape(). Returns its id. */
   addMovingShape(world: World, motion: Motion, number: number, shape: Shape, options: MovedOptions = {}): BodyId {
     const call = "BodyMap.addMovingShape";
     checkKeys(options, movedKeys, "options", call);

@@ -84,7 +84,7 @@ export class Event {
   /** All false for a wall. */
   get secondTraits(): BodyTraits { return traitsOf(this.numbers[36]!); }
 
-  /** Of rigid bodies: the number of the part at the contact; 0 for all others. */
+  /** Of rigid bodies: the number of the part at the contact; of a mesh: that of the triangle; 0 for all others. */
   get firstPart(): number { return this.numbers[38]!; }
   get secondPart(): number { return this.numbers[39]!; }
   /** Of rigid bodies (radians / time); zero for all others. */

@@ -10,8 +10,8 @@ export { bounce, type Bounce, type BounceOptions, type Bounces } from "./respons
 export type { AnswerOptions, Limits, PairOptions, QueryOptions } from "./answers.js";
 export type { Answer, BodyAction, Probe, ProbeFunction, RespondFunction, RunOptions } from "./asking.js";
 export type {
-  BodyBatch, BodyDefinition, BodyOptions, MotionLimits, MovedBodyDefinition, MovedOptions, Shape, ShapeCarrier, StaticOptions,
-  ZoneOptions,
+  BodyBatch, BodyDefinition, BodyOptions, MeshShape, MotionLimits, MovedBodyDefinition, MovedOptions, Shape, ShapeCarrier,
+  StaticOptions, ZoneOptions,
 } from "./body.js";
 export type {
   MovedRigidBodyDefinition, Quaternion, RigidBodyDefinition, RigidPart, Rotation, RotationProbeFunction, Turning,

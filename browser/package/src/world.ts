@@ -491,8 +491,8 @@ export class World extends WorldView {
                          "(a BodyMap has no such need)");
   }
   /**
-   * Adds a body that carries a box or a triangle, given relative to its position, without turning it: a lift, a door, a
-   * piston. It meets no walls and no other shapes. A mass of Infinity makes a body that no contact turns.
+   * Adds a body that carries a box, a triangle or a mesh, given relative to its position, without turning it: a lift, a
+   * door, a piston. It meets no walls and no other shapes. A mass of Infinity makes a body that no contact turns.
    */
   addMovingShape(shape: Shape, body: ShapeCarrier): BodyId {
     const call = "addMovingShape";
@@ -523,6 +523,10 @@ export class World extends WorldView {
     checkKeys(options, staticKeys, "options", call);
     return this.addSurroundings("world_add_static", shape, options, call, options.solid === false ? 0 : 1,
                                 whole(options.sensorClass ?? 0, 255, "sensorClass", call));
+  }
+  /** Adds a surface of triangles as one static body: addStatic({ mesh: { vertices, corners } }). */
+  addMesh(vertices: ArrayLike<number>, corners: ArrayLike<number>, options: StaticOptions = {}): BodyId {
+    return this.addStatic({ mesh: { vertices, corners } }, options);
   }
   /**
    * Adds a zone, which touches no body and reports entering and leaving bodies: sensor_enter and sensor_leave at

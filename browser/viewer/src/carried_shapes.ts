@@ -1,4 +1,4 @@
-// What is drawn in place of the ball around a body: the box or triangle that it carries, or the parts of a rigid body.
+// What is drawn in place of the ball around a body: the shape that it carries, or the parts of a rigid body.
 import type { BodyView, RigidPart, Shape, Vec3, WorldView } from "kinesphere";
 import {
   Box3, BoxGeometry, BufferGeometry, CapsuleGeometry, type Color, DoubleSide, Float32BufferAttribute, Group, IcosahedronGeometry, type Material,
@@ -17,7 +17,7 @@ export function carriedShapes(world: WorldView, views: readonly BodyView[]): Car
   const found = new Map<number, CarriedShape>();
   for (const [place, { id, isRigid }] of views.entries()) {
     const shape = isRigid ? { parts: world.partsOf(id) } : world.shapeOf(id);
-    if ("parts" in shape || "box" in shape || "triangle" in shape) found.set(place, shape);
+    if ("parts" in shape || "box" in shape || "triangle" in shape || "mesh" in shape) found.set(place, shape);
   }
   return found;
 }
@@ -86,6 +86,11 @@ function geometryOf(shape: CarriedShape): BufferGeometry {
     const part = (of: (axis: number) => number) => [of(0), of(1), of(2)] as const;
     const middle = part((axis) => (lower[axis]! + upper[axis]!) / 2);
     return new BoxGeometry(...part((axis) => upper[axis]! - lower[axis]!)).translate(...middle);
+  }
+  if ("mesh" in shape) {
+    const { vertices, corners } = shape.mesh;
+    return new BufferGeometry().setIndex(Array.from(corners))
+      .setAttribute("position", new Float32BufferAttribute(Array.from(vertices), 3));
   }
   const corners = "triangle" in shape ? shape.triangle.flatMap((corner: Vec3) => Array.from(corner as ArrayLike<number>)) : [];
   return new BufferGeometry().setAttribute("position", new Float32BufferAttribute(corners, 3));
