@@ -31,7 +31,16 @@ struct Sphere {
   double radius_rate = 0.0;            ///< at which the radius grows (length / time)
   double position_error = 0.0;         ///< of a body whose radius is ignored; gaps are smaller by it (length)
   Rotation rotation{};                 ///< of a rigid body
+  Vec3 planned_acceleration{};         ///< from the bound (length / time^2)
+  double other_acceleration = 0.0;     ///< largest one of a point beside the planned one (length / time^2)
 };
+
+/// Returns the largest acceleration with which the two can be pressed upon each other (length / time^2). An
+/// acceleration that both have in common does not press. For a wall, pass a default Sphere as `second`.
+inline double relative_acceleration(const Sphere& first, const Sphere& second) {
+  return norm(first.planned_acceleration - second.planned_acceleration) +
+         (first.other_acceleration + second.other_acceleration);
+}
 
 /// Bounds the rounding error that radii that change at these rates add to the approach speed.
 inline double rate_error(double rates) { return 0x1p-49 * rates; }

@@ -22,7 +22,7 @@ namespace {
 
 /// Raise the version if the fields change, or if the engine would continue differently from the same fields.
 constexpr Envelope world_envelope{{'K', 'i', 'n', 'e', 's', 'p', '\r', '\n'},
-                                  27,
+                                  28,
                                   "world",
                                   "World::restore",
                                   "snapshot",
