@@ -64,6 +64,7 @@ std::optional<Event> EventProcessor::pop() {
   ++work_.counters.events[static_cast<std::size_t>(event->kind)];
   if (!bodies().sleep_records.empty()) Sleeping(*state_, *this).wake_by(*event);
   if (event->repeated) ++work_.counters.repeated_contacts;
+  if (event->jammed) ++work_.counters.jammed_contacts;
   if (reports_.profile() != nullptr) reports_.profile()->note_event(bodies().table(), *event);
   return event;
 }

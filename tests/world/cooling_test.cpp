@@ -51,8 +51,8 @@ Cooling cool(double gravity) {
   Cooling found;
   SingleMotionSource source(motion);
   for (const double time : {0.01, 0.03, 0.1}) {
-    world.run(time, source, [](const Event& event) { return response_of(event, bounce(event, restitution)); })
-        .value();
+    const auto respond = [](const Event& event) { return response_of(event, bounce(event, restitution)); };
+    world.run(time, source, respond, [](const Event&) {}).value();
     found.temperatures.push_back(temperature(time) / first);
   }
   found.contacts = world.counters().count(EventKind::contact_begin);
