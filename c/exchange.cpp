@@ -143,7 +143,8 @@ ks_event c_event(const Event& event) {
           .first_angular_velocity = c_vector(event.first_angular_velocity),
           .second_angular_velocity = c_vector(event.second_angular_velocity),
           .first_spin_gain = c_vector(event.first_spin_gain),
-          .second_spin_gain = c_vector(event.second_spin_gain)};
+          .second_spin_gain = c_vector(event.second_spin_gain),
+          .acceleration_limit = event.acceleration_limit};
 }
 
 void write_next(const std::optional<Event>& next, double time, ks_event* event) {
@@ -184,7 +185,8 @@ Event event_of(std::string_view call, const ks_event& event) {
           .first_angular_velocity = vector_of(event.first_angular_velocity),
           .second_angular_velocity = vector_of(event.second_angular_velocity),
           .first_spin_gain = vector_of(event.first_spin_gain),
-          .second_spin_gain = vector_of(event.second_spin_gain)};
+          .second_spin_gain = vector_of(event.second_spin_gain),
+          .acceleration_limit = event.acceleration_limit};
 }
 
 PairFilter pair_filter_of(ks_pair_filter filter, void* user) {

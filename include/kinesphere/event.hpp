@@ -140,6 +140,9 @@ struct Event {
   /// / (mass length)), from RigidBody::inertia; zero for all other bodies.
   Vec3 first_spin_gain{};
   Vec3 second_spin_gain{};
+  /// bound_violation: the acceleration limit that the body has from now on (length / time^2), which the world
+  /// may just have raised (WorldDefinition::adopt_observed_limits). 0 for all other events.
+  double acceleration_limit = 0.0;
 
   /// Returns true if the body can be given a velocity: there is one, and it is not static.
   constexpr bool first_can_move() const { return first != no_body && !first_traits.is_static; }

@@ -64,13 +64,18 @@ struct WorldDefinition {
   /// periodic space. Cost: up to a third more time in total (docs/performance.md), and memory for a
   /// second swept sphere of each body. A DistributedWorld refuses it.
   bool spread_window_starts = false;
+  /// If a report breaks the promise of its body, the world takes the acceleration that explains the report
+  /// for the body's acceleration limit from then on, unless the limit is larger already: so a body whose
+  /// gravity was forgotten still meets what it falls on. Event::acceleration_limit says the limit. False: the
+  /// promised limit stays, and each report that breaks it is a bound_violation (docs/guarantee.md).
+  bool adopt_observed_limits = true;
 
   /// Two default separation distances (NaN) are equal.
   friend bool operator==(const WorldDefinition& a, const WorldDefinition& b) {
     const auto others = [](const WorldDefinition& world) {
       return std::tie(world.box, world.periodic, world.wall_filter, world.dimensions, world.contact_tolerance,
                       world.contacts, world.allow_overlap, world.zeno_interval, world.start_time,
-                      world.spread_window_starts);
+                      world.spread_window_starts, world.adopt_observed_limits);
     };
     return others(a) == others(b) &&
            (a.separation_distance == b.separation_distance ||

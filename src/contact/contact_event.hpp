@@ -68,8 +68,10 @@ double approach_error(const Event& event, double arm);
 double approach_error(const Event& event, const Sphere& first, const Sphere& second);
 /// Returns a woke event. The body stands at the centre of the sphere.
 Event woke_event(double time, const Sphere& sphere);
-/// Returns a bound_violation event. The sphere's state is the violating report.
-Event violation_event(double time, const Sphere& sphere, const BoundViolation& broken);
+/// Returns a bound_violation event. The sphere's state is the violating report, and `acceleration_limit` that of
+/// the body from now on.
+Event violation_event(double time, const Sphere& sphere, const BoundViolation& broken,
+                      double acceleration_limit);
 
 /// Returns the walls of a world as a box with limits -infinity and +infinity on axes without walls. Returns
 /// nullopt if no axis has walls.
