@@ -54,8 +54,9 @@ struct WorldDefinition {
   /// If false, add() refuses a body that certainly overlaps another body or a wall.
   bool allow_overlap = true;
   /// >= 0 (time): a contact is marked Event::repeated if it follows the previous contact of the same body
-  /// within less than this time, or within 4 sqrt(eps / (A + |g|)), the longest time of a hop within the
-  /// tolerance.
+  /// within less than this time, however fast it is. Slow contacts of bodies that are pressed upon each other
+  /// are marked without it: those within 4 sqrt(eps / (A + |g|)), the longest time of a hop within the
+  /// tolerance (docs/grains.md).
   double zeno_interval = 0.0;
   double start_time = 0.0;
   /// For games: spreads the work that the world does for most bodies together, when their windows start
