@@ -55,7 +55,11 @@ void warn_of_promise(WorldHandle& handle, std::string_view call) {
        py::str(py::float_(event.time)).cast<std::string>() +
        "), so contacts may have been missed before: its acceleration_limit or planned_acceleration is not "
        "that "
-       "of its motion, its velocity is not that of its positions, or the world was not told of a change");
+       "of its motion, its velocity is not that of its positions, or the world was not told of a change" +
+       (event.acceleration_limit > 0.0
+            ? "; its acceleration_limit is " +
+                  py::str(py::float_(event.acceleration_limit)).cast<std::string>() + " from now on"
+            : std::string()));
 }
 
 /// Counts idle calls, which could not advance and found no event, and warns of a caller that gives the length

@@ -120,9 +120,12 @@ Result<void> EventProcessor::spot_check(std::span<const std::uint32_t> numbers, 
 Result<bool> EventProcessor::spot_check_due(std::span<const std::uint32_t> numbers, PoolLease& lease) {
   const SpotChecks& checks = state_->spot_checks;
   std::vector<std::uint32_t> due;
-  std::copy_if(numbers.begin(), numbers.end(), std::back_inserter(due), [&](std::uint32_t number) {
-    return SpotChecks::may_check(bodies()[number], time_) && checks.is_due(bodies()[number], time_);
-  });
+  for (const std::uint32_t number : numbers) {
+    const Body& body = bodies()[number];
+    const std::uint32_t name = bodies().table().name_of(number);
+    if (checks.may_be_due(body, name) && SpotChecks::may_check(body, time_) && checks.is_due(body, name, time_))
+      due.push_back(number);
+  }
   if (auto checked = spot_check(due, lease); !checked) return checked.error();
   return std::any_of(numbers.begin(), numbers.end(),
                      [this](std::uint32_t number) { return SpotChecks::concerns(bodies()[number]); });

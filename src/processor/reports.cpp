@@ -83,10 +83,11 @@ Result<std::vector<std::uint32_t>> Reports::contradicted(const Bodies& bodies, d
   ask_for(bodies, time, numbers, lease);
   std::vector<std::uint32_t> broken;
   for (std::size_t k = 0; k < numbers.size(); ++k) {
-    if (auto valid = check_report(states_[k], ids_[k], time, bodies.definition(), call_); !valid)
-      return valid.error();
     const Body& body = bodies[numbers[k]];
+    if (!is_valid_report(states_[k], bodies.definition()))
+      return check_report(states_[k], ids_[k], time, bodies.definition(), call_).error();
     move_to_nearest_image(bodies.space(), body.bound, time, states_[k]);
+    if (certainly_keeps(body.bound, time, states_[k], body.radius)) continue;
     Bound after = body.bound;
     restart(after, time, states_[k]);
     if (bound_violation(body.bound, after, body.radius, {}, bodies.definition().contact_tolerance))

@@ -263,7 +263,7 @@ TEST(ObservedAcceleration, IsNotThatOfAJump) {
   EXPECT_NEAR(observed({}, {{0.1, 0, 0}, {10, 0, 0}}), (1.0 + 0x1p-6) * 0.8, 1e-9);
   EXPECT_NEAR(observed({}, {{100, 0, 0}, {1, 0, 0}}), (1.0 + 0x1p-6) * 2.0, 1e-9);
   const double s = 1e-12;
-  EXPECT_LE(observed({}, {{1e-12, 0, 0}, {1e-3, 0, 0}}, s), (1.0 + 0x1p-6) * 8.0 * 1e-6 / eps);
+  EXPECT_NEAR(observed({}, {{1e-12, 0, 0}, {1e-3, 0, 0}}, s), (1.0 + 0x1p-6) * 8.0 * 1e-6 / eps, 1e-9);
 }
 
 }  // namespace

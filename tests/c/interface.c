@@ -745,6 +745,7 @@ static void walls_with_a_filter(void) {
 static void frames(void) {
   ks_world_definition definition = ks_default_world_definition();
   CHECK(definition.spread_window_starts == 0);
+  CHECK(definition.adopt_observed_limits == 1);
   definition.has_box = 1;
   definition.box.upper = vec3(10, 10, 10);
   definition.spread_window_starts = 1;
