@@ -85,9 +85,9 @@ struct Event {
   Wall wall = Wall::none;
   /// True if one of the two bodies had another contact less than its Zeno interval ago
   /// (WorldDefinition::zeno_interval), and this one is a hop of bodies that rest: something presses the two
-  /// upon each other, and they approach at less than 4 sqrt(eps a), a its acceleration, or at the very instant
-  /// of that other contact. Bodies that fall together press nothing. A dissipative response should lose no
-  /// energy at this contact.
+  /// upon each other, and they approach at less than 4 sqrt(eps a), a its acceleration, or at the very
+  /// instant of that other contact. Bodies that fall together press nothing. A dissipative response should
+  /// lose no energy at this contact.
   bool repeated = false;
   /// True if each of the two bodies has already had 64 contacts at this very instant, for example a body
   /// stuck between walls. A response that returns any speed would continue for ever. After 256 contacts the

@@ -146,9 +146,9 @@ py::tuple numbers_of(const Counters& counters) {
 Counters counters_of(const py::tuple& numbers) {
   Counters counters;
   std::uint64_t* const members[] = {
-      &counters.probes,      &counters.window_ends,  &counters.starts,     &counters.restarts,
-      &counters.pair_checks, &counters.wall_checks,  &counters.searches,   &counters.candidates,
-      &counters.hot_pairs,   &counters.certificates, &counters.zeno_steps, &counters.repeated_contacts,
+      &counters.probes,         &counters.window_ends,  &counters.starts,     &counters.restarts,
+      &counters.pair_checks,    &counters.wall_checks,  &counters.searches,   &counters.candidates,
+      &counters.hot_pairs,      &counters.certificates, &counters.zeno_steps, &counters.repeated_contacts,
       &counters.jammed_contacts};
   const py::list events = numbers[0];
   if (numbers.size() != 1 + std::size(members) || events.size() != counters.events.size())

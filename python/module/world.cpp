@@ -53,8 +53,8 @@ std::shared_ptr<WorldHandle> create_world(const py::object& box, const py::objec
                                           const py::object& wall_filter, int dimensions,
                                           double contact_tolerance, const py::object& separation_distance,
                                           const std::string& contacts, bool allow_overlap,
-                                          double zeno_interval, double start_time,
-                                          bool spread_window_starts, bool adopt_observed_limits) {
+                                          double zeno_interval, double start_time, bool spread_window_starts,
+                                          bool adopt_observed_limits) {
   WorldDefinition definition;
   definition.box = box_of(box, {"World", "box"}, dimensions == 2);
   definition.periodic = axes_of(periodic, {"World", "periodic"}, dimensions == 2);

@@ -28,7 +28,8 @@ std::optional<BoundViolation> bound_violation(const Bound& before, const Bound& 
   return BoundViolation{left ? deviation - deviation_limit : 0.0, jumped ? change - change_limit : 0.0};
 }
 
-double observed_acceleration(const Bound& before, const Bound& after, double radius, double contact_tolerance) {
+double observed_acceleration(const Bound& before, const Bound& after, double radius,
+                             double contact_tolerance) {
   const double s = after.time - before.time;
   const Vec3 turn = after.velocity - before.velocity_at(after.time);
   const double change = norm(turn) - (before.growth_speed + after.growth_speed);
@@ -36,7 +37,8 @@ double observed_acceleration(const Bound& before, const Bound& after, double rad
   const double errors = (before.radius - radius) + (after.radius - radius) + before.growth_speed * s;
   const double along = dot(after.position - before.centre_at(after.time), turn) / norm(turn) - errors;
   if (!(along > 0.0)) return 0.0;
-  const double observed = std::min({2.0 * along / (s * s), change / s, 8.0 * change * change / contact_tolerance});
+  const double observed =
+      std::min({2.0 * along / (s * s), change / s, 8.0 * change * change / contact_tolerance});
   return (1.0 + 0x1p-6) * observed;
 }
 

@@ -36,10 +36,14 @@ struct Sphere {
 };
 
 /// Returns the largest acceleration with which the two can be pressed upon each other (length / time^2). An
-/// acceleration that both have in common does not press. For a wall, pass a default Sphere as `second`.
+/// acceleration that both have in common does not press.
 inline double relative_acceleration(const Sphere& first, const Sphere& second) {
   return norm(first.planned_acceleration - second.planned_acceleration) +
          (first.other_acceleration + second.other_acceleration);
+}
+/// Returns the acceleration with which a body can be pressed upon a wall (length / time^2).
+inline double largest_acceleration(const Sphere& body) {
+  return norm(body.planned_acceleration) + body.other_acceleration;
 }
 
 /// Bounds the rounding error that radii that change at these rates add to the approach speed.
@@ -68,8 +72,8 @@ double approach_error(const Event& event, double arm);
 double approach_error(const Event& event, const Sphere& first, const Sphere& second);
 /// Returns a woke event. The body stands at the centre of the sphere.
 Event woke_event(double time, const Sphere& sphere);
-/// Returns a bound_violation event. The sphere's state is the violating report, and `acceleration_limit` that of
-/// the body from now on.
+/// Returns a bound_violation event. The sphere's state is the violating report, and `acceleration_limit` that
+/// of the body from now on.
 Event violation_event(double time, const Sphere& sphere, const BoundViolation& broken,
                       double acceleration_limit);
 

@@ -44,8 +44,7 @@ ContactRate::Marks ContactRate::note(std::span<const std::uint32_t> bodies, cons
   const bool is_slow = passed == 0.0 || begin.approach_speed < rule.zeno_speed(pressure);
   marks.repeated = passed < rule.least_zeno_interval() || (passed < infinity && pressure > 0.0 && is_slow);
   for (const std::uint32_t body : bodies) count(bodies_[body], begin.time);
-  for (const std::uint32_t body : bodies)
-    bodies_[body].pressure = TruncatedDouble<std::uint16_t>(pressure);
+  for (const std::uint32_t body : bodies) bodies_[body].pressure = TruncatedDouble<std::uint16_t>(pressure);
   return marks;
 }
 

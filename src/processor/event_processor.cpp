@@ -120,10 +120,11 @@ Result<void> EventProcessor::spot_check(std::span<const std::uint32_t> numbers, 
 Result<bool> EventProcessor::spot_check_due(std::span<const std::uint32_t> numbers, PoolLease& lease) {
   const SpotChecks& checks = state_->spot_checks;
   std::vector<std::uint32_t> due;
-  for (const std::uint32_t number : numbers) {
+  for (const std::uint32_t number : checks.only_plans(time_) ? std::span<const std::uint32_t>() : numbers) {
     const Body& body = bodies()[number];
     const std::uint32_t name = bodies().table().name_of(number);
-    if (checks.may_be_due(body, name) && SpotChecks::may_check(body, time_) && checks.is_due(body, name, time_))
+    if (checks.may_be_due(body, name) && SpotChecks::may_check(body, time_) &&
+        checks.is_due(body, name, time_))
       due.push_back(number);
   }
   if (auto checked = spot_check(due, lease); !checked) return checked.error();

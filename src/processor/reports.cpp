@@ -249,9 +249,9 @@ void Reports::apply(Bodies& bodies, double time, std::size_t from, std::size_t t
 }
 
 /// Raises the acceleration limit of a body whose report has broken it to what explains the report.
-void Reports::adopt(const Bodies& bodies, Body& body, const Bound& before, const Bound& after, double radius) {
-  const double observed =
-      observed_acceleration(before, after, radius, bodies.definition().contact_tolerance);
+void Reports::adopt(const Bodies& bodies, Body& body, const Bound& before, const Bound& after,
+                    double radius) {
+  const double observed = observed_acceleration(before, after, radius, bodies.definition().contact_tolerance);
   body.bound.acceleration_limit =
       std::min(std::max(body.bound.acceleration_limit, observed), limits::largest_acceleration);
 }

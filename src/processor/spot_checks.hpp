@@ -53,9 +53,9 @@ class SpotChecks {
     next_ = !any ? infinity : arrived_ + (is_old(arrived_, time) ? 4.0 * age : first_);
     checked_ = time;
   }
-  /// Returns true if a body of this name is to be checked at `time`: it is among those that have just arrived,
-  /// or it stands still or is one of the first bodies, has had no report since before the last check, and the
-  /// time since that report has doubled since then. Precondition: may_check().
+  /// Returns true if a body of this name is to be checked at `time`: it is among those that have just
+  /// arrived, or it stands still or is one of the first bodies, has had no report since before the last
+  /// check, and the time since that report has doubled since then. Precondition: may_check().
   bool is_due(const Body& body, std::uint32_t name, double time) const {
     const double report = body.bound.time;
     if (!arrivals_.empty() && std::binary_search(arrivals_.begin(), arrivals_.end(), report))
@@ -63,6 +63,8 @@ class SpotChecks {
     if (name >= first_names && !body.stands_still()) return false;
     return checked_ > report && exponent_of(time - report) > exponent_of(checked_ - report);
   }
+  /// Returns true if next() came only for bodies that arrive at `time`: none of them is due yet.
+  bool only_plans(double time) const { return time == arrived_; }
   /// Returns false for most bodies for which is_due() is false, at less cost.
   bool may_be_due(const Body& body, std::uint32_t name) const {
     return !arrivals_.empty() || body.bound.velocity == Vec3{} || name < first_names;
@@ -77,7 +79,9 @@ class SpotChecks {
     return static_cast<std::uint32_t>(turn < 0.0 ? turn + windows_between : turn);
   }
 
-  static void serialize(auto& self, auto& archive) { archive(self.arrivals_, self.arrived_, self.first_, self.checked_, self.next_); }
+  static void serialize(auto& self, auto& archive) {
+    archive(self.arrivals_, self.arrived_, self.first_, self.checked_, self.next_);
+  }
   /// Validates values read from bytes.
   bool is_valid() const {
     return first_ >= 0.0 && !std::isnan(arrived_) && !std::isnan(checked_) && !std::isnan(next_) &&

@@ -258,7 +258,8 @@ TEST(ObservedAcceleration, IsNoneOfBodiesThatWereMovedOrOfNoise) {
   EXPECT_NEAR(observed(noisy, {{0.32, 0, 0}, {1.2, 0, 0}}), (1.0 + 0x1p-6) * 2.0, 1e-9);
 }
 
-/// The least of what place and velocity need, and a jump of the velocity takes a 16th of the tolerance at least.
+/// The least of what place and velocity need, and a jump of the velocity takes a 16th of the tolerance at
+/// least.
 TEST(ObservedAcceleration, IsNotThatOfAJump) {
   EXPECT_NEAR(observed({}, {{0.1, 0, 0}, {10, 0, 0}}), (1.0 + 0x1p-6) * 0.8, 1e-9);
   EXPECT_NEAR(observed({}, {{100, 0, 0}, {1, 0, 0}}), (1.0 + 0x1p-6) * 2.0, 1e-9);

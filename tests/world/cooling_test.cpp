@@ -25,14 +25,12 @@ Cooling cool(double gravity) {
   const double width = std::cbrt(grains * 4.0 / 3.0 * 3.141592653589793 * radius * radius * radius / 0.3);
   const Box box{{}, {width, width, width}};
   const Axes periodic{true, true, true};
-  const auto places =
-      place_spheres(std::vector<double>(grains, radius), box, {.periodic = periodic}).value();
+  const auto places = place_spheres(std::vector<double>(grains, radius), box, {.periodic = periodic}).value();
   BallisticDefinition flight{.gravity = {0.0, 0.0, -gravity}};
   Random random(1);
   for (const Vec3& place : places) flight.start.push_back({place, random.point_in_ball() * 0.1});
   Ballistic motion = Ballistic::create(flight).value();
-  World world =
-      World::create({.box = box, .periodic = periodic, .contacts = ContactEvents::impacts}).value();
+  World world = World::create({.box = box, .periodic = periodic, .contacts = ContactEvents::impacts}).value();
   for (std::uint32_t body = 0; body < grains; ++body) {
     BodyDefinition grain = motion.definition(body, 0.0);
     grain.radius = radius;

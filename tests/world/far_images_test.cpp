@@ -1,4 +1,5 @@
-// Reports in images far from the periodic box, and runs in which bodies travel farther than coordinates reach.
+// Reports in images far from the periodic box, and runs in which bodies travel farther than coordinates
+// reach.
 #include <gtest/gtest.h>
 
 #include <algorithm>
