@@ -43,8 +43,8 @@ WorldDefinition world_of(std::string_view call, const ks_world_definition& given
       .allow_overlap = given.allow_overlap != 0,
       .zeno_interval = given.zeno_interval,
       .start_time = given.start_time,
-      .spread_window_starts = given.spread_window_starts != 0,
-      .adopt_observed_limits = given.adopt_observed_limits != 0};
+      .spread_window_starts = given.spread_window_starts != 0};
+  if (given.struct_size == sizeof given) definition.adopt_observed_limits = given.adopt_observed_limits != 0;
   const Box box = box_of(given.box);
   if (given.has_box) {
     definition.box = box;
