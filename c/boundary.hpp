@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <string>
@@ -59,11 +60,31 @@ inline void require_array(std::string_view call, const void* pointer, std::size_
 
 /// Throws a Failure unless `size` is the one that this library knows.
 void require_size(std::string_view call, std::uint32_t size, std::size_t known, const char* argument);
+/// Size of a record in programs that were compiled before it had all of its fields.
+template <class Record>
+inline constexpr std::size_t first_size = sizeof(Record);
+template <>
+inline constexpr std::size_t first_size<ks_event> = offsetof(ks_event, acceleration_limit);
+template <>
+inline constexpr std::size_t first_size<ks_world_definition> = offsetof(ks_world_definition,
+                                                                        adopt_observed_limits);
+/// Throws a Failure unless `size` is one that this library knows of the record.
+template <class Record>
+void require_size_of(std::string_view call, std::uint32_t size, const char* argument) {
+  if (size != first_size<Record>) require_size(call, size, sizeof(Record), argument);
+}
 /// Throws a Failure unless the record is there and has a known size.
 template <class Record>
 void require_record(std::string_view call, const Record* record, const char* argument) {
   require_pointer(call, record, argument);
-  require_size(call, record->struct_size, sizeof(Record), argument);
+  require_size_of<Record>(call, record->struct_size, argument);
+}
+/// Writes as much of `record` as the caller's record has room for, of a known size, which it keeps.
+template <class Record>
+void write_record(const Record& record, Record* caller, std::uint32_t struct_size) {
+  Record sized = record;
+  sized.struct_size = struct_size;
+  std::memcpy(static_cast<void*>(caller), &sized, struct_size);
 }
 template <class Record>
 void require_records(std::string_view call, const Record* records, std::size_t count, const char* argument) {
@@ -81,9 +102,8 @@ ks_status initialise(std::string_view call, Record* record, std::uint32_t struct
                      const Record& defaults) {
   return guarded([&] {
     require_pointer(call, record, "record");
-    require_size(call, struct_size, sizeof(Record), "record");
-    *record = defaults;
-    record->struct_size = struct_size;
+    require_size_of<Record>(call, struct_size, "record");
+    write_record(defaults, record, struct_size);
   });
 }
 

@@ -150,14 +150,17 @@ ks_event c_event(const Event& event) {
           .first_angular_velocity = c_vector(event.first_angular_velocity),
           .second_angular_velocity = c_vector(event.second_angular_velocity),
           .first_spin_gain = c_vector(event.first_spin_gain),
-          .second_spin_gain = c_vector(event.second_spin_gain)};
+          .second_spin_gain = c_vector(event.second_spin_gain),
+          .acceleration_limit = event.acceleration_limit};
 }
 
 void write_next(const std::optional<Event>& next, double time, ks_event* event) {
-  *event = c_event(next.value_or(Event{.time = time}));
-  if (!next) event->kind = KS_EVENT_NONE;
+  ks_event told = c_event(next.value_or(Event{.time = time}));
+  if (!next) told.kind = KS_EVENT_NONE;
+  write_record(told, event, event->struct_size);
 }
 
+/// Leaves out what records of programs that were compiled earlier lack, which no answer needs.
 Event event_of(std::string_view call, const ks_event& event) {
   require_number(call, "event.kind", event.kind, KS_EVENT_BOUND_VIOLATION, KS_EVENT_WOKE);
   require_number(call, "event.wall", event.wall, KS_WALL_NONE, KS_WALL_Z_UPPER);

@@ -25,7 +25,9 @@ ks_world_definition c_world(const WorldDefinition& definition) {
           .allow_overlap = definition.allow_overlap,
           .spread_window_starts = definition.spread_window_starts,
           .has_wall_filter = definition.wall_filter.has_value(),
-          .wall_filter = c_filter(definition.wall_filter.value_or(Filter{}))};
+          .wall_filter = c_filter(definition.wall_filter.value_or(Filter{})),
+          .adopt_observed_limits = definition.adopt_observed_limits,
+          .reserved = 0};
 }
 
 WorldDefinition world_of(std::string_view call, const ks_world_definition& given) {
@@ -42,6 +44,7 @@ WorldDefinition world_of(std::string_view call, const ks_world_definition& given
       .zeno_interval = given.zeno_interval,
       .start_time = given.start_time,
       .spread_window_starts = given.spread_window_starts != 0};
+  if (given.struct_size == sizeof given) definition.adopt_observed_limits = given.adopt_observed_limits != 0;
   const Box box = box_of(given.box);
   if (given.has_box) {
     definition.box = box;

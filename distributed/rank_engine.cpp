@@ -174,9 +174,9 @@ Result<void> DistributedWorld::RankEngine::go(double until, const OrderedEventFn
   return consensus_.agree_on_noted();
 }
 
-/// Checks the first bodies, as World::Engine::end_epoch() does.
+/// Checks exact bodies, as World::Engine::end_epoch() does.
 Result<void> DistributedWorld::RankEngine::spot_check(PoolLease& lease) {
-  const auto concerned = guarded([&] { return rank_.main.spot_check_first(rank_.first_bodies(), lease); });
+  const auto concerned = guarded([&] { return rank_.main.spot_check_due(rank_.own_bodies(), lease); });
   if (auto agreed = agree(concerned ? Result<void>() : concerned.error()); !agreed) return agreed;
   const bool any = communicator_.sum(std::uint64_t{*concerned}) > 0;
   rank_.state.spot_checks.note_check(rank_.state.window_policy, time(), any);
@@ -187,7 +187,7 @@ Result<void> DistributedWorld::RankEngine::spot_check(PoolLease& lease) {
 Result<void> DistributedWorld::RankEngine::start_arrivals(PoolLease& lease, SpeculativeRunner& runner) {
   const Arrivals arrivals = starts_.count_arrivals();
   if (arrivals.everywhere == 0) return {};
-  if (arrivals.has_first) rank_.state.spot_checks.note_arrival(time());
+  if (arrivals.has_exact) rank_.state.spot_checks.note_arrival(time());
   if (auto unique = agree(names_.check(communicator_)); !unique) return unique;
   if (auto started = starts_.start_with(arrivals, lease); !started) return started;
   if (auto recertified = run_batch(time(), time(), runner); !recertified) return recertified.error();

@@ -34,10 +34,10 @@ std::size_t RankState::own_moving() const {
   return state.broad_phase.moving() - static_cast<std::size_t>(copies);
 }
 
-std::vector<std::uint32_t> RankState::first_bodies() const {
+std::vector<std::uint32_t> RankState::own_bodies() const {
   std::vector<std::uint32_t> own;
-  for (std::uint32_t name = 0; name < SpotChecks::first_names; ++name)
-    if (const auto number = directory.find(name); number && directory.is_own(*number)) own.push_back(*number);
+  for (std::uint32_t number = 0; number < bodies().numbers(); ++number)
+    if (bodies()[number].alive && directory.is_own(number)) own.push_back(number);
   return own;
 }
 

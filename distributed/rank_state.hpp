@@ -36,8 +36,8 @@ struct RankState {
   /// Number of own bodies that have a window, and of those whose window end is finite. Cost: O(ghosts).
   std::size_t own_registered() const;
   std::size_t own_moving() const;
-  /// Returns the numbers of the own bodies that have one of the first names (SpotChecks).
-  std::vector<std::uint32_t> first_bodies() const;
+  /// Returns the numbers of the own bodies, in ascending order. Cost: O(numbers).
+  std::vector<std::uint32_t> own_bodies() const;
   /// Returns, in ascending order, the registered own bodies that may enter one of the boxes before their
   /// windows end.
   std::vector<std::uint32_t> own_bodies_in(std::span<const Box> boxes) const;

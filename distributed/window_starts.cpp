@@ -11,12 +11,11 @@ namespace kinesphere {
 
 Arrivals WindowStarts::count_arrivals() {
   std::vector<std::uint32_t> arrived = rank_.main.dirty().arrivals(rank_.bodies());
-  const auto first = std::count_if(arrived.begin(), arrived.end(), [this](std::uint32_t number) {
-    return rank_.bodies().table().name_of(number) < SpotChecks::first_names &&
-           !rank_.bodies()[number].is_static();
+  const auto exact = std::count_if(arrived.begin(), arrived.end(), [this](std::uint32_t number) {
+    return rank_.bodies()[number].bound.is_exact() && !rank_.bodies()[number].is_static();
   });
   std::uint64_t sums[] = {arrived.size(), rank_.own_registered(), rank_.own_moving(),
-                          rank_.bodies().are_balls() ? 0u : 1u, static_cast<std::uint64_t>(first)};
+                          rank_.bodies().are_balls() ? 0u : 1u, static_cast<std::uint64_t>(exact)};
   communicator_.sum(sums);
   // What is certified of two balls depends on whether all bodies of the world are balls.
   if (sums[3] > 0) rank_.bodies().rigid.note_elsewhere();

@@ -19,7 +19,7 @@ struct Arrivals {
   // Bodies of all ranks that have a window, and those whose window end is finite.
   std::uint64_t registered = 0;
   std::uint64_t moving = 0;
-  bool has_first = false;  ///< one of the first bodies (SpotChecks) has arrived
+  bool has_exact = false;  ///< an exact body (SpotChecks) has arrived
 };
 
 /// All functions are collective. Errors: those of probes, equal on all ranks, after which the world cannot

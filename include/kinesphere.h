@@ -294,6 +294,9 @@ typedef struct ks_world_definition {
   int32_t spread_window_starts;  ///< 0, or 1 for frames that cost about the same
   int32_t has_wall_filter;       ///< 0: the walls meet every body
   ks_filter wall_filter;         ///< of all walls
+  /// 1: a report that breaks the promise of its body raises the body's acceleration limit
+  int32_t adopt_observed_limits;
+  int32_t reserved;  ///< 0
 } ks_world_definition;
 KS_API ks_status ks_world_definition_init(ks_world_definition* definition, uint32_t struct_size);
 static inline ks_world_definition ks_default_world_definition(void) {
@@ -641,6 +644,7 @@ typedef struct ks_event {
   ks_vec3 second_angular_velocity;
   ks_vec3 first_spin_gain;  ///< of rigid bodies, by a unit impulse along the normal
   ks_vec3 second_spin_gain;
+  double acceleration_limit;  ///< of a bound violation: the body's limit from now on (length / time^2)
 } ks_event;
 static inline ks_event ks_new_event(void) {
   ks_event event;

@@ -98,6 +98,7 @@ void put(const Event& event, double* numbers) {
   put(event.second_angular_velocity, numbers + 43);
   put(event.first_spin_gain, numbers + 46);
   put(event.second_spin_gain, numbers + 49);
+  numbers[52] = event.acceleration_limit;
 }
 
 void answer_ids(std::span<const BodyId> ids) {
@@ -145,6 +146,7 @@ Event event_at(const double* numbers) {
   event.second_angular_velocity = vector_at(numbers + 43);
   event.first_spin_gain = vector_at(numbers + 46);
   event.second_spin_gain = vector_at(numbers + 49);
+  event.acceleration_limit = numbers[52];
   return event;
 }
 

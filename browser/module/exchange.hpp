@@ -44,7 +44,7 @@ void put(const Vec3& vector, double* numbers);
 void put(const State& state, double* numbers);
 
 /// Size of an event in numbers; the class Event in package/src/event.ts reads them.
-constexpr std::size_t event_numbers = 52;
+constexpr std::size_t event_numbers = 53;
 void put(const Event& event, double* numbers);
 Event event_at(const double* numbers);
 

@@ -95,7 +95,7 @@ KINESPHERE_EXPORT(world_counters) void world_counters(const World* world) {
   for (const std::uint64_t count :
        {counters.probes, counters.window_ends, counters.starts, counters.restarts, counters.pair_checks,
         counters.wall_checks, counters.searches, counters.candidates, counters.hot_pairs,
-        counters.certificates, counters.zeno_steps, counters.repeated_contacts})
+        counters.certificates, counters.zeno_steps, counters.repeated_contacts, counters.jammed_contacts})
     numbers.push_back(static_cast<double>(count));
 }
 

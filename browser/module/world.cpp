@@ -24,6 +24,7 @@ WorldDefinition definition_at(const double* numbers) {
   definition.start_time = numbers[16];
   definition.spread_window_starts = numbers[17] != 0.0;
   if (numbers[18] != 0.0) definition.wall_filter = filter_at(numbers + 19);
+  definition.adopt_observed_limits = numbers[22] != 0.0;
   return definition;
 }
 
@@ -136,7 +137,7 @@ KINESPHERE_EXPORT(world_definition) const WorldDefinition* world_definition(cons
 KINESPHERE_EXPORT(definition_numbers) void definition_numbers(const WorldDefinition* written) {
   const WorldDefinition& definition = *written;
   auto& numbers = answer();
-  numbers.assign(22, 0.0);
+  numbers.assign(23, 0.0);
   if (definition.box) {
     numbers[0] = 1.0;
     put(definition.box->lower, numbers.data() + 1);
@@ -156,6 +157,7 @@ KINESPHERE_EXPORT(definition_numbers) void definition_numbers(const WorldDefinit
     numbers[18] = 1.0;
     put(*definition.wall_filter, numbers.data() + 19);
   }
+  numbers[22] = definition.adopt_observed_limits ? 1.0 : 0.0;
 }
 
 KINESPHERE_EXPORT(world_time) double world_time(const World* world) { return world->time(); }

@@ -34,6 +34,8 @@ namespace Kinesphere
         /// mesh: the triangle.</summary>
         public uint FirstPart, SecondPart;
         public Vector FirstAngularVelocity, SecondAngularVelocity, FirstSpinGain, SecondSpinGain;
+        /// <summary>Of a bound violation: the acceleration limit that the body has from now on (length / time^2).</summary>
+        public double AccelerationLimit;
         public bool Repeated { get { return repeated != 0; } }
         public bool Jammed { get { return jammed != 0; } }
         public bool AlreadyTouching { get { return alreadyTouching != 0; } }

@@ -18,9 +18,12 @@ namespace Kinesphere
         public Contacts Contacts;
         int allowOverlap, spreadWindowStarts, hasWallFilter;
         Filter wallFilter;
+        int adoptObservedLimits, reserved;
         public bool AllowOverlap { get { return allowOverlap != 0; } set { allowOverlap = value ? 1 : 0; } }
         /// <summary>For games: frames of equal length cost about the same, and more in total. Has no effect in periodic space.</summary>
         public bool SpreadWindowStarts { get { return spreadWindowStarts != 0; } set { spreadWindowStarts = value ? 1 : 0; } }
+        /// <summary>A report that breaks the promise of its body raises the body's acceleration limit to what explains the report.</summary>
+        public bool AdoptObservedLimits { get { return adoptObservedLimits != 0; } set { adoptObservedLimits = value ? 1 : 0; } }
         /// <summary>Gives the world walls, or on periodic axes a period, at the sides of a box.</summary>
         public void SetBox(Vector from, Vector to) { hasBox = 1; lower = from; upper = to; }
         /// <summary>Gives all walls a filter; without one they meet every body.</summary>

@@ -28,7 +28,8 @@ struct BodyDefinition {
   double radius = 1.0;
   /// A >= 0 (length / time^2): the largest deviation from the planned acceleration; 0 for a ballistic body. A
   /// body with limit 0 that accelerates breaks its promise. It is seldom probed, and contacts are missed
-  /// until spot checks report it as bound_violation (docs/guarantee.md).
+  /// until spot checks report it as bound_violation (docs/guarantee.md). From then on the limit is what was
+  /// observed (WorldDefinition::adopt_observed_limits).
   double acceleration_limit = 0.0;
   /// g (length / time^2): known acceleration, such as gravity or a flight plan; zero if unknown.
   Vec3 planned_acceleration{};

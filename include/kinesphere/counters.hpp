@@ -34,8 +34,12 @@ struct Counters {
   std::uint64_t certificates = 0;
   /// Rechecks of a contact that the Zeno guard delayed to its least step.
   std::uint64_t zeno_steps = 0;
-  /// Contacts within the Zeno interval of an earlier contact of the same body.
+  /// Contacts with Event::repeated: hops of bodies that rest or roll.
   std::uint64_t repeated_contacts = 0;
+  /// Contacts with Event::jammed. bounce() and settle() part their bodies without speed, whatever the
+  /// restitution, so energy is lost. In a gas or a crystal of elastic bodies it should be 0: otherwise gaps
+  /// are within the contact tolerance, which should be smaller.
+  std::uint64_t jammed_contacts = 0;
 
   /// Adds each count.
   Counters& operator+=(const Counters& more) {
@@ -52,6 +56,7 @@ struct Counters {
     certificates += more.certificates;
     zeno_steps += more.zeno_steps;
     repeated_contacts += more.repeated_contacts;
+    jammed_contacts += more.jammed_contacts;
     return *this;
   }
   /// Returns the number of window starts, restarts, pair checks and wall checks.

@@ -84,7 +84,10 @@ struct Event {
   /// The wall of a wall event; Wall::none for all other events.
   Wall wall = Wall::none;
   /// True if one of the two bodies had another contact less than its Zeno interval ago
-  /// (WorldDefinition::zeno_interval). A dissipative response should lose no energy at this contact.
+  /// (WorldDefinition::zeno_interval), and this one is a hop of bodies that rest: something presses the two
+  /// upon each other, and they approach at less than 4 sqrt(eps a), a its acceleration, or at the very
+  /// instant of that other contact. Bodies that fall together press nothing. A dissipative response should
+  /// lose no energy at this contact.
   bool repeated = false;
   /// True if each of the two bodies has already had 64 contacts at this very instant, for example a body
   /// stuck between walls. A response that returns any speed would continue for ever. After 256 contacts the
@@ -141,6 +144,9 @@ struct Event {
   /// / (mass length)), from RigidBody::inertia; zero for all other bodies.
   Vec3 first_spin_gain{};
   Vec3 second_spin_gain{};
+  /// bound_violation: the acceleration limit that the body has from now on (length / time^2), which the world
+  /// may just have raised (WorldDefinition::adopt_observed_limits). 0 for all other events.
+  double acceleration_limit = 0.0;
 
   /// Returns true if the body can be given a velocity: there is one, and it is not static.
   constexpr bool first_can_move() const { return first != no_body && !first_traits.is_static; }

@@ -21,6 +21,11 @@ inline constexpr double largest_contact_tolerance = 1e20;
 /// keeps the rounding of a certificate well within one tolerance.
 inline constexpr double largest_length = 0x1p41;
 
+/// Largest coordinate of a reported position on an axis that is periodic, in contact tolerances. The world
+/// takes the image in the box of each report, so reports may lie far outside. Beyond this, doubles no longer
+/// tell positions apart that differ by a 64th of the tolerance.
+inline constexpr double largest_image = 0x1p47;
+
 /// Largest number of points of a part of a rigid body.
 inline constexpr std::size_t most_hull_points = 64;
 

@@ -33,9 +33,9 @@ struct Bounce {
 /// static body, a sleeping one and a wall keep their velocity and turn the other body, whatever its mass. A
 /// body of infinite mass keeps its velocity in all other contacts, so two of them do not turn each other. A
 /// `repeated` contact loses no energy (restitution 1), which prevents inelastic collapse from stopping time
-/// (Luding and McNamara's TC model). In a stack under gravity nearly all contacts are repeated, since the
-/// lowest body hops upon the ground all the time: such bodies do not come to rest, and their contacts grow
-/// more frequent. settle() brings them to rest. Bodies of a `jammed` contact separate with zero speed,
+/// (Luding and McNamara's TC model). In a stack under gravity nearly all slow contacts are repeated, since
+/// the lowest body hops upon the ground all the time: such bodies do not come to rest, and their contacts
+/// grow more frequent. settle() brings them to rest. Bodies of a `jammed` contact separate with zero speed,
 /// whatever the restitution. NaN gives velocities that are NaN, which World::set_velocity() refuses by name.
 [[nodiscard]] Bounce bounce(const Event& contact, double restitution);
 

@@ -54,8 +54,9 @@ struct WorldDefinition {
   /// If false, add() refuses a body that certainly overlaps another body or a wall.
   bool allow_overlap = true;
   /// >= 0 (time): a contact is marked Event::repeated if it follows the previous contact of the same body
-  /// within less than this time, or within 4 sqrt(eps / (A + |g|)), the longest time of a hop within the
-  /// tolerance.
+  /// within less than this time, however fast it is. Slow contacts of bodies that are pressed upon each other
+  /// are marked without it: those within 4 sqrt(eps / (A + |g|)), the longest time of a hop within the
+  /// tolerance (docs/grains.md).
   double zeno_interval = 0.0;
   double start_time = 0.0;
   /// For games: spreads the work that the world does for most bodies together, when their windows start
@@ -64,13 +65,18 @@ struct WorldDefinition {
   /// periodic space. Cost: up to a third more time in total (docs/performance.md), and memory for a
   /// second swept sphere of each body. A DistributedWorld refuses it.
   bool spread_window_starts = false;
+  /// If a report breaks the promise of its body, the world takes the acceleration that explains the report
+  /// for the body's acceleration limit from then on, unless the limit is larger already: so a body whose
+  /// gravity was forgotten still meets what it falls on. Event::acceleration_limit says the limit. False: the
+  /// promised limit stays, and each report that breaks it is a bound_violation (docs/guarantee.md).
+  bool adopt_observed_limits = true;
 
   /// Two default separation distances (NaN) are equal.
   friend bool operator==(const WorldDefinition& a, const WorldDefinition& b) {
     const auto others = [](const WorldDefinition& world) {
       return std::tie(world.box, world.periodic, world.wall_filter, world.dimensions, world.contact_tolerance,
                       world.contacts, world.allow_overlap, world.zeno_interval, world.start_time,
-                      world.spread_window_starts);
+                      world.spread_window_starts, world.adopt_observed_limits);
     };
     return others(a) == others(b) &&
            (a.separation_distance == b.separation_distance ||

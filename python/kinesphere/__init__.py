@@ -1,9 +1,9 @@
 """Finds every collision among moving spheres whose trajectories nobody knows in advance.
 
     import numpy as np
-    from kinesphere import Bouncing, RandomForces, World
+    from kinesphere import Bouncing, RandomForces, World, place_spheres
 
-    positions = np.random.default_rng(1).uniform(2, 98, (300, 3))
+    positions = place_spheres(np.full(300, 2.0), ((0, 0, 0), (100, 100, 100)))
     motion = RandomForces(positions, acceleration_limits=20.0)
     world = World(box=((0, 0, 0), (100, 100, 100)))
     world.add_motion(motion, radii=1.0)

@@ -48,6 +48,7 @@ class WorldDefinition(TypedDict):
     zeno_interval: float
     start_time: float
     spread_window_starts: bool
+    adopt_observed_limits: bool
 
 class BodyDefinitions(TypedDict):
     positions: Doubles
@@ -157,6 +158,8 @@ class Event:
     def position_excess(self) -> float: ...
     @property
     def velocity_excess(self) -> float: ...
+    @property
+    def acceleration_limit(self) -> float: ...
     @property
     def distance(self) -> float: ...
     @property
@@ -503,6 +506,8 @@ class Counters:
     @property
     def repeated_contacts(self) -> int: ...
     @property
+    def jammed_contacts(self) -> int: ...
+    @property
     def steps(self) -> int: ...
     def count(self, kind: int) -> int: ...
 
@@ -595,6 +600,7 @@ class World:
         zeno_interval: float = 0.0,
         start_time: float = 0.0,
         spread_window_starts: bool = False,
+        adopt_observed_limits: bool = True,
     ) -> None: ...
     @property
     def definition(self) -> WorldDefinition: ...

@@ -49,6 +49,7 @@ constexpr Field event_fields[] = {
     {"second_angular_velocity", "3f8", offsetof(EventRecord, second_angular_velocity)},
     {"first_spin_gain", "3f8", offsetof(EventRecord, first_spin_gain)},
     {"second_spin_gain", "3f8", offsetof(EventRecord, second_spin_gain)},
+    {"acceleration_limit", "f8", offsetof(EventRecord, acceleration_limit)},
     {"first_is_static", "?", offsetof(EventRecord, first_is_static)},
     {"first_is_zone", "?", offsetof(EventRecord, first_is_zone)},
     {"first_is_sleeping", "?", offsetof(EventRecord, first_is_sleeping)},
@@ -87,7 +88,8 @@ Event event_of(const EventRecord& record) {
           .first_angular_velocity = record.first_angular_velocity,
           .second_angular_velocity = record.second_angular_velocity,
           .first_spin_gain = record.first_spin_gain,
-          .second_spin_gain = record.second_spin_gain};
+          .second_spin_gain = record.second_spin_gain,
+          .acceleration_limit = record.acceleration_limit};
 }
 
 EventRecord record_at(const std::byte* bytes) {
@@ -163,6 +165,7 @@ EventRecord record_of(const Event& event) {
           event.second_angular_velocity,
           event.first_spin_gain,
           event.second_spin_gain,
+          event.acceleration_limit,
           event.first_traits.is_static,
           event.first_traits.is_zone,
           event.first_traits.is_sleeping,
@@ -246,6 +249,9 @@ cannot be changed.)")
       .def_readonly(
           "velocity_excess", &Event::velocity_excess,
           "Of bound violations: by how much the velocity changed more than promised (length / time).")
+      .def_readonly("acceleration_limit", &Event::acceleration_limit,
+                    "Of bound violations: the acceleration limit that the body has from now on (length / "
+                    "time^2).")
       .def_readonly("distance", &Event::distance,
                     "Of sensor events: the sensor distance that was crossed (length).")
       .def_readonly("first_user_data", &Event::first_user_data)

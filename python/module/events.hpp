@@ -47,6 +47,7 @@ struct EventRecord {
   Vec3 second_angular_velocity;
   Vec3 first_spin_gain;
   Vec3 second_spin_gain;
+  double acceleration_limit;
   bool first_is_static;
   bool first_is_zone;
   bool first_is_sleeping;

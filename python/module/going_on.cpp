@@ -55,7 +55,11 @@ void warn_of_promise(WorldHandle& handle, std::string_view call) {
        py::str(py::float_(event.time)).cast<std::string>() +
        "), so contacts may have been missed before: its acceleration_limit or planned_acceleration is not "
        "that "
-       "of its motion, its velocity is not that of its positions, or the world was not told of a change");
+       "of its motion, its velocity is not that of its positions, or the world was not told of a change" +
+       (event.acceleration_limit > 0.0
+            ? "; its acceleration_limit is " +
+                  py::str(py::float_(event.acceleration_limit)).cast<std::string>() + " from now on"
+            : std::string()));
 }
 
 /// Counts idle calls, which could not advance and found no event, and warns of a caller that gives the length
@@ -132,6 +136,7 @@ class Responding {
   }
   explicit operator bool() const { return !given_.is_none(); }
   bool hops() const { return bouncing_ != nullptr && bouncing_->hops(); }
+  bool settles() const { return bouncing_ != nullptr && bouncing_->settles(); }
 
   /// Needs no GIL.
   Response operator()(const Event& event) const {
@@ -178,6 +183,16 @@ void warn_of_hops(WorldHandle& handle) {
       " contacts followed another one at once, as those of bodies that lie upon each other, "
       "and took no energy: Bouncing(restitution=..., resting_speed=...) lets stacks settle";
   warn(text);
+}
+
+/// Warns once of contacts without room, in which bodies lose their energy.
+void warn_of_jams(WorldHandle& handle) {
+  const std::uint64_t jammed = handle.world.counters().jammed_contacts;
+  if (handle.warned_of_jams || jammed == 0) return;
+  handle.warned_of_jams = true;
+  warn("run: " + std::to_string(jammed) +
+       " contacts were jammed: their bodies had no room beyond the contact_tolerance, and parted without "
+       "speed, whatever the restitution: a contact_tolerance below the gaps keeps their energy");
 }
 
 /// Tells a function, or the bar of the package for True, which time a run has reached.
@@ -256,6 +271,7 @@ py::object run(WorldHandle& handle, double until, const py::object& motion, cons
   require(done);
   tell(handle.world.time());
   if (responding.hops()) warn_of_hops(handle);
+  if (responding && !responding.settles()) warn_of_jams(handle);
   warn_of_promise(handle, "run");
   warn_of_duration(handle, !has_event && until == before, until, "run");
   const py::object table = table_of(handle.undelivered);

@@ -140,15 +140,16 @@ py::tuple numbers_of(const Counters& counters) {
   return py::make_tuple(events, counters.probes, counters.window_ends, counters.starts, counters.restarts,
                         counters.pair_checks, counters.wall_checks, counters.searches, counters.candidates,
                         counters.hot_pairs, counters.certificates, counters.zeno_steps,
-                        counters.repeated_contacts);
+                        counters.repeated_contacts, counters.jammed_contacts);
 }
 
 Counters counters_of(const py::tuple& numbers) {
   Counters counters;
   std::uint64_t* const members[] = {
-      &counters.probes,      &counters.window_ends,  &counters.starts,     &counters.restarts,
-      &counters.pair_checks, &counters.wall_checks,  &counters.searches,   &counters.candidates,
-      &counters.hot_pairs,   &counters.certificates, &counters.zeno_steps, &counters.repeated_contacts};
+      &counters.probes,         &counters.window_ends,  &counters.starts,     &counters.restarts,
+      &counters.pair_checks,    &counters.wall_checks,  &counters.searches,   &counters.candidates,
+      &counters.hot_pairs,      &counters.certificates, &counters.zeno_steps, &counters.repeated_contacts,
+      &counters.jammed_contacts};
   const py::list events = numbers[0];
   if (numbers.size() != 1 + std::size(members) || events.size() != counters.events.size())
     throw py::value_error("pickle: Counters must be of this version");
@@ -208,6 +209,7 @@ void bind_views(py::module_& module) {
       .def_readonly("certificates", &Counters::certificates)
       .def_readonly("zeno_steps", &Counters::zeno_steps)
       .def_readonly("repeated_contacts", &Counters::repeated_contacts)
+      .def_readonly("jammed_contacts", &Counters::jammed_contacts)
       .def_property_readonly("steps", &Counters::steps)
       .def(
           "count",

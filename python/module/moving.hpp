@@ -68,6 +68,8 @@ class Bouncing {
   Response answer(const Event& event) const;
   /// True if bodies lose speed in contacts, but not in repeated ones, so that stacks never come to rest.
   bool hops() const { return restitution_ < 1.0 && resting_speed_ == 0.0; }
+  /// True if bodies come to rest upon each other. Then jams among them are usual.
+  bool settles() const { return resting_speed_ > 0.0; }
   /// Returns the arguments of the constructor.
   py::tuple arguments() const;
 

@@ -53,8 +53,8 @@ std::shared_ptr<WorldHandle> create_world(const py::object& box, const py::objec
                                           const py::object& wall_filter, int dimensions,
                                           double contact_tolerance, const py::object& separation_distance,
                                           const std::string& contacts, bool allow_overlap,
-                                          double zeno_interval, double start_time,
-                                          bool spread_window_starts) {
+                                          double zeno_interval, double start_time, bool spread_window_starts,
+                                          bool adopt_observed_limits) {
   WorldDefinition definition;
   definition.box = box_of(box, {"World", "box"}, dimensions == 2);
   definition.periodic = axes_of(periodic, {"World", "periodic"}, dimensions == 2);
@@ -72,6 +72,7 @@ std::shared_ptr<WorldHandle> create_world(const py::object& box, const py::objec
   definition.zeno_interval = zeno_interval;
   definition.start_time = start_time;
   definition.spread_window_starts = spread_window_starts;
+  definition.adopt_observed_limits = adopt_observed_limits;
   return std::make_shared<WorldHandle>(World::create(definition).value());
 }
 
@@ -142,6 +143,7 @@ py::dict arguments_of(const WorldDefinition& definition) {
   arguments["zeno_interval"] = definition.zeno_interval;
   arguments["start_time"] = definition.start_time;
   arguments["spread_window_starts"] = definition.spread_window_starts;
+  arguments["adopt_observed_limits"] = definition.adopt_observed_limits;
   return arguments;
 }
 
@@ -201,6 +203,7 @@ at a time may use a world; another one is refused with StateError.)");
            py::arg("contact_tolerance") = 1e-6, py::arg("separation_distance") = py::none(),
            py::arg("contacts") = "all", py::arg("allow_overlap") = true, py::arg("zeno_interval") = 0.0,
            py::arg("start_time") = 0.0, py::arg("spread_window_starts") = false,
+           py::arg("adopt_observed_limits") = true,
            R"(box: walls, a Box or a pair of corners; without one the world is unbounded.
 periodic: True, or axes such as "xy", on which the box repeats instead of having walls.
 wall_filter: the filter of all walls, a dict with category, mask and group or some of these (set_filter());
@@ -219,7 +222,9 @@ zeno_interval (time, >= 0): contacts of a body that follow each other sooner are
 bounce() takes no energy from those; otherwise a ball that comes to rest would bounce infinitely often in a
 finite time.
 spread_window_starts: for games, makes frames of equal length cost about the same; in total they cost
-more. Has no effect where the box repeats. Raises ValueError (InvalidValue) that names the argument.)")
+more. Has no effect where the box repeats.
+adopt_observed_limits: a report that breaks the promise of its body raises the body's acceleration_limit to
+what explains the report, so that a body whose gravity was forgotten still meets what it falls on. Raises ValueError (InvalidValue) that names the argument.)")
       .def_property_readonly(
           "definition",
           reading("definition", [](const World& made) { return arguments_of(made.definition()); }),

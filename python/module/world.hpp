@@ -34,6 +34,7 @@ struct WorldHandle {
   std::shared_ptr<FilterTrouble> filter_trouble{};
   bool has_rotation_probe = false;
   bool warned_of_hops = false;
+  bool warned_of_jams = false;
   /// The first broken promise until the caller has been warned of it.
   std::optional<Event> broken{};
   bool warned_of_promises = false;

@@ -129,6 +129,29 @@ def test_a_stack_that_hops_for_ever_warns_and_names_what_lets_it_settle(restitut
         assert run(resting_speed=0.1) < 0.1
 
 
+@pytest.mark.parametrize("gap, restitution", [(2e-7, 1.0), (1e-4, 1.0)])
+def test_a_crystal_without_room_warns_once_that_it_loses_energy(gap: float, restitution: float) -> None:
+    side = 3
+    pitch = (1 + gap) * np.sqrt(2)
+    corners = np.array([[0, 0, 0], [0.5, 0.5, 0], [0.5, 0, 0.5], [0, 0.5, 0.5]])
+    cells = np.stack(np.meshgrid(*[range(side)] * 3, indexing="ij"), axis=-1).reshape(-1, 1, 3)
+    positions = ((cells + corners) * pitch).reshape(-1, 3)
+    motion = ks.Ballistic(positions, np.random.default_rng(1).normal(size=positions.shape))
+    world = ks.World(box=((0,) * 3, (side * pitch,) * 3), periodic=True, contacts="impacts")
+    world.add_motion(motion, radii=0.5)
+
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        for step in range(1, 4):
+            world.run(4 * step * gap, motion, ks.Bouncing(restitution=restitution))
+    jammed = world.counters.jammed_contacts
+    if gap > 1e-6:
+        assert jammed == 0 and not told
+    else:
+        assert jammed > 0 and len(told) == 1
+        assert "contacts were jammed" in str(told[0].message) and "contact_tolerance" in str(told[0].message)
+
+
 def falling(**limits: Any) -> tuple[ks.World, Any]:
     """A ball that falls from 10 onto another one at 0, and its probe."""
     world = ks.World()

@@ -400,7 +400,8 @@ def test_space_that_repeats() -> None:
 def test_a_definition_makes_the_same_world_again() -> None:
     settings = dict(box=ks.Box((0, 0, 0), (1, 2, 3)), contact_tolerance=1e-4, zeno_interval=0.1, start_time=5.0,
                     allow_overlap=False, contacts="impacts", separation_distance=0.01, dimensions=3,
-                    wall_filter={"category": 2, "mask": 5, "group": -1}, spread_window_starts=True)  # fmt: skip
+                    wall_filter={"category": 2, "mask": 5, "group": -1}, spread_window_starts=True,
+                    adopt_observed_limits=False)  # fmt: skip
     world = ks.World(**settings)  # type: ignore[arg-type]
     again = ks.World(**world.definition).definition
     assert {name: again[name] for name in settings} == settings and world.time == 5.0  # type: ignore[literal-required]

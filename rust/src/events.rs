@@ -99,6 +99,8 @@ pub struct Event {
     /// Of rigid bodies (radians / time).
     pub first_angular_velocity: Vec3,
     pub second_angular_velocity: Vec3,
+    /// Of a bound violation: the acceleration limit that the body has from now on (length / time^2).
+    pub acceleration_limit: f64,
     raw: sys::ks_event,
 }
 
@@ -128,6 +130,7 @@ impl Event {
             second_part: raw.second_part,
             first_angular_velocity: raw.first_angular_velocity,
             second_angular_velocity: raw.second_angular_velocity,
+            acceleration_limit: raw.acceleration_limit,
             raw,
         })
     }

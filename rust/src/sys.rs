@@ -59,6 +59,8 @@ pub struct ks_world_definition {
     pub spread_window_starts: i32,
     pub has_wall_filter: i32,
     pub wall_filter: ks_filter,
+    pub adopt_observed_limits: i32,
+    pub reserved: i32,
 }
 
 #[repr(C)]
@@ -186,6 +188,7 @@ pub struct ks_event {
     pub second_angular_velocity: Vec3,
     pub first_spin_gain: Vec3,
     pub second_spin_gain: Vec3,
+    pub acceleration_limit: f64,
 }
 
 #[repr(C)]

@@ -32,6 +32,8 @@ pub struct WorldDefinition {
     pub start_time: f64,
     /// For games: frames of equal length cost about the same, and more in total. Has no effect in periodic space.
     pub spread_window_starts: bool,
+    /// A report that breaks the promise of its body raises the body's acceleration limit to what explains the report.
+    pub adopt_observed_limits: bool,
     /// The filter of all walls; without one they meet every body.
     pub wall_filter: Option<Filter>,
 }
@@ -51,6 +53,7 @@ impl Default for WorldDefinition {
             zeno_interval: raw.zeno_interval,
             start_time: raw.start_time,
             spread_window_starts: raw.spread_window_starts != 0,
+            adopt_observed_limits: raw.adopt_observed_limits != 0,
             wall_filter: None,
         }
     }
@@ -73,6 +76,8 @@ impl WorldDefinition {
             spread_window_starts: self.spread_window_starts as i32,
             has_wall_filter: self.wall_filter.is_some() as i32,
             wall_filter: self.wall_filter.unwrap_or_default().raw(),
+            adopt_observed_limits: self.adopt_observed_limits as i32,
+            reserved: 0,
         }
     }
 }

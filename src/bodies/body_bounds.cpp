@@ -68,7 +68,9 @@ Sphere sphere_at(const Bodies& bodies, double now, std::uint32_t number) {
                 turning,
                 size.rate,
                 body.carries_shape || body.is_rigid ? bound.radius - body.radius : 0.0,
-                turning ? turning->after_report(now - bound.time) : Rotation{}};
+                turning ? turning->after_report(now - bound.time) : Rotation{},
+                bound.planned_acceleration,
+                bound.acceleration_limit + (turning ? turning->surface_acceleration(body.radius) : 0.0)};
   const Space& space = bodies.space();
   if (space.repeats()) sphere.state.position = space.wrapped(sphere.state.position).position;
   return sphere;

@@ -302,13 +302,40 @@ Result<void> check_velocity(const Vec3& velocity, BodyId body, const WorldDefini
   return check.result();
 }
 
+namespace {
+
+/// Returns the largest coordinate of a report on an axis (length).
+double report_limit(const WorldDefinition& world, int axis) {
+  const double limit = world.periodic[axis] ? limits::largest_image : limits::largest_length;
+  return limit * world.contact_tolerance;
+}
+
+}  // namespace
+
+bool fits_in_images(const Vec3& position, const WorldDefinition& world) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(std::abs(position[axis]) <= report_limit(world, axis))) return false;
+  return true;
+}
+
 Result<void> check_report(const State& state, BodyId body, double time, const WorldDefinition& world,
                           std::string_view call) {
   if (is_valid_report(state, world)) return {};
   const std::string answer = std::string(call) + ": the probe's answer at time " + text_of(time);
   InputCheck check(answer);
-  check.within({"position", body}, state.position, coordinate_limit(world))
-      .within({"velocity", body}, state.velocity, limits::largest_speed);
+  if (world.periodic.any()) {
+    check.finite({"position", body}, state.position);
+    for (int axis = 0; axis < 3; ++axis) {
+      const double limit = report_limit(world, axis);
+      check.require(std::abs(state.position[axis]) <= limit, ErrorCode::out_of_range, {"position", body},
+                    world.periodic[axis] ? "must be wrapped into the periodic box, at the latest within +-"
+                                         : "must lie within +-",
+                    limit, state.position);
+    }
+  } else {
+    check.within({"position", body}, state.position, coordinate_limit(world));
+  }
+  check.within({"velocity", body}, state.velocity, limits::largest_speed);
   require_plane(check, {"position", body}, state.position, world);
   require_plane(check, {"velocity", body}, state.velocity, world);
   return check.result();

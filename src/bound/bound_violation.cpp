@@ -1,5 +1,7 @@
 #include "bound/bound_violation.hpp"
 
+#include <algorithm>
+
 namespace kinesphere {
 
 std::optional<BoundViolation> bound_violation(const Bound& before, const Bound& after, double radius,
@@ -24,6 +26,20 @@ std::optional<BoundViolation> bound_violation(const Bound& before, const Bound& 
   const bool jumped = change > change_limit + velocity_slack;
   if (!left && !jumped) return std::nullopt;
   return BoundViolation{left ? deviation - deviation_limit : 0.0, jumped ? change - change_limit : 0.0};
+}
+
+double observed_acceleration(const Bound& before, const Bound& after, double radius,
+                             double contact_tolerance) {
+  const double s = after.time - before.time;
+  const Vec3 turn = after.velocity - before.velocity_at(after.time);
+  const double change = norm(turn) - (before.growth_speed + after.growth_speed);
+  if (!(s > 0.0) || !(change > 0.0)) return 0.0;
+  const double errors = (before.radius - radius) + (after.radius - radius) + before.growth_speed * s;
+  const double along = dot(after.position - before.centre_at(after.time), turn) / norm(turn) - errors;
+  if (!(along > 0.0)) return 0.0;
+  const double observed =
+      std::min({2.0 * along / (s * s), change / s, 8.0 * change * change / contact_tolerance});
+  return (1.0 + 0x1p-6) * observed;
 }
 
 }  // namespace kinesphere

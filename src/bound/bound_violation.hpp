@@ -23,6 +23,15 @@ std::optional<BoundViolation> bound_violation(const Bound& before, const Bound& 
                                               const std::optional<Vec3>& new_velocity,
                                               double contact_tolerance);
 
+/// Returns the acceleration (length / time^2), beyond the planned one, that explains how far a report
+/// deviates from the bound of the previous one: the least of what its place and its velocity need, plus a
+/// 64th, so that a constant acceleration is not found again. Error limits are taken off first. Returns 0 if
+/// the two do not agree on a direction, as where a body was moved without a velocity, or if no time has
+/// passed. Place and velocity change together over a 16th of `contact_tolerance` at least: a shorter jump is
+/// no acceleration.
+double observed_acceleration(const Bound& before, const Bound& after, double radius,
+                             double contact_tolerance);
+
 /// Returns true if bound_violation() certainly finds none in a report at `time`, where nothing has changed
 /// since the previous report. Without square roots.
 [[gnu::always_inline]] inline bool certainly_keeps(const Bound& before, double time, const State& report,

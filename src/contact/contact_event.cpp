@@ -235,12 +235,14 @@ Event woke_event(double time, const Sphere& sphere) {
   return event;
 }
 
-Event violation_event(double time, const Sphere& sphere, const BoundViolation& broken) {
+Event violation_event(double time, const Sphere& sphere, const BoundViolation& broken,
+                      double acceleration_limit) {
   Event event{.kind = EventKind::bound_violation, .time = time, .first = sphere.id};
   describe_first(event, sphere);
   event.point = sphere.state.position;
   event.position_excess = broken.position_excess;
   event.velocity_excess = broken.velocity_excess;
+  event.acceleration_limit = acceleration_limit;
   return event;
 }
 

@@ -31,7 +31,20 @@ struct Sphere {
   double radius_rate = 0.0;            ///< at which the radius grows (length / time)
   double position_error = 0.0;         ///< of a body whose radius is ignored; gaps are smaller by it (length)
   Rotation rotation{};                 ///< of a rigid body
+  Vec3 planned_acceleration{};         ///< from the bound (length / time^2)
+  double other_acceleration = 0.0;     ///< largest one of a point beside the planned one (length / time^2)
 };
+
+/// Returns the largest acceleration with which the two can be pressed upon each other (length / time^2). An
+/// acceleration that both have in common does not press.
+inline double relative_acceleration(const Sphere& first, const Sphere& second) {
+  return norm(first.planned_acceleration - second.planned_acceleration) +
+         (first.other_acceleration + second.other_acceleration);
+}
+/// Returns the acceleration with which a body can be pressed upon a wall (length / time^2).
+inline double largest_acceleration(const Sphere& body) {
+  return norm(body.planned_acceleration) + body.other_acceleration;
+}
 
 /// Bounds the rounding error that radii that change at these rates add to the approach speed.
 inline double rate_error(double rates) { return 0x1p-49 * rates; }
@@ -59,8 +72,10 @@ double approach_error(const Event& event, double arm);
 double approach_error(const Event& event, const Sphere& first, const Sphere& second);
 /// Returns a woke event. The body stands at the centre of the sphere.
 Event woke_event(double time, const Sphere& sphere);
-/// Returns a bound_violation event. The sphere's state is the violating report.
-Event violation_event(double time, const Sphere& sphere, const BoundViolation& broken);
+/// Returns a bound_violation event. The sphere's state is the violating report, and `acceleration_limit` that
+/// of the body from now on.
+Event violation_event(double time, const Sphere& sphere, const BoundViolation& broken,
+                      double acceleration_limit);
 
 /// Returns the walls of a world as a box with limits -infinity and +infinity on axes without walls. Returns
 /// nullopt if no axis has walls.

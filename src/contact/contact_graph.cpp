@@ -144,9 +144,10 @@ bool ContactGraph::is_jammed(const Event& current) const {
   return rate_.is_jammed(counting(current, buffer), current.time);
 }
 
-void ContactGraph::note_contact(Event& begin) {
+void ContactGraph::note_contact(Event& begin, double acceleration) {
   std::array<std::uint32_t, 2> buffer{};
-  const auto [repeated, jammed] = rate_.note(counting(begin, buffer), begin.time);
+  const auto [repeated, jammed] =
+      rate_.note(counting(begin, buffer), {begin.time, begin.approach_speed, acceleration}, rule_);
   begin.repeated = repeated;
   begin.jammed = jammed;
 }

@@ -106,8 +106,9 @@ class ContactGraph {
   /// True if a contact that could begin now must be deferred to a later time: each of its counting bodies has
   /// reached the limit of contacts at one time, so the caller's responses will not separate them.
   bool is_jammed(const Event& current) const;
-  /// Marks the begin of a contact as repeated or jammed, and counts it for later marks.
-  void note_contact(Event& begin);
+  /// Marks the begin of a contact as repeated or jammed, and counts it for later marks. `acceleration`: see
+  /// relative_acceleration().
+  void note_contact(Event& begin, double acceleration);
   struct Jam {
     /// True if the two are let through from now on until they have separated.
     bool is_last;

@@ -7,37 +7,49 @@
 #include <span>
 #include <vector>
 
+#include "contact/contact_rule.hpp"
 #include "number/bit_cast.hpp"
 
 namespace kinesphere {
 
 /// Counts the contacts of each body. Callers pass only the bodies that count a contact (not static ones).
 class ContactRate {
-  /// The upper half of a double: truncated towards zero to 20 fraction bits. Trades precision for 4 bytes per
-  /// body; sufficient for an interval that only marks events.
+  /// The upper bits of a double, truncated towards zero: 20 fraction bits in 4 bytes, or 4 in 2. Trades
+  /// precision for memory per body; sufficient for values that only mark events.
+  template <class Bits>
   class TruncatedDouble {
    public:
     TruncatedDouble() = default;
     explicit TruncatedDouble(double value)
-        : upper_half_(static_cast<std::uint32_t>(bit_cast<std::uint64_t>(value) >> 32)) {}
-    double value() const { return bit_cast<double>(std::uint64_t{upper_half_} << 32); }
+        : upper_(static_cast<Bits>(bit_cast<std::uint64_t>(value) >> dropped)) {}
+    double value() const { return bit_cast<double>(std::uint64_t{upper_} << dropped); }
 
-    static void serialize(auto& self, auto& archive) { archive(self.upper_half_); }
+    static void serialize(auto& self, auto& archive) { archive(self.upper_); }
 
    private:
-    std::uint32_t upper_half_ = 0;
+    static constexpr int dropped = 64 - std::numeric_limits<Bits>::digits;
+    Bits upper_ = 0;
   };
 
  public:
   /// Rate of one body.
   struct Body {
     double last_contact = -std::numeric_limits<double>::infinity();
-    TruncatedDouble zeno_interval;
-    /// Contacts at time last_contact. Saturates at the limit of is_jammed().
-    std::uint16_t contacts_then = 0;
+    TruncatedDouble<std::uint32_t> zeno_interval;
+    /// Acceleration that pressed the body upon its partner at last_contact (length / time^2).
+    TruncatedDouble<std::uint16_t> pressure;
+    /// Contacts at time last_contact beyond the first. Saturates at the limit of is_jammed().
+    std::uint8_t further_contacts = 0;
     /// Instants in a row before last_contact with as many contacts as that limit. Saturates at the limit of
     /// is_crushed().
-    std::uint16_t full_instants = 0;
+    std::uint8_t full_instants = 0;
+  };
+  static_assert(sizeof(Body) == 16);
+  /// The begin of a contact.
+  struct Begin {
+    double time = 0.0;
+    double approach_speed = 0.0;  ///< length / time
+    double acceleration = 0.0;    ///< relative_acceleration() of the two
   };
   /// Marks for the begin of a contact.
   struct Marks {
@@ -54,8 +66,13 @@ class ContactRate {
   const Body& of(std::uint32_t body) const { return bodies_[body]; }
   void restore(std::uint32_t body, const Body& checkpoint) { bodies_[body] = checkpoint; }
 
-  /// Counts a contact that begins between these bodies, and returns its marks.
-  Marks note(std::span<const std::uint32_t> bodies, double time);
+  /// Counts a contact that begins between these bodies, and returns its marks. It is repeated if it follows
+  /// the last contact of a body within the least Zeno interval of the rule. It is also repeated if something
+  /// presses the two upon each other, and it follows within the interval of the body, below the Zeno speed of
+  /// that acceleration or at the very instant. What presses them is their own relative acceleration or that
+  /// of the contact that they follow: so the ground carries all of a stack, and bodies that fall together
+  /// press nothing.
+  Marks note(std::span<const std::uint32_t> bodies, const Begin& begin, const ContactRule& rule);
   /// True if each of these bodies has reached the limit of contacts at `time`, so that the caller's responses
   /// will not separate them.
   bool is_jammed(std::span<const std::uint32_t> bodies, double time) const;
@@ -71,6 +88,7 @@ class ContactRate {
   static void serialize(auto& self, auto& archive) { archive(self.bodies_); }
 
  private:
+  static void count(Body& body, double time);
   std::uint32_t contacts_now(std::span<const std::uint32_t> bodies, double time) const;
 
   std::vector<Body> bodies_;

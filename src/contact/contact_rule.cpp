@@ -52,4 +52,8 @@ double ContactRule::zeno_interval(double acceleration) const {
   return std::max(zeno_interval_, 4.0 * std::sqrt(tolerance_ / acceleration));
 }
 
+double ContactRule::zeno_speed(double acceleration) const {
+  return 4.0 * std::sqrt(tolerance_ * acceleration);
+}
+
 }  // namespace kinesphere

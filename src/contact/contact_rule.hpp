@@ -85,6 +85,12 @@ class ContactRule {
   /// at most 3/2 of it to the guarded gap. A hop from there and back takes twice that time, sqrt(12 tolerance
   /// / acceleration). The interval is at least that long, so all contacts of such a body count as repeated.
   double zeno_interval(double acceleration) const;
+  /// Returns the interval of the world's definition (time), within which contacts of any speed are repeated.
+  double least_zeno_interval() const { return zeno_interval_; }
+  /// Returns the approach speed (length / time) below which a contact may be one of two that are pressed upon
+  /// each other with this acceleration: twice the speed after a fall through the tolerance and the guarded
+  /// gap below it, sqrt(4 tolerance acceleration), and so above that of each hop within the tolerance.
+  double zeno_speed(double acceleration) const;
 
  private:
   double tolerance_;

@@ -110,7 +110,8 @@ bool PendingEvents::take_effect(ContactGraph& graph, Event& event, const Sphere&
       graph.set_touching(event, true);
     } else {
       event.already_touching = threshold.within && wants_ends(wanted);
-      graph.note_contact(event);
+      graph.note_contact(event, event.wall == Wall::none ? relative_acceleration(first, second)
+                                                         : largest_acceleration(first));
       ContactState state = threshold.within ? threshold.state : ContactState{};
       const bool approaches = graph.rule().is_approach(event.gap, event.approach_speed, error);
       state.approach = approaches ? ApproachState::reported : ApproachState::watched;

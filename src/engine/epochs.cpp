@@ -81,7 +81,7 @@ std::vector<std::uint32_t> World::Engine::take_slow(std::vector<std::uint32_t>& 
 }
 
 /// Does what is due of the preparation of the next start, starts windows at the end of the epoch, and checks
-/// the first bodies when that is due.
+/// exact bodies when that is due.
 Result<void> World::Engine::end_epoch(PoolLease& lease) {
   while (prepared_ && prepared_->next_slice() <= time()) {
     if (auto done = prepared_->prepare_slice({state_, main_, lease, found_}); !done) return done;
@@ -93,9 +93,9 @@ Result<void> World::Engine::end_epoch(PoolLease& lease) {
   }
   // Bodies that have arrived enter their windows first: the window policy says when they are checked.
   if (state_.spot_checks.next() > time() || !main_.is_recertified()) return {};
-  std::vector<std::uint32_t> first(std::min(bodies().numbers(), SpotChecks::first_names));
-  std::iota(first.begin(), first.end(), 0u);
-  const auto concerned = main_.spot_check_first(first, lease);
+  std::vector<std::uint32_t> all(bodies().numbers());
+  std::iota(all.begin(), all.end(), 0u);
+  const auto concerned = main_.spot_check_due(all, lease);
   if (!concerned) return concerned.error();
   state_.spot_checks.note_check(state_.window_policy, time(), *concerned);
   return {};

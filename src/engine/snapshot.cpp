@@ -104,6 +104,7 @@ const char* World::Engine::first_invalid_part() const {
       !shape_contacts_are_valid())
     return "contacts";
   if (!broad_phase().is_valid(bodies().numbers()) || !state_.window_policy.is_valid()) return "windows";
+  if (!state_.spot_checks.is_valid()) return "spot checks";
   if (!prepared_ && broad_phase().search_begin() != -infinity) return "windows";
   if (prepared_ &&
       (!may_prepare_starts() || !state_.window_policy.is_chosen() || !prepared_->is_valid(state_)))

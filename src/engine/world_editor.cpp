@@ -68,7 +68,7 @@ void World::WorldEditor::insert_at(std::uint32_t number, const Bound& bound) {
   Body& body = state_.bodies[number];
   body.bound = bound;
   body.relocated = true;
-  if (number < SpotChecks::first_names && !body.is_static()) state_.spot_checks.note_arrival(time());
+  if (bound.is_exact() && !body.is_static()) state_.spot_checks.note_arrival(time());
   BroadPhase& windows = state_.broad_phase;
   if (windows.contains(number)) windows.leave(number);
   main_.invalidate(number);

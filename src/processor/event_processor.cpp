@@ -64,6 +64,7 @@ std::optional<Event> EventProcessor::pop() {
   ++work_.counters.events[static_cast<std::size_t>(event->kind)];
   if (!bodies().sleep_records.empty()) Sleeping(*state_, *this).wake_by(*event);
   if (event->repeated) ++work_.counters.repeated_contacts;
+  if (event->jammed) ++work_.counters.jammed_contacts;
   if (reports_.profile() != nullptr) reports_.profile()->note_event(bodies().table(), *event);
   return event;
 }
@@ -87,10 +88,11 @@ Result<void> EventProcessor::probe(std::span<const std::uint32_t> numbers, Probe
     for (const std::uint32_t number : numbers) log_->note_change(number, time_);
   const auto broken = reports_.take(bodies(), time_, numbers, lease);
   if (!broken) return broken.error();
-  for (const auto& [k, velocity, violation] : *broken) {
+  for (const auto& [k, velocity, violation, acceleration_limit] : *broken) {
     Sphere reported = sphere(numbers[k]);
     reported.state.velocity = velocity;
-    events_.queue(violation_event(time_, reported, violation));
+    events_.queue(violation_event(time_, reported, violation, acceleration_limit));
+    contacts().set_largest_acceleration(numbers[k], bodies().largest_acceleration(numbers[k]));
     invalidate(numbers[k]);
   }
   return {};
@@ -115,14 +117,18 @@ Result<void> EventProcessor::spot_check(std::span<const std::uint32_t> numbers, 
   return {};
 }
 
-Result<bool> EventProcessor::spot_check_first(std::span<const std::uint32_t> first, PoolLease& lease) {
+Result<bool> EventProcessor::spot_check_due(std::span<const std::uint32_t> numbers, PoolLease& lease) {
   const SpotChecks& checks = state_->spot_checks;
   std::vector<std::uint32_t> due;
-  std::copy_if(first.begin(), first.end(), std::back_inserter(due), [&](std::uint32_t number) {
-    return SpotChecks::may_check(bodies()[number], time_) && checks.is_due(bodies()[number], time_);
-  });
+  for (const std::uint32_t number : checks.only_plans(time_) ? std::span<const std::uint32_t>() : numbers) {
+    const Body& body = bodies()[number];
+    const std::uint32_t name = bodies().table().name_of(number);
+    if (checks.may_be_due(body, name) && SpotChecks::may_check(body, time_) &&
+        checks.is_due(body, name, time_))
+      due.push_back(number);
+  }
   if (auto checked = spot_check(due, lease); !checked) return checked.error();
-  return std::any_of(first.begin(), first.end(),
+  return std::any_of(numbers.begin(), numbers.end(),
                      [this](std::uint32_t number) { return SpotChecks::concerns(bodies()[number]); });
 }
 

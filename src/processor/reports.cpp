@@ -7,6 +7,7 @@
 
 #include "archive/heap_counter.hpp"
 #include "bodies/validation.hpp"
+#include "kinesphere/limits.hpp"
 #include "number/scope_guard.hpp"
 
 namespace kinesphere {
@@ -82,10 +83,11 @@ Result<std::vector<std::uint32_t>> Reports::contradicted(const Bodies& bodies, d
   ask_for(bodies, time, numbers, lease);
   std::vector<std::uint32_t> broken;
   for (std::size_t k = 0; k < numbers.size(); ++k) {
-    if (auto valid = check_report(states_[k], ids_[k], time, bodies.definition(), call_); !valid)
-      return valid.error();
     const Body& body = bodies[numbers[k]];
+    if (!is_valid_report(states_[k], bodies.definition()))
+      return check_report(states_[k], ids_[k], time, bodies.definition(), call_).error();
     move_to_nearest_image(bodies.space(), body.bound, time, states_[k]);
+    if (certainly_keeps(body.bound, time, states_[k], body.radius)) continue;
     Bound after = body.bound;
     restart(after, time, states_[k]);
     if (bound_violation(body.bound, after, body.radius, {}, bodies.definition().contact_tolerance))
@@ -220,6 +222,9 @@ void Reports::apply(Bodies& bodies, double time, std::size_t from, std::size_t t
     const Bound before = changes_size ? centre_bound(body, bodies.velocity_error(number)) : body.bound;
     if (changes_size) bodies.update_radius(number, time);
     std::optional<Vec3> new_velocity;
+    // A caller that has just changed the body has said what its limits are.
+    const bool adopts =
+        bodies.definition().adopt_observed_limits && body.change_number == Body::none && !body.is_sleeping();
     if (const Change* change = bodies.changes.find(bodies[number])) {
       new_velocity = change->velocity;
       body.bound = bound_of(bodies.definition_of(number), state, time);
@@ -236,10 +241,19 @@ void Reports::apply(Bodies& bodies, double time, std::size_t from, std::size_t t
         !certainly_keeps(before, time, {after.position, after.velocity}, radius))
       violation = sum_of(violation, bound_violation(before, after, radius, new_velocity,
                                                     bodies.definition().contact_tolerance));
+    if (violation && adopts) adopt(bodies, body, before, after, radius);
     if (profile_ != nullptr && !new_velocity) profile_->note_report(number, before, after);
     if (body.is_sleeping()) body.stand_still();
-    if (violation) broken.push_back({k, states_[k].velocity, *violation});
+    if (violation) broken.push_back({k, states_[k].velocity, *violation, body.bound.acceleration_limit});
   }
+}
+
+/// Raises the acceleration limit of a body whose report has broken it to what explains the report.
+void Reports::adopt(const Bodies& bodies, Body& body, const Bound& before, const Bound& after,
+                    double radius) {
+  const double observed = observed_acceleration(before, after, radius, bodies.definition().contact_tolerance);
+  body.bound.acceleration_limit =
+      std::min(std::max(body.bound.acceleration_limit, observed), limits::largest_acceleration);
 }
 
 /// Takes the rotation of a report. Returns by how much it breaks the limits of the body, as far as its

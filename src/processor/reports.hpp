@@ -23,6 +23,7 @@ class Reports {
     std::size_t k;
     Vec3 velocity;  ///< as reported
     BoundViolation limits;
+    double acceleration_limit;  ///< of the body from now on
   };
 
   /// Sets the probe to call from now on, and the name of the API call, for error messages. The probe must
@@ -57,6 +58,7 @@ class Reports {
   void apply_all(Bodies& bodies, double time, PoolLease& lease);
   void apply(Bodies& bodies, double time, std::size_t from, std::size_t to,
              std::vector<Violation>& broken) const;
+  static void adopt(const Bodies& bodies, Body& body, const Bound& before, const Bound& after, double radius);
   std::optional<BoundViolation> turn(RigidRecord& record, const Body& body, const Bound& before,
                                      std::size_t k) const;
 

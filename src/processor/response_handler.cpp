@@ -3,8 +3,20 @@
 #include <span>
 
 #include "bodies/validation.hpp"
+#include "space/space.hpp"
 
 namespace kinesphere {
+namespace {
+
+/// Returns the position from which a motion goes on. In periodic space, one half as far away as positions
+/// may be elsewhere is wrapped into the box: so a motion that is never asked to wrap loses no precision,
+/// however long a run is.
+Vec3 origin_of(const Vec3& position, const WorldDefinition& world) {
+  if (!world.periodic.any() || fits(position, 0.5 * coordinate_limit(world))) return position;
+  return Space(world).wrapped(position).position;
+}
+
+}  // namespace
 
 Result<void> apply_response(MotionSource& source, const WorldDefinition& world, const Event& event,
                             const Response& answer) {
@@ -23,7 +35,7 @@ Result<void> apply_response(MotionSource& source, const WorldDefinition& world, 
   for (std::size_t k = 0; k < count; ++k)
     if (auto valid = check_report(states[k], ids[k], event.time, world, "run"); !valid) return valid;
   const auto set = [&](std::size_t k) {
-    source.set_origin(ids[k], {event.time, {states[k].position, velocities[k]}});
+    source.set_origin(ids[k], {event.time, {origin_of(states[k].position, world), velocities[k]}});
   };
   if (count == 1) {
     set(0);

@@ -66,7 +66,8 @@ TEST(Fields, AreReadAsTheyWereWritten) {
                                    .contact_tolerance = 1e-3,
                                    .zeno_interval = 0.5,
                                    .start_time = 6.0,
-                                   .spread_window_starts = true});
+                                   .spread_window_starts = true,
+                                   .adopt_observed_limits = false});
 }
 
 TEST(Fields, LeaveOutTheWorldOfAnId) {

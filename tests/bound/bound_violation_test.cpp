@@ -227,5 +227,45 @@ TEST(BoundViolations, AllowForTheRoundingOfAPlannedVelocity) {
   EXPECT_TRUE(bound_violation(before, after, 0.0, {}, 1e-6));
 }
 
+constexpr double eps = 1e-3;
+
+/// The acceleration that a report at s = 0.5 proves of a body with these limits, at the origin at time 0.
+double observed(const BodyDefinition& promise, const State& report, double s = 0.5) {
+  return observed_acceleration(bound_of(promise, {promise.position, promise.velocity}, 0.0),
+                               bound_of(promise, report, s), promise.radius, eps);
+}
+
+TEST(ObservedAcceleration, IsThatOfAConstantForceBeyondThePlan) {
+  const auto falls = [](const BodyDefinition& promise, const Vec3& a, double s) {
+    return observed(promise,
+                    {promise.position + (promise.velocity + a * (0.5 * s)) * s, promise.velocity + a * s}, s);
+  };
+  for (const double s : {1.0 / 64.0, 1.0, 100.0}) {
+    EXPECT_NEAR(falls({.radius = 1.0}, {0, 0, -9.8}, s), (1.0 + 0x1p-6) * 9.8, 1e-9);
+    EXPECT_NEAR(falls({.radius = 1.0, .velocity = {3, 2, 1}}, {0, 0, -9.8}, s), (1.0 + 0x1p-6) * 9.8, 1e-9);
+    EXPECT_NEAR(falls({.planned_acceleration = {0, 0, -9.0}}, {0, 0, -9.8}, s), (1.0 + 0x1p-6) * 0.8, 1e-9);
+  }
+}
+
+TEST(ObservedAcceleration, IsNoneOfBodiesThatWereMovedOrOfNoise) {
+  EXPECT_EQ(observed({}, {{10, 0, 0}, {}}), 0.0) << "moved without a velocity";
+  EXPECT_EQ(observed({}, {{}, {10, 0, 0}}), 0.0) << "turned just now";
+  EXPECT_EQ(observed({}, {{-0.1, 0, 0}, {0.1, 0, 0}}), 0.0) << "place and velocity contradict each other";
+  EXPECT_EQ(observed({}, {{1, 0, 0}, {1, 0, 0}}, 0.0), 0.0) << "no time has passed";
+  EXPECT_EQ(observed({.position_error = 0.01, .velocity_error = 0.1}, {{0.06, 0, 0}, {0.19, 0, 0}}), 0.0)
+      << "within the errors";
+  const BodyDefinition noisy{.position_error = 0.01, .velocity_error = 0.1};
+  EXPECT_NEAR(observed(noisy, {{0.32, 0, 0}, {1.2, 0, 0}}), (1.0 + 0x1p-6) * 2.0, 1e-9);
+}
+
+/// The least of what place and velocity need, and a jump of the velocity takes a 16th of the tolerance at
+/// least.
+TEST(ObservedAcceleration, IsNotThatOfAJump) {
+  EXPECT_NEAR(observed({}, {{0.1, 0, 0}, {10, 0, 0}}), (1.0 + 0x1p-6) * 0.8, 1e-9);
+  EXPECT_NEAR(observed({}, {{100, 0, 0}, {1, 0, 0}}), (1.0 + 0x1p-6) * 2.0, 1e-9);
+  const double s = 1e-12;
+  EXPECT_NEAR(observed({}, {{1e-12, 0, 0}, {1e-3, 0, 0}}, s), (1.0 + 0x1p-6) * 8.0 * 1e-6 / eps, 1e-9);
+}
+
 }  // namespace
 }  // namespace kinesphere::bound_violation_test

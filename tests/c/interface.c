@@ -777,10 +777,64 @@ static void walls_with_a_filter(void) {
   CHECK_OK(ks_world_destroy(world));
 }
 
+/// Falls by 10 from rest.
+static int32_t falling(const ks_body_id* ids, size_t count, double time, ks_state* states, void* user) {
+  (void)ids, (void)user;
+  const ks_state state = {{0, 0, -5 * time * time}, {0, 0, -10 * time}};
+  for (size_t k = 0; k < count; ++k) states[k] = state;
+  return 0;
+}
+
+/// A limit that was forgotten: the event says the limit from then on. Records of programs that were compiled
+/// before it did are shorter, and nothing is written behind them.
+static void observed_limits(void) {
+  for (int32_t adopts = 0; adopts < 2; ++adopts) {
+    ks_world_definition definition = ks_default_world_definition();
+    definition.adopt_observed_limits = adopts;
+    ks_world world;
+    CHECK_OK(ks_world_create(&definition, &world));
+    ks_body_definition body = ks_default_body_definition();
+    ks_body_id id;
+    CHECK_OK(ks_world_add(world, &body, 1, &id));
+    ks_event event = ks_new_event();
+    CHECK_OK(ks_world_advance(world, 1, falling, NULL, &event));
+    CHECK(event.kind == KS_EVENT_BOUND_VIOLATION && event.struct_size == sizeof event);
+    CHECK(adopts ? event.acceleration_limit > 10 && event.acceleration_limit < 10.2
+                 : event.acceleration_limit == 0);
+    CHECK_OK(ks_world_destroy(world));
+  }
+  union {
+    ks_world_definition definition;
+    unsigned char bytes[sizeof(ks_world_definition)];
+  } old_definition;
+  memset(&old_definition, 0xa5, sizeof old_definition);
+  CHECK_OK(ks_world_definition_init(&old_definition.definition, 136));
+  CHECK(old_definition.definition.struct_size == 136 && old_definition.bytes[136] == 0xa5);
+  ks_world world;
+  CHECK_OK(ks_world_create(&old_definition.definition, &world));
+  ks_body_definition body = ks_default_body_definition();
+  ks_body_id id;
+  CHECK_OK(ks_world_add(world, &body, 1, &id));
+  union {
+    ks_event event;
+    unsigned char bytes[sizeof(ks_event)];
+  } old_event;
+  memset(&old_event, 0xa5, sizeof old_event);
+  old_event.event.struct_size = 392;
+  CHECK_OK(ks_world_advance(world, 1, falling, NULL, &old_event.event));
+  CHECK(old_event.event.kind == KS_EVENT_BOUND_VIOLATION && old_event.event.struct_size == 392);
+  for (size_t k = 392; k < sizeof old_event; ++k) CHECK(old_event.bytes[k] == 0xa5);
+  ks_body_view view = ks_new_body_view();
+  CHECK_OK(ks_world_body(world, id, &view));
+  CHECK(view.definition.acceleration_limit > 10);
+  CHECK_OK(ks_world_destroy(world));
+}
+
 /// A game moves a ball at 5 frames a unit of time, towards a wall, and takes its place back after each frame.
 static void frames(void) {
   ks_world_definition definition = ks_default_world_definition();
   CHECK(definition.spread_window_starts == 0);
+  CHECK(definition.adopt_observed_limits == 1);
   definition.has_box = 1;
   definition.box.upper = vec3(10, 10, 10);
   definition.spread_window_starts = 1;
@@ -951,6 +1005,7 @@ int main(void) {
   motions_and_runs();
   motions_and_probes();
   walls_with_a_filter();
+  observed_limits();
   frames();
   responses();
   names();

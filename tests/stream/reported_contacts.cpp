@@ -262,16 +262,65 @@ void ReportedContacts::settle_ends() {
   ends_.clear();
 }
 
-bool ReportedContacts::comes_within(BodyId id, bool certainly) const {
-  const TrueBody& body = truth_.at(id);
-  if (body.fixed) return false;
-  const auto [least, greatest] = truth_.largest_accelerations(id);
-  const double of_least = rule_.zeno_interval(least);
-  // The less a body accelerates, the longer is its interval, unless it does not accelerate at all.
-  const double longest = least > 0.0 || greatest == 0.0 ? of_least : infinity;
-  // A world stores the interval with few digits: near its end either mark is correct.
-  const double shortest = (1.0 - 0x1p-20) * std::min(of_least, rule_.zeno_interval(greatest));
-  return truth_.time() - body.last_contact < (certainly ? shortest : longest);
+Range ReportedContacts::relative_accelerations(const Contact& contact) const {
+  Range found{0.0, 0.0};
+  Vec3 planned;
+  bool is_vague = false;
+  const auto add = [&](BodyId id, double sign) {
+    const TrueBody& body = truth_.at(id);
+    if (body.fixed) return;
+    // A body that sleeps accelerates again as soon as the contact wakes it.
+    is_vague = is_vague || body.resting || body.rigid;
+    found.greatest += truth_.largest_accelerations(id).greatest;
+    found.least += body.definition.acceleration_limit;
+    planned += body.definition.planned_acceleration * sign;
+  };
+  add(contact.first, 1.0);
+  if (contact.wall == Wall::none) add(contact.second, -1.0);
+  if (is_vague) return {0.0, found.greatest};
+  found.least += norm(planned);
+  return {(1.0 - 0x1p-20) * found.least, (1.0 + 0x1p-20) * found.least};
+}
+
+ReportedContacts::Followed ReportedContacts::followed_by(const Contact& contact, bool certainly) const {
+  Followed found;
+  for (const BodyId id : {contact.first, contact.second}) {
+    if (id == no_body || truth_.at(id).fixed) continue;
+    const TrueBody& body = truth_.at(id);
+    const auto [least, greatest] = truth_.largest_accelerations(id);
+    const double of_least = rule_.zeno_interval(least);
+    // The less a body accelerates, the longer is its interval, unless it does not accelerate at all.
+    const double longest = least > 0.0 || greatest == 0.0 ? of_least : infinity;
+    // A world stores the interval with few digits: near its end either mark is correct.
+    const double shortest = (1.0 - 0x1p-20) * std::min(of_least, rule_.zeno_interval(greatest));
+    const double since = truth_.time() - body.last_contact;
+    if (!(since < (certainly ? shortest : longest))) continue;
+    found.passed = std::min(found.passed, since);
+    found.pressure = std::max(found.pressure, certainly ? body.pressure.least : body.pressure.greatest);
+  }
+  return found;
+}
+
+bool ReportedContacts::is_repeated(const Event& begin, const Contact& contact, bool certainly) const {
+  const Followed last = followed_by(contact, certainly);
+  if (last.passed < rule_.least_zeno_interval()) return true;
+  const Range own = relative_accelerations(contact);
+  const double pressure = std::max(last.pressure, certainly ? own.least : own.greatest);
+  if (!(last.passed < infinity) || !(pressure > 0.0)) return false;
+  const double speed = (certainly ? 1.0 - 0x1p-20 : 1.0 + 0x1p-20) * rule_.zeno_speed(pressure);
+  return last.passed == 0.0 || begin.approach_speed < speed;
+}
+
+void ReportedContacts::note_begin(const Contact& contact) {
+  const Range own = relative_accelerations(contact);
+  // A world stores the pressure with few digits.
+  const Range pressure{std::max((1.0 - 0x1p-4) * own.least, followed_by(contact, true).pressure),
+                       std::max(own.greatest, followed_by(contact, false).pressure)};
+  for (const BodyId id : {contact.first, contact.second}) {
+    if (id == no_body) continue;
+    truth_.at(id).last_contact = truth_.time();
+    truth_.at(id).pressure = pressure;
+  }
 }
 
 /// In periodic space a state may be reported in another image, and rounded.
@@ -327,8 +376,7 @@ void ReportedContacts::begin(const Event& event, const Contact& contact) {
       (pair && !same_spin(event.second_angular_velocity, contact.second)))
     fail("a begin with wrong angular velocities", contact, gap);
   const auto repeats = [&](bool certainly) {
-    return !contact.sensed &&
-           (comes_within(contact.first, certainly) || (pair && comes_within(contact.second, certainly)));
+    return !contact.sensed && is_repeated(event, contact, certainly);
   };
   if (event.repeated ? !repeats(false) : repeats(true))
     fail("a begin wrongly marked as repeated", contact, gap);
@@ -339,10 +387,7 @@ void ReportedContacts::begin(const Event& event, const Contact& contact) {
                std::to_string(least) + " to " + std::to_string(greatest),
            contact, gap);
   }
-  if (!contact.sensed) {
-    truth_.at(contact.first).last_contact = truth_.time();
-    if (pair) truth_.at(contact.second).last_contact = truth_.time();
-  }
+  if (!contact.sensed) note_begin(contact);
   ReportedState& state = reported(contact);
   const ContactEvents events = wanted(contact);
   const bool ends = wants_ends(events);

@@ -90,8 +90,18 @@ class ReportedContacts {
   bool take_end(const Event& event, const Contact& contact);
   void begin(const Event& event, const Contact& contact);
   void end(const Event& event, const Contact& contact);
-  /// Returns true if the body's last contact may have been, or certainly was, within its Zeno interval.
-  bool comes_within(BodyId id, bool certainly) const;
+  /// What the last contacts of two bodies say, if they were within the Zeno intervals of these.
+  struct Followed {
+    double passed = std::numeric_limits<double>::infinity();  ///< time since the later one
+    double pressure = 0.0;  ///< acceleration that pressed one of them upon its partner
+  };
+  /// Returns what certainly holds of the last contacts of the two, or what may hold.
+  Followed followed_by(const Contact& contact, bool certainly) const;
+  /// Returns true if the begin must be marked as repeated, or if it may.
+  bool is_repeated(const Event& begin, const Contact& contact, bool certainly) const;
+  /// Returns limits of the acceleration that presses the two upon each other, as the world may know it.
+  Range relative_accelerations(const Contact& contact) const;
+  void note_begin(const Contact& contact);
   std::vector<Ball> ways_until(double time) const;
   bool may_meet(const Ball& a, const Ball& b) const;
   bool any_reported(const Contact& contact) const;

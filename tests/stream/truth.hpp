@@ -55,6 +55,7 @@ struct TrueBody {
   std::optional<Shape> shape{};  ///< shape of a static body that is no ball
   std::optional<TrueRigid> rigid{};
   double last_contact = -std::numeric_limits<double>::infinity();  ///< according to events
+  Range pressure{0.0, 0.0};  ///< limits of the acceleration that pressed it upon its partner then
 
   bool present() const { return alive && enabled; }
 };

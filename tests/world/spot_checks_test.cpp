@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 
@@ -206,11 +207,77 @@ TEST(SpotChecks, FindWhoTurnsLaterAmongMany) {
   }
 }
 
+/// Balls that fall on a floor, and whose limits were left at 0, from 10 up in rows. All are checked within a
+/// 64th, whatever their number. From then on their limits are those of gravity, so each touches the floor.
+TEST(SpotChecks, FindAllWhoFall) {
+  constexpr double g = 9.8;
+  for (const std::size_t balls : {1u, 33u, 1000u}) {
+    Playground p({.contact_tolerance = 1e-3});
+    p.world.add_static({.shape = HalfSpace{{0, 0, 1}, 0}}).value();
+    std::map<BodyId, double> touches;
+    for (std::size_t k = 0; k < balls; ++k) {
+      const double height = 10.0 + static_cast<double>(k % 7);
+      const Vec3 place{3.0 * static_cast<double>(k % 32), 3.0 * static_cast<double>(k / 32), height};
+      touches[p.add({.radius = 0.5, .position = place}, Vec3{0, 0, -g})] =
+          std::sqrt(2.0 * (height - 0.5) / g);
+    }
+    std::size_t violations = 0, contacts = 0;
+    for (int k = 1; k <= 110; ++k)
+      for (const Event& event : p.run(k * frame)) {
+        if (event.kind == EventKind::bound_violation) {
+          ++violations;
+          EXPECT_LE(event.time, 1.0 / 64.0);
+          EXPECT_GE(event.acceleration_limit, g);
+          EXPECT_LE(event.acceleration_limit, 1.02 * g);
+          EXPECT_EQ(p.world.body(event.first).value().definition.acceleration_limit,
+                    event.acceleration_limit);
+        } else if (event.kind == EventKind::contact_begin) {
+          ++contacts;
+          const BodyId ball = event.first_traits.is_static ? event.second : event.first;
+          EXPECT_NEAR(event.time, touches[ball], 1e-3);
+          EXPECT_GE(event.gap, -1e-3);
+        }
+      }
+    EXPECT_EQ(violations, balls);
+    EXPECT_EQ(contacts, balls);
+  }
+}
+
+TEST(SpotChecks, LeaveTheLimitThatWasPromisedIfTheyShould) {
+  Playground p({.adopt_observed_limits = false});
+  const BodyId ball = p.add({.radius = 0.5, .position = {0, 0, 10}}, Vec3{0, 0, -9.8});
+  const auto events = p.run(1.0);
+  ASSERT_FALSE(events.empty());
+  for (const Event& event : events) {
+    EXPECT_EQ(event.kind, EventKind::bound_violation);
+    EXPECT_EQ(event.acceleration_limit, 0.0);
+  }
+  EXPECT_EQ(p.world.body(ball).value().definition.acceleration_limit, 0.0);
+}
+
+/// Bodies that come in each frame are checked as soon as those that came together.
+TEST(SpotChecks, FindWhoFallsAmongBodiesThatArriveAllTheTime) {
+  for (const double interval : {1.0 / 60.0, 1.0 / 500.0}) {
+    Playground p({.contact_tolerance = 1e-3});
+    std::map<BodyId, double> added, found;
+    for (int k = 0; k < 100; ++k) {
+      const double now = k * interval;
+      for (const Event& event : p.run(now)) found.emplace(event.first, event.time);
+      added[p.add({.radius = 0.5, .position = {3.0 * k, 0, 0}}, Vec3{0, 0, -9.8})] = now;
+    }
+    for (const Event& event : p.run(100 * interval + 0.1)) found.emplace(event.first, event.time);
+    EXPECT_EQ(found.size(), added.size());
+    for (const auto& [ball, time] : found) EXPECT_LE(time - added[ball], 1.5 / 64.0) << ball;
+    EXPECT_LT(p.world.counters().probes, 600u);
+  }
+}
+
 /// In the long run, and where bodies are new.
 TEST(SpotChecks, AreFew) {
   Sky sky(300, {.contact_tolerance = 1e-3});
   sky.run(1.0);
-  EXPECT_LE(sky.world.counters().probes, 32u * 6u);
+  // One each within 1/64, more of the first bodies, and few where windows start.
+  EXPECT_LE(sky.world.counters().probes, 300u + 32u * 6u);
   const Counters before = sky.world.counters();
   sky.run(1e7);
   const Counters& after = sky.world.counters();

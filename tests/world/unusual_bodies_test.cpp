@@ -62,7 +62,8 @@ TEST(UnusualBodies, StaticWorldCostsNothing) {
   Playground p;
   for (int k = 0; k < 100; ++k) p.add({.radius = 0.4, .position = {1.0 * (k % 10), 1.0 * (k / 10), 0}});
   EXPECT_TRUE(p.run(1e6).empty());
-  EXPECT_LT(p.world.counters().probes, 500u);
+  // Spot checks: one of each body whenever the time has quadrupled.
+  EXPECT_LT(p.world.counters().probes, 100u * 14u);
   EXPECT_TRUE(is_clean(p.world));
 }
 

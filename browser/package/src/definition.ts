@@ -41,6 +41,8 @@ export interface WorldDefinition {
   startTime?: number;
   /** For games: frames of equal length cost about the same, and more in total. Has no effect in periodic space. */
   spreadWindowStarts?: boolean;
+  /** A report that breaks the promise of its body raises the body's accelerationLimit; by default true. */
+  adoptObservedLimits?: boolean;
 }
 
 /** A definition with all defaults filled in. */
@@ -49,7 +51,7 @@ export type Definition = Required<Omit<WorldDefinition, "box" | "wallFilter">> &
 const definitionKeys: Keys<WorldDefinition> = {
   box: true, periodic: true, wallFilter: true, dimensions: "number", contactTolerance: "number",
   separationDistance: "number", contacts: true, allowOverlap: "boolean", zenoInterval: "number", startTime: "number",
-  spreadWindowStarts: "boolean",
+  spreadWindowStarts: "boolean", adoptObservedLimits: "boolean",
 };
 const periodicKeys: Keys<NonNullable<WorldDefinition["periodic"]>> = { x: "boolean", y: "boolean", z: "boolean" };
 export const boxKeys: Keys<Box> = { lower: true, upper: true };
@@ -81,6 +83,7 @@ export function definitionNumbers(definition: WorldDefinition): number[] {
     definition.spreadWindowStarts ? 1 : 0,
     wallFilter === undefined ? 0 : 1,
     ...filterNumbers(wallFilter ?? {}, "World"),
+    definition.adoptObservedLimits === false ? 0 : 1,
   ];
 }
 
@@ -105,6 +108,7 @@ export function definitionAt(module: Module, address: number): Definition {
     zenoInterval: numbers[15]!,
     startTime: numbers[16]!,
     spreadWindowStarts: numbers[17] !== 0,
+    adoptObservedLimits: numbers[22] !== 0,
     ...(numbers[18] === 0 ? {} : { wallFilter: filterFrom(numbers, 19) }),
   };
 }

@@ -34,7 +34,7 @@ function traitsOf(bits: number): BodyTraits {
 }
 
 /** Size of an event in numbers; see `put` in browser/module/exchange.cpp. */
-export const eventNumbers = 52;
+export const eventNumbers = 53;
 
 /** An event. It reads from numbers that never change. */
 export class Event {
@@ -71,6 +71,8 @@ export class Event {
   /** For violations: how far the report lies outside the limits of the body. */
   get positionExcess(): number { return this.numbers[28]!; }
   get velocityExcess(): number { return this.numbers[29]!; }
+  /** For violations: the acceleration limit that the body has from now on (length / time^2). */
+  get accelerationLimit(): number { return this.numbers[52]!; }
   /** For sensor events: the crossed distance. */
   get distance(): number { return this.numbers[30]!; }
   /** The userData of the bodies. Exact up to 2^53. */

@@ -83,6 +83,8 @@ export interface Counters {
   certificates: number;
   zenoSteps: number;
   repeatedContacts: number;
+  /** Contacts that are `jammed`: a bounce parts their bodies without speed, so energy is lost. */
+  jammedContacts: number;
 }
 
 const reasons = [
@@ -232,6 +234,7 @@ export class WorldView extends Owned {
       certificates: numbers[after + 9]!,
       zenoSteps: numbers[after + 10]!,
       repeatedContacts: numbers[after + 11]!,
+      jammedContacts: numbers[after + 12]!,
     };
   }
   /**
@@ -403,6 +406,7 @@ export class World extends WorldView {
   /** An event at which the pair filter threw: the next advance returns it. */
   #kept: Event | null = null;
   #warnedOfHops = false;
+  #warnedOfJams = false;
 
   /** Throws KinesphereError for an invalid definition. */
   constructor(definition?: WorldDefinition);
@@ -768,6 +772,7 @@ export class World extends WorldView {
       sink?.(events);
       if (failure !== null) throw failure.value;
       if ((bounces.restitution ?? 1) < 1 && !bounces.restingSpeed) this.warnOfHops();
+      if (responding !== 0 && !bounces.restingSpeed) this.warnOfJams();
       return events;
     });
   }
@@ -801,6 +806,14 @@ export class World extends WorldView {
     this.#warnedOfHops = true;
     console.warn(`run: ${repeatedContacts} of ${contacts} contacts followed another one at once, as those of bodies that ` +
                  "lie upon each other, and took no energy: respond: { restitution, restingSpeed } lets stacks settle");
+  }
+  /** Warns once of contacts without room, in which bodies lose their energy. */
+  private warnOfJams(): void {
+    const { jammedContacts } = this.counters;
+    if (this.#warnedOfJams || jammedContacts === 0) return;
+    this.#warnedOfJams = true;
+    console.warn(`run: ${jammedContacts} contacts were jammed: their bodies had no room beyond the contactTolerance, and ` +
+                 "parted without speed, whatever the restitution: a contactTolerance below the gaps keeps their energy");
   }
   private change(name: string, body: BodyId, numbers?: number[]): void {
     const module = theModule();

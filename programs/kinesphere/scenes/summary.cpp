@@ -73,6 +73,10 @@ void add_events(Summary& summary, const SimulationResult& result, const EventRow
   if (counters.repeated_contacts > 0) {
     summary.row("repeated", grouped(counters.repeated_contacts), "contacts within the Zeno interval");
   }
+  if (counters.jammed_contacts > 0) {
+    summary.row("jammed", grouped(counters.jammed_contacts),
+                "contacts without room, which lose energy: choose a smaller tolerance");
+  }
   const std::uint64_t guards = counters.count(EventKind::zeno_guard);
   if (guards + counters.zeno_steps > 0 || rows.zeno_guard) {
     summary.row("zeno guard", grouped(guards),
