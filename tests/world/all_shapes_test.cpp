@@ -326,6 +326,10 @@ class AllShapes : public testing::TestWithParam<Kind> {
         kind.answer == Answer::bounce ? bounce(event, restitution) : settle(event, restitution, resting);
     turn(event.first, event.time, after.first_velocity, after.first_angular_velocity);
     turn(event.second, event.time, after.second_velocity, after.second_angular_velocity);
+    // A body that may turn no faster may go on as it came: such a pair is let through.
+    if (!kind.is_exact &&
+        std::max(norm(after.first_angular_velocity), norm(after.second_angular_velocity)) > 0.99 * most_spin)
+      excused.insert({event.first, event.second});
   }
   void turn(BodyId id, double time, const Vec3& velocity, const Vec3& spin) {
     Thing& thing = things.at(id);
