@@ -360,8 +360,8 @@ class World {
   /// start_recording() and stop_recording() fail with run_in_progress.
   ///
   /// The workers (workers.hpp) share the work, with the same outcome. With several workers, events are
-  /// delivered in batches. Events are processed one at a time while bodies sleep, a pair filter is set, or
-  /// the world is recorded or profiled.
+  /// delivered in batches. Events are processed one at a time while bodies sleep, or the world is recorded or
+  /// profiled. While a pair filter is set, the workers are not used at all: it is called on this thread.
   ///
   /// Errors: as advance(); run_in_progress; null_callback; workers_busy; for a velocity or an action in a
   /// response, those of set_velocity() or sleep() and, for the second body of an event without one,

@@ -320,7 +320,8 @@ void bind_advancing(MonitorClass& monitor) {
       .def("advance", advance_monitor, py::arg("until"), py::arg("poll") = py::none(),
            R"(Goes on to the next event, at most to time `until`: the MonitorEvent, or None at `until`.
 
-Events of one time come in the order of their kind, ids and level.
+Events of one time come in the order of their kind, ids and level; an end counts as the kind that it ends, and
+what begins and ends for the same tracks keeps its order.
 poll: a function f(ids, time) for tracks whose reports can be requested. The monitor calls it when a pair is
 about to turn undecided, with ids of shape (n,). It returns a dict of arguments of report(), with a row for each
 id; with "ids" only for these; or None if nobody has answered. What it raises comes out of this call, which may

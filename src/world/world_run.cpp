@@ -41,9 +41,14 @@ Result<void> check_argument(const Event& event, std::string_view argument, Check
 /// One call of World::run: repeated work, each time followed by delivering the resulting events to the sink.
 class World::Run final : private ResponseHandler {
  public:
-  /// Without respond_by(), events get no response. The arguments must outlive the run.
+  /// Without respond_by(), events get no response. The arguments must outlive the run. A pair filter is the
+  /// caller's code, which need not be thread-safe: while there is one, the run uses no workers.
   Run(World& world, double until, const Probe& probe, const EventFn& sink, Workers* workers)
-      : world_(world), until_(until), probe_(probe), on_event_(sink), lease_(workers) {}
+      : world_(world),
+        until_(until),
+        probe_(probe),
+        on_event_(sink),
+        lease_(world.engine_->bodies().filters.has_pair_filter() ? nullptr : workers) {}
   void respond_by(MotionSource& source, const ResponseFn& respond) {
     source_ = &source;
     respond_ = &respond;

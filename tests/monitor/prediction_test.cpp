@@ -67,6 +67,21 @@ TEST(Predictions, TellAnApproachAheadByItsLookAheadTime) {
   EXPECT_TRUE(monitor.predicted_pairs().empty());
 }
 
+/// The first report ends the prediction, and the second one at the same time begins it anew.
+TEST(Predictions, OfOneInstantAreToldInTheOrderInWhichTheyBecameTrue) {
+  Monitor monitor = Monitor::create(definition()).value();
+  monitor.report(1, at(0.0, {0, 0, 0}, {10, 0, 0})).value();
+  monitor.report(2, at(0.0, {300, 0, 0}, {-10, 0, 0})).value();
+  ASSERT_EQ(predictions_of(monitor.events(1.0)).size(), 1u);
+  monitor.report(1, at(1.0, {10, 0, 0}, {0, 20, 0})).value();
+  monitor.report(2, at(1.0, {290, 0, 0}, {-19.6, 20, 0})).value();
+  const auto events = predictions_of(monitor.events(1.0));
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(events[0].kind, MonitorEventKind::prediction_ended);
+  EXPECT_EQ(events[1].kind, MonitorEventKind::predicted);
+  EXPECT_EQ(monitor.predicted_pairs().size(), 1u);
+}
+
 TEST(Predictions, AreThoseOfTheLatestReports) {
   Monitor monitor = Monitor::create(definition()).value();
   monitor.report(1, at(0.0, {0, 0, 0})).value();

@@ -2,12 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <atomic>
 #include <set>
 #include <stdexcept>
+#include <thread>
 
 #include "kinesphere/certificates.hpp"
 #include "kinesphere/inspection.hpp"
 #include "kinesphere/queries.hpp"
+#include "kinesphere/random.hpp"
+#include "support/eager_workers.hpp"
 #include "support/playground.hpp"
 
 namespace kinesphere::filter_test {
@@ -304,6 +308,28 @@ TEST(PairFilterDeathTest, EndsTheProgramByWhatItThrows) {
         }
       },
       "no such team");
+}
+
+TEST(PairFilter, IsCalledOnTheThreadThatRuns) {
+  Playground p;
+  Random random = Random::at(14, 0, 0);
+  for (int k = 0; k < 3000; ++k)
+    p.add({.radius = 0.3, .position = 15.0 * random.point_in_ball(), .velocity = random.point_in_ball()});
+  std::atomic<int> elsewhere = 0;
+  std::atomic<int> here = 0;
+  p.world
+      .set_pair_filter([&, own = std::this_thread::get_id()](BodyId, BodyId) {
+        ++(std::this_thread::get_id() == own ? here : elsewhere);
+        return true;
+      })
+      .value();
+  Workers workers = eager_workers(4).value();
+  p.world
+      .run(
+          0.5, p.probe(), [](const Event&) {}, &workers)
+      .value();
+  EXPECT_GT(here, 1000);
+  EXPECT_EQ(elsewhere, 0);
 }
 
 TEST(PairFilter, OfOneWorldMayAskAnother) {

@@ -26,11 +26,25 @@ std::vector<TrackClass> classes_of(const MonitorDefinition& definition) {
   return classes;
 }
 
+/// Returns the kind by which events of one time are ordered: that of a begin for its end, too.
+MonitorEventKind kind_that_begins(MonitorEventKind kind) {
+  switch (kind) {
+    case MonitorEventKind::prediction_ended:
+      return MonitorEventKind::predicted;
+    case MonitorEventKind::resolved:
+      return MonitorEventKind::contradiction;
+    case MonitorEventKind::resumed:
+      return MonitorEventKind::stale;
+    default:
+      return kind;
+  }
+}
+
 /// Order of the events of one time. A track that ends or starts anew does so before all that follows for its
-/// id.
+/// id. What begins and ends for the same tracks keeps the order in which it did.
 auto order_of(const MonitorEvent& event) {
   const bool is_end = event.kind == MonitorEventKind::dropped || event.kind == MonitorEventKind::reclassified;
-  return std::tuple(!is_end, event.kind, event.first, event.second, event.level);
+  return std::tuple(!is_end, kind_that_begins(event.kind), event.first, event.second, event.level);
 }
 
 }  // namespace

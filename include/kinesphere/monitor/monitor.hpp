@@ -251,7 +251,8 @@ class Monitor {
   Result<void> remove(TrackId id);
 
   /// Advances to the next event, at most to time `until`. Returns the event, with time() at its time, or
-  /// nothing, with time() == until. Events of one time come in the order of their kind, ids and level.
+  /// nothing, with time() == until. Events of one time come in the order of their kind, ids and level; an end
+  /// counts as the kind that it ends, and what begins and ends for the same tracks keeps its order.
   /// Errors: time_backwards, not_finite, or out_of_range beyond limits::largest_time for `until`.
   Result<std::optional<MonitorEvent>> advance(double until);
   /// Advances as advance(until) does, and requests reports through `poll`: for a pair that is about to turn
