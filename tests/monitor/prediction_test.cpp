@@ -69,7 +69,9 @@ TEST(Predictions, TellAnApproachAheadByItsLookAheadTime) {
 
 /// The first report ends the prediction, and the second one at the same time begins it anew.
 TEST(Predictions, OfOneInstantAreToldInTheOrderInWhichTheyBecameTrue) {
-  Monitor monitor = Monitor::create(definition()).value();
+  MonitorDefinition agile = definition();
+  agile.classes[0].acceleration_limit = 50.0;
+  Monitor monitor = Monitor::create(agile).value();
   monitor.report(1, at(0.0, {0, 0, 0}, {10, 0, 0})).value();
   monitor.report(2, at(0.0, {300, 0, 0}, {-10, 0, 0})).value();
   ASSERT_EQ(predictions_of(monitor.events(1.0)).size(), 1u);
