@@ -87,9 +87,9 @@ class ContactRule {
   double zeno_interval(double acceleration) const;
   /// Returns the interval of the world's definition (time), within which contacts of any speed are repeated.
   double least_zeno_interval() const { return zeno_interval_; }
-  /// Returns the approach speed (length / time) below which a contact may be one of two that are pressed upon
-  /// each other with this acceleration: twice the speed after a fall through the tolerance and the guarded
-  /// gap below it, sqrt(4 tolerance acceleration), and so above that of each hop within the tolerance.
+  /// Returns an approach speed (length / time) above that of each hop within the tolerance, of two that are
+  /// pressed upon each other with this acceleration: the fall of zeno_interval() ends with sqrt(3 tolerance
+  /// acceleration), and this is 4 sqrt(tolerance acceleration).
   double zeno_speed(double acceleration) const;
 
  private:

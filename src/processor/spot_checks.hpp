@@ -21,7 +21,7 @@ namespace kinesphere {
 class SpotChecks {
  public:
   /// Bodies with names below this, the first bodies, are checked at next() however they move. All others that
-  /// move wait for turn(), which costs a gas less than a hundredth of its instructions.
+  /// move are checked there once, after their arrival, and then wait for turn(), which keeps gases cheap.
   static constexpr std::uint32_t first_names = 32;
   /// Each body that moves is checked at the start of one of so many main windows.
   static constexpr std::uint32_t windows_between = 32;

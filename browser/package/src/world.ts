@@ -772,7 +772,7 @@ export class World extends WorldView {
       sink?.(events);
       if (failure !== null) throw failure.value;
       if ((bounces.restitution ?? 1) < 1 && !bounces.restingSpeed) this.warnOfHops();
-      if (responding !== 0 && !bounces.restingSpeed) this.warnOfJams();
+      if (options.respond !== undefined && !bounces.restingSpeed) this.warnOfJams();
       return events;
     });
   }
