@@ -118,6 +118,7 @@ double ContactPredictor<Partner>::least_check(double time, double gap, double gu
   return least;
 }
 
+/// Evaluates earliest_sinking() with the radii as they change. Precondition: the pair has several points.
 template <class Partner>
 double ContactPredictor<Partner>::earliest_sinking_below(const Sinking& sinking, double until) const {
   if constexpr (is_rigid_pair<Partner>) {
@@ -136,8 +137,8 @@ double ContactPredictor<Partner>::earliest_sinking_below(const Sinking& sinking,
   }
 }
 
-/// Returns a time before which no check is needed: the next that there is or, of several points within the
-/// tolerance, that at which the fastest of them can have gone a 64th of the tolerance.
+/// Returns the earliest time of a next check: just after now or, for several points within the tolerance,
+/// when the fastest of them can have gone a 64th of the tolerance.
 template <class Partner>
 double ContactPredictor<Partner>::soonest_check(double gap, const RelativeLimits& limits) const {
   if constexpr (!has_several_points<Partner>) return just_after(now_);

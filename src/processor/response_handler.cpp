@@ -8,9 +8,9 @@
 namespace kinesphere {
 namespace {
 
-/// Returns the position from which a motion goes on. In periodic space, one half as far away as positions
-/// may be elsewhere is wrapped into the box: so a motion that is never asked to wrap loses no precision,
-/// however long a run is.
+/// Returns the position from which a motion goes on. In periodic space a position beyond half the coordinate
+/// limit of other axes is wrapped into the box, so that a long run loses no precision. Nearer ones stay as
+/// they are, with the same bits as in a shorter run.
 Vec3 origin_of(const Vec3& position, const WorldDefinition& world) {
   if (!world.periodic.any() || fits(position, 0.5 * coordinate_limit(world))) return position;
   return Space(world).wrapped(position).position;

@@ -116,44 +116,40 @@ TEST_F(RigidCertificates, HoldBesideShapesAtRest) {
   });
 }
 
+/// Checks a thing beside a shape that a random body carries. `gap_to(pose)` is the gap to the shape at rest.
+template <class Solid, class Thing, class Pose, class Gap>
+void expect_certain_beside_carried(const Solid& solid, double radius, const Thing& thing, Pose pose,
+                                   Random& random, Gap gap_to) {
+  const Bound carrier{.time = now - random.uniform(),
+                      .position = 2.0 * random.point_in_ball(),
+                      .velocity = random.point_in_ball(),
+                      .radius = radius,
+                      .acceleration_limit = random.uniform()};
+  const Vec3 push = random.point_in_ball();
+  const auto gap = [&](double time) {
+    const double s = time - carrier.time;
+    RigidPose seen = pose(time);
+    seen.position -= carrier.centre_at(time) + push * (0.5 * carrier.acceleration_limit * s * s);
+    return gap_to(seen);
+  };
+  expect_certain(RigidPair<CarriedShape<Solid>>{thing.extent, {solid, carrier, radius}}, gap, random);
+}
+
 TEST_F(RigidCertificates, HoldBesideCarriedShapes) {
   for_each_thing(2, [](const Thing& thing, auto pose, Random& random) {
     const Vec3 lower = -0.2 * random.unit_vector();
     const Box box{{-std::abs(lower.x), -std::abs(lower.y), -std::abs(lower.z)}, {0.3, 0.2, 0.1}};
     const double radius = std::max(norm(box.lower), norm(box.upper)) * (1.0 + 1e-9);
-    const Bound carrier{.time = now - random.uniform(),
-                        .position = 2.0 * random.point_in_ball(),
-                        .velocity = random.point_in_ball(),
-                        .radius = radius,
-                        .acceleration_limit = random.uniform()};
-    const Vec3 push = random.point_in_ball();
-    const auto gap = [&](double time) {
-      const double s = time - carrier.time;
-      RigidPose seen = pose(time);
-      seen.position -= carrier.centre_at(time) + push * (0.5 * carrier.acceleration_limit * s * s);
-      return nearest_parts(seen, box).gap;
-    };
-    expect_certain(RigidPair<CarriedShape<Box>>{thing.extent, {box, carrier, radius}}, gap, random);
+    expect_certain_beside_carried(box, radius, thing, pose, random,
+                                  [&](const RigidPose& seen) { return nearest_parts(seen, box).gap; });
   });
 }
 
 TEST_F(RigidCertificates, HoldBesideCarriedMeshes) {
   for_each_thing(3, [](const Thing& thing, auto pose, Random& random) {
     const Mesh mesh = any_mesh(random, 1.0);
-    const double radius = 2.0 + 1e-9;
-    const Bound carrier{.time = now - random.uniform(),
-                        .position = 2.0 * random.point_in_ball(),
-                        .velocity = random.point_in_ball(),
-                        .radius = radius,
-                        .acceleration_limit = random.uniform()};
-    const Vec3 push = random.point_in_ball();
-    const auto gap = [&](double time) {
-      const double s = time - carrier.time;
-      RigidPose seen = pose(time);
-      seen.position -= carrier.centre_at(time) + push * (0.5 * carrier.acceleration_limit * s * s);
-      return gap_by_brute_force(seen, mesh);
-    };
-    expect_certain(RigidPair<CarriedShape<Mesh>>{thing.extent, {mesh, carrier, radius}}, gap, random);
+    expect_certain_beside_carried(mesh, 2.0 + 1e-9, thing, pose, random,
+                                  [&](const RigidPose& seen) { return gap_by_brute_force(seen, mesh); });
   });
 }
 
