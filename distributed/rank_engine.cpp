@@ -1,5 +1,6 @@
 #include "distributed/rank_engine.hpp"
 
+#include <array>
 #include <exception>
 #include <string>
 #include <utility>
@@ -176,10 +177,14 @@ Result<void> DistributedWorld::RankEngine::go(double until, const OrderedEventFn
 
 /// Checks exact bodies, as World::Engine::end_epoch() does.
 Result<void> DistributedWorld::RankEngine::spot_check(PoolLease& lease) {
-  const auto concerned = guarded([&] { return rank_.main.spot_check_due(rank_.own_bodies(), lease); });
-  if (auto agreed = agree(concerned ? Result<void>() : concerned.error()); !agreed) return agreed;
-  const bool any = communicator_.sum(std::uint64_t{*concerned}) > 0;
-  rank_.state.spot_checks.note_check(rank_.state.window_policy, time(), any);
+  const std::uint64_t& own_probes = rank_.main.work().counters.probes;
+  const std::uint64_t probes = communicator_.sum(own_probes);
+  const auto here = guarded([&] { return rank_.main.spot_check_due(rank_.own_bodies(), probes, lease); });
+  if (auto agreed = agree(here ? Result<void>() : here.error()); !agreed) return agreed;
+  std::array<std::uint64_t, 3> sums{here->any, here->moving, own_probes};
+  communicator_.sum(sums);
+  const SpotChecks::Census census{sums[0] > 0, sums[1], communicator_.least(here->least_time)};
+  rank_.state.spot_checks.note_check(rank_.state.window_policy, time(), census, sums[2]);
   return {};
 }
 

@@ -95,9 +95,10 @@ Result<void> World::Engine::end_epoch(PoolLease& lease) {
   if (state_.spot_checks.next() > time() || !main_.is_recertified()) return {};
   std::vector<std::uint32_t> all(bodies().numbers());
   std::iota(all.begin(), all.end(), 0u);
-  const auto concerned = main_.spot_check_due(all, lease);
-  if (!concerned) return concerned.error();
-  state_.spot_checks.note_check(state_.window_policy, time(), *concerned);
+  const std::uint64_t& probes = main_.work().counters.probes;
+  const auto census = main_.spot_check_due(all, probes, lease);
+  if (!census) return census.error();
+  state_.spot_checks.note_check(state_.window_policy, time(), *census, probes);
   return {};
 }
 

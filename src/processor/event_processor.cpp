@@ -117,19 +117,25 @@ Result<void> EventProcessor::spot_check(std::span<const std::uint32_t> numbers, 
   return {};
 }
 
-Result<bool> EventProcessor::spot_check_due(std::span<const std::uint32_t> numbers, PoolLease& lease) {
+Result<SpotChecks::Census> EventProcessor::spot_check_due(std::span<const std::uint32_t> numbers,
+                                                          std::uint64_t probes, PoolLease& lease) {
   const SpotChecks& checks = state_->spot_checks;
+  const bool counts = SpotChecks::counts(probes);
+  const bool may_choose_any = checks.may_choose_any(time_);
+  SpotChecks::Census census;
   std::vector<std::uint32_t> due;
-  for (const std::uint32_t number : checks.only_plans(time_) ? std::span<const std::uint32_t>() : numbers) {
+  for (const std::uint32_t number : numbers) {
     const Body& body = bodies()[number];
     const std::uint32_t name = bodies().table().name_of(number);
-    if (checks.may_be_due(body, name) && SpotChecks::may_check(body, time_) &&
-        checks.is_due(body, name, time_))
+    const bool may_be_due = may_choose_any || name < SpotChecks::first_names || body.bound.velocity == Vec3{};
+    if ((!may_be_due && !counts && census.any) || !SpotChecks::concerns(body)) continue;
+    census.any = true;
+    if (counts) SpotChecks::count(census, body);
+    if (may_be_due && SpotChecks::may_check(body, time_) && checks.is_due(body, name, time_))
       due.push_back(number);
   }
   if (auto checked = spot_check(due, lease); !checked) return checked.error();
-  return std::any_of(numbers.begin(), numbers.end(),
-                     [this](std::uint32_t number) { return SpotChecks::concerns(bodies()[number]); });
+  return census;
 }
 
 void EventProcessor::invalidate(std::uint32_t number) {

@@ -148,9 +148,11 @@ class alignas(128) EventProcessor {
   /// Probes exact bodies, for which SpotChecks::may_check(). The reports change nothing, but a body whose
   /// report violates its bound becomes dirty, so that recertify() probes it.
   Result<void> spot_check(std::span<const std::uint32_t> numbers, PoolLease& lease);
-  /// Checks as above those of `numbers` that are due. Returns true if spot checks concern any of them, for
-  /// SpotChecks::note_check(). Precondition: SpotChecks::next() has come.
-  Result<bool> spot_check_due(std::span<const std::uint32_t> numbers, PoolLease& lease);
+  /// Checks as above those of `numbers` that are due. Returns those that spot checks concern, for
+  /// SpotChecks::note_check(). `probes`: all that the world has made. Precondition: SpotChecks::next() has
+  /// come.
+  Result<SpotChecks::Census> spot_check_due(std::span<const std::uint32_t> numbers, std::uint64_t probes,
+                                            PoolLease& lease);
 
   /// Starts the execution of a cluster at the start of its batch. Its initial work is certificates that are
   /// due, bodies to recertify first, and events that are known already.

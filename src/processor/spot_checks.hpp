@@ -25,6 +25,15 @@ class SpotChecks {
   static constexpr std::uint32_t first_names = 32;
   /// Each body that moves is checked at the start of one of so many main windows.
   static constexpr std::uint32_t windows_between = 32;
+  /// Those that move are also checked twice on each way of their radius, if the world then makes at least so
+  /// many other probes for each of these checks.
+  static constexpr std::uint64_t probes_between = 100;
+  /// The exact bodies among which are those to be checked.
+  struct Census {
+    bool any = false;
+    std::uint64_t moving = 0;
+    double least_time = infinity;  ///< in which one of them goes half its radius
+  };
 
   /// Returns true for a body whose state is known for ever if it keeps its promise and its velocity.
   static bool concerns(const Body& body) {
@@ -39,36 +48,55 @@ class SpotChecks {
   /// bodies that arrive all the time cost no more than a check in each first interval.
   void note_arrival(double time) {
     if (arrivals_.empty() || arrivals_.back() != time) arrivals_.push_back(time);
+    if (arrived_ == -infinity) began_ = time;
     arrived_ = time;
-    if (!(next_ > time && next_ <= time + first_)) next_ = time;
+    if (!(rarer_ > time && rarer_ <= time + first_)) rarer_ = time;
   }
   /// Returns when bodies are to be checked next that is_due() chooses among all.
-  double next() const { return next_; }
-  /// Notes that they were checked at `time`. `any`: this concerns any body.
-  void note_check(const WindowPolicy& policy, double time, bool any) {
+  double next() const { return std::min(rarer_, even_); }
+  /// Returns true if note_check() needs a complete census: the world has made enough probes for a check.
+  static bool counts(std::uint64_t probes) { return probes >= probes_between; }
+  /// Adds an exact body to the census.
+  static void count(Census& census, const Body& body) {
+    census.any = true;
+    const double speed = norm_one(body.bound.velocity) + norm_one(body.bound.planned_acceleration);
+    census.moving += speed > 0.0;
+    // Division only for those that are quicker than the others.
+    if (speed * census.least_time > 0.5 * body.radius) census.least_time = 0.5 * body.radius / speed;
+  }
+  /// Notes that they were checked at `time`, until which the world has made so many probes.
+  void note_check(const WindowPolicy& policy, double time, const Census& census, std::uint64_t probes) {
     const int rung = std::min(policy.is_chosen() ? policy.main_rung() : 0, 0) - 6;
     first_ = std::max(power_of_two(rung), 0x1p-40 * std::abs(time));
     std::erase_if(arrivals_, [&](double arrival) { return is_old(arrival, time); });
-    const double age = time - arrived_;
-    next_ = !any ? infinity : arrived_ + (is_old(arrived_, time) ? 4.0 * age : first_);
+    if (time >= rarer_) {
+      const double age = time - arrived_;
+      rarer_ = !census.any ? infinity : arrived_ + (is_old(arrived_, time) ? 4.0 * age : first_);
+    }
+    even_ = infinity;
+    if (counts(probes) && census.moving > 0) {
+      const double price = static_cast<double>(census.moving * probes_between);
+      const double affordable = (time - began_) * price / static_cast<double>(probes);
+      even_ = time + std::max({census.least_time, affordable, first_});
+    }
     checked_ = time;
   }
-  /// Returns true if a body of this name is to be checked at `time`: it is among those that have just
-  /// arrived, or it stands still or is one of the first bodies, has had no report since before the last
-  /// check, and the time since that report has doubled since then. Precondition: may_check().
+  /// Returns true if a body of this name is to be checked at `time`. Then it is among those that have just
+  /// arrived; or it moves, has had no report since the last check, and the world makes many probes; or it
+  /// stands still or is one of the first bodies, has had no report since before the last check, and the time
+  /// since that report has doubled since then. Precondition: may_check().
   bool is_due(const Body& body, std::uint32_t name, double time) const {
+    if (time == arrived_) return false;
     const double report = body.bound.time;
     if (!arrivals_.empty() && std::binary_search(arrivals_.begin(), arrivals_.end(), report))
       return is_old(report, time);
+    if (time >= even_ && report <= checked_) return true;
     if (name >= first_names && !body.stands_still()) return false;
     return checked_ > report && exponent_of(time - report) > exponent_of(checked_ - report);
   }
-  /// Returns true if next() came only for bodies that arrive at `time`: none of them is due yet.
-  bool only_plans(double time) const { return time == arrived_; }
-  /// Returns false for most bodies for which is_due() is false, at less cost.
-  bool may_be_due(const Body& body, std::uint32_t name) const {
-    return !arrivals_.empty() || body.bound.velocity == Vec3{} || name < first_names;
-  }
+  /// Returns false if of the bodies that move only first ones can be due at `time`. None is due at the time
+  /// of an arrival.
+  bool may_choose_any(double time) const { return time != arrived_ && (!arrivals_.empty() || time >= even_); }
   /// Returns the number, modulo windows_between, to which the names of the moving bodies add up that are to
   /// be checked if windows start at `time`; nullopt unless main windows start then.
   static std::optional<std::uint32_t> turn(const WindowPolicy& policy, double time) {
@@ -80,12 +108,12 @@ class SpotChecks {
   }
 
   static void serialize(auto& self, auto& archive) {
-    archive(self.arrivals_, self.arrived_, self.first_, self.checked_, self.next_);
+    archive(self.arrivals_, self.arrived_, self.first_, self.checked_, self.rarer_, self.even_, self.began_);
   }
   /// Validates values read from bytes.
   bool is_valid() const {
-    return first_ >= 0.0 && !std::isnan(arrived_) && !std::isnan(checked_) && !std::isnan(next_) &&
-           std::is_sorted(arrivals_.begin(), arrivals_.end()) &&
+    return first_ >= 0.0 && !std::isnan(arrived_) && !std::isnan(checked_) && !std::isnan(rarer_) &&
+           !std::isnan(even_) && !std::isnan(began_) && std::is_sorted(arrivals_.begin(), arrivals_.end()) &&
            std::none_of(arrivals_.begin(), arrivals_.end(), [](double time) { return std::isnan(time); });
   }
   std::size_t bytes() const { return arrivals_.capacity() * sizeof(double); }
@@ -97,8 +125,10 @@ class SpotChecks {
   std::vector<double> arrivals_{};  ///< ascending; times of arrivals that no check has served yet
   double arrived_ = -infinity;      ///< time of the last arrival
   double first_ = 0.0;              ///< the interval after an arrival until the first check (time)
-  double checked_ = -infinity;
-  double next_ = infinity;
+  double checked_ = -infinity;      ///< time of the last check
+  double rarer_ = infinity;         ///< the next check of those that become rarer
+  double even_ = infinity;          ///< the next check of all that move
+  double began_ = -infinity;        ///< time of the first arrival
 };
 
 }  // namespace kinesphere

@@ -76,6 +76,14 @@ bool WindowChoice::needs_report(std::uint32_t number, double report_time) const 
   const Body& body = bodies()[number];
   if (body.fresh(report_time)) return false;
   const Bound& bound = body.bound;
+  const auto is_far_after = [&](double s, double length) {
+    return (norm(bound.velocity) + bound.growth_speed + body.largest_acceleration() * s) * s > length;
+  };
+  // An exact bound does not grow, and no window ends after a main one.
+  if (bound.is_exact() && !bodies().space().repeats()) {
+    const Window longest = window_of(state_.window_policy.main_rung());
+    if (!is_far_after(longest.end - bound.time, longest_way(bodies().definition()))) return false;
+  }
   const SpeedBound speed_bound = speed_bound_of(BoundAt(bound, time_));
   const Window window = window_of(rung_for(number, speed_bound));
   const double s = window.end - bound.time;
@@ -84,14 +92,13 @@ bool WindowChoice::needs_report(std::uint32_t number, double report_time) const 
   };
   const double saved = growth_after(s) - growth_after(window.end - report_time);
   if (state_.window_policy.cost_of_width(2.0 * saved) > price_of_report) return true;
-  const double speed = norm(bound.velocity) + bound.growth_speed + body.largest_acceleration() * s;
-  if (!bodies().space().repeats()) return speed * s > longest_way(bodies().definition());
+  if (!bodies().space().repeats()) return is_far_after(s, longest_way(bodies().definition()));
   if (window.rung < state_.window_policy.rung_for(speed_bound)) return true;
   const Vec3& period = bodies().space().period();
   double half = infinity;
   for (int axis = 0; axis < 3; ++axis)
     if (bodies().space().repeats(axis)) half = std::min(half, 0.5 * period[axis]);
-  return speed * s > half;
+  return is_far_after(s, half);
 }
 
 }  // namespace kinesphere

@@ -207,6 +207,36 @@ TEST(SpotChecks, FindWhoTurnsLaterAmongMany) {
   }
 }
 
+/// Where steered bodies are probed all the time, those that fly straight on are probed so often that one that
+/// turns has not gone its radius when it is told, with less than a hundredth of all probes.
+TEST(SpotChecks, FindWhoTurnsBeforeItHasGoneItsRadiusIfProbesAreMany) {
+  for (const int exact : {1, 3}) {
+    Playground p({.contact_tolerance = 1e-3});
+    for (int k = 0; k < 200; ++k) {
+      const Vec3 place{2.5 * (k % 20), 2.5 * (k / 20), 0};
+      p.add({.radius = 0.5, .acceleration_limit = 3.0, .position = place}, Vec3{});
+    }
+    std::set<BodyId> straight;
+    for (int k = 0; k < exact; ++k)
+      straight.insert(
+          p.add({.radius = 2.0, .position = {10.0 * k, 0, 100}, .velocity = {0.1 + 0.01 * k, 0.5, 0}}));
+    p.run(20.0);
+    std::uint64_t of_straight = 0;
+    const std::uint64_t before = p.world.counters().probes;
+    p.distort = [&](BodyId id, double, State&) { of_straight += straight.contains(id); };
+    p.run(60.0);
+    EXPECT_LE(of_straight, (p.world.counters().probes - before) / 100) << exact;
+    const BodyId turns = *std::next(straight.begin(), exact / 2);
+    p.set_velocity_unseen(turns, {0, 0, 0.7});
+    std::vector<Event> events;
+    while (events.empty() && p.world.time() < 100.0) events = p.run(p.world.time() + 0.1);
+    ASSERT_EQ(events.size(), 1u) << exact;
+    EXPECT_EQ(events.front().kind, EventKind::bound_violation);
+    EXPECT_EQ(events.front().first, turns);
+    EXPECT_LE((events.front().time - 60.0) * 0.7, 2.0) << exact;
+  }
+}
+
 /// Balls that fall on a floor, and whose limits were left at 0, from 10 up in rows. All are checked within a
 /// 64th, whatever their number. From then on their limits are those of gravity, so each touches the floor.
 TEST(SpotChecks, FindAllWhoFall) {
