@@ -99,19 +99,25 @@ double ContactPredictor<Partner>::largest_speed(const RelativeLimits& limits) co
     return infinity;
 }
 
+/// Returns by how much a step of the Zeno guard may sink from this gap (tolerances).
+template <class Partner>
+double ContactPredictor<Partner>::sinking_from(double gap) const {
+  return has_several_points<Partner> ? rule_.sinking_of_several(gap) : ContactRule::most_sinking;
+}
+
 /// Returns the time of the next check of a pair that does not approach at its nearest points, and whose
 /// certificate fails at `time`: at least the least step of the Zeno guard later. Of several points, others
-/// may approach. So the step ends before a point that approaches is as deep as the gap, or any other point an
-/// eighth of the tolerance deeper; but not before the fastest point can have gone a 64th of the tolerance.
+/// may approach. So the step ends before a point that approaches is as deep as the gap, or any other point
+/// deeper by sinking_from(gap); but not before the fastest point can have gone a 64th of the tolerance.
 template <class Partner>
 double ContactPredictor<Partner>::least_check(double time, double gap, double guarded, double speed_error,
                                               const RelativeLimits& limits) const {
-  const double least = now_ + rule_.least_step(gap, speed_error, limits.acceleration);
+  const double least = now_ + rule_.least_step(gap, speed_error, limits.acceleration, sinking_from(gap));
   if (!(time < least)) return time;
   if constexpr (has_several_points<Partner>) {
     const double sunk = earliest_sinking_below(
-        {guarded + threshold_.distance,
-         gap - ContactRule::most_sinking * rule_.tolerance() + threshold_.distance, speed_error},
+        {guarded + threshold_.distance, gap - sinking_from(gap) * rule_.tolerance() + threshold_.distance,
+         speed_error},
         least);
     return sunk < least ? std::max({time, sunk, soonest_check(gap, limits)}) : least;
   }
@@ -202,7 +208,7 @@ ContactDecision ContactPredictor<Partner>::decide(const Event& current, const Re
     // The Zeno guard: time must advance between two checks of a contact that does not approach.
     time = later;
     decision.zeno_step = true;
-    decision.breaks_tolerance = rule_.step_breaks_tolerance(beyond);
+    decision.breaks_tolerance = rule_.step_breaks_tolerance(beyond, sinking_from(beyond));
   }
   if (rule_.is_deep(gap)) {
     const double surfaces = separation(rule_.surface_gap());
@@ -222,7 +228,7 @@ ContactDecision ContactPredictor<Partner>::defer(const Event& current, const Rel
   return {.next_check = std::max(std::min(next_time, separation(rule_.release_gap())), just_after(now_)),
           .approach = ApproachState::watched,
           .zeno_step = true,
-          .breaks_tolerance = rule_.step_breaks_tolerance(beyond)};
+          .breaks_tolerance = rule_.step_breaks_tolerance(beyond, sinking_from(beyond))};
 }
 
 /// Length of the vector along the normal, as approach_error() needs it.

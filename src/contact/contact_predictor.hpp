@@ -97,6 +97,7 @@ class ContactPredictor {
   double arm(double gap) const;
   double resolution() const;
   double largest_speed(const RelativeLimits& limits) const;
+  double sinking_from(double gap) const;
   double least_check(double time, double gap, double guarded, double speed_error,
                      const RelativeLimits& limits) const;
   double earliest_sinking_below(const Sinking& sinking, double until) const;

@@ -1,6 +1,8 @@
 // Decides when a contact begins and ends from gap and approach speed. No other code makes this decision.
 #pragma once
 
+#include <algorithm>
+
 #include "contact/contact_state.hpp"
 #include "kinesphere/contact_events.hpp"
 #include "kinesphere/world_definition.hpp"
@@ -71,6 +73,11 @@ class ContactRule {
   /// make more checks of a body that rocks on an edge; larger ones let a body that lands on several points in
   /// turn sink deeper.
   static constexpr double least_sinking = 0x1p-6;
+  /// Returns what a step of a body of several points may sink from this gap, in tolerances: less where there
+  /// is less room, since a point that is answered can push another one down, again and again.
+  double sinking_of_several(double gap) const {
+    return std::clamp(0.25 * (1.0 + gap / tolerance_), least_sinking, most_sinking);
+  }
 
   /// Returns a lower bound of the time after which two bodies can have separated whose points move relative
   /// to each other at this speed at most, and gain speed by this acceleration at most. Infinity if both are
@@ -78,7 +85,9 @@ class ContactRule {
   double least_time_to_separate(double gap, double speed, double acceleration) const;
 
   /// True if a least_step() from this gap may leave the tolerance, which the caller must be notified of.
-  bool step_breaks_tolerance(double gap) const { return gap < -(1.0 - most_sinking) * tolerance_; }
+  bool step_breaks_tolerance(double gap, double sinking = most_sinking) const {
+    return gap < -(1.0 - sinking) * tolerance_;
+  }
 
   /// Returns the interval (time) within which a contact counts as repeated after the previous one of a body
   /// with this largest acceleration (limit plus plan). A body that was stopped within the tolerance falls by

@@ -59,6 +59,56 @@ TEST(RigidContact, OfAnEndThatComesDownIsToldBeforeItIsDeep) {
         }
 }
 
+/// A capsule or a crate falls on the ground and bounces until it rocks in hops too small to see. Each end
+/// that is answered pushes the other one down.
+TEST(RigidContact, OfABodyThatRocksToRestDoesNotSink) {
+  constexpr double g = 10.0;
+  const std::vector<RigidBody> bodies{
+      {.parts = {{{-0.5, 0, 0}, {0.5, 0, 0}, 0.05}}, .inertia = {0, 0.09, 0.09}},
+      {.parts = {box_part(Box{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}, 0.05)}, .inertia = {0.18, 0.18, 0.18}}};
+  for (const double eps : {1e-4, 1e-6})
+    for (const int k : {0, 1, 8, 13, 37, 39}) {
+      SCOPED_TRACE(testing::Message() << "tolerance " << eps << ", fall " << k);
+      Random random = Random::at(seed, 0, static_cast<std::uint64_t>(k));
+      World world = World::create({.contact_tolerance = eps}).value();
+      world.add_static({.shape = HalfSpace{{0, 0, 1}, 0}}).value();
+      RigidBody body = bodies[static_cast<std::size_t>(k) % 2];
+      const Vec3 turned{random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3)};
+      const Vec3 spin = rotated(rotation_by(turned), Vec3{0, random.uniform(-1, 1), random.uniform(-1, 1)});
+      body.rotation = {rotation_by(turned), spin};
+      body.body.position = {0, 0, 1.5};
+      body.body.planned_acceleration = {0, 0, -g};
+      const BodyId id = world.add_rigid_body(body).value();
+      double since = 0.0;
+      State state{body.body.position, {}};
+      const auto at = [&](double time) {
+        const double s = time - since;
+        return State{state.position + (state.velocity + Vec3{0, 0, -g} * (0.5 * s)) * s,
+                     state.velocity + Vec3{0, 0, -g} * s};
+      };
+      const auto probe = [&](std::span<const BodyId> ids, double time, std::span<State> states) {
+        for (std::size_t j = 0; j < ids.size(); ++j) states[j] = at(time);
+      };
+      int begins = 0;
+      while (const auto event = world.advance(3.0, probe).value()) {
+        ASSERT_NE(event->kind, EventKind::zeno_guard);
+        if (event->kind != EventKind::contact_begin) continue;
+        ++begins;
+        ASSERT_GE(event->gap, -0.9 * eps);
+        const Bounce after = bounce(*event, 0.5);
+        const bool is_first = event->first == id;
+        state = {at(event->time).position, is_first ? after.first_velocity : after.second_velocity};
+        since = event->time;
+        world.set_velocity(id, state.velocity).value();
+        world
+            .change(id, {.angular_velocity =
+                             is_first ? after.first_angular_velocity : after.second_angular_velocity})
+            .value();
+      }
+      EXPECT_GT(begins, 100);
+    }
+}
+
 /// A seesaw: its ends go up and down while its lower face stays at an edge.
 TEST(RigidContact, OfASeesawTakesFewChecks) {
   const Vec3 edge{0.1, 0, -0.03};
