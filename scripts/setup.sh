@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that are missing here. Where none is, it does nothing, without network.
-# Usage: setup.sh run | mpi | browser | python | research | prove | docs | test | all | coverage
+# Usage: setup.sh run | program | mpi | browser | python | research | prove | docs | test | all | coverage
 set -euo pipefail
 
-packages=(g++ cmake ninja-build libhwy-dev libcli11-dev libfmt-dev nlohmann-json3-dev libsimdjson-dev zlib1g-dev libgeographiclib-dev libexpat1-dev libnats-dev)
+packages=(g++ cmake ninja-build libhwy-dev libcli11-dev libfmt-dev nlohmann-json3-dev zlib1g-dev)
+# For the commands beside those for scenes.
+if [[ ${1:-} != run ]]; then packages+=(libsimdjson-dev libgeographiclib-dev libexpat1-dev libnats-dev); fi
 mpi=(libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev)
 browser=(emscripten nodejs)
 # Node.js's own package brings npm.
@@ -17,7 +19,7 @@ if ! command -v cargo >/dev/null; then clients+=(rustc cargo); fi
 documenting=(mkdocs mkdocs-material doxygen)
 testing=("${mpi[@]}" "${documenting[@]}" "${python[@]}" "${python_testing[@]}" "${clients[@]}" libcpp-httplib-dev libgtest-dev libtbb-dev nats-server librapidcheck-dev clang libclang-rt-dev clang-format clang-tidy pkg-config valgrind)
 case ${1:-} in
-  run) ;;
+  run | program) ;;
   mpi) packages+=("${mpi[@]}") ;;
   browser) packages+=("${browser[@]}") ;;
   python) packages+=("${python[@]}") ;;
@@ -27,7 +29,7 @@ case ${1:-} in
   docs) packages+=("${documenting[@]}" "${python[@]}") ;;
   prove) packages=("${proving[@]}" g++ libgtest-dev) ;;
   coverage) packages+=("${testing[@]}" gcovr) ;;
-  *) echo "setup: usage: setup.sh run | mpi | browser | python | research | prove | docs | test | all | coverage" >&2 && exit 2 ;;
+  *) echo "setup: usage: setup.sh run | program | mpi | browser | python | research | prove | docs | test | all | coverage" >&2 && exit 2 ;;
 esac
 
 if ! command -v apt-get >/dev/null; then

@@ -24,7 +24,7 @@ std::string commands_of(const CLI::App& app) {
   return text;
 }
 
-int parse_and_run(CLI::App& app, const std::function<int()>& run_command, int argc, char** argv) {
+int parse_and_run(CLI::App& app, const std::vector<Command>& commands, int argc, char** argv) {
   reserve_standard_streams();
   app.set_version_flag("--version", std::string(version));
   app.require_subcommand(0, 1);
@@ -47,7 +47,9 @@ int parse_and_run(CLI::App& app, const std::function<int()>& run_command, int ar
   }
   if (app.get_subcommands().empty() && !app.get_subcommands({}).empty())
     throw ProgramError(fmt::format("expected a command: {} (see --help)", commands_of(app)));
-  const int exit_code = run_command();
+  const auto chosen = std::find_if(commands.begin(), commands.end(),
+                                   [](const Command& command) { return static_cast<bool>(*command.parsed); });
+  const int exit_code = chosen->run();
   finish_output();
   if (exit_code == exit_fine) check_messages();
   return exit_code;
@@ -55,19 +57,34 @@ int parse_and_run(CLI::App& app, const std::function<int()>& run_command, int ar
 
 }  // namespace
 
-int run_program(CLI::App& app, const std::function<int()>& run_command, int argc, char** argv) {
-  const auto complain = [&app](std::string message) {
+int run_program(const Program& program, int argc, char** argv) {
+  const auto complain = [&program](std::string message) {
     std::replace(message.begin(), message.end(), '\n', ' ');
-    print_message("{}: {}\n", app.get_name(), message);
+    print_message("{}: {}\n", program.name, message);
     return exit_wrong_input;
   };
   try {
-    return parse_and_run(app, run_command, argc, argv);
+    CLI::App app(program.description, program.name);
+    app.footer(program.footer);
+    std::vector<Command> commands;
+    for (const auto& add : program.add_commands)
+      for (Command& command : add(app)) commands.push_back(std::move(command));
+    return parse_and_run(app, commands, argc, argv);
   } catch (const ProgramError& error) {
     return complain(error.what());
   } catch (const std::bad_alloc&) {
     return complain("out of memory");
   }
+}
+
+Command add_left_out_command(CLI::App& app, const std::string& name) {
+  const CLI::App* const command = app.add_subcommand(name, "Not in this build")->prefix_command();
+  return {command, [name]() -> int {
+            throw ProgramError(fmt::format(
+                "this program was built for scenes alone, without {}. All of it: scripts/setup.sh "
+                "program && cmake --preset release && cmake --build --preset release",
+                name));
+          }};
 }
 
 }  // namespace kinesphere::program

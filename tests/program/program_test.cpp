@@ -55,10 +55,24 @@ TEST_F(ProgramTest, ListsTheScenes) {
     EXPECT_EQ(lines_with(result.out, scene.name + " "), 1u);
 }
 
+/// KINESPHERE_BUILD_PROGRAM=scenes builds a program that says what it lacks.
+TEST_F(ProgramTest, OfScenesAloneSaysWhatIsLeftOut) {
+  const std::string program = std::string("'") + KINESPHERE_SCENES_ALONE + "' ";
+  EXPECT_EQ(run_shell(program + "run paper1 --bodies 50 --hash-only").out,
+            run("run paper1 --bodies 50 --hash-only").out);
+  for (const std::string command : {"tracks --distance 3 a.csv", "view", "watch --separation sphere:1 -"}) {
+    const ProgramRun result = run_shell(program + command);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_TRUE(result.err.starts_with("kinesphere: this program was built for scenes alone, without " +
+                                       command.substr(0, command.find(' ')) + "."))
+        << result.err;
+  }
+}
+
 TEST_F(ProgramTest, RefusesWrongOptions) {
   const std::string scene = write("s.json", small_scene);
-  expect_wrong_input("", {"expected a command: run, replay, tracks, verify, scenes, view or watch"});
-  expect_wrong_input("fly", {"there is no command fly: expected run, replay, tracks"});
+  expect_wrong_input("", {"expected a command: run, replay, verify, scenes, tracks, view or watch"});
+  expect_wrong_input("fly", {"there is no command fly: expected run, replay, verify"});
   expect_wrong_input("--fly", {"--fly"});
   expect_wrong_input("watch --seperation sphere:1", {"--seperation"});
   expect_wrong_input("watch", {"--separation: expected it, as sphere:50"});

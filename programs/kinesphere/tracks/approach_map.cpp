@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "base/xml_text.hpp"
+#include "tracks/xml_text.hpp"
 
 namespace kinesphere::program {
 namespace {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "base/xml_text.hpp"
+#include "tracks/xml_text.hpp"
 
 namespace kinesphere::program {
 namespace {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <charconv>
 
-#include "base/azimuthal_map.hpp"
 #include "base/program_error.hpp"
+#include "geography/azimuthal_map.hpp"
 
 #ifdef KINESPHERE_WITH_GEOGRAPHICLIB
 #include <GeographicLib/Geocentric.hpp>

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "base/azimuthal_map.hpp"
+#include "geography/azimuthal_map.hpp"
 #include "kinesphere/body.hpp"
 #include "kinesphere/monitor/report.hpp"
 #include "kinesphere/monitor/separation.hpp"

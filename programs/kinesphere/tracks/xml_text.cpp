@@ -1,5 +1,5 @@
 // Text as XML writes it.
-#include "base/xml_text.hpp"
+#include "tracks/xml_text.hpp"
 
 #include <nlohmann/json.hpp>
 

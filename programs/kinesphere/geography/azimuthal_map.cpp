@@ -1,5 +1,5 @@
 // Plane maps of the earth, with GeographicLib.
-#include "base/azimuthal_map.hpp"
+#include "geography/azimuthal_map.hpp"
 
 #include "base/program_error.hpp"
 
