@@ -107,9 +107,10 @@ mkdir -p "$build"
 mpi=OFF
 if command -v mpicxx >/dev/null && find /usr/include /usr/local/include -name zoltan.h 2>/dev/null | grep -q .; then mpi=ON; fi
 if [[ $mpi == OFF ]]; then echo "lint: without MPI and Zoltan, so clang-tidy leaves out distributed"; fi
+declare -A batches_of=([target]=1 [file]=file)
 for batch in target file; do
   cmake -S . -B "$build/$batch" -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
-    -DCMAKE_CXX_FLAGS_RELEASE=-O3 -DKINESPHERE_WARNINGS=ON -DKINESPHERE_BATCH=$batch -DKINESPHERE_BUILD_PROGRAM=ON -DKINESPHERE_BUILD_RESEARCH=ON \
+    -DCMAKE_CXX_FLAGS_RELEASE=-O3 -DKINESPHERE_WARNINGS=ON -DKINESPHERE_BATCH=${batches_of[$batch]} -DKINESPHERE_BUILD_PROGRAM=ON -DKINESPHERE_BUILD_RESEARCH=ON \
     -DKINESPHERE_BUILD_MPI=$mpi -DKINESPHERE_BUILD_C=ON >"$build/lint.log" 2>&1 ||
     { cat "$build/lint.log"; exit 1; }
 done
