@@ -150,7 +150,7 @@ bool DistributedSimulation::restore(std::uint64_t number, RunState& state) {
     for (std::uint32_t body = 0; body < scene_.bodies.size(); ++body) require(motion_->remove(body));
   });
   auto world = DistributedWorld::restore(checkpoints_->read_parts(number, state), *motion_);
-  if (!world) return refuse(world.error().message);
+  if (!world) return refuse(message_of(world.error()));
   if (world->time() != state.time || world->hash().parts() != state.hash)
     return refuse("its run.json is that of another one");
   world_.emplace(std::move(*world));

@@ -59,7 +59,7 @@ class Ranks {
 /// Returns the value of a collective library call; its errors are equal on all ranks.
 template <class T>
 T require_shared(Result<T> result, int exit_code) {
-  if (!result) throw SharedError(result.error().message, exit_code);
+  if (!result) throw SharedError(message_of(result.error()), exit_code);
   return std::move(result).value();
 }
 

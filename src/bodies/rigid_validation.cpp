@@ -1,5 +1,8 @@
 // Validation of rigid bodies and their rotations.
 
+#include <algorithm>
+#include <string>
+
 #include "bodies/shaped_body.hpp"
 #include "bodies/validation.hpp"
 #include "bound/rigid_part.hpp"
@@ -46,6 +49,32 @@ void require_part(InputCheck& check, const RigidPart& part, std::size_t number,
   require_plane(check, subject("b"), part.b, world);
 }
 
+/// The parts are small enough for periodic space.
+Result<void> check_parts_in_period(const RigidBody& body, const WorldDefinition& world,
+                                   std::string_view call) {
+  const auto reach_of = [](const RigidPart& part) {
+    const PartBall ball = ball_around(part);
+    return ball.arm + ball.radius;
+  };
+  const auto farthest =
+      std::max_element(body.parts.begin(), body.parts.end(),
+                       [&](const RigidPart& a, const RigidPart& b) { return reach_of(a) < reach_of(b); });
+  const double needed = needed_in_period(body_of(body), 0.0, world);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!world.periodic[axis] || needed <= margin_in_period(world, axis)) continue;
+    return Error{ErrorCode::out_of_range, "parts", no_body,
+                 std::string(call) + ": parts[" + std::to_string(farthest - body.parts.begin()) + "] is " +
+                     text_of(2.0 * ball_around(*farthest).radius, 9) + " long and reaches " +
+                     text_of(reach_of(*farthest)) +
+                     " from the position of the body, too far for a periodic box that is " +
+                     text_of(world.box->upper[axis] - world.box->lower[axis]) + " long on " + "xyz"[axis] +
+                     ": 2 times that + 6 position_error + separation_distance + contact_tolerance must be at "
+                     "most 3/8 of the length, " +
+                     text_of(margin_in_period(world, axis)) + ", but is " + text_of(needed)};
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<void> check_rotation(const Rotation& rotation, BodyId body, const WorldDefinition& world,
@@ -80,7 +109,8 @@ Result<void> check_new_rigid_body(const RigidBody& body, const WorldDefinition& 
   if (!valid) return valid;
   WorldDefinition without_walls = world;
   without_walls.box.reset();
-  return check_body(body_of(body), without_walls, call);
+  valid = check_body(body_of(body), without_walls, call);
+  return valid ? check_parts_in_period(body, world, call) : valid;
 }
 
 Result<void> check_keeps_size(const BodyDefinition& body, std::string_view call) {

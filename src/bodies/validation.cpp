@@ -23,19 +23,23 @@ void require_radius_rate(InputCheck& check, double rate, BodyId body) {
   check.within({"radius_rate", body}, rate, limits::largest_speed);
 }
 
-/// Ensures that a pair can meet in one image only; space/space.hpp has the limit and the proof.
-void require_fit(InputCheck& check, std::string_view argument, const BodyDefinition& definition, BodyId body,
-                 const WorldDefinition& world) {
+/// Ensures that a pair can meet in one image only; space/space.hpp has the limit and the proof. `reach`: the
+/// sensor distance of the body.
+void require_fit(InputCheck& check, std::string_view argument, const BodyDefinition& definition, double reach,
+                 BodyId body, const WorldDefinition& world) {
   if (!world.box) return;
-  const double needed = 6.0 * definition.position_error + ContactRule(world).release_gap();
   for (int axis = 0; axis < 3; ++axis) {
     if (!world.periodic[axis]) continue;
-    const double margin = 0.375 * (world.box->upper[axis] - world.box->lower[axis]);
-    check.require(
-        2.0 * definition.radius + needed <= margin, ErrorCode::out_of_range, {argument, body},
-        "must leave 2 radius + 6 position_error + separation_distance + contact_tolerance at most 3/8 of "
-        "the periodic box, which is",
-        margin, 2.0 * definition.radius + needed);
+    const double needed = needed_in_period(definition, reach, world);
+    const double margin = margin_in_period(world, axis);
+    check.require(needed <= margin, ErrorCode::out_of_range, {argument, body},
+                  reach == 0.0
+                      ? "must leave 2 radius + 6 position_error + separation_distance + contact_tolerance at "
+                        "most 3/8 of "
+                        "the periodic box, which is"
+                      : "must leave 2 (radius + sensor distance) + 6 position_error + separation_distance + "
+                        "contact_tolerance at most 3/8 of the periodic box, which is",
+                  margin, needed);
   }
 }
 
@@ -191,8 +195,16 @@ Result<void> check_world(const WorldDefinition& definition) {
       .require(dimensions == 3 || !definition.periodic.z, ErrorCode::out_of_range, {"periodic"},
                "must be x, y or both in two dimensions, where there is no z", axes);
   // The box must be large enough for a body of radius 0.
-  if (!check.error()) require_fit(check, "box", {.radius = 0.0}, no_body, definition);
+  if (!check.error()) require_fit(check, "box", {.radius = 0.0}, 0.0, no_body, definition);
   return check.result();
+}
+
+double needed_in_period(const BodyDefinition& body, double reach, const WorldDefinition& world) {
+  return 2.0 * (body.radius + reach) + 6.0 * body.position_error + ContactRule(world).release_gap();
+}
+
+double margin_in_period(const WorldDefinition& world, int axis) {
+  return 0.375 * (world.box->upper[axis] - world.box->lower[axis]);
 }
 
 Result<void> check_body(const BodyDefinition& body, const WorldDefinition& world, std::string_view call) {
@@ -200,7 +212,7 @@ Result<void> check_body(const BodyDefinition& body, const WorldDefinition& world
   require_radius(check, body.radius, no_body, world);
   require_limits(check, motion_limits_of(body), no_body, world);
   require_state(check, {body.position, body.velocity}, body, no_body, world);
-  require_fit(check, "radius", body, no_body, world);
+  require_fit(check, "radius", body, 0.0, no_body, world);
   if (body.contacts) require_contact_events(check, *body.contacts);
   check.not_negative_or_infinite({"mass"}, body.mass);
   require_radius_rate(check, body.radius_rate, no_body);
@@ -244,7 +256,7 @@ Result<void> check_radius(const BodyDefinition& changed, BodyId body, const Worl
                           std::string_view call) {
   InputCheck check(call);
   require_radius(check, changed.radius, body, world);
-  require_fit(check, "radius", changed, body, world);
+  require_fit(check, "radius", changed, 0.0, body, world);
   return check.result();
 }
 
@@ -264,7 +276,7 @@ Result<void> check_limits(const BodyDefinition& changed, BodyId body, const Worl
                           std::string_view call) {
   InputCheck check(call);
   require_limits(check, motion_limits_of(changed), body, world);
-  require_fit(check, "position_error", changed, body, world);
+  require_fit(check, "position_error", changed, 0.0, body, world);
   return check.result();
 }
 
@@ -287,9 +299,7 @@ Result<void> check_reach(double reach, const BodyDefinition& body, BodyId id, st
                          const WorldDefinition& world, std::string_view call) {
   if (!world.periodic.any()) return {};
   InputCheck check(call);
-  BodyDefinition grown = body;
-  grown.radius += reach;
-  require_fit(check, argument, grown, id, world);
+  require_fit(check, argument, body, reach, id, world);
   return check.result();
 }
 

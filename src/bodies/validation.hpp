@@ -48,6 +48,11 @@ Result<void> check_limits(const BodyDefinition& changed, BodyId body, const Worl
 Result<void> check_state(const State& state, const BodyDefinition& definition, BodyId body,
                          const WorldDefinition& world, std::string_view call);
 Result<void> check_sensor(const Sensor& sensor, const WorldDefinition& world);
+/// Returns the room that a body with this sensor reach (length) takes on a periodic axis (length). It must be
+/// at most margin_in_period().
+double needed_in_period(const BodyDefinition& body, double reach, const WorldDefinition& world);
+/// Precondition: the axis is periodic.
+double margin_in_period(const WorldDefinition& world, int axis);
 /// Validates that a body with this sensor reach (length) is small enough for periodic space.
 Result<void> check_reach(double reach, const BodyDefinition& body, BodyId id, std::string_view argument,
                          const WorldDefinition& world, std::string_view call);

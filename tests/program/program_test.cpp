@@ -69,6 +69,23 @@ TEST_F(ProgramTest, OfScenesAloneSaysWhatIsLeftOut) {
   }
 }
 
+/// Messages name what the user has written, not the calls of the library that refused it.
+TEST_F(ProgramTest, SaysNothingOfItsCalls) {
+  const std::string scene = write(
+      "scene.json",
+      R"({"motion": "ballistic", "bodies": 10, "box": [[0, 0, 0], [1, 1, 1]], "radius": [3, 3], "speed": [1, 1], "limit": [0, 0], "seconds": 1})");
+  const std::string noise = write("noise.ksr", "this is no recording");
+  const std::string far =
+      write("far.csv", "id,time,x,y,z\na,0,0,0,0\na,1,1e300,0,0\na,2,0,0,0\nb,0,0,0,0\nb,2,1,0,0\n");
+  for (const std::string& arguments : {"run '" + scene + "'", std::string("run paper1 --packing 0.9"),
+                                       "replay '" + noise + "'", "tracks '" + far + "' --distance 1"}) {
+    const ProgramRun result = run(arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments;
+    for (const std::string_view call : {"::", "make_scene", "create:", "add:", "advance:", "open:"})
+      EXPECT_EQ(result.err.find(call), std::string::npos) << result.err;
+  }
+}
+
 TEST_F(ProgramTest, RefusesWrongOptions) {
   const std::string scene = write("s.json", small_scene);
   expect_wrong_input("", {"expected a command: run, replay, verify, scenes, tracks, view or watch"});

@@ -530,6 +530,18 @@ TEST(WrongPeriodic, IsRefused) {
   expect_error(world.queries().ray_cast({1, 1, 1}, {1, 0, 0}, 641), ErrorCode::out_of_range, "length",
                "ray_cast");
   EXPECT_EQ(world.save().value(), bytes);
+  // A part that is too long is named with its length and that of the box, not a sensor that is not there.
+  const RigidBody pole{.parts = {{{0, 0, 0}, {0, 0, 0}, 0.5}, {{-1, 0, 0}, {2, 0, 0}, 0.5}}};
+  const auto too_long = world.add_rigid_body(pole);
+  expect_error(too_long, ErrorCode::out_of_range, "parts",
+               "add_rigid_body: parts[1] is 4 long and reaches 2.5");
+  EXPECT_NE(too_long.error().message.find("box that is 10 long on x"), std::string::npos)
+      << too_long.error().message;
+  world.set_sensor(3, {.distances = {1.0}}).value();
+  const auto too_far = world.add({.radius = 1.0, .sensor_class = 3});
+  expect_error(too_far, ErrorCode::out_of_range, "sensor_class",
+               "add: sensor_class must leave 2 (radius + sensor");
+  EXPECT_EQ(world.bodies().size(), 2u);
   EXPECT_TRUE(world.queries().ray_cast({1, 1, 1}, {1, 0, 0}, 640));
   EXPECT_TRUE(world.queries().overlapping({1, 1, 1}, 1e6));
   EXPECT_EQ(world.queries().overlapping({1, 1, 1}, 1e6).value().size(), 2u);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "kinesphere/result.hpp"
@@ -20,10 +21,14 @@ class ProgramError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Returns the message of an error of the library without the name of the call that refused, which the user
+/// of a program has not made.
+std::string message_of(const Error& error);
+
 /// Returns the value of a library call, or throws its error as a ProgramError.
 template <class T>
 T require(Result<T> result) {
-  if (!result) throw ProgramError(result.error().message);
+  if (!result) throw ProgramError(message_of(result.error()));
   return std::move(result).value();
 }
 

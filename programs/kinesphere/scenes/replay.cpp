@@ -30,10 +30,10 @@ int replay(const ReplayOptions& options) {
   const auto result = kinesphere::replay(std::as_bytes(std::span(bytes)));
   const std::chrono::duration<double> real_time = std::chrono::steady_clock::now() - started;
   if (!result && result.error().code == ErrorCode::diverged) {
-    print_message("kinesphere: {}: {}\n", options.file, result.error().message);
+    print_message("kinesphere: {}: {}\n", options.file, message_of(result.error()));
     return exit_disagreement;
   }
-  if (!result) throw ProgramError(fmt::format("{}: {}", options.file, result.error().message));
+  if (!result) throw ProgramError(fmt::format("{}: {}", options.file, message_of(result.error())));
   if (options.hash_only) {
     print("{:016x}\n", result->contact_hash);
     return exit_fine;

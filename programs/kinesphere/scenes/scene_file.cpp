@@ -223,10 +223,10 @@ Scene make_scene(const SceneSource& source) {
   // radius_min and radius_max are both given by the field "radius"; other pairs likewise.
   for (const auto& [name, line] : source.lines) {
     if (error.argument.starts_with(name)) {
-      throw ProgramError(fmt::format("{}:{}: {}", source.file, line, error.message));
+      throw ProgramError(fmt::format("{}:{}: {}", source.file, line, message_of(error)));
     }
   }
-  throw ProgramError(error.message);
+  throw ProgramError(message_of(error));
 }
 
 std::string_view name_of(SceneParameters::MotionKind motion) {

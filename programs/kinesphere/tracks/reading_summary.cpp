@@ -112,8 +112,8 @@ std::vector<std::string> warnings_of(const Recording& recording, const TrackScen
     warnings.push_back(fmt::format(
         "the splines of {} tracks swing out far beyond their samples, by up to {} (id '{}' after {}): see "
         "--max-speed and --interpolate linear",
-        grouped(overshoots.tracks), number(overshoots.size), overshoots.id,
-        recording.times.text(overshoots.time)));
+        grouped(overshoots.tracks), number(overshoots.largest.size), overshoots.largest.id,
+        recording.times.text(overshoots.largest.time)));
   }
   return warnings;
 }

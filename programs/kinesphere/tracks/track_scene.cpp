@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/program_error.hpp"
+#include "kinesphere/limits.hpp"
 #include "simulation/tracks/cylinder_approaches.hpp"
 #include "simulation/tracks/scene_of_tracks.hpp"
 
@@ -54,6 +55,48 @@ double tolerance_of(const Recording& recording, const ApproachQuestion& question
   return tolerance;
 }
 
+/// Returns the farthest coordinate that the curves of the motion may reach, up to a small factor, and the
+/// sample before it.
+Swing farthest_of(const Recording& recording, const Motion& motion) {
+  Swing farthest;
+  for (std::uint32_t number = 0; number < recording.tracks.size(); ++number) {
+    const auto& samples = recording.tracks[number].samples;
+    for (const Segment& segment : motion.trajectory(number, samples.front().time, samples.back().time)) {
+      const double s = segment.end - segment.begin;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double coordinate =
+            std::abs(segment.position[axis]) +
+            (std::abs(segment.velocity[axis]) +
+             (std::abs(segment.acceleration[axis]) / 2.0 + std::abs(segment.jerk[axis]) * s / 6.0) * s) *
+                s;
+        if (coordinate > farthest.size) farthest = {recording.tracks[number].id, coordinate, segment.begin};
+      }
+    }
+  }
+  return farthest;
+}
+
+/// Returns a tolerance with which the world reaches as far as the curves: the one that it has or, unless the
+/// caller has chosen it, a coarser one.
+double tolerance_for_curves(const Recording& recording, const ApproachQuestion& question, const Scene& scene,
+                            double distance) {
+  const double tolerance = scene.world.contact_tolerance;
+  const Swing farthest = farthest_of(recording, *scene.motion);
+  const double finest = farthest.size / limits::largest_length;
+  if (finest <= tolerance) return tolerance;
+  const std::string cause = fmt::format(
+      "the spline of id '{}' after {} may swing out to {:.6g} from the recording's middle (see "
+      "--max-speed and --interpolate linear)",
+      farthest.id, recording.times.text(farthest.time), farthest.size);
+  if (question.tolerance)
+    throw ProgramError(fmt::format("--tolerance: expected {:.3g} or more, as {}, but got {}", finest, cause,
+                                   *question.tolerance));
+  if (finest >= distance)
+    throw ProgramError(
+        fmt::format("the distance {:.6g} is too small beside the curves: {}", distance, cause));
+  return finest;
+}
+
 double distance_to_line(const Vec3& point, const Vec3& from, const Vec3& to) {
   const Vec3 way = to - from;
   const double length_squared = norm_squared(way);
@@ -85,11 +128,7 @@ Overshoots overshoots_of(const Recording& recording, const Motion& motion, doubl
       const double size = swing(curve[k], from, to);
       if (size <= distance || size <= norm(to - from)) continue;
       swings_out = true;
-      if (size > overshoots.size) {
-        overshoots.size = size;
-        overshoots.id = track.id;
-        overshoots.time = samples[k].time;
-      }
+      if (size > overshoots.largest.size) overshoots.largest = {track.id, size, samples[k].time};
     }
     if (swings_out) ++overshoots.tracks;
   }
@@ -111,7 +150,7 @@ std::vector<Track> samples_of(const Recording& recording, double stretch = 1.0) 
 [[noreturn]] void refuse(const Recording& recording, const Error& error) {
   const bool is_known = error.body.index < recording.tracks.size();
   throw ProgramError(
-      fmt::format("id '{}': {}", is_known ? recording.tracks[error.body.index].id : "", error.message));
+      fmt::format("id '{}': {}", is_known ? recording.tracks[error.body.index].id : "", message_of(error)));
 }
 
 /// Returns a scene of the recording stretched along z.
@@ -126,6 +165,7 @@ Scene scene_with(const Recording& recording, const ApproachQuestion& question, d
   scene->end_time = std::min(scene->end_time, question.until);
   scene->world.contacts = ContactEvents::begin_and_end;
   scene->world.dimensions = recording.is_plane ? 2 : 3;
+  scene->world.contact_tolerance = tolerance_for_curves(recording, question, *scene, distance);
   return std::move(*scene);
 }
 

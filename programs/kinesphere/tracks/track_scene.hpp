@@ -18,19 +18,24 @@ struct ApproachQuestion {
   double distance = 0.0;           ///< largest distance of an approach, or the largest horizontal one; > 0
   std::optional<double> vertical;  ///< largest vertical distance, of a cylinder
   std::optional<double>
-      tolerance;  ///< tolerance of that distance; if empty, a millionth of it, or 2^-40 of the extent
+      tolerance;  ///< tolerance of that distance; if empty, a millionth of it, or what the extent needs
   Interpolation interpolation = Interpolation::spline;
   /// Seconds of the recording. The curves are those of all samples, whatever the window.
   double from = -std::numeric_limits<double>::infinity(), until = std::numeric_limits<double>::infinity();
+};
+
+/// How far a curve swings out between two samples.
+struct Swing {
+  std::string id;
+  double size = 0.0;
+  double time = 0.0;  ///< of the first of the two samples
 };
 
 /// Splines that swing out far beyond their samples: by more than the distance of an approach and more than
 /// the distance of the two samples.
 struct Overshoots {
   std::size_t tracks = 0;  ///< number of tracks with an overshoot
-  std::string id;          ///< id of the track with the largest
-  double size = 0.0;       ///< distance from the straight line between the two samples
-  double time = 0.0;       ///< time of the first of the two samples
+  Swing largest;           ///< by its distance from the straight line between the two samples
 };
 
 struct TrackScene {

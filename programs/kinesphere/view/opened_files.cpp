@@ -34,7 +34,7 @@ bool is_recording(const NamedText& file) {
 
 OpenedFile opened_recording(NamedText file) {
   const auto replay = Replay::open(std::as_bytes(std::span(file.text)));
-  if (!replay) throw ProgramError(fmt::format("{}: {}", file.file, replay.error().message));
+  if (!replay) throw ProgramError(fmt::format("{}: {}", file.file, message_of(replay.error())));
   return {name_without_folder(file.file), std::move(file.text)};
 }
 

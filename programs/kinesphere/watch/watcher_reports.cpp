@@ -155,7 +155,7 @@ void Watcher::deliver(const SourceReport& report) {
   }
   if (watch_as_group(report, id, *on_map, track)) return;
   if (const auto taken = monitor_->report(id, *on_map); !taken)
-    return refuse(fmt::format("{}: {}", report.id, taken.error().message));
+    return refuse(fmt::format("{}: {}", report.id, message_of(taken.error())));
   if (!settings_.own.empty() && report.id == settings_.own) ++counts_.of_own;
   if (lacks_height) ++counts_.no_height;
   if (knows_velocity) ++counts_.with_velocity;

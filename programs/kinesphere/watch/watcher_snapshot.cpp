@@ -154,7 +154,7 @@ void Watcher::restore(const Json& state) {
   if (const Json& map = state.at("map"); !map.is_null()) begin_map({map.at(0), map.at(1)});
   if (const Json& monitor = state.at("monitor"); !monitor.is_null()) {
     auto restored = Monitor::restore(std::as_bytes(std::span(monitor.get_binary())));
-    if (!restored) throw ProgramError(restored.error().message);
+    if (!restored) throw ProgramError(message_of(restored.error()));
     monitor_.emplace(std::move(*restored));
     begin_areas();
     groups_.emplace(cutting());

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "kinesphere/limits.hpp"
 #include "kinesphere/random.hpp"
 #include "program/support.hpp"
 #include "program/tracks/simulated_events.hpp"
@@ -82,13 +83,35 @@ TEST(TrackScene, WarnsOfSplinesThatSwingOutFar) {
       }());
   const TrackScene curves = scene_of(recording, {.distance = 5.0});
   EXPECT_EQ(curves.overshoots.tracks, 1u);
-  EXPECT_EQ(curves.overshoots.id, "a");
-  EXPECT_GT(curves.overshoots.size, 1e5);
+  EXPECT_EQ(curves.overshoots.largest.id, "a");
+  EXPECT_GT(curves.overshoots.largest.size, 1e5);
   const auto warnings = warnings_of(recording, curves);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("id 'a' after 101"), std::string::npos) << warnings[0];
   EXPECT_EQ(scene_of(recording, {.distance = 5.0, .interpolation = Interpolation::linear}).overshoots.tracks,
             0u);
+}
+
+/// A spline that swings out farther than the world reaches at the usual tolerance gets a coarser one.
+TEST(TrackScene, ReachesAsFarAsItsSplines) {
+  const Recording recording = parse(
+      "id,t,x,y\na,0,0,0\na,43200,3500,0\na,43201,0,5500\na,86400,0,0\na,129600,3500,0\n"
+      "b,0,0,0\nb,43200,100,100\nb,86400,100,0\nb,129600,0,0\n",
+      [] {
+        TrackOptions options;
+        options.max_gap = 1e5;
+        return options;
+      }());
+  const TrackScene curves = scene_of(recording, {.distance = 20.0});
+  EXPECT_GT(curves.overshoots.largest.size, limits::largest_length * 20e-6);
+  EXPECT_GT(curves.scene.world.contact_tolerance, 20e-6);
+  EXPECT_LT(curves.scene.world.contact_tolerance, 0.02);
+  const std::vector<Event> events = events_of(curves.scene);
+  ASSERT_GE(events.size(), 2u);
+  EXPECT_EQ(events.front().kind, EventKind::contact_begin);
+  for (const Event& event : events) EXPECT_NE(event.kind, EventKind::bound_violation) << event.time;
+  const std::string message = error_of([&] { scene_of(recording, {.distance = 20.0, .tolerance = 1e-6}); });
+  EXPECT_NE(message.find("the spline of id 'a' after"), std::string::npos) << message;
 }
 
 TEST(TrackScene, ToleratesWhatTheExtentAllows) {
