@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Installs missing packages, builds the fuzzers and runs each for this many seconds (default 60) from its corpus in
-# tests/fuzz/corpus. Adds inputs that reach new code to the corpus. Fails if a fuzzer finds a failure, and keeps that input
-# in build/fuzz/.
+# Installs missing packages, builds the fuzzers and runs each for this many seconds (default 60) from its corpus, the
+# archive tests/fuzz/corpus/<fuzzer>.tar.xz. Packs the corpus anew: the fewest inputs, old and new, that reach all the code
+# that any of them reaches. Fails if a fuzzer finds a failure, and keeps that input in build/fuzz/.
 # Usage: fuzz.sh [seconds]
 set -euo pipefail
 
@@ -14,11 +14,18 @@ cmake --preset fuzz >/dev/null
 cmake --build --preset fuzz --target "${!longest[@]/#/fuzz_}"
 
 for target in "${!longest[@]}"; do
+  archive=tests/fuzz/corpus/$target.tar.xz
+  known=build/fuzz/known/$target
   found=build/fuzz/found/$target
-  mkdir -p "$found"
+  fewest=build/fuzz/fewest/$target
+  rm -rf "$known" "$fewest"
+  mkdir -p "$known" "$found" "$fewest"
+  tar -xJf "$archive" -C "$known"
   echo "fuzz_$target: $seconds seconds"
   build/fuzz/tests/fuzz/fuzz_$target -max_total_time="$seconds" -max_len="${longest[$target]}" -timeout=20 \
     -artifact_prefix="build/fuzz/$target-" -print_final_stats=1 -verbosity=0 \
-    "$found" "tests/fuzz/corpus/$target"
-  build/fuzz/tests/fuzz/fuzz_$target -merge=1 -verbosity=0 "tests/fuzz/corpus/$target" "$found"
+    "$found" "$known"
+  build/fuzz/tests/fuzz/fuzz_$target -merge=1 -verbosity=0 "$fewest" "$known" "$found"
+  # The same bytes for the same inputs.
+  tar --sort=name --mtime=@0 --owner=0 --group=0 --numeric-owner --mode=644 -cf - -C "$fewest" . | xz -9e >"$archive"
 done

@@ -17,7 +17,7 @@ proving=(coq libcoq-flocq)
 clients=(mono-mcs mono-runtime)
 if ! command -v cargo >/dev/null; then clients+=(rustc cargo); fi
 documenting=(mkdocs mkdocs-material doxygen)
-testing=("${mpi[@]}" "${documenting[@]}" "${python[@]}" "${python_testing[@]}" "${clients[@]}" libcpp-httplib-dev libgtest-dev libtbb-dev nats-server librapidcheck-dev clang libclang-rt-dev clang-format clang-tidy pkg-config valgrind)
+testing=("${mpi[@]}" "${documenting[@]}" "${python[@]}" "${python_testing[@]}" "${clients[@]}" libcpp-httplib-dev libgtest-dev libtbb-dev nats-server librapidcheck-dev clang libclang-rt-dev clang-format clang-tidy pkg-config valgrind xz-utils)
 case ${1:-} in
   run | program) ;;
   mpi) packages+=("${mpi[@]}") ;;
