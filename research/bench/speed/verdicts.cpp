@@ -153,7 +153,7 @@ ResultTable table_of(const std::vector<Verdict>& verdicts) {
 
 void save_verdicts(const Report& report, const std::vector<SpeedScene>& scenes, const SpeedResults& results) {
   save_safe_steps(report, scenes, results);
-  report.note("What the default engine is to reach, as far as the scenes were run (docs/performance.md).");
+  report.note("What the default engine is to reach, as far as the scenes were run (research/decisions.md).");
   report.table("verdicts", table_of(verdicts(results)));
 }
 

@@ -10,7 +10,7 @@
 namespace kinesphere::program {
 
 struct Verdict {
-  std::string goal;    ///< its number in docs/performance.md
+  std::string goal;    ///< its number in research/decisions.md
   std::string figure;  ///< what is measured
   std::string scene;
   std::string against;  ///< a rival and its settings; empty if there is none
