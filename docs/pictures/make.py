@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import bound
+import charts
 import film
 import late
 import pair
@@ -19,6 +20,8 @@ PICTURES = {
     "window": window.draw,
     "pair": pair.draw,
     "late": late.draw,
+    "costs": charts.draw_costs,
+    "misses": charts.draw_misses,
     "film": film.draw,
     "film-still": lambda: film.draw(moving=False),
 }
