@@ -43,6 +43,7 @@ struct FrameMotionDefinition {
   /// e >= 0 (length): the largest error of the game's positions, such as half a unit in the last place of
   /// their number format.
   double position_error = 0.0;
+  /// Time of frame 0; 0 is best (WorldDefinition::start_time).
   double start_time = 0.0;
   /// Orientations of rigid bodies in frame 0, by body: quaternions of length 1. Without them the frames do
   /// not say how bodies turn.
