@@ -321,7 +321,12 @@ class FrameMotion(Motion):
     ) -> None: ...
     @overload
     def push(
-        self, world: World, positions: Array, time: Optional[float] = None, *, rotations: Optional[Array] = None
+        self,
+        world: World,
+        positions: Array,
+        time: Optional[float] = None,
+        *,
+        rotations: Optional[Array] = None,
     ) -> None: ...
     @overload
     def push(

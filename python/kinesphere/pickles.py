@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -90,7 +91,7 @@ def _push_nobody(motion: FrameMotion, size: int, time: float | None = None) -> N
     motion.push(np.full((size, 3), np.nan), time, rotations=motion.latest_rotations())
 
 
-def _times(frames: int, start: float, last: tuple[float, float] | None) -> list[float | None]:
+def _times(frames: int, start: float, last: tuple[float, float] | None) -> Sequence[float | None]:
     """Times for so many frames, of which the last two come when they came; frames of equal length need none."""
     if last is None or frames == 0:
         return [None] * frames

@@ -220,7 +220,7 @@ def test_frames_of_unequal_length_have_times() -> None:
     frames = ks.FrameMotion(places)
     world, bodies = ks.World(contacts="impacts"), ks.BodyMap()
     bodies.add_all(world, frames, radii=0.5)
-    begins = []
+    begins: list[ks.Event] = []
     for frame in range(60):
         dt = 0.03 if frame % 2 == 0 else 0.01
         time += dt
