@@ -83,11 +83,12 @@ struct FrameViolation {
 /// Position errors of e cause chord velocity errors of 2 e / interval, which are added to it.
 ///
 /// push() adds up the jumps of each body, less A times the frames in between, and informs the world of the
-/// body's velocity where the sum exceeds the velocity error. So all frames are certified. While positions are
-/// exact and no frame is longer than `interval`, that happens only at a violation: a position with which the
-/// velocity jumps by more than A times the longer one of the two frames, which is listed in violations().
-/// After a longer frame it may happen to bodies that keep their limits. The second frame must move the bodies
-/// with the velocities of frame 0, up to A times its length.
+/// body's velocity where the sum exceeds the velocity error, its part for position errors included. So all
+/// frames are certified, longer and shorter ones. While positions are exact and no frame is longer than
+/// `interval`, that happens only at a violation: a position with which the velocity jumps by more than A
+/// times the longer one of the two frames, which is listed in violations(). After a longer frame it may
+/// happen to bodies that keep their limits. The second frame must move the bodies with the velocities of
+/// frame 0, up to A times its length.
 ///
 /// Costs. A body whose velocity the world is informed of costs a probe and a search in that frame. A limit
 /// costs probes and rechecks of all neighbours that the body could reach within it: where velocities jump by
