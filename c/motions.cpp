@@ -1,5 +1,6 @@
 // Motions that the library has of the bodies of a world.
 #include <limits>
+#include <optional>
 
 #include "exchange.hpp"
 #include "input/input_check.hpp"
@@ -176,6 +177,13 @@ std::vector<BodyId> add_to_motion(std::string_view call, WorldObject& object, Mo
   return bodies.keep();
 }
 
+void push_frame(std::string_view call, WorldObject& object, std::uint32_t motion, const ks_vec3* positions,
+                std::size_t count, std::optional<double> time) {
+  require_array(call, positions, count, "positions");
+  (void)frame_motion(call, object.simulation, motion);
+  object.simulation.push({motion}, vectors_of(positions, count), time).value();
+}
+
 }  // namespace
 }  // namespace kinesphere::c
 
@@ -232,9 +240,14 @@ ks_status ks_world_steer(ks_world world, ks_body_id body, ks_vec3 acceleration) 
 
 ks_status ks_world_push_frame(ks_world world, uint32_t motion, const ks_vec3* positions, size_t count) {
   return changing(__func__, world, [&, call = __func__](WorldObject& object) {
-    require_array(call, positions, count, "positions");
-    (void)frame_motion(call, object.simulation, motion);
-    object.simulation.push({motion}, vectors_of(positions, count)).value();
+    push_frame(call, object, motion, positions, count, {});
+  });
+}
+
+ks_status ks_world_push_frame_at(ks_world world, uint32_t motion, const ks_vec3* positions, size_t count,
+                                 double time) {
+  return changing(__func__, world, [&, call = __func__](WorldObject& object) {
+    push_frame(call, object, motion, positions, count, time);
   });
 }
 

@@ -29,24 +29,25 @@ int main() {
         velocity.push_back(60 * random.point_in_ball());  // up to a unit, five radii, a frame
       }
 
-  FrameMotion frames = FrameMotion::create({.start = position, .interval = dt}).value();
+  FrameMotion frames = FrameMotion::create({.start = position}).value();
   World world =
       World::create({.box = room, .contact_tolerance = 1e-3, .contacts = ContactEvents::impacts}).value();
   BodyMap bodies;
   bodies.add_all(world, frames, {.radius = radius}).value();
 
-  double deepest = 0.0;
+  double deepest = 0.0, time = 0.0;
   for (int frame = 1; frame <= 600; ++frame) {
     for (std::size_t k = 0; k < position.size(); ++k) {
       velocity[k] += gravity * dt;
       position[k] += velocity[k] * dt;
     }
-    bodies.push(world, frames, position).value();
+    time += dt;
+    bodies.push(world, frames, position, time).value();
     const auto set_velocity = [&](BodyId ball, const Vec3& bounced) {
       velocity[ball.index] = bounced;
       bodies.set_velocity(world, ball, bounced).value();
     };
-    for (const Event& event : world.events(frames.latest_time(), bodies.probe())) {
+    for (const Event& event : world.events(time, bodies.probe())) {
       if (event.kind != EventKind::contact_begin && event.kind != EventKind::wall_begin) continue;
       const Bounce after = bounce(event, 0.8);
       set_velocity(event.first, after.first_velocity);

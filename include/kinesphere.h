@@ -794,8 +794,9 @@ typedef struct ks_motion_definition {
   /// KS_MOTION_RANDOM_FORCES and KS_MOTION_STEERED: `count` limits. KS_MOTION_FRAMES: the same, or NULL for
   /// bodies without a limit.
   const double* acceleration_limits;
-  ks_vec3 gravity;        ///< KS_MOTION_BALLISTIC; 0 for the others
-  double interval;        ///< > 0 (time): of forces or frames
+  ks_vec3 gravity;  ///< KS_MOTION_BALLISTIC; 0 for the others
+  /// > 0 (time): of forces, or of frames without times of their own (FrameMotionDefinition::interval)
+  double interval;
   double position_error;  ///< KS_MOTION_FRAMES: of the positions in frames
   uint64_t seed;          ///< KS_MOTION_RANDOM_FORCES
   /// All that bodies have beside states and motion limits; NULL: ks_default_body_definition().
@@ -825,9 +826,15 @@ KS_API KS_MUST_CHECK ks_status ks_world_add_to_motion(ks_world world, uint32_t m
 /// current time on. Errors: as SteeredMotion::steer(); KS_ERROR_UNSUPPORTED for a body of another kind.
 KS_API ks_status ks_world_steer(ks_world world, ks_body_id body, ks_vec3 acceleration);
 /// Appends the next frame of a motion of kind KS_MOTION_FRAMES: the position of each of its bodies, NaN for a
-/// removed one. The world must be at the time of the latest frame. Errors: as FrameMotion::push().
+/// removed one. It comes `interval` after the frame before; a game whose frames differ in length needs
+/// ks_world_push_frame_at(). The world must be at the time of the latest frame. Errors: as
+/// FrameMotion::push().
 KS_API KS_MUST_CHECK ks_status ks_world_push_frame(ks_world world, uint32_t motion, const ks_vec3* positions,
                                                    size_t count);
+/// Appends the next frame as ks_world_push_frame() does, at a time after that of the latest frame. Errors: as
+/// FrameMotion::push().
+KS_API KS_MUST_CHECK ks_status ks_world_push_frame_at(ks_world world, uint32_t motion,
+                                                      const ks_vec3* positions, size_t count, double time);
 /// Writes the positions in the latest frame, with the changes that events made; NaN for removed bodies.
 KS_API ks_status ks_world_latest_frame(ks_world world, uint32_t motion, ks_vec3* positions, size_t capacity,
                                        size_t* count);

@@ -2,6 +2,7 @@
 #include "body_map.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "body.hpp"
 #include "exchange.hpp"
@@ -95,13 +96,36 @@ KINESPHERE_EXPORT(map_remove) bool map_remove(BodyMapHandle* handle, World* worl
 }
 KINESPHERE_EXPORT(map_push)
 bool map_push(const BodyMapHandle* handle, World* world, const MotionHandle* moving, std::size_t count,
-              const double* positions) {
+              const double* positions, const double* time, std::size_t rotation_count,
+              const double* rotations) {
   auto* const frames = dynamic_cast<FrameMotion*>(moving->motion.get());
   if (frames == nullptr)
     return fail({ErrorCode::unsupported, "frames", no_body, "push: frames must be a FrameMotion"});
   std::vector<Vec3> next;
   for (std::size_t k = 0; k < count; ++k) next.push_back(vector_at(positions + 3 * k));
-  return is_good(handle->map->push(*world, *frames, next));
+  const auto at = time != nullptr ? std::optional<double>(*time) : std::nullopt;
+  return is_good(handle->map->push(*world, *frames, next, quaternions_at(rotations, rotation_count), at));
+}
+
+/// Answers seven numbers for each body: its orientation and angular velocity.
+KINESPHERE_EXPORT(map_rotations)
+bool map_rotations(const BodyMapHandle* handle, double time, std::size_t count, const double* bodies) {
+  answer().clear();
+  for (std::size_t k = 0; k < count; ++k) {
+    const BodyId body = body_of(bodies[k]);
+    const auto found = handle->map->find(body);
+    if (!found)
+      return fail({ErrorCode::unknown_body, "body", body, "rotations: body must be one that this map knows"});
+    if (auto reason = why_unknown(*found->motion, found->number, time)) return fail(*reason);
+    const auto rotation = found->motion->rotation(found->number, time);
+    if (!rotation)
+      return fail({ErrorCode::unsupported, "body", body,
+                   "rotations: the motion of a body must know how it turns: a FrameMotion with rotations"});
+    const auto& [w, x, y, z] = rotation->orientation;
+    const Vec3& spin = rotation->angular_velocity;
+    answer().insert(answer().end(), {w, x, y, z, spin.x, spin.y, spin.z});
+  }
+  return true;
 }
 
 /// Answers the place of the body's motion among those that were added, in order, and the body's number

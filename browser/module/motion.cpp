@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "exchange.hpp"
@@ -11,6 +12,7 @@
 #include "kinesphere/motion/random_forces.hpp"
 #include "kinesphere/motion/recorded_tracks.hpp"
 #include "kinesphere/motion/steered_motion.hpp"
+#include "rigid_bodies.hpp"
 
 namespace kinesphere::browser {
 namespace {
@@ -113,9 +115,11 @@ MotionHandle* motion_steered(std::size_t count, const double* states, const doub
                                           .start_time = start}));
 }
 
+/// `rotations` is null for frames without rotations.
 KINESPHERE_EXPORT(motion_frames)
 MotionHandle* motion_frames(std::size_t count, const double* states, const double* limits, double interval,
-                            double position_error, double start) {
+                            double position_error, std::size_t rotation_count, const double* rotations,
+                            double start) {
   FrameMotionDefinition definition{.start = {},
                                    .acceleration_limits = {limits, limits + count},
                                    .interval = interval,
@@ -125,6 +129,7 @@ MotionHandle* motion_frames(std::size_t count, const double* states, const doubl
     definition.start.push_back(state.position);
     definition.velocities.push_back(state.velocity);
   }
+  if (rotations != nullptr) definition.rotations = quaternions_at(rotations, rotation_count);
   return handle_of(FrameMotion::create(std::move(definition)));
 }
 
@@ -192,7 +197,8 @@ KINESPHERE_EXPORT(motion_remove) bool motion_remove(MotionHandle* handle, double
 }
 
 KINESPHERE_EXPORT(motion_add)
-double motion_add(MotionHandle* handle, double time, const double* state, double limit) {
+double motion_add(MotionHandle* handle, double time, const double* state, double limit,
+                  const double* orientation) {
   Result<std::uint32_t> added =
       Error{ErrorCode::unsupported, "motion", no_body, "Motion.add: this motion does not take bodies"};
   if (auto* const ballistic = dynamic_cast<Ballistic*>(handle->motion.get()))
@@ -202,7 +208,7 @@ double motion_add(MotionHandle* handle, double time, const double* state, double
   if (auto* const steered = dynamic_cast<SteeredMotion*>(handle->motion.get()))
     added = steered->add(time, state_at(state), limit);
   if (auto* const frames = dynamic_cast<FrameMotion*>(handle->motion.get()))
-    added = frames->add(time, state_at(state), limit);
+    added = frames->add(time, state_at(state), limit, quaternions_at(orientation, 1).front());
   return is_good(added) ? *added : no_id;
 }
 
@@ -213,15 +219,27 @@ bool motion_steer(MotionHandle* handle, double body, double time, const double* 
          is_good(steered->steer(static_cast<std::uint32_t>(body), time, vector_at(acceleration)));
 }
 
-/// Pushes to a world, or to none if `world` is null.
+/// Pushes to a world, or to none if `world` is null. `time` is null for a frame without a time of its own.
 KINESPHERE_EXPORT(frames_push)
-bool frames_push(MotionHandle* handle, World* world, std::size_t count, const double* positions) {
+bool frames_push(MotionHandle* handle, World* world, std::size_t count, const double* positions,
+                 const double* time, std::size_t rotation_count, const double* rotations) {
   auto* const frames = as<FrameMotion>(*handle, "push: this motion has no frames");
   if (frames == nullptr) return false;
   std::vector<Vec3> next;
   next.reserve(count);
   for (std::size_t k = 0; k < count; ++k) next.push_back(vector_at(positions + 3 * k));
-  return is_good(world != nullptr ? frames->push(*world, next) : frames->push(next));
+  const auto turns = quaternions_at(rotations, rotation_count);
+  const auto at = time != nullptr ? std::optional<double>(*time) : std::nullopt;
+  return is_good(world != nullptr ? frames->push(*world, next, turns, at) : frames->push(next, turns, at));
+}
+
+/// Answers four numbers for each body: its orientation at the latest frame; nothing without rotations.
+KINESPHERE_EXPORT(frames_latest_rotations) bool frames_latest_rotations(const MotionHandle* handle) {
+  const auto* const frames = as<const FrameMotion>(*handle, "latestRotations: this motion has no frames");
+  if (frames == nullptr) return false;
+  answer().clear();
+  for (const auto& [w, x, y, z] : frames->latest_rotations()) answer().insert(answer().end(), {w, x, y, z});
+  return true;
 }
 
 /// Answers the times of the last frame but one and of the last, then three numbers for each body: its

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "kinesphere/kinesphere.hpp"
 
@@ -15,5 +16,13 @@ struct RigidNumbers {
   const double* parts;  ///< for each its kind, its radius, the number of its points, and these
 };
 RigidBody rigid_body_at(const RigidNumbers& numbers);
+
+/// Reads four numbers for each quaternion.
+inline std::vector<Quaternion> quaternions_at(const double* numbers, std::size_t count) {
+  std::vector<Quaternion> rotations;
+  for (std::size_t k = 0; k < count; ++k, numbers += 4)
+    rotations.push_back({numbers[0], numbers[1], numbers[2], numbers[3]});
+  return rotations;
+}
 
 }  // namespace kinesphere::browser

@@ -82,6 +82,23 @@ test("a map keeps its motions, and one of clones goes on alike", () => {
   assert.equal(run(saved.bodies, saved.world).value, hash.value);
 });
 
+test("a box turns from frame to frame", () => {
+  const aboutZ = (angle) => [Math.cos(angle / 2), 0, 0, Math.sin(angle / 2)];
+  const frames = new FrameMotion({ positions: [0, 0, 0] }, { interval: 1, rotations: aboutZ(0) });
+  const world = new World({ contacts: "impacts" });
+  const bodies = new BodyMap();
+  const box = [{ box: { lower: [-1.8, -0.1, 0], upper: [1.8, 0.1, 0], radius: 0.1 } }];
+  const car = bodies.addRigidBody(world, frames, 0, box, { angularAccelerationLimit: 1, largestAngularSpeed: 9 });
+  world.setRotationProbe((ids, time, rotations) => rotations.set(bodies.rotations(time, ids)));
+  world.addStatic({ ball: { centre: [0, 1.5, 0], radius: 0.3 } });
+  refuses(() => bodies.push(world, frames, [0, 0, 0], 1), "out_of_range", /rotations/);
+  bodies.push(world, frames, [0, 0, 0], 1, aboutZ(Math.PI / 2));
+  const event = world.advance(1, bodies);
+  assert.ok(Math.abs(event.time - (1 - Math.asin(1 / 3) / (Math.PI / 2))) < 1e-4);
+  assert.ok(Math.abs(bodies.rotations(0.5, [car])[6] - Math.PI / 2) < 1e-12);
+  assert.deepEqual([...frames.latestRotations()], aboutZ(Math.PI / 2));
+});
+
 test("a game hands over frames beside a motion of its own", () => {
   const frames = new FrameMotion({ positions: [10, 50, 50, 90, 50, 50] }, { interval: 1 });
   const flights = new Ballistic({ positions: [50, 50, 50] });

@@ -513,6 +513,26 @@ test("a game hands over its frames, and answers contacts between them", () => {
   refuses(() => frames.push(world, [1, 2, 3]), "out_of_range", "positions");
 });
 
+test("frames of unequal length have times", () => {
+  const positions = Float64Array.of(0, 0, 0, 4, 0, 0);
+  const frames = new FrameMotion({ positions });
+  const world = new World({ contacts: "impacts" });
+  world.addMotion(frames, 0.5);
+  let time = 0;
+  const begins = [];
+  for (let frame = 0; frame < 60; ++frame) {
+    const dt = frame % 2 === 0 ? 0.03 : 0.01;
+    time += dt;
+    positions[0] += 3 * dt;
+    frames.push(world, positions, time);
+    assert.equal(frames.latestTime, time);
+    for (const event of world.events(time, frames)) begins.push(event);
+  }
+  assert.ok(Math.abs(begins[0].time - 1) < 1e-5 && Math.abs(begins[0].approachSpeed - 3) < 1e-9);
+  refuses(() => frames.push(world, positions, time), "time_backwards", "time");
+  refuses(() => frames.push(world, positions, NaN), "not_finite", "time");
+});
+
 test("a game states limits, and is told of frames that violate them", () => {
   const positions = Float64Array.of(0, 0, 0, -5, 0, 0);
   const frames = new FrameMotion({ positions }, { accelerationLimits: 1, interval: 1 });

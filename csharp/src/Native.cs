@@ -198,6 +198,8 @@ namespace Kinesphere
         [DllImport(library)]
         public static extern int ks_world_push_frame(ulong world, uint motion, Vector[] positions, UIntPtr count);
         [DllImport(library)]
+        public static extern int ks_world_push_frame_at(ulong world, uint motion, Vector[] positions, UIntPtr count, double time);
+        [DllImport(library)]
         public static extern int ks_world_latest_frame(ulong world, uint motion, [Out] Vector[] positions, UIntPtr capacity, out UIntPtr count);
         [DllImport(library)]
         public static extern int ks_world_latest_frame_time(ulong world, uint motion, out double time);

@@ -54,8 +54,9 @@ namespace Kinesphere
         /// <summary>Sets the acceleration of a body that AddSteered added, from the current time on.</summary>
         public void Steer(BodyId body, Vector acceleration) { Check(Native.ks_world_steer(handle, body, acceleration)); }
 
-        /// <summary>Adds bodies of a game's frames: straight from the position in one frame to that in the next. Without
-        /// limits the world is informed of all new velocities at each frame.</summary>
+        /// <summary>Adds bodies of a game's frames: straight from the position in one frame to that in the next. The
+        /// interval is the time between frames without times of their own. Without limits the world is informed of all
+        /// new velocities at each frame.</summary>
         public BodyId[] AddFrames(State[] states, BodyDefinition like, double interval, out uint motion,
             double[] radii = null, double[] masses = null, double[] accelerationLimits = null, double positionError = 0)
         {
@@ -65,13 +66,20 @@ namespace Kinesphere
             return AddMotion(definition, states, like, accelerationLimits, radii, masses, out motion);
         }
 
-        /// <summary>Appends the next frame, and returns its time, to which to advance then.</summary>
+        /// <summary>Appends the next frame, its interval after the one before, and returns its time, to which to advance
+        /// then. A game whose frames differ in length gives their times.</summary>
         public double PushFrame(uint motion, Vector[] positions)
         {
             double time;
             Check(Native.ks_world_push_frame(handle, motion, positions, Arrays.Count(positions, "positions")));
             Check(Native.ks_world_latest_frame_time(handle, motion, out time));
             return time;
+        }
+
+        /// <summary>Appends the next frame, at a time after that of the latest frame.</summary>
+        public void PushFrame(uint motion, Vector[] positions, double time)
+        {
+            Check(Native.ks_world_push_frame_at(handle, motion, positions, Arrays.Count(positions, "positions"), time));
         }
 
         /// <summary>The positions in the latest frame, with the changes that events made.</summary>

@@ -126,6 +126,7 @@ static class SharedScene
             RequireArgument("rigid", () => world.AddRigidBody(BodyDefinition.Default, new RigidDefinition()));
             RequireArgument("hulls", () => world.AddRigidBody(BodyDefinition.Default, RigidDefinition.Default, new RigidPart[0], null));
             RequireArgument("positions", () => world.PushFrame(0, null));
+            RequireArgument("positions", () => world.PushFrame(0, null, 1));
             RequireArgument("distances", () => world.SetSensor(0, null));
             RequireArgument("velocities", () => world.SetVelocities(new BodyId[0], one.Select(state => state.Velocity).ToArray()));
             RequireArgument("bodies", () => world.Nearest(new Vector(), -1));

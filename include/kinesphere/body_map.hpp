@@ -70,8 +70,10 @@ class BodyMap {
   Result<BodyId> add_moving_shape(World& world, Motion& motion, std::uint32_t number, MovingShape like);
 
   /// Adds a body of a motion as the position of a rigid body. Of `like.body`, state and motion limits come
-  /// from the motion. Errors: unknown_body or stale_body, and those of World::add_rigid_body(). Throws as
-  /// add().
+  /// from the motion, and so does `like.rotation` if the motion knows how its bodies turn
+  /// (Motion::rotation()). Errors: unknown_body or stale_body, and those of World::add_rigid_body();
+  /// unsupported for moments of inertia other than 0 where the motion turns the body, as a contact would turn
+  /// it otherwise. Throws as add().
   Result<BodyId> add_rigid_body(World& world, Motion& motion, std::uint32_t number, RigidBody like);
 
   /// Notes that a motion moves a body of a world, as add() does: for a world and motions that were restored
@@ -94,16 +96,25 @@ class BodyMap {
   Result<void> remove_gone(World& world, const Event& event, const ResponseFn& respond);
 
   /// Appends the next frame to the frames (FrameMotion::push) and informs the world of the new velocities,
-  /// so that no contact is missed. Needs world.time() == frames.latest_time(). Errors, which leave frames
-  /// and world unchanged: as FrameMotion::push(); unknown_body for a body with a new velocity that was not
-  /// added to the world through this map. Cost: O(n).
-  Result<void> push(World& world, FrameMotion& frames, std::span<const Vec3> positions) const;
+  /// so that no contact is missed. `time` is that of the frame; without it, the frame comes frames.interval()
+  /// after the one before. Needs world.time() == frames.latest_time(). Errors, which leave frames and world
+  /// unchanged: as FrameMotion::push(); unknown_body for a body with a new velocity that was not added to the
+  /// world through this map. Cost: O(n).
+  Result<void> push(World& world, FrameMotion& frames, std::span<const Vec3> positions,
+                    std::optional<double> time = {}) const;
+  /// Appends the next frame, with the orientations of the bodies, and informs the world of the new angular
+  /// velocities of rigid bodies, too. Errors: as above.
+  Result<void> push(World& world, FrameMotion& frames, std::span<const Vec3> positions,
+                    std::span<const Quaternion> rotations, std::optional<double> time = {}) const;
 
   /// Returns the motion and the number of the body, or nothing if this map does not know it.
   std::optional<MovedBody> find(BodyId body) const;
   /// Returns the state that the body's motion gives. Throws BadResult: unknown_body, and as
   /// Motion::state().
   State state(BodyId body, double time) const;
+  /// Returns the rotation that the body's motion gives. Throws BadResult: as state(); unsupported if the
+  /// motion does not know how its bodies turn.
+  Rotation rotation(BodyId body, double time) const;
 
   /// Returns a map of the same bodies, in which the motion to[k] stands for from[k]: for clones of a world
   /// and of its motions. Errors: out_of_range for another number of motions in `to`, and if `from` lacks a
@@ -120,6 +131,15 @@ class BodyMap {
     };
   }
   void probe() const&& = delete;
+  /// Returns a RotationProbe of all rigid bodies of this map, for World::set_rotation_probe(): needed where
+  /// one of the world's rigid bodies has an angular acceleration limit. It throws as rotation(). The map must
+  /// outlive it.
+  auto rotation_probe() const& {
+    return [this](std::span<const BodyId> ids, double time, std::span<Rotation> rotations) {
+      for (std::size_t k = 0; k < ids.size(); ++k) rotations[k] = rotation(ids[k], time);
+    };
+  }
+  void rotation_probe() const&& = delete;
 
   /// Motion source for World::run(). The map must outlive it. It throws BadResult: unknown_body, and as
   /// state(), origin() and set_origin() of the motions.

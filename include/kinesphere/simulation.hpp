@@ -104,7 +104,8 @@ class Simulation {
   Result<void> set_velocity(BodyId body, const Vec3& velocity);
   Result<void> teleport(BodyId body, const State& state);
   Result<void> remove(BodyId body);
-  Result<void> push(MotionId<FrameMotion> frames, std::span<const Vec3> positions);
+  Result<void> push(MotionId<FrameMotion> frames, std::span<const Vec3> positions,
+                    std::optional<double> time = {});
   State state(BodyId body, double time) const;
 
   /// Returns the motion of a body and its number there, or nothing if no motion moves it.

@@ -257,6 +257,8 @@ class World {
   /// Changes one property of the body or several from the current time on or, on an error, none. Several
   /// are changed in the order of BodyChange, and each must be valid after those before it.
   Result<void> change(BodyId body, const BodyChange& change);
+  /// Returns the error that change() would return now, and changes nothing, as check_set_velocity() does.
+  Result<void> check_change(BodyId body, const BodyChange& change) const;
 
   /// Disables the body: it has no contacts and is never probed. It keeps its id, and everything except its
   /// state may be set. Its contacts end as in remove(). Errors: disabled_body.

@@ -58,6 +58,10 @@ struct WorldDefinition {
   /// are marked without it: those within 4 sqrt(eps / (A + |g|)), the longest time of a hop within the
   /// tolerance (docs/grains.md).
   double zeno_interval = 0.0;
+  /// The time at which the world begins. Doubles tell late times apart less finely: at 1.7e9, now in Unix
+  /// seconds, to 2.4e-7, in which a body at speed 300 goes 7e-5. Contacts are not exact to less than that, so
+  /// begin at 0 and add an offset where times are shown, unless such ways are far below the contact
+  /// tolerance.
   double start_time = 0.0;
   /// For games: spreads the work that the world does for most bodies together, when their windows start
   /// (docs/architecture.md), over the time before, so that frames of equal length cost about the same. Events

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -71,7 +72,7 @@ def reduced_frames(motion: FrameMotion) -> Call:
     present = [number for number in range(size) if number in motion]
     for number in present:
         next_frame.remove(number)
-    next_frame.push(np.full((size, 3), np.nan))
+    _push_nobody(next_frame, size)
     order = [next_frame.add(next_frame.latest_time, *_rest) for _ in range(size)][::-1]
     removed = order[len(free) : size - len(present)]
     return restored_frames, (
@@ -81,7 +82,22 @@ def reduced_frames(motion: FrameMotion) -> Call:
         bodies,
         free,
         removed,
+        None if motion.has_equal_frames else (motion.previous_time, motion.latest_time),
     )
+
+
+def _push_nobody(motion: FrameMotion, size: int, time: float | None = None) -> None:
+    """A frame of a motion whose bodies have all been removed."""
+    motion.push(np.full((size, 3), np.nan), time, rotations=motion.latest_rotations())
+
+
+def _times(frames: int, start: float, last: tuple[float, float] | None) -> Sequence[float | None]:
+    """Times for so many frames, of which the last two come when they came; frames of equal length need none."""
+    if last is None or frames == 0:
+        return [None] * frames
+    # The frames before are half a length off, so that they are not those of equal length.
+    early = [start + (last[0] - start) * (k + 0.5) / (frames - 1) for k in range(frames - 2)]
+    return [*early, *last][-frames:]
 
 
 def restored_frames(
@@ -91,11 +107,12 @@ def restored_frames(
     bodies: list[bytes | None],
     free: list[int],
     removed: list[int],
+    last_times: tuple[float, float] | None = None,
 ) -> FrameMotion:
-    nobody = np.empty((0, 3))
-    motion, size = kind(nobody, **options), len(bodies)
-    for _ in range(latest_frame - 1):
-        motion.push(nobody)
+    motion, size = kind(np.empty((0, 3)), **options), len(bodies)
+    times = _times(latest_frame, motion.latest_time, last_times)
+    for time in times[:-1]:
+        _push_nobody(motion, 0, time)
     used = sorted(set(range(size)).difference(free))
     if latest_frame > 0:
         # The last number that is removed is the first to be used again.
@@ -103,7 +120,7 @@ def restored_frames(
             motion.add(motion.latest_time, *_rest)
         for number in [*free, *reversed(used)]:
             motion.remove(number)
-        motion.push(np.full((size, 3), np.nan))
+        _push_nobody(motion, size, times[-1])
     for number in used:
         body = bodies[number]
         if body is None:

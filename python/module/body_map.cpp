@@ -239,16 +239,34 @@ together, for rollback.)")
       .def(
           "push",
           [](BodyMapHandle& map, WorldHandle& world, HandleOf<FrameMotion>& frames,
-             const py::object& positions) {
+             const py::object& positions, std::optional<double> time, const py::object& rotations) {
             const std::vector<Vec3> each = vectors_of(positions, {"push", "positions"}, true);
+            std::vector<Quaternion> turns;
+            if (!rotations.is_none()) turns = quaternions_of(rotations, {"push", "rotations"});
             const auto turn_of_frames = frames.in_use.take_alone("push", "frames");
-            change(map, world, "push",
-                   [&](BodyMap& known, World& of) { return known.push(of, frames.get(), each); });
+            change(map, world, "push", [&](BodyMap& known, World& of) {
+              return known.push(of, frames.get(), each, turns, time);
+            });
           },
-          py::arg("world"), py::arg("frames"), py::arg("positions"),
-          R"(The next frame of a FrameMotion: the position of every body, shape (n, 3) or (n, 2).
+          py::arg("world"), py::arg("frames"), py::arg("positions"), py::arg("time") = py::none(),
+          py::kw_only(), py::arg("rotations") = py::none(),
+          R"(The next frame of a FrameMotion: the position of every body, shape (n, 3) or (n, 2), at a time.
 
-The world learns all new velocities, so that no contact is missed; world.time must be frames.latest_time.)")
+Without a time it comes frames.interval after the latest one: give it where frames differ in length. rotations
+are quaternions (w, x, y, z) of shape (n, 4), if the motion was made with them. The world learns all new
+velocities, so that no contact is missed; world.time must be frames.latest_time.)")
+      .def(
+          "rotations",
+          [](const BodyMapHandle& map, const py::object& bodies, double t) {
+            std::vector<Rotation> rotations;
+            for (const BodyId id : ids_of(bodies, {"rotations", "ids"}).ids)
+              rotations.push_back(map.map->rotation(id, t));
+            return arrays_of(rotations);
+          },
+          py::arg("ids"), py::arg("t"),
+          R"(Orientations, shape (n, 4), and angular velocities, shape (n, 3), that motions give at a time.
+
+It is a function for World.set_rotation_probe(), where rigid bodies have an angular acceleration limit.)")
       .def(
           "find",
           [](const BodyMapHandle& map, const py::object& body) -> py::object {

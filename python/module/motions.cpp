@@ -1,8 +1,11 @@
 #include "motions.hpp"
 
+#include <pybind11/stl.h>
+
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "errors.hpp"
@@ -13,6 +16,7 @@
 #include "kinesphere/motion/recorded_tracks.hpp"
 #include "kinesphere/motion/steered_motion.hpp"
 #include "kinesphere/motion/velocity_field.hpp"
+#include "rigid_bodies.hpp"
 #include "world.hpp"
 
 namespace kinesphere::python {
@@ -169,6 +173,7 @@ py::dict common_arguments(const FrameMotion& motion) {
   arguments["interval"] = motion.interval();
   arguments["position_error"] = motion.position_error();
   arguments["start_time"] = motion.start_time();
+  if (motion.has_rotations()) arguments["rotations"] = array_of(std::span<const Quaternion>());
   return arguments;
 }
 
@@ -440,6 +445,11 @@ std::vector<Track> tracks_of(const py::object& given) {
   return tracks;
 }
 
+std::vector<Quaternion> pushed_rotations(const py::object& rotations) {
+  if (rotations.is_none()) return {};
+  return quaternions_of(rotations, {"push", "rotations"});
+}
+
 void bind_recorded(py::module_& module) {
   bind_kind<RecordedTracks>(
       module, "RecordedTracks",
@@ -455,17 +465,26 @@ the last sample it goes straight on. Bodies can be removed, but not be changed.)
 
   auto frames = bind_kind<FrameMotion>(
       module, "FrameMotion",
-      R"(Bodies of a program that moves them in fixed steps: straight lines between its last two frames.
+      R"(Bodies of a program that moves them in steps: straight lines between its last two frames.
+
+push(world, positions, time) takes each frame with its time. Frames without a time follow each other after
+interval: give the time where frames differ in length.
 
 Velocities are news at every frame: push() informs the world of them, and nothing is promised between frames
 but straight motion. acceleration_limits (length / time^2, gravity included) changes that, with one number, or
-one of each body. While a body keeps its limit, |p[k+1] - 2 p[k] + p[k-1]| <= limit * interval^2, the world
-need not be informed. A limit suits bodies that turn little, far from others; where velocities jump it costs
-10 to 30 times as much. position_error (length) is how far positions may be off. States can be asked for from
-previous_time to latest_time. Entries of removed bodies must be NaN, as in latest().)");
+one of each body. The world need not be informed of a body that keeps its limit, as long as no frame is longer
+than interval; after longer frames it is informed where the limit needs it. A limit suits bodies that turn
+little, far from others; where velocities jump it costs 10 to 30 times as much. position_error (length) is how
+far positions may be off. States can be asked for from previous_time to latest_time. Entries of removed bodies
+must be NaN, as in latest().
+
+rotations, quaternions (w, x, y, z) of shape (n, 4), make frames of rigid bodies that turn: each push() then
+takes the rotations, too. Between frames a body turns with constant angular velocity, by the shorter way.
+BodyMap.add_rigid_body() adds one, whose inertia must be 0, as the frames turn it.)");
   frames
       .def(py::init([](const py::object& positions, const py::object& velocities, const py::object& limits,
-                       double interval, double position_error, double start_time) {
+                       double interval, double position_error, double start_time,
+                       const py::object& rotations) {
              const std::string_view call = "FrameMotion";
              FrameMotionDefinition definition;
              definition.start = vectors_of(positions, {call, "positions"}, any_dimension);
@@ -476,33 +495,53 @@ previous_time to latest_time. Entries of removed bodies must be NaN, as in lates
              definition.interval = interval;
              definition.position_error = position_error;
              definition.start_time = start_time;
+             if (!rotations.is_none()) definition.rotations = quaternions_of(rotations, {call, "rotations"});
              return std::make_shared<HandleOf<FrameMotion>>(FrameMotion::create(std::move(definition)));
            }),
            py::arg("positions"), py::arg("velocities") = py::none(),
            py::arg("acceleration_limits") = no_limit, py::kw_only(), py::arg("interval") = 1.0 / 60.0,
-           py::arg("position_error") = 0.0, py::arg("start_time") = 0.0)
+           py::arg("position_error") = 0.0, py::arg("start_time") = 0.0, py::arg("rotations") = py::none())
       .def(
           "push",
-          [](HandleOf<FrameMotion>& handle, WorldHandle& world, const py::object& positions) {
+          [](HandleOf<FrameMotion>& handle, WorldHandle& world, const py::object& positions,
+             std::optional<double> time, const py::object& rotations) {
             const std::vector<Vec3> next = vectors_of(positions, {"push", "positions"}, any_dimension);
+            const std::vector<Quaternion> turns = pushed_rotations(rotations);
             const auto turn = handle.in_use.take_alone("push", "frames");
             const auto turn_of_world = world.take("push");
-            require(handle.get().push(world.world, next));
+            require(handle.get().push(world.world, next, turns, time));
             end_call(world);
           },
-          py::arg("world"), py::arg("positions"),
-          R"(The next frame: the position of every body, shape (n, 3) or (n, 2).
+          py::arg("world"), py::arg("positions"), py::arg("time") = py::none(), py::kw_only(),
+          py::arg("rotations") = py::none(),
+          R"(The next frame: the position of every body, shape (n, 3) or (n, 2), at a time after latest_time.
 
-The world, in which ids are the numbers here, learns all new velocities, so that no contact is missed;
+Without a time it comes interval after the latest one. rotations, shape (n, 4), if the motion was made with
+them. The world, in which ids are the numbers here, learns all new velocities, so that no contact is missed;
 world.time must be latest_time. For other worlds: BodyMap.push().)")
       .def(
           "push",
-          [](HandleOf<FrameMotion>& handle, const py::object& positions) {
+          [](HandleOf<FrameMotion>& handle, const py::object& positions, std::optional<double> time,
+             const py::object& rotations) {
+            const std::vector<Quaternion> turns = pushed_rotations(rotations);
             const auto turn = handle.in_use.take_alone("push", "frames");
-            require(handle.get().push(vectors_of(positions, {"push", "positions"}, any_dimension)));
+            require(
+                handle.get().push(vectors_of(positions, {"push", "positions"}, any_dimension), turns, time));
           },
-          py::arg("positions"),
+          py::arg("positions"), py::arg("time") = py::none(), py::kw_only(),
+          py::arg("rotations") = py::none(),
           "The next frame, if no world has to know of a new velocity: all bodies have limits and keep them.")
+      .def(
+          "latest_rotations",
+          [](const HandleOf<FrameMotion>& handle) -> py::object {
+            const FrameMotion& motion = handle.get();
+            return motion.has_rotations() ? array_of(motion.latest_rotations()) : py::object(py::none());
+          },
+          "How the bodies are turned at latest_time: shape (n, 4); None for a motion without rotations.")
+      .def_property_readonly(
+          "has_equal_frames",
+          [](const HandleOf<FrameMotion>& handle) { return handle.get().has_equal_frames(); },
+          "True while each frame has come interval after the one before, with or without a time of its own.")
       .def(
           "latest",
           [](const HandleOf<FrameMotion>& handle) {
@@ -538,7 +577,21 @@ world.time must be latest_time. For other worlds: BodyMap.push().)")
           },
           R"(Bodies that violated their limits in the latest frame: tuples of number, excess (length), the
 acceleration limit that would have allowed it, and velocity. The world has been informed of them.)");
-  bind_add_with_limit(frames, py::arg("acceleration_limit") = no_limit);
+  frames.def(
+      "add",
+      [](HandleOf<FrameMotion>& handle, double t, const py::object& position, const py::object& velocity,
+         double acceleration_limit, const py::object& orientation) {
+        const auto turn = handle.in_use.take_alone("add", "motion");
+        return handle.get()
+            .add(t,
+                 {vector_of(position, {"add", "position"}, any_dimension),
+                  vector_of(velocity, {"add", "velocity"}, any_dimension)},
+                 acceleration_limit, quaternion_of(orientation, {"add", "orientation"}))
+            .value();
+      },
+      py::arg("t"), py::arg("position"), py::arg("velocity"), py::arg("acceleration_limit") = no_limit,
+      py::arg("orientation") = py::make_tuple(1.0, 0.0, 0.0, 0.0),
+      "Adds a body that moves on from there at time t, and returns its number.");
 }
 
 }  // namespace

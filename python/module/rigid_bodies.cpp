@@ -1,5 +1,6 @@
 #include "rigid_bodies.hpp"
 
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -21,13 +22,6 @@ constexpr bool in_space = false;
 
 Quaternion quaternion_at(const Numbers& numbers, std::size_t row) {
   return {numbers.at(row, 0), numbers.at(row, 1), numbers.at(row, 2), numbers.at(row, 3)};
-}
-
-Quaternion quaternion_of(const py::object& given, const Argument& argument) {
-  const Numbers numbers(given, argument);
-  if (numbers.dimensions() != 1 || numbers.length(0) != 4)
-    refuse(argument, "must be a quaternion (w, x, y, z), of shape (4,)", "has shape " + numbers.shape());
-  return {numbers.at(0), numbers.at(1), numbers.at(2), numbers.at(3)};
 }
 
 /// Returns a Ball for a part without length, and a Hull for one of more than two points.
@@ -170,6 +164,44 @@ py::tuple bounce_rigid(const Event& contact, double restitution) {
 }
 
 }  // namespace
+
+Quaternion quaternion_of(const py::object& given, const Argument& argument) {
+  const Numbers numbers(given, argument);
+  if (numbers.dimensions() != 1 || numbers.length(0) != 4)
+    refuse(argument, "must be a quaternion (w, x, y, z), of shape (4,)", "has shape " + numbers.shape());
+  return {numbers.at(0), numbers.at(1), numbers.at(2), numbers.at(3)};
+}
+
+std::vector<Quaternion> quaternions_of(const py::object& given, const Argument& argument) {
+  const Numbers numbers(given, argument);
+  if (numbers.dimensions() != 2 || numbers.length(1) != 4)
+    refuse(argument, "must be quaternions (w, x, y, z), of shape (n, 4)", "has shape " + numbers.shape());
+  std::vector<Quaternion> rotations;
+  for (std::size_t k = 0; k < numbers.length(0); ++k) rotations.push_back(quaternion_at(numbers, k));
+  return rotations;
+}
+
+py::object array_of(std::span<const Quaternion> rotations) {
+  NewArray orientations = new_doubles({rotations.size(), 4});
+  if (rotations.empty()) return orientations.take();
+  double* orientation = orientations.data<double>();
+  for (const Quaternion& q : rotations)
+    for (const double number : {q.w, q.x, q.y, q.z}) *orientation++ = number;
+  return orientations.take();
+}
+
+py::tuple arrays_of(std::span<const Rotation> rotations) {
+  std::vector<Quaternion> orientations;
+  std::vector<Vec3> spins;
+  for (const auto& [orientation, spin] : rotations) {
+    orientations.push_back(orientation);
+    spins.push_back(spin);
+  }
+  NewArray angular_velocities = new_doubles({spins.size(), 3});
+  if (!spins.empty())
+    std::memcpy(angular_velocities.data<double>(), spins.data(), spins.size() * sizeof(Vec3));
+  return py::make_tuple(array_of(orientations), angular_velocities.take());
+}
 
 RigidBody RigidArguments::read(const BodyDefinition& body) const {
   const std::string_view call = "add_rigid_body";

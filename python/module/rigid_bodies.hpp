@@ -3,6 +3,9 @@
 
 #include <pybind11/pybind11.h>
 
+#include <span>
+#include <vector>
+
 #include "exchange.hpp"
 #include "kinesphere/rigid_body.hpp"
 
@@ -19,5 +22,13 @@ struct RigidArguments {
 
   RigidBody read(const BodyDefinition& body) const;
 };
+
+/// Reads a quaternion, of shape (4,), and one or more of shape (n, 4). Neither checks the length.
+Quaternion quaternion_of(const py::object& given, const Argument& argument);
+std::vector<Quaternion> quaternions_of(const py::object& given, const Argument& argument);
+/// Returns an array of shape (n, 4).
+py::object array_of(std::span<const Quaternion> rotations);
+/// Returns arrays of shape (n, 4) and (n, 3).
+py::tuple arrays_of(std::span<const Rotation> rotations);
 
 }  // namespace kinesphere::python

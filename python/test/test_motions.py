@@ -215,6 +215,60 @@ def test_frames_of_a_game() -> None:
         bodies.push(world, frames, at[:1])
 
 
+def test_frames_of_unequal_length_have_times() -> None:
+    places, time = np.array([[0.0, 0, 0], [4.0, 0, 0]]), 0.0
+    frames = ks.FrameMotion(places)
+    world, bodies = ks.World(contacts="impacts"), ks.BodyMap()
+    bodies.add_all(world, frames, radii=0.5)
+    begins: list[ks.Event] = []
+    for frame in range(60):
+        dt = 0.03 if frame % 2 == 0 else 0.01
+        time += dt
+        places[0, 0] += 3.0 * dt
+        bodies.push(world, frames, places, time)
+        assert frames.latest_time == time and not frames.has_equal_frames
+        begins += world.events(time, bodies)
+    assert begins[0].time == pytest.approx(1.0, abs=1e-6)
+    assert begins[0].approach_speed == pytest.approx(3.0)
+    with pytest.raises(ks.InvalidValue, match="time must bring the next frame after the latest one"):
+        bodies.push(world, frames, places, time)
+    limited = ks.FrameMotion([(0, 0, 0)], acceleration_limits=1.0, interval=0.5)
+    limited.push([(0.1, 0, 0)], 0.4)
+    limited.push([(0.1, 0, 0)])
+    assert (limited.previous_time, limited.latest_time) == (0.4, 0.9)
+
+
+def about_z(angle: float) -> tuple[float, float, float, float]:
+    return (float(np.cos(angle / 2)), 0.0, 0.0, float(np.sin(angle / 2)))
+
+
+@pytest.mark.parametrize("limit", [0.0, 1.0])
+def test_a_box_turns_from_frame_to_frame(limit: float) -> None:
+    frames = ks.FrameMotion([(0, 0, 0), (0, 1.5, 0)], interval=1.0, rotations=[about_z(0), about_z(0)])
+    world, bodies = ks.World(contacts="impacts"), ks.BodyMap()
+    box = [ks.Hull([(x, y, 0) for x in (-1.8, 1.8) for y in (-0.1, 0.1)], 0.1)]
+    car = bodies.add_rigid_body(
+        world, frames, 0, box, angular_acceleration_limit=limit, largest_angular_speed=9.0
+    )
+    bodies.add(world, frames, 1, 0.3)
+    world.set_rotation_probe(bodies.rotations)
+    bodies.push(world, frames, frames.latest(), rotations=[about_z(np.pi / 2), about_z(0)])
+    (begin,) = world.events(1.0, bodies)
+    assert begin.approach_speed == pytest.approx(1.5 * np.pi / 2 * np.cos(np.arcsin(0.5 / 1.5)), rel=0.01)
+    assert begin.time == pytest.approx(1 - np.arcsin(0.5 / 1.5) / (np.pi / 2), abs=1e-4)
+    orientations, spins = bodies.rotations([car], 0.5)
+    assert orientations[0] == pytest.approx(about_z(np.pi / 4))
+    assert spins[0] == pytest.approx((0, 0, np.pi / 2))
+    turned = frames.latest_rotations()
+    assert turned is not None and turned[0] == pytest.approx(about_z(np.pi / 2))
+    with pytest.raises(ks.InvalidValue, match="rotations must have one entry per body, 2, but is 0"):
+        bodies.push(world, frames, frames.latest())
+    with pytest.raises(ks.InvalidValue, match=r"rotations must be quaternions .* of shape \(n, 4\)"):
+        bodies.push(world, frames, frames.latest(), rotations=[(1, 0, 0)])
+    assert frames.add(1.0, (0, 0, 9), (0, 0, 0), orientation=about_z(1.0)) == 2
+    assert ks.FrameMotion([(0, 0, 0)]).latest_rotations() is None
+
+
 def test_a_jump_of_a_frame_meets_what_is_on_its_way() -> None:
     places = np.array([[0.0, 0, 0], [-5.0, 0, 0]])
     frames = ks.FrameMotion(places, interval=1.0)

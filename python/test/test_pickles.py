@@ -146,6 +146,28 @@ def test_a_map_comes_back_with_its_world_and_motions() -> None:
     assert np.array_equal(flight.states(0.5, [0, 2])[0], again[1].states(0.5, [0, 2])[0])
 
 
+@pytest.mark.parametrize("times", [[], [0.3], [0.1, 0.3], [0.1, 0.15, 0.3, 0.4]])
+@pytest.mark.parametrize("turns", [False, True])
+def test_frames_with_times_and_rotations_come_back(times: list[float], turns: bool) -> None:
+    size = 5
+    at = np.arange(3.0 * size).reshape(size, 3)
+    turned = np.array([(1.0, 0, 0, 0)] * size) if turns else None
+    motion = ks.FrameMotion(at, acceleration_limits=1.0, interval=0.1, rotations=turned)
+    for k, time in enumerate(times):
+        motion.push(at + 1e-3 * k, time, rotations=turned)
+    again = through(motion)
+    for frame in range(2):
+        assert again.latest_time == motion.latest_time and again.previous_time == motion.previous_time
+        assert again.has_equal_frames == motion.has_equal_frames and again.latest_frame == len(times) + frame
+        np.testing.assert_array_equal(again.latest(), motion.latest())
+        here, back = motion.latest_rotations(), again.latest_rotations()
+        assert (here is not None) == (back is not None) == turns
+        if here is not None and back is not None:
+            np.testing.assert_array_equal(back, here)
+        for one in (motion, again):
+            one.push(one.latest() + 1e-3, rotations=turned)
+
+
 def moved(ids: Any, t: float, since: Any, places: Any, speeds: Any) -> tuple[Any, Any]:
     return places + speeds * (t - since), speeds
 

@@ -545,6 +545,7 @@ extern "C" {
     pub fn ks_world_add_to_motion(world: ks_world, motion: u32, definition: *const ks_motion_definition, numbers: *mut u32, ids: *mut BodyId) -> ks_status;
     pub fn ks_world_steer(world: ks_world, body: BodyId, acceleration: Vec3) -> ks_status;
     pub fn ks_world_push_frame(world: ks_world, motion: u32, positions: *const Vec3, count: usize) -> ks_status;
+    pub fn ks_world_push_frame_at(world: ks_world, motion: u32, positions: *const Vec3, count: usize, time: f64) -> ks_status;
     pub fn ks_world_latest_frame(world: ks_world, motion: u32, positions: *mut Vec3, capacity: usize, count: *mut usize) -> ks_status;
     pub fn ks_world_latest_frame_time(world: ks_world, motion: u32, time: *mut f64) -> ks_status;
     pub fn ks_world_states(world: ks_world, bodies: *const BodyId, count: usize, time: f64, states: *mut State) -> ks_status;

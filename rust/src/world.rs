@@ -89,8 +89,9 @@ pub enum Motion<'a> {
     Ballistic { gravity: Vec3 },
     /// Random accelerations up to a limit for each body, new at multiples of the interval.
     RandomForces { acceleration_limits: &'a [f64], interval: f64, seed: u64 },
-    /// A game's frames, this much time apart: straight from the position in one to that in the next. There is a limit
-    /// for each body, or, if there are none, all velocities are news at each frame.
+    /// A game's frames: straight from the position in one to that in the next. `interval` is the time between frames
+    /// without times of their own. There is a limit for each body, or, if there are none, all velocities are news at
+    /// each frame.
     Frames { interval: f64, position_error: f64, acceleration_limits: &'a [f64] },
     /// Each body keeps its acceleration, at first zero, until [`World::steer`], within a limit for each body.
     Steered { acceleration_limits: &'a [f64] },
@@ -674,7 +675,8 @@ impl World {
         self.check(unsafe { sys::ks_world_steer(self.handle, body, acceleration) })
     }
 
-    /// Appends the next frame of a motion of frames, and returns its time, to which to advance then.
+    /// Appends the next frame of a motion of frames, its interval after the one before, and returns its time, to which
+    /// to advance then. A game whose frames differ in length needs [`World::push_frame_at`].
     pub fn push_frame(&mut self, motion: u32, positions: &[Vec3]) -> Result<f64> {
         self.check(unsafe {
             sys::ks_world_push_frame(self.handle, motion, positions.as_ptr(), positions.len())
@@ -682,6 +684,13 @@ impl World {
         let mut time = 0.0;
         self.check(unsafe { sys::ks_world_latest_frame_time(self.handle, motion, &mut time) })?;
         Ok(time)
+    }
+
+    /// Appends the next frame of a motion of frames, at a time after that of the latest frame.
+    pub fn push_frame_at(&mut self, motion: u32, positions: &[Vec3], time: f64) -> Result<()> {
+        self.check(unsafe {
+            sys::ks_world_push_frame_at(self.handle, motion, positions.as_ptr(), positions.len(), time)
+        })
     }
 
     /// The positions in the latest frame, with the changes that events made.

@@ -22,8 +22,15 @@ std::optional<BoundViolation> bound_violation(const Bound& before, const Bound& 
   const double expected_terms =
       new_velocity ? norm(*new_velocity) : norm(before.velocity) + norm(before.planned_acceleration) * s;
   const double velocity_slack = 0x1p-30 * (norm(after.velocity) + expected_terms + change_limit);
-  const bool left = deviation > deviation_limit + position_slack;
-  const bool jumped = change > change_limit + velocity_slack;
+  bool left = deviation > deviation_limit + position_slack;
+  bool jumped = change > change_limit + velocity_slack;
+  if (!left && !jumped) return std::nullopt;
+  // Only what has passed the other margins needs these, which are zero around time 0.
+  const double rounding = time_rounding(before.time, after.time);
+  const double acceleration = norm(before.planned_acceleration) + before.acceleration_limit;
+  const double speed = norm(before.velocity) + before.growth_speed + acceleration * s;
+  left = left && deviation > deviation_limit + position_slack + rounding * speed;
+  jumped = jumped && change > change_limit + velocity_slack + rounding * acceleration;
   if (!left && !jumped) return std::nullopt;
   return BoundViolation{left ? deviation - deviation_limit : 0.0, jumped ? change - change_limit : 0.0};
 }

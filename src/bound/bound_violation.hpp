@@ -1,6 +1,7 @@
 // Checks a report against the bound that the previous report and the motion limits imply.
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "kinesphere/bound.hpp"
@@ -13,12 +14,20 @@ struct BoundViolation {
   double velocity_excess = 0.0;  ///< length / time
 };
 
+/// Returns by how much the time between two reports (time) may be off, as the caller knows it: one unit in
+/// the last place of each of the two times. A motion that counts from the rounded times of its own steps
+/// shows its body there so much earlier or later than it was.
+inline double time_rounding(double before, double after) {
+  return 0x1p-52 * (std::abs(before) + std::abs(after));
+}
+
 /// Compares a report of a body of this radius with the bound of the previous report. Returns nullopt if the
 /// report satisfies it. `before` and `after` are the bounds made from the previous and from the present
 /// report; their error limits differ if the caller has changed them in between. `new_velocity` is the
 /// velocity that the caller has set since the previous report: then that report was made at this very time,
 /// or only its position counts. Rounding errors up to 1/16 of `contact_tolerance` are not a violation, as the
-/// tolerance covers them.
+/// tolerance covers them, and neither is as far as the body moves, or changes its velocity, in the
+/// time_rounding() of the two reports.
 std::optional<BoundViolation> bound_violation(const Bound& before, const Bound& after, double radius,
                                               const std::optional<Vec3>& new_velocity,
                                               double contact_tolerance);

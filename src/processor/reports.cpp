@@ -274,8 +274,10 @@ std::optional<BoundViolation> Reports::turn(RigidRecord& record, const Body& bod
   const double change = std::max(
       norm(record.rotation.angular_velocity - last.angular_velocity) - record.angular_acceleration_limit * s,
       record.keeps_spin() ? 0.0 : norm(record.rotation.angular_velocity) - largest);
-  const bool left = angle > slack * (1.0 + spin * s);
-  const bool jumped = change > slack * (spin + norm(record.rotation.angular_velocity));
+  const double rounding = time_rounding(before.time, time);
+  const bool left = angle > slack * (1.0 + spin * s) + rounding * spin;
+  const bool jumped = change > slack * (spin + norm(record.rotation.angular_velocity)) +
+                                   rounding * record.angular_acceleration_limit;
   if (!left && !jumped) return std::nullopt;
   return BoundViolation{left ? angle * body.radius : 0.0, jumped ? change * body.radius : 0.0};
 }

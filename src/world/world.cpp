@@ -198,8 +198,12 @@ Result<void> World::wake(BodyId body) {
   return valid;
 }
 
+Result<void> World::check_change(BodyId body, const BodyChange& change) const {
+  return Preconditions(*this, "change").changed(body, change);
+}
+
 Result<void> World::change(BodyId body, const BodyChange& change) {
-  if (auto valid = Preconditions(*this, "change").changed(body, change); !valid) return valid;
+  if (auto valid = check_change(body, change); !valid) return valid;
   const auto set = [&](auto made, const auto& value, auto setter) {
     if (!value) return;
     made.argument = *value;

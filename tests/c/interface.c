@@ -880,7 +880,14 @@ static void frames(void) {
   const ks_vec3 both[2] = {vec3(4, 5, 5), vec3(5, 8, 5)};
   CHECK(added == 1);
   CHECK_STATUS(ks_world_push_frame(world, number, both, 1), KS_ERROR_OUT_OF_RANGE);
-  CHECK_OK(ks_world_push_frame(world, number, both, 2));
+  double latest;
+  CHECK_OK(ks_world_latest_frame_time(world, number, &latest));
+  CHECK_STATUS(ks_world_push_frame_at(world, number, both, 2, latest), KS_ERROR_TIME_BACKWARDS);
+  CHECK(strcmp(ks_last_error_argument(), "time") == 0);
+  CHECK_OK(ks_world_push_frame_at(world, number, both, 2, latest + 0.375));
+  double given;
+  CHECK_OK(ks_world_latest_frame_time(world, number, &given));
+  CHECK(given == latest + 0.375);
   CHECK_OK(ks_world_destroy(world));
 }
 

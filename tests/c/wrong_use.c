@@ -383,6 +383,7 @@ static void wrong_motions(void) {
         0);
   REFUSED(ks_world_steer(world, id, vec3(0, 0, 0)), UNSUPPORTED);
   REFUSED(ks_world_push_frame(world, 99, &position, 1), OUT_OF_RANGE);
+  REFUSED(ks_world_push_frame_at(world, 99, &position, 1, 1.0), OUT_OF_RANGE);
   ks_run_definition run = ks_default_run_definition();
   run.sink = refuse_event;
   REFUSED(ks_world_run(world, 50.0, &run), CALLBACK_FAILED);

@@ -131,6 +131,16 @@ Pair frames(Random& random) {
   return pair_of<FrameMotion>(std::move(definition));
 }
 
+/// Frames that have had a time of their own, so that all later ones do.
+Pair timed_frames(Random& random) {
+  Pair motions = frames(random);
+  for (Motion* motion : {motions.here.get(), motions.there.get()}) {
+    auto& timed = dynamic_cast<FrameMotion&>(*motion);
+    timed.push(timed.latest(), timed.latest_time() + 1e-3).value();
+  }
+  return motions;
+}
+
 /// Compares bit for bit: 0 and -0 differ.
 template <class T>
 bool same_bits(const T& a, const T& b) {
@@ -205,8 +215,10 @@ void next_frame(const Pair& motions, std::span<const Traveller> travellers, Rand
   std::vector<Vec3> positions_here = here->latest(), positions_there = there->latest();
   for (Vec3& position : positions_here) position += random.point_in_ball();
   for (const auto& [body, number] : travellers) positions_there[number] = positions_here[body];
-  here->push(positions_here).value();
-  there->push(positions_there).value();
+  std::optional<double> time;
+  if (!here->has_equal_frames()) time = here->latest_time() + random.uniform(0.01, 1.0);
+  here->push(positions_here, time).value();
+  there->push(positions_there, time).value();
 }
 
 /// Returns a change of a body that all motions of this kind accept.
@@ -412,7 +424,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Maker{"Ballistic", ballistic, true}, Maker{"RandomForces", random_forces, true},
                     Maker{"Steered", steered, true}, Maker{"VelocityField", velocity_field, true},
                     Maker{"PiecewiseMotion", piecewise_motion, false},
-                    Maker{"RecordedTracks", recorded_tracks, false}, Maker{"Frames", frames, true}),
+                    Maker{"RecordedTracks", recorded_tracks, false}, Maker{"Frames", frames, true},
+                    Maker{"TimedFrames", timed_frames, true}),
     [](const auto& test) { return test.param.name; });
 
 /// Appends the bytes of a number, the least significant one first, on every machine.

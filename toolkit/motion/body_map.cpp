@@ -72,6 +72,13 @@ Result<BodyId> BodyMap::add_rigid_body(World& world, Motion& motion, std::uint32
   const auto definition = definition_of("add_rigid_body", motion, number, world.time(), like.body);
   if (!definition) return definition.error();
   like.body = *definition;
+  if (const auto rotation = motion.rotation(number, world.time())) {
+    like.rotation = *rotation;
+    InputCheck check("BodyMap::add_rigid_body");
+    check.require(like.inertia == Vec3{}, ErrorCode::unsupported, {"inertia"},
+                  "must be 0 for a body that its motion turns", like.inertia);
+    if (check.error()) return *check.error();
+  }
   auto id = world.add_rigid_body(like);
   if (id) note(*id, motion, number);
   return id;
@@ -147,13 +154,19 @@ Result<void> BodyMap::remove_gone(World& world, const Event& event, const Respon
   return removed ? remove_if(event.second, response.second_action) : removed;
 }
 
-Result<void> BodyMap::push(World& world, FrameMotion& frames, std::span<const Vec3> positions) const {
+Result<void> BodyMap::push(World& world, FrameMotion& frames, std::span<const Vec3> positions,
+                           std::optional<double> time) const {
+  return push(world, frames, positions, {}, time);
+}
+
+Result<void> BodyMap::push(World& world, FrameMotion& frames, std::span<const Vec3> positions,
+                           std::span<const Quaternion> rotations, std::optional<double> time) const {
   std::vector<BodyId> ids(frames.size(), no_body);
   for (std::uint32_t index = 0; index < entries_.size(); ++index) {
     const Entry& known = entries_[index];
     if (known.motion == &frames) ids[known.number] = {index, known.generation, known.world};
   }
-  return frames.push("BodyMap::push", world, ids, positions);
+  return frames.push("BodyMap::push", world, ids, {positions, rotations, time});
 }
 
 Result<std::unique_ptr<BodyMap>> BodyMap::with_motions(std::span<Motion* const> from,
@@ -199,6 +212,16 @@ const BodyMap::Entry& BodyMap::known(std::string_view call, BodyId body) const {
 State BodyMap::state(BodyId body, double time) const {
   const Entry& moved = known("state", body);
   return moved.motion->state(moved.number, time);
+}
+
+Rotation BodyMap::rotation(BodyId body, double time) const {
+  const Entry& moved = known("rotation", body);
+  const auto rotation = moved.motion->rotation(moved.number, time);
+  if (!rotation) [[unlikely]]
+    detail::bad_result({ErrorCode::unsupported, "body", body,
+                        "BodyMap::rotation: the motion of " + text_of(body) +
+                            " must know how its bodies turn: a FrameMotion that was created with rotations"});
+  return *rotation;
 }
 
 void BodyMap::MapSource::states(std::span<const BodyId> ids, double time, std::span<State> states) {

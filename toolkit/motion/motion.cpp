@@ -22,6 +22,8 @@ Result<void> Motion::teleport(std::uint32_t body, double, const State&) {
 
 Result<void> Motion::remove(std::uint32_t body) { return cannot_change("remove", *this, body, "removed"); }
 
+std::optional<Rotation> Motion::rotation(std::uint32_t, double) const { return std::nullopt; }
+
 MotionOrigin Motion::origin(std::uint32_t body) const {
   detail::bad_result(cannot_change("origin", *this, body, "changed"));
 }

@@ -129,9 +129,10 @@ Result<void> Simulation::remove(BodyId body) {
   return removed;
 }
 
-Result<void> Simulation::push(MotionId<FrameMotion> frames, std::span<const Vec3> positions) {
+Result<void> Simulation::push(MotionId<FrameMotion> frames, std::span<const Vec3> positions,
+                              std::optional<double> time) {
   if (const auto error = wrong_motion("push", frames)) return *error;
-  return bodies_->push(world_, motion(frames), positions);
+  return bodies_->push(world_, motion(frames), positions, time);
 }
 
 State Simulation::state(BodyId body, double time) const { return known_bodies("state").state(body, time); }

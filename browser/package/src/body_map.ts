@@ -4,7 +4,7 @@ import {
   shapeNumbers,
 } from "./body.js";
 import { Owned, theModule } from "./module.js";
-import type { FrameMotion, Motion } from "./motion.js";
+import { type FrameMotion, type Motion, rotationArguments, timeArgument } from "./motion.js";
 import { checkKeys, requireNumbers } from "./options.js";
 import { movedRigidArguments, type MovedRigidBodyDefinition, type RigidPart } from "./rigid_body.js";
 import { type BodyId, countOf, each, type PerBody, sixOf, type State, type Vec3, vector } from "./state.js";
@@ -106,14 +106,33 @@ export class BodyMap extends Owned {
   }
   /**
    * Adds the next frame of a FrameMotion, three numbers for each of its bodies. The world learns all new velocities, so
-   * that no contact is missed; world.time must be frames.latestTime.
+   * that no contact is missed; world.time must be frames.latestTime. `time` must be later than that; without it the
+   * frame comes the interval of the frames after the latest one, so give it where frames differ in length. `rotations`
+   * has four numbers w, x, y, z for each body, if the motion was made with rotations.
    */
-  push(world: World, frames: FrameMotion, positions: ArrayLike<number>): void {
+  push(
+    world: World, frames: FrameMotion, positions: ArrayLike<number>, time?: number, rotations?: ArrayLike<number>,
+  ): void {
     const call = "BodyMap.push";
     const count = countOf(positions, call);
     const module = theModule();
     module.with((scratch) => module.require(module.call(
-      "map_push", this.address, ...addressesOf(world, frames, call), count, scratch.numbers(positions))));
+      "map_push", this.address, ...addressesOf(world, frames, call), count, scratch.numbers(positions),
+      timeArgument(scratch, time), ...rotationArguments(scratch, rotations, call))));
+  }
+  /**
+   * Returns seven numbers for each: orientation w, x, y, z and angular velocity, as a RotationProbeFunction sets them.
+   * Needed in World.setRotationProbe() where rigid bodies have an angular acceleration limit:
+   *
+   *     world.setRotationProbe((ids, time, rotations) => rotations.set(bodies.rotations(time, ids)));
+   */
+  rotations(time: number, bodies: ArrayLike<BodyId>): Float64Array {
+    requireNumbers(bodies, "bodies", "BodyMap.rotations");
+    const module = theModule();
+    return module.with((scratch) => {
+      module.require(module.call("map_rotations", this.address, time, bodies.length, scratch.numbers(bodies)));
+      return module.answer();
+    });
   }
   /** Returns the motion and the number of the body there; null if this map does not know it. */
   find(body: BodyId): { motion: Motion; number: number } | null {

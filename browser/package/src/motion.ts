@@ -1,5 +1,5 @@
 // Ready-made motions, which move bodies inside the module: their states need no call of JavaScript.
-import { Owned, theModule } from "./module.js";
+import { Owned, type Scratch, theModule } from "./module.js";
 import { checkKeys, type Keys, requireNumbers, shown, whole } from "./options.js";
 import { countOf, each, type PerBody, sixes, sixOf, type State, type States, type Vec3, vector } from "./state.js";
 import type { World } from "./world.js";
@@ -85,11 +85,15 @@ export class Motion extends Owned {
     module.require(module.call("motion_remove", this.address, body));
   }
   /** Adds a body that moves on from there; returns its number. Bodies that fly freely ignore the limit. */
-  add(time: number, state: State, accelerationLimit = 0): number {
-    const numbers = sixOf(state, "Motion.add");
+  add(time: number, state: State, accelerationLimit = 0, orientation: ArrayLike<number> = [1, 0, 0, 0]): number {
+    const call = "Motion.add";
+    const numbers = sixOf(state, call);
     const module = theModule();
-    const body = module.with((scratch) =>
-      module.call("motion_add", this.address, time, scratch.numbers(numbers), accelerationLimit));
+    const body = module.with((scratch) => {
+      const [count, address] = rotationArguments(scratch, orientation, call);
+      if (count !== 1) throw new TypeError(`${call}: orientation must be four numbers w, x, y, z`);
+      return module.call("motion_add", this.address, time, scratch.numbers(numbers), accelerationLimit, address);
+    });
     if (body < 0) throw module.error();
     return body;
   }
@@ -204,13 +208,52 @@ export interface FrameMotionOptions {
    */
   accelerationLimits?: PerBody;
   startTime?: number;
-  /** > 0 (time): from one frame to the next; by default 1 / 60. */
+  /**
+   * > 0 (time): from one frame to the next, where frames have no times of their own; by default 1 / 60. Bodies with a
+   * limit cost least if no frame is longer.
+   */
   interval?: number;
   /** >= 0 (length): the largest error of the game's positions. */
   positionError?: number;
+  /**
+   * Orientations of rigid bodies in frame 0: four numbers w, x, y, z for each body. Without them the frames do not say
+   * how bodies turn.
+   */
+  rotations?: ArrayLike<number>;
 }
 
-const frameKeys: Keys<FrameMotionOptions> = { ...limitedKeys, interval: "number", positionError: "number" };
+const frameKeys: Keys<FrameMotionOptions> = {
+  ...limitedKeys, interval: "number", positionError: "number", rotations: true,
+};
+
+/** Makes a FrameMotion in the module. */
+function framed(start: States, options: FrameMotionOptions): Made {
+  const call = "FrameMotion";
+  checkKeys(options, frameKeys, "options", call);
+  const numbers = sixes(start, call);
+  const count = numbers.length / 6;
+  const limits = each(options.accelerationLimits ?? Infinity, count, "accelerationLimits", call);
+  const module = theModule();
+  return new Made(module.with((scratch) => module.require(module.call(
+    "motion_frames", count, scratch.numbers(numbers), scratch.numbers(limits), options.interval ?? 1 / 60,
+    options.positionError ?? 0, ...rotationArguments(scratch, options.rotations, call), options.startTime ?? 0))));
+}
+
+/** Returns the number of rotations and their address, which is 0 without any. */
+export function rotationArguments(
+  scratch: Scratch, rotations: ArrayLike<number> | undefined, call: string,
+): [count: number, address: number] {
+  if (rotations === undefined) return [0, 0];
+  requireNumbers(rotations, "rotations", call);
+  if (rotations.length % 4 !== 0)
+    throw new RangeError(`${call}: rotations must have four numbers w, x, y, z for each body, but has ${rotations.length}`);
+  return [rotations.length / 4, scratch.numbers(rotations)];
+}
+
+/** Returns the address of a time, which is 0 without one. */
+export function timeArgument(scratch: Scratch, time: number | undefined): number {
+  return time === undefined ? 0 : scratch.numbers([time]);
+}
 
 /** A position with which a body violated its limit; see `FrameViolation` in kinesphere/motion/frame_motion.hpp. */
 export interface FrameViolation {
@@ -224,13 +267,14 @@ export interface FrameViolation {
 }
 
 /**
- * The motion of a game that moves its bodies in fixed steps: straight lines between its last two frames, so the world
- * is one frame late.
+ * The motion of a game that moves its bodies in steps: straight lines between its last two frames, so the world is one
+ * frame late. Frames may have any lengths.
  *
  *     const frames = new FrameMotion({ positions });
  *     world.addMotion(frames, radii);
  *     // each frame, after the game has moved its bodies:
- *     frames.push(world, positions);
+ *     time += dt;
+ *     frames.push(world, positions, time);
  *     for (const event of world.events(frames.latestTime, frames)) ...
  *     positions.set(frames.latest());  // includes changes at events
  *
@@ -242,33 +286,50 @@ export class FrameMotion extends Motion {
   /** @internal */
   constructor(made: Made);
   constructor(start: States | Made, options: FrameMotionOptions = {}) {
-    super(start instanceof Made ? start
-      : limited("motion_frames", "FrameMotion", start, { ...options, accelerationLimits: options.accelerationLimits ?? Infinity },
-                frameKeys, options.interval ?? 1 / 60, options.positionError ?? 0));
+    super(start instanceof Made ? start : framed(start, options));
   }
   /**
    * Adds the next frame: three numbers for each body, NaN for a removed one. The world, in which the bodies' ids are
-   * their numbers here, learns all new velocities, so that no contact is missed; its time must be latestTime. Without a
+   * their numbers here, learns all new velocities, so that no contact is missed; its time must be latestTime. `time`
+   * must be later than that; without it the frame comes `interval` after the latest one, so give it where frames differ
+   * in length. `rotations` has four numbers w, x, y, z for each body, if the motion was made with rotations. Without a
    * world, all bodies must have limits and keep them.
    */
-  push(world: World, positions: ArrayLike<number>): void;
+  push(world: World, positions: ArrayLike<number>, time?: number, rotations?: ArrayLike<number>): void;
   /** Appends the next frame, without a world. */
-  push(positions: ArrayLike<number>): void;
-  push(first: World | ArrayLike<number>, second?: ArrayLike<number>): void {
-    const world = second === undefined ? 0 : Owned.addressOf(first as World, "World", "world", "push");
-    const positions = second ?? (first as ArrayLike<number>);
-    const count = countOf(positions, "push");
+  push(positions: ArrayLike<number>, time?: number): void;
+  push(
+    first: World | ArrayLike<number>, second?: ArrayLike<number> | number, third?: number, rotations?: ArrayLike<number>,
+  ): void {
+    const call = "push";
+    const isAlone = second === undefined || typeof second === "number";
+    const world = isAlone ? 0 : Owned.addressOf(first as World, "World", "world", call);
+    const positions = isAlone ? (first as ArrayLike<number>) : second;
+    const time = isAlone ? second : third;
+    const count = countOf(positions, call);
     const module = theModule();
-    module.with((scratch) =>
-      module.require(module.call("frames_push", this.address, world, count, scratch.numbers(positions))));
+    module.with((scratch) => module.require(module.call(
+      "frames_push", this.address, world, count, scratch.numbers(positions), timeArgument(scratch, time),
+      ...rotationArguments(scratch, rotations, call))));
   }
-  /** Adds a body that moves on from there, by default without a limit; returns its number. */
-  override add(time: number, state: State, accelerationLimit = Infinity): number {
-    return super.add(time, state, accelerationLimit);
+  /**
+   * Adds a body that moves on from there, by default without a limit; returns its number. `orientation` counts in a
+   * motion with rotations.
+   */
+  override add(
+    time: number, state: State, accelerationLimit = Infinity, orientation: ArrayLike<number> = [1, 0, 0, 0],
+  ): number {
+    return super.add(time, state, accelerationLimit, orientation);
   }
   /** Returns three numbers for each body: its position at latestTime, including changes since the push; NaN if removed. */
   latest(): Float64Array {
     return this.frame().subarray(2);
+  }
+  /** Returns four numbers w, x, y, z for each body: its orientation at latestTime; none without rotations. */
+  latestRotations(): Float64Array {
+    const module = theModule();
+    module.require(module.call("frames_latest_rotations", this.address));
+    return module.answer();
   }
   /** Time of the last frame but one: states are known from here to latestTime. */
   get previousTime(): number {

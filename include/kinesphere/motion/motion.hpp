@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "kinesphere/body.hpp"
 #include "kinesphere/motion/trajectory.hpp"
 #include "kinesphere/result.hpp"
+#include "kinesphere/rigid_body.hpp"
 #include "kinesphere/run.hpp"
 
 namespace kinesphere {
@@ -47,6 +49,9 @@ class Motion {
   /// Returns the state at time t, which must not lie before the body's last change (or its start). The
   /// result does not depend on earlier queries, nor on other bodies.
   virtual State state(std::uint32_t body, double t) const = 0;
+  /// Returns the rotation of a rigid body at time t, as state() returns its state, or nothing if this motion
+  /// does not know how its bodies turn, as by default.
+  virtual std::optional<Rotation> rotation(std::uint32_t body, double t) const;
   /// Returns the exact motion during [begin, end] if the body is not changed; `begin` must not lie before
   /// its last change. The first segment begins at or before `begin`, the last one ends at `end`. Its states
   /// equal those of state() to the last bit. Errors: as above; out_of_range for end < begin.
