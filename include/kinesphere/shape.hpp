@@ -130,14 +130,17 @@ struct MovingShape {
   friend bool operator==(const MovingShape&, const MovingShape&) = default;
 };
 
-/// Returns one body for each triple of indices into `vertices`, a triangle with this filter; user_data is the
-/// number of the triple. They are met one by one, also at the edges that they share: a surface on which
-/// bodies slide or roll should be a Mesh, which is one body. Errors: out_of_range for an invalid index and
-/// for a triangle with two equal corners or three nearly collinear ones (its least height below 2^-20 of its
-/// longest side); not_finite.
+/// Returns one body with this filter whose shape is the Mesh of these triangles, for World::add_static_all();
+/// none without triangles. Errors: as Mesh::create().
 Result<std::vector<StaticDefinition>> mesh(std::span<const Vec3> vertices,
                                            std::span<const std::array<std::uint32_t, 3>> corners,
                                            const Filter& filter = {});
+/// Returns one body for each triple of indices into `vertices`, a triangle with this filter; user_data is the
+/// number of the triple. They are met one by one, also at the edges that they share: what slides or rolls
+/// over these is braked and turned. Errors: as Mesh::create().
+Result<std::vector<StaticDefinition>> triangles(std::span<const Vec3> vertices,
+                                                std::span<const std::array<std::uint32_t, 3>> corners,
+                                                const Filter& filter = {});
 
 /// The point of a shape nearest to a given point.
 struct SurfacePoint {

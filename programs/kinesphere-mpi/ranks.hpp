@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/program_error.hpp"
 #include "kinesphere/distributed/distributed_world.hpp"
 #include "kinesphere/result.hpp"
 #include "shared_error.hpp"

@@ -181,10 +181,19 @@ bool operator==(const Mesh& a, const Mesh& b) {
 Result<std::vector<StaticDefinition>> mesh(std::span<const Vec3> vertices,
                                            std::span<const std::array<std::uint32_t, 3>> corners,
                                            const Filter& filter) {
+  if (corners.empty()) return std::vector<StaticDefinition>();
+  auto surface = Mesh::create(vertices, corners);
+  if (!surface) return surface.error();
+  return std::vector<StaticDefinition>{{.shape = std::move(*surface), .filter = filter}};
+}
+
+Result<std::vector<StaticDefinition>> triangles(std::span<const Vec3> vertices,
+                                                std::span<const std::array<std::uint32_t, 3>> corners,
+                                                const Filter& filter) {
   std::vector<StaticDefinition> triangles;
   triangles.reserve(corners.size());
   for (const auto& triple : corners) {
-    if (const auto error = error_of("mesh", vertices, triple, triangles.size())) return *error;
+    if (const auto error = error_of("triangles", vertices, triple, triangles.size())) return *error;
     const auto& [a, b, c] = triple;
     triangles.push_back({.shape = Triangle{vertices[a], vertices[b], vertices[c]},
                          .filter = filter,

@@ -76,15 +76,15 @@ TEST(BoundingBox, HoldsTheShape) {
 TEST(Mesh, NamesTheTriangleThatIsWrong) {
   const std::vector<Vec3> vertices{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}, {infinity, 0, 0}};
   using Corners = std::vector<std::array<std::uint32_t, 3>>;
-  const auto good = mesh(vertices, Corners{{0, 1, 2}, {1, 3, 2}}, {.category = 4}).value();
+  const auto good = triangles(vertices, Corners{{0, 1, 2}, {1, 3, 2}}, {.category = 4}).value();
   ASSERT_EQ(good.size(), 2u);
   EXPECT_EQ(std::get<Triangle>(good[1].shape), (Triangle{vertices[1], vertices[3], vertices[2]}));
   EXPECT_EQ(good[1].user_data, 1u);
   EXPECT_EQ(good[1].filter.category, 4u);
   const auto refused = [&](const std::array<std::uint32_t, 3>& corners) {
-    const auto result = mesh(vertices, Corners{{0, 1, 2}, corners});
+    const auto result = triangles(vertices, Corners{{0, 1, 2}, corners});
     EXPECT_FALSE(result);
-    EXPECT_EQ(result.error().message.rfind("mesh: triangle 1: ", 0), 0u) << result.error().message;
+    EXPECT_EQ(result.error().message.rfind("triangles: triangle 1: ", 0), 0u) << result.error().message;
     return result.error();
   };
   EXPECT_EQ(refused({0, 1, 5}).argument, "corners");
@@ -92,7 +92,14 @@ TEST(Mesh, NamesTheTriangleThatIsWrong) {
   EXPECT_EQ(refused({0, 1, 3}).code, ErrorCode::out_of_range);
   EXPECT_EQ(refused({0, 1, 1}).code, ErrorCode::out_of_range);
   EXPECT_EQ(refused({0, 1, 4}).code, ErrorCode::not_finite);
+  EXPECT_TRUE(triangles({}, {}).value().empty());
+  // As one body.
+  const auto one = mesh(vertices, Corners{{0, 1, 2}, {1, 3, 2}}, {.category = 4}).value();
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_EQ(std::get<Mesh>(one[0].shape).size(), 2u);
+  EXPECT_EQ(one[0].filter.category, 4u);
   EXPECT_TRUE(mesh({}, {}).value().empty());
+  EXPECT_EQ(mesh(vertices, Corners{{0, 1, 5}}).error().argument, "corners");
 }
 
 }  // namespace

@@ -498,7 +498,7 @@ TEST(MeshWorld, QueriesAreThoseOfItsTriangles) {
   World one = World::create({}).value();
   World many = World::create({}).value();
   const BodyId ground = one.add_static({.shape = mesh}).value();
-  many.add_static_all(kinesphere::mesh(mesh.vertices(), mesh.corners()).value()).value();
+  many.add_static_all(triangles(mesh.vertices(), mesh.corners()).value()).value();
   Random random(77);
   int hits = 0;
   for (int k = 0; k < 400; ++k) {
@@ -536,7 +536,7 @@ TEST(MeshWorld, CertificatesAreThoseOfItsTriangles) {
   World one = World::create({}).value();
   World many = World::create({}).value();
   one.add_static({.shape = mesh}).value();
-  many.add_static_all(kinesphere::mesh(mesh.vertices(), mesh.corners()).value()).value();
+  many.add_static_all(triangles(mesh.vertices(), mesh.corners()).value()).value();
   Random random(78);
   for (int k = 0; k < 60; ++k) {
     const BodyDefinition body{.radius = 0.1,

@@ -197,18 +197,18 @@ class MarginOf : public testing::TestWithParam<const char*> {
     std::vector<Vec3> corners;
     for (int k = 0; k < 8; ++k) corners.push_back({size * (k & 1), size * (k >> 1 & 1), size * (k >> 2 & 1)});
     using Corners = std::vector<std::array<std::uint32_t, 3>>;
-    return mesh(corners, Corners{{0, 1, 3},
-                                 {0, 3, 2},
-                                 {4, 5, 7},
-                                 {4, 7, 6},
-                                 {0, 1, 5},
-                                 {0, 5, 4},
-                                 {2, 3, 7},
-                                 {2, 7, 6},
-                                 {0, 2, 6},
-                                 {0, 6, 4},
-                                 {1, 3, 7},
-                                 {1, 7, 5}})
+    return triangles(corners, Corners{{0, 1, 3},
+                                      {0, 3, 2},
+                                      {4, 5, 7},
+                                      {4, 7, 6},
+                                      {0, 1, 5},
+                                      {0, 5, 4},
+                                      {2, 3, 7},
+                                      {2, 7, 6},
+                                      {0, 2, 6},
+                                      {0, 6, 4},
+                                      {1, 3, 7},
+                                      {1, 7, 5}})
         .value();
   }
 };
@@ -258,7 +258,7 @@ TEST(Surroundings, OneBounceOnASharedEdge) {
   Surroundings p({.contact_tolerance = eps, .contacts = ContactEvents::impacts});
   const std::vector<Vec3> vertices{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}};
   const std::vector<std::array<std::uint32_t, 3>> corners{{0, 1, 2}, {0, 2, 3}};
-  p.place_all(mesh(vertices, corners).value());
+  p.place_all(triangles(vertices, corners).value());
   const BodyId ball = p.add({.radius = 1, .position = {2, 2, 3}, .velocity = {0, 0, -1}});
   const auto events = p.run(10.0, [&](const Event& event) {
     EXPECT_EQ(event.kind, EventKind::contact_begin);
@@ -274,7 +274,7 @@ TEST(Surroundings, ABallRestsAndRollsOnAMesh) {
   Surroundings p({.contact_tolerance = eps, .contacts = ContactEvents::impacts});
   const std::vector<Vec3> vertices{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}};
   const std::vector<std::array<std::uint32_t, 3>> corners{{0, 1, 2}, {0, 2, 3}};
-  p.place_all(mesh(vertices, corners).value());
+  p.place_all(triangles(vertices, corners).value());
   const BodyId ball = p.add(
       {.radius = 0.5, .planned_acceleration = {0, 0, -10}, .position = {1, 3, 0.6}, .velocity = {1, -1, 0}});
   double lowest = infinity;
@@ -306,7 +306,7 @@ std::vector<StaticDefinition> terrain(int n, double width) {
       corners.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
       corners.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
     }
-  return mesh(vertices, corners).value();
+  return triangles(vertices, corners).value();
 }
 
 TEST(Terrain, BallsThatFallThroughTouchWhatBruteForceSays) {
