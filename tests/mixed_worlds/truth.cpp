@@ -49,7 +49,7 @@ std::vector<BodyId> Truth::present() const {
 // Who meets whom.
 
 bool Truth::meet(const Thing& a, const Thing& b) const {
-  return a.present() && b.present() && !(a.has_shape() && b.has_shape()) &&
+  return a.present() && b.present() && (a.moves() || b.moves()) &&
          passes(a.definition.filter, b.definition.filter);
 }
 
