@@ -63,7 +63,7 @@ void Player::check_pair(const World::Certificates& certificates, BodyId a, BodyI
   if ((time != now() && spins) || one.sleeping || other.sleeping) return;
   const double slack = truth_.slack();
   const Real gap = truth_.gap(contact, time);
-  const Real shallow = std::min(gap, truth_.gap(contact, time, {.is_deep = false}));
+  const Real shallow = std::min(gap, truth_.told_gap(contact, time));
   // Hulls do not know how deep they overlap.
   const bool turns = one.sort == Sort::rigid || other.sort == Sort::rigid;
   if ((!turns || gap > 0) && limits.lower > gap + slack)

@@ -92,6 +92,12 @@ Real Truth::gap(const Contact& contact, Real time, const Measure& how) const {
   return gaps.between(at(contact.first), at(contact.second), time, how);
 }
 
+Real Truth::told_gap(const Contact& contact, Real time) const {
+  const bool turns = at(contact.first).sort == Sort::rigid ||
+                     (contact.second != no_body && at(contact.second).sort == Sort::rigid);
+  return gap(contact, time, {.is_deep = !turns});
+}
+
 bool Truth::is_of_balls(const Contact& contact) const {
   return at(contact.first).is_ball() && (contact.wall != Wall::none || at(contact.second).is_ball());
 }

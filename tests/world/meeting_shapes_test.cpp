@@ -602,7 +602,27 @@ TEST(MeetingShapes, AreRecorded) {
   EXPECT_EQ(replay.world().save().value(), heap.world.save().value());
 }
 
-/// A snapshot between two events of one instant, one of them about a moving shape alone.
+/// A snapshot between two events of one instant, both about a moving shape alone.
+TEST(MeetingShapes, SnapshotsHoldBrokenPromisesThatWait) {
+  Playground p;
+  std::vector<BodyId> plates;
+  for (const double x : {-5.0, 5.0})
+    plates.push_back(add_moving_shape(p, {.position = {x, 0, 3}, .velocity = {0, 0, -1}}, plate));
+  EXPECT_TRUE(p.run(1.0).empty());
+  for (const BodyId id : plates) p.set_velocity_unseen(id, {0, 0, 1});
+  const auto first = p.advance(99.0);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->kind, EventKind::bound_violation);
+  auto restored = World::restore(p.world.save().value());
+  ASSERT_TRUE(restored) << restored.error().message;
+  p.world = std::move(restored).value();
+  const auto second = p.advance(99.0);
+  ASSERT_TRUE(second);
+  EXPECT_EQ(second->kind, EventKind::bound_violation);
+  EXPECT_EQ(second->time, first->time);
+}
+
+/// A snapshot between two contacts of one instant.
 TEST(MeetingShapes, SnapshotsHoldTheirWaitingEvents) {
   Playground p;
   p.world.add_static({.shape = HalfSpace{{0, 0, 1}, 0.0}}).value();
