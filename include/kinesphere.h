@@ -430,7 +430,8 @@ KS_API KS_MUST_CHECK ks_status ks_world_add(ks_world world, const ks_body_defini
 KS_API ks_status ks_world_add_static(ks_world world, const ks_static_definition* bodies, size_t count,
                                      ks_body_id* ids);
 /// Adds a body that carries a box, a triangle or a mesh (kinesphere/shape.hpp), relative to its position; the
-/// radius is ignored. The probe of the world moves it. Errors: those of World::add_moving_shape().
+/// radius is ignored. The probe of the world moves it. It meets all bodies, static ones and other moving
+/// shapes too, but no walls of the world. Errors: those of World::add_moving_shape().
 KS_API ks_status ks_world_add_moving_shape(ks_world world, const ks_body_definition* body,
                                            const ks_shape* shape, ks_body_id* id);
 /// Adds a rigid body: balls, capsules and hulls that move and turn together; the radius is ignored. The probe

@@ -43,7 +43,7 @@ namespace Kinesphere
 
         /// <summary>
         /// Adds a body that carries a box, a triangle or a mesh, relative to its position; the radius is ignored. The probe
-        /// moves it. It meets no walls and no other body with a shape.
+        /// moves it. It meets all bodies, static ones and other moving shapes too, but no walls of the world.
         /// </summary>
         public BodyId AddMovingShape(BodyDefinition body, Shape shape)
         {

@@ -118,7 +118,8 @@ struct StaticDefinition {
 };
 
 /// Definition of a body whose surface is that of a shape, which it carries along without turning it:
-/// World::add_moving_shape(). Lifts, pistons, doors, paddles and walls that close in are moving shapes.
+/// World::add_moving_shape(). Lifts, pistons, doors, paddles and walls that close in are moving shapes. They
+/// meet all bodies that their filters let them meet, but no walls of the world's box.
 struct MovingShape {
   /// As for World::add(), with any position. The radius is replaced by that of the smallest ball around the
   /// position that contains the shape. A mass of infinity makes a body that no contact turns.

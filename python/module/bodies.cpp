@@ -421,8 +421,8 @@ It may reach out of the box of the world; it is never probed. Where space repeat
           py::arg("user_data") = 0, py::arg("mass") = 1.0,
           R"(Adds a body that carries a Box, a Triangle or a Mesh, relative to its position: a lift, a door, a piston.
 
-It moves like a body of add(), without turning, and is probed. It meets no walls and no other shapes. A mass of
-inf makes a body that no contact turns. Returns its BodyId.)")
+It moves like a body of add(), without turning, and is probed. It meets all bodies, static ones and other moving
+shapes too, but no walls of the world. A mass of inf makes a body that no contact turns. Returns its BodyId.)")
       .def("add_zone", add_zone, py::arg("shape"), py::arg("user_data") = 0,
            R"(Adds a zone: it touches nobody and tells who comes in and goes.
 

@@ -449,6 +449,7 @@ def test_a_mesh_is_a_shape() -> None:
     zone = world.add_zone(mesh)
     assert world.shape_of(zone) == mesh
     world.set_shape(zone, ks.Mesh(vertices, [(0, 1, 2)]))
+    world.remove(zone)
     lift = world.add_moving_shape(mesh, (0, 0, 0), (0, 0, 1), mass=float("inf"))
     ball = world.add((2, 1, 3), radii=0.5)
     starts = np.array([[0.0, 0, 0], [2, 1, 3]])

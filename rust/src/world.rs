@@ -325,7 +325,8 @@ impl World {
     }
 
     /// Adds a body that carries a box, a triangle or a mesh, relative to its position; the radius is ignored. The probe moves
-    /// it. It meets no walls and no other body with a shape. An infinite mass makes a body that no contact turns.
+    /// it. It meets all bodies, static ones and other moving shapes too, but no walls of the world. An infinite mass makes a
+    /// body that no contact turns.
     pub fn add_moving_shape(&mut self, body: &BodyDefinition, shape: &Shape) -> Result<BodyId> {
         let mut id = BodyId::default();
         self.check(unsafe {

@@ -97,7 +97,7 @@ void Bodies::set_solid(std::uint32_t number, bool solid) {
 
 /// Evaluates may_meet() in a world with filters.
 bool Bodies::filters_allow(std::uint32_t a, std::uint32_t b) const {
-  return !(table_[a].has_shape() && table_[b].has_shape()) &&
+  return !(table_[a].is_static() && table_[b].is_static()) &&
          filters.may_meet(id_of(a), filters.of(a), id_of(b), filters.of(b));
 }
 

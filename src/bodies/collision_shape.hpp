@@ -2,11 +2,13 @@
 // that a body carries, or the parts of a rigid body.
 #pragma once
 
+#include <cmath>
 #include <variant>
 
 #include "bodies/rigid_bodies.hpp"
 #include "bound/carried_shape.hpp"
 #include "bound/rigid_certificates.hpp"
+#include "bound/shape_difference.hpp"
 #include "kinesphere/shape.hpp"
 
 namespace kinesphere {
@@ -22,8 +24,6 @@ struct CollisionShape {
   const RigidRecord* rigid = nullptr;  ///< of a rigid body
 
   bool is_carried() const { return shape != nullptr && !is_static; }
-  /// Returns true if the body meets bodies with a shape.
-  bool meets_shapes() const { return shape == nullptr && !is_static; }
   /// Precondition: the body is rigid.
   RigidExtent extent() const {
     return {bound,
@@ -70,11 +70,36 @@ auto visit_rigid(const CollisionShape& a, const CollisionShape& b, Visit visit) 
       other, RigidExtent{other.bound, other.bound.radius, std::span(&ball, 1), std::span(&same, 1)}, with);
 }
 
-/// Calls visit(bound, partner), where `partner` is another bound, a shape (visit_partner()) or a RigidPair.
-/// Precondition: at most one of the two has a shape.
+/// Calls visit(bound, partner) for two bodies with shapes, one of which at least is carried: a point that
+/// moves as that one, and the difference of the two shapes.
+template <class Visit>
+auto visit_two_shapes(const CollisionShape& a, const CollisionShape& b, Visit visit) {
+  const CollisionShape& own = a.is_carried() ? a : b;
+  const CollisionShape& other = a.is_carried() ? b : a;
+  Bound point = own.bound;
+  point.radius -= own.carried_radius;
+  if (const auto* wall = std::get_if<HalfSpace>(other.shape)) {
+    // The sum of two offsets loses this.
+    point.radius += rounding::margin * (std::abs(wall->offset) + own.carried_radius);
+    return visit(point, difference_of(*own.shape, *wall));
+  }
+  const auto beside = [&]<class Solid>(const Solid& solid) {
+    if (other.is_carried())
+      return visit(point, CarriedShape<Solid>{solid, other.bound, other.carried_radius});
+    return visit(point, solid);
+  };
+  const auto* const box = std::get_if<Box>(own.shape);
+  const auto* const other_box = std::get_if<Box>(other.shape);
+  if (box && other_box) return beside(difference_of(*box, *other_box));
+  return beside(ShapeDifference{*own.shape, *other.shape});
+}
+
+/// Calls visit(bound, partner), where `partner` is another bound, a shape (visit_partner()), a difference of
+/// shapes or a RigidPair. Precondition: not both are shapes at rest.
 template <class Visit>
 auto visit_shapes(const CollisionShape& a, const CollisionShape& b, Visit visit) {
   if (a.rigid || b.rigid) return visit_rigid(a, b, visit);
+  if (a.shape && b.shape) return visit_two_shapes(a, b, visit);
   const Bound& moving = a.shape ? b.bound : a.bound;
   const CollisionShape& other = a.shape ? a : b;
   return visit_partner(other, other.bound, [&](const auto& partner) { return visit(moving, partner); });

@@ -30,6 +30,10 @@ template <>
 inline constexpr bool is_mesh<Mesh> = true;
 template <>
 inline constexpr bool is_mesh<CarriedShape<Mesh>> = true;
+/// True for a solid, at rest or carried, of several pieces, others of which than the nearest may be
+/// approached.
+template <class Shape>
+inline constexpr bool has_pieces = is_mesh<Shape>;
 
 /// Returns what stands for `other` where it is like a solid: at rest, or carried.
 template <class Solid, class Other>

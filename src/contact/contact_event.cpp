@@ -7,6 +7,7 @@
 #include "bound/mesh_tree.hpp"
 #include "bound/nearest_parts.hpp"
 #include "bound/rigid_part.hpp"
+#include "bound/shape_difference.hpp"
 #include "number/infinity.hpp"
 
 namespace kinesphere {
@@ -46,6 +47,22 @@ void describe_surface(Event& event, const Sphere& sphere, const Sphere& surface)
   event.normal = event.first == sphere.id ? -nearest.normal : nearest.normal;
   event.gap = nearest.distance - sphere.radius - surface.position_error;
   event.point = sphere.state.position - nearest.normal * (sphere.radius + 0.5 * event.gap);
+}
+
+/// Sets normal, gap, point and parts of an event between two bodies with shapes, one of which at least is
+/// carried.
+void describe_surfaces(Event& event, const Sphere& first, const Sphere& second, bool is_flat) {
+  const Sphere& own = first.carries_shape ? first : second;
+  const Sphere& other = first.carries_shape ? second : first;
+  const Vec3 origin = other.carries_shape ? other.state.position : Vec3{};
+  const auto [surface, own_part, other_part] =
+      nearest_pieces(*own.shape, *other.shape, own.state.position - origin, is_flat);
+  const bool first_is_own = &own == &first;
+  event.first_part = first_is_own ? own_part : other_part;
+  event.second_part = first_is_own ? other_part : own_part;
+  event.normal = first_is_own ? -surface.normal : surface.normal;
+  event.gap = surface.distance - (first.position_error + second.position_error);
+  event.point = surface.point + origin;
 }
 
 Vec3 point_velocity(const State& state, const Vec3& spin, const Vec3& point) {
@@ -122,7 +139,7 @@ void describe_first(Event& event, const Sphere& first) {
 }
 
 /// Describes an event between two bodies whose positions are already in the images that meet.
-void describe_as_seen(Event& event, const Sphere& first, const Sphere& second) {
+void describe_as_seen(Event& event, const Sphere& first, const Sphere& second, bool is_flat) {
   describe_first(event, first);
   event.second_state = second.state;
   event.second_traits = second.traits;
@@ -135,7 +152,9 @@ void describe_as_seen(Event& event, const Sphere& first, const Sphere& second) {
         (first.radius_rate + second.radius_rate);
     return;
   }
-  if (first.shape || second.shape) {
+  if (first.shape && second.shape) {
+    describe_surfaces(event, first, second, is_flat);
+  } else if (first.shape || second.shape) {
     describe_surface(event, first.shape ? second : first, first.shape ? first : second);
   } else {
     describe_spheres(event, first, second);
@@ -155,10 +174,10 @@ Event contact_event(EventKind kind, double time, const Sphere& a, const Sphere& 
 }
 
 void describe(Event& event, const Sphere& first, const Sphere& second, const Space& space) {
-  if (!space.repeats()) return describe_as_seen(event, first, second);
+  if (!space.repeats()) return describe_as_seen(event, first, second, space.is_flat());
   Sphere seen = second;
   seen.state.position += space.shift_to_nearest(second.state.position, first.state.position);
-  describe_as_seen(event, first, seen);
+  describe_as_seen(event, first, seen, space.is_flat());
 }
 
 Event wall_event(EventKind kind, double time, const Sphere& sphere, const Box& box, Wall wall) {
@@ -218,12 +237,16 @@ double approach_error(const Event& event, const Sphere& first, const Sphere& sec
       std::abs(first.radius_rate) + (event.wall == Wall::none ? std::abs(second.radius_rate) : 0.0);
   const auto with_arm = [&](double arm) { return approach_error(event, arm) + rate_error(rates); };
   if (event.wall != Wall::none) return with_arm(infinity);
-  const Shape* shape = first.shape ? first.shape : second.shape;
   const auto radius = [](const Sphere& body) {
-    return body.rigid ? least_radius(body.rigid->parts) + body.position_error : body.radius;
+    return body.shape   ? body.position_error
+           : body.rigid ? least_radius(body.rigid->parts) + body.position_error
+                        : body.radius;
   };
-  if (shape == nullptr) return with_arm(event.gap + radius(first) + radius(second));
-  if (std::holds_alternative<HalfSpace>(*shape)) return with_arm(infinity);
+  const auto is_half_space = [](const Sphere& body) {
+    return body.shape && std::holds_alternative<HalfSpace>(*body.shape);
+  };
+  if (!first.shape && !second.shape) return with_arm(event.gap + radius(first) + radius(second));
+  if (is_half_space(first) || is_half_space(second)) return with_arm(infinity);
   return with_arm(event.gap + radius(first.shape ? second : first));
 }
 

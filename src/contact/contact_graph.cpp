@@ -130,12 +130,16 @@ void ContactGraph::start_side_by_side(bool with_sensors) {
 }
 
 /// Returns the bodies of the event whose contact rate counts it: all but those with shapes, which many bodies
-/// may hit at one time. The result refers to `buffer`.
+/// may hit at one time; of two with shapes, those that move. The result refers to `buffer`.
 std::span<const std::uint32_t> ContactGraph::counting(const Event& contact,
                                                       std::array<std::uint32_t, 2>& buffer) const {
   std::size_t count = 0;
-  for (const BodyId id : {contact.first, contact.second})
-    if (id != no_body && flags_[number_of(id)].form == Form::ball) buffer[count++] = number_of(id);
+  const auto add_all = [&](Form form) {
+    for (const BodyId id : {contact.first, contact.second})
+      if (id != no_body && flags_[number_of(id)].form == form) buffer[count++] = number_of(id);
+  };
+  add_all(Form::ball);
+  if (count == 0) add_all(Form::carried_shape);
   return std::span(buffer).first(count);
 }
 

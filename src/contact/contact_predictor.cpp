@@ -7,6 +7,7 @@
 #include "bound/beside_solid.hpp"
 #include "bound/mesh_tree.hpp"
 #include "bound/rigid_part.hpp"
+#include "bound/shape_difference.hpp"
 #include "bound/sides_in_reach.hpp"
 #include "contact/contact_event.hpp"
 #include "number/bit_cast.hpp"
@@ -22,7 +23,7 @@ constexpr bool is_rigid_pair<RigidPair<Other>> = true;
 
 /// Of the triangles of a mesh, others than the nearest may be approached, as of the points of rigid bodies.
 template <class Partner>
-constexpr bool has_several_points = is_rigid_pair<Partner> || is_mesh<Partner>;
+constexpr bool has_several_points = is_rigid_pair<Partner> || has_pieces<Partner>;
 
 /// Returns a lower bound of the distance between the nearest points of the axes.
 template <class Other>
@@ -92,7 +93,7 @@ template <class Partner>
 double ContactPredictor<Partner>::largest_speed(const RelativeLimits& limits) const {
   if constexpr (is_rigid_pair<Partner>)
     return partner_.relative_speed(now_) + limits.speed_error + limits.radius_rates;
-  else if constexpr (is_mesh<Partner>)
+  else if constexpr (has_pieces<Partner>)
     return norm(beside(bound_, partner_, now_).bound.velocity_at(now_)) + limits.speed_error +
            limits.radius_rates;
   else
@@ -130,7 +131,7 @@ double ContactPredictor<Partner>::earliest_sinking_below(const Sinking& sinking,
   if constexpr (is_rigid_pair<Partner>) {
     const auto pair = excess_growth_ == 0.0 ? partner_ : partner_.with_less_growth(true_excess(), now_);
     return earliest_sinking(pair, now_, until, sinking);
-  } else if constexpr (is_mesh<Partner>) {
+  } else if constexpr (has_pieces<Partner>) {
     auto [bound, slack] = beside(bound_, partner_, now_);
     if (excess_growth_ != 0.0) {
       bound.growth_speed -= true_excess();
@@ -261,6 +262,8 @@ template class ContactPredictor<Mesh>;
 template class ContactPredictor<CarriedShape<Box>>;
 template class ContactPredictor<CarriedShape<Triangle>>;
 template class ContactPredictor<CarriedShape<Mesh>>;
+template class ContactPredictor<ShapeDifference>;
+template class ContactPredictor<CarriedShape<ShapeDifference>>;
 template class ContactPredictor<RigidPair<RigidExtent>>;
 template class ContactPredictor<RigidPair<HalfSpace>>;
 template class ContactPredictor<RigidPair<Box>>;

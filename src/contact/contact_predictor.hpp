@@ -52,8 +52,8 @@ struct ContactDecision {
 EventKind kind_of(ContactRule::Change change, bool sensed, Wall wall);
 
 /// Predicts one threshold between a body and a partner from `now` on. A partner is another body's Bound, the
-/// HalfSpace inside a wall, a shape at rest, a CarriedShape, or the RigidPair of the two. Holds references to
-/// rule, bound and partner.
+/// HalfSpace inside a wall, a shape at rest, a CarriedShape, a ShapeDifference, or the RigidPair of the two.
+/// Holds references to rule, bound and partner.
 template <class Partner>
 class ContactPredictor {
  public:

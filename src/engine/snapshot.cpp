@@ -138,7 +138,7 @@ bool World::Engine::queue_is_valid() const {
     if (pair.kind() == PairCertificate::Kind::with_walls)
       return bodies().meets_walls(pair.first) && !main_.certifier().is_stale(pair);
     return pair.first < pair.second && takes_part(pair.second) && !main_.certifier().is_stale(pair) &&
-           !(bodies()[pair.first].has_shape() && bodies()[pair.second].has_shape());
+           !(bodies()[pair.first].is_static() && bodies()[pair.second].is_static());
   };
   return std::all_of(read_pairs_.begin(), read_pairs_.end(), is_valid);
 }
@@ -157,35 +157,37 @@ bool World::Engine::window_ends_are_valid() const {
   return true;
 }
 
-/// Bodies with shapes must neither touch each other or walls, nor have such events pending.
+/// Bodies with shapes must not touch walls, nor static bodies each other, nor have such events pending.
 bool World::Engine::shape_contacts_are_valid() const {
-  const auto has_shape = [this](std::uint32_t number) { return bodies()[number].has_shape(); };
-  const auto is_living_shape = [&](BodyId id) {
-    return id == bodies().id_of(id.index) && has_shape(id.index);
-  };
+  const auto is_static = [this](std::uint32_t number) { return bodies()[number].is_static(); };
+  const auto is_living = [this](BodyId id) { return id == bodies().id_of(id.index); };
   for (std::uint32_t number = 0; number < bodies().numbers(); ++number) {
-    if (!has_shape(number)) continue;
+    if (bodies()[number].has_shape() && contacts().walls_of(number) != 0) return false;
+    if (!is_static(number)) continue;
     const auto partners = contacts().partners_of(number);
     const auto overlaps = contacts().overlaps_of(number);
-    if (contacts().walls_of(number) != 0 ||
-        std::any_of(partners.begin(), partners.end(),
-                    [&](const ContactRecord& contact) { return has_shape(contact.partner); }) ||
+    if (std::any_of(partners.begin(), partners.end(),
+                    [&](const ContactRecord& contact) { return is_static(contact.partner); }) ||
         std::any_of(overlaps.begin(), overlaps.end(),
-                    [&](const OverlapRecord& c) { return has_shape(c.partner); }))
+                    [&](const OverlapRecord& c) { return is_static(c.partner); }))
       return false;
   }
-  // A body with a shape may have reused the number of a removed body; then it is dirty, and the pair is not
+  // A static body may have reused the number of a removed body; then it is dirty, and the pair is not
   // rechecked.
-  const auto is_certified_shape = [&](std::uint32_t number) {
-    return has_shape(number) && bodies()[number].present() && !bodies()[number].dirty;
+  const auto is_certified_static = [&](std::uint32_t number) {
+    return is_static(number) && bodies()[number].present() && !bodies()[number].dirty;
+  };
+  const auto cannot_happen = [&](const Event& event) {
+    if (!is_living(event.first)) return false;
+    if (event.second != no_body)
+      return is_static(event.first.index) && is_living(event.second) && is_static(event.second.index);
+    return event.wall == Wall::none ? is_static(event.first.index) : bodies()[event.first.index].has_shape();
   };
   return std::none_of(main_.events().changed().begin(), main_.events().changed().end(),
                       [&](const auto& pair) {
-                        return is_certified_shape(pair.first) && is_certified_shape(pair.second);
+                        return is_certified_static(pair.first) && is_certified_static(pair.second);
                       }) &&
-         main_.events().pending().none_of([&](const Event& event) {
-           return is_living_shape(event.first) && (event.second == no_body || is_living_shape(event.second));
-         });
+         main_.events().pending().none_of(cannot_happen);
 }
 
 }  // namespace kinesphere

@@ -241,13 +241,19 @@ void World::Engine::Answers::consider_all_within(const std::vector<std::uint32_t
       if (other != number) consider(number, other, times, first);
 }
 
+/// Returns true for a static body that is not a ball.
+bool World::Engine::Answers::is_shape_at_rest(std::uint32_t number) const {
+  return body(number).is_static() && !std::holds_alternative<Ball>(engine_.bodies().shapes.of(body(number)));
+}
+
 DistanceLimits World::Engine::Answers::distance(std::uint32_t a, std::uint32_t b, double time) const {
   const Bound first = present(a);
   Bound second = present(b);
   second.position += engine_.bodies().space().shift_to_nearest(second.centre_at(time), first.centre_at(time));
   const CollisionShape extent_of_a = shape_of(a, first);
   const CollisionShape extent_of_b = shape_of(b, second);
-  if (extent_of_a.shape && extent_of_b.shape) return {-infinity, infinity, false};
+  // No certificate knows the distance of two shapes at rest.
+  if (is_shape_at_rest(a) && is_shape_at_rest(b)) return {-infinity, infinity, false};
   GapLimits gap{infinity, infinity};
   const auto look_at = [&](const Bound& seen) {
     const GapLimits own = visit_shapes(
@@ -278,13 +284,13 @@ void World::Engine::Answers::consider_approach(std::uint32_t a, std::uint32_t b,
   if (first.touching || !body(a).present() || !body(b).present()) return;
   Bound bound_of_a = present(a);
   Bound bound_of_b = present(b);
-  // A shape has no radius to enlarge by the distance. In that case the other body, which cannot be a shape
-  // too, is enlarged instead.
-  double& radius = body(a).has_shape() ? bound_of_b.radius : bound_of_a.radius;
+  // A shape at rest has no radius to enlarge by the distance. In that case the other body is enlarged
+  // instead.
+  double& radius = is_shape_at_rest(a) ? bound_of_b.radius : bound_of_a.radius;
   radius = rounding::sum_up(radius, distance);
   const CollisionShape extent_of_a = shape_of(a, bound_of_a);
   const CollisionShape extent_of_b = shape_of(b, bound_of_b);
-  const bool known = !extent_of_a.shape || !extent_of_b.shape;
+  const bool known = !(is_shape_at_rest(a) && is_shape_at_rest(b));
   const double time = known ? meeting(extent_of_a, extent_of_b) : now_;
   const bool within = time <= now_ && known && this->distance(a, b, now_).upper <= distance;
   if (time < first.time || within) first = {time, a, b, Wall::none, within};
@@ -322,9 +328,7 @@ ContactBoundary World::Engine::Answers::approach_of_body(std::uint32_t number, d
   ContactBoundary first;
   consider_approach_to_walls(number, distance, first);
   for (std::uint32_t other = 0; other < engine_.bodies().numbers(); ++other) {
-    const bool counts = other != number && body(other).present() &&
-                        !(body(number).has_shape() && body(other).has_shape()) &&
-                        engine_.bodies().may_meet(number, other);
+    const bool counts = other != number && body(other).present() && engine_.bodies().may_meet(number, other);
     if (counts) consider_approach(number, other, distance, first);
   }
   return first;

@@ -46,6 +46,7 @@ class World::Engine::Answers {
   Bound present(std::uint32_t number) const;
   Bound guarded(std::uint32_t number) const;
   CollisionShape shape_of(std::uint32_t number, const Bound& bound) const;
+  bool is_shape_at_rest(std::uint32_t number) const;
   double meeting(const CollisionShape& extent_of_a, const CollisionShape& extent_of_b) const;
   bool is_certified(std::uint32_t a, std::uint32_t b) const;
   double recorded(std::uint32_t a, std::uint32_t b, const CertificateTimes& times) const;

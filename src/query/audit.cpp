@@ -295,11 +295,17 @@ class World::Engine::Audit {
     });
   }
 
+  /// True for a body with a shape that is not a ball.
+  bool has_faces(std::uint32_t number) const {
+    return collision_shape_of(engine_.bodies(), number).shape != nullptr;
+  }
+
   /// True if the bare distance determines the state of the threshold. Within the tolerance, an approach of
   /// bodies without ends, or in touch, follows the contact rule instead.
   bool checkable(std::uint32_t a, std::uint32_t b, const Threshold& threshold) const {
-    // PlainGap knows no bodies that turn.
+    // PlainGap knows the gaps of balls alone, to each other and to shapes.
     if (!exact(a) || !exact(b) || body(a).is_rigid || body(b).is_rigid) return false;
+    if (has_faces(a) && has_faces(b)) return false;
     const ContactRule& rule = engine_.contacts().rule();
     return threshold.within || wants_ends(threshold.wanted) ||
            gap_at(engine_.bodies(), now_, collision_shape_of(engine_.bodies(), a),

@@ -13,7 +13,7 @@ void Player::check_answers() {
   const auto certificates = asks ? world_.certificates(probe()) : world_.certificates();
   for (int k = 0; k < 6; ++k) {
     const BodyId a = draw_.any_of(ids), b = draw_.any_of(ids);
-    if (a != b && !(truth_.at(a).has_shape() && truth_.at(b).has_shape())) check_pair(certificates, a, b);
+    if (a != b && (truth_.at(a).moves() || truth_.at(b).moves())) check_pair(certificates, a, b);
   }
   check_account(draw_.any_of(ids));
   check_approach(certificates, draw_.any_of(ids));
@@ -63,7 +63,7 @@ void Player::check_pair(const World::Certificates& certificates, BodyId a, BodyI
   if ((time != now() && spins) || one.sleeping || other.sleeping) return;
   const double slack = truth_.slack();
   const Real gap = truth_.gap(contact, time);
-  const Real shallow = std::min(gap, truth_.gap(contact, time, {.is_deep = false}));
+  const Real shallow = std::min(gap, truth_.told_gap(contact, time));
   // Hulls do not know how deep they overlap.
   const bool turns = one.sort == Sort::rigid || other.sort == Sort::rigid;
   if ((!turns || gap > 0) && limits.lower > gap + slack)

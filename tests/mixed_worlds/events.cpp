@@ -42,7 +42,7 @@ void Player::hear_begin(const Event& event, const Contact& contact) {
   if (!truth_.may_be_told(contact)) truth_.fail("a begin that may not be told", contact, event.gap, now());
   ContactState& state = states_[contact];
   const Real slack = truth_.slack();
-  const Real gap = truth_.gap(contact, now(), {.is_deep = false});
+  const Real gap = truth_.told_gap(contact, now());
   if (gap > contact.distance() + truth_.tolerance() + truth_.report_errors(contact) + slack)
     truth_.fail("an invented begin", contact, gap, now());
   const auto is_told = [&](Real true_gap, Real allowed) { return std::abs(true_gap - event.gap) <= allowed; };
@@ -63,7 +63,7 @@ void Player::hear_end(const Event& event, const Contact& contact) {
   if (!states_[contact].touching) truth_.fail("an end without a begin", contact, event.gap, now());
   const Real slack = truth_.slack();
   if (now() != truth_.last_change) {
-    const Real gap = truth_.gap(contact, now(), {.is_deep = false});
+    const Real gap = truth_.told_gap(contact, now());
     const Real least =
         contact.distance() + truth_.separation_distance() - truth_.report_errors(contact) - slack;
     if (gap < least) truth_.fail("an early end", contact, gap, now());
@@ -84,7 +84,7 @@ void Player::check_gap_before_change(const Event& event, const Contact& contact)
       return id.index < truth_.things.size() && truth_.at(id).id == id;
     };
     if (!is_there(contact.first) || (contact.second != no_body && !is_there(contact.second))) return;
-    const Real gap = truth_.gap(contact, now(), {.is_deep = false});
+    const Real gap = truth_.told_gap(contact, now());
     if (std::abs(gap - event.gap) < std::abs(nearest - event.gap)) nearest = gap;
   };
   look();

@@ -104,7 +104,9 @@ Real TrueGaps::between(const Thing& a, const Thing& b, Real time, const Measure&
         least = std::min(least, dot(vector(half->normal), point) - half->offset - solid.radius);
     return least;
   }
-  if (!b.is_ball() && b.has_shape()) return between(b, a, time, how);
+  const bool b_is_half = b.sort == Sort::fixed && std::holds_alternative<HalfSpace>(b.shape);
+  const bool a_has_corners = a.has_shape() && !a.is_ball();
+  if (b_is_half || (b.has_shape() && !b.is_ball() && !a_has_corners)) return between(b, a, time, how);
   const Vector origin = a.sort == Sort::fixed && !a.is_ball() ? vector(a.corners[0]) : a.path.at(time);
   const std::vector<Solid> own = solids(a, time, origin);
   const std::vector<Solid> others = solids(b, time, origin);

@@ -49,7 +49,7 @@ std::vector<BodyId> Truth::present() const {
 // Who meets whom.
 
 bool Truth::meet(const Thing& a, const Thing& b) const {
-  return a.present() && b.present() && !(a.has_shape() && b.has_shape()) &&
+  return a.present() && b.present() && (a.moves() || b.moves()) &&
          passes(a.definition.filter, b.definition.filter);
 }
 
@@ -90,6 +90,12 @@ ContactEvents Truth::wanted(const Contact& contact) const {
 Real Truth::gap(const Contact& contact, Real time, const Measure& how) const {
   if (contact.wall != Wall::none) return gaps.to_wall(at(contact.first), contact.wall, time);
   return gaps.between(at(contact.first), at(contact.second), time, how);
+}
+
+Real Truth::told_gap(const Contact& contact, Real time) const {
+  const bool turns = at(contact.first).sort == Sort::rigid ||
+                     (contact.second != no_body && at(contact.second).sort == Sort::rigid);
+  return gap(contact, time, {.is_deep = !turns});
 }
 
 bool Truth::is_of_balls(const Contact& contact) const {

@@ -64,6 +64,8 @@ class Truth {
   ContactEvents wanted(const Contact& contact) const;
 
   Real gap(const Contact& contact, Real time, const Measure& how = {}) const;
+  /// Returns the gap that events tell: 0 if hulls of rigid bodies overlap, however deep.
+  Real told_gap(const Contact& contact, Real time) const;
   bool is_of_balls(const Contact& contact) const;
   /// Returns how much two reports may err in the gap (length).
   double report_errors(const Contact& contact) const;

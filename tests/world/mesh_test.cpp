@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "kinesphere/limits.hpp"
 #include "kinesphere/motion/ballistic.hpp"
 #include "kinesphere/queries.hpp"
 #include "kinesphere/recording.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "kinesphere/response.hpp"
+#include "number/infinity.hpp"
 #include "support/playground.hpp"
 
 namespace kinesphere::resting_test {

@@ -496,7 +496,8 @@ export class World extends WorldView {
   }
   /**
    * Adds a body that carries a box, a triangle or a mesh, given relative to its position, without turning it: a lift, a
-   * door, a piston. It meets no walls and no other shapes. A mass of Infinity makes a body that no contact turns.
+   * door, a piston. It meets all bodies, static ones and other moving shapes too, but no walls of the world. A mass of
+   * Infinity makes a body that no contact turns.
    */
   addMovingShape(shape: Shape, body: ShapeCarrier): BodyId {
     const call = "addMovingShape";
