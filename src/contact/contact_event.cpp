@@ -152,12 +152,12 @@ void describe_as_seen(Event& event, const Sphere& first, const Sphere& second, b
         (first.radius_rate + second.radius_rate);
     return;
   }
-  if (first.shape && second.shape) {
-    describe_surfaces(event, first, second, is_flat);
-  } else if (first.shape || second.shape) {
-    describe_surface(event, first.shape ? second : first, first.shape ? first : second);
-  } else {
+  if (!first.shape && !second.shape) {
     describe_spheres(event, first, second);
+  } else if (first.shape && second.shape) {
+    describe_surfaces(event, first, second, is_flat);
+  } else {
+    describe_surface(event, first.shape ? second : first, first.shape ? first : second);
   }
   event.approach_speed = dot(event.normal, first.state.velocity - second.state.velocity) +
                          (first.radius_rate + second.radius_rate);
@@ -238,15 +238,14 @@ double approach_error(const Event& event, const Sphere& first, const Sphere& sec
   const auto with_arm = [&](double arm) { return approach_error(event, arm) + rate_error(rates); };
   if (event.wall != Wall::none) return with_arm(infinity);
   const auto radius = [](const Sphere& body) {
-    return body.shape   ? body.position_error
-           : body.rigid ? least_radius(body.rigid->parts) + body.position_error
-                        : body.radius;
+    return body.rigid ? least_radius(body.rigid->parts) + body.position_error : body.radius;
   };
+  if (!first.shape && !second.shape) return with_arm(event.gap + radius(first) + radius(second));
   const auto is_half_space = [](const Sphere& body) {
     return body.shape && std::holds_alternative<HalfSpace>(*body.shape);
   };
-  if (!first.shape && !second.shape) return with_arm(event.gap + radius(first) + radius(second));
   if (is_half_space(first) || is_half_space(second)) return with_arm(infinity);
+  if (first.shape && second.shape) return with_arm(event.gap + first.position_error + second.position_error);
   return with_arm(event.gap + radius(first.shape ? second : first));
 }
 

@@ -134,12 +134,12 @@ void ContactGraph::start_side_by_side(bool with_sensors) {
 std::span<const std::uint32_t> ContactGraph::counting(const Event& contact,
                                                       std::array<std::uint32_t, 2>& buffer) const {
   std::size_t count = 0;
-  const auto add_all = [&](Form form) {
-    for (const BodyId id : {contact.first, contact.second})
-      if (id != no_body && flags_[number_of(id)].form == form) buffer[count++] = number_of(id);
-  };
-  add_all(Form::ball);
-  if (count == 0) add_all(Form::carried_shape);
+  for (const BodyId id : {contact.first, contact.second})
+    if (id != no_body && flags_[number_of(id)].form == Form::ball) buffer[count++] = number_of(id);
+  if (count > 0) [[likely]]
+    return std::span(buffer).first(count);
+  for (const BodyId id : {contact.first, contact.second})
+    if (id != no_body && flags_[number_of(id)].form == Form::carried_shape) buffer[count++] = number_of(id);
   return std::span(buffer).first(count);
 }
 
