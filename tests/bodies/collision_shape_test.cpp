@@ -20,6 +20,7 @@ struct Kind {
   std::string operator()(const Bound& seen, const Box&) const { return name("box", seen); }
   std::string operator()(const Bound& seen, const Triangle&) const { return name("triangle", seen); }
   std::string operator()(const Bound& seen, const Mesh&) const { return name("mesh", seen); }
+  std::string operator()(const Bound& seen, const ShapeDifference&) const { return name("difference", seen); }
   template <class Solid>
   std::string operator()(const Bound& seen, const CarriedShape<Solid>&) const {
     return name("carried", seen);
@@ -69,14 +70,29 @@ TEST(CollisionShape, DecidesWhatCertificatesSee) {
   EXPECT_EQ(kind(rigid, carried_shape_of(other, box, 2.0)), "rigid with carried");
 }
 
-TEST(CollisionShape, MeetsShapesIfItHasNone) {
-  const Bound bound{.radius = 1.0};
-  const Shape box = Box{{-1, -1, -1}, {1, 1, 1}};
-  EXPECT_TRUE((CollisionShape{bound}.meets_shapes()));
-  EXPECT_FALSE(collision_shape_of(bound, box).meets_shapes());
-  EXPECT_FALSE(collision_shape_of(bound, Ball{}).meets_shapes()) << "it stands, and they stand";
-  EXPECT_FALSE(carried_shape_of(bound, box, 2.0).meets_shapes());
-  EXPECT_TRUE(carried_shape_of(bound, box, 2.0).is_carried());
+/// Of two shapes, one of which is carried, certificates see a point with the motion of the carried one, and
+/// the difference of both.
+TEST(CollisionShape, OfTwoShapesIsTheirDifference) {
+  const Bound one{.position = {1, 2, 3}, .radius = 2.5}, other{.position = {9, 0, 0}, .radius = 2.0};
+  const Shape box = Box{{-1, -1, -1}, {1, 1, 1}}, floor = HalfSpace{{0, 0, 1}, 0.0};
+  const Shape triangle = Triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const CollisionShape carried = carried_shape_of(one, box, 2.0);
+  EXPECT_TRUE(carried.is_carried());
+  const auto kind = [](const CollisionShape& a, const CollisionShape& b) {
+    std::string seen;
+    visit_shapes(a, b, [&](const Bound& point, const auto& partner) {
+      seen = Kind{&point}(point, partner);
+      EXPECT_EQ(point.position, (Vec3{1, 2, 3}));
+      EXPECT_NEAR(point.radius, 0.5, 1e-12);
+    });
+    return seen;
+  };
+  EXPECT_EQ(kind(carried, collision_shape_of(other, box)), "box");
+  EXPECT_EQ(kind(collision_shape_of(other, box), carried), "box");
+  EXPECT_EQ(kind(carried, collision_shape_of(other, floor)), "half-space");
+  EXPECT_EQ(kind(carried, collision_shape_of(other, triangle)), "difference");
+  EXPECT_EQ(kind(carried, carried_shape_of(other, box, 2.0)), "carried");
+  EXPECT_EQ(kind(carried, carried_shape_of(other, triangle, 1.0)), "carried");
 }
 
 }  // namespace
