@@ -95,7 +95,10 @@ TEST(Bodies, TouchIfTheyAreSolidAndPass) {
   bodies.give_shape(0, Box{{-1, -1, -1}, {1, 1, 1}}, false);
   EXPECT_TRUE(bodies.may_touch(0, 1));
   bodies.give_shape(1, Box{{-1, -1, -1}, {1, 1, 1}}, true);
-  EXPECT_FALSE(bodies.may_meet(0, 1)) << "bodies with shapes do not meet each other";
+  EXPECT_TRUE(bodies.may_touch(0, 1)) << "a moving shape meets a static one";
+  bodies.add({}, 0.0);
+  bodies.give_shape(3, Box{{-1, -1, -1}, {1, 1, 1}}, false);
+  EXPECT_FALSE(bodies.may_meet(0, 3)) << "static bodies do not meet each other";
 }
 
 TEST(Bodies, AreRestoredFromACheckpoint) {
