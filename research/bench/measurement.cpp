@@ -1,4 +1,3 @@
-// Timed runs of scenes: medians over repetitions, ratios of runs that took turns.
 #include "research/bench/measurement.hpp"
 
 #include <fmt/format.h>
@@ -9,10 +8,15 @@
 #include <utility>
 
 #include "base/program_error.hpp"
+#include "research/rivals/rivals.hpp"
 #include "scenes/scene_file.hpp"
 
 namespace kinesphere::program {
 namespace {
+
+NamedDetector named(const std::string& name, const DetectorSettings& settings = {}) {
+  return {name, require(detector_maker(name, settings))};
+}
 
 Run run_once(const NamedDetector& detector, const Scene& scene) {
   Run run;
@@ -50,6 +54,22 @@ SceneParameters built_in(std::string_view name, std::uint32_t bodies, double sec
 }
 
 }  // namespace
+
+NamedDetector paper_engine(const PaperOptions& options) { return named("paper", {.paper = options}); }
+
+NamedDetector hubbard_engine() { return named("hubbard"); }
+
+NamedDetector hayward_engine() { return named("hayward"); }
+
+NamedDetector fixed_step_engine(double step) { return named("fixed-step", {.step = step}); }
+
+NamedDetector world_engine() { return named("world"); }
+
+NamedDetector alarm_engine(double distance) {
+  return {"world", [distance](const WorldDefinition& definition, const Motion& motion) {
+            return make_sensing_detector(definition, motion, {.distances = {distance}});
+          }};
+}
 
 double cpu_seconds() {
   timespec now{};

@@ -1,15 +1,24 @@
-// Timed runs of scenes: medians over repetitions, ratios of runs that took turns.
+// Timed runs of scenes: the detectors, medians over repetitions, ratios of runs that took turns.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "research/bench/detectors.hpp"
+#include "research/rivals/rivals.hpp"
+#include "scenes/named_detector.hpp"
 #include "simulation/run/simulate.hpp"
 #include "simulation/scene/make_scene.hpp"
 #include "simulation/scene/scene.hpp"
 
 namespace kinesphere::program {
+
+NamedDetector paper_engine(const PaperOptions& options = {});
+NamedDetector hubbard_engine();
+NamedDetector hayward_engine();
+NamedDetector fixed_step_engine(double step);
+NamedDetector world_engine();
+/// Returns the default engine with a sensor of this distance (length) on every body.
+NamedDetector alarm_engine(double distance);
 
 /// Returns the CPU time of this process so far (seconds).
 double cpu_seconds();

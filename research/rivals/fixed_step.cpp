@@ -7,7 +7,7 @@
 #include "contact/pending_events.hpp"
 #include "input/input_check.hpp"
 #include "number/infinity.hpp"
-#include "research/grid/hash_grid.hpp"
+#include "research/measures/box_grid.hpp"
 #include "research/rivals/rivals.hpp"
 #include "simulation/detector/checked_detector.hpp"
 #include "simulation/detector/detector.hpp"
@@ -44,7 +44,6 @@ class FixedStep final : public Detector {
     instant_.end_all_contacts(
         contacts_, number, time_, [this](std::uint32_t body) { return sphere(body); }, definition_.box);
     bodies_[number].present = false;
-    if (search_ == FixedStepSearch::grid) grid_.remove(number);
     return {};
   }
 
@@ -118,12 +117,17 @@ class FixedStep final : public Detector {
       if (auto valid = check_report(state, {number, 0}, time_, definition_); !valid) return valid;
       body.state = state;
       body.seen = time_;
-      if (search_ == FixedStepSearch::grid) grid_.set(number, box_of(body));
     }
     return {};
   }
 
   void look() {
+    if (search_ == FixedStepSearch::grid) {
+      std::vector<BoxGrid::Entry> boxes;
+      for (std::uint32_t number = 0; number < bodies_.size(); ++number)
+        if (bodies_[number].present) boxes.push_back({box_of(bodies_[number]), number});
+      grid_.build(boxes);
+    }
     for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
       if (!bodies_[number].present) continue;
       // Partners that have parted far may no longer be found by the search.
@@ -187,7 +191,7 @@ class FixedStep final : public Detector {
   double time_;
   std::uint64_t next_step_ = 0;
   std::vector<Body> bodies_;
-  HashGrid grid_;
+  BoxGrid grid_;  ///< boxes of the bodies at the present step
   DetectorCounters counters_;
 };
 
