@@ -61,44 +61,7 @@ std::string wrapped(std::string_view text) {
   return lines += text;
 }
 
-}  // namespace
-
-void ResultTable::row(std::vector<Cell> cells) {
-  assert(cells.size() == columns_.size());
-  rows_.push_back(std::move(cells));
-}
-
-std::string ResultTable::text() const {
-  std::vector<std::string> lines(rows_.size() + 1);
-  for (std::size_t column = 0; column < columns_.size(); ++column) {
-    const std::string heading = heading_of(columns_[column]);
-    std::size_t width = heading.size();
-    bool on_the_left = !rows_.empty();
-    for (const auto& row : rows_) {
-      width = std::max(width, text_of(row[column]).size());
-      on_the_left = on_the_left && std::holds_alternative<std::string>(row[column]);
-    }
-    const auto add = [&](std::string& line, const std::string& text) {
-      line += column == 0 ? "" : "  ";
-      line += on_the_left ? fmt::format("{:<{}}", text, width) : fmt::format("{:>{}}", text, width);
-    };
-    add(lines[0], heading);
-    for (std::size_t row = 0; row < rows_.size(); ++row) add(lines[row + 1], text_of(rows_[row][column]));
-  }
-  std::string text;
-  for (std::string& line : lines) {
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + '\n';
-  }
-  return text;
-}
-
-void ResultTable::save(const std::string& path) const {
-  TableFile file(path, columns_);
-  for (const auto& row : rows_) file.write(row);
-  file.commit();
-}
-
+/// Returns the gnuplot script, which has to run in the folder of the CSV file.
 std::string gnuplot_script(const SpherePlot& plot) {
   const auto& [lower, upper] = plot.box;
   std::string script = head(plot.name, plot.title, "pngcairo size 440,420");
@@ -141,13 +104,52 @@ std::string gnuplot_script(const Plot& plot) {
   return script + "\n";
 }
 
-bool has_gnuplot() { return std::system("command -v gnuplot >/dev/null 2>&1") == 0; }
-
+/// Runs NAME.gp in the folder. Throws ProgramError if gnuplot fails.
 void run_gnuplot(const std::string& folder, const std::string& name) {
   const std::string command = fmt::format("cd {} && gnuplot {}.gp", quoted(folder), quoted(name));
   if (std::system(command.c_str()) != 0)
     throw ProgramError(fmt::format("{}/{}.gp: gnuplot failed", folder, name));
 }
+
+}  // namespace
+
+void ResultTable::row(std::vector<Cell> cells) {
+  assert(cells.size() == columns_.size());
+  rows_.push_back(std::move(cells));
+}
+
+std::string ResultTable::text() const {
+  std::vector<std::string> lines(rows_.size() + 1);
+  for (std::size_t column = 0; column < columns_.size(); ++column) {
+    const std::string heading = heading_of(columns_[column]);
+    std::size_t width = heading.size();
+    bool on_the_left = !rows_.empty();
+    for (const auto& row : rows_) {
+      width = std::max(width, text_of(row[column]).size());
+      on_the_left = on_the_left && std::holds_alternative<std::string>(row[column]);
+    }
+    const auto add = [&](std::string& line, const std::string& text) {
+      line += column == 0 ? "" : "  ";
+      line += on_the_left ? fmt::format("{:<{}}", text, width) : fmt::format("{:>{}}", text, width);
+    };
+    add(lines[0], heading);
+    for (std::size_t row = 0; row < rows_.size(); ++row) add(lines[row + 1], text_of(rows_[row][column]));
+  }
+  std::string text;
+  for (std::string& line : lines) {
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + '\n';
+  }
+  return text;
+}
+
+void ResultTable::save(const std::string& path) const {
+  TableFile file(path, columns_);
+  for (const auto& row : rows_) file.write(row);
+  file.commit();
+}
+
+bool has_gnuplot() { return std::system("command -v gnuplot >/dev/null 2>&1") == 0; }
 
 Report::Report(std::string folder) : folder_(std::move(folder)), draws_(has_gnuplot()) {
   std::error_code error;

@@ -47,9 +47,6 @@ struct Plot {
   std::vector<Curve> curves;
 };
 
-/// Returns the gnuplot script, which has to run in the folder of the CSV file.
-std::string gnuplot_script(const Plot& plot);
-
 /// Spheres in a box, seen from the front along y.
 struct SpherePlot {
   std::string name;  ///< name of the files: NAME.csv with x, y, z and radius (length), far spheres first;
@@ -57,12 +54,8 @@ struct SpherePlot {
   std::string title;
   Box box;
 };
-std::string gnuplot_script(const SpherePlot& plot);
 
 bool has_gnuplot();
-/// Runs NAME.gp in the folder. Throws ProgramError if gnuplot fails.
-void run_gnuplot(const std::string& folder, const std::string& name);
-
 class Report {
  public:
   /// Makes the folder if it does not exist. Throws ProgramError, like all other functions of this class.

@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "research/bench/contact_counts.hpp"
 #include "research/bench/measurement.hpp"
 #include "research/bench/sections.hpp"
 #include "simulation/oracle/oracle.hpp"

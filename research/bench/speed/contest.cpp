@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/program_error.hpp"
-#include "research/bench/contact_counts.hpp"
 #include "research/bench/measurement.hpp"
 #include "research/bench/speed/bullet_kernel.hpp"
 #include "research/bench/speed/step_recording.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "kinesphere/event.hpp"
-#include "research/bench/contact_counts.hpp"
+#include "research/bench/measurement.hpp"
 #include "research/bench/speed/step_kernel.hpp"
 #include "simulation/scene/scene.hpp"
 

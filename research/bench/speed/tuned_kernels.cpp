@@ -98,39 +98,28 @@ class GridKernel final : public StepKernel {
   std::vector<float> middle_x_, middle_y_, middle_z_, wide_radii_;  ///< spheres around the ways
 };
 
-class VerletKernel final : public StepKernel {
+/// Verlet lists: pairs nearer than the skins of the two spheres are listed, and the list is valid until a
+/// sphere has left its skin.
+class VerletList {
  public:
-  VerletKernel(std::vector<float> radii, const VerletSettings& settings, SphereTest test)
-      : name_(fmt::format("Verlet skin {:.3g} + {} steps on grid {}", settings.skin, settings.steps,
-                          text_of(settings.grid))),
-        radii_(std::move(radii)),
-        list_(settings),
-        test_(test) {}
+  explicit VerletList(const VerletSettings& settings) : grid_(settings.grid), settings_(settings) {}
 
-  std::string name() const override { return name_; }
-
-  void look(const Frame& before, const Frame& now, std::vector<SpherePair>& touching) override {
-    list_.follow(before, now, radii_);
-    if (test_ == SphereTest::at_steps) {
-      sift(list_.pairs(), touching,
-           [&](std::uint32_t a, std::uint32_t b) { return touch_at(now, radii_[a] + radii_[b], a, b); });
-    } else {
-      sift(list_.pairs(), touching, [&](std::uint32_t a, std::uint32_t b) {
-        return touch_between(before, now, radii_[a] + radii_[b], a, b);
-      });
-    }
-  }
-
-  std::size_t bytes() const override { return list_.bytes() + sizeof(float) * radii_.capacity(); }
+  /// Makes the list hold all pairs that touch anywhere on the way from `before` to `now`.
+  void follow(const Frame& before, const Frame& now, const std::vector<float>& radii);
+  const std::vector<SpherePair>& pairs() const { return pairs_; }
+  std::size_t bytes() const;
 
  private:
-  std::string name_;
-  std::vector<float> radii_;
-  VerletList list_;
-  SphereTest test_;
-};
+  bool serves(const Frame& now) const;
+  void rebuild(const Frame& before, const Frame& now, const std::vector<float>& radii);
 
-}  // namespace
+  StripGrid grid_;
+  VerletSettings settings_;
+  std::vector<float> x_, y_, z_;      ///< places for which the list was made
+  std::vector<float> skins_squared_;  ///< by body: squared ways allowed from these places
+  std::vector<float> wide_radii_;
+  std::vector<SpherePair> pairs_;
+};
 
 void VerletList::follow(const Frame& before, const Frame& now, const std::vector<float>& radii) {
   if (x_.empty() || !serves(now)) rebuild(before, now, radii);
@@ -165,6 +154,40 @@ void VerletList::rebuild(const Frame& before, const Frame& now, const std::vecto
 std::size_t VerletList::bytes() const {
   return grid_.bytes() + sizeof(float) * (5 * x_.capacity()) + sizeof(SpherePair) * pairs_.capacity();
 }
+
+class VerletKernel final : public StepKernel {
+ public:
+  VerletKernel(std::vector<float> radii, const VerletSettings& settings, SphereTest test)
+      : name_(fmt::format("Verlet skin {:.3g} + {} steps on grid {}", settings.skin, settings.steps,
+                          text_of(settings.grid))),
+        radii_(std::move(radii)),
+        list_(settings),
+        test_(test) {}
+
+  std::string name() const override { return name_; }
+
+  void look(const Frame& before, const Frame& now, std::vector<SpherePair>& touching) override {
+    list_.follow(before, now, radii_);
+    if (test_ == SphereTest::at_steps) {
+      sift(list_.pairs(), touching,
+           [&](std::uint32_t a, std::uint32_t b) { return touch_at(now, radii_[a] + radii_[b], a, b); });
+    } else {
+      sift(list_.pairs(), touching, [&](std::uint32_t a, std::uint32_t b) {
+        return touch_between(before, now, radii_[a] + radii_[b], a, b);
+      });
+    }
+  }
+
+  std::size_t bytes() const override { return list_.bytes() + sizeof(float) * radii_.capacity(); }
+
+ private:
+  std::string name_;
+  std::vector<float> radii_;
+  VerletList list_;
+  SphereTest test_;
+};
+
+}  // namespace
 
 std::unique_ptr<StepKernel> make_grid_kernel(std::vector<float> radii, const StripSettings& settings,
                                              SphereTest test) {
