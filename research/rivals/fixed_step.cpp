@@ -1,5 +1,7 @@
 // Fixed steps, as in most programs: at every step all bodies are moved, and pairs that overlap then are
 // contacts.
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "bodies/validation.hpp"
@@ -122,12 +124,8 @@ class FixedStep final : public Detector {
   }
 
   void look() {
-    if (search_ == FixedStepSearch::grid) {
-      std::vector<BoxGrid::Entry> boxes;
-      for (std::uint32_t number = 0; number < bodies_.size(); ++number)
-        if (bodies_[number].present) boxes.push_back({box_of(bodies_[number]), number});
-      grid_.build(boxes);
-    }
+    find_near();
+    auto pair = near_.begin();
     for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
       if (!bodies_[number].present) continue;
       // Partners that have parted far may no longer be found by the search.
@@ -135,23 +133,28 @@ class FixedStep final : public Detector {
       const std::vector<ContactRecord> partners(touched.begin(), touched.end());
       for (const auto& [partner, state] : partners)
         if (partner < number) look_at_pair(partner, number);
-      for_each_neighbour(number, [&](std::uint32_t other) {
-        if (other < number && !contacts_.touch(other, number)) look_at_pair(other, number);
-      });
+      for (; pair != near_.end() && pair->first == number; ++pair)
+        if (!contacts_.touch(pair->second, number)) look_at_pair(pair->second, number);
       if (definition_.box)
         for (const Wall wall : walls) look_at_wall(number, wall);
     }
   }
 
-  template <class Visit>
-  void for_each_neighbour(std::uint32_t number, Visit visit) {
-    if (search_ == FixedStepSearch::grid) {
-      ++counters_.searches;
-      grid_.for_each_overlap(box_of(bodies_[number]), visit);
+  /// Finds the pairs to look at.
+  void find_near() {
+    near_.clear();
+    std::vector<BoxGrid::Entry> boxes;
+    for (std::uint32_t number = 0; number < bodies_.size(); ++number)
+      if (bodies_[number].present) boxes.push_back({box_of(bodies_[number]), number});
+    if (search_ == FixedStepSearch::all_pairs) {
+      for (std::size_t b = 0; b < boxes.size(); ++b)
+        for (std::size_t a = 0; a < b; ++a) near_.emplace_back(boxes[b].body, boxes[a].body);
       return;
     }
-    for (std::uint32_t other = 0; other < number; ++other)
-      if (bodies_[other].present) visit(other);
+    counters_.searches += boxes.size();
+    grid_.build(boxes);
+    grid_.for_each_pair([this](std::uint32_t a, std::uint32_t b) { near_.emplace_back(a, b); });
+    std::sort(near_.begin(), near_.end());
   }
 
   Box box_of(const Body& body) const {
@@ -191,7 +194,8 @@ class FixedStep final : public Detector {
   double time_;
   std::uint64_t next_step_ = 0;
   std::vector<Body> bodies_;
-  BoxGrid grid_;  ///< boxes of the bodies at the present step
+  BoxGrid grid_;                                               ///< boxes of the bodies at the present step
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> near_;  ///< pairs to look at, the larger number first
   DetectorCounters counters_;
 };
 

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "kinesphere/random.hpp"
 
@@ -37,6 +39,14 @@ TEST(BoxGrid, AnswersLikeAPlainList) {
       entries.push_back(
           {{entries[k].box.upper, entries[k].box.upper}, static_cast<std::uint32_t>(entries.size())});
     grid.build(entries);
+    using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+    Pairs found_pairs, expected_pairs;
+    grid.for_each_pair([&](std::uint32_t a, std::uint32_t b) { found_pairs.emplace_back(a, b); });
+    std::sort(found_pairs.begin(), found_pairs.end());
+    for (const BoxGrid::Entry& a : entries)
+      for (const BoxGrid::Entry& b : entries)
+        if (b.body < a.body && overlap(a.box, b.box)) expected_pairs.emplace_back(a.body, b.body);
+    ASSERT_EQ(found_pairs, expected_pairs) << "seed " << seed;
     for (std::size_t query = 0; query < 100; ++query) {
       const Box box = query < entries.size() ? entries[query].box : random_box(random, octaves);
       std::vector<std::uint32_t> found, expected;
