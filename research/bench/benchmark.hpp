@@ -3,6 +3,7 @@
 
 #include <CLI/App.hpp>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -50,6 +51,7 @@ struct Benchmark {
 template <class Parts>
 std::vector<std::string> names_of_parts(const Parts& parts) {
   std::vector<std::string> names;
+  names.reserve(std::size(parts));
   for (const auto& part : parts) names.emplace_back(part.name);
   return names;
 }

@@ -1,7 +1,7 @@
 // The commands of `kinesphere-bench`. Each function adds one to the program.
 #pragma once
 
-#include <string>
+#include <CLI/App.hpp>
 
 #include "command_line.hpp"
 #include "scenes/named_detector.hpp"

@@ -65,7 +65,8 @@ int BoxGrid::Level::cell_along(std::size_t axis, double coordinate) const {
 
 std::size_t BoxGrid::Level::cell_of(const Box& box) const {
   const int row = cell_along(2, box.lower.z) * cells[1] + cell_along(1, box.lower.y);
-  return static_cast<std::size_t>(row * cells[0] + cell_along(0, box.lower.x));
+  const int cell = row * cells[0] + cell_along(0, box.lower.x);
+  return static_cast<std::size_t>(cell);
 }
 
 }  // namespace kinesphere

@@ -75,7 +75,8 @@ void BoxGrid::Level::for_each_overlap(const Box& box, const Visit& visit, std::u
   }
   for (int z = first[2]; z <= last[2]; ++z)
     for (int y = first[1]; y <= last[1]; ++y) {
-      const std::uint32_t* const row = &starts[static_cast<std::size_t>((z * cells[1] + y) * cells[0])];
+      const int first_cell = (z * cells[1] + y) * cells[0];
+      const std::uint32_t* const row = starts.data() + first_cell;
       for (std::uint32_t k = std::max(row[first[0]], begin); k < row[last[0] + 1]; ++k) {
         const Box& own = entries[k].box;
         if (own.lower.x <= box.upper.x && box.lower.x <= own.upper.x && own.lower.y <= box.upper.y &&

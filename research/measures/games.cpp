@@ -99,7 +99,7 @@ class Game {
     const double now = simulation_.world().time();
     std::vector<std::pair<double, std::size_t>> distances;
     for (std::size_t k = 0; k < balls_.size(); ++k)
-      distances.push_back({norm(simulation_.state(balls_[k], now).position - centre), k});
+      distances.emplace_back(norm(simulation_.state(balls_[k], now).position - centre), k);
     std::sort(distances.begin(), distances.end());
     distances.resize(std::min(distances.size(), blown_away));
     for (const auto& [distance, k] : distances) {
@@ -108,8 +108,8 @@ class Game {
     }
   }
 
-  const GameLoopSettings settings_;
-  const Box room_;
+  GameLoopSettings settings_;
+  Box room_;
   Random random_;
   Simulation simulation_;
   MotionId<Ballistic> flight_;
@@ -223,8 +223,8 @@ class ShootingGame {
     return place;
   }
 
-  const ShootingSettings settings_;
-  const double edge_;
+  ShootingSettings settings_;
+  double edge_;
   Random random_;
   Simulation simulation_;
   MotionId<Ballistic> flight_;
