@@ -8,7 +8,6 @@
 
 #include "base/program_error.hpp"
 #include "research/bench/measurement.hpp"
-#include "research/bench/published.hpp"
 #include "research/bench/sections.hpp"
 
 namespace kinesphere::program {

@@ -1,5 +1,3 @@
-#include "research/bench/frames.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,8 +7,10 @@
 #include <vector>
 
 #include "base/program_error.hpp"
+#include "research/bench/benchmark.hpp"
+#include "research/bench/commands.hpp"
 #include "research/bench/measurement.hpp"
-#include "research/measures/game_loop.hpp"
+#include "research/measures/games.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -43,12 +43,6 @@ constexpr Play plays[] = {{"thin", 0.3, false},
                           {"spread-steady", 3.0, false, true},
                           {"spread-dense", 10.0, false, true},
                           {"spread-eventful", 3.0, true, true}};
-
-std::vector<std::string> play_names() {
-  std::vector<std::string> names;
-  for (const Play& play : plays) names.emplace_back(play.name);
-  return names;
-}
 
 /// Costs of the frames of a game: times, or counts.
 class FrameCosts {
@@ -114,20 +108,8 @@ void add_play(ResultTable& table, ResultTable& every_frame, const Play& play, st
   add_costs(table, play, bodies, "work", FrameCosts(work, settings.first_frames));
 }
 
-}  // namespace
-
-CLI::App* add_bench_frames_command(CLI::App& bench, BenchOptions& options) {
-  CLI::App* frames = bench.add_subcommand(
-      "frames", "What the frames of a game cost: the median, and the worst; takes minutes");
-  add_bench_options(*frames, options, play_names(), "A minute of each game, not ten seconds");
-  return frames;
-}
-
-int bench_frames(const BenchOptions& options) {
-  check_bench_options(options, play_names());
-  const FrameSettings& settings = frame_settings(effort_of(options));
-  const Report report(options.output);
-  describe_machine(report);
+void bench_frames(const BenchOptions& options, const Report& report) {
+  const FrameSettings& settings = frame_settings(options.effort());
   report.note(
       fmt::format("Games at 60 frames a second. \"ms\" is CPU time of a frame, with motion and response; "
                   "\"work\" is about a "
@@ -140,12 +122,22 @@ int bench_frames(const BenchOptions& options) {
   ResultTable every_frame({"play", "n", "frame", "ms", "work", "starts", "restarts", "searches", "candidates",
                            "hot_pairs", "pair_checks", "wall_checks", "probes"});
   for (const Play& play : plays) {
-    if (!is_chosen(options, play.name)) continue;
+    if (!options.has(play.name)) continue;
     for (const std::uint32_t bodies : settings.bodies) add_play(table, every_frame, play, bodies, settings);
   }
   report.table("frames", table);
   report.save("every_frame", every_frame);
-  return exit_fine;
+}
+
+}  // namespace
+
+Command add_frames(CLI::App& app) {
+  return add_benchmark(
+      app, {.name = "frames",
+            .description = "What the frames of a game cost: the median, and the worst; takes minutes",
+            .full_description = "A minute of each game, not ten seconds",
+            .parts = names_of_parts(plays),
+            .run = bench_frames});
 }
 
 }  // namespace kinesphere::program

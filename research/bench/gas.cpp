@@ -1,5 +1,3 @@
-#include "research/bench/gas.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,8 @@
 #include <vector>
 
 #include "base/program_error.hpp"
+#include "research/bench/benchmark.hpp"
+#include "research/bench/commands.hpp"
 #include "research/bench/measurement.hpp"
 #include "research/measures/gas_properties.hpp"
 #include "scenes/scene_file.hpp"
@@ -93,20 +93,8 @@ double add_row(ResultTable& table, int percent, const GasSettings& settings) {
   return std::max(std::abs(z_off.percent), std::abs(rate_off.percent));
 }
 
-}  // namespace
-
-CLI::App* add_bench_gas_command(CLI::App& bench, BenchOptions& options) {
-  CLI::App* gas = bench.add_subcommand(
-      "gas", "Collision rate and pressure of hard spheres, against theory; takes minutes");
-  add_bench_options(*gas, options, names(), "Ten times as many collisions");
-  return gas;
-}
-
-int bench_gas(const BenchOptions& options) {
-  check_bench_options(options, names());
-  const GasSettings& settings = gas_settings(effort_of(options));
-  const Report report(options.output);
-  describe_machine(report);
+void bench_gas(const BenchOptions& options, const Report& report) {
+  const GasSettings& settings = gas_settings(options.effort());
   report.note(fmt::format(
       "{} equal spheres that bounce without loss where space repeats, in units of their diameter, mass and "
       "temperature: Z = p V / (N k T), from the virial, and the rate, collisions of each sphere per unit of "
@@ -118,12 +106,22 @@ int bench_gas(const BenchOptions& options) {
   ResultTable table(columns);
   double largest = 0.0;
   for (const int percent : packings) {
-    if (!is_chosen(options, std::to_string(percent))) continue;
+    if (!options.has(std::to_string(percent))) continue;
     largest = std::max(largest, add_row(table, percent, settings));
   }
   report.table("gas", table);
   report.note(fmt::format("The largest deviation is {:.2f} %.", largest));
-  return exit_fine;
+}
+
+}  // namespace
+
+Command add_gas(CLI::App& app) {
+  return add_benchmark(
+      app, {.name = "gas",
+            .description = "Collision rate and pressure of hard spheres, against theory; takes minutes",
+            .full_description = "Ten times as many collisions",
+            .parts = names(),
+            .run = bench_gas});
 }
 
 }  // namespace kinesphere::program

@@ -1,4 +1,3 @@
-// Timed runs of scenes: medians over repetitions, ratios of runs that took turns.
 #include "research/bench/measurement.hpp"
 
 #include <fmt/format.h>
@@ -9,10 +8,16 @@
 #include <utility>
 
 #include "base/program_error.hpp"
+#include "research/rivals/rivals.hpp"
 #include "scenes/scene_file.hpp"
+#include "simulation/run/simulate.hpp"
 
 namespace kinesphere::program {
 namespace {
+
+NamedDetector named(const std::string& name, const DetectorSettings& settings = {}) {
+  return {name, require(detector_maker(name, settings))};
+}
 
 Run run_once(const NamedDetector& detector, const Scene& scene) {
   Run run;
@@ -50,6 +55,22 @@ SceneParameters built_in(std::string_view name, std::uint32_t bodies, double sec
 }
 
 }  // namespace
+
+NamedDetector paper_engine(const PaperOptions& options) { return named("paper", {.paper = options}); }
+
+NamedDetector hubbard_engine() { return named("hubbard"); }
+
+NamedDetector hayward_engine() { return named("hayward"); }
+
+NamedDetector fixed_step_engine(double step) { return named("fixed-step", {.step = step}); }
+
+NamedDetector world_engine() { return named("world"); }
+
+NamedDetector alarm_engine(double distance) {
+  return {"world", [distance](const WorldDefinition& definition, const Motion& motion) {
+            return make_sensing_detector(definition, motion, {.distances = {distance}});
+          }};
+}
 
 double cpu_seconds() {
   timespec now{};
@@ -112,6 +133,45 @@ SceneParameters first_experiment(std::uint32_t bodies, double seconds) {
 
 SceneParameters second_experiment(std::uint32_t bodies, double seconds) {
   return built_in("paper2", bodies, seconds);
+}
+
+ContactCounts count_contacts(const Scene& scene, const DetectorMaker& make) {
+  ContactCounts counts;
+  SimulationObserver observer;
+  observer.on_event = [&](const Event& event) {
+    if (event.kind != EventKind::contact_begin && event.kind != EventKind::wall_begin) return;
+    const BodyId second = event.second == no_body ? event.first : event.second;
+    ++counts[{event.first.index, second.index, event.wall}];
+  };
+  require(simulate(scene, make, observer));
+  return counts;
+}
+
+ContactCounts body_contacts(const ContactCounts& counts) {
+  ContactCounts found = counts;
+  std::erase_if(found, [](const auto& entry) { return std::get<2>(entry.first) != Wall::none; });
+  return found;
+}
+
+ContactCounts wall_contacts(const ContactCounts& counts) {
+  ContactCounts found = counts;
+  std::erase_if(found, [](const auto& entry) { return std::get<2>(entry.first) == Wall::none; });
+  return found;
+}
+
+std::uint64_t total(const ContactCounts& counts) {
+  std::uint64_t sum = 0;
+  for (const auto& [pair, count] : counts) sum += count;
+  return sum;
+}
+
+std::uint64_t missed(const ContactCounts& truth, const ContactCounts& seen) {
+  std::uint64_t missed = 0;
+  for (const auto& [pair, count] : truth) {
+    const auto found = seen.find(pair);
+    missed += count - std::min(count, found == seen.end() ? 0 : found->second);
+  }
+  return missed;
 }
 
 }  // namespace kinesphere::program

@@ -1,15 +1,29 @@
-// Timed runs of scenes: medians over repetitions, ratios of runs that took turns.
+// Timed runs of scenes: the detectors, medians over repetitions, ratios of runs that took turns; and the
+// contacts that a detector overlooks, in scenes without bounces, so that all detectors watch one motion.
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
-#include "research/bench/detectors.hpp"
+#include "research/rivals/rivals.hpp"
+#include "scenes/named_detector.hpp"
+#include "simulation/detector/detector.hpp"
 #include "simulation/run/simulate.hpp"
 #include "simulation/scene/make_scene.hpp"
 #include "simulation/scene/scene.hpp"
 
 namespace kinesphere::program {
+
+NamedDetector paper_engine(const PaperOptions& options = {});
+NamedDetector hubbard_engine();
+NamedDetector hayward_engine();
+NamedDetector fixed_step_engine(double step);
+NamedDetector world_engine();
+/// Returns the default engine with a sensor of this distance (length) on every body.
+NamedDetector alarm_engine(double distance);
 
 /// Returns the CPU time of this process so far (seconds).
 double cpu_seconds();
@@ -63,5 +77,18 @@ std::vector<Scene> seeded_scenes(SceneParameters parameters, std::uint64_t seeds
 SceneParameters first_experiment(std::uint32_t bodies, double seconds);
 /// Returns the paper's second experiment (section 4.3).
 SceneParameters second_experiment(std::uint32_t bodies, double seconds);
+
+/// Number of contacts of each pair, or of each body (twice) and wall.
+using ContactCounts = std::map<std::tuple<std::uint32_t, std::uint32_t, Wall>, std::uint64_t>;
+
+/// Runs the scene and counts its contacts. Throws ProgramError.
+ContactCounts count_contacts(const Scene& scene, const DetectorMaker& make);
+
+/// Returns the contacts of two bodies alone, or of a body and a wall alone.
+ContactCounts body_contacts(const ContactCounts& counts);
+ContactCounts wall_contacts(const ContactCounts& counts);
+std::uint64_t total(const ContactCounts& counts);
+/// Returns the number of contacts in `truth` that are not in `seen`.
+std::uint64_t missed(const ContactCounts& truth, const ContactCounts& seen);
 
 }  // namespace kinesphere::program

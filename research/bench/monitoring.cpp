@@ -1,19 +1,32 @@
-#include "research/bench/monitoring.hpp"
-
 #include <fmt/format.h>
+#include <CLI/App.hpp>
 
 #include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "base/program_error.hpp"
 #include "base/validators.hpp"
-#include "research/bench/result_table.hpp"
+#include "research/bench/commands.hpp"
+#include "research/bench/report.hpp"
 #include "research/monitoring/alarms.hpp"
-#include "research/monitoring/polling.hpp"
 #include "tracks/reading_options.hpp"
 #include "tracks/track_file.hpp"
 
 namespace kinesphere::program {
 namespace {
+
+struct MonitoringOptions {
+  std::vector<std::string> files;
+  TrackOptions reading;
+  double distance = 0.0;
+  double look_ahead = 0.0;
+  ReportingSettings reporting;
+  double window = 1.0;
+  std::uint64_t seeds = 3;
+  std::vector<double> polling_tolerances;
+};
 
 /// Relative error of the spans of the truth: they are exact to about this part of the distance.
 constexpr double rounding = 1e-9;
@@ -73,43 +86,6 @@ void add_polling(ResultTable& table, const RecordedSky& sky, const MonitoringOpt
   }
 }
 
-}  // namespace
-
-CLI::App* add_bench_monitoring_command(CLI::App& bench, MonitoringOptions& options) {
-  CLI::App* const command = bench.add_subcommand(
-      "monitoring", "What is certain about recorded tracks from few and noisy reports, and how few will do");
-  add_reading_options(*command, options.files, options.reading);
-  command->add_option("--distance", options.distance, "Which separation is watched (length)")
-      ->required()
-      ->check(finite_number() & CLI::PositiveNumber);
-  command->add_option("--interval", options.reporting.interval, "Mean time between two reports of a track")
-      ->check(finite_number() & CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--delay", options.reporting.delay, "Largest delay of a report")
-      ->check(finite_number() & CLI::NonNegativeNumber);
-  command->add_option("--position-error", options.reporting.position_error, "Of reports, at most (length)")
-      ->check(finite_number() & CLI::NonNegativeNumber);
-  command
-      ->add_option("--velocity-error", options.reporting.velocity_error,
-                   "Of reports, at most (length / time)")
-      ->check(finite_number() & CLI::NonNegativeNumber);
-  command
-      ->add_option("--look-ahead", options.look_ahead, "Of the alarms that take everybody to go straight on")
-      ->check(finite_number() & CLI::NonNegativeNumber)
-      ->capture_default_str();
-  command->add_option("--window", options.window, "Of the monitor")
-      ->check(finite_number() & CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--seeds", options.seeds, "How many times, each with other errors and times of reports")
-      ->check(whole_number(1000))
-      ->capture_default_str();
-  command
-      ->add_option("--polling", options.polling_tolerances,
-                   "Also how few reports keep every pair decided, within these tolerances (length)")
-      ->check(finite_number() & CLI::PositiveNumber);
-  return command;
-}
-
 int bench_monitoring(const MonitoringOptions& options) {
   for (const double at_most : options.polling_tolerances)
     if (at_most > options.distance)
@@ -132,6 +108,45 @@ int bench_monitoring(const MonitoringOptions& options) {
     fmt::print("{}", table.text());
   }
   return exit_fine;
+}
+
+}  // namespace
+
+Command add_monitoring(CLI::App& app) {
+  const auto options = std::make_shared<MonitoringOptions>();
+  CLI::App* const command = app.add_subcommand(
+      "monitoring", "What is certain about recorded tracks from few and noisy reports, and how few will do");
+  add_reading_options(*command, options->files, options->reading);
+  command->add_option("--distance", options->distance, "Which separation is watched (length)")
+      ->required()
+      ->check(finite_number() & CLI::PositiveNumber);
+  command->add_option("--interval", options->reporting.interval, "Mean time between two reports of a track")
+      ->check(finite_number() & CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--delay", options->reporting.delay, "Largest delay of a report")
+      ->check(finite_number() & CLI::NonNegativeNumber);
+  command->add_option("--position-error", options->reporting.position_error, "Of reports, at most (length)")
+      ->check(finite_number() & CLI::NonNegativeNumber);
+  command
+      ->add_option("--velocity-error", options->reporting.velocity_error,
+                   "Of reports, at most (length / time)")
+      ->check(finite_number() & CLI::NonNegativeNumber);
+  command
+      ->add_option("--look-ahead", options->look_ahead, "Of the alarms that take everybody to go straight on")
+      ->check(finite_number() & CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_option("--window", options->window, "Of the monitor")
+      ->check(finite_number() & CLI::PositiveNumber)
+      ->capture_default_str();
+  command
+      ->add_option("--seeds", options->seeds, "How many times, each with other errors and times of reports")
+      ->check(whole_number(1000))
+      ->capture_default_str();
+  command
+      ->add_option("--polling", options->polling_tolerances,
+                   "Also how few reports keep every pair decided, within these tolerances (length)")
+      ->check(finite_number() & CLI::PositiveNumber);
+  return {command, [options] { return bench_monitoring(*options); }};
 }
 
 }  // namespace kinesphere::program

@@ -1,11 +1,11 @@
-#include "research/bench/paths.hpp"
-
 #include <fmt/format.h>
+#include <CLI/App.hpp>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -16,8 +16,9 @@
 #include "kinesphere/approaches.hpp"
 #include "kinesphere/workers.hpp"
 #include "research/bench/arcs.hpp"
+#include "research/bench/commands.hpp"
 #include "research/bench/measurement.hpp"
-#include "research/bench/result_table.hpp"
+#include "research/bench/report.hpp"
 #include "research/measures/peak_memory.hpp"
 #include "scenes/summary.hpp"
 
@@ -25,6 +26,15 @@ namespace kinesphere::program {
 namespace {
 
 constexpr double seconds_in_hour = 3600.0, hours_in_day = 24.0;
+
+struct PathOptions {
+  std::string file;  ///< arcs; empty: satellites drawn at random
+  std::uint32_t satellites = 10'000;
+  std::uint64_t seed = 1;
+  double hours = 24.0;
+  double distance = 5.0;
+  int turns = 3;
+};
 
 struct Search {
   double seconds;      ///< of wall-clock time
@@ -95,32 +105,6 @@ void print_turns(const Turns& turns, double object_days) {
   print("{}", table.text());
 }
 
-}  // namespace
-
-CLI::App* add_bench_paths_command(CLI::App& bench, PathOptions& options) {
-  CLI::App* const command =
-      bench.add_subcommand("paths", "Time the search for approaches of bodies on known paths");
-  command->add_option("FILE", options.file,
-                      "Arcs that python/examples/conjunctions.py --arcs has written; without it satellites "
-                      "are drawn at random");
-  command->add_option("--satellites", options.satellites, "How many are drawn")
-      ->check(whole_number(1'000'000, 2))
-      ->capture_default_str();
-  command->add_option("--seed", options.seed, "Of the satellites")
-      ->check(whole_number(std::numeric_limits<std::uint64_t>::max()))
-      ->capture_default_str();
-  command->add_option("--hours", options.hours, "How long to search, from the begin of the arcs")
-      ->check(finite_number() & CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--distance", options.distance, "Within which bodies approach (km)")
-      ->check(finite_number() & CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--turns", options.turns, "How often each number of threads is timed")
-      ->check(whole_number(1000, 1))
-      ->capture_default_str();
-  return command;
-}
-
 int bench_paths(const PathOptions& options) {
   const double seconds = options.hours * seconds_in_hour;
   const Arcs arcs = options.file.empty() ? satellite_arcs(options.satellites, seconds, options.seed)
@@ -139,6 +123,33 @@ int bench_paths(const PathOptions& options) {
   if (!turns.agree()) print("THE SEARCHES DIFFER\n");
   finish_output();
   return turns.agree() ? exit_fine : exit_disagreement;
+}
+
+}  // namespace
+
+Command add_paths(CLI::App& app) {
+  const auto options = std::make_shared<PathOptions>();
+  CLI::App* const command =
+      app.add_subcommand("paths", "Time the search for approaches of bodies on known paths");
+  command->add_option("FILE", options->file,
+                      "Arcs that python/examples/conjunctions.py --arcs has written; without it satellites "
+                      "are drawn at random");
+  command->add_option("--satellites", options->satellites, "How many are drawn")
+      ->check(whole_number(1'000'000, 2))
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Of the satellites")
+      ->check(whole_number(std::numeric_limits<std::uint64_t>::max()))
+      ->capture_default_str();
+  command->add_option("--hours", options->hours, "How long to search, from the begin of the arcs")
+      ->check(finite_number() & CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--distance", options->distance, "Within which bodies approach (km)")
+      ->check(finite_number() & CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--turns", options->turns, "How often each number of threads is timed")
+      ->check(whole_number(1000, 1))
+      ->capture_default_str();
+  return {command, [options] { return bench_paths(*options); }};
 }
 
 }  // namespace kinesphere::program

@@ -1,11 +1,11 @@
-#include "research/bench/soak.hpp"
-
 #include <fmt/format.h>
+#include <CLI/App.hpp>
 
 #include <algorithm>
 #include <charconv>
 #include <fstream>
 #include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
@@ -14,42 +14,18 @@
 #include "base/progress.hpp"
 #include "base/standard_output.hpp"
 #include "base/validators.hpp"
-#include "research/monitoring/verdict_check.hpp"
+#include "research/bench/commands.hpp"
+#include "research/monitoring/soak.hpp"
 #include "scenes/summary.hpp"
 
 namespace kinesphere::program {
-
-CLI::App* add_bench_soak_command(CLI::App& bench, SoakOptions& options) {
-  SoakSettings& settings = options.settings;
-  CLI::App* const command = bench.add_subcommand(
-      "soak", "Feed a monitor with faulty reports for long, and hold it against the truth");
-  command->add_option("--reports", settings.reports, "How many come in")
-      ->check(whole_number(1'000'000'000'000, 1))
-      ->capture_default_str();
-  command->add_option("--tracks", settings.faults.tracks, "How many report")
-      ->check(whole_number(10'000'000, 2))
-      ->capture_default_str();
-  command->add_option("--distance", settings.distance, "Which separation is watched (length)")
-      ->check(finite_number() & CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--width", settings.faults.width, "Of the square in which tracks begin (length)")
-      ->check(finite_number() & CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--seed", settings.faults.seed, "Of all random numbers")
-      ->check(whole_number(std::numeric_limits<std::uint64_t>::max()))
-      ->capture_default_str();
-  CLI::Option* const write = command->add_flag(
-      "--write", options.write,
-      "Only write the reports to standard output, some lines cut off, for `kinesphere watch`");
-  command
-      ->add_option(
-          "--alerts", options.alerts,
-          "Only compare the alerts of `kinesphere watch` with the truth; the other options as in --write")
-      ->excludes(write);
-  return command;
-}
-
 namespace {
+
+struct SoakOptions {
+  SoakSettings settings;
+  bool write = false;  ///< write the reports, for `kinesphere watch`
+  std::string alerts;  ///< file with the alerts of `kinesphere watch` on these reports
+};
 
 /// Lines of output for each line that is cut off; fewer would test the reader more and the monitor less.
 constexpr std::uint64_t lines_between_malformed = 1000;
@@ -165,8 +141,6 @@ int compare_alerts(const SoakOptions& options) {
   return check.missed == 0 && check.wrongly_within == 0 ? exit_fine : exit_disagreement;
 }
 
-}  // namespace
-
 int bench_soak(const SoakOptions& options) {
   if (options.write) return write_reports(options.settings);
   if (!options.alerts.empty()) return compare_alerts(options);
@@ -204,6 +178,39 @@ int bench_soak(const SoakOptions& options) {
       fmt::format("kB in the end, {} after a quarter; with the truth", grouped(result.memory_early / 1024)));
   fmt::print("{}", summary.text());
   return result.missed == 0 && result.wrongly_within == 0 ? exit_fine : exit_disagreement;
+}
+
+}  // namespace
+
+Command add_soak(CLI::App& app) {
+  const auto options = std::make_shared<SoakOptions>();
+  SoakSettings& settings = options->settings;
+  CLI::App* const command = app.add_subcommand(
+      "soak", "Feed a monitor with faulty reports for long, and hold it against the truth");
+  command->add_option("--reports", settings.reports, "How many come in")
+      ->check(whole_number(1'000'000'000'000, 1))
+      ->capture_default_str();
+  command->add_option("--tracks", settings.faults.tracks, "How many report")
+      ->check(whole_number(10'000'000, 2))
+      ->capture_default_str();
+  command->add_option("--distance", settings.distance, "Which separation is watched (length)")
+      ->check(finite_number() & CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--width", settings.faults.width, "Of the square in which tracks begin (length)")
+      ->check(finite_number() & CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--seed", settings.faults.seed, "Of all random numbers")
+      ->check(whole_number(std::numeric_limits<std::uint64_t>::max()))
+      ->capture_default_str();
+  CLI::Option* const write = command->add_flag(
+      "--write", options->write,
+      "Only write the reports to standard output, some lines cut off, for `kinesphere watch`");
+  command
+      ->add_option(
+          "--alerts", options->alerts,
+          "Only compare the alerts of `kinesphere watch` with the truth; the other options as in --write")
+      ->excludes(write);
+  return {command, [options] { return bench_soak(*options); }};
 }
 
 }  // namespace kinesphere::program

@@ -3,9 +3,7 @@
 
 #include <utility>
 
-#include "research/bench/contact_counts.hpp"
 #include "research/bench/measurement.hpp"
-#include "research/bench/published.hpp"
 #include "research/bench/sections.hpp"
 #include "simulation/oracle/oracle.hpp"
 

@@ -1,19 +1,21 @@
 #include "research/bench/vessels.hpp"
 
 #include <fmt/format.h>
+#include <CLI/App.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "base/output_file.hpp"
 #include "base/program_error.hpp"
 #include "base/validators.hpp"
 #include "kinesphere/random.hpp"
-#include "research/bench/measurement.hpp"
+#include "research/bench/commands.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -209,18 +211,12 @@ Scene make_vessels(const VesselParameters& parameters, double distance) {
   return scene;
 }
 
-CLI::App* add_bench_vessels_command(CLI::App& bench, VesselOptions& options) {
-  CLI::App* const command =
-      bench.add_subcommand("vessels", "Write a table of vessels' reports, for `kinesphere tracks`");
-  command->add_option("FILE", options.file, "Table to write, .csv")->required();
-  command->add_option("--vessels", options.parameters.vessels, "How many")
-      ->check(whole_number(1'000'000))
-      ->capture_default_str();
-  command->add_option("--seed", options.parameters.seed, "Of all random numbers")
-      ->check(whole_number(std::numeric_limits<std::uint64_t>::max()))
-      ->capture_default_str();
-  return command;
-}
+namespace {
+
+struct VesselOptions {
+  std::string file;
+  VesselParameters parameters;
+};
 
 int bench_vessels(const VesselOptions& options) {
   const std::vector<Track> tracks = vessel_tracks(options.parameters);
@@ -241,6 +237,22 @@ int bench_vessels(const VesselOptions& options) {
   file.commit();
   fmt::print("{}: {} reports of {} vessels\n", options.file, reports.size(), tracks.size());
   return exit_fine;
+}
+
+}  // namespace
+
+Command add_vessels(CLI::App& app) {
+  const auto options = std::make_shared<VesselOptions>();
+  CLI::App* const command =
+      app.add_subcommand("vessels", "Write a table of vessels' reports, for `kinesphere tracks`");
+  command->add_option("FILE", options->file, "Table to write, .csv")->required();
+  command->add_option("--vessels", options->parameters.vessels, "How many")
+      ->check(whole_number(1'000'000))
+      ->capture_default_str();
+  command->add_option("--seed", options->parameters.seed, "Of all random numbers")
+      ->check(whole_number(std::numeric_limits<std::uint64_t>::max()))
+      ->capture_default_str();
+  return {command, [options] { return bench_vessels(*options); }};
 }
 
 }  // namespace kinesphere::program

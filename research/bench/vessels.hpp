@@ -2,9 +2,7 @@
 // few aircraft. Speeds and accelerations differ by more than 1:10,000.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "kinesphere/motion/recorded_tracks.hpp"
@@ -25,16 +23,5 @@ std::vector<Track> vessel_tracks(const VesselParameters& parameters);
 
 /// Makes a scene in which vessels closer than `distance` (length) to each other are in contact.
 Scene make_vessels(const VesselParameters& parameters, double distance);
-
-struct VesselOptions {
-  std::string file;
-  VesselParameters parameters;
-};
-
-/// Adds the command `kinesphere-bench vessels`, which writes the tracks as a table for `kinesphere tracks`.
-/// `options` must live until the command line has been parsed.
-CLI::App* add_bench_vessels_command(CLI::App& bench, VesselOptions& options);
-/// Writes lines of id, time, x, y and z by time, under a header. Returns the exit code. Throws ProgramError.
-int bench_vessels(const VesselOptions& options);
 
 }  // namespace kinesphere::program

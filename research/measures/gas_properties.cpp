@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string_view>
 #include <vector>
-
-#include "input/input_check.hpp"
 
 namespace kinesphere {
 namespace {
@@ -104,42 +101,6 @@ GasProperties properties_of(const Scene& scene, const Gauge& gauge, const GasBlo
   return properties;
 }
 
-Result<void> check(const Scene& scene, const GasBlocks& blocks) {
-  const auto is = [](bool condition) -> std::string_view { return condition ? "true" : "false"; };
-  const Axes all{true, true, true};
-  InputCheck check("measure_gas");
-  check
-      .require(blocks.equilibration >= 0, ErrorCode::out_of_range, {"equilibration"}, "must not be negative",
-               static_cast<double>(blocks.equilibration))
-      .require(blocks.measured >= 2, ErrorCode::out_of_range, {"measured"}, "must be at least 2",
-               static_cast<double>(blocks.measured))
-      .require(scene.world.periodic == all && scene.world.dimensions == 3, ErrorCode::unsupported,
-               {"periodic"}, "must be true on all of three axes", is(false))
-      .require(
-          scene.response == SceneResponse::bounce && scene.restitution == 1.0 && scene.resting_speed == 0.0,
-          ErrorCode::unsupported, {"response"}, "must be to bounce without loss", is(false))
-      .require(scene.end_time > scene.world.start_time, ErrorCode::unsupported, {"end_time"},
-               "must lie after the start", scene.end_time)
-      .require(scene.bodies.size() >= 2 && scene.bodies.size() == scene.motion->size(),
-               ErrorCode::unsupported, {"bodies"}, "must be two or more, and all that move",
-               scene.bodies.size());
-  for (std::uint32_t number = 0; number < scene.bodies.size() && !check.error(); ++number) {
-    const SceneBody& body = scene.bodies[number];
-    const BodyId id{number, 0};
-    const double start = scene.world.start_time;
-    const BodyDefinition definition = scene.motion->definition(number, start);
-    check
-        .require(body.radius == scene.bodies.front().radius && body.radius > 0.0, ErrorCode::unsupported,
-                 {"radius", id}, "must be the same for all and larger than 0", body.radius)
-        .require(body.appears <= start && body.vanishes > scene.end_time, ErrorCode::unsupported,
-                 {"appears", id}, "and vanishes must leave it there all the time", body.appears)
-        .require(definition.acceleration_limit == 0.0 && definition.planned_acceleration == Vec3{},
-                 ErrorCode::unsupported, {"acceleration_limit", id}, "and plan must be 0",
-                 definition.acceleration_limit);
-  }
-  return check.result();
-}
-
 }  // namespace
 
 double hard_sphere_compressibility(double packing) {
@@ -158,7 +119,6 @@ double hard_sphere_collision_rate(double packing) {
 }
 
 Result<GasProperties> measure_gas(const Scene& scene, const DetectorMaker& make, const GasBlocks& blocks) {
-  if (auto valid = check(scene, blocks); !valid) return valid.error();
   Gauge gauge;
   SimulationObserver observer;
   observer.on_event = [&](const Event& event) { gauge.count(event); };

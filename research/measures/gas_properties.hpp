@@ -43,10 +43,9 @@ struct GasBlocks {
   int measured = 20;
 };
 
-/// Runs a scene of equal spheres that fly freely and bounce without loss, in space that is periodic on all
-/// axes. The result differs from an infinite system by about 1 / N. Errors: unsupported with the name of the
-/// property for other scenes; out_of_range for fewer than 2 measured blocks, or a negative number of others;
-/// those of simulate().
+/// Runs a scene and measures its gas; errors are those of simulate(). The result differs from an infinite
+/// system by about 1 / N. Precondition: at least two equal spheres are there from the start to the end, fly
+/// freely and bounce without loss, in space that is periodic on all axes; two or more blocks are measured.
 Result<GasProperties> measure_gas(const Scene& scene, const DetectorMaker& make,
                                   const GasBlocks& blocks = {});
 

@@ -6,10 +6,9 @@
 #include <utility>
 
 #include "contact/contact_event.hpp"
-#include "input/input_check.hpp"
 #include "kinesphere/bound.hpp"
 #include "number/infinity.hpp"
-#include "research/grid/hash_grid.hpp"
+#include "research/measures/box_grid.hpp"
 #include "simulation/oracle/gap_course.hpp"
 
 namespace kinesphere {
@@ -73,8 +72,10 @@ class FloorCount {
     const double window = window_length();
     for (double begin = start; begin < scene_.end_time;) {
       const double end = std::min(begin + window, scene_.end_time);
+      std::vector<BoxGrid::Entry> boxes;
       for (std::uint32_t number = 0; number < bodies_.size(); ++number)
-        grid_.set(number, true_box(number, begin, end));
+        boxes.push_back({true_box(number, begin, end), number});
+      grid_.build(boxes);
       for (std::uint32_t number = 0; number < bodies_.size(); ++number) go_through(number, begin, end);
       begin = end;
     }
@@ -211,32 +212,9 @@ class FloorCount {
   const Flight& flight_;
   double tolerance_;
   std::vector<Body> bodies_;
-  HashGrid grid_;                    ///< true boxes of the bodies in the window
+  BoxGrid grid_;                     ///< true boxes of the bodies in the window
   std::vector<std::uint32_t> near_;  ///< scratch memory of latest_probe()
 };
-
-Result<void> check(const Scene& scene, const Flight& flight) {
-  InputCheck check("probe_floor");
-  for (std::uint32_t number = 0; number < scene.bodies.size(); ++number) {
-    const BodyId id{number, 0};
-    const SceneBody& body = scene.bodies[number];
-    const BodyDefinition definition = scene.motion->definition(number, scene.world.start_time);
-    const double start = scene.world.start_time;
-    check
-        .require(body.appears <= start, ErrorCode::unsupported, {"appears", id},
-                 "must not lie after the start,", start, body.appears)
-        .require(body.vanishes > scene.end_time, ErrorCode::unsupported, {"vanishes", id},
-                 "must lie after the end,", scene.end_time, body.vanishes)
-        .require(definition.position_error == 0.0, ErrorCode::unsupported, {"position_error", id},
-                 "must be 0", definition.position_error)
-        .require(definition.velocity_error == 0.0, ErrorCode::unsupported, {"velocity_error", id},
-                 "must be 0", definition.velocity_error);
-    for (const Segment& piece : flight.paths[number])
-      check.require(piece.jerk == Vec3{}, ErrorCode::unsupported, {"jerk", id}, "must be 0", piece.jerk);
-    if (check.error()) break;
-  }
-  return check.result();
-}
 
 }  // namespace
 
@@ -244,8 +222,7 @@ std::uint64_t ProbeFloor::total() const {
   return std::accumulate(probes.begin(), probes.end(), std::uint64_t{0});
 }
 
-Result<ProbeFloor> probe_floor(const Scene& scene, const Flight& flight) {
-  if (auto valid = check(scene, flight); !valid) return valid.error();
+ProbeFloor probe_floor(const Scene& scene, const Flight& flight) {
   if (scene.bodies.empty() || !(scene.end_time > scene.world.start_time))
     return ProbeFloor{std::vector<std::uint64_t>(scene.bodies.size())};
   return FloorCount(scene, flight).run();

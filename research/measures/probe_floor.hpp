@@ -23,8 +23,8 @@ struct ProbeFloor {
   std::uint64_t total() const;
 };
 
-/// Computes the floor for a flight through the scene. Cost: some microseconds for each probe. Errors:
-/// unsupported for bodies that appear or vanish on the way, for reports with errors, and for paths with jerk.
-Result<ProbeFloor> probe_floor(const Scene& scene, const Flight& flight);
+/// Computes the floor for a flight through the scene. Cost: some microseconds for each probe. Precondition:
+/// all bodies are there from the start to the end, reports have no errors, and paths no jerk.
+ProbeFloor probe_floor(const Scene& scene, const Flight& flight);
 
 }  // namespace kinesphere

@@ -123,7 +123,8 @@ void BoundDetector::probe(std::uint32_t number) {
   const auto broken = bound_violation(before, body.bound, body.definition.radius, body.kicked_to,
                                       definition_.contact_tolerance);
   if (!broken) return;
-  instant_.queue(violation_event(time_, {.id = {number, 0}, .state = state}, *broken));
+  instant_.queue(violation_event(time_, {.id = {number, 0}, .state = state}, *broken,
+                                 body.definition.acceleration_limit));
   begin_new_course(number);
 }
 

@@ -1,47 +1,11 @@
-#include "research/rivals/detector_table.hpp"
-#include "simulation/oracle/oracle.hpp"
-
 #include <algorithm>
 #include <string>
 
+#include "research/rivals/rivals.hpp"
+#include "simulation/oracle/oracle.hpp"
+
 namespace kinesphere {
 namespace {
-
-using Made = Result<std::unique_ptr<Detector>>;
-
-Made make_world(const WorldDefinition& definition, const Motion& motion, const DetectorSettings&) {
-  return make_world_detector(definition, motion);
-}
-
-Made make_paper(const WorldDefinition& definition, const Motion& motion, const DetectorSettings& settings) {
-  return make_paper_detector(definition, motion, settings.paper);
-}
-
-Made make_ballistic(const WorldDefinition& definition, const Motion& motion, const DetectorSettings&) {
-  return make_ballistic_detector(definition, motion);
-}
-
-Made make_hubbard(const WorldDefinition& definition, const Motion& motion, const DetectorSettings&) {
-  return make_hubbard_detector(definition, motion);
-}
-
-Made make_hayward(const WorldDefinition& definition, const Motion& motion, const DetectorSettings&) {
-  return make_hayward_detector(definition, motion);
-}
-
-Made make_fixed_step(const WorldDefinition& definition, const Motion& motion,
-                     const DetectorSettings& settings) {
-  return make_fixed_step_detector(definition, motion, *settings.step, FixedStepSearch::grid);
-}
-
-Made make_brute_force(const WorldDefinition& definition, const Motion& motion,
-                      const DetectorSettings& settings) {
-  return make_fixed_step_detector(definition, motion, *settings.step, FixedStepSearch::all_pairs);
-}
-
-Made make_truth(const WorldDefinition& definition, const Motion& motion, const DetectorSettings&) {
-  return make_oracle(definition, motion);
-}
 
 Error wrong(const char* argument, const std::string& expectation) {
   return {ErrorCode::out_of_range, argument, no_body, "detector_maker: " + expectation};
@@ -50,16 +14,32 @@ Error wrong(const char* argument, const std::string& expectation) {
 }  // namespace
 
 const std::vector<DetectorEntry>& detector_table() {
+  using Definition = const WorldDefinition&;
+  using Moves = const Motion&;
+  using Settings = const DetectorSettings&;
   static const std::vector<DetectorEntry> table{
-      {"world", "the engine of this library", false, false, make_world},
-      {"paper", "Kim, Guibas and Shin 2005: events on hierarchical grids", false, false, make_paper},
+      {"world", "the engine of this library", false, false,
+       [](Definition world, Moves motion, Settings) { return make_world_detector(world, motion); }},
+      {"paper", "Kim, Guibas and Shin 2005: events on hierarchical grids", false, false,
+       [](Definition world, Moves motion, Settings settings) {
+         return make_paper_detector(world, motion, settings.paper);
+       }},
       {"ballistic", "Kim, Guibas and Shin 1998: its ancestor, for ballistic bodies", false, true,
-       make_ballistic},
-      {"hubbard", "Hubbard 1995: space-time bounds and a sweep", false, false, make_hubbard},
-      {"hayward", "Hayward and others 1995: a safe interval for every pair", false, false, make_hayward},
-      {"fixed-step", "a grid at every time step", true, false, make_fixed_step},
-      {"brute-force", "every pair at every time step", true, false, make_brute_force},
-      {"oracle", "exact, from the trajectories themselves", false, false, make_truth},
+       [](Definition world, Moves motion, Settings) { return make_ballistic_detector(world, motion); }},
+      {"hubbard", "Hubbard 1995: space-time bounds and a sweep", false, false,
+       [](Definition world, Moves motion, Settings) { return make_hubbard_detector(world, motion); }},
+      {"hayward", "Hayward and others 1995: a safe interval for every pair", false, false,
+       [](Definition world, Moves motion, Settings) { return make_hayward_detector(world, motion); }},
+      {"fixed-step", "a grid at every time step", true, false,
+       [](Definition world, Moves motion, Settings settings) {
+         return make_fixed_step_detector(world, motion, *settings.step, FixedStepSearch::grid);
+       }},
+      {"brute-force", "every pair at every time step", true, false,
+       [](Definition world, Moves motion, Settings settings) {
+         return make_fixed_step_detector(world, motion, *settings.step, FixedStepSearch::all_pairs);
+       }},
+      {"oracle", "exact, from the trajectories themselves", false, false,
+       [](Definition world, Moves motion, Settings) { return make_oracle(world, motion); }},
   };
   return table;
 }

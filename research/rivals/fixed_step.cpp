@@ -1,5 +1,7 @@
 // Fixed steps, as in most programs: at every step all bodies are moved, and pairs that overlap then are
 // contacts.
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "bodies/validation.hpp"
@@ -7,7 +9,7 @@
 #include "contact/pending_events.hpp"
 #include "input/input_check.hpp"
 #include "number/infinity.hpp"
-#include "research/grid/hash_grid.hpp"
+#include "research/measures/box_grid.hpp"
 #include "research/rivals/rivals.hpp"
 #include "simulation/detector/checked_detector.hpp"
 #include "simulation/detector/detector.hpp"
@@ -44,7 +46,6 @@ class FixedStep final : public Detector {
     instant_.end_all_contacts(
         contacts_, number, time_, [this](std::uint32_t body) { return sphere(body); }, definition_.box);
     bodies_[number].present = false;
-    if (search_ == FixedStepSearch::grid) grid_.remove(number);
     return {};
   }
 
@@ -118,12 +119,13 @@ class FixedStep final : public Detector {
       if (auto valid = check_report(state, {number, 0}, time_, definition_); !valid) return valid;
       body.state = state;
       body.seen = time_;
-      if (search_ == FixedStepSearch::grid) grid_.set(number, box_of(body));
     }
     return {};
   }
 
   void look() {
+    find_near();
+    auto pair = near_.begin();
     for (std::uint32_t number = 0; number < bodies_.size(); ++number) {
       if (!bodies_[number].present) continue;
       // Partners that have parted far may no longer be found by the search.
@@ -131,23 +133,28 @@ class FixedStep final : public Detector {
       const std::vector<ContactRecord> partners(touched.begin(), touched.end());
       for (const auto& [partner, state] : partners)
         if (partner < number) look_at_pair(partner, number);
-      for_each_neighbour(number, [&](std::uint32_t other) {
-        if (other < number && !contacts_.touch(other, number)) look_at_pair(other, number);
-      });
+      for (; pair != near_.end() && pair->first == number; ++pair)
+        if (!contacts_.touch(pair->second, number)) look_at_pair(pair->second, number);
       if (definition_.box)
         for (const Wall wall : walls) look_at_wall(number, wall);
     }
   }
 
-  template <class Visit>
-  void for_each_neighbour(std::uint32_t number, Visit visit) {
-    if (search_ == FixedStepSearch::grid) {
-      ++counters_.searches;
-      grid_.for_each_overlap(box_of(bodies_[number]), visit);
+  /// Finds the pairs to look at.
+  void find_near() {
+    near_.clear();
+    std::vector<BoxGrid::Entry> boxes;
+    for (std::uint32_t number = 0; number < bodies_.size(); ++number)
+      if (bodies_[number].present) boxes.push_back({box_of(bodies_[number]), number});
+    if (search_ == FixedStepSearch::all_pairs) {
+      for (std::size_t b = 0; b < boxes.size(); ++b)
+        for (std::size_t a = 0; a < b; ++a) near_.emplace_back(boxes[b].body, boxes[a].body);
       return;
     }
-    for (std::uint32_t other = 0; other < number; ++other)
-      if (bodies_[other].present) visit(other);
+    counters_.searches += boxes.size();
+    grid_.build(boxes);
+    grid_.for_each_pair([this](std::uint32_t a, std::uint32_t b) { near_.emplace_back(a, b); });
+    std::sort(near_.begin(), near_.end());
   }
 
   Box box_of(const Body& body) const {
@@ -187,7 +194,8 @@ class FixedStep final : public Detector {
   double time_;
   std::uint64_t next_step_ = 0;
   std::vector<Body> bodies_;
-  HashGrid grid_;
+  BoxGrid grid_;                                               ///< boxes of the bodies at the present step
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> near_;  ///< pairs to look at, the larger number first
   DetectorCounters counters_;
 };
 

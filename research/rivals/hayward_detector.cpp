@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "kinesphere/inspection.hpp"
 #include "research/rivals/bound_detector.hpp"
 #include "research/rivals/rivals.hpp"
 #include "simulation/detector/checked_detector.hpp"
@@ -40,14 +39,6 @@ class Hayward final : public BoundDetector {
   Hayward(const WorldDefinition& definition, const Motion& motion) : BoundDetector(definition, motion) {}
 
   std::string_view name() const override { return "hayward"; }
-
-  std::optional<AuditFinding> audit() const override {
-    for (std::uint32_t a = 0; a < size(); ++a)
-      for (std::uint32_t b = 0; b <= a; ++b)
-        if (end_of(Pair(a, b)) < infinity && !(body(a).present && body(b).present))
-          return AuditFinding{"queue", "holds a pair of which one is gone"};
-    return std::nullopt;
-  }
 
  private:
   void on_new_course(std::uint32_t number) override {

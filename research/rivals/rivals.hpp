@@ -6,6 +6,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
 
 #include "kinesphere/motion/motion.hpp"
 #include "kinesphere/result.hpp"
@@ -50,5 +53,29 @@ enum class FixedStepSearch { grid, all_pairs };
 Result<std::unique_ptr<Detector>> make_fixed_step_detector(const WorldDefinition& definition,
                                                            const Motion& motion, double step,
                                                            FixedStepSearch search = FixedStepSearch::grid);
+
+/// Settings that only some detectors take.
+struct DetectorSettings {
+  /// Time step > 0 of detectors with fixed steps.
+  std::optional<double> step{};
+  PaperOptions paper{};
+};
+
+/// A detector with its name and properties.
+struct DetectorEntry {
+  std::string_view name;
+  std::string_view description;  ///< one line
+  bool takes_step;               ///< tests at fixed steps, so it may miss contacts
+  bool ballistic_only;           ///< refuses bodies with an acceleration limit
+  Result<std::unique_ptr<Detector>> (*make)(const WorldDefinition& definition, const Motion& motion,
+                                            const DetectorSettings& settings);
+};
+
+/// Returns all detectors, the default one first.
+const std::vector<DetectorEntry>& detector_table();
+
+/// Returns a maker of the detector with this name. Errors: out_of_range for `name` if it is not in the table,
+/// and for `settings` if a step is missing or not allowed.
+Result<DetectorMaker> detector_maker(std::string_view name, const DetectorSettings& settings = {});
 
 }  // namespace kinesphere

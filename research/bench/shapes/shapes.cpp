@@ -1,5 +1,3 @@
-#include "research/bench/shapes/shapes.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -8,6 +6,8 @@
 #include <limits>
 
 #include "base/program_error.hpp"
+#include "research/bench/benchmark.hpp"
+#include "research/bench/commands.hpp"
 #include "research/bench/measurement.hpp"
 #include "research/bench/shapes/pair_methods.hpp"
 
@@ -26,12 +26,6 @@ const ShapesSettings& shapes_settings(Effort effort) {
   static constexpr ShapesSettings usual{2000, 5};
   static constexpr ShapesSettings full{20000, 5};
   return chosen(effort, quick, usual, full);
-}
-
-std::vector<std::string> kind_names() {
-  std::vector<std::string> names;
-  for (const PairKind& kind : pair_kinds) names.emplace_back(kind.name);
-  return names;
 }
 
 /// Answers and times of one method.
@@ -98,40 +92,38 @@ void add_rows(ResultTable& table, const PairKind& kind, const ShapesSettings& se
   }
 }
 
-}  // namespace
-
-CLI::App* add_bench_shapes_command(CLI::App& bench, BenchOptions& options) {
-  CLI::App* shapes = bench.add_subcommand(
-      "shapes",
-      "First contacts of capsules, clusters of balls and boxes that turn, beside FCL; takes minutes");
-  add_bench_options(*shapes, options, kind_names(), "Ten times as many pairs");
-  return shapes;
-}
-
-int bench_shapes(const BenchOptions& options) {
-  check_bench_options(options, kind_names());
-  const ShapesSettings& settings = shapes_settings(effort_of(options));
-  const Report report(options.output);
-  describe_machine(report);
-  report.note(fmt::format(
-      "{} pairs of each kind, seed {}, for one unit of time. Microseconds are CPU time for each pair, "
-      "medians "
-      "of {} turns. Missed and invented contacts are against intervals that certainly have the first "
-      "contact, "
-      "at most 1e-9 wide; the invented gap is the largest least gap of a pair that is said to touch. Errors "
-      "are of the times of all other contacts: their median, the most that one came too early, and too late.",
-      settings.pairs, shapes_seed, settings.repetitions));
+void bench_shapes(const BenchOptions& options, const Report& report) {
+  const ShapesSettings& settings = shapes_settings(options.effort());
+  report.note(
+      fmt::format("{} pairs of each kind, seed {}, for one unit of time. Microseconds are CPU time for each "
+                  "pair, medians of {} turns. Missed and invented contacts are against intervals that "
+                  "certainly have the first contact, at most 1e-9 wide; the invented gap is the largest "
+                  "least gap of a pair that is said to touch. Errors are of the times of all other contacts: "
+                  "their median, the most that one came too early, and too late.",
+                  settings.pairs, shapes_seed, settings.repetitions));
   ResultTable table({"kind", "method", "pairs", "touching", "microseconds", "missed", "invented",
                      "invented_gap", "median_error", "too_early", "too_late"});
   for (const PairKind& kind : pair_kinds)
-    if (is_chosen(options, kind.name)) add_rows(table, kind, settings);
+    if (options.has(kind.name)) add_rows(table, kind, settings);
   report.table("shapes", table);
   if (fcl_methods().empty())
     report.note("FCL is left out: it was not installed when this program was built (libfcl-dev).");
   else
     report.note(fmt::format("Solvers of FCL that refuse capsules on such motions: {}.",
                             fmt::join(fcl_refusals(), ", ")));
-  return exit_fine;
+}
+
+}  // namespace
+
+Command add_shapes(CLI::App& app) {
+  return add_benchmark(
+      app,
+      {.name = "shapes",
+       .description =
+           "First contacts of capsules, clusters of balls and boxes that turn, beside FCL; takes minutes",
+       .full_description = "Ten times as many pairs",
+       .parts = names_of_parts(pair_kinds),
+       .run = bench_shapes});
 }
 
 }  // namespace kinesphere::program

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "research/bench/speed/touch.hpp"
+#include "research/bench/speed/step_kernel.hpp"
 
 namespace kinesphere::program {
 namespace {

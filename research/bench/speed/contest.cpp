@@ -6,11 +6,9 @@
 #include <utility>
 
 #include "base/program_error.hpp"
-#include "research/bench/contact_counts.hpp"
-#include "research/bench/detectors.hpp"
 #include "research/bench/measurement.hpp"
 #include "research/bench/speed/bullet_kernel.hpp"
-#include "research/bench/speed/recall.hpp"
+#include "research/bench/speed/step_recording.hpp"
 #include "research/bench/speed/transcript.hpp"
 #include "research/bench/speed/tuning.hpp"
 #include "research/measures/probe_floor.hpp"
@@ -91,7 +89,7 @@ class Contest {
 
   void count_floor() {
     const Flight flight = require(record_flight(stepped(), world_engine().make));
-    const auto floor = static_cast<double>(require(probe_floor(stepped(), flight)).total());
+    const auto floor = static_cast<double>(probe_floor(stepped(), flight).total());
     if (floor > 0.0) floor_ = floor / flight.result.body_time;
   }
 

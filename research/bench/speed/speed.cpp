@@ -1,5 +1,3 @@
-#include "research/bench/speed/speed.hpp"
-
 #include <fmt/format.h>
 
 #include <optional>
@@ -9,10 +7,8 @@
 
 #include "base/program_error.hpp"
 #include "base/standard_output.hpp"
-#include "base/validators.hpp"
-#include "kinesphere/workers.hpp"
+#include "research/bench/commands.hpp"
 #include "research/bench/measurement.hpp"
-#include "research/bench/report.hpp"
 #include "research/bench/speed/bullet_kernel.hpp"
 #include "research/bench/speed/contest.hpp"
 #include "research/bench/speed/threads.hpp"
@@ -39,13 +35,6 @@ void add_row(ResultTable& table, const SpeedScene& scene, const SpeedRow& row, c
              fmt::format("{:016x}", row.hash)});
 }
 
-std::vector<std::string> names_of(const std::vector<SpeedScene>& scenes) {
-  std::vector<std::string> names;
-  names.reserve(scenes.size());
-  for (const SpeedScene& scene : scenes) names.push_back(scene.name);
-  return names;
-}
-
 void explain(const Report& report, const SpeedSettings& settings) {
   report.note(fmt::format(
       "Effort {}. \"us\" is CPU time for detection alone, in microseconds for a sphere and a simulated "
@@ -65,8 +54,8 @@ void explain(const Report& report, const SpeedSettings& settings) {
     report.note("Bullet is left out: it was not installed when this program was built (libbullet-dev).");
 }
 
-int bench_threads(const SpeedOptions& options, const std::vector<SpeedScene>& scenes,
-                  const SpeedSettings& settings, const Report& report) {
+void bench_threads(const BenchOptions& options, const std::vector<SpeedScene>& scenes,
+                   const SpeedSettings& settings, const Report& report) {
   report.note(fmt::format(
       "Effort {}. Seconds of real time for whole simulations, motion and response included, from when all "
       "bodies are in: a loop over advance(), World::run on one thread, and on {}. They take turns; medians "
@@ -77,10 +66,10 @@ int bench_threads(const SpeedOptions& options, const std::vector<SpeedScene>& sc
   std::vector<ThreadsRow> rows;
   for (const SpeedScene& scene : scenes) {
     const bool usual = scene.name == "dense-100000" || scene.name == "dense-1000000" || scene.name == "crowd";
-    if (options.only.empty() ? usual : is_chosen(options, scene.name))
+    if (options.only.empty() ? usual : options.has(scene.name))
       rows.push_back(compare_threads(scene, *options.threads, settings));
   }
-  if (is_chosen(options, shooting_name)) rows.push_back(compare_threads_in_game(*options.threads, settings));
+  if (options.has(shooting_name)) rows.push_back(compare_threads_in_game(*options.threads, settings));
   for (const ThreadsRow& row : rows) {
     const auto seconds = [&](double ThreadsTurn::*way) {
       std::vector<double> all;
@@ -95,38 +84,17 @@ int bench_threads(const SpeedOptions& options, const std::vector<SpeedScene>& sc
   }
   report.table("threads", table);
   report.table("threads_verdicts", table_of(verdicts_of_threads(rows)));
-  return exit_fine;
 }
 
-}  // namespace
-
-CLI::App* add_bench_speed_command(CLI::App& bench, SpeedOptions& options) {
-  CLI::App* speed = bench.add_subcommand("speed", "Compare with fixed steps and others; takes half an hour");
-  std::vector<std::string> names = names_of(speed_scenes(speed_settings(Effort::full)));
-  names.emplace_back(fmt::format("{} (with --threads)", shooting_name));
-  add_bench_options(*speed, options, names, "Up to a million bodies; takes an hour");
-  speed
-      ->add_option(
-          "--threads", options.threads,
-          "Only this: whole simulations by World::run, on so many threads and on one, against a loop")
-      ->check(whole_number(Workers::most_threads, 1));
-  return speed;
-}
-
-int bench_speed(const SpeedOptions& options) {
-  const SpeedSettings& settings = speed_settings(effort_of(options));
+void bench_speed(const BenchOptions& options, const Report& report) {
+  const SpeedSettings& settings = speed_settings(options.effort());
   const std::vector<SpeedScene> scenes = speed_scenes(settings);
-  std::vector<std::string> names = names_of(scenes);
-  if (options.threads) names.emplace_back(shooting_name);
-  check_bench_options(options, names);
-  const Report report(options.output);
-  describe_machine(report);
   if (options.threads) return bench_threads(options, scenes, settings, report);
   explain(report, settings);
   SpeedResults results;
   ResultTable all(columns);
   for (const SpeedScene& scene : scenes) {
-    if (!is_chosen(options, scene.name)) continue;
+    if (!options.has(scene.name)) continue;
     report.heading(fmt::format("{}, {} bodies", scene.name, scene.bodies));
     const std::vector<SpeedRow>& rows = results[scene.name] = compare_speed(scene, settings);
     ResultTable table(columns);
@@ -138,7 +106,17 @@ int bench_speed(const SpeedOptions& options) {
     report.save("speed", all);  // results so far; the rest may take long
   }
   save_verdicts(report, scenes, results);
-  return exit_fine;
+}
+
+}  // namespace
+
+Command add_speed(CLI::App& app) {
+  return add_benchmark(app, {.name = "speed",
+                             .description = "Compare with fixed steps and others; takes half an hour",
+                             .full_description = "Up to a million bodies; takes an hour",
+                             .parts = names_of_parts(speed_scenes(speed_settings(Effort::full))),
+                             .run = bench_speed,
+                             .threads_part = shooting_name});
 }
 
 }  // namespace kinesphere::program

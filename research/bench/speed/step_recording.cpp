@@ -12,9 +12,7 @@
 #include "base/program_error.hpp"
 #include "contact/contact_event.hpp"
 #include "kinesphere/response.hpp"
-#include "research/bench/speed/touch.hpp"
 #include "research/bench/speed/tuning.hpp"
-#include "research/bench/speed/wall_check.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -178,6 +176,19 @@ class StepRecorder {
 StepRecording record_steps(const Scene& scene, double step, std::size_t steps, SphereTest test,
                            const TouchObserver& observer) {
   return StepRecorder(scene, step, test, observer).run(steps);
+}
+
+ContactCounts contacts_at_steps(const Scene& scene, double step, std::size_t steps, SphereTest test) {
+  ContactCounts seen;
+  std::map<ContactCounts::key_type, std::size_t> last_touch;
+  record_steps(scene, step, steps, test,
+               [&](std::size_t number, std::uint32_t first, std::uint32_t second, Wall wall) {
+                 const ContactCounts::key_type pair{first, second, wall};
+                 const auto [last, is_new] = last_touch.try_emplace(pair, number);
+                 if (is_new || last->second + 1 < number) ++seen[pair];
+                 last->second = number;
+               });
+  return seen;
 }
 
 }  // namespace kinesphere::program

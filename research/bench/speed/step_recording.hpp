@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kinesphere/event.hpp"
+#include "research/bench/measurement.hpp"
 #include "research/bench/speed/step_kernel.hpp"
 #include "simulation/scene/scene.hpp"
 
@@ -37,5 +38,9 @@ using TouchObserver =
 /// kept only without an observer. Throws ProgramError.
 StepRecording record_steps(const Scene& scene, double step, std::size_t steps, SphereTest test,
                            const TouchObserver& observer = {});
+
+/// Counts the contacts in a scene in which all bodies pass through each other. A pair that touches in one
+/// step and not in the step before is a contact.
+ContactCounts contacts_at_steps(const Scene& scene, double step, std::size_t steps, SphereTest test);
 
 }  // namespace kinesphere::program

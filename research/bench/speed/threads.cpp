@@ -9,7 +9,7 @@
 #include "base/program_error.hpp"
 #include "kinesphere/workers.hpp"
 #include "research/bench/measurement.hpp"
-#include "research/measures/shooting_game.hpp"
+#include "research/measures/games.hpp"
 
 namespace kinesphere::program {
 namespace {

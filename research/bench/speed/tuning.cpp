@@ -6,7 +6,7 @@
 
 #include "research/bench/measurement.hpp"
 #include "research/bench/speed/bullet_kernel.hpp"
-#include "research/bench/speed/wall_check.hpp"
+#include "research/bench/speed/step_kernel.hpp"
 
 namespace kinesphere::program {
 namespace {

@@ -52,29 +52,23 @@ class Judge {
   }
   const SpeedRow* world(const std::string& scene) const { return row(scene, "world"); }
 
-  void at_most(const char* goal, std::string figure, std::string scene, std::string against, double limit,
-               double measured) {
-    verdicts_.push_back(
-        {goal, std::move(figure), std::move(scene), std::move(against), true, limit, measured});
-  }
-  void at_least(const char* goal, std::string figure, std::string scene, std::string against, double limit,
-                double measured) {
-    verdicts_.push_back(
-        {goal, std::move(figure), std::move(scene), std::move(against), false, limit, measured});
+  void add(const char* goal, const char* figure, const std::string& scene, const std::string& against,
+           bool at_most, double limit, double measured) {
+    verdicts_.push_back({goal, figure, scene, against, at_most, limit, measured});
   }
 
   void detection(const char* scene, const char* rival, double rate, double limit) {
     const SpeedRow* const against = row(scene, rival, rate);
     if (against == nullptr) return;
-    at_most("1", "detection to the rival's", scene, text_of(*against), limit,
-            1.0 / against->to_world(*world(scene)));
+    add("1", "detection to the rival's", scene, text_of(*against), true, limit,
+        1.0 / against->to_world(*world(scene)));
   }
 
   void slowest_safe_steps(const std::string& scene, const std::vector<SpeedRow>& rows) {
     const SpeedRow* const against = find_slowest_safe(rows, "swept");
     if (against == nullptr) return;
-    at_most("2", "detection to that of the slowest safe steps", scene, text_of(*against), 2.0,
-            1.0 / against->to_world(*world(scene)));
+    add("2", "detection to that of the slowest safe steps", scene, text_of(*against), true, 2.0,
+        1.0 / against->to_world(*world(scene)));
     total(scene, *against, 1.0);
   }
 
@@ -83,8 +77,8 @@ class Judge {
     if (against != nullptr) total(scene, *against, limit);
   }
   void total(const std::string& scene, const SpeedRow& against, double limit) {
-    at_least("2", "times cheaper in total at 1 us", scene, text_of(against), limit,
-             against.to_world(*world(scene), dear_move));
+    add("2", "times cheaper in total at 1 us", scene, text_of(against), false, limit,
+        against.to_world(*world(scene), dear_move));
   }
 
   void growth() {
@@ -92,22 +86,22 @@ class Judge {
     const SpeedRow* const many = world("dense-1000000");
     if (many == nullptr) return;
     if (few != nullptr)
-      at_most("3", "detection to that of n = 1000", "dense-1000000", "", 2.0,
-              many->detection / few->detection);
-    if (many->bytes) at_most("3", "bytes per body", "dense-1000000", "", 300.0, *many->bytes);
-    if (many->building) at_most("3", "seconds to build", "dense-1000000", "", 1.2, *many->building);
+      add("3", "detection to that of n = 1000", "dense-1000000", "", true, 2.0,
+          many->detection / few->detection);
+    if (many->bytes) add("3", "bytes per body", "dense-1000000", "", true, 300.0, *many->bytes);
+    if (many->building) add("3", "seconds to build", "dense-1000000", "", true, 1.2, *many->building);
   }
 
   void collisions(const char* scene, double limit) {
     const SpeedRow* const own = world(scene);
     if (own == nullptr || !own->contacts) return;
-    at_least("4", "collisions per CPU second", scene, "", limit, *own->contacts / own->detection);
+    add("4", "collisions per CPU second", scene, "", false, limit, *own->contacts / own->detection);
   }
 
   void probes_to_floor(const char* scene, double limit) {
     const SpeedRow* const own = world(scene);
     if (own == nullptr || !own->to_floor) return;
-    at_most("5", "probes to the floor", scene, "", limit, *own->to_floor);
+    add("5", "probes to the floor", scene, "", true, limit, *own->to_floor);
   }
 
   const SpeedResults& results_;

@@ -14,11 +14,9 @@
 #include <span>
 #include <vector>
 
-#include "kinesphere/inspection.hpp"
 #include "research/rivals/bound_detector.hpp"
 #include "research/rivals/event_driven/event_tree.hpp"
 #include "research/rivals/event_driven/grids.hpp"
-#include "research/rivals/event_driven/subspace_tree.hpp"
 
 namespace kinesphere {
 
@@ -29,8 +27,6 @@ using MeetingTime = double (*)(const Bound& a, const Bound& b, double from, doub
 class EventDrivenDetector : public BoundDetector {
  public:
   DetectorCounters counters() const override;
-  /// Rebuilds the subspace tree and all candidates and compares them with the present ones.
-  std::optional<AuditFinding> audit() const override;
 
  protected:
   struct Options {
@@ -60,8 +56,6 @@ class EventDrivenDetector : public BoundDetector {
   void on_new_course(std::uint32_t number) override;
 
  private:
-  class Audit;
-
   /// Cells and reset time of a body.
   struct Resident {
     CellRange cells;

@@ -51,13 +51,6 @@ class EventTree {
     remove_if(body, [](const Candidate&) { return true; });
   }
 
-  /// Calls visit(candidate) for each candidate of the body, in no particular order.
-  template <class Visit>
-  void for_each(std::uint32_t body, Visit visit) const {
-    for (const auto& entry : by_body_[body]) visit(entry->first);
-  }
-
-  std::size_t size() const { return tree_.size(); }
   std::size_t largest_size() const { return largest_size_; }
   std::uint64_t insertions() const { return insertions_; }
   /// Returns the number of candidates that were removed before they were due.

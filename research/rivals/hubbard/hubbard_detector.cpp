@@ -28,7 +28,6 @@
 #include <vector>
 
 #include "bound/rounding.hpp"
-#include "kinesphere/inspection.hpp"
 #include "research/rivals/bound_detector.hpp"
 #include "research/rivals/hubbard/hypertrapezoid.hpp"
 #include "research/rivals/hubbard/space_time_sweep.hpp"
@@ -44,7 +43,6 @@ class HubbardDetector final : public BoundDetector {
       : BoundDetector(definition, motion), sweep_(definition.box, 0.5 * rule().release_gap()) {}
 
   std::string_view name() const override { return "hubbard"; }
-  std::optional<AuditFinding> audit() const override;
 
  protected:
   void prepare() override;
@@ -234,23 +232,6 @@ void HubbardDetector::look() {
   watches_.pop_back();
   ++(due.a == due.b ? counters_.wall_checks : counters_.pair_checks);
   watch(due.a, due.b);
-}
-
-std::optional<AuditFinding> HubbardDetector::audit() const {
-  if (const auto fault = sweep_.fault()) return AuditFinding{"sweep", *fault};
-  if (rebuild_due_) return std::nullopt;
-  for (std::uint32_t number = 0; number < size(); ++number) {
-    const BodyDefinition& body_definition = body(number).definition;
-    // A noisy report may lie outside the earlier bound, though the body does not.
-    const bool exact = body_definition.position_error == 0.0 && body_definition.velocity_error == 0.0;
-    if (!sweep_.contains(number) || !body(number).present || !exact) continue;
-    const Box inner = swept_box(body(number).bound, time(), time());
-    const Box outer = sweep_.cross_section(number, time() - start_);
-    for (int axis = 0; axis < 3; ++axis)
-      if (inner.lower[axis] < outer.lower[axis] || inner.upper[axis] > outer.upper[axis])
-        return AuditFinding{"space-time bound", "body " + std::to_string(number) + " reaches out of its own"};
-  }
-  return std::nullopt;
 }
 
 }  // namespace

@@ -87,16 +87,6 @@ std::optional<SpaceTimeSweep::Meeting> SpaceTimeSweep::next_meeting() {
   }
 }
 
-Box SpaceTimeSweep::cross_section(std::uint32_t body, double time) const {
-  Box box;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Sweep& plane = planes_[static_cast<std::size_t>(axis)];
-    box.lower[axis] = plane.line(lower_face(body)).at(time);
-    box.upper[axis] = plane.line(upper_face(body)).at(time);
-  }
-  return box;
-}
-
 /// Handles the exchange of two faces, of which `below` was the lower one. Returns true if a bound meets
 /// another or a wall by that.
 bool SpaceTimeSweep::exchanged(std::uint32_t below, std::uint32_t above) {
@@ -141,22 +131,6 @@ void SpaceTimeSweep::remove_overlap(std::uint32_t a, std::uint32_t b) {
   if (found == partners.end()) return;
   *found = partners.back();
   partners.pop_back();
-}
-
-std::optional<std::string> SpaceTimeSweep::fault() const {
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (!planes_[axis].is_sorted(2.0 * order_error_)) return "order of axis " + std::to_string(axis);
-  std::size_t recorded = 0;
-  for (const auto& partners : partners_) recorded += partners.size();
-  for (std::uint32_t b = 0; b < partners_.size(); ++b)
-    for (std::uint32_t a = 0; a < b; ++a) {
-      if (!overlap(a, b)) continue;
-      --recorded;
-      if (std::find(partners_[a].begin(), partners_[a].end(), b) == partners_[a].end())
-        return "overlap of " + std::to_string(a) + " and " + std::to_string(b) + " is not recorded";
-    }
-  if (recorded != 0) return std::string("a pair that does not overlap is recorded");
-  return std::nullopt;
 }
 
 }  // namespace kinesphere

@@ -11,7 +11,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "kinesphere/vec3.hpp"
@@ -56,17 +55,11 @@ class SpaceTimeSweep {
   }
   bool overlap(std::uint32_t a, std::uint32_t b) const;
   bool reaches_wall(std::uint32_t body) const;
-  /// Returns the cross-section of the body's space-time bound at a time of the interval.
-  Box cross_section(std::uint32_t body, double time) const;
 
   /// Sweeps on to the next time at which two bounds, or a bound and a wall, meet that were apart; nothing if
   /// there is none left. Never late: bounds are widened by what rounding of times can hide. Cost: O(log n)
   /// for each crossing on the way.
   std::optional<Meeting> next_meeting();
-
-  /// Returns what is wrong with the orders or the set of overlapping pairs, if anything is. For audits. Cost:
-  /// O(n^2).
-  std::optional<std::string> fault() const;
 
  private:
   // Lines 0 and 1 of each plane are the walls, lines 2 k + 2 and 2 k + 3 the faces of body k.

@@ -76,12 +76,4 @@ void Sweep::pop() {
   queue_.pop_back();
 }
 
-bool Sweep::is_sorted(double error) const {
-  for (std::size_t k = 0; k < status_.size(); ++k) {
-    if (rank_[status_[k].number] != k) return false;
-    if (k > 0 && status_[k].line.at(time_) < status_[k - 1].line.at(time_) - error) return false;
-  }
-  return true;
-}
-
 }  // namespace kinesphere

@@ -94,10 +94,6 @@ class Sweep {
     return static_cast<double>(lines) * (0x1p-48 * size);
   }
 
-  /// Returns true if the order is that of the present time of the sweep, up to this error (length). For
-  /// audits. Cost: O(n).
-  bool is_sorted(double error) const;
-
  private:
   struct Entry {
     Line line;

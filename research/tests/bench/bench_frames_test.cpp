@@ -1,41 +1,31 @@
 // `kinesphere-bench frames` with tiny sizes: its percentiles, and counts that are the same in every run.
 #include <algorithm>
 
-#include "program/support.hpp"
 #include "research/tests/bench/bench_table.hpp"
 
 namespace kinesphere::program::bench_frames_test {
 namespace {
 
-using Table = std::vector<std::vector<std::string>>;
-
-class BenchFramesTest : public ProgramTest {
- protected:
-  Table bench(const std::string& options, const std::string& table) const {
-    const ProgramRun result = run("frames --quick --output '" + path("out") + "-bench' " + options);
-    EXPECT_EQ(result.exit_code, 0) << result.err;
-    return csv_rows(read_text(path("out-bench/" + table)));
-  }
-};
+class BenchFrames : public BenchTest {};
 
 /// Returns the numbers of a column, of the rows of this play.
-std::vector<double> numbers(const Table& table, const std::string& play, const std::string& column) {
+std::vector<double> numbers(const BenchRows& table, const std::string& play, const std::string& column) {
   std::vector<double> values;
   for (std::size_t row = 0; row + 1 < table.size(); ++row)
-    if (csv_cell(table, row, "play") == play) values.push_back(std::stod(csv_cell(table, row, column)));
+    if (csv_cell(table, row, "play") == play) values.push_back(csv_number(table, row, column));
   return values;
 }
 
-TEST_F(BenchFramesTest, PercentilesAreThoseOfTheFrames) {
-  const Table table = bench("", "frames.csv");
-  const Table frames = csv_rows(read_text(path("out-bench/every_frame.csv")));
+TEST_F(BenchFrames, PercentilesAreThoseOfTheFrames) {
+  bench("frames");
+  const BenchRows table = BenchTest::table("frames.csv"), frames = BenchTest::table("every_frame.csv");
   // Four games without and with spread starts of windows, each in two units.
   ASSERT_EQ(table.size(), 1u + 2 * 8);
   ASSERT_EQ(frames.size(), 1u + 8 * 120);
   for (std::size_t row = 0; row + 1 < table.size(); ++row) {
     const std::string unit = csv_cell(table, row, "unit");
     std::vector<double> costs = numbers(frames, csv_cell(table, row, "play"), unit);
-    const auto number = [&](const char* column) { return std::stod(csv_cell(table, row, column)); };
+    const auto number = [&](const char* column) { return csv_number(table, row, column); };
     SCOPED_TRACE(csv_cell(table, row, "play") + " " + unit);
     EXPECT_EQ(number("first"), *std::max_element(costs.begin(), costs.begin() + 20));
     std::sort(costs.begin() + 20, costs.end());
@@ -52,37 +42,28 @@ TEST_F(BenchFramesTest, PercentilesAreThoseOfTheFrames) {
   }
 }
 
-TEST_F(BenchFramesTest, CountsAreTheSameInEveryRun) {
-  const Table first = bench("--only eventful", "every_frame.csv");
-  const Table second = bench("--only eventful", "every_frame.csv");
-  for (const char* count : {"work", "starts", "restarts", "searches", "hot_pairs", "probes"}) {
+TEST_F(BenchFrames, CountsAreTheSameInEveryRunAndShowTheExplosion) {
+  bench("frames --only eventful");
+  const BenchRows first = table("every_frame.csv");
+  bench("frames --only eventful");
+  const BenchRows second = table("every_frame.csv");
+  for (const char* count : {"work", "starts", "restarts", "searches", "hot_pairs", "probes"})
     EXPECT_EQ(numbers(first, "eventful", count), numbers(second, "eventful", count));
-    const std::vector<double> counts = numbers(first, "eventful", count);
-    EXPECT_GT(*std::ranges::max_element(counts), 0.0) << count;
-  }
-}
-
-TEST_F(BenchFramesTest, AnExplosionShowsInItsFrame) {
-  const Table frames = bench("--only eventful", "every_frame.csv");
-  const std::vector<double> restarts = numbers(frames, "eventful", "restarts");
   // All balls are blown away at once, at the beginning of this frame.
+  const std::vector<double> restarts = numbers(first, "eventful", "restarts");
   EXPECT_EQ(std::ranges::max_element(restarts) - restarts.begin(), 60);
   EXPECT_GE(restarts[60], 100.0);
 }
 
-TEST_F(BenchFramesTest, NoFrameDoesMoreThanOneStartOfAllBodies) {
-  const Table table = bench("--only thin,steady,dense", "frames.csv");
+TEST_F(BenchFrames, NoFrameDoesMoreThanOneStartOfAllBodies) {
+  bench("frames --only thin,steady,dense");
+  const BenchRows table = BenchTest::table("frames.csv");
   for (std::size_t row = 1; row + 1 < table.size(); row += 2) {
     ASSERT_EQ(csv_cell(table, row, "unit"), "work");
-    const auto number = [&](const char* column) { return std::stod(csv_cell(table, row, column)); };
+    const auto number = [&](const char* column) { return csv_number(table, row, column); };
     const double start_of_all = 3.2 * number("n");
     EXPECT_LE(number("worst"), start_of_all + 2.0 * number("p90")) << csv_cell(table, row, "play");
   }
-}
-
-TEST_F(BenchFramesTest, RefusesWrongOptions) {
-  expect_wrong_input("frames --only still", {"--only", "thin, steady", "still"});
-  expect_wrong_input("frames --quick --full", {"--full", "--quick"});
 }
 
 }  // namespace

@@ -3,23 +3,21 @@
 #include <cmath>
 #include <string>
 
-#include "program/support.hpp"
 #include "research/bench/shapes/turning_pair.hpp"
 #include "research/tests/bench/bench_table.hpp"
 
 namespace kinesphere::program::bench_shapes_test {
 namespace {
 
-class BenchShapesTest : public ProgramTest {};
+class BenchShapes : public BenchTest {};
 
-TEST_F(BenchShapesTest, TheWorldFindsEveryContactAtItsTime) {
-  const ProgramRun result = run("shapes --quick --output '" + path("out") + "-bench'");
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  const auto table = csv_rows(read_text(path("out-bench/shapes.csv")));
+TEST_F(BenchShapes, TheWorldFindsEveryContactAtItsTime) {
+  const ProgramRun result = bench("shapes");
+  const BenchRows table = BenchTest::table("shapes.csv");
   const bool has_fcl = result.out.find("FCL is left out") == std::string::npos;
   ASSERT_EQ(table.size(), 1u + 6u * (has_fcl ? 6u : 3u)) << result.out;
   for (std::size_t row = 0; row + 1 < table.size(); ++row) {
-    const auto number = [&](const char* column) { return std::stod(csv_cell(table, row, column)); };
+    const auto number = [&](const char* column) { return csv_number(table, row, column); };
     SCOPED_TRACE(csv_cell(table, row, "kind") + ", " + table[row + 1][1]);
     EXPECT_EQ(number("pairs"), 24.0);
     EXPECT_GT(number("touching"), 6.0);

@@ -4,35 +4,25 @@
 #include <set>
 #include <sstream>
 
-#include "program/support.hpp"
 #include "research/bench/speed/speed_scenes.hpp"
 #include "research/tests/bench/bench_table.hpp"
 
 namespace kinesphere::program::bench_speed_test {
 namespace {
 
-class BenchSpeedTest : public ProgramTest {
- protected:
-  ProgramRun bench(const std::string& options) const {
-    ProgramRun result = run("speed --quick --output '" + path("out") + "-bench' " + options);
-    EXPECT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_EQ(result.err, "");
-    return result;
-  }
-  std::string read(const std::string& name) const { return read_text(path("out-bench/" + name)); }
-};
+class BenchSpeed : public BenchTest {};
 
 std::vector<SpeedScene> quick_scenes() { return speed_scenes(speed_settings(Effort::quick)); }
 
-TEST_F(BenchSpeedTest, EverySceneHasItsRows) {
-  const ProgramRun result = bench("");
-  const auto table = csv_rows(read("speed.csv"));
+TEST_F(BenchSpeed, EverySceneHasItsRows) {
+  const ProgramRun result = bench("speed");
+  const auto table = BenchTest::table("speed.csv");
   std::map<std::string, std::set<std::string>> detectors;
   for (std::size_t row = 0; row + 1 < table.size(); ++row) {
     ASSERT_EQ(table[row + 1].size(), table[0].size());
     detectors[csv_cell(table, row, "scene")].insert(csv_cell(table, row, "detector"));
-    EXPECT_GT(std::stod(csv_cell(table, row, "us")), 0.0);
-    EXPECT_GE(std::stod(csv_cell(table, row, "total_10us")), std::stod(csv_cell(table, row, "us")));
+    EXPECT_GT(csv_number(table, row, "us"), 0.0);
+    EXPECT_GE(csv_number(table, row, "total_10us"), csv_number(table, row, "us"));
     EXPECT_EQ(csv_cell(table, row, "hash").size(), 16u);
   }
   for (const SpeedScene& scene : quick_scenes()) {
@@ -44,9 +34,9 @@ TEST_F(BenchSpeedTest, EverySceneHasItsRows) {
   EXPECT_NE(result.out.find("compiler"), std::string::npos);
 }
 
-TEST_F(BenchSpeedTest, RivalsAtTheSameRateFindTheSame) {
-  bench("--only sizes");
-  const auto table = csv_rows(read("speed.csv"));
+TEST_F(BenchSpeed, RivalsAtTheSameRateFindTheSame) {
+  bench("speed --only sizes");
+  const auto table = BenchTest::table("speed.csv");
   std::map<std::string, std::set<std::string>> hashes;
   for (std::size_t row = 0; row + 1 < table.size(); ++row) {
     const std::string detector = csv_cell(table, row, "detector");
@@ -57,83 +47,63 @@ TEST_F(BenchSpeedTest, RivalsAtTheSameRateFindTheSame) {
   for (const auto& [rate, found] : hashes) EXPECT_EQ(found.size(), 1u) << rate;
 }
 
-TEST_F(BenchSpeedTest, TheEngineIsNotBelowTheProbeFloor) {
-  bench("--only paper1-3500,drones");
-  const auto table = csv_rows(read("speed.csv"));
+TEST_F(BenchSpeed, TheEngineIsNotBelowTheProbeFloor) {
+  bench("speed --only paper1-3500,drones");
+  const auto table = BenchTest::table("speed.csv");
   for (std::size_t row = 0; row + 1 < table.size(); ++row) {
     if (csv_cell(table, row, "rate") != "") continue;
-    EXPECT_GE(std::stod(csv_cell(table, row, "to_floor")), 1.0) << csv_cell(table, row, "detector");
+    EXPECT_GE(csv_number(table, row, "to_floor"), 1.0) << csv_cell(table, row, "detector");
     EXPECT_EQ(csv_cell(table, row, "missed_percent"), "0");
   }
 }
 
-TEST_F(BenchSpeedTest, AlarmsAreThoseThatSpheresWithMoreRoomHaveAsContacts) {
-  bench("--only drones");
-  const auto table = csv_rows(read("speed.csv"));
+TEST_F(BenchSpeed, AlarmsAreThoseThatSpheresWithMoreRoomHaveAsContacts) {
+  bench("speed --only drones");
+  const auto table = BenchTest::table("speed.csv");
   ASSERT_EQ(csv_cell(table, 0, "detector"), "world");
   const double alarms = std::stod(csv_cell(table, 0, "contacts"));
   EXPECT_GT(alarms, 0.0);
   int safe = 0;
   for (std::size_t row = 1; row + 1 < table.size(); ++row) {
     if (csv_cell(table, row, "missed_percent") != "0") continue;
-    EXPECT_NEAR(std::stod(csv_cell(table, row, "contacts")), alarms, 1e-9)
-        << csv_cell(table, row, "detector");
+    EXPECT_NEAR(csv_number(table, row, "contacts"), alarms, 1e-9) << csv_cell(table, row, "detector");
     ++safe;
   }
   EXPECT_GT(safe, 2);
 }
 
-TEST_F(BenchSpeedTest, GasesRepeatInSpace) {
-  for (const SpeedScene& scene : quick_scenes()) {
-    if (!scene.name.starts_with("gas")) continue;
-    EXPECT_EQ(scene.make(scene.response).world.periodic, (Axes{true, true, true})) << scene.name;
-  }
-}
-
-TEST_F(BenchSpeedTest, AMillionBodiesHaveRivalsOnlyWhereThereIsTime) {
-  const auto has_rivals = [](Effort effort) {
-    const auto scenes = speed_scenes(speed_settings(effort));
-    const auto million = std::find_if(scenes.begin(), scenes.end(),
-                                      [](const SpeedScene& scene) { return scene.bodies == 1'000'000; });
-    return million != scenes.end() && !million->rates.empty();
-  };
-  EXPECT_FALSE(has_rivals(Effort::usual));
-  EXPECT_TRUE(has_rivals(Effort::full));
-}
-
-TEST_F(BenchSpeedTest, WritesItsVerdicts) {
-  bench("--only paper1-1000,gas25-4000");
-  const auto table = csv_rows(read("verdicts.csv"));
+TEST_F(BenchSpeed, WritesItsVerdicts) {
+  bench("speed --only paper1-1000,gas25-4000");
+  const auto table = BenchTest::table("verdicts.csv");
   std::set<std::string> goals;
   for (std::size_t row = 0; row + 1 < table.size(); ++row) {
     goals.insert(csv_cell(table, row, "goal"));
-    const double limit = std::stod(csv_cell(table, row, "limit"));
-    const double measured = std::stod(csv_cell(table, row, "measured"));
+    const double limit = csv_number(table, row, "limit");
+    const double measured = csv_number(table, row, "measured");
     const bool met = csv_cell(table, row, "demanded") == "at most" ? measured <= limit : measured >= limit;
     EXPECT_EQ(csv_cell(table, row, "met"), met ? "yes" : "no");
   }
   for (const char* goal : {"1", "2", "4", "5"}) EXPECT_EQ(goals.count(goal), 1u) << goal;
 }
 
-TEST_F(BenchSpeedTest, ComparesThreads) {
-  bench("--threads 2");
-  const auto table = csv_rows(read("threads.csv"));
+TEST_F(BenchSpeed, ComparesThreads) {
+  bench("speed --threads 2");
+  const auto table = BenchTest::table("threads.csv");
   ASSERT_EQ(table.size(), 4u) << "a million bodies are left out here";
   for (std::size_t row = 0; row + 1 < table.size(); ++row) {
     EXPECT_EQ(csv_cell(table, row, "threads"), "2");
     for (const char* column :
          {"loop_s", "one_s", "many_s", "one_to_loop", "one_to_many", "cpu_to_one", "events"})
-      EXPECT_GT(std::stod(csv_cell(table, row, column)), 0.0) << column;
+      EXPECT_GT(csv_number(table, row, column), 0.0) << column;
   }
   EXPECT_EQ(csv_cell(table, 2, "scene"), "shooting");
-  EXPECT_EQ(csv_rows(read("threads_verdicts.csv")).size(), 7u);
-  bench("--threads 3 --only sizes");
-  EXPECT_EQ(csv_rows(read("threads_verdicts.csv")).size(), 2u) << "the gain is judged on two threads";
+  EXPECT_EQ(BenchTest::table("threads_verdicts.csv").size(), 7u);
+  bench("speed --threads 3 --only sizes");
+  EXPECT_EQ(BenchTest::table("threads_verdicts.csv").size(), 2u) << "the gain is judged on two threads";
 }
 
-TEST_F(BenchSpeedTest, RefusesWrongOptions) {
+TEST_F(BenchSpeed, RefusesWrongOptions) {
   expect_wrong_input("speed --only paper1-500,paper9", {"--only", "paper1-500, paper1-1000", "paper9"});
-  expect_wrong_input("speed --quick --full", {"--full", "--quick"});
   expect_wrong_input("speed --only shooting", {"--only", "paper1-500", "shooting"});
   expect_wrong_input("speed --threads 0", {"--threads", "from 1 to 256"});
 }

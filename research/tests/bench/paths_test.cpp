@@ -82,15 +82,9 @@ TEST_F(BenchPaths, DamagedFilesAreRefused) {
   expect_wrong_input("paths " + path("none"), {path("none"), "cannot be read"});
   expect_wrong_input("paths " + write("text", "first,second\n1,2,3"), {"text", "begins otherwise"});
   expect_wrong_input("paths " + write_arcs(arcs, "x"), {"arcs", "goes on"});
-  Arcs longer = arcs;
-  longer.coefficients.pop_back();
-  expect_wrong_input("paths " + write_arcs(longer), {"arcs", "ends too early"});
-  longer = arcs;
-  longer.terms = 99;
-  expect_wrong_input("paths " + write_arcs(longer), {"arcs", "terms"});
-  longer = arcs;
-  longer.ends[0] = -1.0;
-  expect_wrong_input("paths " + write_arcs(longer), {"ends"});
+  Arcs shorter = arcs;
+  shorter.coefficients.pop_back();
+  expect_wrong_input("paths " + write_arcs(shorter), {"arcs", "ends too early"});
 }
 
 }  // namespace

@@ -12,10 +12,9 @@
 
 #include "kinesphere/random.hpp"
 #include "research/bench/speed/bullet_kernel.hpp"
-#include "research/bench/speed/touch.hpp"
+#include "research/bench/speed/step_kernel.hpp"
 #include "research/bench/speed/tuned_kernels.hpp"
 #include "research/bench/speed/tuning.hpp"
-#include "research/bench/speed/wall_check.hpp"
 
 namespace kinesphere::program::step_kernels_test {
 namespace {

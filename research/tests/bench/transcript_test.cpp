@@ -4,9 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "program/support.hpp"
-#include "research/bench/detectors.hpp"
 #include "research/bench/measurement.hpp"
-#include "research/bench/speed/recall.hpp"
+#include "research/bench/speed/step_recording.hpp"
 
 namespace kinesphere::program::transcript_test {
 namespace {

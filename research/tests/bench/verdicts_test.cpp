@@ -23,14 +23,6 @@ SpeedRow row(const std::string& detector, std::optional<double> rate, double det
 
 SpeedRow world(double moves) { return row("world", std::nullopt, 1e-3, moves, 0.0); }
 
-const Verdict* find(const std::vector<Verdict>& verdicts, const std::string& goal,
-                    const std::string& against) {
-  const auto found = std::find_if(verdicts.begin(), verdicts.end(), [&](const Verdict& one) {
-    return one.goal == goal && one.against.starts_with(against);
-  });
-  return found == verdicts.end() ? nullptr : &*found;
-}
-
 TEST(SpeedRow, IsComparedTurnByTurn) {
   SpeedRow rival = row("tuned", 60.0, 2e-3, 60.0);
   rival.turns = {{2e-3, 1e-3}, {30e-3, 10e-3}, {1e-3, 2e-3}};
@@ -50,24 +42,6 @@ TEST(SpeedRow, SlowestSafeStepsMissNothing) {
   EXPECT_EQ(find_slowest_safe(rows, "world"), nullptr);
 }
 
-TEST(Verdicts, NothingWithoutResults) { EXPECT_TRUE(verdicts({}).empty()); }
-
-TEST(Verdicts, Detection) {
-  SpeedResults results;
-  results["paper1-1000"] = {world(20.0), row("tuned", 60.0, 0.5e-3, 60.0),
-                            row("bullet-best", 60.0, 4e-3, 60.0), row("tuned", 1000.0, 2e-3, 1000.0)};
-  const auto found = verdicts(results);
-  EXPECT_EQ(found.size(), 2u);
-  const Verdict* const tuned = find(found, "1", "tuned at 60 Hz");
-  ASSERT_NE(tuned, nullptr);
-  EXPECT_DOUBLE_EQ(tuned->measured, 2.0);
-  EXPECT_FALSE(tuned->met());
-  const Verdict* const bullet = find(found, "1", "bullet-best at 60 Hz");
-  ASSERT_NE(bullet, nullptr);
-  EXPECT_DOUBLE_EQ(bullet->measured, 0.25);
-  EXPECT_TRUE(bullet->met());
-}
-
 TEST(Verdicts, AgainstTheSlowestSweptStepsThatMissNothing) {
   SpeedResults results;
   results["anything"] = {world(1.0), row("swept", 4.0, 0.1e-3, 4.0, 0.5),
@@ -83,32 +57,6 @@ TEST(Verdicts, AgainstTheSlowestSweptStepsThatMissNothing) {
   // No fixed steps are safe, so there is nothing to compare with.
   for (SpeedRow& one : results["anything"]) one.missed = 0.25;
   EXPECT_TRUE(verdicts(results).empty());
-}
-
-TEST(Verdicts, ProbesToTheFloor) {
-  SpeedResults results;
-  results["crowd"] = {world(1.0)};
-  results["crowd"].front().to_floor = 1.9;
-  results["paper1-500"] = {world(1.0)};
-  results["paper1-500"].front().to_floor = 1.3;
-  const auto found = verdicts(results);
-  ASSERT_EQ(found.size(), 2u);
-  EXPECT_TRUE(found[0].met());
-  EXPECT_FALSE(found[1].met());
-}
-
-TEST(Verdicts, Growth) {
-  SpeedResults results;
-  results["dense-1000"] = {world(20.0)};
-  results["dense-1000000"] = {row("world", std::nullopt, 4e-3, 20.0)};
-  results["dense-1000000"].front().bytes = 290.0;
-  results["dense-1000000"].front().building = 1.1;
-  const auto found = verdicts(results);
-  ASSERT_EQ(found.size(), 3u);
-  EXPECT_DOUBLE_EQ(found[0].measured, 4.0);
-  EXPECT_FALSE(found[0].met());
-  EXPECT_TRUE(found[1].met());
-  EXPECT_TRUE(found[2].met());
 }
 
 }  // namespace

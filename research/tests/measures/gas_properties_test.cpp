@@ -5,17 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <limits>
 #include <memory>
-#include <sstream>
 
 #include "kinesphere/motion/ballistic.hpp"
-#include "simulation/oracle/oracle.hpp"
 #include "simulation/scene/make_scene.hpp"
-#include "support/expect_error.hpp"
 
 namespace kinesphere::gas_properties_test {
 namespace {
@@ -47,26 +40,6 @@ TEST(HardSphereTheory, IsThatOfTheReference) {
     EXPECT_NEAR(hard_sphere_compressibility(row.packing), row.compressibility, 6e-7) << row.packing;
     EXPECT_NEAR(hard_sphere_collision_rate(row.packing), row.rate, 2e-6) << row.packing;
   }
-}
-
-TEST(HardSphereTheory, IsThatOfTheWholeReferenceTable) {
-  const char* const folder = std::getenv("KINESPHERE_DATA");
-  const auto path = std::filesystem::path(folder != nullptr ? folder : KINESPHERE_DEFAULT_DATA) /
-                    "hardsphere_ref/hardsphere_Z_and_collision_rate.csv";
-  std::ifstream file(path);
-  if (!file) GTEST_SKIP() << "no " << path;
-  std::string line;
-  std::getline(file, line);
-  int rows = 0;
-  for (; std::getline(file, line); ++rows) {
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream fields(line);
-    double packing, density, compressibility, carnahan_starling, rate;
-    fields >> packing >> density >> compressibility >> carnahan_starling >> rate;
-    EXPECT_NEAR(hard_sphere_compressibility(packing), compressibility, 6e-7) << line;
-    EXPECT_NEAR(hard_sphere_collision_rate(packing), rate, 2e-6) << line;
-  }
-  EXPECT_EQ(rows, 49);
 }
 
 class Gas : public testing::TestWithParam<double> {};
@@ -126,21 +99,6 @@ TEST(GasProperties, OfTwoSpheresAreCountedByHand) {
   EXPECT_EQ(found.result.counters.count(EventKind::contact_begin), 2u);
 }
 
-/// In units of its own diameter and temperature a scaled gas has the properties of the original.
-TEST(GasProperties, DoNotDependOnUnits) {
-  SceneParameters gas = small_gas();
-  const GasProperties one = measure_gas(make_scene(gas).value(), make_world_detector).value();
-  gas.radius_min = gas.radius_max = 4.0 * gas.radius_max;
-  gas.contact_tolerance *= 4.0;
-  gas.speed_min = gas.speed_max = 2.0 * gas.speed_max;
-  gas.seconds *= 2.0;
-  const GasProperties other = measure_gas(make_scene(gas).value(), make_world_detector).value();
-  EXPECT_GT(one.contacts, 50u);
-  EXPECT_EQ(other.contacts, one.contacts);
-  EXPECT_NEAR(other.collision_rate.value, one.collision_rate.value, 1e-6);
-  EXPECT_NEAR(other.compressibility.value, one.compressibility.value, 1e-3);
-}
-
 /// kT is that of the motion relative to the centre of mass.
 TEST(GasProperties, KnowNoCommonMotion) {
   const auto measured = [](const Vec3& wind) {
@@ -159,39 +117,6 @@ TEST(GasProperties, KnowNoCommonMotion) {
   EXPECT_EQ(windy.contacts, still.contacts);
   EXPECT_NEAR(windy.compressibility.value, still.compressibility.value, 1e-3);
   EXPECT_NEAR(windy.collision_rate.value, still.collision_rate.value, 1e-9);
-}
-
-TEST(GasProperties, RefuseWhatIsNoGas) {
-  const auto refused = [](const std::string& argument, const SceneParameters& parameters,
-                          BodyId body = no_body) {
-    expect_error(measure_gas(make_scene(parameters).value(), make_world_detector), ErrorCode::unsupported,
-                 argument, "measure_gas:", body);
-  };
-  const auto but = [](auto change) {
-    SceneParameters gas = small_gas();
-    change(gas);
-    return gas;
-  };
-  ASSERT_TRUE(measure_gas(make_scene(small_gas()).value(), make_world_detector));
-  refused("periodic", but([](auto& gas) { gas.periodic = false; }));
-  refused("response", but([](auto& gas) { gas.response = SceneResponse::pass_through; }));
-  refused("response", but([](auto& gas) { gas.restitution = 0.9; }));
-  refused("response", but([](auto& gas) { gas.resting_speed = 0.1; }));
-  refused("bodies", but([](auto& gas) { gas.bodies = 1, gas.packing = 0.01; }));
-  refused("end_time", but([](auto& gas) { gas.seconds = 0.0; }));
-  refused("radius", but([](auto& gas) { gas.radius_min = 0.4; }), {1, 0});
-  refused("radius", but([](auto& gas) { gas.radius_min = gas.radius_max = gas.packing = 0.0; }), {0, 0});
-  refused("acceleration_limit", but([](auto& gas) { gas.gravity = {0, 0, -1}; }), {0, 0});
-  Scene scene = make_scene(small_gas()).value();
-  scene.bodies[3].appears = 0.5;
-  expect_error(measure_gas(scene, make_world_detector), ErrorCode::unsupported, "appears",
-               "measure_gas:", {3, 0});
-  scene = make_scene(small_gas()).value();
-  expect_error(measure_gas(scene, make_world_detector, {.measured = 1}), ErrorCode::out_of_range, "measured",
-               "measure_gas:");
-  expect_error(measure_gas(scene, make_world_detector, {.equilibration = -1}), ErrorCode::out_of_range,
-               "equilibration", "measure_gas:");
-  EXPECT_EQ(measure_gas(scene, make_oracle).error().code, ErrorCode::unsupported);
 }
 
 }  // namespace

@@ -10,10 +10,9 @@
 #include <utility>
 
 #include "kinesphere/motion/steered_motion.hpp"
-#include "research/rivals/detector_table.hpp"
+#include "research/rivals/rivals.hpp"
 #include "simulation/oracle/gap_course.hpp"
 #include "simulation/scene/make_scene.hpp"
-#include "support/expect_error.hpp"
 
 namespace kinesphere::probe_floor_test {
 namespace {
@@ -44,7 +43,7 @@ Scene built_in(SceneParameters::MotionKind motion, double limit, SceneResponse r
 }
 
 ProbeFloor floor_of(const Scene& scene) {
-  return probe_floor(scene, record_flight(scene, make_world_detector).value()).value();
+  return probe_floor(scene, record_flight(scene, make_world_detector).value());
 }
 
 TEST(ProbeFloor, NobodyNearNeedsNoProbe) {
@@ -70,24 +69,13 @@ TEST(ProbeFloor, HeadOnApproachByHand) {
         straight({{{0, 0, 0}, {3, 0, 0}}, {{gap + 2.0, 0, 0}, {-2, 0, 0}}}, 8.0, gap / 5.0 + 1e-3);
     const Flight flight = record_flight(scene, make_world_detector).value();
     ASSERT_EQ(flight.contacts.size(), 1u);
-    const ProbeFloor floor = probe_floor(scene, flight).value();
+    const ProbeFloor floor = probe_floor(scene, flight);
     const auto expected =
         static_cast<double>(probes_of_an_approach(gap, 5.0, 8.0, scene.world.contact_tolerance));
     // The contact is reported somewhere within the tolerance, which may or may not save the last probe before
     // it.
     EXPECT_NEAR(static_cast<double>(floor.probes[0]), expected, 1.0) << gap;
     EXPECT_EQ(floor.probes[0], floor.probes[1]) << "both have the same limit";
-  }
-}
-
-TEST(ProbeFloor, GrowsWithTheLimit) {
-  std::uint64_t last = 0;
-  for (const double limit : {0.0, 1.0, 10.0, 100.0}) {
-    const std::uint64_t total =
-        floor_of(straight({{{0, 0, 0}, {3, 0, 0}}, {{0, 2.5, 0}, {3, 0, 0}}}, limit, 10.0)).total();
-    EXPECT_GE(total, last) << limit;
-    EXPECT_EQ(total == 0, limit == 0.0) << limit;
-    last = total;
   }
 }
 
@@ -114,7 +102,7 @@ TEST(ProbeFloor, BallisticBodiesAreAskedAtTheirContactsAlone) {
     times[contact.first].insert(contact.begin);
     times[contact.second].insert(contact.begin);
   }
-  const ProbeFloor floor = probe_floor(scene, flight).value();
+  const ProbeFloor floor = probe_floor(scene, flight);
   ASSERT_GT(floor.total(), 50u);
   for (std::size_t body = 0; body < times.size(); ++body) EXPECT_EQ(floor.probes[body], times[body].size());
 }
@@ -165,7 +153,7 @@ TEST(ProbeFloor, AgreesWithFineSteps) {
   for (parameters.seed = 1; parameters.seed <= 5; ++parameters.seed) {
     const Scene scene = make_scene(parameters).value();
     const Flight flight = record_flight(scene, make_world_detector).value();
-    const ProbeFloor floor = probe_floor(scene, flight).value();
+    const ProbeFloor floor = probe_floor(scene, flight);
     for (std::uint32_t body = 0; body < scene.bodies.size(); ++body) {
       const std::uint64_t sampled = sampled_floor(scene, flight, body, 2e-4);
       EXPECT_NEAR(static_cast<double>(floor.probes[body]), static_cast<double>(sampled), 1.0)
@@ -181,24 +169,11 @@ TEST(ProbeFloor, NoDetectorAsksLess) {
     const Scene scene = built_in(SceneParameters::MotionKind::random_forces, 15.0, response);
     for (const char* name : {"world", "paper", "hubbard", "hayward"}) {
       const Flight flight = record_flight(scene, detector_maker(name).value()).value();
-      const std::uint64_t floor = probe_floor(scene, flight)->total();
+      const std::uint64_t floor = probe_floor(scene, flight).total();
       EXPECT_GT(floor, 100u) << name;
       EXPECT_LE(floor, flight.result.counters.probes) << name;
     }
   }
-}
-
-TEST(ProbeFloor, RefusesWhatItCannotCount) {
-  Scene scene = straight({{{0, 0, 0}, {1, 0, 0}}}, 10.0, 5.0);
-  const Flight flight = record_flight(scene, make_world_detector).value();
-  scene.bodies[0].appears = 1.0;
-  expect_error(probe_floor(scene, flight), ErrorCode::unsupported, "appears", "probe_floor", BodyId{0, 0});
-  scene.bodies[0] = {.vanishes = 2.0};
-  expect_error(probe_floor(scene, flight), ErrorCode::unsupported, "vanishes", "probe_floor", BodyId{0, 0});
-  scene.bodies[0] = {};
-  Flight jerky = flight;
-  jerky.paths[0][0].jerk = {1, 0, 0};
-  expect_error(probe_floor(scene, jerky), ErrorCode::unsupported, "jerk", "probe_floor", BodyId{0, 0});
 }
 
 }  // namespace

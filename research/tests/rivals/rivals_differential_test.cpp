@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "research/rivals/detector_table.hpp"
+#include "research/rivals/rivals.hpp"
 #include "support/differential_checks.hpp"
 
 namespace kinesphere::scene_tests::rivals_differential_test {

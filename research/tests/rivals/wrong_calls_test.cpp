@@ -6,7 +6,7 @@
 #include <string>
 
 #include "kinesphere/motion/ballistic.hpp"
-#include "research/rivals/detector_table.hpp"
+#include "research/rivals/rivals.hpp"
 
 namespace kinesphere::wrong_calls_test {
 namespace {

@@ -65,21 +65,6 @@ TEST(Grids, reach_to_infinity) {
   EXPECT_EQ(grids.plane(Grids::coarsest_level, 1), infinity);
 }
 
-TEST(Grids, have_edges_of_few_bits_and_no_smaller_than_asked) {
-  for (std::uint64_t k = 0; k < 1000; ++k) {
-    Random random = Random::at(seed, k, 1);
-    const double wanted = std::ldexp(random.uniform(0.5, 1.0), static_cast<int>(random.bits() % 100) - 50);
-    const double edge = Grids(wanted).edge(0);
-    ASSERT_GE(edge, wanted);
-    ASSERT_LE(edge, wanted * (1.0 + 0x1p-9));
-    int exponent = 0;
-    const double mantissa = std::ldexp(std::frexp(edge, &exponent), 10);
-    ASSERT_EQ(mantissa, std::floor(mantissa)) << "seed " << seed << ", case " << k;
-  }
-  EXPECT_EQ(Grids(40.0).edge(0), 40.0);
-  EXPECT_EQ(Grids(40.0).edge(3), 320.0);
-}
-
 TEST(Grids, put_a_sphere_where_it_is_at_most_half_as_wide_as_the_cells) {
   const Grids grids(4.0);
   EXPECT_EQ(grids.level_for(0.0), 0);

@@ -67,19 +67,6 @@ TEST(Hypertrapezoid, touches_a_convex_edge_at_both_ends_and_a_concave_one_in_the
   EXPECT_NEAR(hypertrapezoid.lower[1].at(4.0), -17.0, 1e-10);
 }
 
-TEST(Hypertrapezoid, faces_of_a_point_never_cross) {
-  for (std::uint64_t seed = 0; seed < 2000; ++seed) {
-    Random random = Random::at(1995, 3, seed);
-    Bound bound = random_bound(random);
-    bound.radius = bound.growth_speed = bound.acceleration_limit = 0.0;
-    const Hypertrapezoid hypertrapezoid = enclose(bound, random.uniform(1e-9, 10.0), 0.0);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      EXPECT_LE(hypertrapezoid.lower[axis].start, hypertrapezoid.upper[axis].start) << seed;
-      EXPECT_LE(hypertrapezoid.lower[axis].speed, hypertrapezoid.upper[axis].speed) << seed;
-    }
-  }
-}
-
 TEST(Hypertrapezoid, where_numbers_overflow_it_is_everywhere) {
   const Bound bound{.velocity = {1e300, 0.0, 0.0}, .radius = 1.0};
   const Hypertrapezoid hypertrapezoid = enclose(bound, 1e20, 0.0);

@@ -1,14 +1,11 @@
-// A game at 60 frames a second, and what each of its frames costs: in counts, which are equal on all
-// machines.
-//
-// Balls of radius 0.5 fly through a room without gravity and bounce without loss, so play is steady: as much
-// happens in one second as in any other.
+// Games at 60 frames a second in a room of bouncing balls.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 
 #include "kinesphere/counters.hpp"
+#include "kinesphere/workers.hpp"
 
 namespace kinesphere {
 
@@ -31,5 +28,27 @@ void play_game(const GameLoopSettings& settings, const std::function<void(const 
 /// Returns roughly how many thousand instructions the counted work takes. It is linear: the work of a frame
 /// is the difference of two calls.
 double estimated_work(const Counters& work);
+
+struct ShootingSettings {
+  std::uint32_t bodies = 50'000;  ///< > 0; one ball in 16 is a rock, which bursts
+  double packing = 0.03;          ///< part of the room's volume that they fill, as PlacementOptions::packing
+  std::uint32_t frames = 120;
+  std::uint64_t seed = 1;
+};
+
+struct ShootingResult {
+  double seconds = 0.0;      ///< real time of all frames, from when all balls are in
+  double cpu_seconds = 0.0;  ///< the same of all threads
+  std::uint64_t events = 0;
+  std::uint64_t hits = 0;   ///< bullets and balls that vanished
+  std::uint64_t stops = 0;  ///< rocks that burst: there the world stops, and fragments are added
+  std::uint64_t hash = 0;   ///< of all events
+};
+
+/// Plays the game by World::run, with or without workers. Throws BadResult where balls do not fit into the
+/// room.
+ShootingResult run_shooting(const ShootingSettings& settings, Workers* workers);
+/// Plays the same game by a loop over World::advance.
+ShootingResult loop_shooting(const ShootingSettings& settings);
 
 }  // namespace kinesphere

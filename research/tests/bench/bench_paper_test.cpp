@@ -1,26 +1,14 @@
 // `kinesphere-bench paper` with tiny sizes: every section leaves its tables, scripts and pictures.
 #include <set>
 
-#include "program/support.hpp"
-#include "research/bench/plot.hpp"
-#include "research/bench/sections.hpp"
+#include "research/bench/report.hpp"
 #include "research/tests/bench/bench_table.hpp"
 
-namespace kinesphere::program::bench_test {
+namespace kinesphere::program::bench_paper_test {
 namespace {
 
-using Row = std::vector<std::string>;
-
-class BenchTest : public ProgramTest {
+class BenchPaper : public BenchTest {
  protected:
-  ProgramRun bench(const std::string& options) const {
-    ProgramRun result = run("paper --quick --output '" + path("out") + "-bench' " + options);
-    EXPECT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_EQ(result.err, "");
-    return result;
-  }
-  std::string read(const std::string& name) const { return read_text(path("out-bench/" + name)); }
-
   std::set<std::string> written() const {
     std::set<std::string> found;
     for (const auto& entry : std::filesystem::directory_iterator(path("out-bench")))
@@ -30,10 +18,10 @@ class BenchTest : public ProgramTest {
 
   /// Returns a table after checking that it is rectangular and has `rows` rows. Cells may be empty only where
   /// nothing was published or nothing happened.
-  std::vector<Row> table(const std::string& name, std::size_t rows) const {
-    std::vector<Row> found = csv_rows(read(name));
+  BenchRows table(const std::string& name, std::size_t rows) const {
+    BenchRows found = BenchTest::table(name);
     EXPECT_EQ(found.size(), rows + 1) << name;
-    for (const Row& row : found) {
+    for (const auto& row : found) {
       EXPECT_EQ(row.size(), found.front().size()) << name;
       for (std::size_t column = 0; column < row.size(); ++column) {
         const std::string& heading = found.front()[column];
@@ -46,10 +34,8 @@ class BenchTest : public ProgramTest {
   }
 };
 
-TEST_F(BenchTest, EverySectionWritesItsTables) {
-  const ProgramRun result = bench("");
-  for (const Section& section : bench_sections())
-    EXPECT_NE(result.out.find(section.title), std::string::npos) << section.title;
+TEST_F(BenchPaper, EverySectionWritesItsTables) {
+  const ProgramRun result = bench("paper");
   for (const char* label : {"processor", "compiler", "flags", "version", "date"}) {
     EXPECT_NE(result.out.find(label), std::string::npos) << label;
     EXPECT_NE(read("machine.txt").find(label), std::string::npos) << label;
@@ -78,10 +64,8 @@ TEST_F(BenchTest, EverySectionWritesItsTables) {
   table("cells_sweep.csv", 3);
   table("cells_choice.csv", 1);
   table("cells_rates.csv", 5);
-}
 
-TEST_F(BenchTest, CurvesAreScriptsAndPictures) {
-  const ProgramRun result = bench("--only figure5,figure6,growth");
+  EXPECT_EQ(result.out.find("gnuplot-nox") != std::string::npos, !has_gnuplot()) << result.out;
   for (const std::string name : {"figure5", "figure6", "growth"}) {
     const std::string script = read(name + ".gp");
     EXPECT_NE(script.find("'" + name + ".csv'"), std::string::npos) << script;
@@ -90,11 +74,6 @@ TEST_F(BenchTest, CurvesAreScriptsAndPictures) {
       EXPECT_NE(read(name + ".svg").find("</svg>"), std::string::npos) << name;
     }
   }
-  EXPECT_EQ(result.out.find("gnuplot-nox") != std::string::npos, !has_gnuplot()) << result.out;
-}
-
-TEST_F(BenchTest, SpheresAreDrawn) {
-  bench("--only circulation");
   for (const std::string name : {"figure7a", "figure7b", "figure7c", "figure8_0", "figure8_2"}) {
     const auto spheres = table(name + ".csv", 50);
     EXPECT_GE(std::stod(csv_cell(spheres, 0, "y")), std::stod(csv_cell(spheres, 49, "y")))
@@ -106,18 +85,18 @@ TEST_F(BenchTest, SpheresAreDrawn) {
   EXPECT_NE(read("figure7b.csv"), read("figure7a.csv"));
 }
 
-TEST_F(BenchTest, OnlyTheSectionsChosen) {
-  bench("--only trimming,cells");
+TEST_F(BenchPaper, OnlyTheSectionsChosen) {
+  bench("paper --only trimming,cells");
   EXPECT_EQ(written(), (std::set<std::string>{"cells_choice.csv", "cells_rates.csv", "cells_sweep.csv",
                                               "machine.txt", "trimming.csv"}));
 }
 
-TEST_F(BenchTest, RefusesWrongOptions) {
+TEST_F(BenchPaper, RefusesWrongOptions) {
   expect_wrong_input("paper --only figure5,figure9", {"--only", "figure5, figure6", "figure9"});
-  expect_wrong_input("paper --quick --full", {"--full", "--quick"});
+  expect_wrong_input("gas --quick --full", {"--full", "--quick"});
   const std::string file = write("file", "");
-  expect_wrong_input("paper --quick --output " + file, {"--output", file});
+  expect_wrong_input("shapes --quick --output " + file, {"--output", file});
 }
 
 }  // namespace
-}  // namespace kinesphere::program::bench_test
+}  // namespace kinesphere::program::bench_paper_test

@@ -1,15 +1,21 @@
-#include "research/bench/detector_options.hpp"
-
+// `kinesphere-bench run` and `verify`: as those of `kinesphere`, under any detector.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <CLI/App.hpp>
 
 #include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "base/program_error.hpp"
 #include "base/validators.hpp"
-#include "research/rivals/detector_table.hpp"
+#include "research/bench/commands.hpp"
+#include "research/rivals/rivals.hpp"
+#include "scenes/run.hpp"
 #include "scenes/summary.hpp"
+#include "scenes/verify.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -31,7 +37,17 @@ const DetectorEntry& find_entry(const std::string& name) {
       fmt::format("--detector: expected one of {}, but got '{}'", fmt::join(detector_names(), ", "), name));
 }
 
-}  // namespace
+/// The options that choose a detector and set its parameters.
+struct DetectorOptions {
+  std::string name = "world";
+  std::optional<double> step;
+  std::optional<double> cell_edge;
+  bool no_trimming = false;
+
+  /// Returns the detector, named after itself and its step if it has one. Throws ProgramError for options
+  /// that do not fit the detector.
+  NamedDetector chosen() const;
+};
 
 NamedDetector DetectorOptions::chosen() const {
   const DetectorEntry& entry = find_entry(name);
@@ -65,6 +81,28 @@ void add_detector_options(CLI::App& command, DetectorOptions& options) {
       .add_flag("--no-trimming", options.no_trimming,
                 "Let paper keep candidates that come after the reset of their body")
       ->group(detector_group);
+}
+
+}  // namespace
+
+Command add_run(CLI::App& app) {
+  const auto options = std::make_shared<RunOptions>();
+  const auto detector = std::make_shared<DetectorOptions>();
+  CLI::App* const command = add_run_command(app, *options);
+  add_detector_options(*command, *detector);
+  return {command, [options, detector] {
+            if (detector->name != "world" && (options->threads || !options->record.empty()))
+              throw ProgramError("--threads, --record: expected only with --detector world");
+            return run(*options, detector->chosen());
+          }};
+}
+
+Command add_verify(CLI::App& app) {
+  const auto options = std::make_shared<VerifyOptions>();
+  const auto detector = std::make_shared<DetectorOptions>();
+  CLI::App* const command = add_verify_command(app, *options);
+  add_detector_options(*command, *detector);
+  return {command, [options, detector] { return verify(*options, detector->chosen()); }};
 }
 
 }  // namespace kinesphere::program

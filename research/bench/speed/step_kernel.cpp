@@ -1,4 +1,4 @@
-#include "research/bench/speed/wall_check.hpp"
+#include "research/bench/speed/step_kernel.hpp"
 
 #include "research/bench/speed/multiversion.hpp"
 
