@@ -21,7 +21,8 @@ namespace kinesphere {
 class SpotChecks {
  public:
   /// Bodies with names below this, the first bodies, are checked at next() however they move. All others that
-  /// move are checked there once, after their arrival, and then wait for turn(), which keeps gases cheap.
+  /// move are checked there once, after their arrival, and then at their turn() and as probes_between says,
+  /// which keeps gases cheap.
   static constexpr std::uint32_t first_names = 32;
   /// Each body that moves is checked at the start of one of so many main windows.
   static constexpr std::uint32_t windows_between = 32;
