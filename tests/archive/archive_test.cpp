@@ -7,6 +7,8 @@
 #include <variant>
 
 #include "archive/fields.hpp"
+#include "kinesphere/counters.hpp"
+#include "kinesphere/event.hpp"
 
 namespace kinesphere::archive_test {
 namespace {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "kinesphere/kinesphere.hpp"
 #include "support/read_back.hpp"
 
 namespace kinesphere::fields_test {
