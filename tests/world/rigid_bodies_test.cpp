@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "kinesphere/body_map.hpp"
+#include "kinesphere/certificates.hpp"
 #include "kinesphere/motion/ballistic.hpp"
 #include "kinesphere/recording.hpp"
 #include "kinesphere/response.hpp"

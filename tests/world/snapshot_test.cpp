@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "kinesphere/response.hpp"
+#include "support/expect_error.hpp"
 #include "support/playground.hpp"
 #include "support/sealed_snapshot.hpp"
 
