@@ -1,4 +1,4 @@
-#include "tracks/recording_cells.hpp"
+#include "tracks/track_cells.hpp"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 
 namespace kinesphere::program {
 
-std::string name_with_unit(std::string_view name, Measure measure, const Recording& recording) {
+std::string name_with_unit(std::string_view name, Measure measure, const TrackSet& track_set) {
   const std::string_view unit = measure == Measure::time     ? "_s"
-                                : !recording.in_metres       ? ""
+                                : !track_set.in_metres       ? ""
                                 : measure == Measure::length ? "_m"
                                                              : "_mps";
   return fmt::format("{}{}", name, unit);
@@ -20,13 +20,13 @@ Cell time_cell(const TimeScale& times, double time) {
   return text;
 }
 
-void add_position(std::vector<Cell>& cells, const Vec3& local, const Recording& recording) {
-  add_components(cells, recording.coordinates.as_in_file(local), recording);
+void add_position(std::vector<Cell>& cells, const Vec3& local, const TrackSet& track_set) {
+  add_components(cells, track_set.coordinates.as_in_file(local), track_set);
 }
 
-void add_components(std::vector<Cell>& cells, const Vec3& vector, const Recording& recording) {
+void add_components(std::vector<Cell>& cells, const Vec3& vector, const TrackSet& track_set) {
   cells.insert(cells.end(), {vector.x, vector.y});
-  cells.push_back(recording.is_plane ? Cell() : Cell(vector.z));
+  cells.push_back(track_set.is_plane ? Cell() : Cell(vector.z));
 }
 
 }  // namespace kinesphere::program

@@ -17,7 +17,7 @@
 
 namespace kinesphere::program {
 
-struct DistributedSimulationOptions {
+struct DistributedSceneOptions {
   std::string scene_text;  ///< see scene_text()
   ContactOptions contacts{};
   std::string checkpoint_folder{};   ///< empty for no checkpoints
@@ -26,7 +26,7 @@ struct DistributedSimulationOptions {
 };
 
 /// Totals over all ranks.
-struct SimulationTotals {
+struct RunTotals {
   Counters counters{};
   EventHash hash{};
   std::optional<double> resumed_at{};
@@ -36,11 +36,10 @@ struct SimulationTotals {
 
 /// All functions but use() are collective, and must be called in this order. They throw SharedError on all
 /// ranks; any other exception is one rank's alone.
-class DistributedSimulation {
+class DistributedScene {
  public:
   /// Throws only std::bad_alloc. `workers` may be null.
-  DistributedSimulation(const Ranks& ranks, const Scene& scene, DistributedSimulationOptions options,
-                        Workers* workers);
+  DistributedScene(const Ranks& ranks, const Scene& scene, DistributedSceneOptions options, Workers* workers);
 
   /// Makes the world, or restores it, and opens files.
   void start();
@@ -48,7 +47,7 @@ class DistributedSimulation {
   void run();
   /// Returns the cost on this rank.
   RankUse use() const;
-  SimulationTotals totals() const;
+  RunTotals totals() const;
   /// Gives the files of events their final names.
   void commit() { contacts_->commit(); }
 
@@ -65,7 +64,7 @@ class DistributedSimulation {
 
   const Ranks& ranks_;
   const Scene& scene_;
-  DistributedSimulationOptions options_;
+  DistributedSceneOptions options_;
   Workers* workers_;
   std::unique_ptr<Motion> motion_;
   std::optional<DistributedWorld> world_;

@@ -9,12 +9,12 @@
 #include "kinesphere/recording.hpp"
 #include "simulation/detector/detector.hpp"
 #include "simulation/oracle/oracle.hpp"
-#include "simulation/run/recorded_simulation.hpp"
-#include "simulation/run/simulate.hpp"
+#include "simulation/run/recorded_scene.hpp"
+#include "simulation/run/run_scene.hpp"
 #include "simulation/scene/scene.hpp"
 #include "support/expect_error.hpp"
 
-namespace kinesphere::recorded_simulation_test {
+namespace kinesphere::recorded_scene_test {
 namespace {
 
 /// Bodies fly through each other; each is there for a while.
@@ -33,20 +33,20 @@ Scene coming_and_going() {
   return scene;
 }
 
-TEST(RecordedSimulation, ReplaysToTheSameResult) {
+TEST(RecordedScene, ReplaysToTheSameResult) {
   const Scene scene = coming_and_going();
   std::vector<std::byte> recording;
-  SimulationObserver observer;
+  SceneObserver observer;
   observer.at_start = [](Detector& detector) { return detector.start_recording(); };
   observer.at_end = [&](Detector& detector) -> Result<void> {
     recording = detector.stop_recording().value();
     return {};
   };
-  const SimulationResult expected = simulate(scene, make_world_detector, observer).value();
+  const SceneResult expected = run_scene(scene, make_world_detector, observer).value();
   EXPECT_GT(expected.counters.count(EventKind::contact_end), 15u);
-  EXPECT_EQ(expected.contact_hash, simulate(scene, make_world_detector).value().contact_hash);
+  EXPECT_EQ(expected.contact_hash, run_scene(scene, make_world_detector).value().contact_hash);
   EXPECT_GT(expected.memory.value().total(), 10000u);
-  const SimulationResult found = replay(recording).value();
+  const SceneResult found = replay(recording).value();
   EXPECT_EQ(found.contact_hash, expected.contact_hash);
   EXPECT_EQ(found.counters.probes, expected.counters.probes);
   EXPECT_EQ(found.simulated_time, expected.simulated_time);
@@ -57,18 +57,19 @@ TEST(RecordedSimulation, ReplaysToTheSameResult) {
   EXPECT_TRUE(reused) << "the test does not show what it is for";
 }
 
-TEST(RecordedSimulation, IsRefusedWhereItCannotBe) {
+TEST(RecordedScene, IsRefusedWhereItCannotBe) {
   expect_error(replay({}), ErrorCode::bad_recording, "recording", "Replay::open");
   const Scene scene = coming_and_going();
-  SimulationObserver observer;
+  SceneObserver observer;
   observer.at_start = [](Detector& detector) { return detector.start_recording(); };
-  expect_error(simulate(scene, make_oracle, observer), ErrorCode::unsupported, "detector", "start_recording");
+  expect_error(run_scene(scene, make_oracle, observer), ErrorCode::unsupported, "detector",
+               "start_recording");
   observer.at_start = {};
   observer.at_end = [](Detector& detector) -> Result<void> { return detector.stop_recording().error(); };
-  expect_error(simulate(scene, make_oracle, observer), ErrorCode::unsupported, "detector", "stop_recording");
-  expect_error(simulate(scene, make_world_detector, observer), ErrorCode::not_recording, "world",
+  expect_error(run_scene(scene, make_oracle, observer), ErrorCode::unsupported, "detector", "stop_recording");
+  expect_error(run_scene(scene, make_world_detector, observer), ErrorCode::not_recording, "world",
                "stop_recording");
 }
 
 }  // namespace
-}  // namespace kinesphere::recorded_simulation_test
+}  // namespace kinesphere::recorded_scene_test

@@ -15,8 +15,8 @@
 
 namespace kinesphere {
 
-/// Callbacks of simulate(). Each may be empty.
-struct SimulationObserver {
+/// Callbacks of run_scene(). Each may be empty.
+struct SceneObserver {
   /// Called for each event, in order.
   std::function<void(const Event&)> on_event;
   /// Called at start_time + k * frame_interval, and at the end.
@@ -24,13 +24,13 @@ struct SimulationObserver {
   double frame_interval = std::numeric_limits<double>::infinity();
   /// Called with the detector before each advance (tests audit here).
   std::function<void(const Detector&)> between_events;
-  /// Called before the detector is used, and after the end of the scene. An error ends the simulation.
+  /// Called before the detector is used, and after the end of the scene. An error ends the run.
   std::function<Result<void>(Detector&)> at_start;
   std::function<Result<void>(Detector&)> at_end;
 };
 
-/// Result of simulate().
-struct SimulationResult {
+/// Result of run_scene().
+struct SceneResult {
   DetectorCounters counters;
   double simulated_time = 0.0;
   double body_time = 0.0;          ///< sum over bodies of the time they were there
@@ -45,7 +45,7 @@ struct SimulationResult {
 /// on the workers. Errors: not_finite, time_backwards or out_of_range for impossible times, for more bodies
 /// than the motion has and for turns of a body that does not exist; unsupported if bodies are to bounce and
 /// their motion cannot be changed; those of the detector.
-Result<SimulationResult> simulate(const Scene& scene, const DetectorMaker& make,
-                                  const SimulationObserver& observer = {}, Workers* workers = nullptr);
+Result<SceneResult> run_scene(const Scene& scene, const DetectorMaker& make,
+                              const SceneObserver& observer = {}, Workers* workers = nullptr);
 
 }  // namespace kinesphere

@@ -1,5 +1,5 @@
 // Runs a scene in a distributed world, with events in files and with checkpoints.
-#include "distributed_simulation.hpp"
+#include "distributed_scene.hpp"
 
 #include <fmt/format.h>
 
@@ -39,15 +39,15 @@ std::pair<std::string, std::string> first_difference(const std::string& a, const
 
 }  // namespace
 
-DistributedSimulation::DistributedSimulation(const Ranks& ranks, const Scene& scene,
-                                             DistributedSimulationOptions options, Workers* workers)
+DistributedScene::DistributedScene(const Ranks& ranks, const Scene& scene, DistributedSceneOptions options,
+                                   Workers* workers)
     : ranks_(ranks),
       scene_(scene),
       options_(std::move(options)),
       workers_(workers),
       slice_((scene.end_time - scene.world.start_time) / slices_at_first) {}
 
-void DistributedSimulation::start() {
+void DistributedScene::start() {
   processor_seconds_at_start_ = processor_seconds();
   std::optional<RunState> resumed;
   if (!options_.checkpoint_folder.empty()) {
@@ -61,7 +61,7 @@ void DistributedSimulation::start() {
 
 /// Deals bodies in slabs across the axis of their largest extent, equally many for each rank, so that few of
 /// them have to migrate.
-std::vector<std::uint32_t> DistributedSimulation::bodies_of_others() const {
+std::vector<std::uint32_t> DistributedScene::bodies_of_others() const {
   const auto position = [this](std::uint32_t body) {
     return scene_.motion->state(body, scene_.world.start_time).position;
   };
@@ -86,7 +86,7 @@ std::vector<std::uint32_t> DistributedSimulation::bodies_of_others() const {
   return bodies;
 }
 
-void DistributedSimulation::create() {
+void DistributedScene::create() {
   ranks_.together(1, [this] {
     motion_ = scene_.motion->clone();
     for (const std::uint32_t body : bodies_of_others()) require(motion_->remove(body));
@@ -103,7 +103,7 @@ void DistributedSimulation::create() {
 }
 
 /// Returns nothing if there is no checkpoint.
-std::optional<RunState> DistributedSimulation::resume() {
+std::optional<RunState> DistributedScene::resume() {
   const std::vector<std::uint64_t> numbers = checkpoints_->latest();
   if (!options_.resume && !numbers.empty())
     throw SharedError(fmt::format("--checkpoint: expected a folder without checkpoints, or --resume, but {} "
@@ -133,7 +133,7 @@ std::optional<RunState> DistributedSimulation::resume() {
 }
 
 /// Returns false for a checkpoint that cannot be restored.
-bool DistributedSimulation::restore(std::uint64_t number, RunState& state) {
+bool DistributedScene::restore(std::uint64_t number, RunState& state) {
   const auto refuse = [&](const std::string& why) {
     tell_first(fmt::format("{} is refused: {}", checkpoints_->path(number), why));
     return false;
@@ -157,7 +157,7 @@ bool DistributedSimulation::restore(std::uint64_t number, RunState& state) {
   return true;
 }
 
-void DistributedSimulation::require_same_run(const RunState& state) const {
+void DistributedScene::require_same_run(const RunState& state) const {
   const auto refuse = [](const std::string& why) { throw SharedError(why, exit_wrong_input); };
   if (state.scene != options_.scene_text) {
     const auto [saved, given] = first_difference(state.scene, options_.scene_text);
@@ -170,11 +170,11 @@ void DistributedSimulation::require_same_run(const RunState& state) const {
                        state.time, scene_.end_time));
 }
 
-void DistributedSimulation::tell_first(const std::string& message) const {
+void DistributedScene::tell_first(const std::string& message) const {
   if (ranks_.is_first()) fmt::print(stderr, "kinesphere-mpi: {}\n", message);
 }
 
-void DistributedSimulation::run() {
+void DistributedScene::run() {
   started_ = std::chrono::steady_clock::now();
   const auto respond = [this](const Event& event) { return scene_answer(scene_, event); };
   const auto sink = [this](const OrderedEvent& event) { contacts_->note(event); };
@@ -196,7 +196,7 @@ void DistributedSimulation::run() {
 }
 
 /// Returns the next multiple of the interval, counted from the start.
-double DistributedSimulation::next_checkpoint() const {
+double DistributedScene::next_checkpoint() const {
   if (!checkpoints_) return std::numeric_limits<double>::infinity();
   const double start = scene_.world.start_time;
   const double interval = options_.checkpoint_interval;
@@ -205,13 +205,13 @@ double DistributedSimulation::next_checkpoint() const {
   return start + count * interval;
 }
 
-void DistributedSimulation::choose_slice(std::uint64_t most_events) {
+void DistributedScene::choose_slice(std::uint64_t most_events) {
   const double longer =
       static_cast<double>(events_of_a_slice) / static_cast<double>(std::max<std::uint64_t>(most_events, 1));
   slice_ *= std::clamp(longer, 0.5, 2.0);
 }
 
-void DistributedSimulation::save() {
+void DistributedScene::save() {
   const auto part = require_shared(world_->save(), 1);
   RunState state{.scene = options_.scene_text,
                  .time = world_->time(),
@@ -222,13 +222,13 @@ void DistributedSimulation::save() {
   checkpoints_->write(part, state);
 }
 
-RankUse DistributedSimulation::use() const {
+RankUse DistributedScene::use() const {
   return {.figures = world_->figures(),
           .processor_seconds = processor_seconds() - processor_seconds_at_start_,
           .largest_memory = largest_memory()};
 }
 
-SimulationTotals DistributedSimulation::totals() const {
+RunTotals DistributedScene::totals() const {
   return {.counters = world_->counters(),
           .hash = world_->hash(),
           .resumed_at = resumed_at_,

@@ -8,8 +8,8 @@
 #include "kinesphere/event_hash.hpp"
 #include "number/infinity.hpp"
 #include "simulation/detector/detector.hpp"
+#include "simulation/run/run_scene.hpp"
 #include "simulation/run/scene_answer.hpp"
-#include "simulation/run/simulate.hpp"
 #include "simulation/scene/scene.hpp"
 #include "simulation/scene/scene_check.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 
 class SceneRun {
  public:
-  SceneRun(const Scene& scene, Motion& motion, Detector& detector, const SimulationObserver& observer,
+  SceneRun(const Scene& scene, Motion& motion, Detector& detector, const SceneObserver& observer,
            Workers* workers)
       : scene_(scene), motion_(motion), detector_(detector), observer_(observer), workers_(workers) {
     for (std::uint32_t number = 0; number < scene.bodies.size(); ++number) {
@@ -42,7 +42,7 @@ class SceneRun {
     });
   }
 
-  Result<SimulationResult> run() {
+  Result<SceneResult> run() {
     const double start = scene_.world.start_time;
     std::uint64_t frame = 0;
     double last_frame = -infinity;
@@ -151,17 +151,17 @@ class SceneRun {
   const Scene& scene_;
   Motion& motion_;
   Detector& detector_;
-  const SimulationObserver& observer_;
+  const SceneObserver& observer_;
   Workers* workers_;
   std::vector<Change> changes_;
   EventHash hash_;
-  SimulationResult result_;
+  SceneResult result_;
 };
 
 }  // namespace
 
-Result<SimulationResult> simulate(const Scene& scene, const DetectorMaker& make,
-                                  const SimulationObserver& observer, Workers* workers) {
+Result<SceneResult> run_scene(const Scene& scene, const DetectorMaker& make, const SceneObserver& observer,
+                              Workers* workers) {
   if (auto valid = check_times(scene, "simulate"); !valid) return valid.error();
   if (auto valid = InputCheck("simulate")
                        .require(observer.frame_interval > 0.0, ErrorCode::out_of_range, {"frame_interval"},

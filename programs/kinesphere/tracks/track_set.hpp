@@ -1,4 +1,4 @@
-// A recording of real motion after it was read.
+// A track set of real motion after it was read.
 #pragma once
 
 #include <cstdint>
@@ -34,9 +34,9 @@ struct ReadCounts {
   std::vector<std::string> warnings;  ///< of the formats, one line each
 };
 
-/// A recording in seconds and lengths from its own origins; `times` and `coordinates` convert them to the
+/// A track set in seconds and lengths from its own origins; `times` and `coordinates` convert them to the
 /// file's.
-struct Recording : ReadCounts {
+struct TrackSet : ReadCounts {
   std::string format;  ///< recognised format
   TimeScale times;
   DateOrder dates = DateOrder::unknown;  ///< order of dates such as 03/04/2025

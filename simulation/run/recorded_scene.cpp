@@ -4,8 +4,8 @@
 #include "kinesphere/event_hash.hpp"
 #include "kinesphere/recording.hpp"
 #include "simulation/detector/numbered_event.hpp"
-#include "simulation/run/recorded_simulation.hpp"
-#include "simulation/run/simulate.hpp"
+#include "simulation/run/recorded_scene.hpp"
+#include "simulation/run/run_scene.hpp"
 
 namespace kinesphere {
 namespace {
@@ -28,14 +28,14 @@ class Numbers {
 
 }  // namespace
 
-Result<SimulationResult> replay(std::span<const std::byte> recording) {
+Result<SceneResult> replay(std::span<const std::byte> recording) {
   auto opened = Replay::open(recording);
   if (!opened) return opened.error();
   const World& world = opened->world();
   const double start = world.time();
   Numbers numbers;
   EventHash hash;
-  SimulationResult result;
+  SceneResult result;
   while (!opened->finished()) {
     const double before = world.time();
     auto event = opened->advance();
