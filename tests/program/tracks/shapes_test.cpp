@@ -167,7 +167,7 @@ WrittenTracks longitudes_and_latitudes(Original& original) {
 WrittenTracks gaps(Original& original) {
   std::map<std::string, std::size_t> count;
   std::erase_if(original.rows, [&](const Row& row) { return count[row.id]++ % 40 >= 36; });
-  TrackSet& track_set = original.recording;
+  TrackSet& track_set = original.track_set;
   std::vector<RecordedTrack> cut;
   for (const RecordedTrack& track : track_set.tracks) {
     std::vector<TrackSample> samples;
@@ -357,21 +357,21 @@ TEST_P(Shapes, HaveTheSameApproaches) {
   TrackOptions options;
   options.hints.format = source.format;
   Original original{read_tracks({file}, options), {}, source.distance};
-  keep_first(source.seconds, original.recording);
-  for (const RecordedTrack& track : original.recording.tracks) {
+  keep_first(source.seconds, original.track_set);
+  for (const RecordedTrack& track : original.track_set.tracks) {
     for (const TrackSample& sample : track.samples)
       original.rows.push_back({track.id, std::llround(1000 * sample.time), sample.position});
   }
   WrittenTracks reported = shape.write(original);
   const TrackSet read = parse_tracks(std::move(reported.files), reported.options);
-  ASSERT_EQ(read.tracks.size(), original.recording.tracks.size());
-  const std::vector<Counterpart> same = counterparts(read, original.recording);
+  ASSERT_EQ(read.tracks.size(), original.track_set.tracks.size());
+  const std::vector<Counterpart> same = counterparts(read, original.track_set);
 
   // The truth of the original checks the approaches in the converted recording. Its positions differ by
   // rounding errors of 1e-9 at most, and a spline passes on no more than twice that: far less than a
   // tolerance of a millionth of the distance, so that twice the tolerance covers it.
   const ApproachQuestion question{.distance = source.distance};
-  Scene truth = scene_of(original.recording, question).scene;
+  Scene truth = scene_of(original.track_set, question).scene;
   const std::vector<Event> expected = events_of(truth);
   const ContactComparison own = require(compare_with_oracle(truth, expected));
   ASSERT_TRUE(own.agrees());
