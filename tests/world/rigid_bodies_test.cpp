@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "kinesphere/body_map.hpp"
+#include "kinesphere/certificates.hpp"
 #include "kinesphere/motion/ballistic.hpp"
 #include "kinesphere/recording.hpp"
-#include "kinesphere/certificates.hpp"
 #include "kinesphere/response.hpp"
 #include "number/infinity.hpp"
 #include "support/eager_workers.hpp"
