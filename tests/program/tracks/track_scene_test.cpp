@@ -71,16 +71,19 @@ TEST(TrackScene, LinesAndCurvesAgreeWithTheOracle) {
   EXPECT_GT(found[1], 1000u);
 }
 
+/// Returns options with this gap limit (seconds).
+TrackOptions with_gap(double max_gap) {
+  TrackOptions options;
+  options.max_gap = max_gap;
+  return options;
+}
+
 TEST(TrackScene, WarnsOfSplinesThatSwingOutFar) {
   // Two ships under one id, and one with a sharp turn.
   const TrackSet track_set = parse(
       "id,t,x,y\na,0,0,0\na,100,0,10\na,101,9000,0\na,201,9000,10\na,202,0,30\na,302,0,40\n"
       "b,0,0,0\nb,100,100,0\nb,200,100,100\nb,300,0,100\n",
-      [] {
-        TrackOptions options;
-        options.max_gap = 1000;
-        return options;
-      }());
+      with_gap(1000));
   const TrackScene curves = scene_of(track_set, {.distance = 5.0});
   EXPECT_EQ(curves.overshoots.tracks, 1u);
   EXPECT_EQ(curves.overshoots.largest.id, "a");
@@ -97,11 +100,7 @@ TEST(TrackScene, ReachesAsFarAsItsSplines) {
   const TrackSet track_set = parse(
       "id,t,x,y\na,0,0,0\na,43200,3500,0\na,43201,0,5500\na,86400,0,0\na,129600,3500,0\n"
       "b,0,0,0\nb,43200,100,100\nb,86400,100,0\nb,129600,0,0\n",
-      [] {
-        TrackOptions options;
-        options.max_gap = 1e5;
-        return options;
-      }());
+      with_gap(1e5));
   const TrackScene curves = scene_of(track_set, {.distance = 20.0});
   EXPECT_GT(curves.overshoots.largest.size, limits::largest_length * 20e-6);
   EXPECT_GT(curves.scene.world.contact_tolerance, 20e-6);
