@@ -105,7 +105,7 @@ void Scenario::clear_contradictions() {
 void Scenario::make_crowd() {
   bodies = 90 + static_cast<int>(seed % 60);
   crowd = runs = true;
-  rigid = carried = resting = pair_filter = recorded = sizes = answers = false;
+  rigid = carried = resting = pair_filter = recorded = sizes = answers = overlaps = false;
   clear_contradictions();
 }
 
