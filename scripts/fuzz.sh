@@ -27,7 +27,7 @@ for target in "${targets[@]}"; do
   build/fuzz/tests/fuzz/fuzz_$target -max_total_time="$seconds" -max_len="${longest[$target]}" -timeout=20 \
     -artifact_prefix="build/fuzz/$target-" -print_final_stats=1 -verbosity=0 \
     "$found" "$known"
-  build/fuzz/tests/fuzz/fuzz_$target -merge=1 -verbosity=0 "$fewest" "$known" "$found"
+  build/fuzz/tests/fuzz/fuzz_$target -set_cover_merge=1 -use_counters=0 -verbosity=0 "$fewest" "$known" "$found"
   # The same bytes for the same inputs.
   tar --sort=name --mtime=@0 --owner=0 --group=0 --numeric-owner --mode=644 -cf - -C "$fewest" . | xz -9e >"$archive"
 done
