@@ -37,7 +37,7 @@ function(kinesphere_add_tests name)
   kinesphere_compile(${test})
   kinesphere_batches_of(${test} 24)
   # These tests take longer to run than to compile.
-  if(name MATCHES "^(bound|stream|mixed_worlds)$")
+  if(name MATCHES "^(bound|stream)$")
     target_precompile_headers(${test} REUSE_FROM kinesphere_test_headers)
   else()
     kinesphere_optimise_test(${test})

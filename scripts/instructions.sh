@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Counts the instructions of small scenes (simulate() and all its calls, under valgrind). Fails if a count differs from
+# Counts the instructions of small scenes (run_scene() and all its calls, under valgrind). Fails if a count differs from
 # tests/instructions/counts.txt by 3 % or more, in either direction; --update keeps the new counts. Counts are comparable
 # only with equal compiler, flags, C library and valgrind; otherwise nothing is counted, and the exit code is 77.
 # Usage: instructions.sh [--update] [build folder; default: build/ci]
@@ -25,11 +25,11 @@ count() {
   local profile counted
   profile=$(mktemp)
   env -i LD_BIND_NOW=1 GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-AVX512F,-AVX512VL,-AVX512BW,-ERMS,-FSRM \
-    "$(command -v valgrind)" --tool=callgrind --callgrind-out-file="$profile" --toggle-collect='kinesphere::simulate(*' \
+    "$(command -v valgrind)" --tool=callgrind --callgrind-out-file="$profile" --toggle-collect='kinesphere::run_scene(*' \
     "$build/programs/kinesphere" run "$@" --hash-only >/dev/null 2>"$profile.log" || { cat "$profile.log" >&2; exit 1; }
   counted=$(sed -n 's/^summary: //p' "$profile")
   rm -f "$profile" "$profile.log"
-  [[ $counted -gt 0 ]] || { echo "instructions: nothing was counted: is there no kinesphere::simulate() any more?" >&2; exit 1; }
+  [[ $counted -gt 0 ]] || { echo "instructions: nothing was counted: is there no kinesphere::run_scene() any more?" >&2; exit 1; }
   echo "$counted"
 }
 

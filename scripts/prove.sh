@@ -52,26 +52,27 @@ if [[ ${1:-} != --mutants ]]; then
 fi
 
 survivors=0
-for mutant in proof/mutants/*.patch; do
-  copy=$folder/$(basename "$mutant" .patch)
+for mutant in $(sed -n 's/^Mutant: //p' proof/mutants/*.patch); do
+  copy=$folder/$mutant
   mkdir -p "$copy/build"
   git ls-files -z src include tests/proof proof cmake | xargs -0 cp --parents -t "$copy"
-  (cd "$copy" && GIT_CEILING_DIRECTORIES=$PWD/.. git apply "$OLDPWD/$mutant")
+  awk -v name="Mutant: $mutant" '/^Mutant: / { found = $0 == name } found' proof/mutants/*.patch |
+    (cd "$copy" && GIT_CEILING_DIRECTORIES=$PWD/.. git apply -)
   g++ -std=c++20 -I"$copy/tests" -I"$copy/src" -I"$copy/include" -DKINESPHERE_KERNEL_TERMS="\"$copy/proof/kernels.v\"" \
     "$copy/tests/proof/kernel_terms_test.cpp" -lgtest_main -lgtest -o "$copy/build/terms"
   # The tie: the computed term must differ from the proved one.
   if "$copy/build/terms" >/dev/null 2>&1; then
-    echo "SURVIVES  $(basename "$mutant")  (the terms are the same)"
+    echo "SURVIVES  $mutant  (the terms are the same)"
     survivors=$((survivors + 1))
     continue
   fi
   # The proof: it must fail for the computed term.
   KINESPHERE_WRITE_KERNELS=1 "$copy/build/terms" --gtest_filter=KernelTerms.AreThoseThatHaveBeenProved >/dev/null 2>&1
   if (cd "$copy/proof" && prove >../build/proof.log 2>&1); then
-    echo "SURVIVES  $(basename "$mutant")  (everything can still be proved)"
+    echo "SURVIVES  $mutant  (everything can still be proved)"
     survivors=$((survivors + 1))
   else
-    echo "caught    $(basename "$mutant")  by $(grep -oE 'File "[^"]*", line [0-9]+' "$copy/build/proof.log" | head -n 1)"
+    echo "caught    $mutant  by $(grep -oE 'File "[^"]*", line [0-9]+' "$copy/build/proof.log" | head -n 1)"
   fi
 done
 [[ $survivors == 0 ]]

@@ -13,7 +13,7 @@
 #include "base/standard_output.hpp"
 #include "base/validators.hpp"
 #include "contact_files.hpp"
-#include "distributed_simulation.hpp"
+#include "distributed_scene.hpp"
 #include "rank_table.hpp"
 #include "ranks.hpp"
 #include "scene_text.hpp"
@@ -52,9 +52,9 @@ ContactOptions contact_options(const DistributedRunOptions& options) {
   return {options.contacts, options.file_per_rank ? ContactOutput::file_per_rank : ContactOutput::one_file};
 }
 
-std::string summary_of(const SceneParameters& parameters, const Scene& scene, const SimulationTotals& totals,
+std::string summary_of(const SceneParameters& parameters, const Scene& scene, const RunTotals& totals,
                        int threads, const std::vector<RankUse>& use) {
-  SimulationResult result;
+  SceneResult result;
   result.counters = {totals.counters};
   result.simulated_time = scene.end_time - scene.world.start_time;
   result.body_time = result.simulated_time * static_cast<double>(scene.bodies.size());
@@ -104,16 +104,16 @@ Preparation prepare(const Ranks& ranks, const DistributedRunOptions& options) {
   return prepared;
 }
 
-void simulate(const Ranks& ranks, const DistributedRunOptions& options, const Preparation& prepared,
-              DistributedSimulation& simulation) {
-  simulation.start();
-  simulation.run();
-  const std::vector<RankUse> use = ranks.gather(simulation.use());
-  const SimulationTotals totals = simulation.totals();
+void run_scene(const Ranks& ranks, const DistributedRunOptions& options, const Preparation& prepared,
+               DistributedScene& distributed) {
+  distributed.start();
+  distributed.run();
+  const std::vector<RankUse> use = ranks.gather(distributed.use());
+  const RunTotals totals = distributed.totals();
   // A full disk must not suppress the summary.
   std::optional<SharedError> failure;
   try {
-    simulation.commit();
+    distributed.commit();
   } catch (const SharedError& error) {
     failure = error;
   }
@@ -165,15 +165,15 @@ CLI::App* add_distributed_run_command(CLI::App& program, DistributedRunOptions& 
 void distributed_run(const MpiSession& session, const DistributedRunOptions& options) {
   const Ranks ranks;
   Preparation prepared = prepare(ranks, options);
-  DistributedSimulation simulation(ranks, prepared.scene,
-                                   {.scene_text = scene_text(prepared.source.parameters),
-                                    .contacts = prepared.contacts,
-                                    .checkpoint_folder = options.checkpoint,
-                                    .checkpoint_interval = options.every.value_or(0.0),
-                                    .resume = options.resume},
-                                   prepared.workers ? &*prepared.workers : nullptr);
+  DistributedScene distributed(ranks, prepared.scene,
+                               {.scene_text = scene_text(prepared.source.parameters),
+                                .contacts = prepared.contacts,
+                                .checkpoint_folder = options.checkpoint,
+                                .checkpoint_interval = options.every.value_or(0.0),
+                                .resume = options.resume},
+                               prepared.workers ? &*prepared.workers : nullptr);
   try {
-    simulate(ranks, options, prepared, simulation);
+    run_scene(ranks, options, prepared, distributed);
   } catch (const SharedError&) {
     throw;
   } catch (const std::bad_alloc&) {

@@ -9,7 +9,7 @@
 #include "errors.hpp"
 #include "exchange.hpp"
 #include "simulation/detector/detector.hpp"
-#include "simulation/run/simulate.hpp"
+#include "simulation/run/run_scene.hpp"
 #include "simulation/tracks/approaches.hpp"
 #include "simulation/tracks/post_encroachment.hpp"
 #include "simulation/tracks/scene_of_tracks.hpp"
@@ -96,10 +96,10 @@ py::tuple approaches(const py::object& times, const py::object& positions, const
     for (std::size_t k = 0; k < radii.size(); ++k) scene.bodies[k].radius += radii[k];
     std::vector<Event> events;
     Interruptions interruptions;
-    SimulationObserver observer;
+    SceneObserver observer;
     observer.on_event = [&](const Event& event) { events.push_back(event); };
     observer.between_events = [&](const Detector&) { interruptions.look(); };
-    probes = simulate(scene, make_world_detector, observer).value().counters.probes;
+    probes = run_scene(scene, make_world_detector, observer).value().counters.probes;
     found = approaches_in(scene, events);
     find_closest(*scene.motion, found, radii);
     if (!radii.empty())

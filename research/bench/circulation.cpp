@@ -41,10 +41,10 @@ void draw(const Report& report, const std::string& name, const Scene& scene, con
 /// Calls show(detector, motion, time) at every multiple of `interval`.
 template <class Show>
 void watch(const Scene& scene, double interval, Show show) {
-  SimulationObserver observer;
+  SceneObserver observer;
   observer.frame_interval = interval;
   observer.on_frame = show;
-  require(simulate(scene, paper_engine().make, observer));
+  require(run_scene(scene, paper_engine().make, observer));
 }
 
 void draw_figure7(const Report& report, const BenchSettings& settings, const Scene& scene) {

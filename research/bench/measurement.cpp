@@ -10,7 +10,7 @@
 #include "base/program_error.hpp"
 #include "research/rivals/rivals.hpp"
 #include "scenes/scene_file.hpp"
-#include "simulation/run/simulate.hpp"
+#include "simulation/run/run_scene.hpp"
 
 namespace kinesphere::program {
 namespace {
@@ -24,7 +24,7 @@ Run run_once(const NamedDetector& detector, const Scene& scene) {
   const double begin = cpu_seconds();
   std::optional<double> start;
   // Counters and times are read at the start, when all bodies are in, and at the end, before destruction.
-  SimulationObserver observer;
+  SceneObserver observer;
   observer.frame_interval = scene.end_time - scene.world.start_time;
   observer.on_frame = [&](const Detector& watching, const Motion&, double) {
     const double now = cpu_seconds();
@@ -36,7 +36,7 @@ Run run_once(const NamedDetector& detector, const Scene& scene) {
     run.prepared = watching.counters();
     start = cpu_seconds();
   };
-  run.result = require(simulate(scene, detector.make, observer));
+  run.result = require(run_scene(scene, detector.make, observer));
   return run;
 }
 
@@ -137,13 +137,13 @@ SceneParameters second_experiment(std::uint32_t bodies, double seconds) {
 
 ContactCounts count_contacts(const Scene& scene, const DetectorMaker& make) {
   ContactCounts counts;
-  SimulationObserver observer;
+  SceneObserver observer;
   observer.on_event = [&](const Event& event) {
     if (event.kind != EventKind::contact_begin && event.kind != EventKind::wall_begin) return;
     const BodyId second = event.second == no_body ? event.first : event.second;
     ++counts[{event.first.index, second.index, event.wall}];
   };
-  require(simulate(scene, make, observer));
+  require(run_scene(scene, make, observer));
   return counts;
 }
 

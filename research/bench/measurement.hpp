@@ -11,7 +11,7 @@
 #include "research/rivals/rivals.hpp"
 #include "scenes/named_detector.hpp"
 #include "simulation/detector/detector.hpp"
-#include "simulation/run/simulate.hpp"
+#include "simulation/run/run_scene.hpp"
 #include "simulation/scene/make_scene.hpp"
 #include "simulation/scene/scene.hpp"
 
@@ -30,7 +30,7 @@ double cpu_seconds();
 
 /// One simulation, in CPU time of this process.
 struct Run {
-  SimulationResult result;
+  SceneResult result;
   double preparing = 0.0;     ///< seconds until all bodies are in and the clock stands at the start
   double simulating = 0.0;    ///< seconds from there to the end
   DetectorCounters prepared;  ///< counters when the clock began to move
@@ -57,7 +57,7 @@ struct Series {
   Spread spread() const;     ///< spread over the runs (seconds per simulated second)
   double preparing() const;  ///< median over the runs
   /// Returns the result of the first run, which is that of the first scene.
-  const SimulationResult& result() const { return runs.front().result; }
+  const SceneResult& result() const { return runs.front().result; }
   std::uint64_t contacts() const;  ///< contacts of bodies and walls, in the first run
   std::string hash() const;        ///< event hash of the first run
 };

@@ -33,10 +33,10 @@ constexpr double rounding = 1e-9;
 constexpr double monitor_tolerance = 1e-3;
 
 RecordedSky sky_of(const MonitoringOptions& options) {
-  const Recording recording = read_tracks(options.files, options.reading);
+  const TrackSet track_set = read_tracks(options.files, options.reading);
   std::vector<Track> tracks;
-  for (const RecordedTrack& track : recording.tracks) tracks.push_back(track.samples);
-  return require(RecordedSky::create(tracks, recording.is_plane ? 2 : 3));
+  for (const RecordedTrack& track : track_set.tracks) tracks.push_back(track.samples);
+  return require(RecordedSky::create(tracks, track_set.is_plane ? 2 : 3));
 }
 
 void add_certainty(ResultTable& table, const RecordedSky& sky, const MonitoringOptions& options,

@@ -120,12 +120,12 @@ double hard_sphere_collision_rate(double packing) {
 
 Result<GasProperties> measure_gas(const Scene& scene, const DetectorMaker& make, const GasBlocks& blocks) {
   Gauge gauge;
-  SimulationObserver observer;
+  SceneObserver observer;
   observer.on_event = [&](const Event& event) { gauge.count(event); };
   observer.on_frame = [&](const Detector&, const Motion& motion, double time) { gauge.mark(motion, time); };
   observer.frame_interval =
       (scene.end_time - scene.world.start_time) / static_cast<double>(blocks.equilibration + blocks.measured);
-  auto result = simulate(scene, make, observer);
+  auto result = run_scene(scene, make, observer);
   if (!result) return result.error();
   GasProperties properties = properties_of(scene, gauge, blocks);
   properties.result = *result;

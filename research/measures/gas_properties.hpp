@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "simulation/detector/detector.hpp"
-#include "simulation/run/simulate.hpp"
+#include "simulation/run/run_scene.hpp"
 #include "simulation/scene/scene.hpp"
 
 namespace kinesphere {
@@ -34,7 +34,7 @@ struct GasProperties {
   double energy_change = 0.0;  ///< largest change since the start, as a part of the energy
   /// Largest change of the total momentum since the start, in units of N m sqrt(kT / m).
   double momentum_change = 0.0;
-  SimulationResult result;  ///< result of the whole run
+  SceneResult result;  ///< result of the whole run
 };
 
 /// Division of the time of a scene into blocks of one length.
@@ -43,7 +43,7 @@ struct GasBlocks {
   int measured = 20;
 };
 
-/// Runs a scene and measures its gas; errors are those of simulate(). The result differs from an infinite
+/// Runs a scene and measures its gas; errors are those of run_scene(). The result differs from an infinite
 /// system by about 1 / N. Precondition: at least two equal spheres are there from the start to the end, fly
 /// freely and bounce without loss, in space that is periodic on all axes; two or more blocks are measured.
 Result<GasProperties> measure_gas(const Scene& scene, const DetectorMaker& make,

@@ -5,7 +5,7 @@
 
 #include "kinesphere/random.hpp"
 #include "simulation/oracle/oracle.hpp"
-#include "simulation/run/simulate.hpp"
+#include "simulation/run/run_scene.hpp"
 #include "simulation/tracks/approaches.hpp"
 #include "simulation/tracks/scene_of_tracks.hpp"
 
@@ -102,8 +102,8 @@ Result<std::map<TrackPair, std::vector<Span>>> RecordedSky::within(double distan
   Result<Scene> scene = scene_of_tracks(tracks_, distance, Interpolation::spline);
   if (!scene) return scene.error();
   std::vector<Event> events;
-  const SimulationObserver observer{.on_event = [&](const Event& event) { events.push_back(event); }};
-  const auto done = simulate(*scene, make_oracle, observer);
+  const SceneObserver observer{.on_event = [&](const Event& event) { events.push_back(event); }};
+  const auto done = run_scene(*scene, make_oracle, observer);
   if (!done) return done.error();
   std::map<TrackPair, std::vector<Span>> spans;
   for (const Approach& approach : approaches_in(*scene, events)) {

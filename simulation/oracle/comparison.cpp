@@ -256,9 +256,9 @@ Result<ContactComparison> compare_with_oracle(const Scene& scene, const std::vec
 
 Result<ContactComparison> verify(const Scene& scene, const DetectorMaker& make) {
   std::vector<Event> events;
-  SimulationObserver observer;
+  SceneObserver observer;
   observer.on_event = [&](const Event& event) { events.push_back(event); };
-  if (auto result = simulate(scene, make, observer); !result) return result.error();
+  if (auto result = run_scene(scene, make, observer); !result) return result.error();
   return compare_with_oracle(scene, events);
 }
 

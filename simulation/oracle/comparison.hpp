@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "simulation/detector/detector.hpp"
-#include "simulation/run/simulate.hpp"
+#include "simulation/run/run_scene.hpp"
 #include "simulation/scene/scene.hpp"
 
 namespace kinesphere {
@@ -43,11 +43,11 @@ using ComparisonProgress = std::function<void(double part)>;
 /// bodies do not bounce, as with bounces two correct programs drift apart. Cost: proportional to the pieces
 /// of all trajectories, and to the pairs of bodies that come near each other. Memory: 112 bytes for each
 /// piece, and some for each pair that comes near. Errors: unsupported if bodies bounce, ends are not reported
-/// or space is periodic; not_finite, time_backwards and out_of_range as simulate() and World::add().
+/// or space is periodic; not_finite, time_backwards and out_of_range as run_scene() and World::add().
 Result<ContactComparison> compare_with_oracle(const Scene& scene, const std::vector<Event>& events,
                                               const ComparisonProgress& on_progress = {});
 
-/// Runs the scene under the detector and compares its events with the truth. Errors: as simulate() and
+/// Runs the scene under the detector and compares its events with the truth. Errors: as run_scene() and
 /// compare_with_oracle().
 Result<ContactComparison> verify(const Scene& scene, const DetectorMaker& make);
 

@@ -17,7 +17,7 @@ class FlightRecorder {
   }
 
   Result<Flight> run(const DetectorMaker& make) {
-    SimulationObserver observer;
+    SceneObserver observer;
     observer.on_event = [this](const Event& event) {
       note_contact(event);
       note_path(event.first.index, event.time);
@@ -27,7 +27,7 @@ class FlightRecorder {
       for (std::uint32_t body = 0; body < since_.size(); ++body) note_path(body, scene_.end_time);
       return {};
     };
-    auto result = simulate(
+    auto result = run_scene(
         scene_,
         [&](const WorldDefinition& world, const Motion& motion) {
           motion_ = &motion;

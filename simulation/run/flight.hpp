@@ -7,7 +7,7 @@
 
 #include "kinesphere/motion/trajectory.hpp"
 #include "simulation/detector/detector.hpp"
-#include "simulation/run/simulate.hpp"
+#include "simulation/run/run_scene.hpp"
 #include "simulation/scene/scene.hpp"
 
 namespace kinesphere {
@@ -25,11 +25,11 @@ struct FlightContact {
 struct Flight {
   std::vector<Trajectory> paths;        ///< by body, from the start of the scene to its end
   std::vector<FlightContact> contacts;  ///< sorted by begin
-  SimulationResult result;
+  SceneResult result;
 };
 
 /// Runs the scene under the detector and records the paths, piece by piece from event to event. Errors: as
-/// simulate().
+/// run_scene().
 Result<Flight> record_flight(const Scene& scene, const DetectorMaker& make);
 
 }  // namespace kinesphere

@@ -13,18 +13,21 @@
 
 namespace kinesphere {
 
-/// A certificate that nothing changes between two bodies, or between a body and the walls or its window,
-/// before failure_time. The certificate is stale once the revision of one of its bodies differs.
+/// A certificate that nothing changes between two bodies, or between a body and the walls or its window, or
+/// that a track is not silent for too long, before failure_time. The certificate is stale once the revision
+/// of one of its bodies differs.
 struct PairCertificate {
-  /// What a certificate is about besides its first body: a second body, the walls, or the end of its window.
-  enum class Kind { pair, with_walls, window_end };
-  /// Values of `second` that stand for the walls and for the end of a window.
+  /// What a certificate is about besides its first body: a second body, the walls, the end of its window, or
+  /// the silence of a track.
+  enum class Kind { pair, with_walls, window_end, silence };
+  /// Values of `second` that stand for the other kinds. No body has a number this large.
   static constexpr std::uint32_t walls = std::numeric_limits<std::uint32_t>::max();
   static constexpr std::uint32_t window_end = walls - 1;
-  bool has_second() const { return kind() == Kind::pair; }
+  static constexpr std::uint32_t silence = walls - 2;
+  bool has_second() const { return second < silence; }
   Kind kind() const {
-    if (second < window_end) return Kind::pair;
-    return second == walls ? Kind::with_walls : Kind::window_end;
+    if (has_second()) return Kind::pair;
+    return second == walls ? Kind::with_walls : second == window_end ? Kind::window_end : Kind::silence;
   }
 
   double failure_time = 0.0;
@@ -54,7 +57,7 @@ class CertificateOrder {
 
  private:
   std::uint32_t of(std::uint32_t number) const {
-    return number < PairCertificate::window_end ? (*names_)[number] : number;
+    return number < PairCertificate::silence ? (*names_)[number] : number;
   }
 
   const std::vector<std::uint32_t>* names_ = nullptr;

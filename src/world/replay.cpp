@@ -133,7 +133,7 @@ class Replay::Player {
 
   void repeat(const step::Asking& recorded) {
     step::Asking found;
-    rotations_.start(recorded.rotations);
+    rotations_.start(recorded.rotations, recorded.failed);
     RecordedProbe probe(recorded.answers);
     std::string refused;
     if (recorded.until) {
@@ -189,13 +189,17 @@ class Replay::Player {
   /// Returns the recorded rotations of a call while the questions match the recording.
   class RecordedRotations {
    public:
-    void start(const std::vector<step::RotationAnswer>& answers) {
+    /// `fails`: the recorded call failed after these answers.
+    void start(const std::vector<step::RotationAnswer>& answers, bool fails) {
       answers_ = answers;
+      fails_ = fails;
       differs_ = false;
     }
     /// Leaves the rotations invalid, which makes the asking call fail, from the first question on that
-    /// differs.
+    /// differs. A probe that threw has no question behind it; in its place the replay has states that are
+    /// refused, after one.
     void operator()(std::span<const BodyId> ids, double time, std::span<Rotation> rotations) {
+      if (fails_ && answers_.empty()) return;
       for (std::size_t k = 0; k < ids.size() && !differs_; ++k) {
         differs_ =
             answers_.empty() || answers_.front().body != ids[k] || !same_bits(answers_.front().time, time);
@@ -209,6 +213,7 @@ class Replay::Player {
 
    private:
     std::span<const step::RotationAnswer> answers_;
+    bool fails_ = false;
     bool differs_ = false;
   };
 

@@ -406,7 +406,7 @@ class TracksOfRecording : public ProgramTest,
                           public ::testing::WithParamInterface<std::pair<const char*, const char*>> {};
 
 TEST_P(TracksOfRecording, AgreesWithTheOracle) {
-  const std::string file = recording(GetParam().first);
+  const std::string file = recorded_file(GetParam().first);
   if (file.empty()) GTEST_SKIP() << "no recording " << GetParam().first << " (see KINESPHERE_DATA)";
   const std::string format = file.find("obsmat") == std::string::npos ? "" : " --format ucy";
   const ProgramRun result = run("tracks '" + file + "' --verify --distance " + GetParam().second + format);

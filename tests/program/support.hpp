@@ -100,8 +100,8 @@ class ProgramTest : public FolderTest {
   }
 };
 
-/// Returns the path of a recording outside the project; empty if it does not exist.
-inline std::string recording(const std::string& name) {
+/// Returns the path of a file of recorded tracks outside the project; empty if it does not exist.
+inline std::string recorded_file(const std::string& name) {
   const char* folder = std::getenv("KINESPHERE_DATA");
   const auto path = std::filesystem::path(folder != nullptr ? folder : KINESPHERE_DEFAULT_DATA) / name;
   return std::filesystem::exists(path) ? path.string() : "";

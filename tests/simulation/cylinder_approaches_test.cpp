@@ -9,7 +9,7 @@
 
 #include "kinesphere/random.hpp"
 #include "simulation/detector/detector.hpp"
-#include "simulation/run/simulate.hpp"
+#include "simulation/run/run_scene.hpp"
 #include "simulation/tracks/scene_of_tracks.hpp"
 
 namespace kinesphere::cylinder_approaches_test {
@@ -25,9 +25,9 @@ std::vector<Approach> enclosing(std::vector<Track> tracks, const CylinderLimits&
   scene->world.contact_tolerance = 1e-6;
   scene->world.contacts = ContactEvents::begin_and_end;
   std::vector<Event> events;
-  SimulationObserver observer;
+  SceneObserver observer;
   observer.on_event = [&](const Event& event) { events.push_back(event); };
-  EXPECT_TRUE(simulate(*scene, make_world_detector, observer));
+  EXPECT_TRUE(run_scene(*scene, make_world_detector, observer));
   return approaches_in(*scene, events);
 }
 

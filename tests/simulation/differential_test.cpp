@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "simulation/run/simulate.hpp"
+#include "simulation/run/run_scene.hpp"
 #include "support/differential_checks.hpp"
 
 namespace kinesphere::scene_tests::differential_test {
@@ -64,7 +64,7 @@ TEST(DifferentialFamilies, have_contacts) {
     const Family family{index};
     std::uint64_t contacts = 0;
     for (std::uint64_t seed = 0; seed < scenes_per_family; ++seed)
-      contacts += simulate(differential_scene(family, seed), make_world_detector)
+      contacts += run_scene(differential_scene(family, seed), make_world_detector)
                       .value()
                       .counters.count(EventKind::contact_begin);
     EXPECT_GE(contacts, 30u) << name_of(family);

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "simulation/detector/detector.hpp"
-#include "simulation/run/simulate.hpp"
+#include "simulation/run/run_scene.hpp"
 #include "simulation/scene/make_scene.hpp"
 #include "simulation/scene/scene.hpp"
 
@@ -79,7 +79,7 @@ TEST(PeriodicScene, IsRunWithoutEverMeetingAWall) {
   SceneParameters gas = built_in("periodic_gas");
   gas.bodies = 200;
   gas.seconds = 2.0;
-  const SimulationResult result = simulate(make_scene(gas).value(), make_world_detector).value();
+  const SceneResult result = run_scene(make_scene(gas).value(), make_world_detector).value();
   EXPECT_EQ(result.counters.count(EventKind::wall_begin), 0u);
   EXPECT_GT(result.counters.count(EventKind::contact_begin), 500u);
 }

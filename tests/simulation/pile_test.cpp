@@ -28,8 +28,8 @@ double late_energy(const PileWatch& watch, double seconds) {
   return sum / count;
 }
 
-SimulationResult watched(PileWatch& watch, const Scene& scene) {
-  return simulate(scene, watch.watching(make_world_detector), watch.observer(0.02)).value();
+SceneResult watched(PileWatch& watch, const Scene& scene) {
+  return run_scene(scene, watch.watching(make_world_detector), watch.observer(0.02)).value();
 }
 
 TEST(Pile, ThousandSpheresSettleIn20Seconds) {
@@ -39,7 +39,7 @@ TEST(Pile, ThousandSpheresSettleIn20Seconds) {
   ASSERT_EQ(parameters.seconds, 20.0);
   const Scene scene = make_scene(parameters).value();
   PileWatch watch(scene);
-  const SimulationResult result = watched(watch, scene);
+  const SceneResult result = watched(watch, scene);
   EXPECT_EQ(watch.frames().back().time, 20.0);
   EXPECT_EQ(watch.guards(), 0u);
   EXPECT_GE(watch.least_gap(), -scene.world.contact_tolerance * (1.0 + 1.0 / 16.0));
@@ -68,7 +68,7 @@ TEST_P(SmallPile, KeepsItsDistances) {
   parameters.contact_tolerance = GetParam().tolerance;
   const Scene scene = make_scene(parameters).value();
   PileWatch watch(scene);
-  const SimulationResult result = watched(watch, scene);
+  const SceneResult result = watched(watch, scene);
   EXPECT_EQ(watch.frames().back().time, 5.0);
   EXPECT_EQ(result.counters.count(EventKind::zeno_guard), 0u);
   EXPECT_GE(watch.least_gap(), -scene.world.contact_tolerance * (1.0 + 1.0 / 16.0));

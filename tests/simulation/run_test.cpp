@@ -14,8 +14,8 @@
 #include "kinesphere/workers.hpp"
 #include "simulation/detector/detector.hpp"
 #include "simulation/oracle/oracle.hpp"
-#include "simulation/run/recorded_simulation.hpp"
-#include "simulation/run/simulate.hpp"
+#include "simulation/run/recorded_scene.hpp"
+#include "simulation/run/run_scene.hpp"
 #include "simulation/scene/make_scene.hpp"
 #include "support/eager_workers.hpp"
 #include "support/expect_error.hpp"
@@ -83,7 +83,7 @@ std::vector<Scene> dense_scenes() {
 }
 
 /// What does not depend on how many threads there are: all but how many searches look at.
-std::string outcome_of(const SimulationResult& result) {
+std::string outcome_of(const SceneResult& result) {
   const Counters& counters = result.counters;
   std::ostringstream text;
   text << std::hex << result.contact_hash << std::dec << " events";
@@ -107,11 +107,11 @@ INSTANTIATE_TEST_SUITE_P(Long, RunScenes, testing::Values(std::vector{2, 8}));
 
 void RunScenes::expect_runs_as_loops(const std::vector<Scene>& scenes) const {
   for (const Scene& scene : scenes) {
-    const SimulationResult looped = simulate(scene, make_world_detector).value();
+    const SceneResult looped = run_scene(scene, make_world_detector).value();
     EXPECT_GT(looped.counters.probes, 500u) << scene.name;
     for (const int threads : GetParam()) {
       Workers workers = eager_workers(threads).value();
-      EXPECT_EQ(outcome_of(simulate(scene, make_world_detector, {}, &workers).value()), outcome_of(looped))
+      EXPECT_EQ(outcome_of(run_scene(scene, make_world_detector, {}, &workers).value()), outcome_of(looped))
           << scene.name << " with " << threads << " threads";
     }
   }
@@ -126,13 +126,13 @@ TEST_P(RunScenes, CanBeRecorded) {
     Workers workers = eager_workers(threads).value();
     const Scene scene = coming_and_going();
     std::vector<std::byte> recording;
-    SimulationObserver observer;
+    SceneObserver observer;
     observer.at_start = [](Detector& detector) { return detector.start_recording(); };
     observer.at_end = [&](Detector& detector) -> Result<void> {
       recording = detector.stop_recording().value();
       return {};
     };
-    const SimulationResult run = simulate(scene, make_world_detector, observer, &workers).value();
+    const SceneResult run = run_scene(scene, make_world_detector, observer, &workers).value();
     EXPECT_EQ(replay(recording).value().contact_hash, run.contact_hash) << threads << " threads";
   }
 }
@@ -140,7 +140,7 @@ TEST_P(RunScenes, CanBeRecorded) {
 TEST(RunScenesWithoutAWay, AreRefused) {
   Workers workers = eager_workers(1).value();
   Scene scene = coming_and_going();
-  expect_error(simulate(scene, make_oracle, {}, &workers), ErrorCode::unsupported, "detector", "run:");
+  expect_error(run_scene(scene, make_oracle, {}, &workers), ErrorCode::unsupported, "detector", "run:");
   std::vector<Track> tracks;
   Random random(3);
   for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
@@ -149,8 +149,8 @@ TEST(RunScenesWithoutAWay, AreRefused) {
   }
   scene.turns.clear();
   scene.motion = std::make_unique<RecordedTracks>(RecordedTracks::create(tracks).value());
-  const auto looped = simulate(scene, make_world_detector);
-  const auto run = simulate(scene, make_world_detector, {}, &workers);
+  const auto looped = run_scene(scene, make_world_detector);
+  const auto run = run_scene(scene, make_world_detector, {}, &workers);
   ASSERT_FALSE(looped);
   expect_error(run, ErrorCode::unsupported, "response", "simulate:", looped.error().body);
 }

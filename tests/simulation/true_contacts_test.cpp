@@ -75,14 +75,14 @@ TEST(TrueContacts, are_the_same_to_the_last_bit_in_spans_and_all_the_time) {
 /// As the oracle counts: a contact that lasts has no end.
 std::map<Pair, std::vector<ContactInterval>> told_by_oracle(const Scene& scene) {
   std::map<Pair, std::vector<ContactInterval>> contacts;
-  SimulationObserver observer;
+  SceneObserver observer;
   observer.on_event = [&](const Event& event) {
     if (event.already_touching) return;
     auto& of_pair = contacts[std::minmax(event.first.index, event.second.index)];
     if (event.kind == EventKind::contact_begin) of_pair.push_back({.begin = event.time});
     if (event.kind == EventKind::contact_end) of_pair.back().end = event.time;
   };
-  EXPECT_TRUE(simulate(scene, make_oracle, observer));
+  EXPECT_TRUE(run_scene(scene, make_oracle, observer));
   return contacts;
 }
 
@@ -199,11 +199,11 @@ Scene many_short_tracks(std::uint32_t count) {
 TEST(Comparison, of_many_short_tracks_takes_no_time_for_each_pair) {
   const Scene scene = many_short_tracks(4000);
   std::vector<Event> events;
-  SimulationObserver observer;
+  SceneObserver observer;
   observer.on_event = [&](const Event& event) {
     if (!event.already_touching) events.push_back(event);
   };
-  ASSERT_TRUE(simulate(scene, make_world_detector, observer));
+  ASSERT_TRUE(run_scene(scene, make_world_detector, observer));
   EXPECT_GT(events.size(), 100u);
   const std::clock_t begin = std::clock();
   const ContactComparison comparison = compare_with_oracle(scene, events).value();

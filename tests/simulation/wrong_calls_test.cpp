@@ -10,7 +10,7 @@
 #include "number/infinity.hpp"
 #include "simulation/detector/detector.hpp"
 #include "simulation/oracle/comparison.hpp"
-#include "simulation/run/simulate.hpp"
+#include "simulation/run/run_scene.hpp"
 #include "simulation/scene/make_scene.hpp"
 #include "simulation/scene/scene.hpp"
 #include "support/expect_error.hpp"
@@ -62,13 +62,13 @@ Scene meeting() {
 
 TEST(WrongScene, IsNotRun) {
   const auto refused = [](const Scene& scene, ErrorCode code, const std::string& argument) {
-    const auto result = simulate(scene, make_world_detector);
+    const auto result = run_scene(scene, make_world_detector);
     ASSERT_FALSE(result) << argument;
     EXPECT_EQ(result.error().code, code) << result.error().message;
     EXPECT_EQ(result.error().argument, argument) << result.error().message;
     EXPECT_EQ(verify(scene, make_world_detector).error().message, result.error().message);
   };
-  ASSERT_TRUE(simulate(meeting(), make_world_detector));
+  ASSERT_TRUE(run_scene(meeting(), make_world_detector));
   Scene scene = meeting();
   scene.world.contact_tolerance = 0.0;
   refused(scene, ErrorCode::out_of_range, "contact_tolerance");
@@ -97,7 +97,7 @@ TEST(WrongScene, IsNotRun) {
 
 TEST(WrongScene, IsNotShownWithoutEnd) {
   for (const double bad : {0.0, -1.0, nan}) {
-    const auto result = simulate(meeting(), make_world_detector, {.frame_interval = bad});
+    const auto result = run_scene(meeting(), make_world_detector, {.frame_interval = bad});
     expect_error(result, ErrorCode::out_of_range, "frame_interval", "simulate:");
   }
 }
@@ -107,9 +107,9 @@ TEST(WrongScene, OfARecordingDoesNotBounce) {
   scene.motion = std::make_unique<RecordedTracks>(
       RecordedTracks::create({{{0.0, {-3, 0, 0}}, {10.0, {7, 0, 0}}}, {{0.0, {3, 0, 0}}, {10.0, {-7, 0, 0}}}})
           .value());
-  ASSERT_TRUE(simulate(scene, make_world_detector));
+  ASSERT_TRUE(run_scene(scene, make_world_detector));
   scene.response = SceneResponse::bounce;
-  const auto result = simulate(scene, make_world_detector);
+  const auto result = run_scene(scene, make_world_detector);
   expect_error(result, ErrorCode::unsupported, "response", "simulate:", {0, 0});
 }
 

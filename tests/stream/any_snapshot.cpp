@@ -23,11 +23,7 @@ void restore_and_use(const Snapshot& snapshot, std::uint64_t seed) {
 
 /// Returns the snapshot of a world in use.
 Snapshot snapshot_of_stream(std::uint64_t seed) {
-  Bytes stream = random_stream(seed, 40);
-  stream[1] = 9;  // at most 12 bodies
-  Player player(kind_of(stream));
-  for (const Operation& operation : operations_of(stream)) player.perform(operation);
-  return player.world().save().value();
+  return snapshot_after(with_bodies(random_stream(seed, 40), 8));
 }
 
 void edit(Snapshot& snapshot, std::span<const std::uint8_t> edit) {

@@ -46,7 +46,7 @@ TEST(Corpus, OfStreamsAgreesWithTheTruth) {
     const Bytes bytes = bytes_of(file);
     const Played played = play(bytes);
     EXPECT_FALSE(played.failure) << file << "\n" << story_of(bytes);
-    events += played.events;
+    events += played.tally.events;
   }
   EXPECT_GT(events, 100u);
 }

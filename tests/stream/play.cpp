@@ -8,59 +8,59 @@
 namespace kinesphere::stream {
 
 Played play(std::span<const std::uint8_t> bytes) {
-  Player player(kind_of(bytes));
   Played played;
+  std::optional<Player> player;
   try {
+    player.emplace(scenario_of(bytes));
     for (const Operation& operation : operations_of(bytes)) {
       ++played.operations;
-      player.perform(operation);
+      player->perform(operation);
     }
-  } catch (const std::runtime_error& error) {
-    played.failure = Failure{played.operations - 1, error.what()};
+    player->finish();
+  } catch (const CutShort&) {
+    played.cut_short = true;
+  } catch (const std::exception& error) {
+    played.failure = error.what();
   }
-  played.events = player.events();
+  if (player) {
+    played.tally = player->tally();
+    played.story = player->story();
+  }
   return played;
 }
 
+std::vector<std::byte> snapshot_after(std::span<const std::uint8_t> bytes) {
+  Player player(scenario_of(bytes));
+  try {
+    for (const Operation& operation : operations_of(bytes)) player.perform(operation);
+  } catch (const CutShort&) {
+  }
+  return player.world().save().value();
+}
+
 Bytes shrunk(Bytes bytes) {
-  auto played = play(bytes);
-  if (!played.failure) return bytes;
-  const std::size_t all = operations_of(bytes).size();
-  bytes = without(bytes, played.failure->operation + 1, all);
-  for (int fewer = 0; bytes.size() > 3 && fewer < 2 * bytes[3]; ++fewer) {
-    Bytes rest = bytes;
-    rest[3] = static_cast<std::uint8_t>(fewer);
-    if (play(rest).failure) bytes = rest;
-  }
+  const auto try_instead = [&](const Bytes& smaller) {
+    const Played played = play(smaller);
+    if (played.failure) bytes = without(smaller, played.operations, operations_of(smaller).size());
+    return played.failure.has_value();
+  };
+  if (!try_instead(bytes)) return bytes;
+  for (std::size_t k = 0; k < features().size(); ++k)
+    if (scenario_of(bytes).*features()[k].is_on) try_instead(without_feature(bytes, k));
+  for (const int most : {1, 2, 3, 5, 8, 12})
+    if (scenario_of(bytes).bodies > most && try_instead(with_bodies(bytes, most))) break;
   // Removes ever smaller pieces, as long as the rest still fails.
-  for (std::size_t length = operations_of(bytes).size() / 2; length > 0; length /= 2) {
-    for (bool shorter = true; shorter;) {
-      shorter = false;
-      for (std::size_t from = 0; from < operations_of(bytes).size();) {
-        Bytes rest = without(bytes, from, from + length);
-        played = play(rest);
-        if (!played.failure) {
-          from += length;
-          continue;
-        }
-        bytes = without(rest, played.failure->operation + 1, all);
-        shorter = true;
-      }
-      if (length > 1) break;
-    }
-  }
+  for (std::size_t length = operations_of(bytes).size() / 2; length > 0; length /= 2)
+    for (std::size_t from = 0; from < operations_of(bytes).size();)
+      if (!try_instead(without(bytes, from, from + length))) from += length;
   return bytes;
 }
 
 std::string story_of(std::span<const std::uint8_t> bytes) {
   const Played played = play(bytes);
   std::ostringstream story;
-  if (played.failure)
-    story << "operation " << played.failure->operation << ": " << played.failure->what << "\n";
-  const std::vector<Operation> operations = operations_of(bytes);
-  for (std::size_t k = 0; k < std::min<std::size_t>(operations.size(), 100); ++k)
-    story << "  " << Player::name_of(operations[k]) << " (body " << int{operations[k].body()} << ")\n";
-  story << "bytes" << std::hex << std::setfill('0');
+  story << "operation " << played.operations << ": " << played.failure.value_or("no failure") << "\n"
+        << scenario_of(bytes).text() << played.story << "\nbytes" << std::hex << std::setfill('0');
   for (const std::uint8_t byte : bytes.first(std::min<std::size_t>(bytes.size(), 1204)))
     story << " " << std::setw(2) << int{byte};
   return story.str();

@@ -1,55 +1,66 @@
-// Plays a stream: time, events, and the checks after each operation.
 #include "stream/player.hpp"
-#include "kinesphere/inspection.hpp"
 
 #include <algorithm>
-#include <type_traits>
+#include <sstream>
 #include <utility>
 
-#include "stream/on_world.hpp"
+#include "contact/contact_event.hpp"
+#include "kinesphere/inspection.hpp"
+#include "kinesphere/recording.hpp"
 
 namespace kinesphere::stream {
 
-const std::array<Player::Kind, 29> Player::kinds{{
-    {"advance", 58, &Player::advance},
-    {"run", 6, &Player::run},
+/// The weights sum up to 256. The first ones are no changes of the world.
+const std::array<Player::Kind, 32> Player::kinds{{
+    {"run", 8, &Player::run},
+    {"advance", 46, &Player::advance},
     {"advance to the next event", 22, &Player::advance_to_next},
     {"advance with a bad probe", 4, &Player::advance_with_bad_probe},
-    {"add", 16, &Player::add},
-    {"add_all", 3, &Player::add_all},
-    {"remove", 8, &Player::remove},
-    {"remove_all", 2, &Player::remove_all},
-    {"set_velocity", 18, &Player::set_velocity},
-    {"steer", 12, &Player::steer},
-    {"teleport", 8, &Player::teleport},
-    {"nudge", 12, &Player::nudge},
-    {"set_radius", 10, &Player::set_radius},
-    {"set_motion_limits", 8, &Player::set_motion_limits},
-    {"set_filter", 8, &Player::set_filter},
-    {"set_pair_filter", 2, &Player::set_pair_filter},
-    {"refresh_filter", 6, &Player::haunt},
-    {"set_solid", 3, &Player::set_solid},
-    {"set_sensor", 4, &Player::set_sensor},
-    {"set_sensor_class", 4, &Player::set_sensor_class},
-    {"add_static", 4, &Player::add_static},
-    {"set_user_data", 2, &Player::set_user_data},
-    {"disable", 6, &Player::turn_off},
-    {"enable", 9, &Player::turn_on},
-    {"restore or clone", 9, &Player::restore},
-    {"ask", 6, &Player::ask},
+    {"sprint", 2, &Player::sprint},
+    {"replay", 3, &Player::replay},
+    {"save or clone", 6, &Player::send_back},
+    {"ask", 10, &Player::ask},
     {"call wrongly", 2, &Player::call_wrongly},
-    {"rest", 3, &Player::rest},
-    {"wake", 1, &Player::wake},
+    {"add", 14, &Player::come},
+    {"add_all", 2, &Player::come_together},
+    {"build", 4, &Player::build},
+    {"remove", 6, &Player::remove},
+    {"remove some", 2, &Player::remove_some},
+    {"set_velocity", 23, &Player::set_velocity},
+    {"teleport", 8, &Player::teleport},
+    {"nudge", 10, &Player::nudge},
+    {"disable or enable", 14, &Player::switch_on_or_off},
+    {"radius", 8, &Player::set_radius},
+    {"radius_rate", 6, &Player::set_radius_rate},
+    {"motion_limits", 7, &Player::set_limits},
+    {"filter", 6, &Player::set_filter},
+    {"set_pair_filter", 2, &Player::set_pair_filter},
+    {"refresh_filter", 4, &Player::haunt},
+    {"solid", 4, &Player::set_solid},
+    {"set_sensor", 4, &Player::set_sensor},
+    {"sensor_class", 4, &Player::set_sensor_class},
+    {"user_data", 1, &Player::set_user_data},
+    {"angular_velocity", 5, &Player::set_spin},
+    {"rotation", 5, &Player::set_rotation},
+    {"sleep or wake", 8, &Player::sleep_or_wake},
+    {"set_shape", 6, &Player::set_shape},
 }};
 
 namespace {
+
+constexpr unsigned first_change = 103;
+
+/// So many events make a step of a crowd too long.
+constexpr std::size_t most_events_of_a_step = 4'000;
+
+/// So many probes make a scenario too long: of hulls that turn deep inside each other, for example.
+constexpr std::size_t most_probes = 100'000;
 
 /// Thrown by a probe that has no answer.
 struct NoAnswer {};
 
 }  // namespace
 
-/// The weights sum up to 256.
 const Player::Kind& Player::kind_of(std::uint8_t code) {
   int rest = code;
   for (const Kind& kind : kinds) {
@@ -59,224 +70,328 @@ const Player::Kind& Player::kind_of(std::uint8_t code) {
   return kinds.back();
 }
 
-const char* Player::name_of(const Operation& operation) { return kind_of(operation.code()).name; }
-
-Player::Player(const WorldKind& kind)
-    : kind_(kind),
-      truth_(kind.definition),
-      told_(kind.definition, truth_),
-      world_(World::create(kind.definition).value()),
-      asked_at_(kind.definition.start_time) {
+Player::Player(const Scenario& scenario)
+    : truth_(scenario), world_(World::create(scenario.definition()).value()), draw_(scenario) {
   give_rotation_probe(world_);
-  Random random(kind.first_bodies);
-  for (int k = 0; k < 2 * sensor_classes; ++k) set_sensor(random_operation(random));
-  for (int k = 0; k < 3; ++k) add_static(random_operation(random));
-  for (std::size_t k = 0; k < kind.first_bodies; ++k) add(random_operation(random));
+  if (scenario.recorded) world_.start_recording().value();
+  set_sensor();
+  for (int k = 0; k < scenario.bodies; ++k) come();
+  for (int k = 0; k < 3 && scenario.statics; ++k) build(false);
+  for (int k = 0; k < 2 && scenario.zones; ++k) build(true);
+  for (int k = 0; k < 3 && scenario.carried; ++k) carry();
 }
 
 void Player::perform(const Operation& operation) {
-  (this->*kind_of(operation.code()).perform)(operation);
-  check_all();
-  if (const auto id = any(operation); id && kind_.sensors) told_.check_account(world_, *id);
+  chosen_ = operation.body();
+  draw_.start(operation.random());
+  (this->*kind_of(operation.code()).perform)();
+  check_world();
 }
 
-/// Runs the world's audit, and checks its account of the bodies.
-void Player::check_all() const {
+void Player::perform_any_change() {
+  const auto code = first_change + draw_.below(256 - first_change);
+  (this->*kind_of(static_cast<std::uint8_t>(code)).perform)();
+}
+
+void Player::finish() { replay(); }
+
+/// Returns the body of the present operation; null if there is none.
+Thing* Player::thing() {
+  const std::vector<BodyId> ids = world_.bodies();
+  return ids.empty() ? nullptr : &truth_.at(ids[chosen_ % ids.size()]);
+}
+
+/// Returns the body of the present operation if it can move now.
+Thing* Player::moving_thing() {
+  Thing* const thing = this->thing();
+  return thing && thing->enabled && thing->moves() ? thing : nullptr;
+}
+
+// What holds after each operation.
+
+void Player::check_world() {
   if (const auto finding = world_.inspection().audit())
     throw Disagreement("audit: " + finding->where + ": " + finding->what);
-  const std::vector<BodyId> ids = truth_.ids();
-  require(world_.time() == truth_.time(), "the time is not the one that was requested");
-  require(world_.size() == ids.size() && world_.bodies() == ids, "other bodies than were added");
-  for (const BodyId id : ids) check_body(id);
+  check_awake();
+  require(world_.time() == now(), "the time is not the one that was requested");
+  std::vector<BodyId> alive;
+  for (const Thing& thing : truth_.things) {
+    if (!thing.alive) continue;
+    alive.push_back(thing.id);
+    check_body(thing);
+  }
+  require(world_.bodies() == alive, "other bodies than were added");
   for (const BodyId id : removed_) require(!world_.contains(id), "a removed body is still there");
 }
 
-void Player::check_body(BodyId id) const {
-  const BodyView view = world_.body(id).value();
-  const TrueBody& body = truth_.at(id);
+void Player::check_body(const Thing& thing) const {
+  const BodyView view = world_.body(thing.id).value();
   const BodyDefinition& found = view.definition;
-  const BodyDefinition& expected = body.definition;
-  require(view.enabled == body.enabled, "enabled and disabled are mixed up");
-  require(view.is_static == body.fixed, "fixed bodies and others are mixed up");
-  require(found.radius == expected.radius && found.filter == expected.filter &&
-              found.solid == expected.solid && found.sensor_class == expected.sensor_class &&
-              found.user_data == expected.user_data &&
+  const BodyDefinition& expected = thing.definition;
+  require(view.enabled == thing.enabled && view.is_static == !thing.moves() &&
+              view.sleeping == thing.sleeping && view.rigid.has_value() == (thing.sort == Sort::rigid),
+          "a body is of another kind, or awake or asleep without a reason");
+  require(found.filter == expected.filter && found.solid == expected.solid &&
+              found.sensor_class == expected.sensor_class && found.user_data == expected.user_data &&
               found.acceleration_limit == expected.acceleration_limit &&
-              found.planned_acceleration == expected.planned_acceleration,
-          "a body's definition is not what was set");
-  require(view.sleeping == body.resting, "a body has come to rest or is awake without a reason");
-  check_rigid(view, body);
-  if (!body.enabled) return;
-  const Vec3 centre = view.bound.centre_at(truth_.time());
-  const Vec3 position = truth_.state(id).position;
-  const Vec3 off = position + truth_.shift_to_nearest(position, centre) - centre;
-  const double margin = view.bound.radius_at(truth_.time()) - expected.radius;
-  require(norm(off) <= margin + 1e-3 * truth_.definition().contact_tolerance + 1e-12,
-          "a body is outside its bound");
+              found.planned_acceleration == expected.planned_acceleration &&
+              (!thing.moves() || found.mass == expected.mass),
+          "the definition of a body is not what was set");
+  if (!thing.present() || !thing.moves()) return;
+  const Vec3 centre = view.bound.centre_at(now());
+  const Vector off = truth_.gaps.nearest_way(thing.path.at(now()), vector(centre));
+  const double radius =
+      thing.sort == Sort::ball ? static_cast<double>(thing.radius.at(now())) : view.definition.radius;
+  const double margin = view.bound.radius_at(now()) - radius + truth_.report_errors({thing.id});
+  require(length(off) <= margin + truth_.slack(), "a body is outside its bound");
 }
 
-std::optional<BodyId> Player::any(const Operation& operation) const {
-  const std::vector<BodyId> ids = truth_.ids();
-  if (ids.empty()) return std::nullopt;
-  return ids[operation.body() % ids.size()];
+// What is told about a failure.
+
+void Player::tell(const std::string& line) {
+  story_.push_back(line);
+  if (story_.size() > 40) story_.pop_front();
 }
 
-std::optional<BodyId> Player::any_moving(const Operation& operation) const {
-  const auto id = any(operation);
-  return id && !truth_.at(*id).fixed ? id : std::nullopt;
+std::string Player::story() const {
+  std::string story;
+  for (const std::string& line : story_) story += "\n  " + line;
+  return story;
 }
 
-/// Returns the operation with another body.
-Operation Player::about(BodyId id, Operation operation) const {
-  const std::vector<BodyId> ids = truth_.ids();
-  const auto place = std::lower_bound(ids.begin(), ids.end(), id);
-  operation.bytes[1] = static_cast<std::uint8_t>(place - ids.begin());
-  return operation;
+void Player::begin_change(const char* name) {
+  befores_.push_back(truth_.things);
+  rounds_ = 3;
+  std::ostringstream line;
+  line.precision(17);
+  line << "at " << now() << ": " << name;
+  tell(line.str());
 }
 
 // Time.
 
-Player::Answers Player::probe() {
+Probe Player::probe() {
   return [this](std::span<const BodyId> ids, double time, std::span<State> states) {
-    require(time >= asked_at_, "a probe goes back in time");
+    require(time >= now(), "a probe goes back in time");
+    if ((probes_ += ids.size()) > most_probes) throw CutShort();
     for (std::size_t k = 0; k < ids.size(); ++k) {
-      require(truth_.is_present(ids[k]), "a probe of a body that is not there");
-      require(!truth_.at(ids[k]).fixed, "a probe of a body that never moves");
-      require(!truth_.at(ids[k]).resting || time == truth_.at(ids[k]).rested_at,
-              "a probe of a body that rests");
-      states[k] = truth_.at(ids[k]).path.front().state_at(time);
+      const Thing& thing = truth_.at(ids[k]);
+      require(thing.id == ids[k] && thing.present() && thing.moves(), "a probe of a body that does not move");
+      require(!thing.sleeping || time == thing.path.since, "a probe of a body that sleeps");
+      states[k] = truth_.report(thing, time);
     }
   };
 }
 
-std::optional<Event> Player::next_event(double until) {
-  auto result = on_world([&](World& world) { return world.advance(until, probe()); });
-  asked_at_ = world_.time();
-  if (!result) throw Disagreement("advance: " + result.error().message);
-  move_on();
-  if (*result) {
-    hear(**result);
-  } else {
-    told_.settle_ends();
-    require(woken_.empty(), "no event reports that a body woke");
-    require(world_.time() == until, "no event, and yet the time is not what was asked for");
-  }
-  return *result;
+void Player::give_rotation_probe(World& world) {
+  if (!scenario().spins) return;
+  const auto probe = [this](std::span<const BodyId> ids, double time, std::span<Rotation> rotations) {
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      require(truth_.at(ids[k]).present() && truth_.at(ids[k]).sort == Sort::rigid,
+              "a rotation of what does not turn");
+      rotations[k] = truth_.at(ids[k]).spin.at(time);
+      auto& [w, x, y, z] = rotations[k].orientation;
+      // Both signs of a quaternion are the same rotation.
+      if (ids[k].index % 2 == 1) rotations[k].orientation = {-w, -x, -y, -z};
+    }
+    if (bad_rotation_) rotations[0] = *std::exchange(bad_rotation_, std::nullopt);
+  };
+  world.set_rotation_probe(probe).value();
 }
 
+/// Moves the truth on to the time of the world, and checks that nothing was left untold until then.
 void Player::move_on() {
-  require(woken_.empty() || world_.time() == truth_.time(), "no event reports in time that a body woke");
-  told_.move_on_to(world_.time());
+  const double time = world_.time();
+  if (time < now()) throw Disagreement("time goes back");
+  if (time == now()) return;
+  require(woken_.empty(), "no event reports in time that a body woke");
+  check_silence(now(), time);
+  befores_.clear();
+  truth_.now = time;
 }
 
-void Player::hear(const Event& event) {
-  ++events_;
-  require(event.time == world_.time(), "an event of another time");
-  if (event.kind == EventKind::woke) return hear_woken(event);
-  check_order(event);
-  told_.hear(event);
-  wake_by(event);
-}
-
-/// Checks that events of one instant come in order. After a change the ends that it caused come first, even
-/// if others came before; then pending events; then events that the changes caused.
-void Player::check_order(const Event& event) {
-  const bool same_instant = last_event_ && last_event_->time == event.time;
-  if (same_instant && !delivered_before(*last_event_, event))
-    require(std::exchange(crossed_, false) || --rounds_ >= 0, "events of one instant in the wrong order");
-  if (!same_instant) crossed_ = false;
-  crossed_ = crossed_ || event.kind == EventKind::sensor_enter || event.kind == EventKind::sensor_leave;
-  last_event_ = event;
-}
-
-void Player::advance(const Operation& operation) {
-  const double length = operation.fraction(0);
-  const double until = world_.time() + (operation.byte(0) % 8 == 0 ? 0.0 : 0.1 * length * length);
-  const int most = operation.byte(1) % 4 == 0 ? 1 : 20;
-  for (int count = 0; count < most; ++count) {
-    const auto event = next_event(until);
-    if (!event) break;
-    answer(*event, operation);
+/// Advances to the next event, and hears it.
+std::optional<Event> Player::next_event(double until) {
+  for (;;) {
+    const auto event = world_.advance(until, probe());
+    move_on();
+    if (!event) {
+      const Error& error = event.error();
+      if (error.argument != "radius" || !world_.contains(error.body)) throw Disagreement(error.message);
+      shrink(error.body);
+      continue;
+    }
+    require(world_.time() == (*event ? (*event)->time : until), "another time than asked for");
+    if (*event)
+      hear(**event);
+    else
+      require(woken_.empty(), "no event reports that a body woke");
+    return *event;
   }
-  send_back();
+}
+
+void Player::advance() {
+  steer();
+  const double duration = times(draw_.uniform(0.0, 0.25));
+  const double until = now() + (draw_.one_in(6) ? 1e-6 * duration : draw_.one_in(12) ? 0.0 : duration);
+  const bool is_short = draw_.one_in(8);
+  for (std::size_t events = 0; events < most_events_of_a_step; ++events) {
+    const auto event = next_event(until);
+    if (!event) return;
+    respond(*event);
+    if (is_short && events > 3) return;
+  }
+  throw CutShort();
 }
 
 /// Stops at the next event, in the middle of its instant.
-void Player::advance_to_next(const Operation& operation) {
-  (void)next_event(world_.time() + 0.1 * operation.fraction(0));
-}
+void Player::advance_to_next() { (void)next_event(now() + times(draw_.uniform(0.0, 0.25))); }
 
-/// Acts as the caller at an event.
-void Player::answer(const Event& event, const Operation& operation) {
-  Random random = operation.random();
-  for (std::size_t k = 0; k < events_ % 16; ++k) (void)random.bits();
-  const auto choice = (random.bits() + operation.byte(2)) % 16;
-  const bool begins = event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
-  if (choice < 9 && begins && event.approach_speed > 0.0) {
-    const Vec3 change = event.normal * ((choice < 5 ? 1.0 : 0.6) * event.approach_speed);
-    const auto moves = [this](BodyId id) { return truth_.is_present(id) && !truth_.at(id).fixed; };
-    const bool alone = !moves(event.first) || !moves(event.second);
-    const auto turn = [&](BodyId id, const Vec3& by) {
-      if (moves(id)) set_velocity(id, truth_.state(id).velocity + (alone ? 2.0 : 1.0) * by);
-    };
-    turn(event.first, -change);
-    turn(event.second, change);
-  } else if (choice > 12) {
-    Operation other = random_operation(random);
-    const BodyId id = choice == 13 || event.second == no_body ? event.first : event.second;
-    if (choice < 15 && truth_.is_alive(id)) other = about(id, other);
-    // Any kind but the first four, which move time on.
-    other.bytes[0] = static_cast<std::uint8_t>(90 + other.bytes[0] % (256 - 90));
-    perform(other);
+void Player::advance_with_bad_probe() {
+  begin_change("a bad probe");
+  std::size_t left = draw_.below(8);
+  const std::size_t kind = draw_.below(3);
+  const std::size_t place = draw_.below(1000);
+  const double wrong = draw_.one_in(2) ? nan : 1e300;
+  const double until = now() + times(draw_.uniform(0.0, 0.1));
+  // A spot check asks for no rotation and leaves a bad one to the next probe.
+  bad_rotation_.reset();
+  const auto bad = [&](std::span<const BodyId> ids, double time, std::span<State> states) {
+    probe()(ids, time, states);
+    if (left-- != 0) return;
+    if (kind == 0) throw NoAnswer();
+    const bool turns =
+        std::ranges::any_of(ids, [this](BodyId id) { return truth_.at(id).sort == Sort::rigid; });
+    if (kind == 1 && turns && scenario().spins)
+      bad_rotation_ = place % 2 == 0 ? Rotation{{wrong, 0, 0, 1}, {}} : Rotation{{}, {0, 0, wrong}};
+    else
+      states[place % states.size()].position.y = wrong;
+  };
+  std::optional<Result<std::optional<Event>>> result;
+  try {
+    result = world_.advance(until, bad);
+  } catch (const NoAnswer&) {
   }
-}
-
-void Player::advance_with_bad_probe(const Operation& operation) {
-  const double until = world_.time() + 0.02 * operation.fraction(0);
-  const auto result = on_world([&](World& world) -> Result<std::optional<Event>> {
-    int left = operation.byte(1) % 8;
-    // A spot check asks for no rotation and leaves a bad one to the next probe.
-    bad_rotation_.reset();
-    const auto bad = [&](std::span<const BodyId> ids, double time, std::span<State> states) {
-      probe()(ids, time, states);
-      if (left-- != 0) return;
-      if (operation.byte(2) % 3 == 0) throw NoAnswer();
-      if (std::any_of(ids.begin(), ids.end(), [this](BodyId id) { return is_rigid(id); })) {
-        const double wrong = operation.byte(2) % 2 == 0 ? nan : 1e300;
-        if (operation.byte(4) % 2 == 0) bad_rotation_ = Rotation{{wrong, 0, 0, 1}, {}};
-        if (operation.byte(4) % 4 == 1) bad_rotation_ = Rotation{{}, {0, 0, wrong}};
-        if (kind_.swings && bad_rotation_) return;
-      }
-      const double wrong = operation.byte(2) % 3 == 1 ? std::numeric_limits<double>::quiet_NaN() : 1e300;
-      states[operation.byte(3) % states.size()].position.y = wrong;
-    };
-    try {
-      return world.advance(until, bad);
-    } catch (const NoAnswer&) {
-      return Error{ErrorCode::not_finite, "probe", no_body, "the probe threw"};
-    }
-  });
-  asked_at_ = world_.time();
   bad_rotation_.reset();
   move_on();
-  if (!result) {
-    const ErrorCode code = result.error().code;
+  if (result && *result) {
+    if (**result) hear(***result);
+    return;
+  }
+  if (result && result->error().argument != "radius") {
+    const ErrorCode code = result->error().code;
     require(code == ErrorCode::not_finite || code == ErrorCode::out_of_range,
             "a bad answer is refused for a wrong reason");
-    check_snapshot();
-  } else if (*result) {
-    hear(**result);
+  }
+  const std::vector<std::byte> bytes = world_.save().value();
+  const World back = World::restore(bytes, pair_filter()).value();
+  require(back.save().value() == bytes, "a restored world saves other bytes");
+  if (const auto finding = back.inspection().audit())
+    throw Disagreement("audit of a restored world: " + finding->where + ": " + finding->what);
+}
+
+void Player::shrink(BodyId grown) {
+  begin_change("shrink");
+  const double radius = lengths(0.05);
+  world_.change(grown, {.radius = radius, .radius_rate = 0.0}).value();
+  truth_.at(grown).radius = {now(), radius, 0};
+  restarted(grown);
+}
+
+/// Goes on with a copy of the world.
+void Player::send_back() {
+  if (!scenario().copies) return;
+  if (draw_.one_in(3)) {
+    world_ = world_.clone().value();
+    if (truth_.has_pair_filter) world_.set_pair_filter(pair_filter()).value();
+  } else {
+    const auto bytes = world_.save().value();
+    World back = World::restore(bytes, pair_filter()).value();
+    require(back.save().value() == bytes, "a restored world saves itself differently");
+    world_ = std::move(back);
+  }
+  give_rotation_probe(world_);
+}
+
+/// Compares the replay of all steps since the last one.
+void Player::replay() {
+  if (!scenario().recorded) return;
+  Replay replay = Replay::open(world_.stop_recording().value()).value();
+  while (!replay.finished()) (void)replay.advance().value();
+  require(replay.world().save().value() == world_.save().value(), "the replayed world is another one");
+  world_.start_recording().value();
+}
+
+// Motion.
+
+void Player::turn(BodyId id, const Vec3& velocity) {
+  Thing& thing = truth_.at(id);
+  world_.set_velocity(id, velocity).value();
+  rounds_ = 3;
+  check_awake(std::vector{id});
+  // A run goes on from the same place, in double precision.
+  thing.path = {now(), vector(state_of(thing, now()).position), vector(velocity), thing.path.acceleration};
+}
+
+void Player::spin(BodyId id, const Vec3& angular_velocity) {
+  Thing& thing = truth_.at(id);
+  world_.change(id, {.angular_velocity = angular_velocity}).value();
+  rounds_ = 3;
+  const double speed = norm(angular_velocity);
+  thing.spin = {now(), thing.spin.at(now()).orientation,
+                speed > 0.0 ? angular_velocity / speed : Vec3{0.0, 0.0, 1.0}, speed};
+}
+
+bool Player::can_rest(const Thing& thing) const {
+  return (thing.sort == Sort::ball || thing.sort == Sort::carried) && thing.enabled && !thing.sleeping &&
+         thing.radius.rate == 0;
+}
+
+void Player::rest(Thing& thing) {
+  turn(thing.id, {});
+  world_.sleep(thing.id).value();
+  woken_.erase(thing.id);
+  thing.path = {now(), thing.path.at(now()), {}, {}};
+  thing.sleeping = true;
+}
+
+/// Notes that a change of the body may have moved it over others, or away from them.
+void Player::restarted(BodyId id) {
+  truth_.last_change = now();
+  rounds_ = 3;
+  check_awake();
+  for (auto& [contact, state] : states_)
+    if (contact.has(id)) state.clear = state.held = false;
+}
+
+/// Draws accelerations until the next step, towards the middle rather than away.
+void Player::steer() {
+  for (Thing& thing : truth_.things) {
+    if (!thing.present() || !thing.moves() || thing.sleeping) continue;
+    const BodyDefinition& body = thing.definition;
+    Vector acceleration = vector(body.planned_acceleration);
+    const Vector away = thing.path.at(now()) - vector(draw_.middle());
+    const Vector back = away * (-1 / (length(away) + lengths(0.1)));
+    if (body.acceleration_limit > 0.0)
+      acceleration = acceleration + (back * 0.55L + vector(draw_.point_in_ball()) * 0.44L) *
+                                        static_cast<Real>(body.acceleration_limit);
+    thing.path = {now(), thing.path.at(now()), thing.path.velocity_at(now()), acceleration};
+    if (thing.sort == Sort::rigid && thing.spin_limit > 0.0) {
+      const double speed = thing.spin.speed_at(now());
+      const bool slows = speed > 0.5 * thing.largest_spin || (speed >= 0.0 && draw_.one_in(2));
+      thing.spin = {now(), thing.spin.at(now()).orientation, thing.spin.axis, speed,
+                    (slows ? -0.5 : 0.5) * thing.spin_limit * draw_.uniform()};
+    }
+    const bool leaves = length(away) > lengths(2.0 * scenario().edge) && dot(away, thing.path.velocity) > 0;
+    if (!scenario().box && leaves) turn_back(thing);
   }
 }
 
-/// Checks that the world can be saved, and that the restored one is equal and clean.
-void Player::check_snapshot() const {
-  const std::vector<std::byte> bytes = world_.save().value();
-  const auto restored = World::restore(bytes, pair_filter());
-  if (!restored) throw Disagreement("restore: " + restored.error().message);
-  require(restored->save().value() == bytes, "a restored world saves other bytes");
-  if (const auto finding = restored->inspection().audit())
-    throw Disagreement("audit of a restored world: " + finding->where + ": " + finding->what);
+void Player::turn_back(Thing& thing) {
+  begin_change("turn back");
+  const Vec3 velocity = -rounded(thing.path.velocity);
+  turn(thing.id, norm(velocity) > speeds(10.0) ? 0.1 * velocity : velocity);
+  truth_.last_change = now();
 }
 
 }  // namespace kinesphere::stream

@@ -10,7 +10,6 @@
 
 #include "kinesphere/inspection.hpp"
 #include "kinesphere/response.hpp"
-#include "stream/on_world.hpp"
 #include "stream/player.hpp"
 #include "support/eager_workers.hpp"
 
@@ -19,21 +18,6 @@ namespace {
 
 /// Maximum events of a loop; it stops at the end of the instant that reaches it.
 constexpr std::size_t most_events = 300;
-
-bool same_in_all(const Event& a, const Event& b) {
-  return a.kind == b.kind && a.time == b.time && a.first == b.first && a.second == b.second &&
-         a.wall == b.wall && a.repeated == b.repeated && a.jammed == b.jammed && a.senses == b.senses &&
-         a.first_state == b.first_state && a.second_state == b.second_state && a.point == b.point &&
-         a.normal == b.normal && a.gap == b.gap && a.approach_speed == b.approach_speed &&
-         a.position_excess == b.position_excess && a.velocity_excess == b.velocity_excess &&
-         a.distance == b.distance && a.first_user_data == b.first_user_data &&
-         a.second_user_data == b.second_user_data && a.first_traits == b.first_traits &&
-         a.second_traits == b.second_traits && a.first_mass == b.first_mass &&
-         a.second_mass == b.second_mass && a.first_part == b.first_part && a.second_part == b.second_part &&
-         a.first_angular_velocity == b.first_angular_velocity &&
-         a.second_angular_velocity == b.second_angular_velocity && a.first_spin_gain == b.first_spin_gain &&
-         a.second_spin_gain == b.second_spin_gain;
-}
 
 bool is_begin(const Event& event) {
   return event.kind == EventKind::contact_begin || event.kind == EventKind::wall_begin;
@@ -45,11 +29,11 @@ enum class Fault { nowhere, sink, respond, refused_answer, departure, states, re
 /// Thrown by a callback that fails.
 struct Failed {};
 
-/// Responds to an event by the event alone: two bodies that meet bounce, lose speed, stick together, or pass.
+/// Responds to an event by the event alone: two bodies that meet bounce, lose speed, settle, or pass.
 class Answering {
  public:
-  Answering(const Truth& truth, std::uint64_t seed, bool passes, bool spins)
-      : truth_(truth), seed_(seed), passes_(passes), spins_(spins) {}
+  Answering(const Truth& truth, std::uint64_t seed, bool passes)
+      : truth_(truth), seed_(seed), passes_(passes) {}
 
   Response operator()(const Event& event) const {
     if (passes_) return {};
@@ -57,52 +41,47 @@ class Answering {
     if (event.kind == EventKind::woke && moves(event.first))
       return {.first_velocity = event.first_state.velocity};
     if (!is_begin(event) || event.approach_speed <= 0.0) return {};
-    const std::optional<Bounce> after = bounce(event);
-    if (!after) return {};
-    Response answer;
-    if (moves(event.first)) answer.first_velocity = after->first_velocity;
-    if (event.second != no_body && moves(event.second)) answer.second_velocity = after->second_velocity;
-    if (turns(event.first, event.first_spin_gain))
-      answer.first_angular_velocity = after->first_angular_velocity;
-    if (event.second != no_body && turns(event.second, event.second_spin_gain))
-      answer.second_angular_velocity = after->second_angular_velocity;
-    return answer;
-  }
-  bool is_there(BodyId id) const { return truth_.is_present(id); }
-  bool moves(BodyId id) const { return truth_.is_present(id) && !truth_.at(id).fixed; }
-
- private:
-  std::optional<Bounce> bounce(const Event& event) const {
     Random random(seed_ ^ std::bit_cast<std::uint64_t>(event.time) ^ event.first.pack());
-    const double first = mass(event.first);
-    const double second = event.second == no_body ? 1.0 : mass(event.second);
+    const double unit = truth_.scenario().unit_length() / truth_.scenario().unit_time();
+    Response answer;
     switch (random.bits() % 8) {
       case 0:
       case 1:
-        return std::nullopt;
+        return {};
       case 2:
-        return kinesphere::bounce(event, first, second, 0.3);
+        answer = response_of(event, bounce(event, 0.3));
+        break;
       case 3:
-        return settle(event, first, second, 0.3, 0.1);
+        answer = response_of(event, settle(event, 0.3, 0.1 * unit));
+        break;
       default:
-        return kinesphere::bounce(event, first, second, 1.0);
+        answer = response_of(event, bounce(event, 1.0));
     }
+    if (!turns(event.first, answer.first_angular_velocity)) answer.first_angular_velocity.reset();
+    if (!turns(event.second, answer.second_angular_velocity)) answer.second_angular_velocity.reset();
+    return answer;
   }
-  bool turns(BodyId id, const Vec3& spin_gain) const {
-    return spins_ && moves(id) && truth_.at(id).rigid && spin_gain != Vec3{};
+  bool moves(BodyId id) const {
+    const Thing& thing = truth_.at(id);
+    return thing.id == id && thing.present() && thing.moves();
   }
-  double mass(BodyId id) const { return moves(id) ? 1.0 : std::numeric_limits<double>::infinity(); }
+
+ private:
+  /// Contacts turn bodies in worlds without a rotation probe, where the new spin is within the limit.
+  bool turns(BodyId id, const std::optional<Vec3>& angular_velocity) const {
+    return angular_velocity && !truth_.scenario().spins &&
+           norm(*angular_velocity) < 0.8 * truth_.at(id).largest_spin;
+  }
 
   const Truth& truth_;
   std::uint64_t seed_;
   bool passes_;
-  bool spins_;  ///< contacts turn bodies, as they may in worlds without a rotation probe
 };
 
 /// Moves bodies from their true states at the begin of the run.
 class Moving final : public MotionSource {
  public:
-  explicit Moving(const Truth& truth) : bodies_(truth.bodies()) {}
+  explicit Moving(const Truth& truth) : truth_(truth), things_(truth.things) {}
   void fail_at(const Event& event, const Response& answer, Fault fault) {
     event_ = event;
     answer_ = answer;
@@ -116,19 +95,19 @@ class Moving final : public MotionSource {
 
   void states(std::span<const BodyId> ids, double time, std::span<State> states) override {
     for (std::size_t k = 0; k < ids.size(); ++k) {
-      const TrueBody& body = bodies_[ids[k].index];
-      if (!body.present() || body.id != ids[k] || body.fixed)
+      const Thing& thing = things_[ids[k].index];
+      if (!thing.present() || thing.id != ids[k] || !thing.moves())
         misuse_ = "a run asks for a body that does not move";
-      if (time < body.path.front().begin) misuse_ = "a run asks for a time before the body set out";
-      states[k] = body.path.front().state_at(time);
+      if (time < thing.path.since) misuse_ = "a run asks for a time before the body set out";
+      states[k] = truth_.report(thing, time);
       if (time != event_.time || (ids[k] != event_.first && ids[k] != event_.second)) continue;
       if (fault_ == Fault::states) throw Failed();
       if (fault_ == Fault::refused_states) states[k].position.y = nan;
     }
   }
   MotionOrigin origin(BodyId id) const override {
-    const Segment& path = bodies_[id.index].path.front();
-    return {path.begin, {path.position, path.velocity}};
+    const Path& path = things_[id.index].path;
+    return {path.since, {rounded(path.position), rounded(path.velocity)}};
   }
   /// A body that slept is awake from then on.
   void set_origin(BodyId id, const MotionOrigin& origin) override {
@@ -136,16 +115,17 @@ class Moving final : public MotionSource {
     if (fault_ == Fault::departure && origin.time == event_.time &&
         (id == event_.first || id == event_.second) && origin.state.velocity == velocity)
       throw Failed();
-    TrueBody& body = bodies_[id.index];
-    Segment& path = body.path.front();
-    path.begin = origin.time;
-    path.position = origin.state.position;
-    path.velocity = origin.state.velocity;
-    if (std::exchange(body.resting, false)) path.acceleration = body.on_waking;
+    Thing& thing = things_[id.index];
+    if (std::exchange(thing.sleeping, false))
+      thing.path.acceleration = vector(thing.definition.planned_acceleration);
+    thing.path.since = origin.time;
+    thing.path.position = vector(origin.state.position);
+    thing.path.velocity = vector(origin.state.velocity);
   }
 
  private:
-  std::vector<TrueBody> bodies_;
+  const Truth& truth_;
+  std::vector<Thing> things_;
   std::atomic<const char*> misuse_ = nullptr;
   Fault fault_ = Fault::nowhere;
   Event event_;
@@ -162,8 +142,8 @@ class Run {
   void fail_at(std::size_t place, Fault fault) {
     const Event& event = expected_[place];
     // An answer has no effect on a body that has gone, whatever it says.
-    if (fault == Fault::refused_answer && !answer_.is_there(event.first)) fault = Fault::respond;
-    const auto same = [&](const Event& other) { return same_in_all(other, event); };
+    if (fault == Fault::refused_answer && !answer_.moves(event.first)) fault = Fault::respond;
+    const auto same = [&](const Event& other) { return other == event; };
     place_ =
         static_cast<std::size_t>(std::find_if(expected_.begin(), expected_.end(), same) - expected_.begin());
     fault_ = fault;
@@ -188,10 +168,7 @@ class Run {
       }
       require(fault_ == Fault::refused_answer || fault_ == Fault::refused_states,
               "a run is refused without a reason");
-      const bool refers_to_nobody =
-          fault_ == Fault::refused_answer && !answer_.moves(expected_[place_].first);
-      require(refers_to_nobody || done.error().code == ErrorCode::not_finite,
-              "a run is refused for a wrong reason");
+      require(done.error().code == ErrorCode::not_finite, "a run is refused for a wrong reason");
     } catch (const Failed&) {
       require(fault_ != Fault::nowhere, "a failure is reported twice");
     }
@@ -223,7 +200,7 @@ class Run {
  private:
   Response respond_to(const Event& event) const {
     Response answer = answer_(event);
-    if (place_ >= expected_.size() || !same_in_all(event, expected_[place_])) return answer;
+    if (place_ >= expected_.size() || event != expected_[place_]) return answer;
     if (fault_ == Fault::respond) throw Failed();
     if (fault_ == Fault::refused_answer) answer.first_velocity = Vec3{nan, 0, 0};
     return answer;
@@ -231,7 +208,7 @@ class Run {
   void tell(const Event& event) {
     require(event.time <= world_.time(), "an event is reported before its time");
     require(told_ < expected_.size(), "a run tells more than a loop");
-    require(same_in_all(event, expected_[told_]), "a run tells something else than a loop");
+    require(event == expected_[told_], "a run tells something else than a loop");
     ++told_;
     if (fault_ == Fault::sink && told_ > place_) throw Failed();
   }
@@ -280,70 +257,80 @@ std::vector<Event> Player::loop(double until, const ResponseFn& respond) {
   while (const auto event = next_event(until)) {
     events.push_back(*event);
     const Response answer = respond(*event);
-    if (answer.first_velocity) set_velocity(event->first, *answer.first_velocity);
-    if (answer.second_velocity) set_velocity(event->second, *answer.second_velocity);
-    if (answer.first_angular_velocity) turn(event->first, *answer.first_angular_velocity);
-    if (answer.second_angular_velocity) turn(event->second, *answer.second_angular_velocity);
+    if (answer.first_velocity) turn(event->first, *answer.first_velocity);
+    if (answer.second_velocity) turn(event->second, *answer.second_velocity);
+    if (answer.first_angular_velocity) spin(event->first, *answer.first_angular_velocity);
+    if (answer.second_angular_velocity) spin(event->second, *answer.second_angular_velocity);
     if (events.size() >= most_events) until = world_.time();
   }
   return events;
 }
 
-/// Replaces the world by the copy that has run; the world that the loop advanced may become its twin.
-void Player::run(const Operation& operation) {
-  const bool rests = !woken_.empty() || std::any_of(truth_.bodies().begin(), truth_.bodies().end(),
-                                                    [](const TrueBody& body) { return body.resting; });
-  const bool answers = rests || operation.byte(2) % 8 != 0;
-  const double length = operation.fraction(0);
-  Random random = operation.random();
-  const Answering answer(truth_, random.bits(), !answers, !kind_.swings);
+/// Compares a run of a copy of the world with a loop. Goes on with the copy, unless the world is recorded.
+void Player::run() {
+  // Bodies that grow too large end a run.
+  if (!scenario().runs || (scenario().radii && scenario().is_periodic())) return;
+  const bool sleep = !woken_.empty() || std::ranges::any_of(truth_.things, [](const Thing& thing) {
+    return thing.present() && thing.sleeping;
+  });
+  // Reports with errors have no origin.
+  const bool answers = !scenario().errors && (sleep || !draw_.one_in(8));
+  if (sleep && !answers) return;
+  begin_change("run");
+  steer();
+  const double length = draw_.uniform();
+  const Answering answer(truth_, draw_.below(~std::size_t{0}), !answers);
   World world = world_.clone().value();
-  if (truth_.has_pair_filter) {
-    give_pair_filters();
-    give_pair_filter(world);
+  if (truth_.has_pair_filter) world.set_pair_filter(pair_filter()).value();
+  if (truth_.has_pair_filter) world_.set_pair_filter(pair_filter()).value();
+  give_rotation_probe(world);
+  for (Thing& thing : truth_.things) {
+    const State state = state_of(thing, now());
+    if (thing.moves())
+      thing.path = {now(), vector(state.position), vector(state.velocity), thing.path.acceleration};
   }
   Moving source(truth_);
-  const double start = world_.time();
+  const double start = now();
   const std::uint64_t probes = world_.counters().probes - world.counters().probes;
-  const std::vector<Event> events = loop(start + (kind_.crowd ? 0.3 : 0.1) * length * length, answer);
+  const std::vector<Event> events =
+      loop(start + times((scenario().crowd ? 0.3 : 0.2) * length * length), answer);
 
   Run run(world, source, answer, events);
   Fault fault = Fault::nowhere;
-  if (!events.empty() && operation.byte(3) % 2 == 0) {
+  if (!events.empty() && draw_.one_in(2)) {
     static constexpr std::array faults{Fault::sink,    Fault::states,    Fault::refused_states,
                                        Fault::respond, Fault::departure, Fault::refused_answer};
-    fault = faults[operation.byte(3) / 2 % (answers ? 6 : 3)];
+    fault = faults[draw_.below(answers ? 6 : 3)];
     // A motion source cannot set a body back to sleep, so this fault would wake it.
-    if (fault == Fault::departure && rests) fault = Fault::respond;
-    const std::size_t place = operation.byte(4) % events.size();
+    if (fault == Fault::departure && sleep) fault = Fault::respond;
+    const std::size_t place = draw_.below(events.size());
     // The world does not probe again after a report of this instant.
     if (fault == Fault::refused_states && (events[place].time == start || !is_begin(events[place])))
       fault = Fault::states;
     run.fail_at(place, fault);
   }
-  const int threads = 1 + operation.byte(1) % 3;
+  const int threads = 1 + static_cast<int>(draw_.below(3));
   if (!run.go(world_.time(), answers, workers(threads))) {
     // Events that the sink has not received already have responses, which a loop would not know.
-    if (fault != Fault::sink && operation.byte(5) % 2 == 0)
+    if (fault != Fault::sink && draw_.one_in(2))
       run.go_by_loop(world_.time(), answers);
     else
-      require(run.go(world_.time(), answers, workers(1 + operation.byte(5) / 2 % 3)), "a run fails again");
+      require(run.go(world_.time(), answers, workers(1 + static_cast<int>(draw_.below(3)))),
+              "a run fails again");
   }
   source.check_use();
   require(world.time() == world_.time(), "a run ends at another time than a loop");
   if (fault == Fault::nowhere)
     require(world.counters().probes + probes == world_.counters().probes,
             "a run probes otherwise than a loop");
-  for (const BodyId id : truth_.ids()) {
-    const Segment& path = truth_.at(id).path.front();
-    const MotionOrigin origin = source.origin(id);
-    require(origin.time == path.begin && origin.state == State{path.position, path.velocity},
+  for (const Thing& thing : truth_.things) {
+    if (!thing.present() || !thing.moves()) continue;
+    const MotionOrigin origin = source.origin(thing.id);
+    require(origin.time == thing.path.since &&
+                origin.state == State{rounded(thing.path.position), rounded(thing.path.velocity)},
             "a run leaves a body on another way than a loop");
   }
-  std::swap(world_, world);
-  if (!twin_ && operation.byte(6) % 2 == 0) twin_ = std::move(world);
-  // The twin has equal pairs in another order.
-  twin_saves_the_same_ = false;
+  if (!scenario().recorded) world_ = std::move(world);
 }
 
 }  // namespace kinesphere::stream

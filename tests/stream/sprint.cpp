@@ -38,47 +38,51 @@ bool goes_on(World& world, double until, Probe probe) {
 
 /// Checks that the body touches what it overlaps at `place`, where it has arrived.
 void Player::check_touching(const World& world, BodyId id, const Vec3& place) const {
-  const BodyDefinition& body = truth_.at(id).definition;
-  const double deep = -truth_.definition().contact_tolerance - told_.slack();
   const std::vector<BodyId> touching = world.touching(id).value();
-  for (const BodyId other : truth_.ids()) {
-    if (other == id || !truth_.is_present(other) || !truth_.may_touch(id, body, other)) continue;
-    const Contact contact = id.index < other.index ? Contact{id, other} : Contact{other, id};
-    if (!wants_ends(told_.wanted(contact))) continue;
-    require(truth_.distance(other, place) - body.radius >= deep ||
-                std::find(touching.begin(), touching.end(), other) != touching.end(),
+  for (const BodyId other : truth_.present()) {
+    const Contact contact = id < other ? Contact{id, other} : Contact{other, id};
+    if (other == id || !truth_.may_be_told(contact) || !wants_ends(truth_.wanted(contact))) continue;
+    const Real gap =
+        truth_.gaps.to_point(truth_.at(other), vector(place), now()) - truth_.at(id).radius.radius;
+    require(gap >= -truth_.tolerance() - truth_.slack() || std::ranges::count(touching, other) > 0,
             "a sprint ends with an unreported body");
   }
 }
 
-void Player::sprint(BodyId id, const Operation& operation) const {
-  if (truth_.definition().periodic.any()) return;
+void Player::sprint() {
+  const Thing* const thing = moving_thing();
+  const Scenario& s = scenario();
+  if (!thing || thing->sort != Sort::ball || s.is_periodic() || s.rigid || s.radii || s.errors || s.far ||
+      s.late || s.scaled)
+    return;
   World world = world_.clone().value();
-  if (truth_.has_pair_filter) give_pair_filter(world);
-  Random random = operation.random();
-  const double speed = std::pow(10.0, random.uniform(14.0, 60.0));
-  const Vec3 velocity = truth_.in_space(random.unit_vector()) * speed;
-  const double start = truth_.time();
-  const State before = truth_.state(id);
+  if (truth_.has_pair_filter) world.set_pair_filter(pair_filter()).value();
+  const BodyId id = thing->id;
+  const double speed = std::pow(10.0, draw_.uniform(14.0, 60.0));
+  Vec3 velocity = draw_.direction();
+  if (norm(velocity) < 0.1) return;
+  velocity *= speed / norm(velocity);
+  const double start = now();
+  const State before = state_of(*thing, start);
   bool fast = true;
-  const auto state_of = [&](BodyId body, double time) -> State {
-    if (body != id) return truth_.at(body).path.front().state_at(time);
+  const auto state = [&](BodyId body, double time) -> State {
+    if (body != id) return state_of(truth_.at(body), time);
     return fast ? State{before.position + velocity * (time - start), velocity}
                 : State{before.position, Vec3{}};
   };
   const auto probe = [&](std::span<const BodyId> ids, double time, std::span<State> states) {
-    for (std::size_t k = 0; k < ids.size(); ++k) states[k] = state_of(ids[k], time);
+    for (std::size_t k = 0; k < ids.size(); ++k) states[k] = state(ids[k], time);
   };
   world.set_velocity(id, velocity).value();
   require_clean(world);
   bool in_range = goes_on(world, start, probe);
   require_clean(world);
   const double least = std::nextafter(start, infinity);
-  const double end = std::max(least, start + world_size * random.uniform() / speed);
+  const double end = std::max(least, start + s.edge * draw_.uniform() / speed);
   in_range = in_range && goes_on(world, end, probe);
   if (in_range) {
     require_clean(world);
-    check_touching(world, id, state_of(id, end).position);
+    check_touching(world, id, state(id, end).position);
   }
   fast = false;
   if (!world.teleport(id, {before.position, {}})) return;

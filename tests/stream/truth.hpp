@@ -1,24 +1,18 @@
-// The truth about the bodies of a world, kept apart from the world: present bodies, their limits, and their
-// real motion, with a constant acceleration between changes.
+// The truth about all bodies of a world, kept apart from the world: who may meet whom, and whether a gap
+// stays on one side of a limit, by subdivision of time.
 #pragma once
 
 #include <array>
-#include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
-#include "bodies/collision_shape.hpp"
-#include "contact/contact_event.hpp"
-#include "kinesphere/event.hpp"
-#include "kinesphere/motion/trajectory.hpp"
-#include "kinesphere/shape.hpp"
-#include "kinesphere/world_definition.hpp"
-#include "number/infinity.hpp"
-#include "simulation/oracle/gap_course.hpp"
-#include "stream/operation.hpp"
-#include "stream/true_rigid.hpp"
+#include "kinesphere/sensor.hpp"
+#include "stream/scenario.hpp"
+#include "stream/true_gap.hpp"
 
 namespace kinesphere::stream {
 
@@ -31,152 +25,109 @@ inline void require(bool holds, const char* what) {
   if (!holds) throw Disagreement(what);
 }
 
-/// Two bodies, or a body and a wall; or two bodies and a sensor distance, which is subtracted from their gap.
+/// Thrown in scenarios that would take too long.
+struct CutShort {};
+
+/// Two bodies, or a body and a wall; or two bodies and a sensor distance.
 struct Contact {
   BodyId first;
-  BodyId second = no_body;  ///< has a larger index than `first`
+  BodyId second = no_body;
   Wall wall = Wall::none;
   std::optional<double> sensed{};
 
-  friend bool operator==(const Contact&, const Contact&) = default;
+  friend auto operator<=>(const Contact&, const Contact&) = default;
+  bool has(BodyId body) const { return first == body || second == body; }
+  double distance() const { return sensed.value_or(0.0); }
 };
 std::string text_of(const Contact& contact);
 
-struct TrueBody {
-  BodyId id{};
-  BodyDefinition definition{};  ///< the state in it is ignored
-  Trajectory path{};            ///< one segment, since the last change
-  bool alive = false;
-  bool enabled = false;
-  bool fixed = false;
-  bool resting = false;          ///< asleep: in place, without velocity or acceleration
-  double rested_at = 0.0;        ///< time of falling asleep
-  Vec3 on_waking{};              ///< acceleration after waking
-  std::optional<Shape> shape{};  ///< shape of a static body that is no ball
-  std::optional<TrueRigid> rigid{};
-  double last_contact = -std::numeric_limits<double>::infinity();  ///< according to events
-  Range pressure{0.0, 0.0};  ///< limits of the acceleration that pressed it upon its partner then
-
-  bool present() const { return alive && enabled; }
-};
+/// On which side of a level a gap is expected.
+enum class Side { above, below };
 
 class Truth {
  public:
-  explicit Truth(const WorldDefinition& definition);
+  explicit Truth(const Scenario& scenario);
 
-  double time() const { return time_; }
-  void move_on_to(double time) { time_ = time; }
+  const Scenario& scenario() const { return scenario_; }
   const WorldDefinition& definition() const { return definition_; }
-  /// The present walls.
-  const std::vector<Wall>& walls() const { return walls_; }
-  /// Returns the vector without z in a world of the plane.
-  Vec3 in_space(Vec3 v) const {
-    if (definition_.dimensions == 2) v.z = 0.0;
-    return v;
-  }
-  /// Returns whole periods, to be added to `from`.
-  Vec3 shift_to_nearest(const Vec3& from, const Vec3& to) const;
+  double tolerance() const { return definition_.contact_tolerance; }
+  double separation_distance() const;
 
-  void add(BodyId id, const BodyDefinition& body, const Vec3& acceleration);
-  void add_static(BodyId id, const BodyDefinition& body, const Shape& shape);
-  /// `radius` is that of the ball around it.
-  void add_rigid(BodyId id, const RigidBody& body, double radius, const Vec3& acceleration);
-  /// The rigid body turns from now on with a constant angular velocity.
-  void turn(BodyId id, const Rotation& rotation) { at(id).rigid->turning = {time_, rotation}; }
-  /// The rigid body swings from now on, with this part of its largest angular acceleration.
-  void swing(BodyId id, double part, const Vec3& axis);
-  /// Notes the limits of accelerations of a rigid body, after each change of the body.
-  void note_acceleration(BodyId id);
-  /// Returns limits of the largest acceleration of a point of the body, as the world may know it.
-  Range largest_accelerations(BodyId id) const;
-  void remove(BodyId id);
-  void move(BodyId id, const State& state);
-  /// Sets the acceleration; a sleeping body gets it when it wakes.
-  void steer(BodyId id, const Vec3& acceleration);
-  void rest(BodyId id);
-  void wake(BodyId id);
+  Thing& at(BodyId id) { return things[id.index]; }
+  const Thing& at(BodyId id) const { return things[id.index]; }
+  void put(const Thing& thing);
+  std::vector<BodyId> present() const;
 
-  const std::vector<TrueBody>& bodies() const { return bodies_; }
-  TrueBody& at(BodyId id) { return bodies_[id.index]; }
-  const TrueBody& at(BodyId id) const { return bodies_[id.index]; }
-  /// Returns the present bodies, by index.
-  std::vector<BodyId> ids() const;
-  bool is_alive(BodyId id) const;
-  bool is_present(BodyId id) const { return is_alive(id) && at(id).enabled; }
-  State state(BodyId id) const { return at(id).path.front().state_at(time_); }
-  Rotation rotation(BodyId id, double time) const { return at(id).rigid->turning.at(time); }
-  /// Returns true if one of the bodies is rigid. Then approach_speed() is unknown.
-  bool turns(const Contact& contact) const {
-    return at(contact.first).rigid || (contact.wall == Wall::none && at(contact.second).rigid);
-  }
-  /// Returns the least gap of parts at these places and the walls that meet such a filter.
-  double gap_to_walls(const std::vector<placed_parts::PlacedPart>& parts, const Filter& filter) const;
+  /// Returns what a body reports of itself.
+  State report(const Thing& thing, double time) const;
 
   /// The caller's own filter: haunted bodies touch only each other.
-  bool pair_filter(BodyId a, BodyId b) const { return haunted_.contains(a) == haunted_.contains(b); }
-  bool has_pair_filter = false;
-  void haunt(BodyId id);
-  std::array<Sensor, sensor_classes> sensors{};
+  bool passes_pair_filter(BodyId a, BodyId b) const { return haunted.contains(a) == haunted.contains(b); }
+  /// Returns true if filters and shapes let the two meet.
+  bool meet(const Thing& a, const Thing& b) const;
   /// Returns true if events may report this contact.
-  bool may_be_reported(const Contact& contact) const;
-  /// Returns true if a body with this definition touches the other when they meet.
-  bool may_touch(BodyId a, const BodyDefinition& definition_of_a, BodyId b) const;
+  bool may_be_told(const Contact& contact) const;
+  /// Calls visit(contact) for all contacts that events may report.
+  template <class Visit>
+  void for_each_contact(Visit visit) const;
+  /// Returns the events that the two report; sensor overlaps begin and end.
+  ContactEvents wanted(const Contact& contact) const;
 
-  /// Returns true if gap() does not tell how deep the bodies overlap: axes and hulls in boxes and triangles.
-  bool hides_depth(const Contact& contact) const {
-    return turns(contact) && shape(contact) != nullptr && !inside(contact);
-  }
-  /// Returns the gap at the present time; for a sensor, beyond its distance.
-  double gap(const Contact& contact) const;
-  /// Returns the gap in quadruple precision, by formulas other than the library's.
-  double exact_gap(const Contact& contact) const;
-  /// Returns the distance of a point from the surface of the body.
-  double distance(BodyId id, const Vec3& point) const;
-  /// Returns the first time in [from, until] at which the gap is at most, or at least, `level`.
-  std::optional<double> first_time(const Contact& contact, LevelCrossing overlap, double level, double from,
-                                   double until) const;
-  /// Returns the limits of the gap that bounds imply now.
-  GapLimits limits(const CollisionShape& a, const CollisionShape& b) const;
-  /// Returns the present closing speed of the gap.
-  double approach_speed(const Contact& contact) const;
-  /// Returns limits of the present closing speed of the gap of a rigid body: of before and of after this
-  /// instant, at which the nearest points may change.
-  Range closing_speeds(const Contact& contact) const;
-  /// Returns false only if the gap certainly stays above (falls_to) or below (rises_to) the level until then.
-  bool may_reach(const Contact& contact, LevelCrossing overlap, double level, double until) const;
-  /// Returns true if the gap opens at some time between now and `until`.
-  bool opens_before(const Contact& contact, double until) const;
+  Real gap(const Contact& contact, Real time, const Measure& how = {}) const;
+  /// Returns the gap that events tell: 0 if hulls of rigid bodies overlap, however deep.
+  Real told_gap(const Contact& contact, Real time) const;
+  bool is_of_balls(const Contact& contact) const;
+  /// Returns how much two reports may err in the gap (length).
+  double report_errors(const Contact& contact) const;
+  /// Returns an upper limit of the speed of any point of the body from one time to another.
+  Real speed(const Thing& thing, Real from, Real until) const;
+  /// Returns a length well below the tolerance, but above all rounding, of times too.
+  double slack() const;
+  /// Throws unless the gap stays on that side of the level, up to `slack`.
+  void require_side(const Contact& contact, Real from, Real until, Side side, Real level, double slack,
+                    const std::string& what) const;
+  [[noreturn]] void fail(const std::string& what, const Contact& contact, Real gap, Real time) const;
+
+  double now;
+  double last_change;           ///< time of the last change by the caller
+  std::vector<Thing> things{};  ///< by index
+  std::array<Sensor, 256> sensors{};
+  bool has_pair_filter = false;
+  std::set<BodyId> haunted{};
+  TrueGaps gaps;
 
  private:
-  struct Relative {
-    Vec3 position, velocity, acceleration;
-  };
-  const TrueBody& mover(const Contact& contact) const;
-  const Shape* shape(const Contact& contact) const;
-  std::optional<HalfSpace> inside(const Contact& contact) const;
-  Relative relative(const Contact& contact) const;
-  double approach_to_shape(const Contact& contact) const;
-  double extent(const Contact& contact) const;
-  double turning_speed(const Contact& contact) const;
-  double least_radius(const Contact& contact) const;
-  std::vector<placed_parts::PlacedPart> placed(const TrueBody& body, double time, const Vec3& shift) const;
-  template <class Visit>
-  void for_each_image(Visit visit) const;
-  double gap_of_parts(const Contact& contact, double time, double enough) const;
-  bool meets(const Contact& contact) const;
-  bool senses(BodyId a, BodyId b, double distance) const;
-  double gap_at(const Contact& contact, double time, double enough = infinity) const;
-  std::optional<double> march(const Contact& contact, LevelCrossing overlap, double level, double from,
-                              double until) const;
-  std::optional<double> first_in_images(const Contact& contact, LevelCrossing overlap, double level,
-                                        double from, double until) const;
-  void restart(BodyId id);
+  bool has_wall(Wall wall) const;
+  bool senses(const Thing& a, const Thing& b, double distance) const;
+  Real closing_speed(const Contact& contact, Real from, Real until) const;
+  void require_side(const Contact& contact, Real from, Real until, Side side, Real level, double slack,
+                    const std::string& what, int depth) const;
 
+  Scenario scenario_;
   WorldDefinition definition_;
-  std::vector<Wall> walls_;
-  double time_;
-  std::vector<TrueBody> bodies_;  ///< indexed by body
-  std::set<BodyId> haunted_;
 };
+
+template <class Visit>
+void Truth::for_each_contact(Visit visit) const {
+  const auto tell = [&](const Contact& contact) {
+    if (may_be_told(contact)) visit(contact);
+  };
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    const Thing& a = things[i];
+    if (!a.present()) continue;
+    for (std::size_t j = i + 1; j < things.size(); ++j) {
+      const Thing& b = things[j];
+      if (!meet(a, b)) continue;
+      tell({a.id, b.id});
+      std::vector<double> distances = sensors[a.definition.sensor_class].distances;
+      const auto& others = sensors[b.definition.sensor_class].distances;
+      distances.insert(distances.end(), others.begin(), others.end());
+      std::ranges::sort(distances);
+      distances.erase(std::unique(distances.begin(), distances.end()), distances.end());
+      for (const double distance : distances) tell({a.id, b.id, Wall::none, distance});
+    }
+    for (int wall = 1; wall <= wall_count; ++wall) tell({a.id, no_body, static_cast<Wall>(wall)});
+  }
+}
 
 }  // namespace kinesphere::stream

@@ -12,7 +12,7 @@
 
 #include "kinesphere/motion/ballistic.hpp"
 #include "simulation/detector/detector.hpp"
-#include "simulation/run/simulate.hpp"
+#include "simulation/run/run_scene.hpp"
 #include "simulation/scene/make_scene.hpp"
 #include "simulation/scene/scene.hpp"
 #include "support/playground.hpp"
@@ -25,7 +25,7 @@ inline std::vector<Event> events_of(const Scene& scene, const DetectorMaker& mak
                                     std::size_t at_most = 1000000, std::uint64_t audit_interval = 1) {
   std::vector<Event> events;
   std::uint64_t stops = 0;
-  SimulationObserver observer;
+  SceneObserver observer;
   observer.on_event = [&](const Event& event) {
     if (events.size() < at_most) events.push_back(event);
   };
@@ -34,7 +34,7 @@ inline std::vector<Event> events_of(const Scene& scene, const DetectorMaker& mak
     if (const auto finding = detector.audit())
       ADD_FAILURE() << detector.time() << ": " << finding->where << ": " << finding->what;
   };
-  simulate(scene, make, observer).value();
+  run_scene(scene, make, observer).value();
   return events;
 }
 

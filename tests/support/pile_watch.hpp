@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "simulation/detector/detector.hpp"
-#include "simulation/run/simulate.hpp"
+#include "simulation/run/run_scene.hpp"
 #include "simulation/scene/scene.hpp"
 
 namespace kinesphere::scene_tests {
@@ -20,7 +20,7 @@ struct PileFrame {
   double mean_height;     ///< height of the centre of mass
 };
 
-/// Takes the events and frames of simulate(). Paths between events are parabolas with a common acceleration,
+/// Takes the events and frames of run_scene(). Paths between events are parabolas with a common acceleration,
 /// so two bodies move on straight lines relative to each other, and a downward parabola is nearest to the
 /// floor at an end: the least gaps are exact.
 class PileWatch {
@@ -35,8 +35,8 @@ class PileWatch {
     };
   }
 
-  SimulationObserver observer(double frame_interval) {
-    SimulationObserver observer;
+  SceneObserver observer(double frame_interval) {
+    SceneObserver observer;
     observer.frame_interval = frame_interval;
     observer.on_event = [this](const Event& event) {
       if (event.kind == EventKind::zeno_guard) ++guards_;

@@ -20,6 +20,7 @@
 #include "support/eager_workers.hpp"
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
+#include "support/random_contacts.hpp"
 #include "support/scenes_of_each.hpp"
 #include "support/true_shapes.hpp"
 
@@ -128,18 +129,7 @@ TEST(MeetingShapes, BoxesMeetAndPartWhenTheirFacesDo) {
 
 // Random scenes.
 
-struct Kind {
-  ContactEvents mode;
-  double velocity_error;
-  std::uint64_t seed;
-};
-
-std::ostream& operator<<(std::ostream& out, const Kind& kind) {
-  return out << (kind.mode == ContactEvents::impacts ? "impacts" : "begin_and_end") << ", velocity error "
-             << kind.velocity_error << ", seed " << kind.seed;
-}
-
-class RandomMeetings : public testing::TestWithParam<Kind> {
+class RandomMeetings : public testing::TestWithParam<ContactScene> {
  protected:
   struct Carried {
     Shape shape;
@@ -199,7 +189,7 @@ class RandomMeetings : public testing::TestWithParam<Kind> {
     switch (random.bits() % 8) {
       case 0:
         p.world.remove(body).value();
-        std::erase_if(touching, [=](const auto& pair) { return pair.first == body || pair.second == body; });
+        touching.remove(body);
         carried.erase(body);
         return come();
       case 1:
@@ -236,17 +226,6 @@ class RandomMeetings : public testing::TestWithParam<Kind> {
                : carried.at(one).hulls.gap(at, carried.at(other).shape, p.state(other).position, enough);
   }
 
-  void note(const Event& event) {
-    if (GetParam().mode == ContactEvents::impacts) return;
-    const auto pair = std::pair(event.first, event.second);
-    if (event.kind == EventKind::contact_begin) {
-      EXPECT_EQ(touching.insert(pair).second, !event.already_touching) << event;
-    } else if (event.kind == EventKind::contact_end) {
-      const bool known = p.world.contains(event.first) && p.world.contains(event.second);
-      EXPECT_TRUE(touching.erase(pair) == 1 || !known) << event;
-    }
-  }
-
   void check_begin(const Event& event) {
     const double now = gap(event.first, event.second);
     EXPECT_LE(now, eps + 1e-12) << "invented: " << event;
@@ -274,7 +253,7 @@ class RandomMeetings : public testing::TestWithParam<Kind> {
     ASSERT_LE(limits.lower, std::max(now, 0.0) + 1e-12) << a << ", " << b;
     ASSERT_GE(limits.upper, now - 1e-12) << a << ", " << b;
     if (GetParam().mode == ContactEvents::impacts) return;
-    const bool touch = touching.contains(pair);
+    const bool touch = touching.contains(pair.first, pair.second);
     ASSERT_TRUE(now >= -eps - 1e-12 || touch) << a << " is unreported in " << b << " by " << now;
     ASSERT_TRUE(now <= 5 * eps + 1e-12 || !touch) << a << " and " << b << " are apart, gap " << now;
   }
@@ -290,7 +269,7 @@ class RandomMeetings : public testing::TestWithParam<Kind> {
   Random random;
   std::map<BodyId, Shape> statics;
   std::map<BodyId, Carried> carried;
-  std::set<std::pair<BodyId, BodyId>> touching;
+  TouchingPairs touching{GetParam().mode};
 };
 
 TEST_P(RandomMeetings, AreReportedWhenTheyHappen) {
@@ -300,7 +279,7 @@ TEST_P(RandomMeetings, AreReportedWhenTheyHappen) {
     for (const auto& [body, shape] : carried) steer(body);
     const double quiet = p.world.certificates().safe_until()->time;
     p.run(p.world.time() + 0.15 * random.uniform(), [&](const Event& event) {
-      note(event);
+      touching.note(event, p.world);
       if (event.kind != EventKind::contact_begin) return;
       ++begins;
       with_static += statics.contains(event.first) || statics.contains(event.second);
@@ -318,11 +297,12 @@ TEST_P(RandomMeetings, AreReportedWhenTheyHappen) {
   EXPECT_GT(begins, with_static + 5u);
 }
 
-INSTANTIATE_TEST_SUITE_P(, RandomMeetings,
-                         testing::ValuesIn(scenes_of_each<Kind>({Kind{ContactEvents::begin_and_end, 0.0, 1},
-                                                                 Kind{ContactEvents::begin_and_end, 0.02, 2},
-                                                                 Kind{ContactEvents::impacts, 0.0, 3},
-                                                                 Kind{ContactEvents::impacts, 0.01, 4}})));
+INSTANTIATE_TEST_SUITE_P(
+    , RandomMeetings,
+    testing::ValuesIn(scenes_of_each<ContactScene>({ContactScene{ContactEvents::begin_and_end, 0.0, 1},
+                                                    ContactScene{ContactEvents::begin_and_end, 0.02, 2},
+                                                    ContactScene{ContactEvents::impacts, 0.0, 3},
+                                                    ContactScene{ContactEvents::impacts, 0.01, 4}})));
 
 // What events say.
 

@@ -19,6 +19,7 @@
 #include "support/eager_workers.hpp"
 #include "support/expect_error.hpp"
 #include "support/playground.hpp"
+#include "support/random_contacts.hpp"
 #include "support/scenes_of_each.hpp"
 #include "world/surroundings.hpp"
 
@@ -27,18 +28,7 @@ namespace {
 
 constexpr double eps = 1e-5;
 
-struct Kind {
-  ContactEvents mode;
-  double velocity_error;
-  std::uint64_t seed;
-};
-
-std::ostream& operator<<(std::ostream& out, const Kind& kind) {
-  return out << (kind.mode == ContactEvents::impacts ? "impacts" : "begin_and_end") << ", velocity error "
-             << kind.velocity_error << ", seed " << kind.seed;
-}
-
-class RandomMovingShapes : public testing::TestWithParam<Kind> {
+class RandomMovingShapes : public testing::TestWithParam<ContactScene> {
  protected:
   RandomMovingShapes() : p({.contact_tolerance = eps, .contacts = GetParam().mode}), random(GetParam().seed) {
     for (int k = 0; k < 6; ++k) come();
@@ -80,8 +70,7 @@ class RandomMovingShapes : public testing::TestWithParam<Kind> {
     switch (random.bits() % 8) {
       case 0: {
         p.world.remove(shape).value();
-        std::erase_if(touching,
-                      [=](const auto& pair) { return pair.first == shape || pair.second == shape; });
+        touching.remove(shape);
         carried.erase(shape);
         shapes.erase(shapes.begin() + static_cast<std::ptrdiff_t>(k));
         return come();
@@ -112,17 +101,6 @@ class RandomMovingShapes : public testing::TestWithParam<Kind> {
     p.steer(body, -1.0 * away / (norm(away) + 0.1) + 0.9 * random.point_in_ball());
   }
 
-  void note(const Event& event) {
-    if (GetParam().mode == ContactEvents::impacts) return;
-    const auto pair = std::pair(event.first, event.second);
-    if (event.kind == EventKind::contact_begin) {
-      EXPECT_EQ(touching.insert(pair).second, !event.already_touching) << event;
-    } else if (event.kind == EventKind::contact_end) {
-      const bool known = p.world.contains(event.first) && p.world.contains(event.second);
-      EXPECT_TRUE(touching.erase(pair) == 1 || !known) << event;
-    }
-  }
-
   double gap(BodyId ball, BodyId shape) const {
     return distance(carried.at(shape), p.state(ball).position - p.state(shape).position) - p.radius(ball);
   }
@@ -130,7 +108,7 @@ class RandomMovingShapes : public testing::TestWithParam<Kind> {
   void check_gaps() {
     for (const BodyId ball : balls)
       for (const BodyId shape : shapes) {
-        const bool touch = touching.contains(std::minmax(ball, shape));
+        const bool touch = touching.contains(ball, shape);
         const double gap = this->gap(ball, shape);
         const auto limits = p.world.certificates().distance_limits(ball, shape, p.world.time()).value();
         ASSERT_LE(limits.lower, gap + 1e-12);
@@ -186,7 +164,7 @@ class RandomMovingShapes : public testing::TestWithParam<Kind> {
   Random random;
   std::vector<BodyId> shapes, balls;
   std::map<BodyId, Shape> carried;
-  std::set<std::pair<BodyId, BodyId>> touching;
+  TouchingPairs touching{GetParam().mode};
 };
 
 TEST_P(RandomMovingShapes, MeetWhatTheyTouch) {
@@ -197,7 +175,7 @@ TEST_P(RandomMovingShapes, MeetWhatTheyTouch) {
     for (const BodyId shape : shapes) steer(shape);
     const double quiet = p.world.certificates().safe_until()->time;
     p.run(p.world.time() + 0.2 * random.uniform(), [&](const Event& event) {
-      note(event);
+      touching.note(event, p.world);
       if (event.kind != EventKind::contact_begin) return;
       ++begins;
       const auto carries = [&](BodyId body) { return carried.contains(body); };
@@ -226,11 +204,12 @@ TEST_P(RandomMovingShapes, MeetWhatTheyTouch) {
   EXPECT_LE(counters.pair_checks, 2 * counters.probes);
 }
 
-INSTANTIATE_TEST_SUITE_P(, RandomMovingShapes,
-                         testing::ValuesIn(scenes_of_each<Kind>({Kind{ContactEvents::begin_and_end, 0.0, 1},
-                                                                 Kind{ContactEvents::begin_and_end, 0.5, 2},
-                                                                 Kind{ContactEvents::impacts, 0.0, 3},
-                                                                 Kind{ContactEvents::impacts, 0.01, 4}})));
+INSTANTIATE_TEST_SUITE_P(
+    , RandomMovingShapes,
+    testing::ValuesIn(scenes_of_each<ContactScene>({ContactScene{ContactEvents::begin_and_end, 0.0, 1},
+                                                    ContactScene{ContactEvents::begin_and_end, 0.5, 2},
+                                                    ContactScene{ContactEvents::impacts, 0.0, 3},
+                                                    ContactScene{ContactEvents::impacts, 0.01, 4}})));
 
 constexpr Box plate{{-1, -1, 0}, {1, 1, 0.5}};
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "kinesphere/certificates.hpp"
+#include "support/random_contacts.hpp"
 #include "world/surroundings.hpp"
 
 namespace kinesphere::random_surroundings_test {
@@ -13,16 +14,7 @@ namespace {
 constexpr double eps = 1e-5;
 constexpr double size = 8.0;
 
-struct Kind {
-  ContactEvents mode;
-  std::uint64_t seed;
-};
-
-std::ostream& operator<<(std::ostream& out, const Kind& kind) {
-  return out << (kind.mode == ContactEvents::impacts ? "impacts" : "begin_and_end") << ", seed " << kind.seed;
-}
-
-class RandomSurroundings : public testing::TestWithParam<Kind> {
+class RandomSurroundings : public testing::TestWithParam<ContactScene> {
  protected:
   RandomSurroundings() : p({.contact_tolerance = eps, .contacts = GetParam().mode}), random(GetParam().seed) {
     for (int k = 0; k < 12; ++k) come();
@@ -102,7 +94,7 @@ class RandomSurroundings : public testing::TestWithParam<Kind> {
     switch (random.bits() % 8) {
       case 0:
         p.world.remove(shape).value();
-        gone(shape);
+        touching.remove(shape);
         shapes.erase(shapes.begin() + static_cast<std::ptrdiff_t>(k));
         return come();
       case 1:
@@ -130,22 +122,6 @@ class RandomSurroundings : public testing::TestWithParam<Kind> {
     p.steer(ball, plan - away / (norm(away) + 0.1) + 0.99 * random.point_in_ball());
   }
 
-  void gone(BodyId shape) {
-    std::erase_if(touching, [=](const auto& pair) { return pair.first == shape || pair.second == shape; });
-  }
-
-  void note(const Event& event) {
-    if (GetParam().mode == ContactEvents::impacts) return;
-    const auto pair = std::pair(event.first, event.second);
-    if (event.kind == EventKind::contact_begin) {
-      EXPECT_EQ(touching.insert(pair).second, !event.already_touching) << event;
-    } else if (event.kind == EventKind::contact_end) {
-      // The end of a removed body's contact comes after its removal.
-      const bool known = p.world.contains(event.first) && p.world.contains(event.second);
-      EXPECT_TRUE(touching.erase(pair) == 1 || !known) << event;
-    }
-  }
-
   bool may_touch(BodyId shape) const {
     const BodyView view = p.world.body(shape).value();
     return view.enabled && view.definition.filter == Filter{};
@@ -163,7 +139,7 @@ class RandomSurroundings : public testing::TestWithParam<Kind> {
     for (const BodyId ball : balls)
       for (const BodyId shape : shapes) {
         if (!may_touch(shape)) continue;
-        const bool touch = touching.contains(std::minmax(ball, shape));
+        const bool touch = touching.contains(ball, shape);
         const double gap = distance(p.fixed.at(shape), p.state(ball).position) - p.radius(ball);
         const auto limits = p.world.certificates().distance_limits(ball, shape, p.world.time()).value();
         ASSERT_LE(limits.lower, gap + 1e-12);
@@ -179,7 +155,7 @@ class RandomSurroundings : public testing::TestWithParam<Kind> {
   Surroundings p;
   Random random;
   std::vector<BodyId> shapes, balls;
-  std::set<std::pair<BodyId, BodyId>> touching;
+  TouchingPairs touching{GetParam().mode};
 };
 
 TEST_P(RandomSurroundings, NothingIsMissed) {
@@ -190,7 +166,7 @@ TEST_P(RandomSurroundings, NothingIsMissed) {
     const double quiet = p.world.certificates().safe_until()->time;
     const double quiet_of_one = p.world.certificates().safe_until(balls[0])->time;
     p.run(p.world.time() + 0.2 * random.uniform(), [&](const Event& event) {
-      note(event);
+      touching.note(event, p.world);
       if (event.kind == EventKind::contact_begin) {
         ++begins;
         const bool of_one = event.first == balls[0] || event.second == balls[0];
@@ -212,11 +188,12 @@ TEST_P(RandomSurroundings, NothingIsMissed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, RandomSurroundings,
-                         testing::Values(Kind{ContactEvents::begin_and_end, 1},
-                                         Kind{ContactEvents::begin_and_end, 2},
-                                         Kind{ContactEvents::begin_and_end, 3},
-                                         Kind{ContactEvents::begin_and_end, 4},
-                                         Kind{ContactEvents::impacts, 5}, Kind{ContactEvents::impacts, 6}));
+                         testing::Values(ContactScene{ContactEvents::begin_and_end, 0.0, 1},
+                                         ContactScene{ContactEvents::begin_and_end, 0.0, 2},
+                                         ContactScene{ContactEvents::begin_and_end, 0.0, 3},
+                                         ContactScene{ContactEvents::begin_and_end, 0.0, 4},
+                                         ContactScene{ContactEvents::impacts, 0.0, 5},
+                                         ContactScene{ContactEvents::impacts, 0.0, 6}));
 
 }  // namespace
 }  // namespace kinesphere::random_surroundings_test

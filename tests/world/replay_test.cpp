@@ -103,6 +103,32 @@ TEST_P(Recording, IsReadWithoutAReplay) {
   for (const ProbedState& report : run.probed_states) ASSERT_TRUE(is_finite(report.state.velocity));
 }
 
+TEST(RecordingOfAWorld, HasProbesThatThrowWhereRotationsAreAskedFor) {
+  struct NoAnswer {};
+  World world = World::create({}).value();
+  world
+      .set_rotation_probe([](std::span<const BodyId>, double, std::span<Rotation> rotations) {
+        for (Rotation& rotation : rotations) rotation = Rotation{};
+      })
+      .value();
+  RigidBody body{.body = {.acceleration_limit = 1.0}, .parts = {{{-1, 0, 0}, {1, 0, 0}, 0.1}}};
+  body.largest_angular_speed = body.angular_acceleration_limit = 1.0;
+  world.add_rigid_body(body).value();
+  body.body.position = {0, 3, 0};
+  world.add_rigid_body(body).value();
+  world.start_recording().value();
+  int answers = 1;  // before one throws
+  const auto probe = [&](std::span<const BodyId> ids, double, std::span<State> states) {
+    if (answers-- == 0) throw NoAnswer();
+    for (std::size_t k = 0; k < ids.size(); ++k) states[k] = {{0, 3.0 * ids[k].index, 0}, {}};
+  };
+  EXPECT_THROW((void)world.advance(10.0, probe), NoAnswer);
+  world.advance(10.0, probe).value();
+  Replay replay = Replay::open(world.stop_recording().value()).value();
+  (void)events_of(replay);
+  EXPECT_EQ(replay.world().save().value(), world.save().value());
+}
+
 TEST(RecordingOfAWorld, GoesWithAWorldThatIsMovedAndNotWithAClone) {
   Playground p;
   p.add({});

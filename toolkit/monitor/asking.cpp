@@ -20,7 +20,7 @@ Result<void> Monitor::Engine::recheck(const Poll* poll) {
   queue_.drop_first();
   if (is_stale(pair)) return {};
   if (!pair.has_second()) {
-    is_due(pair.first);
+    look_at_silence(pair.first);
     return {};
   }
   const PairRecord* record = pair_records_.find(pair.first, pair.second);

@@ -76,7 +76,7 @@ class Monitor::Engine {
   void drop(std::uint32_t number, MonitorEventKind kind);
   void predict(std::uint32_t number);
   void expect_to_hear(std::uint32_t number);
-  void is_due(std::uint32_t number);
+  void look_at_silence(std::uint32_t number);
 
   bool is_stale(const PairCertificate& pair) const;
   void start_clock(double time) {

@@ -197,12 +197,13 @@ void Monitor::Engine::expect_to_hear(std::uint32_t number) {
   if (time < infinity)
     queue_.add({.failure_time = time,
                 .first = number,
-                .second = PairCertificate::walls,
+                .second = PairCertificate::silence,
                 .first_revision = track.life,
                 .second_revision = track.expected});
 }
 
-void Monitor::Engine::is_due(std::uint32_t number) {
+/// Drops a track, or makes it stale, if it has been silent for so long; otherwise schedules the next look.
+void Monitor::Engine::look_at_silence(std::uint32_t number) {
   KnownTrack& track = tracks_[number];
   const double age = track.estimate.timestamp();
   if (age + definition_.drop_after <= time_) return drop(number, MonitorEventKind::dropped);

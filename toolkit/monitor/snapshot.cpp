@@ -14,7 +14,7 @@ namespace {
 
 /// Raise the version when the fields change, or when the engine would continue differently from equal fields.
 constexpr Envelope monitor_envelope{{'K', 'i', 'n', 'M', 'o', 'n', '\r', '\n'},
-                                    10,
+                                    11,
                                     "monitor",
                                     "Monitor::restore",
                                     "snapshot",
@@ -146,7 +146,7 @@ const char* Monitor::Engine::first_invalid_part() const {
   if (!valid) return "pairs";
   const auto is_pair = [&](const PairCertificate& pair) {
     return pair.failure_time < infinity && is_present(pair.first) &&
-           (pair.kind() == PairCertificate::Kind::with_walls ||
+           (pair.kind() == PairCertificate::Kind::silence ||
             (pair.first < pair.second && is_present(pair.second))) &&
            !is_stale(pair);
   };

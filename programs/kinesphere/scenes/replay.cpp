@@ -12,7 +12,7 @@
 #include "base/program_error.hpp"
 #include "base/standard_output.hpp"
 #include "scenes/summary.hpp"
-#include "simulation/run/recorded_simulation.hpp"
+#include "simulation/run/recorded_scene.hpp"
 
 namespace kinesphere::program {
 

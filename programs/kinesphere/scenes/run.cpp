@@ -53,8 +53,8 @@ Attachments attach(const RunOptions& options, const Scene& scene) {
   return attached;
 }
 
-SimulationObserver observer_of(const RunOptions& options, const Scene& scene, Attachments& attached) {
-  SimulationObserver observer;
+SceneObserver observer_of(const RunOptions& options, const Scene& scene, Attachments& attached) {
+  SceneObserver observer;
   if (attached.contacts) {
     observer.on_event = [&](const Event& event) { attached.contacts->write(event); };
   }
@@ -130,7 +130,7 @@ void add_paper_events(Summary& summary, const DetectorCounters& counters) {
 }
 
 std::string summary_of(const SceneParameters& parameters, const RunOptions& options,
-                       const NamedDetector& detector, const Scene& scene, const SimulationResult& result,
+                       const NamedDetector& detector, const Scene& scene, const SceneResult& result,
                        double real_seconds) {
   const DetectorCounters& counters = result.counters;
   const auto probes = static_cast<double>(counters.probes);
@@ -201,14 +201,14 @@ int run(const RunOptions& options, const NamedDetector& detector) {
       {"--contacts", options.contacts}, {"--frames", options.frames}, {"--record", options.record}};
   check_outputs(outputs, {&source.file, 1});
   Attachments attached = attach(options, scene);
-  const SimulationObserver observer = observer_of(options, scene, attached);
+  const SceneObserver observer = observer_of(options, scene, attached);
 
   std::optional<Workers> workers;
   if (options.threads) workers = require(Workers::create(*options.threads));
 
   const auto started = std::chrono::steady_clock::now();
-  const SimulationResult result =
-      require(simulate(scene, detector.make, observer, workers ? &*workers : nullptr));
+  const SceneResult result =
+      require(run_scene(scene, detector.make, observer, workers ? &*workers : nullptr));
   const std::chrono::duration<double> real_time = std::chrono::steady_clock::now() - started;
 
   attached.progress.reset();

@@ -59,7 +59,7 @@ void add_scene(Summary& summary, const SceneParameters& parameters) {
   summary.row("seed", std::to_string(parameters.seed));
 }
 
-void add_events(Summary& summary, const SimulationResult& result, const EventRows& rows) {
+void add_events(Summary& summary, const SceneResult& result, const EventRows& rows) {
   const Counters& counters = result.counters;
   const auto row = [&](std::string label, EventKind begin, EventKind end) {
     const std::uint64_t begun = counters.count(begin);

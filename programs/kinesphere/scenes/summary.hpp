@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "simulation/run/simulate.hpp"
+#include "simulation/run/run_scene.hpp"
 #include "simulation/scene/make_scene.hpp"
 
 namespace kinesphere::program {
@@ -42,7 +42,7 @@ struct EventRows {
   bool zeno_guard = false;  ///< row for the number of its actions
 };
 /// Adds contacts, walls and errors.
-void add_events(Summary& summary, const SimulationResult& result, const EventRows& rows);
+void add_events(Summary& summary, const SceneResult& result, const EventRows& rows);
 /// Adds real time, in all and for each simulated second, and the real-time factor: simulated over real time.
 void add_speed(Summary& summary, double simulated_seconds, double real_seconds);
 

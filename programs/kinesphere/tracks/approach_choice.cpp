@@ -1,4 +1,4 @@
-// Which approaches of a recording are wanted.
+// Which approaches of a track set are wanted.
 #include "tracks/approach_choice.hpp"
 
 #include <fmt/format.h>
@@ -15,39 +15,39 @@
 namespace kinesphere::program {
 namespace {
 
-/// Returns seconds of the recording.
-double window_time(const std::string& text, std::string_view option, const Recording& recording) {
-  const auto time = time_field(text, recording.dates);
-  const bool counts_frames = recording.times.kind() == TimeKind::frames;
-  const TimeKind kind = counts_frames ? TimeKind::number : recording.times.kind();
-  if (time && time->kind == kind) return recording.times.seconds(time->time);
+/// Returns seconds of the track set.
+double window_time(const std::string& text, std::string_view option, const TrackSet& track_set) {
+  const auto time = time_field(text, track_set.dates);
+  const bool counts_frames = track_set.times.kind() == TimeKind::frames;
+  const TimeKind kind = counts_frames ? TimeKind::number : track_set.times.kind();
+  if (time && time->kind == kind) return track_set.times.seconds(time->time);
   throw ProgramError(fmt::format("{}: expected a time as in the file, {}{}, but got '{}'", option,
-                                 name_of(recording.times.kind()),
+                                 name_of(track_set.times.kind()),
                                  kind == TimeKind::utc ? ", such as 2024-05-01T08:00:00Z" : "", text));
 }
 
-TimeWindow span_of(const Recording& recording) {
-  const RecordedTrack& any = recording.tracks.front();
+TimeWindow span_of(const TrackSet& track_set) {
+  const RecordedTrack& any = track_set.tracks.front();
   TimeWindow span{any.samples.front().time, any.samples.back().time};
-  for (const RecordedTrack& track : recording.tracks) {
+  for (const RecordedTrack& track : track_set.tracks) {
     span.from = std::min(span.from, track.samples.front().time);
     span.until = std::max(span.until, track.samples.back().time);
   }
   return span;
 }
 
-TimeWindow chosen_window(const ApproachChoice& choice, const Recording& recording) {
-  const TimeWindow span = span_of(recording);
+TimeWindow chosen_window(const ApproachChoice& choice, const TrackSet& track_set) {
+  const TimeWindow span = span_of(track_set);
   TimeWindow window = span;
-  if (!choice.from.empty()) window.from = std::max(span.from, window_time(choice.from, "--from", recording));
+  if (!choice.from.empty()) window.from = std::max(span.from, window_time(choice.from, "--from", track_set));
   if (!choice.until.empty())
-    window.until = std::min(span.until, window_time(choice.until, "--until", recording));
+    window.until = std::min(span.until, window_time(choice.until, "--until", track_set));
   if (window.from >= span.until && !choice.from.empty())
     throw ProgramError(fmt::format("--from: expected a time before the recording's end {}, but got '{}'",
-                                   recording.times.text(span.until), choice.from));
+                                   track_set.times.text(span.until), choice.from));
   if (window.until <= span.from && !choice.until.empty())
     throw ProgramError(fmt::format("--until: expected a time after the recording's begin {}, but got '{}'",
-                                   recording.times.text(span.from), choice.until));
+                                   track_set.times.text(span.from), choice.until));
   if (window.from >= window.until && !choice.from.empty())
     throw ProgramError(
         fmt::format("--until: expected a time after --from {}, but got '{}'", choice.from, choice.until));
@@ -66,10 +66,10 @@ std::vector<std::string> listed_ids(const std::string& text, const std::set<std:
   return ids;
 }
 
-std::vector<bool> chosen_tracks(const ApproachChoice& choice, const Recording& recording) {
+std::vector<bool> chosen_tracks(const ApproachChoice& choice, const TrackSet& track_set) {
   if (choice.only.empty()) return {};
   std::set<std::string_view> known;
-  for (const RecordedTrack& track : recording.tracks) known.insert(track.id);
+  for (const RecordedTrack& track : track_set.tracks) known.insert(track.id);
   std::set<std::string> chosen;
   for (const std::string& text : choice.only) {
     for (const std::string& id : listed_ids(text, known)) {
@@ -80,7 +80,7 @@ std::vector<bool> chosen_tracks(const ApproachChoice& choice, const Recording& r
     }
   }
   std::vector<bool> tracks;
-  for (const RecordedTrack& track : recording.tracks) tracks.push_back(chosen.contains(track.id));
+  for (const RecordedTrack& track : track_set.tracks) tracks.push_back(chosen.contains(track.id));
   return tracks;
 }
 
@@ -114,9 +114,9 @@ void add_choice_options(CLI::App& command, ApproachChoice& choice) {
       ->group(group);
 }
 
-ApproachFilter::ApproachFilter(const ApproachChoice& choice, const Recording& recording)
-    : window_(chosen_window(choice, recording)),
-      only_(chosen_tracks(choice, recording)),
+ApproachFilter::ApproachFilter(const ApproachChoice& choice, const TrackSet& track_set)
+    : window_(chosen_window(choice, track_set)),
+      only_(chosen_tracks(choice, track_set)),
       min_duration_(least_duration(choice)) {}
 
 LeftOut ApproachFilter::apply(std::vector<Approach>& approaches) const {

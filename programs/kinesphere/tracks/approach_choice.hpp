@@ -1,4 +1,4 @@
-// Which approaches of a recording are wanted: a window of time, ids, a smallest duration.
+// Which approaches of a track set are wanted: a window of time, ids, a smallest duration.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "simulation/tracks/approaches.hpp"
-#include "tracks/recording.hpp"
+#include "tracks/track_set.hpp"
 
 namespace kinesphere::program {
 
 /// The choice of the command line. Without any of its members all approaches are wanted.
 struct ApproachChoice {
-  std::string from, until;             ///< times as in the file; empty for those of the recording
+  std::string from, until;             ///< times as in the file; empty for those of the track set
   std::vector<std::string> only;       ///< each an id or ids joined by commas
   std::optional<double> min_duration;  ///< seconds
 };
@@ -21,7 +21,7 @@ struct ApproachChoice {
 /// `choice` must live until the command line has been parsed.
 void add_choice_options(CLI::App& command, ApproachChoice& choice);
 
-/// A span of the recording's own seconds.
+/// A span of the track set's own seconds.
 struct TimeWindow {
   double from = 0.0, until = 0.0;
 };
@@ -31,14 +31,14 @@ struct LeftOut {
   std::size_t by_ids = 0, by_duration = 0;
 };
 
-/// A choice that fits a recording.
+/// A choice that fits a track set.
 class ApproachFilter {
  public:
-  /// Throws ProgramError naming the option: for a time of another kind than the recording's, a window without
-  /// a part of the recording, an id that has no track, a negative duration.
-  ApproachFilter(const ApproachChoice& choice, const Recording& recording);
+  /// Throws ProgramError naming the option: for a time of another kind than the track set's, a window without
+  /// a part of the track set, an id that has no track, a negative duration.
+  ApproachFilter(const ApproachChoice& choice, const TrackSet& track_set);
 
-  /// The chosen part of the recording; from < until unless all samples have one time.
+  /// The chosen part of the track set; from < until unless all samples have one time.
   const TimeWindow& window() const { return window_; }
   /// Removes approaches that are not wanted.
   LeftOut apply(std::vector<Approach>& approaches) const;

@@ -10,7 +10,7 @@
 
 #include "base/program_error.hpp"
 #include "number/infinity.hpp"
-#include "tracks/recording_cells.hpp"
+#include "tracks/track_cells.hpp"
 #include "tracks/track_scene.hpp"
 
 namespace kinesphere::program {
@@ -29,9 +29,9 @@ namespace {
 /// The columns of the table with the positions, which maps have as points.
 constexpr std::size_t first_of_positions = 8, behind_positions = 14;
 
-std::vector<std::string> approach_columns(const Recording& recording, bool by_cylinder) {
+std::vector<std::string> approach_columns(const TrackSet& track_set, bool by_cylinder) {
   const auto with_unit = [&](std::string_view name, Measure measure = Measure::length) {
-    return name_with_unit(name, measure, recording);
+    return name_with_unit(name, measure, track_set);
   };
   std::vector<std::string> columns{"begin",
                                    "end",
@@ -53,18 +53,18 @@ std::vector<std::string> approach_columns(const Recording& recording, bool by_cy
   return columns;
 }
 
-std::vector<Cell> approach_cells(const Approach& approach, const Recording& recording, bool by_cylinder) {
+std::vector<Cell> approach_cells(const Approach& approach, const TrackSet& track_set, bool by_cylinder) {
   const ClosestApproach& closest = approach.closest;
-  std::vector<Cell> cells{time_cell(recording.times, approach.begin),
-                          time_cell(recording.times, approach.end),
-                          recording.tracks[approach.first].id,
-                          recording.tracks[approach.second].id,
+  std::vector<Cell> cells{time_cell(track_set.times, approach.begin),
+                          time_cell(track_set.times, approach.end),
+                          track_set.tracks[approach.first].id,
+                          track_set.tracks[approach.second].id,
                           approach.begins_with_track,
                           approach.ends_with_track,
-                          time_cell(recording.times, closest.time),
+                          time_cell(track_set.times, closest.time),
                           closest.distance};
-  add_position(cells, closest.first, recording);
-  add_position(cells, closest.second, recording);
+  add_position(cells, closest.first, track_set);
+  add_position(cells, closest.second, track_set);
   cells.emplace_back(closest.relative_speed);
   if (by_cylinder) cells.insert(cells.end(), {horizontal_distance(closest), vertical_distance(closest)});
   return cells;
@@ -85,34 +85,34 @@ ApproachFile::ApproachFile(const std::string& path, bool by_cylinder)
   table_.emplace(path);
 }
 
-void ApproachFile::check(const Recording& recording) const {
+void ApproachFile::check(const TrackSet& track_set) const {
   if (!map_) return;
-  const Vec3& somewhere = recording.tracks.front().samples.front().position;
-  if (recording.coordinates.geographic(somewhere)) return;
+  const Vec3& somewhere = track_set.tracks.front().samples.front().position;
+  if (track_set.coordinates.geographic(somewhere)) return;
   throw ProgramError(fmt::format(
       "{}: expected longitudes and latitudes for a {} file (--positions lonlat, or --positions utm with its "
       "zone), but positions are plain coordinates: write .csv or .jsonl",
       map_->path(), std::filesystem::path(map_->path()).extension().string()));
 }
 
-void ApproachFile::write(const std::vector<Approach>& approaches, const Recording& recording) {
-  const std::vector<std::string> columns = approach_columns(recording, by_cylinder_);
+void ApproachFile::write(const std::vector<Approach>& approaches, const TrackSet& track_set) {
+  const std::vector<std::string> columns = approach_columns(track_set, by_cylinder_);
   if (table_) {
     table_->begin(columns);
     for (const Approach& approach : approaches)
-      table_->write(approach_cells(approach, recording, by_cylinder_));
+      table_->write(approach_cells(approach, track_set, by_cylinder_));
     return;
   }
   map_->write(map_begin(*map_format_));
   bool is_first = true;
   for (const Approach& approach : approaches) {
-    const std::vector<Cell> cells = approach_cells(approach, recording, by_cylinder_);
+    const std::vector<Cell> cells = approach_cells(approach, track_set, by_cylinder_);
     MapProperties properties;
     for (std::size_t k = 0; k < columns.size(); ++k)
       if (k < first_of_positions || k >= behind_positions) properties.emplace_back(columns[k], cells[k]);
     // The ids come first.
     std::rotate(properties.begin(), properties.begin() + 2, properties.begin() + 4);
-    map_->write(map_feature(*map_format_, approach, properties, recording, std::exchange(is_first, false)));
+    map_->write(map_feature(*map_format_, approach, properties, track_set, std::exchange(is_first, false)));
   }
   map_->write(map_end(*map_format_));
 }
@@ -122,14 +122,14 @@ void ApproachFile::commit() {
   if (map_) map_->commit();
 }
 
-std::vector<PairSummary> pairs_in(const std::vector<Approach>& approaches, const Recording& recording,
+std::vector<PairSummary> pairs_in(const std::vector<Approach>& approaches, const TrackSet& track_set,
                                   const Motion& motion) {
-  const std::vector<double> radii = radii_of(recording);
+  const std::vector<double> radii = radii_of(track_set);
   std::vector<PairSummary> pairs;
   std::map<std::pair<std::string, std::string>, std::size_t> known;
   for (const Approach& approach : approaches) {
-    const std::string& first = recording.tracks[approach.first].id;
-    const std::string& second = recording.tracks[approach.second].id;
+    const std::string& first = track_set.tracks[approach.first].id;
+    const std::string& second = track_set.tracks[approach.second].id;
     const auto [at, is_new] = known.try_emplace(std::minmax(first, second), pairs.size());
     if (is_new)
       pairs.push_back({.first = first,
@@ -139,7 +139,7 @@ std::vector<PairSummary> pairs_in(const std::vector<Approach>& approaches, const
     PairSummary& pair = pairs[at->second];
     ++pair.approaches;
     pair.duration += approach.end - approach.begin;
-    if (recording.has_sizes) {
+    if (track_set.has_sizes) {
       const LeastTimeToCollision least = least_time_to_collision(motion, approach, radii);
       if (least.seconds < pair.to_collision.seconds) pair.to_collision = least;
       const PostEncroachment entry = post_encroachment(motion, approach, radii);
@@ -153,9 +153,9 @@ std::vector<PairSummary> pairs_in(const std::vector<Approach>& approaches, const
   return pairs;
 }
 
-void write_pairs(TableFile& table, const std::vector<PairSummary>& pairs, const Recording& recording) {
+void write_pairs(TableFile& table, const std::vector<PairSummary>& pairs, const TrackSet& track_set) {
   const auto with_unit = [&](std::string_view name, Measure measure) {
-    return name_with_unit(name, measure, recording);
+    return name_with_unit(name, measure, track_set);
   };
   std::vector<std::string> columns{"first",
                                    "second",
@@ -163,21 +163,21 @@ void write_pairs(TableFile& table, const std::vector<PairSummary>& pairs, const 
                                    with_unit("duration", Measure::time),
                                    with_unit("least_distance", Measure::length),
                                    "closest_time"};
-  if (recording.has_sizes)
+  if (track_set.has_sizes)
     columns.insert(columns.end(), {with_unit("least_time_to_collision", Measure::time), "time_of_that",
                                    with_unit("post_encroachment_time", Measure::time), "time_of_entry"});
   table.begin(std::move(columns));
   for (const PairSummary& pair : pairs) {
     std::vector<Cell> cells{
         pair.first,    pair.second,           pair.approaches,
-        pair.duration, pair.closest.distance, time_cell(recording.times, pair.closest.time)};
+        pair.duration, pair.closest.distance, time_cell(track_set.times, pair.closest.time)};
     const auto add = [&](double seconds, double at) {
       if (seconds < infinity)
-        cells.insert(cells.end(), {seconds, time_cell(recording.times, at)});
+        cells.insert(cells.end(), {seconds, time_cell(track_set.times, at)});
       else
         cells.insert(cells.end(), 2, Cell());
     };
-    if (recording.has_sizes) {
+    if (track_set.has_sizes) {
       add(pair.to_collision.seconds, pair.to_collision.at);
       add(pair.encroachment.seconds, pair.encroachment.at);
     }

@@ -13,7 +13,7 @@
 #include "simulation/tracks/post_encroachment.hpp"
 #include "simulation/tracks/time_to_collision.hpp"
 #include "tracks/approach_map.hpp"
-#include "tracks/recording.hpp"
+#include "tracks/track_set.hpp"
 
 namespace kinesphere::program {
 
@@ -28,9 +28,9 @@ class ApproachFile {
   /// `by_cylinder` adds the horizontal and the vertical distance.
   ApproachFile(const std::string& path, bool by_cylinder);
 
-  /// Throws ProgramError if the file needs longitudes and latitudes and the recording has none.
-  void check(const Recording& recording) const;
-  void write(const std::vector<Approach>& approaches, const Recording& recording);
+  /// Throws ProgramError if the file needs longitudes and latitudes and the track set has none.
+  void check(const TrackSet& track_set) const;
+  void write(const std::vector<Approach>& approaches, const TrackSet& track_set);
   void commit();
 
  private:
@@ -51,11 +51,11 @@ struct PairSummary {
 };
 
 /// Returns the pairs, the one with the closest approach first. Their times to collision and post-encroachment
-/// times are found if the recording has sizes.
-std::vector<PairSummary> pairs_in(const std::vector<Approach>& approaches, const Recording& recording,
+/// times are found if the track set has sizes.
+std::vector<PairSummary> pairs_in(const std::vector<Approach>& approaches, const TrackSet& track_set,
                                   const Motion& motion);
 
 /// Writes a table of pairs; with sizes also the times to collision and the post-encroachment times.
-void write_pairs(TableFile& table, const std::vector<PairSummary>& pairs, const Recording& recording);
+void write_pairs(TableFile& table, const std::vector<PairSummary>& pairs, const TrackSet& track_set);
 
 }  // namespace kinesphere::program

@@ -32,26 +32,26 @@ std::string plain_value(const Cell& cell) {
 }
 
 /// Returns longitude, latitude and height.
-Vec3 geographic_place(const Recording& recording, const Vec3& local) {
-  return recording.coordinates.geographic(local).value();
+Vec3 geographic_place(const TrackSet& track_set, const Vec3& local) {
+  return track_set.coordinates.geographic(local).value();
 }
 
 /// Returns a point in the order of RFC 7946.
-nlohmann::ordered_json geojson_point(const Recording& recording, const Vec3& local) {
-  const Vec3 place = geographic_place(recording, local);
+nlohmann::ordered_json geojson_point(const TrackSet& track_set, const Vec3& local) {
+  const Vec3 place = geographic_place(track_set, local);
   nlohmann::ordered_json point{place.x, place.y};
-  if (!recording.is_plane) point.push_back(place.z);
+  if (!track_set.is_plane) point.push_back(place.z);
   return point;
 }
 
 std::string geojson_feature(const Approach& approach, const MapProperties& properties,
-                            const Recording& recording, bool is_first) {
+                            const TrackSet& track_set, bool is_first) {
   nlohmann::ordered_json feature{{"type", "Feature"},
                                  {"geometry",
                                   {{"type", "MultiPoint"},
                                    {"coordinates",
-                                    {geojson_point(recording, approach.closest.first),
-                                     geojson_point(recording, approach.closest.second)}}}},
+                                    {geojson_point(track_set, approach.closest.first),
+                                     geojson_point(track_set, approach.closest.second)}}}},
                                  {"properties", nlohmann::ordered_json::object()}};
   for (const auto& [name, value] : properties) feature["properties"][name] = json_value(value);
   return (is_first ? "\n" : ",\n") + feature.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -60,51 +60,51 @@ std::string geojson_feature(const Approach& approach, const MapProperties& prope
 /// Nine decimals of a degree are a tenth of a millimetre. XML's decimal numbers have no exponent.
 std::string degrees_text(double degrees) { return fmt::format("{:.9f}", degrees); }
 
-std::string gpx_point(const Approach& approach, const Recording& recording, bool is_second,
+std::string gpx_point(const Approach& approach, const TrackSet& track_set, bool is_second,
                       const std::string& description) {
-  const std::string& first = recording.tracks[approach.first].id;
-  const std::string& second = recording.tracks[approach.second].id;
+  const std::string& first = track_set.tracks[approach.first].id;
+  const std::string& second = track_set.tracks[approach.second].id;
   const Vec3 place =
-      geographic_place(recording, is_second ? approach.closest.second : approach.closest.first);
+      geographic_place(track_set, is_second ? approach.closest.second : approach.closest.first);
   std::string text = fmt::format("<wpt lat=\"{}\" lon=\"{}\">", degrees_text(place.y), degrees_text(place.x));
-  if (!recording.is_plane) text += fmt::format("<ele>{:.4f}</ele>", place.z);
-  if (recording.times.kind() == TimeKind::utc)
-    text += fmt::format("<time>{}</time>", recording.times.text(approach.closest.time));
+  if (!track_set.is_plane) text += fmt::format("<ele>{:.4f}</ele>", place.z);
+  if (track_set.times.kind() == TimeKind::utc)
+    text += fmt::format("<time>{}</time>", track_set.times.text(approach.closest.time));
   return text + fmt::format("<name>{}</name><desc>{}</desc></wpt>\n",
                             xml_text(is_second ? second + " by " + first : first + " by " + second),
                             description);
 }
 
 std::string gpx_feature(const Approach& approach, const MapProperties& properties,
-                        const Recording& recording) {
+                        const TrackSet& track_set) {
   std::string description;
   for (const auto& [name, value] : properties)
     description +=
         fmt::format("{}{}: {}", description.empty() ? "" : "; ", name, xml_text(plain_value(value)));
-  return gpx_point(approach, recording, false, description) +
-         gpx_point(approach, recording, true, description);
+  return gpx_point(approach, track_set, false, description) +
+         gpx_point(approach, track_set, true, description);
 }
 
 std::string kml_feature(const Approach& approach, const MapProperties& properties,
-                        const Recording& recording) {
+                        const TrackSet& track_set) {
   std::string text = fmt::format(
       "<Placemark><name>{}</name>",
-      xml_text(recording.tracks[approach.first].id + " by " + recording.tracks[approach.second].id));
-  if (recording.times.kind() == TimeKind::utc)
+      xml_text(track_set.tracks[approach.first].id + " by " + track_set.tracks[approach.second].id));
+  if (track_set.times.kind() == TimeKind::utc)
     text += fmt::format("<TimeSpan><begin>{}</begin><end>{}</end></TimeSpan>",
-                        recording.times.text(approach.begin), recording.times.text(approach.end));
+                        track_set.times.text(approach.begin), track_set.times.text(approach.end));
   text += "<ExtendedData>";
   for (const auto& [name, value] : properties)
     text += fmt::format("<Data name=\"{}\"><value>{}</value></Data>", name, xml_text(plain_value(value)));
   text += "</ExtendedData><MultiGeometry>";
   const auto coordinates = [&](const Vec3& local) {
-    const Vec3 place = geographic_place(recording, local);
+    const Vec3 place = geographic_place(track_set, local);
     return fmt::format("{},{}{}", degrees_text(place.x), degrees_text(place.y),
-                       recording.is_plane ? "" : fmt::format(",{:.4f}", place.z));
+                       track_set.is_plane ? "" : fmt::format(",{:.4f}", place.z));
   };
   const std::string first = coordinates(approach.closest.first);
   const std::string second = coordinates(approach.closest.second);
-  const std::string_view mode = recording.is_plane ? "" : "<altitudeMode>absolute</altitudeMode>";
+  const std::string_view mode = track_set.is_plane ? "" : "<altitudeMode>absolute</altitudeMode>";
   text += fmt::format(
       "<Point>{0}<coordinates>{1}</coordinates></Point><Point>{0}<coordinates>{2}</coordinates></Point>"
       "<LineString>{0}<coordinates>{1} {2}</coordinates></LineString>",
@@ -140,10 +140,10 @@ std::string_view map_begin(MapFormat format) { return map_texts[static_cast<std:
 std::string_view map_end(MapFormat format) { return map_texts[static_cast<std::size_t>(format)].end; }
 
 std::string map_feature(MapFormat format, const Approach& approach, const MapProperties& properties,
-                        const Recording& recording, bool is_first) {
-  if (format == MapFormat::geojson) return geojson_feature(approach, properties, recording, is_first);
-  return format == MapFormat::gpx ? gpx_feature(approach, properties, recording)
-                                  : kml_feature(approach, properties, recording);
+                        const TrackSet& track_set, bool is_first) {
+  if (format == MapFormat::geojson) return geojson_feature(approach, properties, track_set, is_first);
+  return format == MapFormat::gpx ? gpx_feature(approach, properties, track_set)
+                                  : kml_feature(approach, properties, track_set);
 }
 
 }  // namespace kinesphere::program

@@ -9,7 +9,7 @@
 
 #include "base/table_file.hpp"
 #include "simulation/tracks/approaches.hpp"
-#include "tracks/recording.hpp"
+#include "tracks/track_set.hpp"
 
 namespace kinesphere::program {
 
@@ -23,9 +23,9 @@ using MapProperties = std::vector<std::pair<std::string, Cell>>;
 std::string_view map_begin(MapFormat format);
 std::string_view map_end(MapFormat format);
 /// Returns the text of one approach: the two places where the bodies were closest, and the properties.
-/// Precondition: the recording's positions are on the earth. Times are those of GPX and KML where the file
+/// Precondition: the track set's positions are on the earth. Times are those of GPX and KML where the file
 /// has dates with a zone; all times are in the properties.
 std::string map_feature(MapFormat format, const Approach& approach, const MapProperties& properties,
-                        const Recording& recording, bool is_first);
+                        const TrackSet& track_set, bool is_first);
 
 }  // namespace kinesphere::program

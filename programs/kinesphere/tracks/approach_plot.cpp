@@ -78,7 +78,7 @@ std::string axes(const Panel& panel, std::string_view title, std::string_view x_
   return svg + text_at(panel.left, panel.top - 10, title, "font-weight=\"bold\"");
 }
 
-/// The two axes along which a recording is widest, and their names.
+/// The two axes along which a track set is widest, and their names.
 struct View {
   int across = 0, up = 1;
   std::string x_label, y_label;
@@ -88,9 +88,9 @@ struct View {
 
 class Picture {
  public:
-  Picture(const Recording& recording, const Scene& scene, const std::vector<Approach>& approaches,
+  Picture(const TrackSet& track_set, const Scene& scene, const std::vector<Approach>& approaches,
           double distance)
-      : recording_(recording),
+      : track_set_(track_set),
         scene_(scene),
         approaches_(approaches),
         distance_(distance),
@@ -104,10 +104,10 @@ class Picture {
   }
 
  private:
-  Vec3 in_file(const Vec3& local) const { return recording_.coordinates.as_in_file(local); }
+  Vec3 in_file(const Vec3& local) const { return track_set_.coordinates.as_in_file(local); }
 
   View view(const Vec3& size) const {
-    if (recording_.coordinates.are_geographic()) return {0, 1, "longitude (degrees)", "latitude (degrees)"};
+    if (track_set_.coordinates.are_geographic()) return {0, 1, "longitude (degrees)", "latitude (degrees)"};
     const int narrowest = size.z <= size.x && size.z <= size.y ? 2 : size.y <= size.x ? 1 : 0;
     View view{.across = narrowest == 0 ? 1 : 0, .up = narrowest == 2 ? 1 : 2, .x_label = {}, .y_label = {}};
     constexpr std::array<const char*, 3> names{"x", "y", "z"};
@@ -134,7 +134,7 @@ class Picture {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Vec3 low{infinity, infinity, infinity};
     Vec3 high = -low;
-    for (const RecordedTrack& track : recording_.tracks)
+    for (const RecordedTrack& track : track_set_.tracks)
       for (const TrackSample& sample : track.samples) {
         const Vec3 at = in_file(sample.position);
         for (int axis = 0; axis < 3; ++axis) {
@@ -144,18 +144,18 @@ class Picture {
       }
     const View view = this->view(high - low);
     const Point lowest = view.of(low), highest = view.of(high);
-    const double x_scale = recording_.coordinates.are_geographic()
+    const double x_scale = track_set_.coordinates.are_geographic()
                                ? std::max(0.02, std::cos(0.5 * (lowest.y + highest.y) * 0.017453292519943295))
                                : 1.0;
     const Panel panel = fitted(lowest, highest, x_scale);
     std::string svg =
-        axes(panel, fmt::format("{} tracks, {} approaches", recording_.tracks.size(), approaches_.size()),
+        axes(panel, fmt::format("{} tracks, {} approaches", track_set_.tracks.size(), approaches_.size()),
              view.x_label, view.y_label);
     svg += fmt::format(
         "<clipPath id=\"map\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>\n<g "
         "clip-path=\"url(#map)\">\n",
         panel.left, panel.top, panel.width, panel.height);
-    for (std::uint32_t track = 0; track < recording_.tracks.size(); ++track)
+    for (std::uint32_t track = 0; track < track_set_.tracks.size(); ++track)
       svg += polyline(course(track, view, panel),
                       R"(fill="none" stroke="#7a8793" stroke-width="0.7" stroke-opacity="0.5")");
     svg += marks(view, panel);
@@ -165,7 +165,7 @@ class Picture {
   /// Returns the curve of a track, without points that move it by less than half a pixel.
   std::vector<Point> course(std::uint32_t track, const View& view, const Panel& panel) const {
     std::vector<Point> points;
-    const auto& samples = recording_.tracks[track].samples;
+    const auto& samples = track_set_.tracks[track].samples;
     const auto add = [&](double time, bool always) {
       const Point at = view.of(in_file(scene_.motion->state(track, time).position));
       const Point pixel{panel.x(at.x), panel.y(at.y)};
@@ -217,7 +217,7 @@ class Picture {
   double distance_at(const Approach& approach, double time) const {
     return norm(scene_.motion->state(approach.first, time).position -
                 scene_.motion->state(approach.second, time).position) -
-           recording_.tracks[approach.first].radius - recording_.tracks[approach.second].radius;
+           track_set_.tracks[approach.first].radius - track_set_.tracks[approach.second].radius;
   }
 
   /// Returns the typical duration of the drawn approaches, shown on each side of the closest.
@@ -234,7 +234,7 @@ class Picture {
   std::string distances() const {
     const double around = time_around();
     const Panel panel{590, 40, 390, 280, -around, around, 0.0, 2.0 * distance_};
-    const std::string unit = recording_.coordinates.are_geographic() ? " (m)" : " (unit of --distance)";
+    const std::string unit = track_set_.coordinates.are_geographic() ? " (m)" : " (unit of --distance)";
     std::string svg =
         axes(panel, "Distance of the closest pairs", "time from the closest approach (s)", "distance" + unit);
     svg += fmt::format(
@@ -277,9 +277,9 @@ class Picture {
           "<circle cx=\"597\" cy=\"{:.1f}\" r=\"6\" fill=\"none\" stroke=\"{}\" stroke-width=\"2.5\"/>\n",
           y - 4, colours[k]);
       svg += text_at(612, y,
-                     fmt::format("{} and {}: {:.4g} at {}", shortened(recording_.tracks[approach.first].id),
-                                 shortened(recording_.tracks[approach.second].id), approach.closest.distance,
-                                 recording_.times.text(approach.closest.time, 2)));
+                     fmt::format("{} and {}: {:.4g} at {}", shortened(track_set_.tracks[approach.first].id),
+                                 shortened(track_set_.tracks[approach.second].id), approach.closest.distance,
+                                 track_set_.times.text(approach.closest.time, 2)));
     }
     return svg;
   }
@@ -289,7 +289,7 @@ class Picture {
     return id.size() <= longest ? id : id.substr(0, longest) + "...";
   }
 
-  const Recording& recording_;
+  const TrackSet& track_set_;
   const Scene& scene_;
   const std::vector<Approach>& approaches_;
   double distance_;
@@ -310,9 +310,9 @@ std::vector<double> ticks(double low, double high, int wanted) {
   return result;
 }
 
-std::string plot_of(const Recording& recording, const Scene& scene, const std::vector<Approach>& approaches,
+std::string plot_of(const TrackSet& track_set, const Scene& scene, const std::vector<Approach>& approaches,
                     double distance) {
-  return Picture(recording, scene, approaches, distance).svg();
+  return Picture(track_set, scene, approaches, distance).svg();
 }
 
 }  // namespace kinesphere::program

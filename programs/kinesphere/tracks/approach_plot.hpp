@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "simulation/tracks/approaches.hpp"
-#include "tracks/recording.hpp"
+#include "tracks/track_set.hpp"
 
 namespace kinesphere::program {
 
 /// Returns an SVG picture of 1000 by 520 pixels. `distance` is the largest distance of an approach.
-std::string plot_of(const Recording& recording, const Scene& scene, const std::vector<Approach>& approaches,
+std::string plot_of(const TrackSet& track_set, const Scene& scene, const std::vector<Approach>& approaches,
                     double distance);
 
 /// Returns round numbers from `low` to `high`, about `wanted` of them: multiples of 1, 2 or 5 times a power

@@ -45,7 +45,7 @@ std::vector<Chain> chains_of(const Piece& samples, double max_speed) {
 }  // namespace
 
 void leave_one_at_each_time(Piece& samples, const std::string& id, DuplicatePolicy policy,
-                            const RawRecording& raw, Tally& duplicates) {
+                            const RawTrackSet& raw, Tally& duplicates) {
   std::stable_sort(samples.begin(), samples.end(), [](const PlacedSample& a, const PlacedSample& b) {
     return a.sample.time < b.sample.time;
   });
@@ -72,7 +72,7 @@ void leave_one_at_each_time(Piece& samples, const std::string& id, DuplicatePoli
   samples.erase(samples.begin() + static_cast<std::ptrdiff_t>(kept), samples.end());
 }
 
-std::vector<Piece> split_by_speed(const Piece& samples, double max_speed, const RawRecording& raw,
+std::vector<Piece> split_by_speed(const Piece& samples, double max_speed, const RawTrackSet& raw,
                                   Tally& too_fast) {
   std::vector<Chain> chains = chains_of(samples, max_speed);
   std::vector<std::size_t> by_size(chains.size());

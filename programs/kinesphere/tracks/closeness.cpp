@@ -44,15 +44,15 @@ Closeness closeness_of(const std::string& distance_text, const std::string& sepa
       "--separation: expected sphere:RADIUS or cylinder:HORIZONTAL:VERTICAL, but got '{}'", named.name));
 }
 
-void check_closeness(const Closeness& closeness, const Recording& recording) {
-  if (closeness.vertical && recording.has_sizes)
+void check_closeness(const Closeness& closeness, const TrackSet& track_set) {
+  if (closeness.vertical && track_set.has_sizes)
     throw ProgramError("--sizes: expected --distance or a sphere, because a cylinder is about points");
-  if (closeness.has_unit && !recording.in_metres)
+  if (closeness.has_unit && !track_set.in_metres)
     throw ProgramError(
         fmt::format("{}: expected numbers without a unit, because the unit of lengths is not known, but got "
                     "'{}': say --unit",
                     closeness.option, closeness.given));
-  if (closeness.vertical && !recording.has_heights)
+  if (closeness.vertical && !track_set.has_heights)
     throw ProgramError(
         "--separation: expected a column of heights (z or alt) for a cylinder, but there is none");
 }

@@ -5,12 +5,12 @@
 #include <string>
 
 #include "tracks/reading_policy.hpp"
-#include "tracks/recording.hpp"
+#include "tracks/track_set.hpp"
 
 namespace kinesphere::program {
 
 /// A sphere, or a cylinder if there is a vertical distance. Lengths are in metres or, without a unit, in the
-/// unit of the recording's lengths.
+/// unit of the track set's lengths.
 struct Closeness {
   double distance;  ///< the horizontal one of a cylinder
   std::optional<double> vertical;
@@ -21,9 +21,9 @@ struct Closeness {
 
 /// Parses the texts of --distance and --separation, of which one is empty. Throws ProgramError.
 Closeness closeness_of(const std::string& distance_text, const std::string& separation_text);
-/// Throws ProgramError if a length has a unit although that of the recording is unknown, and for a cylinder
+/// Throws ProgramError if a length has a unit although that of the track set is unknown, and for a cylinder
 /// without heights or with sizes.
-void check_closeness(const Closeness& closeness, const Recording& recording);
+void check_closeness(const Closeness& closeness, const TrackSet& track_set);
 /// Returns how files are read: a cylinder needs vertical heights, so on the earth it stands on a plane.
 /// Throws ProgramError if another projection is asked for.
 TrackOptions reading_for(const Closeness& closeness, TrackOptions reading);

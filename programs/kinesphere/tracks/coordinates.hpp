@@ -13,9 +13,9 @@
 
 namespace kinesphere::program {
 
-/// Computed coordinates are lengths from an origin near the recording, so that no digits are lost to a large
+/// Computed coordinates are lengths from an origin near the track set, so that no digits are lost to a large
 /// offset such as that of UTM. Unit: metres if the file's unit is known or its positions are longitudes and
-/// latitudes, else the file's unit. A recording near zero keeps zero as its origin.
+/// latitudes, else the file's unit. A track set near zero keeps zero as its origin.
 class Coordinates {
  public:
   Coordinates() = default;

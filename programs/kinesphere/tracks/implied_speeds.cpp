@@ -23,12 +23,12 @@ double usual_speed(std::vector<double>& speeds) {
 
 }  // namespace
 
-ImpliedSpeeds::ImpliedSpeeds(const Recording& recording) : recording_(recording) {
+ImpliedSpeeds::ImpliedSpeeds(const TrackSet& track_set) : track_set_(track_set) {
   constexpr double absurd = 10.0;
   constexpr std::size_t fewest_steps = 8;
   std::vector<double> all;
   std::unordered_map<std::string_view, std::vector<double>> by_id;
-  for (const RecordedTrack& track : recording.tracks) {
+  for (const RecordedTrack& track : track_set.tracks) {
     std::vector<double>& own = by_id[track.id];
     for (std::size_t k = 1; k < track.samples.size(); ++k) {
       own.push_back(step_speed(track, k));
@@ -39,11 +39,11 @@ ImpliedSpeeds::ImpliedSpeeds(const Recording& recording) : recording_(recording)
   std::unordered_map<std::string_view, double> usual_of;
   for (auto& [id, speeds] : by_id)
     usual_of[id] = speeds.size() < fewest_steps ? usual : std::max(usual, usual_speed(speeds));
-  for (const RecordedTrack& track : recording.tracks) limits_.push_back(absurd * usual_of[track.id]);
+  for (const RecordedTrack& track : track_set.tracks) limits_.push_back(absurd * usual_of[track.id]);
 }
 
 bool ImpliedSpeeds::is_absurd_at(std::uint32_t track, double time) const {
-  const RecordedTrack& recorded = recording_.tracks[track];
+  const RecordedTrack& recorded = track_set_.tracks[track];
   const auto& samples = recorded.samples;
   const auto after = std::upper_bound(samples.begin(), samples.end(), time,
                                       [](double t, const TrackSample& sample) { return t < sample.time; });

@@ -1,4 +1,4 @@
-// Clock times of a recording that passes midnight.
+// Clock times of a track set that passes midnight.
 #pragma once
 
 #include <cstdint>

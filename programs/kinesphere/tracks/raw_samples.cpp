@@ -40,12 +40,12 @@ TableColumns columns_of_messages(StreamFormat format, bool geographic, bool has_
 }  // namespace
 
 /// Takes the reports of one file.
-class RawRecording::FileReader final : public ReportSink {
+class RawTrackSet::FileReader final : public ReportSink {
  public:
   /// `converted` says which lines of the file those of the text are; null for the file itself.
-  FileReader(RawRecording& recording, StreamFormat format, const FormatChoices& choices,
+  FileReader(RawTrackSet& track_set, StreamFormat format, const FormatChoices& choices,
              const ConvertedTable* converted)
-      : recording_(recording),
+      : track_set_(track_set),
         format_(format),
         converted_(converted),
         reader_(make_format(format, choices)) {}
@@ -60,16 +60,16 @@ class RawRecording::FileReader final : public ReportSink {
     if (const auto record = cutter.rest()) read(*record);
     guarded([&] { reader_->finish(*this); });
     if (is_table(format_)) {
-      if (reader_->rows()->columns().times_are_clocks) recording_.pass_clocks_through_midnights();
+      if (reader_->rows()->columns().times_are_clocks) track_set_.pass_clocks_through_midnights();
       note_orders();
       note_ids();
-      if (reader_->rows()->columns().id_is_file) recording_.add_file_id(reader_->rows()->file_id());
-      return recording_.add_columns(reader_->rows()->columns(), file());
+      if (reader_->rows()->columns().id_is_file) track_set_.add_file_id(reader_->rows()->file_id());
+      return track_set_.add_columns(reader_->rows()->columns(), file());
     }
     settle_heights();
-    recording_.add_columns(columns_of_messages(format_, geographic_.value_or(false), has_heights_), file());
+    track_set_.add_columns(columns_of_messages(format_, geographic_.value_or(false), has_heights_), file());
     if (malformed_ > 0)
-      recording_.counts_.warnings.push_back(fmt::format("{}:{} (so many damaged messages are left out: {})",
+      track_set_.counts_.warnings.push_back(fmt::format("{}:{} (so many damaged messages are left out: {})",
                                                         file(), first_malformed_, malformed_));
   }
   /// Null for messages.
@@ -85,7 +85,7 @@ class RawRecording::FileReader final : public ReportSink {
     Vec3 position = report.row != nullptr ? report.written.position : report.position;
     if (report.row == nullptr) {
       agree_on_places(report);
-      if (is_repeated(track, report)) return recording_.count(recording_.counts_.repeated, place_);
+      if (is_repeated(track, report)) return track_set_.count(track_set_.counts_.repeated, place_);
       if (!report.has_height) position.z = std::numeric_limits<double>::quiet_NaN();
       has_heights_ = has_heights_ || report.has_height;
     } else {
@@ -100,31 +100,31 @@ class RawRecording::FileReader final : public ReportSink {
     const auto& time = report.written.time;
     if (time) agree_on(time->kind, report.row);
     const auto& missing = *report.row->missing();
-    const MissingPolicy policy = recording_.options_.missing;
+    const MissingPolicy policy = track_set_.options_.missing;
     if (policy == MissingPolicy::fail)
       throw WrongInput(report.row->wrong_text(missing.column, fmt::format("a number as {}", missing.what)) +
                        " (see --missing)");
-    recording_.count(recording_.counts_.missing, place_);
+    track_set_.count(track_set_.counts_.missing, place_);
     if (time && policy == MissingPolicy::split) track.breaks.push_back({time->time, place_});
   }
   void time_is(const FileTime&, TimeKind) override {}
   void pass_over(Passed reason) override {
     count_row();
-    recording_.count(reason == Passed::filtered ? recording_.counts_.filtered : recording_.counts_.missing,
+    track_set_.count(reason == Passed::filtered ? track_set_.counts_.filtered : track_set_.counts_.missing,
                      place_);
   }
   void refuse(std::size_t line, const std::string& reason) override {
     count_row();
     place_.line = static_cast<int>(line);
-    recording_.count(recording_.counts_.malformed, place_);
+    track_set_.count(track_set_.counts_.malformed, place_);
     if (malformed_++ == 0) first_malformed_ = fmt::format("{}: {}", line, reason);
   }
 
-  const std::string& file() const { return recording_.files_.back(); }
+  const std::string& file() const { return track_set_.files_.back(); }
 
   void read(Record record) {
     if (converted_ != nullptr) record.line = converted_->line_in_file(record.line);
-    place_ = {static_cast<std::uint32_t>(recording_.files_.size() - 1), static_cast<int>(record.line)};
+    place_ = {static_cast<std::uint32_t>(track_set_.files_.size() - 1), static_cast<int>(record.line)};
     is_counted_ = false;
     guarded([&] {
       try {
@@ -147,29 +147,29 @@ class RawRecording::FileReader final : public ReportSink {
 
   /// Counts a row of a table once, however many bodies it has, and each message.
   void count_row() {
-    if (!is_table(format_) || !std::exchange(is_counted_, true)) ++recording_.counts_.rows;
+    if (!is_table(format_) || !std::exchange(is_counted_, true)) ++track_set_.counts_.rows;
   }
 
   RawTrack& track_of(const SourceReport& report) const {
-    auto& tracks = recording_.tracks_;
-    const auto [place, is_new] = recording_.track_of_.emplace(report.id, tracks.size());
+    auto& tracks = track_set_.tracks_;
+    const auto [place, is_new] = track_set_.track_of_.emplace(report.id, tracks.size());
     if (is_new) tracks.push_back({.id = place->first});
     return tracks[place->second];
   }
 
   /// Checks that all times are of one kind.
   void agree_on(TimeKind kind, const RowReader* row) {
-    auto& known = recording_.time_kind_;
+    auto& known = track_set_.time_kind_;
     if (!known) {
       known = kind;
-      recording_.first_time_ = place_;
+      track_set_.first_time_ = place_;
     }
     if (*known == kind) return;
     const std::string as_before = fmt::format("{} as time", name_of(*known));
     const std::string expected = row != nullptr
                                      ? row->wrong_text(row->columns()[Quantity::time]->place, as_before)
                                      : fmt::format("expected {}, but got {}", as_before, name_of(kind));
-    throw WrongInput(fmt::format("{}, unlike {}", expected, recording_.name(recording_.first_time_)));
+    throw WrongInput(fmt::format("{}, unlike {}", expected, track_set_.name(track_set_.first_time_)));
   }
   void agree_on_places(const SourceReport& report) {
     if (geographic_.value_or(report.geographic) != report.geographic)
@@ -193,7 +193,7 @@ class RawRecording::FileReader final : public ReportSink {
           scene_columns_->push_back(place);
     }
     for (const std::size_t column : *scene_columns_)
-      recording_.scenes_.add(names[column], row.fields()[column], time);
+      track_set_.scenes_.add(names[column], row.fields()[column], time);
   }
   /// Ids of ships and aircraft are the same in all files, and so are those that an option names.
   void note_ids() {
@@ -202,13 +202,13 @@ class RawRecording::FileReader final : public ReportSink {
     if (!id || rows.filter().mentions(id->place)) return;
     const auto& names = rows.head().names;
     const bool is_of_craft = !names.empty() && (is_of_aircraft(names[id->place]) || rows.columns().is_ais);
-    if (!is_of_craft) recording_.id_column_ = id->place;
+    if (!is_of_craft) track_set_.id_column_ = id->place;
   }
-  std::uint32_t this_file() const { return static_cast<std::uint32_t>(recording_.files_.size() - 1); }
+  std::uint32_t this_file() const { return static_cast<std::uint32_t>(track_set_.files_.size() - 1); }
 
   /// Counts the rows of each track by their order in time.
   void note_orders() const {
-    for (RawTrack& track : recording_.tracks_) {
+    for (RawTrack& track : track_set_.tracks_) {
       const RawSample* before = nullptr;
       for (const RawSample& sample : track.samples) {
         if (sample.place.file != this_file()) continue;
@@ -223,11 +223,11 @@ class RawRecording::FileReader final : public ReportSink {
 
   /// Leaves out messages without a height where others have one.
   void settle_heights() {
-    for (RawTrack& track : recording_.tracks_) {
+    for (RawTrack& track : track_set_.tracks_) {
       for (RawSample& sample : track.samples) {
         if (!std::isnan(sample.position.z)) continue;
         if (has_heights_)
-          recording_.count(recording_.counts_.missing, sample.place);
+          track_set_.count(track_set_.counts_.missing, sample.place);
         else
           sample.position.z = 0.0;
       }
@@ -235,7 +235,7 @@ class RawRecording::FileReader final : public ReportSink {
     }
   }
 
-  RawRecording& recording_;
+  RawTrackSet& track_set_;
   StreamFormat format_;
   const ConvertedTable* converted_;
   std::unique_ptr<ReportFormat> reader_;
@@ -249,7 +249,7 @@ class RawRecording::FileReader final : public ReportSink {
 };
 
 /// Tables are those that look like no messages.
-StreamFormat RawRecording::format_of(std::string_view text) const {
+StreamFormat RawTrackSet::format_of(std::string_view text) const {
   const std::string& said = options_.hints.format;
   constexpr std::size_t enough = 4096;
   const auto format = said.empty() && options_.hints.columns.empty()
@@ -258,7 +258,7 @@ StreamFormat RawRecording::format_of(std::string_view text) const {
   return format && !is_table(*format) ? *format : StreamFormat::csv;
 }
 
-void RawRecording::read(std::string text, const std::string& file) {
+void RawTrackSet::read(std::string text, const std::string& file) {
   const bool geometric = options_.altitude == FormatChoices::Altitude::geometric;
   const auto said = format_named(options_.hints.format, {});
   // Sentences are messages of AIS, or a log of one receiver.
@@ -310,7 +310,7 @@ void RawRecording::read(std::string text, const std::string& file) {
   if (files_.size() == 1) head_ = reader.rows() != nullptr ? reader.rows()->head() : TableHead{.file = file};
 }
 
-void RawRecording::pass_clocks_through_midnights() {
+void RawTrackSet::pass_clocks_through_midnights() {
   const Midnights midnights = pass_midnights(tracks_, static_cast<std::uint32_t>(files_.size() - 1));
   constexpr std::string_view advice = "write dates before the times";
   if (midnights.unclear)
@@ -325,7 +325,7 @@ void RawRecording::pass_clocks_through_midnights() {
   passed_midnight_ = midnights.has_passed;
 }
 
-void RawRecording::add_file_id(const std::string& id) {
+void RawTrackSet::add_file_id(const std::string& id) {
   const auto [place, is_new] = file_of_.emplace(id, files_.back());
   if (!is_new)
     throw ProgramError(
@@ -334,7 +334,7 @@ void RawRecording::add_file_id(const std::string& id) {
                     files_.back(), place->second, id));
 }
 
-void RawRecording::add_columns(const TableColumns& columns, const std::string& file) {
+void RawTrackSet::add_columns(const TableColumns& columns, const std::string& file) {
   if (files_.size() == 1) {
     columns_ = columns;
     return;
@@ -359,7 +359,7 @@ void RawRecording::add_columns(const TableColumns& columns, const std::string& f
         "times of the same unit");
 }
 
-void RawRecording::ask_about_ids() const {
+void RawTrackSet::ask_about_ids() const {
   if (!several_files_ || !id_column_) return;
   struct Span {
     FileTime first, last;
@@ -386,7 +386,7 @@ void RawRecording::ask_about_ids() const {
   }
 }
 
-TimeScale RawRecording::time_scale() const {
+TimeScale RawTrackSet::time_scale() const {
   if (time_kind_ && is_date(*time_kind_)) return TimeScale(*time_kind_);
   double rate = columns_.time_unit.rate;
   if (columns_.film != TableColumns::Film::none) {
@@ -412,11 +412,11 @@ TimeScale RawRecording::time_scale() const {
   return TimeScale(columns_.time_kind, columns_.time_unit.seconds, rate);
 }
 
-std::string RawRecording::name(const Place& place) const {
+std::string RawTrackSet::name(const Place& place) const {
   return fmt::format("{}:{}", files_[place.file], place.line);
 }
 
-void RawRecording::count(Tally& tally, const Place& place) const {
+void RawTrackSet::count(Tally& tally, const Place& place) const {
   constexpr std::size_t shown_places = 3;
   if (tally.count++ >= shown_places) return;
   tally.first_places.push_back(!several_files_ ? fmt::format("line {}", place.line) : name(place));

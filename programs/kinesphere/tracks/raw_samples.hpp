@@ -13,8 +13,8 @@
 #include "formats/tables/table_head.hpp"
 #include "kinesphere/vec3.hpp"
 #include "tracks/reading_policy.hpp"
-#include "tracks/recording.hpp"
 #include "tracks/scene_check.hpp"
+#include "tracks/track_set.hpp"
 
 namespace kinesphere::program {
 
@@ -45,10 +45,10 @@ struct RawTrack {
   std::vector<Break> breaks;
 };
 
-class RawRecording {
+class RawTrackSet {
  public:
   /// `options` must outlive it.
-  RawRecording(const TrackOptions& options, bool several_files)
+  RawTrackSet(const TrackOptions& options, bool several_files)
       : options_(options), several_files_(several_files) {}
 
   /// Adds a file: a table, a file that is converted to one, or messages. Throws ProgramError naming file,

@@ -1,4 +1,4 @@
-// The command-line options for reading recordings.
+// The command-line options for reading track sets.
 #include "tracks/reading_options.hpp"
 
 #include "base/validators.hpp"

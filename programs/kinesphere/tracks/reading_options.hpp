@@ -1,4 +1,4 @@
-// The command-line options for reading recordings.
+// The command-line options for reading track sets.
 #pragma once
 
 #include <CLI/App.hpp>

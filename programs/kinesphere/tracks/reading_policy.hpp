@@ -1,4 +1,4 @@
-// How the command line asks for a recording to be read.
+// How the command line asks for a track set to be read.
 #pragma once
 
 #include <optional>

@@ -20,13 +20,13 @@ namespace kinesphere::program {
 namespace {
 
 template <class Visitor>
-void for_each_sample(const RawRecording& raw, Visitor visit) {
+void for_each_sample(const RawTrackSet& raw, Visitor visit) {
   for (const RawTrack& track : raw.tracks())
     for (const RawSample& sample : track.samples) visit(sample);
 }
 
 /// Returns the time of all samples; nothing if there are several or no samples.
-std::optional<FileTime> only_time(const RawRecording& raw) {
+std::optional<FileTime> only_time(const RawTrackSet& raw) {
   std::optional<FileTime> time;
   bool is_only = true;
   for_each_sample(raw, [&](const RawSample& sample) {
@@ -36,7 +36,7 @@ std::optional<FileTime> only_time(const RawRecording& raw) {
   return is_only ? time : std::nullopt;
 }
 
-TimeScale time_scale_of(const RawRecording& raw) {
+TimeScale time_scale_of(const RawTrackSet& raw) {
   TimeScale scale = raw.time_scale();
   std::optional<FileTime> first, last;
   for_each_sample(raw, [&](const RawSample& sample) {
@@ -48,14 +48,14 @@ TimeScale time_scale_of(const RawRecording& raw) {
 }
 
 /// Asks about lengths that may be degrees.
-void ask_about_degrees(const RawRecording& raw) {
+void ask_about_degrees(const RawTrackSet& raw) {
   DegreeCheck check;
   for_each_sample(raw, [&](const RawSample& sample) { check.add(sample.position.x, sample.position.y); });
   if (const std::string suspicion = check.suspicion(); !suspicion.empty())
     throw ProgramError(fmt::format("{}: {}", raw.head().file, suspicion));
 }
 
-Coordinates coordinates_of(const RawRecording& raw, const TrackOptions& options) {
+Coordinates coordinates_of(const RawTrackSet& raw, const TrackOptions& options) {
   const TableColumns& columns = raw.columns();
   const Vec3 units{columns.x().unit, columns.y().unit, columns.z() ? columns.z()->unit : 1.0};
   if (columns.geographic) {
@@ -84,7 +84,7 @@ Coordinates coordinates_of(const RawRecording& raw, const TrackOptions& options)
 }
 
 /// Asks about ids that are another for each row, as the number of the row is.
-void ask_about_row_numbers(const RawRecording& raw) {
+void ask_about_row_numbers(const RawTrackSet& raw) {
   const bool all_alone = std::all_of(raw.tracks().begin(), raw.tracks().end(),
                                      [](const RawTrack& track) { return track.samples.size() <= 1; });
   if (!all_alone || raw.tracks().size() < 3 || !raw.columns()[Quantity::id]) return;
@@ -105,7 +105,7 @@ void ask_about_row_numbers(const RawRecording& raw) {
 }
 
 /// Asks about numbers that may be clock times or days.
-void ask_about_times(const RawRecording& raw) {
+void ask_about_times(const RawTrackSet& raw) {
   if (raw.columns().time_unit_said || raw.time_scale().kind() != TimeKind::number) return;
   TimeCheck check;
   std::size_t most_samples = 0;
@@ -117,7 +117,7 @@ void ask_about_times(const RawRecording& raw) {
 
 /// Returns a warning about rows that go back in time; nothing where none do, or all, as in a file that begins
 /// with its end.
-std::optional<std::string> warning_about_order(const RawRecording& raw) {
+std::optional<std::string> warning_about_order(const RawTrackSet& raw) {
   std::size_t rows = 0;
   const RawTrack* first = nullptr;
   for (const RawTrack& track : raw.tracks()) {
@@ -134,7 +134,7 @@ std::optional<std::string> warning_about_order(const RawRecording& raw) {
 
 /// Returns a warning about places of a table that may be in radians by their numbers: as degrees, they are
 /// around the Gulf of Guinea. Nothing where a unit is said.
-std::optional<std::string> warning_of_radians(const RawRecording& raw) {
+std::optional<std::string> warning_of_radians(const RawTrackSet& raw) {
   const TableColumns& columns = raw.columns();
   const auto &longitude = columns[Quantity::longitude], &latitude = columns[Quantity::latitude];
   const bool is_table = columns.format.starts_with("table") || columns.format.starts_with("columns as given");
@@ -156,9 +156,9 @@ std::optional<std::string> warning_of_radians(const RawRecording& raw) {
 
 /// Returns a warning where no two tracks of several bodies are there at one time, as where clocks of files
 /// count from different starts.
-std::optional<std::string> warning_about_lone_tracks(const Recording& recording) {
+std::optional<std::string> warning_about_lone_tracks(const TrackSet& track_set) {
   std::vector<const RecordedTrack*> tracks;
-  for (const RecordedTrack& track : recording.tracks) tracks.push_back(&track);
+  for (const RecordedTrack& track : track_set.tracks) tracks.push_back(&track);
   const auto begin = [](const RecordedTrack* track) { return track->samples.front().time; };
   const auto end = [](const RecordedTrack* track) { return track->samples.back().time; };
   std::sort(tracks.begin(), tracks.end(), [&](const auto* a, const auto* b) { return begin(a) < begin(b); });
@@ -171,8 +171,8 @@ std::optional<std::string> warning_about_lone_tracks(const Recording& recording)
   }
   if (other == nullptr) return std::nullopt;
   const auto span = [&](const RecordedTrack* track) {
-    return fmt::format("'{}' from {} to {}", track->id, recording.times.text(begin(track)),
-                       recording.times.text(end(track)));
+    return fmt::format("'{}' from {} to {}", track->id, track_set.times.text(begin(track)),
+                       track_set.times.text(end(track)));
   };
   return fmt::format(
       "no two bodies are recorded at one time, so that there is no pair: {}, {}; clocks of files may count "
@@ -190,37 +190,37 @@ struct Body {
 
 class Reading {
  public:
-  Reading(const RawRecording& raw, const TrackOptions& options) : raw_(raw), options_(options) {
-    static_cast<ReadCounts&>(recording_) = raw.counts();
-    if (auto warning = warning_about_order(raw)) recording_.warnings.push_back(std::move(*warning));
-    if (auto warning = warning_of_radians(raw)) recording_.warnings.push_back(std::move(*warning));
-    recording_.times = time_scale_of(raw);
-    recording_.dates = raw.columns().dates;
-    recording_.coordinates = coordinates_of(raw, options);
-    recording_.in_metres = raw.columns().in_metres;
-    recording_.format = raw.columns().format;
-    recording_.has_sizes = options.hints.sizes;
-    recording_.has_heights = raw.columns().z().has_value();
-    recording_.is_plane = !raw.columns().z() && recording_.coordinates.are_plane();
-    if (recording_.times.kind() == TimeKind::frames) recording_.frame_rate = recording_.times.rate();
-    recording_.ids = raw.tracks().size();
-    recording_.filter = raw.columns().where;
+  Reading(const RawTrackSet& raw, const TrackOptions& options) : raw_(raw), options_(options) {
+    static_cast<ReadCounts&>(track_set_) = raw.counts();
+    if (auto warning = warning_about_order(raw)) track_set_.warnings.push_back(std::move(*warning));
+    if (auto warning = warning_of_radians(raw)) track_set_.warnings.push_back(std::move(*warning));
+    track_set_.times = time_scale_of(raw);
+    track_set_.dates = raw.columns().dates;
+    track_set_.coordinates = coordinates_of(raw, options);
+    track_set_.in_metres = raw.columns().in_metres;
+    track_set_.format = raw.columns().format;
+    track_set_.has_sizes = options.hints.sizes;
+    track_set_.has_heights = raw.columns().z().has_value();
+    track_set_.is_plane = !raw.columns().z() && track_set_.coordinates.are_plane();
+    if (track_set_.times.kind() == TimeKind::frames) track_set_.frame_rate = track_set_.times.rate();
+    track_set_.ids = raw.tracks().size();
+    track_set_.filter = raw.columns().where;
     for (const std::size_t column : raw.columns().unused)
-      recording_.unused.push_back(raw.head().names.empty() ? fmt::format("{}", column + 1)
+      track_set_.unused.push_back(raw.head().names.empty() ? fmt::format("{}", column + 1)
                                                            : raw.head().names[column]);
-    recording_.smallest_max_gap = std::numeric_limits<double>::infinity();
+    track_set_.smallest_max_gap = std::numeric_limits<double>::infinity();
   }
 
-  Recording run() {
+  TrackSet run() {
     for (const RawTrack& track : raw_.tracks()) bodies_.push_back(cleaned(track));
     std::vector<double> intervals;
     for (const Body& body : bodies_)
       for (const Piece& piece : body.pieces) add_intervals(piece, intervals);
-    recording_.sample_interval = median_interval(std::move(intervals));
+    track_set_.sample_interval = median_interval(std::move(intervals));
     for (const Body& body : bodies_) add_tracks(body);
-    if (auto warning = warning_about_lone_tracks(recording_))
-      recording_.warnings.push_back(std::move(*warning));
-    return std::move(recording_);
+    if (auto warning = warning_about_lone_tracks(track_set_))
+      track_set_.warnings.push_back(std::move(*warning));
+    return std::move(track_set_);
   }
 
  private:
@@ -230,16 +230,16 @@ class Reading {
     samples.reserve(track.samples.size());
     for (const RawSample& sample : track.samples) {
       samples.push_back(
-          {{recording_.times.seconds(sample.time), recording_.coordinates.local(sample.position)},
+          {{track_set_.times.seconds(sample.time), track_set_.coordinates.local(sample.position)},
            sample.place});
     }
-    leave_one_at_each_time(samples, track.id, options_.duplicates, raw_, recording_.duplicates);
+    leave_one_at_each_time(samples, track.id, options_.duplicates, raw_, track_set_.duplicates);
     if (options_.max_speed) {
-      body.pieces = split_by_speed(samples, *options_.max_speed, raw_, recording_.too_fast);
+      body.pieces = split_by_speed(samples, *options_.max_speed, raw_, track_set_.too_fast);
     } else {
       body.pieces.push_back(std::move(samples));
     }
-    for (const RawTrack::Break& at : track.breaks) body.breaks.push_back(recording_.times.seconds(at.time));
+    for (const RawTrack::Break& at : track.breaks) body.breaks.push_back(track_set_.times.seconds(at.time));
     std::sort(body.breaks.begin(), body.breaks.end());
     return body;
   }
@@ -249,21 +249,21 @@ class Reading {
     if (options_.max_gap) return *options_.max_gap;
     std::vector<double> intervals;
     for (const Piece& piece : body.pieces) add_intervals(piece, intervals);
-    return 2.5 * (intervals.size() < 3 ? recording_.sample_interval : median_interval(std::move(intervals)));
+    return 2.5 * (intervals.size() < 3 ? track_set_.sample_interval : median_interval(std::move(intervals)));
   }
 
   void add_tracks(const Body& body) {
     const double max_gap = max_gap_of(body);
-    recording_.smallest_max_gap = std::min(recording_.smallest_max_gap, max_gap);
-    recording_.largest_max_gap = std::max(recording_.largest_max_gap, max_gap);
+    track_set_.smallest_max_gap = std::min(track_set_.smallest_max_gap, max_gap);
+    track_set_.largest_max_gap = std::max(track_set_.largest_max_gap, max_gap);
     for (const Piece& whole : body.pieces) {
       for (const Piece& piece : split_at_gaps(whole, max_gap, body.breaks)) {
         if (piece.size() == 1) {
-          ++recording_.left_out;
+          ++track_set_.left_out;
           continue;
         }
-        recording_.samples += piece.size();
-        RecordedTrack& track = recording_.tracks.emplace_back();
+        track_set_.samples += piece.size();
+        RecordedTrack& track = track_set_.tracks.emplace_back();
         track.id = body.id;
         track.radius = body.radius;
         for (const PlacedSample& sample : piece) track.samples.push_back(sample.sample);
@@ -271,9 +271,9 @@ class Reading {
     }
   }
 
-  const RawRecording& raw_;
+  const RawTrackSet& raw_;
   const TrackOptions& options_;
-  Recording recording_;
+  TrackSet track_set_;
   std::vector<Body> bodies_;
 };
 
@@ -286,9 +286,9 @@ void check(const TrackOptions& options) {
 
 }  // namespace
 
-Recording parse_tracks(std::vector<NamedText> texts, const TrackOptions& options) {
+TrackSet parse_tracks(std::vector<NamedText> texts, const TrackOptions& options) {
   check(options);
-  RawRecording raw(options, texts.size() > 1);
+  RawTrackSet raw(options, texts.size() > 1);
   std::vector<std::string> files;
   for (NamedText& text : texts) {
     files.push_back(text.file);
@@ -298,14 +298,14 @@ Recording parse_tracks(std::vector<NamedText> texts, const TrackOptions& options
   raw.ask_about_ids();
   ask_about_times(raw);
   raw.ask_about_scenes();
-  Recording recording = Reading(raw, options).run();
-  if (recording.tracks.empty()) {
-    if (recording.rows > 0 && recording.filtered.count == recording.rows)
+  TrackSet track_set = Reading(raw, options).run();
+  if (track_set.tracks.empty()) {
+    if (track_set.rows > 0 && track_set.filtered.count == track_set.rows)
       throw ProgramError(fmt::format("{}: expected rows for which this holds: {}; but there are none",
-                                     fmt::join(files, ", "), recording.filter));
-    if (recording.malformed.count > 0 && recording.malformed.count == recording.rows)
-      throw ProgramError(recording.warnings.front());
-    if (recording.too_fast.count > 0)
+                                     fmt::join(files, ", "), track_set.filter));
+    if (track_set.malformed.count > 0 && track_set.malformed.count == track_set.rows)
+      throw ProgramError(track_set.warnings.front());
+    if (track_set.too_fast.count > 0)
       throw ProgramError(
           fmt::format("{}: expected an id with two samples that can be reached at --max-speed {}, "
                       "but there is none",
@@ -313,12 +313,12 @@ Recording parse_tracks(std::vector<NamedText> texts, const TrackOptions& options
     if (const auto time = only_time(raw))
       throw ProgramError(fmt::format("{}: expected samples at two times or more, but all are at {}",
                                      fmt::join(files, ", "),
-                                     recording.times.text(recording.times.seconds(*time))));
+                                     track_set.times.text(track_set.times.seconds(*time))));
     throw ProgramError(
         fmt::format("{}: expected an id with two samples at most {} s apart, but there is none",
-                    fmt::join(files, ", "), recording.largest_max_gap));
+                    fmt::join(files, ", "), track_set.largest_max_gap));
   }
-  return recording;
+  return track_set;
 }
 
 std::vector<NamedText> read_texts(const std::vector<std::string>& files) {
@@ -329,7 +329,7 @@ std::vector<NamedText> read_texts(const std::vector<std::string>& files) {
   return texts;
 }
 
-Recording read_tracks(const std::vector<std::string>& files, const TrackOptions& options) {
+TrackSet read_tracks(const std::vector<std::string>& files, const TrackOptions& options) {
   return parse_tracks(read_texts(files), options);
 }
 

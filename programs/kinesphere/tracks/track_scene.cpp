@@ -1,4 +1,4 @@
-// Turns a recording into a scene in which a contact is an approach.
+// Turns a track set into a scene in which a contact is an approach.
 #include "tracks/track_scene.hpp"
 
 #include <fmt/format.h>
@@ -25,9 +25,9 @@ struct Furthest {
   std::string id;
 };
 
-Furthest furthest_of(const Recording& recording, double stretch = 1.0) {
+Furthest furthest_of(const TrackSet& track_set, double stretch = 1.0) {
   Furthest furthest;
-  for (const RecordedTrack& track : recording.tracks) {
+  for (const RecordedTrack& track : track_set.tracks) {
     for (const TrackSample& sample : track.samples) {
       const Vec3& position = sample.position;
       const double size =
@@ -38,8 +38,8 @@ Furthest furthest_of(const Recording& recording, double stretch = 1.0) {
   return furthest;
 }
 
-double tolerance_of(const Recording& recording, const ApproachQuestion& question) {
-  const Furthest furthest = furthest_of(recording);
+double tolerance_of(const TrackSet& track_set, const ApproachQuestion& question) {
+  const Furthest furthest = furthest_of(track_set);
   const double finest = furthest.coordinate / tolerances_in_extent;
   const double tolerance = question.tolerance.value_or(std::max(1e-6 * question.distance, finest));
   if (tolerance < finest) {
@@ -57,10 +57,10 @@ double tolerance_of(const Recording& recording, const ApproachQuestion& question
 
 /// Returns the farthest coordinate that the curves of the motion may reach, up to a small factor, and the
 /// sample before it.
-Swing farthest_of(const Recording& recording, const Motion& motion) {
+Swing farthest_of(const TrackSet& track_set, const Motion& motion) {
   Swing farthest;
-  for (std::uint32_t number = 0; number < recording.tracks.size(); ++number) {
-    const auto& samples = recording.tracks[number].samples;
+  for (std::uint32_t number = 0; number < track_set.tracks.size(); ++number) {
+    const auto& samples = track_set.tracks[number].samples;
     for (const Segment& segment : motion.trajectory(number, samples.front().time, samples.back().time)) {
       const double s = segment.end - segment.begin;
       for (int axis = 0; axis < 3; ++axis) {
@@ -69,7 +69,7 @@ Swing farthest_of(const Recording& recording, const Motion& motion) {
             (std::abs(segment.velocity[axis]) +
              (std::abs(segment.acceleration[axis]) / 2.0 + std::abs(segment.jerk[axis]) * s / 6.0) * s) *
                 s;
-        if (coordinate > farthest.size) farthest = {recording.tracks[number].id, coordinate, segment.begin};
+        if (coordinate > farthest.size) farthest = {track_set.tracks[number].id, coordinate, segment.begin};
       }
     }
   }
@@ -78,16 +78,16 @@ Swing farthest_of(const Recording& recording, const Motion& motion) {
 
 /// Returns a tolerance with which the world reaches as far as the curves: the one that it has or, unless the
 /// caller has chosen it, a coarser one.
-double tolerance_for_curves(const Recording& recording, const ApproachQuestion& question, const Scene& scene,
+double tolerance_for_curves(const TrackSet& track_set, const ApproachQuestion& question, const Scene& scene,
                             double distance) {
   const double tolerance = scene.world.contact_tolerance;
-  const Swing farthest = farthest_of(recording, *scene.motion);
+  const Swing farthest = farthest_of(track_set, *scene.motion);
   const double finest = farthest.size / limits::largest_length;
   if (finest <= tolerance) return tolerance;
   const std::string cause = fmt::format(
       "the spline of id '{}' after {} may swing out to {:.6g} from the recording's middle (see "
       "--max-speed and --interpolate linear)",
-      farthest.id, recording.times.text(farthest.time), farthest.size);
+      farthest.id, track_set.times.text(farthest.time), farthest.size);
   if (question.tolerance)
     throw ProgramError(fmt::format("--tolerance: expected {:.3g} or more, as {}, but got {}", finest, cause,
                                    *question.tolerance));
@@ -115,10 +115,10 @@ double swing(const Segment& segment, const Vec3& from, const Vec3& to) {
   return largest;
 }
 
-Overshoots overshoots_of(const Recording& recording, const Motion& motion, double distance) {
+Overshoots overshoots_of(const TrackSet& track_set, const Motion& motion, double distance) {
   Overshoots overshoots;
-  for (std::uint32_t number = 0; number < recording.tracks.size(); ++number) {
-    const RecordedTrack& track = recording.tracks[number];
+  for (std::uint32_t number = 0; number < track_set.tracks.size(); ++number) {
+    const RecordedTrack& track = track_set.tracks[number];
     const auto& samples = track.samples;
     const Trajectory curve = motion.trajectory(number, samples.front().time, samples.back().time);
     bool swings_out = false;
@@ -136,10 +136,10 @@ Overshoots overshoots_of(const Recording& recording, const Motion& motion, doubl
 }
 
 /// Returns the samples, with z stretched.
-std::vector<Track> samples_of(const Recording& recording, double stretch = 1.0) {
+std::vector<Track> samples_of(const TrackSet& track_set, double stretch = 1.0) {
   std::vector<Track> tracks;
-  tracks.reserve(recording.tracks.size());
-  for (const RecordedTrack& track : recording.tracks) {
+  tracks.reserve(track_set.tracks.size());
+  for (const RecordedTrack& track : track_set.tracks) {
     tracks.push_back(track.samples);
     for (TrackSample& sample : tracks.back()) sample.position.z *= stretch;
   }
@@ -147,59 +147,59 @@ std::vector<Track> samples_of(const Recording& recording, double stretch = 1.0) 
 }
 
 /// Throws the error of a scene with curves through its samples.
-[[noreturn]] void refuse(const Recording& recording, const Error& error) {
-  const bool is_known = error.body.index < recording.tracks.size();
+[[noreturn]] void refuse(const TrackSet& track_set, const Error& error) {
+  const bool is_known = error.body.index < track_set.tracks.size();
   throw ProgramError(
-      fmt::format("id '{}': {}", is_known ? recording.tracks[error.body.index].id : "", message_of(error)));
+      fmt::format("id '{}': {}", is_known ? track_set.tracks[error.body.index].id : "", message_of(error)));
 }
 
-/// Returns a scene of the recording stretched along z.
-Scene scene_with(const Recording& recording, const ApproachQuestion& question, double stretch,
-                 double distance, double tolerance) {
-  auto scene = scene_of_tracks(samples_of(recording, stretch), distance, question.interpolation);
-  if (!scene) refuse(recording, scene.error());
-  for (std::size_t k = 0; k < recording.tracks.size(); ++k)
-    scene->bodies[k].radius += recording.tracks[k].radius;
+/// Returns a scene of the track set stretched along z.
+Scene scene_with(const TrackSet& track_set, const ApproachQuestion& question, double stretch, double distance,
+                 double tolerance) {
+  auto scene = scene_of_tracks(samples_of(track_set, stretch), distance, question.interpolation);
+  if (!scene) refuse(track_set, scene.error());
+  for (std::size_t k = 0; k < track_set.tracks.size(); ++k)
+    scene->bodies[k].radius += track_set.tracks[k].radius;
   scene->world.contact_tolerance = tolerance;
   scene->world.start_time = std::max(scene->world.start_time, question.from);
   scene->end_time = std::min(scene->end_time, question.until);
   scene->world.contacts = ContactEvents::begin_and_end;
-  scene->world.dimensions = recording.is_plane ? 2 : 3;
-  scene->world.contact_tolerance = tolerance_for_curves(recording, question, *scene, distance);
+  scene->world.dimensions = track_set.is_plane ? 2 : 3;
+  scene->world.contact_tolerance = tolerance_for_curves(track_set, question, *scene, distance);
   return std::move(*scene);
 }
 
 }  // namespace
 
-std::vector<double> radii_of(const Recording& recording) {
+std::vector<double> radii_of(const TrackSet& track_set) {
   std::vector<double> radii;
-  for (const RecordedTrack& track : recording.tracks) radii.push_back(track.radius);
+  for (const RecordedTrack& track : track_set.tracks) radii.push_back(track.radius);
   return radii;
 }
 
-RecordedTracks splines_through(const Recording& recording) {
-  auto curves = RecordedTracks::create(samples_of(recording));
-  if (!curves) refuse(recording, curves.error());
+RecordedTracks splines_through(const TrackSet& track_set) {
+  auto curves = RecordedTracks::create(samples_of(track_set));
+  if (!curves) refuse(track_set, curves.error());
   return std::move(*curves);
 }
 
-TrackScene scene_of(const Recording& recording, const ApproachQuestion& question) {
-  const double tolerance = tolerance_of(recording, question);
-  TrackScene result{.scene = scene_with(recording, question, 1.0, question.distance, tolerance)};
+TrackScene scene_of(const TrackSet& track_set, const ApproachQuestion& question) {
+  const double tolerance = tolerance_of(track_set, question);
+  TrackScene result{.scene = scene_with(track_set, question, 1.0, question.distance, tolerance)};
   if (question.vertical) {
     const CylinderEnclosure enclosure = enclosure_of(
         {.horizontal = question.distance, .vertical = *question.vertical, .tolerance = tolerance});
-    const double finest = furthest_of(recording, enclosure.stretch).coordinate / tolerances_in_extent;
+    const double finest = furthest_of(track_set, enclosure.stretch).coordinate / tolerances_in_extent;
     const double coarse = std::max(1e-6 * enclosure.distance, finest);
     if (coarse >= enclosure.distance)
       throw ProgramError(fmt::format(
           "--separation: expected lengths above {:.3g}, because of the recording's extent", finest));
     // The margin is far above what the engine and the rounding of curves take.
     result.enclosing =
-        scene_with(recording, question, enclosure.stretch, enclosure.distance + 4.0 * coarse, coarse);
+        scene_with(track_set, question, enclosure.stretch, enclosure.distance + 4.0 * coarse, coarse);
   }
   if (question.interpolation == Interpolation::spline)
-    result.overshoots = overshoots_of(recording, *result.scene.motion, question.distance);
+    result.overshoots = overshoots_of(track_set, *result.scene.motion, question.distance);
   return result;
 }
 

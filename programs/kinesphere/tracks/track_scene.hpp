@@ -1,4 +1,4 @@
-// Turns a recording into a scene in which a contact is an approach.
+// Turns a track set into a scene in which a contact is an approach.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 #include "kinesphere/motion/recorded_tracks.hpp"
 #include "simulation/scene/scene.hpp"
 #include "tracks/reading_policy.hpp"
-#include "tracks/recording.hpp"
+#include "tracks/track_set.hpp"
 
 namespace kinesphere::program {
 
@@ -20,7 +20,7 @@ struct ApproachQuestion {
   std::optional<double>
       tolerance;  ///< tolerance of that distance; if empty, a millionth of it, or what the extent needs
   Interpolation interpolation = Interpolation::spline;
-  /// Seconds of the recording. The curves are those of all samples, whatever the window.
+  /// Seconds of the track set. The curves are those of all samples, whatever the window.
   double from = -std::numeric_limits<double>::infinity(), until = std::numeric_limits<double>::infinity();
 };
 
@@ -39,9 +39,9 @@ struct Overshoots {
 };
 
 struct TrackScene {
-  /// The curves of the recording, with spheres of the (horizontal) distance.
+  /// The curves of the track set, with spheres of the (horizontal) distance.
   Scene scene;
-  /// What the engine runs to find the approaches of cylinders: the recording stretched along z, with spheres
+  /// What the engine runs to find the approaches of cylinders: the track set stretched along z, with spheres
   /// around the cylinders.
   std::optional<Scene> enclosing;
   Overshoots overshoots;
@@ -50,16 +50,16 @@ struct TrackScene {
 };
 
 /// Returns the radii of the bodies, by track.
-std::vector<double> radii_of(const Recording& recording);
+std::vector<double> radii_of(const TrackSet& track_set);
 
 /// Returns smooth curves through the samples, one for each track. Throws ProgramError naming the id if a
 /// curve overflows.
-RecordedTracks splines_through(const Recording& recording);
+RecordedTracks splines_through(const TrackSet& track_set);
 
 /// Returns a scene with a body for each track, with half the distance as radius, present from its first
 /// sample to its last, and a span that is the window. Throws ProgramError naming the option or the id: for a
-/// tolerance that does not fit the distance or is too fine for the recording's extent, and if a curve
+/// tolerance that does not fit the distance or is too fine for the track set's extent, and if a curve
 /// overflows.
-TrackScene scene_of(const Recording& recording, const ApproachQuestion& question);
+TrackScene scene_of(const TrackSet& track_set, const ApproachQuestion& question);
 
 }  // namespace kinesphere::program

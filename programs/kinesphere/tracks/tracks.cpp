@@ -1,4 +1,4 @@
-// `kinesphere tracks`: finds close approaches in a recording of real motion.
+// `kinesphere tracks`: finds close approaches in a track set of real motion.
 #include "tracks/tracks.hpp"
 
 #include <fmt/format.h>
@@ -59,7 +59,7 @@ void add_left_out(Summary& summary, const ApproachChoice& choice, const LeftOut&
                 fmt::format("approaches shorter than {} s", *choice.min_duration));
 }
 
-std::string closest_approaches(const std::vector<Approach>& approaches, const Recording& recording,
+std::string closest_approaches(const std::vector<Approach>& approaches, const TrackSet& track_set,
                                bool by_cylinder) {
   constexpr std::size_t shown = 10;
   const auto distances = [&](const std::string& one, const std::string& two) {
@@ -68,18 +68,18 @@ std::string closest_approaches(const std::vector<Approach>& approaches, const Re
   std::string text = fmt::format("\n{:>24}  {}  {:>14}  {:>12}    {}\n", "closest at",
                                  distances(by_cylinder ? "horizontally" : "distance", "vertically"),
                                  "relative speed", "duration", "ids");
-  const ImpliedSpeeds speeds(recording);
+  const ImpliedSpeeds speeds(track_set);
   bool any_absurd = false;
   const auto marked = [&](std::uint32_t track, double time) {
     const bool is_absurd = speeds.is_absurd_at(track, time);
     any_absurd = any_absurd || is_absurd;
-    return recording.tracks[track].id + (is_absurd ? " (?)" : "");
+    return track_set.tracks[track].id + (is_absurd ? " (?)" : "");
   };
   for (const std::size_t k : closest_of(approaches, shown)) {
     const Approach& approach = approaches[k];
     const ClosestApproach& closest = approach.closest;
     text += fmt::format(
-        "{:>24}  {}  {:>14}  {}{:>11}{}  {} {}\n", recording.times.text(closest.time, 6),
+        "{:>24}  {}  {:>14}  {}{:>11}{}  {} {}\n", track_set.times.text(closest.time, 6),
         by_cylinder ? distances(number(horizontal_distance(closest)), number(vertical_distance(closest)))
                     : distances(number(closest.distance), ""),
         number(closest.relative_speed), approach.begins_with_track ? "<" : " ",
@@ -96,9 +96,8 @@ std::string closest_approaches(const std::vector<Approach>& approaches, const Re
 }
 
 /// Warns of bodies that jump to one place, or keep together at one.
-void warn_of_one_place(const std::vector<Approach>& approaches, const Recording& recording,
-                       double tolerance) {
-  const ImpliedSpeeds speeds(recording);
+void warn_of_one_place(const std::vector<Approach>& approaches, const TrackSet& track_set, double tolerance) {
+  const ImpliedSpeeds speeds(track_set);
   const auto is_at_one = [&](const Approach& approach) {
     const auto& [time, distance, first, second, relative_speed] = approach.closest;
     return norm(second - first) <= tolerance &&
@@ -107,20 +106,20 @@ void warn_of_one_place(const std::vector<Approach>& approaches, const Recording&
   };
   const auto first = std::find_if(approaches.begin(), approaches.end(), is_at_one);
   if (first == approaches.end()) return;
-  const Vec3 at = recording.coordinates.as_in_file(first->closest.first);
+  const Vec3 at = track_set.coordinates.as_in_file(first->closest.first);
   print_message(
       "kinesphere: warning: two bodies are at exactly one place in {} approaches, as {} and {} are at {}, at "
       "{:.9g}, {:.9g}: such places may stand for none (--where), or be of one body with two ids\n",
       grouped(static_cast<std::uint64_t>(std::count_if(approaches.begin(), approaches.end(), is_at_one))),
-      recording.tracks[first->first].id, recording.tracks[first->second].id,
-      recording.times.text(first->closest.time, 6), at.x, at.y);
+      track_set.tracks[first->first].id, track_set.tracks[first->second].id,
+      track_set.times.text(first->closest.time, 6), at.x, at.y);
 }
 
 /// Returns the diagonal of the box around all samples.
-double size_of(const Recording& recording) {
+double size_of(const TrackSet& track_set) {
   constexpr double none = std::numeric_limits<double>::infinity();
   Box extent{{none, none, none}, {-none, -none, -none}};
-  for (const RecordedTrack& track : recording.tracks) {
+  for (const RecordedTrack& track : track_set.tracks) {
     for (const TrackSample& sample : track.samples) {
       for (int axis = 0; axis < 3; ++axis) {
         extent.lower[axis] = std::min(extent.lower[axis], sample.position[axis]);
@@ -131,12 +130,12 @@ double size_of(const Recording& recording) {
   return norm(extent.upper - extent.lower);
 }
 
-/// Warns of a distance without a unit that is larger than a recording in another unit than metres, or a few
+/// Warns of a distance without a unit that is larger than a track set in another unit than metres, or a few
 /// metres among places that are kilometres apart: it may have been meant in another unit.
-void warn_of_distance(const Closeness& closeness, const Recording& recording) {
-  const Coordinates& coordinates = recording.coordinates;
-  if (closeness.has_unit || !recording.in_metres) return;
-  const double size = size_of(recording);
+void warn_of_distance(const Closeness& closeness, const TrackSet& track_set) {
+  const Coordinates& coordinates = track_set.coordinates;
+  if (closeness.has_unit || !track_set.in_metres) return;
+  const double size = size_of(track_set);
   if (coordinates.are_geographic()) {
     constexpr double few_metres = 10.0, wide = 20e3;
     if (closeness.distance < few_metres && size > wide)
@@ -178,17 +177,17 @@ class TracksFiles {
     if (!options.plot.empty()) plot_.emplace(options.plot);
   }
 
-  void check(const Recording& recording) const {
-    if (contacts_) contacts_->check(recording);
+  void check(const TrackSet& track_set) const {
+    if (contacts_) contacts_->check(track_set);
   }
-  void write(const Recording& recording, const Scene& scene, const std::vector<Approach>& approaches,
+  void write(const TrackSet& track_set, const Scene& scene, const std::vector<Approach>& approaches,
              double distance) {
-    if (contacts_) contacts_->write(approaches, recording);
+    if (contacts_) contacts_->write(approaches, track_set);
     if (minima_)
-      write_minima(*minima_, minima_in(*scene.motion, approaches, radii_of(recording)), approaches,
-                   recording);
-    if (pairs_) write_pairs(*pairs_, pairs_in(approaches, recording, *scene.motion), recording);
-    if (plot_) plot_->write(plot_of(recording, scene, approaches, distance));
+      write_minima(*minima_, minima_in(*scene.motion, approaches, radii_of(track_set)), approaches,
+                   track_set);
+    if (pairs_) write_pairs(*pairs_, pairs_in(approaches, track_set, *scene.motion), track_set);
+    if (plot_) plot_->write(plot_of(track_set, scene, approaches, distance));
   }
   void commit() {
     if (contacts_) contacts_->commit();
@@ -249,11 +248,11 @@ CLI::App* add_tracks_command(CLI::App& program, TracksOptions& options) {
 int tracks(const TracksOptions& options) {
   const Closeness closeness = closeness_of(options.distance, options.separation);
   TracksFiles files(options);
-  const Recording recording = read_tracks(options.files, reading_for(closeness, options.reading));
-  check_closeness(closeness, recording);
-  files.check(recording);
-  const ApproachFilter filter(options.choice, recording);
-  const TrackScene scene_and_notes = scene_of(recording, {.distance = closeness.distance,
+  const TrackSet track_set = read_tracks(options.files, reading_for(closeness, options.reading));
+  check_closeness(closeness, track_set);
+  files.check(track_set);
+  const ApproachFilter filter(options.choice, track_set);
+  const TrackScene scene_and_notes = scene_of(track_set, {.distance = closeness.distance,
                                                           .vertical = closeness.vertical,
                                                           .tolerance = options.tolerance,
                                                           .interpolation = options.reading.interpolation,
@@ -261,12 +260,12 @@ int tracks(const TracksOptions& options) {
                                                           .until = filter.window().until});
   const Scene& scene = scene_and_notes.scene;
   const Scene& searched = scene_and_notes.searched();
-  for (const std::string& warning : warnings_of(recording, scene_and_notes))
+  for (const std::string& warning : warnings_of(track_set, scene_and_notes))
     print_message("kinesphere: warning: {}\n", warning);
-  warn_of_distance(closeness, recording);
+  warn_of_distance(closeness, track_set);
 
   std::vector<Event> events;
-  SimulationObserver observer;
+  SceneObserver observer;
   observer.on_event = [&](const Event& event) { events.push_back(event); };
   std::optional<Progress> progress;
   if (!options.quiet) progress.emplace(scene.world.start_time, scene.end_time);
@@ -274,7 +273,7 @@ int tracks(const TracksOptions& options) {
     observer.between_events = [&](const Detector& detector) { progress->show(detector.time()); };
   }
   const auto started = std::chrono::steady_clock::now();
-  const SimulationResult result = require(simulate(searched, make_world_detector, observer));
+  const SceneResult result = require(run_scene(searched, make_world_detector, observer));
   const std::chrono::duration<double> real_time = std::chrono::steady_clock::now() - started;
   progress.reset();
 
@@ -285,18 +284,18 @@ int tracks(const TracksOptions& options) {
                                     .tolerance = scene.world.contact_tolerance},
                                    *scene.motion, approaches);
   const LeftOut left_out = filter.apply(approaches);
-  find_closest(*scene.motion, approaches, radii_of(recording));
-  warn_of_one_place(approaches, recording, scene.world.contact_tolerance);
-  files.write(recording, scene, approaches, closeness.distance);
+  find_closest(*scene.motion, approaches, radii_of(track_set));
+  warn_of_one_place(approaches, track_set, scene.world.contact_tolerance);
+  files.write(track_set, scene, approaches, closeness.distance);
   Summary summary;
-  add_recording(summary, options.files, recording, scene_and_notes);
+  add_track_set(summary, options.files, track_set, scene_and_notes);
   summary.space();
   add_approaches(summary, closeness, approaches);
   add_left_out(summary, options.choice, left_out);
   summary.row("probes", grouped(result.counters.probes),
-              fmt::format("for {} samples: {}", grouped(recording.samples),
+              fmt::format("for {} samples: {}", grouped(track_set.samples),
                           percent(static_cast<double>(result.counters.probes),
-                                  static_cast<double>(recording.samples))));
+                                  static_cast<double>(track_set.samples))));
   int exit_code = exit_fine;
   if (options.verify) {
     const ContactComparison comparison =
@@ -311,7 +310,7 @@ int tracks(const TracksOptions& options) {
   if (!options.quiet) {
     print("{}", summary.text());
     if (!approaches.empty())
-      print("{}", closest_approaches(approaches, recording, closeness.vertical.has_value()));
+      print("{}", closest_approaches(approaches, track_set, closeness.vertical.has_value()));
   }
   // The commit comes last: a full disk must not suppress the summary.
   files.commit();

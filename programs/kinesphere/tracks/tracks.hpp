@@ -1,4 +1,4 @@
-// `kinesphere tracks`: finds close approaches in a recording of real motion.
+// `kinesphere tracks`: finds close approaches in a track set of real motion.
 #pragma once
 
 #include <CLI/App.hpp>

@@ -41,7 +41,7 @@ OpenedFile opened_recording(NamedText file) {
 OpenedFile opened_tracks(std::vector<NamedText> files, const TrackOptions& reading) {
   std::string name = name_without_folder(files.front().file);
   if (files.size() > 1) name += fmt::format(" and {} more", files.size() - 1);
-  const Recording recording = parse_tracks(std::move(files), reading);
+  const TrackSet recording = parse_tracks(std::move(files), reading);
   for (const std::string& warning : warnings_of(recording))
     print_message("kinesphere: warning: {}\n", warning);
   std::string table = track_table(recording, name);

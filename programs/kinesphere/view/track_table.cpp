@@ -1,4 +1,4 @@
-// Writes a recording of real motion as JSON for the viewer's page.
+// Writes a track set of real motion as JSON for the viewer's page.
 #include "view/track_table.hpp"
 
 #include <fmt/format.h>
@@ -36,13 +36,13 @@ void add(std::string& text, const RecordedTrack& track) {
 
 }  // namespace
 
-std::string track_table(const Recording& recording, const std::string& name, std::size_t limit) {
+std::string track_table(const TrackSet& track_set, const std::string& name, std::size_t limit) {
   // The page follows these curves. JSON has no number for an overflow.
-  splines_through(recording);
+  splines_through(track_set);
   std::string text = fmt::format(R"({{"name": {}, "plane": {}, "unit": {}, "tracks": [)", json_text(name),
-                                 recording.is_plane, recording.in_metres ? R"("m")" : "null");
+                                 track_set.is_plane, track_set.in_metres ? R"("m")" : "null");
   const char* separator = "\n";
-  for (const RecordedTrack& track : recording.tracks) {
+  for (const RecordedTrack& track : track_set.tracks) {
     text += separator;
     separator = ",\n";
     add(text, track);
@@ -50,7 +50,7 @@ std::string track_table(const Recording& recording, const std::string& name, std
     throw ProgramError(fmt::format(
         "{}: expected tracks that are at most {} bytes as JSON, which is what a browser can read, but its "
         "{} samples are more",
-        name, grouped(limit), grouped(recording.samples)));
+        name, grouped(limit), grouped(track_set.samples)));
   }
   text += ending;
   return text;

@@ -15,19 +15,19 @@ namespace kinesphere::program {
 namespace {
 
 /// A whole simulation, timed from the first window starts, with all bodies in, to the end (seconds).
-struct TimedSimulation {
+struct TimedRun {
   double seconds = 0.0;
   double cpu_seconds = 0.0;  ///< of all threads
   std::uint64_t events = 0;
   std::uint64_t hash = 0;
 };
 
-TimedSimulation time_simulation(const Scene& scene, Workers* workers) {
+TimedRun time_run(const Scene& scene, Workers* workers) {
   using Clock = std::chrono::steady_clock;
-  TimedSimulation timed;
+  TimedRun timed;
   Clock::time_point begin;
   double cpu_begin = 0.0;
-  SimulationObserver observer;
+  SceneObserver observer;
   // The second call is the one between the adding of the bodies and the run.
   int calls = 0;
   observer.between_events = [&](const Detector&) {
@@ -40,7 +40,7 @@ TimedSimulation time_simulation(const Scene& scene, Workers* workers) {
     timed.cpu_seconds = cpu_seconds() - cpu_begin;
     return {};
   };
-  const SimulationResult result = require(simulate(scene, make_world_detector, observer, workers));
+  const SceneResult result = require(run_scene(scene, make_world_detector, observer, workers));
   const auto& events = result.counters.events;
   timed.events = std::accumulate(events.begin(), events.end(), std::uint64_t{0});
   timed.hash = result.contact_hash;
@@ -52,12 +52,12 @@ template <class Time>
 ThreadsRow compare(ThreadsRow row, const SpeedSettings& settings, const Time& time) {
   Workers one = require(Workers::create(1)), many = require(Workers::create(row.threads));
   for (int turn = 0; turn < settings.repetitions; ++turn) {
-    const TimedSimulation runs[] = {time(nullptr), time(&one), time(&many)};
+    const TimedRun runs[] = {time(nullptr), time(&one), time(&many)};
     row.turns.push_back(
         {runs[0].seconds, runs[1].seconds, runs[2].seconds, runs[1].cpu_seconds, runs[2].cpu_seconds});
     row.events = runs[0].events;
     row.hash = runs[0].hash;
-    for (const TimedSimulation& run : runs) {
+    for (const TimedRun& run : runs) {
       if (run.hash == row.hash) continue;
       throw ProgramError(
           fmt::format("bench speed --threads: expected the hash {:016x} in {}, but got {:016x}", row.hash,
@@ -92,7 +92,7 @@ double ThreadsRow::cpu_to_one() const {
 ThreadsRow compare_threads(const SpeedScene& entry, int threads, const SpeedSettings& settings) {
   const Scene scene = entry.make(entry.response);
   return compare({entry.name, entry.bodies, threads, {}, 0, 0}, settings,
-                 [&](Workers* workers) { return time_simulation(scene, workers); });
+                 [&](Workers* workers) { return time_run(scene, workers); });
 }
 
 ThreadsRow compare_threads_in_game(int threads, const SpeedSettings& settings) {
@@ -100,7 +100,7 @@ ThreadsRow compare_threads_in_game(int threads, const SpeedSettings& settings) {
   game.bodies /= settings.divide;
   return compare({shooting_name, game.bodies, threads, {}, 0, 0}, settings, [&](Workers* workers) {
     const ShootingResult played = workers ? run_shooting(game, workers) : loop_shooting(game);
-    return TimedSimulation{played.seconds, played.cpu_seconds, played.events, played.hash};
+    return TimedRun{played.seconds, played.cpu_seconds, played.events, played.hash};
   });
 }
 

@@ -140,7 +140,7 @@ Transcript write_down(const Scene& scene, const DetectorMaker& make) {
   Transcript transcript{.world = scene.world, .end_time = scene.end_time};
   std::uint64_t probes_at_start = 0;
   bool started = false;
-  SimulationObserver observer;
+  SceneObserver observer;
   observer.frame_interval = scene.end_time - scene.world.start_time;
   observer.on_frame = [&](const Detector& detector, const Motion&, double) {
     if (!started) probes_at_start = detector.counters().probes;
@@ -154,7 +154,7 @@ Transcript write_down(const Scene& scene, const DetectorMaker& make) {
     return std::unique_ptr<Detector>(
         std::make_unique<WrittenDetector>(std::move(written_motion), std::move(*detector), transcript));
   };
-  transcript.result = require(simulate(scene, written, observer));
+  transcript.result = require(run_scene(scene, written, observer));
   transcript.probes = transcript.result.counters.probes - probes_at_start;
   return transcript;
 }

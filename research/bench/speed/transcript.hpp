@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "simulation/detector/detector.hpp"
-#include "simulation/run/simulate.hpp"
+#include "simulation/run/run_scene.hpp"
 #include "simulation/scene/scene.hpp"
 
 namespace kinesphere::program {
@@ -26,7 +26,7 @@ struct Transcript {
   std::vector<State> answers;          ///< answers of all probes, in order
   std::vector<Kick> kicks;
   std::vector<std::uint32_t> kicks_after;  ///< by event: number of velocity changes after it
-  SimulationResult result;
+  SceneResult result;
   /// Probes without those at the start.
   std::uint64_t probes = 0;
 

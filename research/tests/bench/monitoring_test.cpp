@@ -21,11 +21,11 @@ struct RecordedSet {
 
 /// Returns the sky of a recording; empty if the recording is not installed.
 std::vector<RecordedSky> sky_of(const std::string& name, const std::string& format) {
-  const std::string file = recording(name);
+  const std::string file = recorded_file(name);
   if (file.empty()) return {};
   TrackOptions options;
   options.hints.format = format;
-  const Recording read = read_tracks({file}, options);
+  const TrackSet read = read_tracks({file}, options);
   std::vector<Track> tracks;
   for (const RecordedTrack& track : read.tracks) tracks.push_back(track.samples);
   return {RecordedSky::create(tracks, read.is_plane ? 2 : 3).value()};

@@ -20,7 +20,7 @@ TEST(Transcript, HoldsTheRunThatAnyoneElseSees) {
   const Scene bouncing = scene(SceneResponse::bounce);
   for (const NamedDetector& detector : {world_engine(), paper_engine()}) {
     const Transcript transcript = write_down(bouncing, detector.make);
-    const SimulationResult plain = require(simulate(bouncing, detector.make));
+    const SceneResult plain = require(run_scene(bouncing, detector.make));
     EXPECT_EQ(transcript.result.contact_hash, plain.contact_hash);
     EXPECT_EQ(transcript.result.counters.probes, plain.counters.probes);
     EXPECT_EQ(transcript.bodies.size(), 400u);

@@ -8,7 +8,7 @@
 namespace kinesphere::program::ambiguous_tables_test {
 namespace {
 
-Recording parse(const std::vector<NamedText>& texts, const TrackOptions& options = {}) {
+TrackSet parse(const std::vector<NamedText>& texts, const TrackOptions& options = {}) {
   return parse_tracks(texts, options);
 }
 std::string error_in(const std::string& text, const TrackOptions& options = {}) {
@@ -26,11 +26,11 @@ TrackOptions clocks() {
 }
 
 /// Returns the times of a track as the file tells them.
-std::vector<std::string> times_of(const Recording& recording, const std::string& id) {
+std::vector<std::string> times_of(const TrackSet& track_set, const std::string& id) {
   std::vector<std::string> times;
-  for (const RecordedTrack& track : recording.tracks)
+  for (const RecordedTrack& track : track_set.tracks)
     if (track.id == id)
-      for (const TrackSample& sample : track.samples) times.push_back(recording.times.text(sample.time));
+      for (const TrackSample& sample : track.samples) times.push_back(track_set.times.text(sample.time));
   return times;
 }
 using Times = std::vector<std::string>;
@@ -97,7 +97,7 @@ TEST(AmbiguousTables, NanosecondsBelongToTheirSeconds) {
   for (const char* header : {"id,sec,nanosec,x,y", "id,header.stamp.secs,header.stamp.nsecs,x,y",
                              "id,sim_time_sec,sim_time_nsec,x,y", "id,stamp_sec,stamp_nanosec,x,y",
                              "id,stamp.seconds,stamp.nanoseconds,x,y"}) {
-    const Recording read =
+    const TrackSet read =
         parse({{"f", std::string(header) + "\na,7,999999999,0,0\na,9,5,1,0\na,10,0,2,0\n"}});
     EXPECT_EQ(times_of(read, "a"), (Times{"7.999999999", "9.000000005", "10"})) << header;
     EXPECT_TRUE(read.unused.empty()) << header;
@@ -139,7 +139,7 @@ TEST(AmbiguousTables, ClocksGoOnBehindMidnight) {
   const std::string log =
       "id,time,x,y\na,23:59:58,0,0\nb,23:59:58.5,9,0\na,00:00:00,1,0\nb,23:59:59.5,8,0\na,00:00:02,2,0\n"
       "b,00:00:00.5,7,0\nc,00:00:01,5,5\nc,00:00:02,5,6\n";
-  const Recording read = parse({{"f", log}}, clocks());
+  const TrackSet read = parse({{"f", log}}, clocks());
   EXPECT_EQ(times_of(read, "a"), (Times{"86398", "86400", "86402"}));
   EXPECT_EQ(times_of(read, "b"), (Times{"86398.5", "86399.5", "86400.5"}));
   EXPECT_EQ(times_of(read, "c"), (Times{"86401", "86402"}));
@@ -147,7 +147,7 @@ TEST(AmbiguousTables, ClocksGoOnBehindMidnight) {
   // The rows of each body together, each over midnight.
   const std::string bodies =
       "id,time,x,y\na,20:00:00,0,0\na,02:00:00,1,0\na,08:00:00,1,0\nb,20:00:00,9,0\nb,02:00:00,8,0\n";
-  const Recording each = parse({{"f", bodies}}, clocks());
+  const TrackSet each = parse({{"f", bodies}}, clocks());
   EXPECT_EQ(times_of(each, "a"), (Times{"72000", "93600", "115200"}));
   EXPECT_EQ(times_of(each, "b"), (Times{"72000", "93600"}));
   // A pause of most of the day.
@@ -205,7 +205,7 @@ TEST(AmbiguousTables, MissingNumbersOfOtherPrograms) {
         "{{\"id\":\"NaN \\\"Infinity\",\"time\":1,\"x\":{0},\"y\":[{0}]}}\n"
         "{{\"id\":\"NaN \\\"Infinity\",\"time\":2,\"x\":0,\"y\":0}}\n",
         none);
-    const Recording read = parse({{"f", rows}}, skip);
+    const TrackSet read = parse({{"f", rows}}, skip);
     EXPECT_EQ(read.missing.count, 1u) << none;
     EXPECT_EQ(read.tracks[0].id, "NaN \"Infinity");
   }
@@ -215,7 +215,7 @@ TEST(AmbiguousTables, AnglesOfLoggers) {
   const std::string fit =
       "id,timestamp,position_lat,position_long\na,0,560740871,95443718\na,1,560740871,95443718\n";
   EXPECT_NE(error_in(fit).find(":semicircles if it is of FIT"), std::string::npos) << error_in(fit);
-  const Recording read =
+  const TrackSet read =
       parse({{"f", fit}},
             with_columns("id=id,time=timestamp,lon=position_long:semicircles,lat=position_lat:semicircles"));
   const Vec3 place = read.coordinates.as_in_file(read.tracks[0].samples[0].position);

@@ -7,7 +7,7 @@
 namespace kinesphere::program::converted_tables_test {
 namespace {
 
-Recording parse(const std::string& text, const TrackOptions& options = {}) {
+TrackSet parse(const std::string& text, const TrackOptions& options = {}) {
   return parse_tracks({{"f", text}}, options);
 }
 std::string error_in(const std::string& text, const TrackOptions& options = {}) {
@@ -32,7 +32,7 @@ TEST(ConvertedTables, ReadsGpx) {
     return R"(<?xml version="1.0"?><gpx version="1.1" xmlns="http://www.topografix.com/GPX/1/1">)" + body +
            "</gpx>";
   };
-  const Recording two =
+  const TrackSet two =
       parse(gpx("<trk><name>a, b</name><trkseg>" + point_a + "\n" + point_b + "</trkseg></trk><trk><trkseg>" +
                 point_a + point_b + "</trkseg></trk><wpt lat=\"1\" lon=\"1\"/>"));
   EXPECT_EQ(two.format, "GPX");
@@ -43,7 +43,7 @@ TEST(ConvertedTables, ReadsGpx) {
   EXPECT_EQ(two.warnings.size(), 1u) << "one of two points has a height";
   // Two tracks of one name are no body that is in two places.
   const std::string walk = "<trk><name>walk</name><trkseg>" + point_a + point_b + "</trkseg></trk>";
-  const Recording walks = parse(gpx(walk + walk));
+  const TrackSet walks = parse(gpx(walk + walk));
   ASSERT_EQ(walks.tracks.size(), 2u);
   EXPECT_EQ(walks.tracks[1].id, "walk (2)");
   EXPECT_EQ(two.times.text(two.tracks[0].samples[1].time), "2024-01-01T00:00:10Z");
@@ -74,7 +74,7 @@ TEST(ConvertedTables, ReadsKml) {
            "</gx:Track></Placemark></Document></kml>";
   };
   const std::string two = "<gx:coord>8.0 47.0 10</gx:coord><gx:coord>8.0001 47.0 10</gx:coord>";
-  const Recording flat = parse(kml("", two));
+  const TrackSet flat = parse(kml("", two));
   EXPECT_EQ(flat.format, "KML");
   ASSERT_EQ(flat.tracks.size(), 1u);
   EXPECT_EQ(flat.tracks[0].id, "a");
@@ -104,7 +104,7 @@ TEST(ConvertedTables, ReadsGeoJson) {
         R"("lat": 1, "time": "2024-01-01T00:00:0{}Z"}}}})",
         place, second);
   };
-  const Recording points = parse(collection(point(0, "8, 47") + ",\n" + point(5, "8.0001, 47")));
+  const TrackSet points = parse(collection(point(0, "8, 47") + ",\n" + point(5, "8.0001, 47")));
   EXPECT_EQ(points.format, "GeoJSON");
   ASSERT_EQ(points.tracks.size(), 1u);
   EXPECT_EQ(points.tracks[0].id, "211");
@@ -114,7 +114,7 @@ TEST(ConvertedTables, ReadsGeoJson) {
       R"("geometry": {"type": "LineString", "coordinates": [[8, 47, 10], [8.0001, 47, 10]]}})";
   const std::string area =
       R"({"type": "Feature", "properties": null, "geometry": {"type": "Polygon", "coordinates": []}})";
-  const Recording lines = parse(collection(line + ",\n" + area));
+  const TrackSet lines = parse(collection(line + ",\n" + area));
   ASSERT_EQ(lines.tracks.size(), 1u);
   EXPECT_EQ(lines.tracks[0].id, "a");
   EXPECT_TRUE(lines.has_heights);
@@ -146,7 +146,7 @@ TEST(ConvertedTables, ReadsEphemerides) {
         name, frame, x, x);
   };
   const std::string version = "CCSDS_OEM_VERS = 2.0\nORIGINATOR = X\n";
-  const Recording two = parse(version + segment("A 1", "GCRF", 7000) + segment("B", "GCRF", 7001));
+  const TrackSet two = parse(version + segment("A 1", "GCRF", 7000) + segment("B", "GCRF", 7001));
   EXPECT_EQ(two.format, "OEM");
   ASSERT_EQ(two.tracks.size(), 2u);
   EXPECT_EQ(two.tracks[0].id, "A 1");
@@ -170,7 +170,7 @@ TEST(ConvertedTables, ReadsFcdOutputOfSumo) {
         "<person id=\"a\" x=\"5\" y=\"2\" speed=\"1\"/>\n</timestep>\n",
         time, x);
   };
-  const Recording fcd =
+  const TrackSet fcd =
       parse("<?xml version=\"1.0\"?>\n<fcd-export>\n" + step(0, 1) + step(1, 2) + "</fcd-export>\n");
   EXPECT_EQ(fcd.format, "SUMO FCD");
   ASSERT_EQ(fcd.tracks.size(), 2u);
@@ -179,7 +179,7 @@ TEST(ConvertedTables, ReadsFcdOutputOfSumo) {
   EXPECT_EQ(fcd.tracks[0].samples[1].position, (Vec3{2, 2, 0}));
   EXPECT_EQ(fcd.times.text(fcd.tracks[0].samples[1].time), "1.5");
   EXPECT_TRUE(fcd.warnings.empty());
-  const Recording some = parse(
+  const TrackSet some = parse(
       "<fcd-export><timestep time=\"0\"><vehicle id=\"a\" x=\"0\" y=\"0\" z=\"5\"/></timestep>"
       "<timestep time=\"1\"><vehicle id=\"a\" x=\"0\" y=\"0\"/></timestep></fcd-export>");
   EXPECT_FALSE(some.has_heights);
@@ -205,7 +205,7 @@ TEST(ConvertedTables, ReadsTracksOfTrackMate) {
            "<detection t=\"3\" x=\"8\" y=\"2\" z=\"0.0\"/>\n</particle>\n</Tracks>\n";
   };
   const std::string said = "spaceUnits=\"micron\" frameInterval=\"250\" timeUnits=\"ms\"";
-  const Recording two = parse(tracks(said, "4.5"));
+  const TrackSet two = parse(tracks(said, "4.5"));
   EXPECT_EQ(two.format, "TrackMate tracks");
   ASSERT_EQ(two.tracks.size(), 2u);
   EXPECT_EQ(two.tracks[1].id, "2");
@@ -226,7 +226,7 @@ TEST(ConvertedTables, ReadsJsonRecords) {
       R"({"time": 1700000002.123456, "id": "a, \"b\"", "pose": {"position": {"x": 3, "y": 2.5}}}])";
   TrackOptions skip;
   skip.missing = MissingPolicy::skip;
-  const Recording records = parse(list, skip);
+  const TrackSet records = parse(list, skip);
   EXPECT_EQ(records.format, "JSON records");
   ASSERT_EQ(records.tracks.size(), 1u);
   EXPECT_EQ(records.tracks[0].id, "a, \"b\"");
@@ -291,7 +291,7 @@ TEST(ConvertedTables, ReadsTracesOfTar1090) {
     options.altitude = altitude;
     return parse(trace, options);
   };
-  const Recording flight = read(FormatChoices::Altitude::barometric);
+  const TrackSet flight = read(FormatChoices::Altitude::barometric);
   EXPECT_EQ(flight.format, "trace of tar1090 (barometric altitude)");
   ASSERT_EQ(flight.tracks.size(), 1u);
   EXPECT_EQ(flight.tracks[0].id, "4ca1fa");
@@ -307,7 +307,7 @@ TEST(ConvertedTables, ReadsXyz) {
   const std::string ours =
       "2\nLattice=\"9 0 0 0 9 0 0 0 9\" pbc=\"F F F\" Properties=species:S:1:id:I:1:pos:R:3 Time=0.125\n"
       "S 7 1 2 3\nS 9 4 5 6\n2\nProperties=species:S:1:id:I:1:pos:R:3 Time=0.25\nS 7 1.5 2 3\nS 9 4 5 6\n";
-  const Recording run = parse(ours);
+  const TrackSet run = parse(ours);
   EXPECT_EQ(run.format, "XYZ");
   ASSERT_EQ(run.tracks.size(), 2u);
   EXPECT_EQ(run.tracks[0].id, "7");
@@ -326,7 +326,7 @@ TEST(ConvertedTables, ReadsXyz) {
   EXPECT_EQ(error_in("1\nwater\nO 1 2 3\n1\nwater\nO 2 2 3", frames(2)),
             "f:6: expected a whole line of an atom with 4 columns or more, but got 'O 2 2 3'");
   // Tracks go on through the faces of a periodic box.
-  const Recording periodic = parse(
+  const TrackSet periodic = parse(
       "1\nLattice=\"10 0 0 0 10 0 0 0 10\" Properties=species:S:1:pos:R:3 Time=0\nO 9 1 1\n"
       "1\nLattice=\"10 0 0 0 10 0 0 0 10\" Properties=species:S:1:pos:R:3 Time=1\nO 0.5 1 9\n");
   EXPECT_EQ(periodic.tracks[0].samples[1].position, (Vec3{10.5, 1, -1}));
@@ -339,18 +339,17 @@ TEST(ConvertedTables, ReadsDumpsOfLammps) {
     return "ITEM: TIMESTEP\n" + std::to_string(step) + "\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS " +
            kinds + "\n0 10\n0 10\n-5 5\nITEM: ATOMS " + atoms + "\n" + rows;
   };
-  const Recording plain =
-      parse(frame(0, "ff ff ff", "id type x y z vx", "1 1 1 2 3 0\n2 1 4 5 6 0\n") +
-                frame(100, "ff ff ff", "id type x y z vx", "2 1 4 5 6.5 0\n1 1 1 2 3 0\n"),
-            frames(100));
+  const TrackSet plain = parse(frame(0, "ff ff ff", "id type x y z vx", "1 1 1 2 3 0\n2 1 4 5 6 0\n") +
+                                   frame(100, "ff ff ff", "id type x y z vx", "2 1 4 5 6.5 0\n1 1 1 2 3 0\n"),
+                               frames(100));
   EXPECT_EQ(plain.format, "LAMMPS dump");
   ASSERT_EQ(plain.tracks.size(), 2u);
   EXPECT_EQ(plain.tracks[1].samples[1].time, 1.0);
   EXPECT_EQ(plain.tracks[1].samples[1].position, (Vec3{4, 5, 6.5}));
   EXPECT_TRUE(plain.warnings.empty());
-  const Recording scaled = parse(frame(0, "pp ff pp", "id xs ys zs", "1 0.95 0.5 0.5\n2 0 0 0\n") +
-                                     frame(1, "pp ff pp", "id xs ys zs", "1 0.05 0.5 0.5\n2 0 0 0.9\n"),
-                                 frames(1));
+  const TrackSet scaled = parse(frame(0, "pp ff pp", "id xs ys zs", "1 0.95 0.5 0.5\n2 0 0 0\n") +
+                                    frame(1, "pp ff pp", "id xs ys zs", "1 0.05 0.5 0.5\n2 0 0 0.9\n"),
+                                frames(1));
   EXPECT_LT(norm(scaled.tracks[0].samples[1].position - Vec3{10.5, 5, 0}), 1e-9);
   EXPECT_LT(norm(scaled.tracks[1].samples[1].position - Vec3{0, 0, -6}), 1e-9);
   EXPECT_EQ(scaled.warnings.size(), 1u);

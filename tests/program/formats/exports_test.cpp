@@ -7,7 +7,7 @@
 namespace kinesphere::program::exports_test {
 namespace {
 
-Recording parse(const std::string& text) { return parse_tracks({{"folder/f.csv", text}}, {}); }
+TrackSet parse(const std::string& text) { return parse_tracks({{"folder/f.csv", text}}, {}); }
 std::string error_in(const std::string& text) {
   return error_of([&] { parse(text); });
 }
@@ -21,13 +21,13 @@ TEST(Exports, OfEthoVisionHaveTheirSubject) {
           "\r\n\"Trial time\";\"Recording time\";\"X center\";\"Y center\"\r\n\"s\";\"s\";\"cm\";\"cm\"\r\n";
       text += "0.00;1.00;125;-50\r\n0.04;1.04;150;-50\r\n";
       std::ranges::replace(text, ';', separator);
-      const Recording recording = parse(text);
-      EXPECT_EQ(recording.format, "EthoVision");
-      ASSERT_EQ(recording.tracks.size(), 1u);
-      EXPECT_EQ(recording.tracks[0].id, has_subject ? "Rat 7" : "f");
-      ASSERT_EQ(recording.tracks[0].samples.size(), 2u);
-      EXPECT_DOUBLE_EQ(recording.tracks[0].samples[1].time - recording.tracks[0].samples[0].time, 0.04);
-      const auto& samples = recording.tracks[0].samples;
+      const TrackSet track_set = parse(text);
+      EXPECT_EQ(track_set.format, "EthoVision");
+      ASSERT_EQ(track_set.tracks.size(), 1u);
+      EXPECT_EQ(track_set.tracks[0].id, has_subject ? "Rat 7" : "f");
+      ASSERT_EQ(track_set.tracks[0].samples.size(), 2u);
+      EXPECT_DOUBLE_EQ(track_set.tracks[0].samples[1].time - track_set.tracks[0].samples[0].time, 0.04);
+      const auto& samples = track_set.tracks[0].samples;
       EXPECT_NEAR(norm(samples[1].position - samples[0].position), 0.25, 1e-12);
     }
   EXPECT_EQ(error_in("\"Number of header lines:\";\"many\"\n"),
@@ -42,9 +42,9 @@ TEST(Exports, OfEthoVisionHaveTheirSubject) {
 
 TEST(Exports, OfFlightradar24HaveFeetAndKnots) {
   const std::string head = "Timestamp,UTC,Callsign,Position,Altitude,Speed,Direction\n";
-  const Recording flight = parse(head +
-                                 "1700000000,2023-11-14T22:13:20Z,DLH1,\"47.0,8.5\",1000,240,90\n"
-                                 "1700000060,2023-11-14T22:14:20Z,DLH1,\"47.0,8.5\",2000,240,90\n");
+  const TrackSet flight = parse(head +
+                                "1700000000,2023-11-14T22:13:20Z,DLH1,\"47.0,8.5\",1000,240,90\n"
+                                "1700000060,2023-11-14T22:14:20Z,DLH1,\"47.0,8.5\",2000,240,90\n");
   EXPECT_EQ(flight.format, "Flightradar24");
   ASSERT_EQ(flight.tracks.size(), 1u);
   EXPECT_EQ(flight.tracks[0].id, "DLH1");

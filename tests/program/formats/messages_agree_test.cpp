@@ -113,13 +113,13 @@ using Samples = std::map<std::string, std::map<std::int64_t, Vec3>>;
 Samples by_tracks(const std::string& text) {
   TrackOptions options;
   options.max_gap = 1e9;
-  const Recording recording = parse_tracks({{"t", text}}, options);
+  const TrackSet track_set = parse_tracks({{"t", text}}, options);
   Samples samples;
-  for (const RecordedTrack& track : recording.tracks)
+  for (const RecordedTrack& track : track_set.tracks)
     for (const TrackSample& sample : track.samples) {
-      const auto time = time_field(recording.times.text(sample.time, 6)).value().time;
+      const auto time = time_field(track_set.times.text(sample.time, 6)).value().time;
       samples[track.id][time.whole + std::lround(time.fraction)] =
-          *recording.coordinates.geographic(sample.position);
+          *track_set.coordinates.geographic(sample.position);
     }
   return samples;
 }
@@ -199,10 +199,10 @@ TEST(Messages, DamagedOnesAreCountedAndTheOthersTaken) {
     SCOPED_TRACE(fmt::format("{}:\n{}", name_of(shape.format), text));
     TrackOptions options;
     options.max_gap = 1e9;
-    const Recording recording = parse_tracks({{"t", text}}, options);
-    EXPECT_EQ(recording.malformed.count, damaged);
-    EXPECT_EQ(recording.samples, whole.size());
-    ASSERT_EQ(recording.warnings.size(), damaged > 0 ? 1u : 0u);
+    const TrackSet track_set = parse_tracks({{"t", text}}, options);
+    EXPECT_EQ(track_set.malformed.count, damaged);
+    EXPECT_EQ(track_set.samples, whole.size());
+    ASSERT_EQ(track_set.warnings.size(), damaged > 0 ? 1u : 0u);
   }
 }
 
@@ -232,10 +232,10 @@ TEST(Messages, ThatAreRepeatedCountOnce) {
         R"({{"now": {}.{}, "aircraft": [{{"hex": "a", "lat": 50, "lon": {}, "seen_pos": {}, "rc": 9}}]}})"
         "\n",
         1000 + second, second % 2, 8.0 + 0.001 * (second / 4), second % 4);
-  const Recording recording = parse_tracks({{"t", text}}, {});
-  EXPECT_EQ(recording.samples, 5u);
-  EXPECT_EQ(recording.repeated.count, 15u);
-  EXPECT_TRUE(recording.is_plane);
+  const TrackSet track_set = parse_tracks({{"t", text}}, {});
+  EXPECT_EQ(track_set.samples, 5u);
+  EXPECT_EQ(track_set.repeated.count, 15u);
+  EXPECT_TRUE(track_set.is_plane);
 }
 
 TEST(Messages, WithoutAHeightAreMissingWhereOthersHaveOne) {
@@ -244,10 +244,10 @@ TEST(Messages, WithoutAHeightAreMissingWhereOthersHaveOne) {
     text += json_line({.second = second, .longitude = 8.0, .latitude = 50.0, .feet = 100});
   text += R"({"id": "211000001", "stamp": 1700000020, "lat": 50, "lon": 8})"
           "\n";
-  const Recording recording = parse_tracks({{"t", text}}, {});
-  EXPECT_EQ(recording.missing.count, 1u);
-  EXPECT_EQ(recording.samples, 10u);
-  EXPECT_TRUE(recording.has_heights);
+  const TrackSet track_set = parse_tracks({{"t", text}}, {});
+  EXPECT_EQ(track_set.missing.count, 1u);
+  EXPECT_EQ(track_set.samples, 10u);
+  EXPECT_TRUE(track_set.has_heights);
 }
 
 using MessagesProgram = ProgramTest;

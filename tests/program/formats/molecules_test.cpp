@@ -10,7 +10,7 @@
 namespace kinesphere::program::molecules_test {
 namespace {
 
-Recording parse(const std::string& text, double frame_rate = 0.0) {
+TrackSet parse(const std::string& text, double frame_rate = 0.0) {
   TrackOptions options;
   if (frame_rate > 0.0) options.hints.frame_rate = frame_rate;
   return parse_tracks({{"f", text}}, options);
@@ -69,15 +69,15 @@ std::string pdb(const std::vector<Frame>& frames, bool has_times) {
   return text + "END\n";
 }
 
-void expect_frames(const Recording& recording, const std::vector<Frame>& frames, double interval) {
-  ASSERT_EQ(recording.tracks.size(), frames[0].size());
+void expect_frames(const TrackSet& track_set, const std::vector<Frame>& frames, double interval) {
+  ASSERT_EQ(track_set.tracks.size(), frames[0].size());
   for (std::size_t atom = 0; atom < frames[0].size(); ++atom) {
-    EXPECT_EQ(recording.tracks[atom].id, fmt::format("{}", atom + 1));
-    const auto& samples = recording.tracks[atom].samples;
+    EXPECT_EQ(track_set.tracks[atom].id, fmt::format("{}", atom + 1));
+    const auto& samples = track_set.tracks[atom].samples;
     ASSERT_EQ(samples.size(), frames.size());
     for (std::size_t k = 0; k < frames.size(); ++k) {
       EXPECT_EQ(samples[k].time, interval * static_cast<double>(k));
-      EXPECT_EQ(recording.coordinates.as_in_file(samples[k].position), frames[k][atom]);
+      EXPECT_EQ(track_set.coordinates.as_in_file(samples[k].position), frames[k][atom]);
     }
   }
 }
@@ -89,13 +89,13 @@ TEST(Molecules, AreReadAsTheyWereWritten) {
     SCOPED_TRACE(fmt::format("seed {}, trial {}", seed, trial));
     const auto frames = drawn_frames(random, 2 + static_cast<std::size_t>(trial % 4), 7, 900.0);
     for (const int decimals : {3, 5}) {
-      const Recording timed = parse(gro(frames, decimals, true, "   0.0 0.0 0.0"));
+      const TrackSet timed = parse(gro(frames, decimals, true, "   0.0 0.0 0.0"));
       EXPECT_EQ(timed.format, "GRO (lengths in nm, times in ps)");
       EXPECT_TRUE(timed.warnings.empty());
       expect_frames(timed, frames, 0.5);
       expect_frames(parse(gro(frames, decimals, false, "0 0 0"), 4.0), frames, 0.25);
     }
-    const Recording timed = parse(pdb(frames, true));
+    const TrackSet timed = parse(pdb(frames, true));
     EXPECT_EQ(timed.format, "PDB (lengths in Angstrom, times in ps)");
     EXPECT_TRUE(timed.warnings.empty());
     expect_frames(timed, frames, 0.5);
@@ -137,14 +137,14 @@ TEST(Molecules, GoOnThroughTheFacesOfACell) {
     inside -= a * std::floor(inside.x / a.x);
     wrapped.push_back({inside});
   }
-  const auto expect_straight = [&](const Recording& recording, double tolerance) {
-    ASSERT_EQ(recording.tracks.size(), 1u);
-    ASSERT_EQ(recording.tracks[0].samples.size(), straight.size());
+  const auto expect_straight = [&](const TrackSet& track_set, double tolerance) {
+    ASSERT_EQ(track_set.tracks.size(), 1u);
+    ASSERT_EQ(track_set.tracks[0].samples.size(), straight.size());
     for (std::size_t k = 0; k < straight.size(); ++k)
       EXPECT_LT(
-          norm(recording.coordinates.as_in_file(recording.tracks[0].samples[k].position) - straight[k][0]),
+          norm(track_set.coordinates.as_in_file(track_set.tracks[0].samples[k].position) - straight[k][0]),
           tolerance);
-    EXPECT_EQ(recording.warnings.size(), 1u) << "distances through the faces are not seen";
+    EXPECT_EQ(track_set.warnings.size(), 1u) << "distances through the faces are not seen";
   };
   expect_straight(parse(gro(wrapped, 6, true, "4 5 6 0 0 1.5 0 -1 2")), 1e-5);
   std::string xyz;
@@ -182,7 +182,7 @@ TEST(Molecules, OfTiltedBoxesOfLammpsAreUnwrapped) {
     return text;
   };
   // Unwrapped positions are not unwrapped once more, however fast their atoms are.
-  const Recording fast = parse(dump("xu yu zu", 9));
+  const TrackSet fast = parse(dump("xu yu zu", 9));
   EXPECT_EQ(fast.tracks[0].samples[1].position, (Vec3{9, 0, 0}));
   EXPECT_EQ(error_in(dump("x y z", 9)),
             "f:9: expected unwrapped positions, xu yu zu, in a tilted box: dump these, as in: dump 1 all "

@@ -142,13 +142,13 @@ Samples by_tracks(const std::string& text, const ColumnHints& hints) {
   options.hints = hints;
   options.missing = MissingPolicy::skip;
   options.max_gap = 1e12;
-  const Recording recording = parse_tracks({{"t", text}}, options);
+  const TrackSet track_set = parse_tracks({{"t", text}}, options);
   Samples samples;
-  const bool is_geographic = recording.coordinates.are_geographic();
-  for (const RecordedTrack& track : recording.tracks)
+  const bool is_geographic = track_set.coordinates.are_geographic();
+  for (const RecordedTrack& track : track_set.tracks)
     for (const TrackSample& sample : track.samples)
       samples[track.id].push_back({sample.time, is_geographic
-                                                    ? *recording.coordinates.geographic(sample.position)
+                                                    ? *track_set.coordinates.geographic(sample.position)
                                                     : sample.position});
   return from_first(samples, is_geographic);
 }

@@ -11,7 +11,7 @@
 namespace kinesphere::program::receiver_logs_test {
 namespace {
 
-Recording parse(std::vector<NamedText> files, const TrackOptions& options = {}) {
+TrackSet parse(std::vector<NamedText> files, const TrackOptions& options = {}) {
   return parse_tracks(std::move(files), options);
 }
 std::string error_in(const std::string& text) {
@@ -67,12 +67,12 @@ std::vector<LoggedPlace> drawn_places(Random& random, int count, std::int64_t ea
   return places;
 }
 
-void expect_places(const Recording& recording, std::size_t track, const std::vector<LoggedPlace>& places,
+void expect_places(const TrackSet& track_set, std::size_t track, const std::vector<LoggedPlace>& places,
                    bool has_heights) {
-  const auto& samples = recording.tracks[track].samples;
+  const auto& samples = track_set.tracks[track].samples;
   ASSERT_EQ(samples.size(), places.size());
   for (std::size_t k = 0; k < places.size(); ++k) {
-    const auto at = recording.coordinates.geographic(samples[k].position);
+    const auto at = track_set.coordinates.geographic(samples[k].position);
     ASSERT_TRUE(at);
     EXPECT_NEAR(at->x, places[k].longitude(), 1e-9);
     EXPECT_NEAR(at->y, places[k].latitude(), 1e-9);
@@ -92,7 +92,7 @@ TEST(ReceiverLogs, AreReadAsTheyWereWritten) {
     // The date of the second day is that of the first, and a midnight.
     for (const LoggedPlace& place : places)
       log += gga(place, "GN") + (place.second < 86'400 ? rmc(place, "GN") : "");
-    const Recording boat = parse({{"boat.nmea", log}});
+    const TrackSet boat = parse({{"boat.nmea", log}});
     EXPECT_EQ(boat.format, "NMEA 0183");
     ASSERT_EQ(boat.tracks.size(), 1u);
     EXPECT_EQ(boat.tracks[0].id, "boat");
@@ -119,7 +119,7 @@ TEST(ReceiverLogs, KeepReceiversApart) {
                    std::vector<std::string>{"port", "starboard"}, 0u),
         std::tuple(std::vector<NamedText>{{"log", merged}}, std::vector<std::string>{"log GP", "log GL"}, 1u),
         std::tuple(std::vector<NamedText>{{"log", tagged}}, std::vector<std::string>{"a", "b"}, 0u)}) {
-    const Recording two = parse(files);
+    const TrackSet two = parse(files);
     ASSERT_EQ(two.tracks.size(), 2u);
     for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(two.tracks[k].id, ids[k]);
     EXPECT_EQ(two.warnings.size(), warnings);
@@ -143,10 +143,10 @@ TEST(ReceiverLogs, WithoutDatesCountSeconds) {
   auto places = drawn_places(random, 500);
   std::string log;
   for (const LoggedPlace& place : places) log += gga(place);
-  const Recording recording = parse({{"rover.nmea", log}});
-  expect_places(recording, 0, places, true);
-  EXPECT_EQ(recording.times.text(recording.tracks[0].samples[450].time), "86450.5");
-  EXPECT_EQ(recording.warnings.size(), 1u);
+  const TrackSet track_set = parse({{"rover.nmea", log}});
+  expect_places(track_set, 0, places, true);
+  EXPECT_EQ(track_set.times.text(track_set.tracks[0].samples[450].time), "86450.5");
+  EXPECT_EQ(track_set.warnings.size(), 1u);
 }
 
 TEST(ReceiverLogs, WrongOnesNameLineAndField) {
@@ -170,7 +170,7 @@ TEST(ReceiverLogs, WrongOnesNameLineAndField) {
   // What is damaged, or has no fix, is left out and said.
   std::string damaged = rmc({6000, 0, 12, 0});
   damaged[20] ^= 1;
-  const Recording rest = parse(
+  const TrackSet rest = parse(
       {{"f", with_checksum("GPRMC,,V,,,,,,,,,,N") + good + damaged + rmc({6000, 0, 13, 0}) + "$GPRMC,0000"}});
   ASSERT_EQ(rest.tracks.size(), 1u);
   EXPECT_EQ(rest.tracks[0].samples.size(), 3u);
@@ -204,7 +204,7 @@ TEST(ReceiverLogs, OfGlidersAreReadAsTheyWereWritten) {
       place.east -= place.east % 10, place.north -= place.north % 10,
           place.height = std::round(900 + place.height);
   for (const bool has_pressure : {true, false}) {
-    const Recording two = parse({{"a.igc", igc(one, has_pressure)}, {"b.igc", igc(other, has_pressure)}});
+    const TrackSet two = parse({{"a.igc", igc(one, has_pressure)}, {"b.igc", igc(other, has_pressure)}});
     ASSERT_EQ(two.tracks.size(), 2u);
     EXPECT_EQ(two.tracks[1].id, "b");
     EXPECT_EQ(two.times.text(two.tracks[0].samples[420].time), "2025-01-01T00:00:20Z");
@@ -213,7 +213,7 @@ TEST(ReceiverLogs, OfGlidersAreReadAsTheyWereWritten) {
   }
   TrackOptions geometric;
   geometric.altitude = FormatChoices::Altitude::geometric;
-  const Recording satellite = parse({{"a.igc", igc(one, true)}}, geometric);
+  const TrackSet satellite = parse({{"a.igc", igc(one, true)}}, geometric);
   for (LoggedPlace& place : one) place.height += 50;
   expect_places(satellite, 0, one, true);
 }
@@ -253,23 +253,23 @@ TEST(ReceiverLogs, ReadsPlt) {
   };
   TrackOptions options;
   options.max_gap = 10.0;
-  const Recording recording = parse({{"walks/20091011.plt", geolife}, {"b.plt", ozi("492")}}, options);
-  EXPECT_EQ(recording.format, "PLT");
-  EXPECT_TRUE(recording.has_heights);
-  ASSERT_EQ(recording.tracks.size(), 2u);
-  EXPECT_EQ(recording.tracks[0].id, "20091011");
+  const TrackSet track_set = parse({{"walks/20091011.plt", geolife}, {"b.plt", ozi("492")}}, options);
+  EXPECT_EQ(track_set.format, "PLT");
+  EXPECT_TRUE(track_set.has_heights);
+  ASSERT_EQ(track_set.tracks.size(), 2u);
+  EXPECT_EQ(track_set.tracks[0].id, "20091011");
   const auto time = [&](std::size_t track, std::size_t sample) {
-    return recording.times.text(recording.tracks[track].samples[sample].time);
+    return track_set.times.text(track_set.tracks[track].samples[sample].time);
   };
   EXPECT_EQ(time(0, 0), "2009-10-11T14:04:30Z");
   EXPECT_EQ(time(0, 1), "2009-10-11T14:04:35Z");
   EXPECT_EQ(time(1, 0), "2009-10-11T14:04:30Z");
   EXPECT_EQ(time(1, 1), "2009-10-11T14:04:30.248Z") << "parts of a second stay";
-  const auto& places = recording.tracks;
+  const auto& places = track_set.tracks;
   // Both begin at one place, and 492 ft high.
   EXPECT_NEAR(norm(places[0].samples[0].position - places[1].samples[0].position), 0.0, 1e-6);
-  EXPECT_NEAR(recording.coordinates.as_in_file(places[0].samples[0].position).z, 492.0, 1e-6);
-  const Recording without = parse({{"b.plt", ozi("-777")}});
+  EXPECT_NEAR(track_set.coordinates.as_in_file(places[0].samples[0].position).z, 492.0, 1e-6);
+  const TrackSet without = parse({{"b.plt", ozi("-777")}});
   EXPECT_FALSE(without.has_heights);
   EXPECT_EQ(without.warnings.size(), 1u);
   EXPECT_NE(error_in(plt(ozi_title, "Tokyo", "")).find(":2: expected places of WGS 84"), std::string::npos);

@@ -11,7 +11,7 @@
 namespace kinesphere::program::several_bodies_test {
 namespace {
 
-Recording parse(const std::string& text, const TrackOptions& options = {}) {
+TrackSet parse(const std::string& text, const TrackOptions& options = {}) {
   return parse_tracks({{"f.csv", text}}, options);
 }
 std::string error_in(const std::string& text, const TrackOptions& options = {}) {
@@ -39,7 +39,7 @@ TEST(SeveralBodies, OfDeepLabCutAreReadAsTheyWereWritten) {
       for (double& number : row) number = random.uniform(0, 500);
       text += fmt::format("{},{},{},0.99,{},{},0.75\n", k, row[0], row[1], row[2], row[3]);
     }
-    const Recording two = parse(text, with("", 25.0));
+    const TrackSet two = parse(text, with("", 25.0));
     EXPECT_EQ(two.format, "DeepLabCut");
     ASSERT_EQ(two.tracks.size(), 2u);
     EXPECT_EQ(two.tracks[0].id, has_individuals ? "a nose" : "nose");
@@ -121,7 +121,7 @@ TEST(SeveralBodies, OfMotionCaptureAreReadAsTheyWereWritten) {
            {captured(places, qualisys, '\t', 0), "Qualisys"},
            {captured(places, qualisys + "Frame\tTime\ta X\ta Y\ta Z\tb X\tb Y\tb Z\n", '\t', 2), "Qualisys"},
            {captured(places, optitrack, ',', 2), "OptiTrack Motive"}}) {
-    const Recording two = parse(text);
+    const TrackSet two = parse(text);
     EXPECT_EQ(two.format, format);
     EXPECT_TRUE(two.in_metres);
     ASSERT_EQ(two.tracks.size(), 2u) << format;
@@ -148,14 +148,14 @@ TEST(SeveralBodies, HaveColumnsOfLongitudeAndLatitude) {
   for (const std::string_view header : {"time,lat1,lon1,lat2,lon2", "time,lat_1,lon_1,lat_2,lon_2",
                                         "time,Latitude1,Longitude1,Latitude2,Longitude2",
                                         "time,drone1_lat,drone1_lng,drone2_lat,drone2_lng"}) {
-    const Recording two = parse(std::string(header) + "\n" + rows);
+    const TrackSet two = parse(std::string(header) + "\n" + rows);
     ASSERT_EQ(two.tracks.size(), 2u) << header;
     EXPECT_NEAR(norm(two.tracks[1].samples[0].position - two.tracks[0].samples[0].position), 76.0, 0.5)
         << header;
     EXPECT_NEAR(norm(two.tracks[1].samples[1].position - two.tracks[1].samples[0].position), 7.6, 0.1)
         << header;
   }
-  const Recording high =
+  const TrackSet high =
       parse("time,lat1,lon1,alt1,lat2,lon2,alt2\n0,47,8,100,47,8,130\n1,47,8,100,47,8,130\n");
   EXPECT_NEAR(norm(high.tracks[1].samples[0].position - high.tracks[0].samples[0].position), 30.0, 1e-3);
   // A journey has a beginning and an end; so may boxes.
@@ -217,8 +217,8 @@ TEST(SeveralBodies, DatesMayHaveYearsOfTwoDigits) {
   const auto times = [](const std::string& one, const std::string& other, DateOrder order) {
     TrackOptions options;
     options.hints.dates = order;
-    const Recording recording = parse("id,time,x,y\n1," + one + ",0,0\n1," + other + ",1,0\n", options);
-    return recording.times.text(recording.tracks[0].samples[0].time);
+    const TrackSet track_set = parse("id,time,x,y\n1," + one + ",0,0\n1," + other + ",1,0\n", options);
+    return track_set.times.text(track_set.tracks[0].samples[0].time);
   };
   EXPECT_EQ(times("31/01/24 12:00", "31/01/24 12:01", DateOrder::day_first), "2024-01-31T12:00:00");
   EXPECT_EQ(times("1/31/24 9:05:00 PM", "1/31/24 9:06:00 PM", DateOrder::month_first), "2024-01-31T21:05:00");

@@ -8,7 +8,7 @@
 namespace kinesphere::program::wide_recordings_test {
 namespace {
 
-Recording parse(const std::string& text, const TrackOptions& options = {}) {
+TrackSet parse(const std::string& text, const TrackOptions& options = {}) {
   return parse_tracks({{"f", text}}, options);
 }
 std::string error_in(const std::string& text, const TrackOptions& options = {}) {
@@ -26,16 +26,16 @@ Places drawn_places(Random& random, std::size_t steps, std::size_t bodies) {
   return places;
 }
 
-void expect_places(const Recording& recording, const Places& places, double interval,
+void expect_places(const TrackSet& track_set, const Places& places, double interval,
                    const std::function<std::string(std::size_t)>& name) {
-  ASSERT_EQ(recording.tracks.size(), places[0].size());
+  ASSERT_EQ(track_set.tracks.size(), places[0].size());
   for (std::size_t body = 0; body < places[0].size(); ++body) {
-    EXPECT_EQ(recording.tracks[body].id, name(body));
-    const auto& samples = recording.tracks[body].samples;
+    EXPECT_EQ(track_set.tracks[body].id, name(body));
+    const auto& samples = track_set.tracks[body].samples;
     ASSERT_EQ(samples.size(), places.size());
     for (std::size_t step = 0; step < places.size(); ++step) {
       EXPECT_DOUBLE_EQ(samples[step].time - samples[0].time, interval * static_cast<double>(step));
-      EXPECT_EQ(recording.coordinates.as_in_file(samples[step].position), places[step][body]);
+      EXPECT_EQ(track_set.coordinates.as_in_file(samples[step].position), places[step][body]);
     }
   }
 }
@@ -57,9 +57,9 @@ TEST(WideRecordings, OfVissim) {
                        : fmt::format("{:.2f};{};7;{:.3f};{:.3f};{:.3f};50.1\r\n", 0.5 * double(step),
                                      body + 1, at.x, at.y, at.z);
       }
-    const Recording recording = parse(text);
-    EXPECT_EQ(recording.format, "Vissim (COORDFRONT)");
-    expect_places(recording, places, 0.5, [](std::size_t body) { return fmt::format("{}", body + 1); });
+    const TrackSet track_set = parse(text);
+    EXPECT_EQ(track_set.format, "Vissim (COORDFRONT)");
+    expect_places(track_set, places, 0.5, [](std::size_t body) { return fmt::format("{}", body + 1); });
   }
   EXPECT_EQ(parse("$PEDESTRIAN:NO;SIMSEC;COORDCENTX;COORDCENTY\n1;0;1;2\n1;1;1;3\n").format,
             "Vissim (COORDCENT)");
@@ -77,8 +77,7 @@ TEST(WideRecordings, OfPneuma) {
       "track_id; type; traveled_d; avg_speed; lat; lon; speed; lon_acc; lat_acc; time\n";
   const std::string groups =
       "37.977391; 23.737688; 4.9; 0.1; -0.1; 0.000000; 37.977400; 23.737688; 5.0; 0.1; 0.0; 0.040000; ";
-  const Recording two =
-      parse(header + "1; Car; 1.0; 5.0; " + groups + "\n2; Bus; 1.0; 5.0; " + groups + "\n");
+  const TrackSet two = parse(header + "1; Car; 1.0; 5.0; " + groups + "\n2; Bus; 1.0; 5.0; " + groups + "\n");
   EXPECT_EQ(two.format, "pNEUMA");
   ASSERT_EQ(two.tracks.size(), 2u);
   EXPECT_EQ(two.tracks[1].id, "2");
@@ -106,10 +105,10 @@ TEST(WideRecordings, OfGromacs) {
     for (const Vec3& at : places[step]) rows += fmt::format(" {:9.3f} {:9.3f} {:9.3f}", at.x, at.y, at.z);
     rows += '\n';
   }
-  const Recording recording = parse(head + legends + rows);
-  EXPECT_EQ(recording.format, "coordinates of GROMACS (lengths in nm, times in ps)");
-  EXPECT_EQ(recording.warnings.size(), 1u) << "its box is not known";
-  expect_places(recording, places, 0.5,
+  const TrackSet track_set = parse(head + legends + rows);
+  EXPECT_EQ(track_set.format, "coordinates of GROMACS (lengths in nm, times in ps)");
+  EXPECT_EQ(track_set.warnings.size(), 1u) << "its box is not known";
+  expect_places(track_set, places, 0.5,
                 [](std::size_t body) { return fmt::format("atom {}", 26 * body + 1); });
   EXPECT_TRUE(error_in(head + "@ s0 legend \"RMSD\"\n0.0 1.0\n").starts_with("f: expected coordinates X, Y"));
   EXPECT_EQ(error_in(head + legends + rows + "9.0 x 1 1 1 1 1 1 1 1\n"),

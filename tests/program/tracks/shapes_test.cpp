@@ -49,10 +49,10 @@ struct Row {
 };
 
 struct Original {
-  Recording recording;
+  TrackSet track_set;
   std::vector<Row> rows;
   double distance;
-  bool has_z() const { return !recording.is_plane; }
+  bool has_z() const { return !track_set.is_plane; }
 };
 
 /// A converted recording: its files, and the options to read them.
@@ -167,9 +167,9 @@ WrittenTracks longitudes_and_latitudes(Original& original) {
 WrittenTracks gaps(Original& original) {
   std::map<std::string, std::size_t> count;
   std::erase_if(original.rows, [&](const Row& row) { return count[row.id]++ % 40 >= 36; });
-  Recording& recording = original.recording;
+  TrackSet& track_set = original.track_set;
   std::vector<RecordedTrack> cut;
-  for (const RecordedTrack& track : recording.tracks) {
+  for (const RecordedTrack& track : track_set.tracks) {
     std::vector<TrackSample> samples;
     for (std::size_t k = 0; k <= track.samples.size(); ++k) {
       if (k < track.samples.size() && k % 40 < 36) {
@@ -181,7 +181,7 @@ WrittenTracks gaps(Original& original) {
       }
     }
   }
-  recording.tracks = std::move(cut);
+  track_set.tracks = std::move(cut);
   return plain(original);
 }
 
@@ -315,7 +315,7 @@ struct Counterpart {
 };
 
 /// Finds bodies by id and order in time among the tracks of the id.
-std::vector<Counterpart> counterparts(const Recording& reported, const Recording& original) {
+std::vector<Counterpart> counterparts(const TrackSet& reported, const TrackSet& original) {
   std::map<std::string, std::vector<std::uint32_t>> bodies;
   for (std::uint32_t body = 0; body < original.tracks.size(); ++body)
     bodies[original.tracks[body].id].push_back(body);
@@ -340,38 +340,38 @@ Pairs pairs_of(const std::vector<Event>& events) {
 }
 
 /// Cuts the recording off so many seconds after its begin.
-void keep_first(double seconds, Recording& recording) {
-  double begin = recording.tracks.front().samples.front().time;
-  for (const RecordedTrack& track : recording.tracks) begin = std::min(begin, track.samples.front().time);
-  for (RecordedTrack& track : recording.tracks)
+void keep_first(double seconds, TrackSet& track_set) {
+  double begin = track_set.tracks.front().samples.front().time;
+  for (const RecordedTrack& track : track_set.tracks) begin = std::min(begin, track.samples.front().time);
+  for (RecordedTrack& track : track_set.tracks)
     std::erase_if(track.samples, [&](const TrackSample& sample) { return sample.time > begin + seconds; });
-  std::erase_if(recording.tracks, [](const RecordedTrack& track) { return track.samples.size() < 2; });
+  std::erase_if(track_set.tracks, [](const RecordedTrack& track) { return track.samples.size() < 2; });
 }
 
 class Shapes : public ::testing::TestWithParam<std::tuple<Source, Shape>> {};
 
 TEST_P(Shapes, HaveTheSameApproaches) {
   const auto& [source, shape] = GetParam();
-  const std::string file = recording(source.file);
+  const std::string file = recorded_file(source.file);
   if (file.empty()) GTEST_SKIP() << "no recording " << source.file << " (see KINESPHERE_DATA)";
   TrackOptions options;
   options.hints.format = source.format;
   Original original{read_tracks({file}, options), {}, source.distance};
-  keep_first(source.seconds, original.recording);
-  for (const RecordedTrack& track : original.recording.tracks) {
+  keep_first(source.seconds, original.track_set);
+  for (const RecordedTrack& track : original.track_set.tracks) {
     for (const TrackSample& sample : track.samples)
       original.rows.push_back({track.id, std::llround(1000 * sample.time), sample.position});
   }
   WrittenTracks reported = shape.write(original);
-  const Recording read = parse_tracks(std::move(reported.files), reported.options);
-  ASSERT_EQ(read.tracks.size(), original.recording.tracks.size());
-  const std::vector<Counterpart> same = counterparts(read, original.recording);
+  const TrackSet read = parse_tracks(std::move(reported.files), reported.options);
+  ASSERT_EQ(read.tracks.size(), original.track_set.tracks.size());
+  const std::vector<Counterpart> same = counterparts(read, original.track_set);
 
   // The truth of the original checks the approaches in the converted recording. Its positions differ by
   // rounding errors of 1e-9 at most, and a spline passes on no more than twice that: far less than a
   // tolerance of a millionth of the distance, so that twice the tolerance covers it.
   const ApproachQuestion question{.distance = source.distance};
-  Scene truth = scene_of(original.recording, question).scene;
+  Scene truth = scene_of(original.track_set, question).scene;
   const std::vector<Event> expected = events_of(truth);
   const ContactComparison own = require(compare_with_oracle(truth, expected));
   ASSERT_TRUE(own.agrees());

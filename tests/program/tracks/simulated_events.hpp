@@ -5,16 +5,16 @@
 
 #include "base/program_error.hpp"
 #include "simulation/detector/detector.hpp"
-#include "simulation/run/simulate.hpp"
+#include "simulation/run/run_scene.hpp"
 #include "simulation/scene/scene.hpp"
 
 namespace kinesphere::program {
 
 inline std::vector<Event> events_of(const Scene& scene) {
   std::vector<Event> events;
-  SimulationObserver observer;
+  SceneObserver observer;
   observer.on_event = [&](const Event& event) { events.push_back(event); };
-  require(simulate(scene, make_world_detector, observer));
+  require(run_scene(scene, make_world_detector, observer));
   return events;
 }
 

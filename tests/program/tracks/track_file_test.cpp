@@ -13,7 +13,7 @@ namespace {
 
 using TrackFileTest = FolderTest;
 
-Recording parse(const std::string& text, const TrackOptions& options = {}) {
+TrackSet parse(const std::string& text, const TrackOptions& options = {}) {
   return parse_tracks({{"t.txt", text}}, options);
 }
 
@@ -24,36 +24,36 @@ std::string error_in(const std::string& text, const TrackOptions& options = {}) 
 TEST(TrackFile, ReadsObsmat) {
   TrackOptions options;
   options.hints.format = "ucy";
-  const Recording recording = parse(
+  const TrackSet track_set = parse(
       " 1.0e+00 7.000000e+00 1.5 0 2.5 0.1 0 0.2\n 11.0 7.0 1.75 0 2.75 0.1 0 0.2\n"
       " 1.0 8.0 3 0 4 0 0 0\n 11.0 8.0 3 0 5 0 0 0\n",
       options);
-  EXPECT_EQ(recording.format, "UCY obsmat");
-  EXPECT_TRUE(recording.is_plane);
-  ASSERT_EQ(recording.tracks.size(), 2u);
-  EXPECT_EQ(recording.tracks[0].id, "7");
-  EXPECT_EQ(recording.tracks[0].samples[1].time, 11.0 / 25.0);
-  EXPECT_EQ(recording.tracks[0].samples[1].position, (Vec3{1.75, 2.75, 0}));
+  EXPECT_EQ(track_set.format, "UCY obsmat");
+  EXPECT_TRUE(track_set.is_plane);
+  ASSERT_EQ(track_set.tracks.size(), 2u);
+  EXPECT_EQ(track_set.tracks[0].id, "7");
+  EXPECT_EQ(track_set.tracks[0].samples[1].time, 11.0 / 25.0);
+  EXPECT_EQ(track_set.tracks[0].samples[1].position, (Vec3{1.75, 2.75, 0}));
 }
 
 TEST(TrackFile, ReadsPedPy) {
-  const Recording recording =
+  const TrackSet track_set =
       parse("# framerate: 50 fps\n# id frame x/m y/m z/m\n1\t0\t2\t3\t1.76\n1\t5\t4\t6\t1.76\n");
-  EXPECT_EQ(recording.format, "PedPy");
-  ASSERT_EQ(recording.tracks.size(), 1u);
-  EXPECT_EQ(recording.tracks[0].samples[1].time, 0.1);
-  EXPECT_EQ(recording.tracks[0].samples[1].position, (Vec3{4, 6, 0}));
+  EXPECT_EQ(track_set.format, "PedPy");
+  ASSERT_EQ(track_set.tracks.size(), 1u);
+  EXPECT_EQ(track_set.tracks[0].samples[1].time, 0.1);
+  EXPECT_EQ(track_set.tracks[0].samples[1].position, (Vec3{4, 6, 0}));
 }
 
 TEST(TrackFile, ReadsMosquitoes) {
-  const Recording recording = parse(
+  const TrackSet track_set = parse(
       "object;oldobject;time;XSplined;YSplined;ZSplined;VXSplined\n1;4;0.18;1;2;3;0\n1;4;0.2;1;2;4;0\n"
       "1;5;0.22;9;9;9;0\n1;5;0.24;9;9;9;0\n");
-  EXPECT_EQ(recording.format, "mosquito tracks");
-  ASSERT_EQ(recording.tracks.size(), 2u);
-  EXPECT_EQ(recording.tracks[1].id, "5");
-  EXPECT_EQ(recording.tracks[0].samples[0].time, 0.18);
-  EXPECT_EQ(recording.tracks[0].samples[1].position, (Vec3{1, 2, 4}));
+  EXPECT_EQ(track_set.format, "mosquito tracks");
+  ASSERT_EQ(track_set.tracks.size(), 2u);
+  EXPECT_EQ(track_set.tracks[1].id, "5");
+  EXPECT_EQ(track_set.tracks[0].samples[0].time, 0.18);
+  EXPECT_EQ(track_set.tracks[0].samples[1].position, (Vec3{1, 2, 4}));
 }
 
 TEST(TrackFile, ReadsPlainTables) {
@@ -68,18 +68,18 @@ TEST(TrackFile, TakesColumnsByNameOrNumber) {
   TrackOptions options;
   options.hints.columns = "id=who,time=2,x=east,y=4,z=up";
   options.hints.time_unit = "s";
-  const Recording recording = parse("who;when;east;north;up\nann;1;2;3;4\nann;2;3;4;5\n", options);
-  EXPECT_EQ(recording.tracks[0].id, "ann");
-  EXPECT_EQ(recording.tracks[0].samples[0].time, 1.0);
-  EXPECT_EQ(recording.tracks[0].samples[0].position, (Vec3{2, 3, 4}));
+  const TrackSet track_set = parse("who;when;east;north;up\nann;1;2;3;4\nann;2;3;4;5\n", options);
+  EXPECT_EQ(track_set.tracks[0].id, "ann");
+  EXPECT_EQ(track_set.tracks[0].samples[0].time, 1.0);
+  EXPECT_EQ(track_set.tracks[0].samples[0].position, (Vec3{2, 3, 4}));
 }
 
 TEST(TrackFile, SortsRowsThatAreMixed) {
-  const Recording recording = parse("id,time,x,y\na,2,2,0\nb,1,0,0\na,1,1,0\nb,2,0,0\na,3,3,0\n");
-  ASSERT_EQ(recording.tracks.size(), 2u);
-  ASSERT_EQ(recording.tracks[0].samples.size(), 3u);
+  const TrackSet track_set = parse("id,time,x,y\na,2,2,0\nb,1,0,0\na,1,1,0\nb,2,0,0\na,3,3,0\n");
+  ASSERT_EQ(track_set.tracks.size(), 2u);
+  ASSERT_EQ(track_set.tracks[0].samples.size(), 3u);
   for (int k = 0; k < 3; ++k)
-    EXPECT_EQ(recording.tracks[0].samples[static_cast<std::size_t>(k)].position.x, k + 1.0);
+    EXPECT_EQ(track_set.tracks[0].samples[static_cast<std::size_t>(k)].position.x, k + 1.0);
 }
 
 TEST(TrackFile, CutsTracksAtGaps) {
@@ -87,18 +87,18 @@ TEST(TrackFile, CutsTracksAtGaps) {
   const std::string text =
       "id,time,x,y\na,0,0,0\na,2,0,0\na,7,0,0\na,9,0,0\nb,0,0,0\nb,1,0,0\nb,3.6,0,0\nb,4.6,0,0\nb,9,0,0\n"
       "c,3,0,0\nc,4,0,0\n";
-  const Recording recording = parse(text);
-  EXPECT_EQ(recording.sample_interval, 2.0);
-  EXPECT_EQ(recording.smallest_max_gap, 2.5);
-  EXPECT_EQ(recording.largest_max_gap, 5.0);
-  ASSERT_EQ(recording.tracks.size(), 4u);
-  EXPECT_EQ(recording.ids, 3u);
-  EXPECT_EQ(recording.tracks[1].id, "b");
-  EXPECT_EQ(recording.tracks[2].id, "b");
-  EXPECT_EQ(recording.tracks[2].samples.front().time, 3.6);
-  EXPECT_EQ(recording.left_out, 1u);
-  EXPECT_EQ(recording.samples, 10u);
-  EXPECT_EQ(recording.rows, 11u);
+  const TrackSet track_set = parse(text);
+  EXPECT_EQ(track_set.sample_interval, 2.0);
+  EXPECT_EQ(track_set.smallest_max_gap, 2.5);
+  EXPECT_EQ(track_set.largest_max_gap, 5.0);
+  ASSERT_EQ(track_set.tracks.size(), 4u);
+  EXPECT_EQ(track_set.ids, 3u);
+  EXPECT_EQ(track_set.tracks[1].id, "b");
+  EXPECT_EQ(track_set.tracks[2].id, "b");
+  EXPECT_EQ(track_set.tracks[2].samples.front().time, 3.6);
+  EXPECT_EQ(track_set.left_out, 1u);
+  EXPECT_EQ(track_set.samples, 10u);
+  EXPECT_EQ(track_set.rows, 11u);
   TrackOptions options;
   options.max_gap = 5;
   EXPECT_EQ(parse(text, options).tracks.size(), 3u);
@@ -218,14 +218,14 @@ TEST(TrackFile, KnowsTheUsualNames) {
 }
 
 TEST(TrackFile, ReadsDates) {
-  const Recording recording = parse(
+  const TrackSet track_set = parse(
       "id,t,x,y\na,2024-02-28T23:59:59.5Z,0,0\na,\"2024-02-29 01:00:00,25+01:00\",1,0\n"
       "a,20240229T000001Z,2,0\n");
-  ASSERT_EQ(recording.tracks[0].samples.size(), 3u);
-  const auto& samples = recording.tracks[0].samples;
+  ASSERT_EQ(track_set.tracks[0].samples.size(), 3u);
+  const auto& samples = track_set.tracks[0].samples;
   EXPECT_EQ(samples[1].time - samples[0].time, 0.75);
   EXPECT_EQ(samples[2].time - samples[0].time, 1.5);
-  EXPECT_EQ(recording.times.text(samples[0].time), "2024-02-28T23:59:59.5Z");
+  EXPECT_EQ(track_set.times.text(samples[0].time), "2024-02-28T23:59:59.5Z");
   EXPECT_EQ(error_in("id,t,x,y\na,2024-02-28T00:00:00Z,0,0\na,2024-02-28T00:00:00,0,0\n"),
             "t.txt:3: expected a date with a zone as time (column 2), but got '2024-02-28T00:00:00', unlike "
             "t.txt:2");
@@ -241,14 +241,14 @@ TEST(TrackFile, LargeOffsetsLoseNothing) {
   TrackOptions options;
   const auto check = [&](const char* text, std::string_view last) {
     SCOPED_TRACE(text);
-    const Recording recording = parse(text, options);
-    const auto& samples = recording.tracks[0].samples;
+    const TrackSet track_set = parse(text, options);
+    const auto& samples = track_set.tracks[0].samples;
     EXPECT_EQ(samples[1].time - samples[0].time, 0.125);
     EXPECT_LT(std::abs(samples[1].time), 64.0);
     EXPECT_EQ(samples[1].position - samples[0].position, (Vec3{0.125, 0.25, 0}));
     EXPECT_LT(norm(samples[1].position), 64.0);
-    EXPECT_EQ(recording.times.text(samples[1].time), last);
-    EXPECT_EQ(recording.coordinates.as_in_file(samples[1].position), (Vec3{500000.125, -5000000.25, 0}));
+    EXPECT_EQ(track_set.times.text(samples[1].time), last);
+    EXPECT_EQ(track_set.coordinates.as_in_file(samples[1].position), (Vec3{500000.125, -5000000.25, 0}));
   };
   check("id,t,x,y\na,1700000000.123,500000,-5000000.5\na,1700000000.248,500000.125,-5000000.25\n",
         "1700000000.248");
@@ -269,13 +269,13 @@ TEST(TrackFile, MissingValuesByPolicy) {
   TrackOptions options;
   options.max_gap = 10;
   options.missing = MissingPolicy::skip;
-  const Recording skipped = parse(text, options);
+  const TrackSet skipped = parse(text, options);
   ASSERT_EQ(skipped.tracks.size(), 1u);
   EXPECT_EQ(skipped.samples, 4u);
   EXPECT_EQ(skipped.missing.count, 5u);
   EXPECT_EQ(skipped.missing.first_places, (std::vector<std::string>{"line 3", "line 5", "line 6"}));
   options.missing = MissingPolicy::split;
-  const Recording split = parse(text, options);
+  const TrackSet split = parse(text, options);
   ASSERT_EQ(split.tracks.size(), 1u);
   EXPECT_EQ(split.left_out, 2u);
   EXPECT_EQ(split.tracks[0].samples.front().time, 5.0);
@@ -286,7 +286,7 @@ TEST(TrackFile, DuplicatesByPolicy) {
   const std::string text = "id,t,x,y\na,0,0,0\na,1,2,0\na,1.0,4,0\na,1,6,3\na,2,8,0\n";
   TrackOptions options;
   options.duplicates = DuplicatePolicy::first;
-  const Recording first = parse(text, options);
+  const TrackSet first = parse(text, options);
   EXPECT_EQ(first.tracks[0].samples[1].position, (Vec3{2, 0, 0}));
   EXPECT_EQ(first.duplicates.count, 2u);
   EXPECT_EQ(first.duplicates.first_places, (std::vector<std::string>{"line 4", "line 5"}));
@@ -298,7 +298,7 @@ TEST(TrackFile, LeavesOutWhatIsTooFast) {
   TrackOptions options;
   options.max_speed = 2;
   options.max_gap = 10;
-  const Recording outlier = parse("id,t,x,y\na,0,0,0\na,1,1,0\na,2,900,0\na,3,3,0\na,4,4,0\n", options);
+  const TrackSet outlier = parse("id,t,x,y\na,0,0,0\na,1,1,0\na,2,900,0\na,3,3,0\na,4,4,0\n", options);
   ASSERT_EQ(outlier.tracks.size(), 1u);
   EXPECT_EQ(outlier.samples, 4u);
   EXPECT_EQ(outlier.too_fast.first_places, (std::vector<std::string>{"line 4"}));
@@ -308,7 +308,7 @@ TEST(TrackFile, LeavesOutWhatIsTooFast) {
   // A lasting jump ends one track and begins another.
   EXPECT_EQ(parse("id,t,x,y\na,0,0,0\na,1,1,0\na,2,900,0\na,3,901,0\n", options).tracks.size(), 2u);
   // Two ships under one id: the one with more reports is kept.
-  const Recording two =
+  const TrackSet two =
       parse("id,t,x,y\na,0,0,0\na,0.5,900,0\na,1,1,0\na,1.5,901,0\na,2,2,0\na,2.5,902,0\na,3,3,0\n", options);
   ASSERT_EQ(two.tracks.size(), 1u);
   EXPECT_EQ(two.tracks[0].samples.back().position.x, 3.0);
@@ -321,7 +321,7 @@ TEST(TrackFile, JoinsFiles) {
   };
   const std::string first = "id,t,x,y\nann,0,0,0\nann,1,1,0\n";
   // The order of columns and the separator may differ.
-  const Recording both = parse_both(first, "y;x;t;id\n0;2;2;ann\n0;3;3;ann\n");
+  const TrackSet both = parse_both(first, "y;x;t;id\n0;2;2;ann\n0;3;3;ann\n");
   ASSERT_EQ(both.tracks.size(), 1u);
   EXPECT_EQ(both.tracks[0].samples.size(), 4u);
   EXPECT_EQ(error_of([&] { parse_both(first, "id,t,x,y\nann,1,1,0\n"); }),
@@ -393,11 +393,11 @@ class RealRecording : public ::testing::TestWithParam<Expected> {};
 
 TEST_P(RealRecording, IsReadWhole) {
   const Expected& expected = GetParam();
-  const std::string file = recording(expected.name);
+  const std::string file = recorded_file(expected.name);
   if (file.empty()) GTEST_SKIP() << "no recording " << expected.name << " (see KINESPHERE_DATA)";
   TrackOptions options;
   options.hints.format = expected.hint;
-  const Recording found = read_tracks({file}, options);
+  const TrackSet found = read_tracks({file}, options);
   EXPECT_EQ(found.format, expected.format);
   EXPECT_EQ(found.ids, expected.ids);
   EXPECT_EQ(found.tracks.size(), expected.tracks);

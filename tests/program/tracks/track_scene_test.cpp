@@ -15,15 +15,15 @@
 namespace kinesphere::program::track_scene_test {
 namespace {
 
-Recording parse(const std::string& text, const TrackOptions& options = {}) {
+TrackSet parse(const std::string& text, const TrackOptions& options = {}) {
   return parse_tracks({{"t.csv", text}}, options);
 }
 
 constexpr const char* square = "id,t,x,y\na,0,0,0\na,1,1,0\na,2,1,1\na,3,0,1\nb,0,-0.5,0.5\nb,3,-0.5,0.5\n";
 
 TEST(TrackScene, LinesGoStraightFromSampleToSample) {
-  const Recording recording = parse(square);
-  const auto motion = require(LinearTracks::create({recording.tracks[0].samples}));
+  const TrackSet track_set = parse(square);
+  const auto motion = require(LinearTracks::create({track_set.tracks[0].samples}));
   EXPECT_EQ(motion.state(0, 1.5).position, (Vec3{1, 0.5, 0}));
   EXPECT_EQ(motion.definition(0, 1.5).acceleration_limit, 0.0);
   ASSERT_EQ(motion.turns().size(), 2u);
@@ -56,10 +56,10 @@ TEST(TrackScene, LinesAndCurvesAgreeWithTheOracle) {
       text += std::to_string(id) + "," + std::to_string(0.5 * k + 0.01 * id) + "," +
               std::to_string(random.uniform(0, 20)) + "," + std::to_string(random.uniform(0, 20)) + "\n";
   }
-  const Recording recording = parse(text);
+  const TrackSet track_set = parse(text);
   std::size_t found[2];
   for (const Interpolation interpolation : {Interpolation::spline, Interpolation::linear}) {
-    const Scene scene = scene_of(recording, {.distance = 1.0, .interpolation = interpolation}).scene;
+    const Scene scene = scene_of(track_set, {.distance = 1.0, .interpolation = interpolation}).scene;
     EXPECT_EQ(scene.world.dimensions, 2);
     const std::vector<Event> events = events_of(scene);
     const ContactComparison comparison = require(compare_with_oracle(scene, events));
@@ -71,38 +71,37 @@ TEST(TrackScene, LinesAndCurvesAgreeWithTheOracle) {
   EXPECT_GT(found[1], 1000u);
 }
 
+/// Returns options with this gap limit (seconds).
+TrackOptions with_gap(double max_gap) {
+  TrackOptions options;
+  options.max_gap = max_gap;
+  return options;
+}
+
 TEST(TrackScene, WarnsOfSplinesThatSwingOutFar) {
   // Two ships under one id, and one with a sharp turn.
-  const Recording recording = parse(
+  const TrackSet track_set = parse(
       "id,t,x,y\na,0,0,0\na,100,0,10\na,101,9000,0\na,201,9000,10\na,202,0,30\na,302,0,40\n"
       "b,0,0,0\nb,100,100,0\nb,200,100,100\nb,300,0,100\n",
-      [] {
-        TrackOptions options;
-        options.max_gap = 1000;
-        return options;
-      }());
-  const TrackScene curves = scene_of(recording, {.distance = 5.0});
+      with_gap(1000));
+  const TrackScene curves = scene_of(track_set, {.distance = 5.0});
   EXPECT_EQ(curves.overshoots.tracks, 1u);
   EXPECT_EQ(curves.overshoots.largest.id, "a");
   EXPECT_GT(curves.overshoots.largest.size, 1e5);
-  const auto warnings = warnings_of(recording, curves);
+  const auto warnings = warnings_of(track_set, curves);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("id 'a' after 101"), std::string::npos) << warnings[0];
-  EXPECT_EQ(scene_of(recording, {.distance = 5.0, .interpolation = Interpolation::linear}).overshoots.tracks,
+  EXPECT_EQ(scene_of(track_set, {.distance = 5.0, .interpolation = Interpolation::linear}).overshoots.tracks,
             0u);
 }
 
 /// A spline that swings out farther than the world reaches at the usual tolerance gets a coarser one.
 TEST(TrackScene, ReachesAsFarAsItsSplines) {
-  const Recording recording = parse(
+  const TrackSet track_set = parse(
       "id,t,x,y\na,0,0,0\na,43200,3500,0\na,43201,0,5500\na,86400,0,0\na,129600,3500,0\n"
       "b,0,0,0\nb,43200,100,100\nb,86400,100,0\nb,129600,0,0\n",
-      [] {
-        TrackOptions options;
-        options.max_gap = 1e5;
-        return options;
-      }());
-  const TrackScene curves = scene_of(recording, {.distance = 20.0});
+      with_gap(1e5));
+  const TrackScene curves = scene_of(track_set, {.distance = 20.0});
   EXPECT_GT(curves.overshoots.largest.size, limits::largest_length * 20e-6);
   EXPECT_GT(curves.scene.world.contact_tolerance, 20e-6);
   EXPECT_LT(curves.scene.world.contact_tolerance, 0.02);
@@ -110,25 +109,25 @@ TEST(TrackScene, ReachesAsFarAsItsSplines) {
   ASSERT_GE(events.size(), 2u);
   EXPECT_EQ(events.front().kind, EventKind::contact_begin);
   for (const Event& event : events) EXPECT_NE(event.kind, EventKind::bound_violation) << event.time;
-  const std::string message = error_of([&] { scene_of(recording, {.distance = 20.0, .tolerance = 1e-6}); });
+  const std::string message = error_of([&] { scene_of(track_set, {.distance = 20.0, .tolerance = 1e-6}); });
   EXPECT_NE(message.find("the spline of id 'a' after"), std::string::npos) << message;
 }
 
 TEST(TrackScene, ToleratesWhatTheExtentAllows) {
-  const Recording recording = parse("id,t,x,y\na,0,-4e9,0\na,1,4e9,0\nb,0,0,0\nb,1,1,0\n");
-  EXPECT_GT(scene_of(recording, {.distance = 1.0}).scene.world.contact_tolerance, 1e-3);
-  EXPECT_EQ(error_of([&] { scene_of(recording, {.distance = 1.0, .tolerance = 1e-6}); }),
+  const TrackSet track_set = parse("id,t,x,y\na,0,-4e9,0\na,1,4e9,0\nb,0,0,0\nb,1,1,0\n");
+  EXPECT_GT(scene_of(track_set, {.distance = 1.0}).scene.world.contact_tolerance, 1e-3);
+  EXPECT_EQ(error_of([&] { scene_of(track_set, {.distance = 1.0, .tolerance = 1e-6}); }),
             "--tolerance: expected 0.00364 or more, as id 'a' is 4e+09 from the recording's middle, but got "
             "1e-06");
-  EXPECT_EQ(error_of([&] { scene_of(recording, {.distance = 1.0, .tolerance = 2.0}); }),
+  EXPECT_EQ(error_of([&] { scene_of(track_set, {.distance = 1.0, .tolerance = 2.0}); }),
             "--tolerance: expected less than the distance 1, but got 2");
 }
 
 TEST(TrackScene, WarnsOfWhatWasLeftOut) {
   std::string text = "id,t,x,y\n";
   for (int k = 0; k < 50; ++k) text += "a," + std::to_string(k < 45 ? k : 100 * k) + ",0,0\n";
-  const Recording recording = parse(text);
-  const auto warnings = warnings_of(recording, scene_of(recording, {.distance = 1.0}));
+  const TrackSet track_set = parse(text);
+  const auto warnings = warnings_of(track_set, scene_of(track_set, {.distance = 1.0}));
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings[0],
             "5 of 50 rows (10 %) were left out, alone between two gaps: a longer --max-gap keeps them");

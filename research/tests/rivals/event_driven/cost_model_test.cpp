@@ -9,7 +9,7 @@
 #include "kinesphere/random.hpp"
 #include "research/rivals/rivals.hpp"
 #include "simulation/detector/detector.hpp"
-#include "simulation/run/simulate.hpp"
+#include "simulation/run/run_scene.hpp"
 #include "simulation/scene/make_scene.hpp"
 #include "simulation/scene/scene.hpp"
 
@@ -110,7 +110,7 @@ class CostModelOfScene : public testing::TestWithParam<std::uint32_t> {
     const auto paper = [edge](const WorldDefinition& definition, const Motion& motion) {
       return make_paper_detector(definition, motion, {.cell_edge = edge});
     };
-    return simulate(scene_, paper).value().counters;
+    return run_scene(scene_, paper).value().counters;
   }
 
   Scene scene_;

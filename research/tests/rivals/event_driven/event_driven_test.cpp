@@ -11,7 +11,7 @@
 #include "kinesphere/random.hpp"
 #include "research/rivals/rivals.hpp"
 #include "simulation/detector/detector.hpp"
-#include "simulation/run/simulate.hpp"
+#include "simulation/run/run_scene.hpp"
 #include "simulation/scene/make_scene.hpp"
 #include "simulation/scene/scene.hpp"
 
@@ -25,15 +25,15 @@ DetectorMaker paper(const PaperOptions& options = {}) {
 }
 
 struct Outcome {
-  SimulationResult result;
+  SceneResult result;
   std::vector<Event> events;
 };
 
 Outcome outcome_of(const Scene& scene, const DetectorMaker& make) {
   Outcome run;
-  SimulationObserver observer;
+  SceneObserver observer;
   observer.on_event = [&](const Event& event) { run.events.push_back(event); };
-  run.result = simulate(scene, make, observer).value();
+  run.result = run_scene(scene, make, observer).value();
   return run;
 }
 
