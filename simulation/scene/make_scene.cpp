@@ -10,6 +10,7 @@
 #include "kinesphere/placement.hpp"
 #include "kinesphere/random.hpp"
 #include "kinesphere/response.hpp"
+#include "number/roots.hpp"
 #include "simulation/scene/make_scene.hpp"
 #include "simulation/scene/scene.hpp"
 
@@ -72,17 +73,6 @@ Result<std::unique_ptr<const Motion>> make_motion(const SceneParameters& p, std:
       break;
   }
   return moved(Ballistic::create({.start = std::move(start), .gravity = p.gravity}));
-}
-
-/// Returns the cube root, by Newton's method from above. Unlike std::cbrt it gives the same bits on every
-/// machine. Precondition: value > 0.
-double cube_root(double value) {
-  double root = std::max(value, 1.0);
-  for (;;) {
-    const double next = (2.0 * root + value / (root * root)) / 3.0;
-    if (!(next < root)) return root;
-    root = next;
-  }
 }
 
 /// Returns the mass of a body, up to a common factor.

@@ -19,6 +19,14 @@ struct BoundAt {
   Vec3 centre, velocity, acceleration;
   double radius, speed, growth;
 
+  BoundAt(const Vec3& centre_now, const Vec3& velocity_now, const Vec3& acceleration_now, double radius_now,
+          double speed_now, double growth_now)
+      : centre(centre_now),
+        velocity(velocity_now),
+        acceleration(acceleration_now),
+        radius(radius_now),
+        speed(speed_now),
+        growth(growth_now) {}
   [[gnu::always_inline]] BoundAt(const Bound& bound, double from)
       : acceleration(bound.planned_acceleration), growth(bound.acceleration_limit) {
     const double s = from - bound.time;
@@ -31,6 +39,9 @@ struct BoundAt {
     radius = bound.radius + (bound.growth_speed + 0.5 * growth * s) * s;
     speed = bound.growth_speed + growth * s;
   }
+
+  /// True if the radius does not grow.
+  bool is_exact() const { return speed == 0.0 && growth == 0.0; }
 
   /// Radius at time d of a sphere around centre + velocity d that contains the bound: the grown radius plus
   /// the deviation of the centre from a straight line.

@@ -1,0 +1,48 @@
+// Ball is what the core knows of one body: its bound since the last report, its safe region, and when it is
+// due. Neighbours of a ball read its first cache line only, unless bounds grow.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "kinesphere/vec3.hpp"
+
+namespace kinesphere::core {
+
+/// Marks the absence of a ball or of a place.
+inline constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+struct alignas(64) Ball {
+  // Its bound. What bounds seldom have is in Drift.
+  Vec3 position{};
+  double time = 0.0;  ///< of the last report
+  Vec3 velocity{};
+  double radius = 0.0;
+
+  double due = 0.0;     ///< earliest time at which anything can happen to it, as far as it is to find out
+  double second = 0.0;  ///< the same without the neighbour that `due` is about
+  double own = 0.0;     ///< earliest time at which it can leave its safe region or touch a wall
+  double acceleration_limit = 0.0;
+  float centre[3]{};           ///< of its safe region (region units)
+  float region = 0.0F;         ///< radius of its safe region (region units)
+  std::uint32_t about = none;  ///< what `due` is about: a neighbour; itself, for `second`; none, for `own`
+  std::uint32_t list = none;   ///< its list of neighbours
+  std::uint32_t slot = none;   ///< where its safe region is in the cells; none if it has none
+  std::uint8_t walls = 0;      ///< bits of the walls that it may touch while in its safe region
+  std::uint8_t wall = 0;       ///< what `own` is about: a wall, from 1 on; 0 for its safe region
+  std::uint8_t scans = 0;      ///< times that its list was scanned since it has this safe region
+  std::uint8_t scans_by_region = 8;  ///< mean number of scans in its last safe regions, in eighths
+
+  bool has_region() const { return slot != none; }
+};
+static_assert(sizeof(Ball) == 128);
+
+/// Terms of a bound that few worlds have.
+struct Drift {
+  Vec3 planned_acceleration{};
+  double growth_speed = 0.0;
+
+  friend constexpr bool operator==(const Drift&, const Drift&) = default;
+};
+
+}  // namespace kinesphere::core

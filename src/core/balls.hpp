@@ -1,0 +1,121 @@
+// Balls holds the records of all balls, and says where their bounds are at the present time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "bound/quick_reject.hpp"
+#include "core/ball.hpp"
+#include "core/near_lanes.hpp"
+#include "kinesphere/bound.hpp"
+
+namespace kinesphere::core {
+
+class Balls {
+ public:
+  Balls(const Periods& periods, double time) : periods_(periods), now_(time) {}
+
+  double time() const { return now_; }
+  void set_time(double time) { now_ = time; }
+  const Periods& periods() const { return periods_; }
+
+  std::uint32_t size() const { return static_cast<std::uint32_t>(balls_.size()); }
+  Ball& operator[](std::uint32_t number) { return balls_[number]; }
+  const Ball& operator[](std::uint32_t number) const { return balls_[number]; }
+  const std::vector<Ball>& all() const { return balls_; }
+  /// Adds a record without a bound.
+  void append() {
+    balls_.emplace_back();
+    if (!drifts_.empty()) drifts_.emplace_back();
+  }
+  std::size_t bytes() const { return balls_.capacity() * sizeof(Ball) + drifts_.capacity() * sizeof(Drift); }
+
+  /// True if some bound has ever grown.
+  bool any_grows() const { return grows_; }
+  /// True if some bound has ever had one of the terms of Drift.
+  bool any_drifts() const { return !drifts_.empty(); }
+  void set_bound(std::uint32_t number, const Bound& bound) {
+    set_state(number, {bound.position, bound.velocity});
+    balls_[number].radius = bound.radius;
+    balls_[number].acceleration_limit = bound.acceleration_limit;
+    grows_ = grows_ || !bound.is_exact();
+    const Drift drift{bound.planned_acceleration, bound.growth_speed};
+    if (drifts_.empty() && drift != Drift()) drifts_.resize(balls_.size());
+    if (!drifts_.empty()) drifts_[number] = drift;
+  }
+  /// The ball is in this state now.
+  void set_state(std::uint32_t number, const State& state) {
+    balls_[number].position = state.position;
+    balls_[number].velocity = state.velocity;
+    balls_[number].time = now_;
+  }
+
+  Bound bound(std::uint32_t number) const {
+    const Ball& ball = balls_[number];
+    return {.time = ball.time,
+            .position = ball.position,
+            .velocity = ball.velocity,
+            .planned_acceleration = plan(number),
+            .radius = ball.radius,
+            .growth_speed = drifts_.empty() ? 0.0 : drifts_[number].growth_speed,
+            .acceleration_limit = ball.acceleration_limit};
+  }
+  /// The bound from now on.
+  BoundAt bound_now(std::uint32_t number) const {
+    return {position(number),     velocity(number),
+            plan(number),         balls_[number].radius + growth(number),
+            growth_speed(number), balls_[number].acceleration_limit};
+  }
+  Vec3 plan(std::uint32_t number) const {
+    return drifts_.empty() ? Vec3{} : drifts_[number].planned_acceleration;
+  }
+  /// Centre of the bound now.
+  Vec3 position(std::uint32_t number) const {
+    const Ball& ball = balls_[number];
+    const double since = now_ - ball.time;
+    const Vec3 straight = ball.position + ball.velocity * since;
+    return drifts_.empty() ? straight : straight + plan(number) * (0.5 * since * since);
+  }
+  Vec3 velocity(std::uint32_t number) const {
+    const Ball& ball = balls_[number];
+    return drifts_.empty() ? ball.velocity : ball.velocity + plan(number) * (now_ - ball.time);
+  }
+  /// How far the bound has grown since the last report (length).
+  double growth(std::uint32_t number) const {
+    const Ball& ball = balls_[number];
+    const double since = now_ - ball.time, growth = 0.5 * ball.acceleration_limit * since * since;
+    return drifts_.empty() ? growth : growth + drifts_[number].growth_speed * since;
+  }
+  /// How fast the bound grows now (length / time).
+  double growth_speed(std::uint32_t number) const {
+    const Ball& ball = balls_[number];
+    const double speed = ball.acceleration_limit * (now_ - ball.time);
+    return drifts_.empty() ? speed : speed + drifts_[number].growth_speed;
+  }
+  /// True if the bound does not grow.
+  bool is_exact(std::uint32_t number) const {
+    return balls_[number].acceleration_limit == 0.0 &&
+           (drifts_.empty() || drifts_[number].growth_speed == 0.0);
+  }
+  /// True if a report would tell nothing new.
+  bool is_fresh(std::uint32_t number) const { return balls_[number].time == now_ || is_exact(number); }
+
+  Vec3 nearest(Vec3 way) const {
+    if (periods_.any)
+      for (int axis = 0; axis < 3; ++axis)
+        way[axis] = nearest_image(way[axis], periods_.length[axis], periods_.inverse[axis]);
+    return way;
+  }
+  /// Returns the vector from the centre of one bound to that of the nearest image of another.
+  Vec3 between(std::uint32_t from, std::uint32_t to) const { return nearest(position(to) - position(from)); }
+
+ private:
+  std::vector<Ball> balls_;
+  std::vector<Drift> drifts_;  ///< by number; empty as long as no bound has drifted
+  Periods periods_;
+  double now_;
+  bool grows_ = false;
+};
+
+}  // namespace kinesphere::core

@@ -1,0 +1,199 @@
+#include "core/due_queue.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "core/near_lanes.hpp"
+#include "number/infinity.hpp"
+
+namespace kinesphere::core {
+namespace {
+
+/// Numbers of buckets beyond this are not told apart.
+constexpr double last_bucket = 0x1p62;
+
+}  // namespace
+
+std::uint64_t DueQueue::bucket_of(double time) const {
+  const double place = (time - origin_) * by_width_;
+  if (!(place > 0.0)) return 0;
+  return static_cast<std::uint64_t>(std::min(place, last_bucket));
+}
+
+void DueQueue::push(std::span<const Ball> balls, std::uint32_t ball) {
+  const double time = balls[ball].due;
+  if (heads_.empty() || !(time < infinity)) return;
+  if (entry_of_.size() < balls.size()) entry_of_.resize(balls.size(), no_entry);
+  const std::uint64_t bucket = bucket_of(time);
+  if (bucket <= bucket_) {
+    const Entry entry{time, ball};
+    const auto later = [](const Entry& a, const Entry& b) { return b < a; };
+    present_.insert(std::lower_bound(present_.begin(), present_.end(), entry, later), entry);
+    return;
+  }
+  // An entry in an earlier bucket, or in this one, will do.
+  const std::uint32_t known = entry_of_[ball];
+  const bool is_far = bucket - bucket_ >= heads_.size();
+  if (known != no_entry && (is_far || (known != far_entry && after_present(known) <= bucket - bucket_)))
+    return;
+  if (is_far) {
+    entry_of_[ball] = far_entry;
+    far_.push_back(ball);
+  } else {
+    put(bucket, ball);
+  }
+}
+
+void DueQueue::put(std::uint64_t bucket, std::uint32_t ball) {
+  std::uint32_t& head = heads_[bucket & (heads_.size() - 1)];
+  if (head == none || chunks_[head].count == std::size(Chunk{}.balls)) {
+    std::uint32_t fresh = free_;
+    if (fresh == none) {
+      fresh = static_cast<std::uint32_t>(chunks_.size());
+      chunks_.emplace_back();
+    } else {
+      free_ = chunks_[fresh].next;
+    }
+    chunks_[fresh].count = 0;
+    chunks_[fresh].next = head;
+    head = fresh;
+  }
+  Chunk& chunk = chunks_[head];
+  chunk.balls[chunk.count++] = ball;
+  entry_of_[ball] = name_of(bucket);
+  ++stored_;
+}
+
+DueQueue::Entry DueQueue::first(std::span<const Ball> balls, double until) {
+  const Entry nothing{infinity, none};
+  for (;;) {
+    while (!present_.empty()) {
+      const Entry& entry = present_.back();
+      if (entry.time > until) return nothing;
+      if (balls[entry.ball].due == entry.time && balls[entry.ball].has_region()) return entry;
+      present_.pop_back();
+    }
+    if (stored_ == 0 && far_.empty()) return nothing;
+    if (bucket_of(until) <= bucket_) return nothing;
+    open_next(balls);
+  }
+}
+
+/// Enters a ball as push() does, if it is due at present at the end of the entries.
+void DueQueue::push_unsorted(std::span<const Ball> balls, std::uint32_t ball) {
+  if (bucket_of(balls[ball].due) <= bucket_)
+    present_.push_back({balls[ball].due, ball});
+  else
+    push(balls, ball);
+}
+
+/// Fetches the balls of a bucket.
+void DueQueue::prefetch(std::span<const Ball> balls, std::uint32_t head) const {
+  for (std::uint32_t at = head; at != none; at = chunks_[at].next)
+    for (std::uint32_t k = 0; k < chunks_[at].count; ++k) {
+      const Ball& ball = balls[chunks_[at].balls[k]];
+      prefetch_line(&ball);
+      prefetch_line(&ball.due);
+    }
+}
+
+void DueQueue::open_next(std::span<const Ball> balls) {
+  ++bucket_;
+  prefetch(balls, heads_[(bucket_ + 1) & (heads_.size() - 1)]);
+  std::uint32_t at = std::exchange(heads_[bucket_ & (heads_.size() - 1)], none);
+  while (at != none) {
+    // Chunks may move while balls that are due later go on to their buckets.
+    const Chunk chunk = chunks_[at];
+    chunks_[at].next = free_;
+    free_ = at;
+    stored_ -= chunk.count;
+    for (std::uint32_t k = 0; k < chunk.count; ++k) {
+      const std::uint32_t ball = chunk.balls[k];
+      if (entry_of_[ball] != name_of(bucket_)) continue;  // it has an earlier entry, or had one
+      entry_of_[ball] = no_entry;
+      if (balls[ball].has_region()) push_unsorted(balls, ball);
+    }
+    at = chunk.next;
+  }
+  std::sort(present_.begin(), present_.end(), [](const Entry& a, const Entry& b) { return b < a; });
+  if ((bucket_ & (heads_.size() / 2 - 1)) == 0 || stored_ == 0) take_far(balls);
+  if (bucket_ - adapted_ >= 256) adapt(balls);
+}
+
+/// Puts the balls that are due within the ring by now into their buckets. If the ring is empty, goes on to
+/// the first bucket in which a ball is due.
+void DueQueue::take_far(std::span<const Ball> balls) {
+  if (stored_ == 0 && present_.empty()) {
+    std::uint64_t first = static_cast<std::uint64_t>(last_bucket);
+    for (const std::uint32_t ball : far_) first = std::min(first, bucket_of(balls[ball].due));
+    // The bucket itself is opened next.
+    bucket_ = std::max(bucket_, first - 1);
+    adapted_ = std::min(adapted_, bucket_);
+  }
+  std::size_t kept = 0;
+  for (const std::uint32_t ball : far_) {
+    if (entry_of_[ball] != far_entry) continue;  // it has been entered again since
+    const std::uint64_t bucket = bucket_of(balls[ball].due);
+    if (bucket > bucket_ && bucket - bucket_ >= heads_.size() && balls[ball].due < infinity) {
+      far_[kept++] = ball;
+      continue;
+    }
+    entry_of_[ball] = no_entry;
+    push(balls, ball);
+  }
+  far_.resize(kept);
+}
+
+void DueQueue::adapt(std::span<const Ball> balls) {
+  const double by_bucket = static_cast<double>(taken_) / static_cast<double>(bucket_ - adapted_);
+  const bool few = taken_ < balls.size() / 4 && bucket_ - adapted_ < 2 * heads_.size();
+  if (few) return;
+  taken_ = 0;
+  adapted_ = bucket_;
+  if (by_bucket < 2.5 * wanted && by_bucket > 0.3 * wanted) return;
+  refill(balls, origin_ + static_cast<double>(bucket_) * width_);
+}
+
+/// Chooses the width of buckets from the quarter of the balls that is due first.
+void DueQueue::choose_width(std::span<const Ball> balls, double now) {
+  std::vector<double> times;
+  for (const Ball& ball : balls)
+    if (ball.has_region() && ball.due < infinity) times.push_back(ball.due - now);
+  width_ = 1.0;
+  if (!times.empty()) {
+    const std::size_t part = times.size() / 4;
+    std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(part), times.end());
+    const double width = times[part] * wanted / (static_cast<double>(part) + 1.0);
+    // Not so narrow that times are not told apart.
+    width_ = std::max(width, 0x1p-40 * std::max(1e-30, std::abs(now)));
+  }
+  by_width_ = 1.0 / width_;
+}
+
+void DueQueue::refill(std::span<const Ball> balls, double now) {
+  const auto buckets = static_cast<std::uint64_t>(static_cast<double>(balls.size()) / wanted);
+  heads_.assign(std::bit_ceil(std::max<std::uint64_t>(buckets, 256)), none);
+  choose_width(balls, now);
+  origin_ = now;
+  bucket_ = adapted_ = taken_ = stored_ = 0;
+  present_.clear();
+  far_.clear();
+  chunks_.clear();
+  free_ = none;
+  entry_of_.assign(balls.size(), no_entry);
+  for (std::uint32_t ball = 0; ball < balls.size(); ++ball) {
+    if (balls[ball].has_region()) push_unsorted(balls, ball);
+  }
+  std::sort(present_.begin(), present_.end(), [](const Entry& a, const Entry& b) { return b < a; });
+}
+
+std::size_t DueQueue::bytes() const {
+  return heads_.capacity() * sizeof(std::uint32_t) + chunks_.capacity() * sizeof(Chunk) +
+         present_.capacity() * sizeof(Entry) +
+         (far_.capacity() + entry_of_.capacity()) * sizeof(std::uint32_t);
+}
+
+}  // namespace kinesphere::core

@@ -1,0 +1,85 @@
+// DueQueue holds when each ball is due: one time for each, in a ring of buckets of equal width, of which only
+// the present one is sorted (a calendar queue).
+//
+// A bucket holds numbers of balls only, since a ball knows when it is due. When its bucket is opened, a ball
+// that is due later by now goes on to the bucket in which it is due, so a ball that is put off again and
+// again costs nothing until then. The width of the buckets follows how many balls are due in one. Neither the
+// width nor the order of insertion influences the order in which balls are due: by time, and by number at one
+// time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/ball.hpp"
+
+namespace kinesphere::core {
+
+class DueQueue {
+ public:
+  struct Entry {
+    double time;
+    std::uint32_t ball;
+    friend bool operator<(const Entry& a, const Entry& b) {
+      return a.time < b.time || (a.time == b.time && a.ball < b.ball);
+    }
+  };
+
+  /// Enters a ball, which is due at Ball::due.
+  void push(std::span<const Ball> balls, std::uint32_t ball);
+  /// Returns the first entry, without taking it; one with an infinite time if there is none up to `until`.
+  Entry first(std::span<const Ball> balls, double until);
+  /// Takes the entry that first() has returned.
+  void pop() {
+    present_.pop_back();
+    ++taken_;
+  }
+  /// Returns a ball that is due soon after the first one, to prefetch; `none` if none is known.
+  std::uint32_t coming(std::size_t ahead) const {
+    return ahead < present_.size() ? present_[present_.size() - 1 - ahead].ball : none;
+  }
+  std::size_t bytes() const;
+  /// Enters all balls that are present anew. `now` is the time of the world.
+  void refill(std::span<const Ball> balls, double now);
+
+ private:
+  struct alignas(64) Chunk {
+    std::uint32_t balls[14];
+    std::uint32_t count;
+    std::uint32_t next;
+  };
+  static constexpr double wanted = 16.0;  ///< balls due in a bucket
+
+  /// What entry_of_ has instead of the name of a bucket.
+  static constexpr std::uint32_t no_entry = none, far_entry = none - 1;
+
+  std::uint64_t bucket_of(double time) const;
+  /// Name of a bucket of the ring: the low bits of its number.
+  static std::uint32_t name_of(std::uint64_t bucket) {
+    return static_cast<std::uint32_t>(bucket & 0x7fffffff);
+  }
+  /// How many buckets after the present one a bucket of the ring is.
+  std::uint64_t after_present(std::uint32_t name) const { return (name - name_of(bucket_)) & 0x7fffffff; }
+  void push_unsorted(std::span<const Ball> balls, std::uint32_t ball);
+  void put(std::uint64_t bucket, std::uint32_t ball);
+  void prefetch(std::span<const Ball> balls, std::uint32_t head) const;
+  void open_next(std::span<const Ball> balls);
+  void take_far(std::span<const Ball> balls);
+  void choose_width(std::span<const Ball> balls, double now);
+  void adapt(std::span<const Ball> balls);
+
+  double width_ = 0.0, by_width_ = 0.0;
+  double origin_ = 0.0;               ///< time at which bucket 0 begins
+  std::uint64_t bucket_ = 0;          ///< the present bucket
+  std::vector<std::uint32_t> heads_;  ///< ring of buckets: the first chunk of each
+  std::vector<Chunk> chunks_;
+  std::uint32_t free_ = none;
+  std::vector<Entry> present_;           ///< entries of the present bucket, the first one last
+  std::vector<std::uint32_t> far_;       ///< balls that are due beyond the ring
+  std::vector<std::uint32_t> entry_of_;  ///< by ball: the bucket of the entry that counts; others are stale
+  std::uint64_t taken_ = 0, adapted_ = 0, stored_ = 0;
+};
+
+}  // namespace kinesphere::core

@@ -1,0 +1,242 @@
+#include "core/near_lanes.hpp"
+
+#include <array>
+#include <bit>
+
+#ifndef KINESPHERE_CORE_LANES_OF_MASK
+#define KINESPHERE_CORE_LANES_OF_MASK
+namespace kinesphere::core {
+
+/// For each mask of eight lanes, the numbers of the lanes that it has, in four bits each, from the lowest on.
+constexpr std::array<std::uint32_t, 256> lanes_of_mask = [] {
+  std::array<std::uint32_t, 256> table{};
+  for (std::uint32_t mask = 0; mask < 256; ++mask)
+    for (std::uint32_t lane = 0, count = 0; lane < 8; ++lane)
+      if ((mask >> lane & 1) != 0) table[mask] |= lane << 4 * count++;
+  return table;
+}();
+
+}  // namespace kinesphere::core
+#endif
+
+// Without this macro, Highway 1.0 does not compile for a processor with AVX3_DL vectors and no better ones.
+#ifndef HWY_WANT_AVX3_DL
+#define HWY_WANT_AVX3_DL
+#endif
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/near_lanes.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace kinesphere::core::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// No fused operations, because every processor has to round alike; and no branch on what is found, which
+// would be mispredicted.
+
+/// Below this, products of squares underflow, and the answer is unknown.
+constexpr double least = 0x1p-400;
+
+/// The neighbours of one group, by column.
+template <class V>
+struct Neighbours {
+  V x, y, z, time, u, v, w, radius;
+};
+
+#if HWY_MAX_BYTES >= 32
+using D = hn::FixedTag<double, 4>;
+
+/// Loads two halves of a cache line of four balls, and exchanges rows and columns.
+template <class V>
+HWY_INLINE void columns(D d, V& a, V& b, V& c, V& e) {
+  const V ab = hn::InterleaveLower(d, a, b), ba = hn::InterleaveUpper(d, a, b);
+  const V ce = hn::InterleaveLower(d, c, e), ec = hn::InterleaveUpper(d, c, e);
+  a = hn::ConcatLowerLower(d, ce, ab);
+  b = hn::ConcatLowerLower(d, ec, ba);
+  c = hn::ConcatUpperUpper(d, ce, ab);
+  e = hn::ConcatUpperUpper(d, ec, ba);
+}
+
+template <class V>
+HWY_INLINE Neighbours<V> load(D d, const Ball* balls, const std::uint32_t* n) {
+  const Ball &a = balls[n[0]], &b = balls[n[1]], &c = balls[n[2]], &e = balls[n[3]];
+  Neighbours<V> all{hn::Load(d, &a.position.x), hn::Load(d, &b.position.x), hn::Load(d, &c.position.x),
+                    hn::Load(d, &e.position.x), hn::Load(d, &a.velocity.x), hn::Load(d, &b.velocity.x),
+                    hn::Load(d, &c.velocity.x), hn::Load(d, &e.velocity.x)};
+  columns(d, all.x, all.y, all.z, all.time);
+  columns(d, all.u, all.v, all.w, all.radius);
+  return all;
+}
+template <class V>
+HWY_INLINE V limits(D d, const Ball* balls, const std::uint32_t* n) {
+  alignas(32) const double limit[4] = {balls[n[0]].acceleration_limit, balls[n[1]].acceleration_limit,
+                                       balls[n[2]].acceleration_limit, balls[n[3]].acceleration_limit};
+  return hn::Load(d, limit);
+}
+#else
+using D = hn::FixedTag<double, 1>;
+
+template <class V>
+HWY_INLINE Neighbours<V> load(D d, const Ball* balls, const std::uint32_t* n) {
+  const Ball& b = balls[*n];
+  return {hn::Set(d, b.position.x), hn::Set(d, b.position.y), hn::Set(d, b.position.z), hn::Set(d, b.time),
+          hn::Set(d, b.velocity.x), hn::Set(d, b.velocity.y), hn::Set(d, b.velocity.z), hn::Set(d, b.radius)};
+}
+template <class V>
+HWY_INLINE V limits(D d, const Ball* balls, const std::uint32_t* n) {
+  return hn::Set(d, balls[*n].acceleration_limit);
+}
+#endif
+using V = hn::Vec<D>;
+
+HWY_INLINE V image(D d, V way, double period, double inverse) {
+  const V rounder = hn::Set(d, 0x1.8p52);
+  const V whole = hn::Sub(hn::Add(hn::Mul(way, hn::Set(d, inverse)), rounder), rounder);
+  return hn::Sub(way, hn::Mul(hn::Set(d, period), whole));
+}
+HWY_INLINE V dot(V a, V b, V c, V e, V f, V g) {
+  return hn::Add(hn::Add(hn::Mul(a, e), hn::Mul(b, f)), hn::Mul(c, g));
+}
+
+template <bool grows, bool repeats>
+HWY_INLINE std::uint32_t group(const Ball* balls, const std::uint32_t* n, const NearQuery& q) {
+  const D d;
+  const Neighbours<V> b = load<V>(d, balls, n);
+  const V since = hn::Sub(hn::Set(d, q.now), b.time);
+  V x = hn::Sub(hn::Set(d, q.position.x), hn::Add(b.x, hn::Mul(b.u, since)));
+  V y = hn::Sub(hn::Set(d, q.position.y), hn::Add(b.y, hn::Mul(b.v, since)));
+  V z = hn::Sub(hn::Set(d, q.position.z), hn::Add(b.z, hn::Mul(b.w, since)));
+  if constexpr (repeats) {
+    x = image(d, x, q.periods->length.x, q.periods->inverse.x);
+    y = image(d, y, q.periods->length.y, q.periods->inverse.y);
+    z = image(d, z, q.periods->length.z, q.periods->inverse.z);
+  }
+  const V u = hn::Sub(hn::Set(d, q.velocity.x), b.u);
+  const V v = hn::Sub(hn::Set(d, q.velocity.y), b.v);
+  const V w = hn::Sub(hn::Set(d, q.velocity.z), b.w);
+  const V duration = hn::Set(d, q.duration);
+  V radii = hn::Add(b.radius, hn::Set(d, q.radius));
+  if constexpr (grows) {
+    const V limit = limits<V>(d, balls, n), half = hn::Set(d, 0.5);
+    const V growth = hn::Mul(half, hn::Add(limit, hn::Set(d, q.growth)));
+    const V speed = hn::Add(hn::Mul(limit, since), hn::Set(d, q.speed));
+    radii = hn::Add(radii, hn::Mul(half, hn::Mul(hn::Mul(limit, since), since)));
+    radii = hn::Add(radii, hn::Mul(hn::Add(speed, hn::Mul(growth, duration)), duration));
+  }
+  const V limit = hn::Mul(radii, radii), low = hn::Set(d, least);
+  const V square = dot(x, y, z, x, y, z), approach = hn::Neg(dot(x, y, z, u, v, w)),
+          speed = dot(u, v, w, u, v, w);
+  const auto apart_now = hn::And(hn::Gt(square, limit), hn::Gt(square, low));
+  const auto recede = hn::Le(approach, hn::Zero(d));
+  const V ex = hn::Add(x, hn::Mul(u, duration)), ey = hn::Add(y, hn::Mul(v, duration)),
+          ez = hn::Add(z, hn::Mul(w, duration));
+  const auto ends_before = hn::Ge(approach, hn::Mul(speed, duration));
+  const auto apart_at_end = hn::Gt(dot(ex, ey, ez, ex, ey, ez), limit);
+  const V cx = hn::Sub(hn::Mul(y, w), hn::Mul(z, v)), cy = hn::Sub(hn::Mul(z, u), hn::Mul(x, w)),
+          cz = hn::Sub(hn::Mul(x, v), hn::Mul(y, u));
+  const auto pass_by =
+      hn::And(hn::Gt(dot(cx, cy, cz, cx, cy, cz), hn::Mul(limit, speed)), hn::Gt(speed, low));
+  const auto apart =
+      hn::And(apart_now,
+              hn::Or(recede, hn::Or(hn::And(ends_before, apart_at_end), hn::AndNot(ends_before, pass_by))));
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(d, apart, bits);
+  return ~std::uint32_t{bits[0]} & ((1u << hn::Lanes(d)) - 1);
+}
+
+template <bool grows, bool repeats>
+std::uint32_t candidates(const Ball* balls, const std::uint32_t* neighbours, std::size_t count,
+                         const NearQuery& query) {
+  const std::size_t lanes = hn::Lanes(D());
+  std::uint32_t found = 0;
+  std::size_t k = 0;
+  for (; k + lanes <= count; k += lanes) found |= group<grows, repeats>(balls, neighbours + k, query) << k;
+  if (k < count) {
+    std::uint32_t rest[8];
+    for (std::size_t lane = 0; lane < lanes; ++lane) rest[lane] = neighbours[k + lane < count ? k + lane : k];
+    found |= (group<grows, repeats>(balls, rest, query) & ((1u << (count - k)) - 1)) << k;
+  }
+  return found;
+}
+
+std::uint32_t may_meet(const Ball* balls, const std::uint32_t* neighbours, std::size_t count,
+                       const NearQuery& query) {
+  if (query.periods->any)
+    return query.grows ? candidates<true, true>(balls, neighbours, count, query)
+                       : candidates<false, true>(balls, neighbours, count, query);
+  return query.grows ? candidates<true, false>(balls, neighbours, count, query)
+                     : candidates<false, false>(balls, neighbours, count, query);
+}
+
+using F = hn::CappedTag<float, RegionBlock::lanes>;
+
+HWY_INLINE hn::Vec<F> image(F d, hn::Vec<F> way, float period, float inverse) {
+  const auto rounder = hn::Set(d, 0x1.8p23F);
+  const auto whole = hn::Sub(hn::Add(hn::Mul(way, hn::Set(d, inverse)), rounder), rounder);
+  return hn::Sub(way, hn::Mul(hn::Set(d, period), whole));
+}
+
+template <bool repeats>
+std::size_t within_reach(const RegionBlock* blocks, const std::uint32_t* places, std::size_t count,
+                         const RegionQuery& q, const FloatPeriods& p, std::uint32_t* found) {
+  const F d;
+  const hn::Rebind<std::uint32_t, F> numbers;
+  const auto shifts = hn::ShiftLeft<2>(hn::Iota(numbers, 0));
+  std::size_t end = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const RegionBlock& block = blocks[places[k]];
+    for (std::size_t lane = 0; lane < RegionBlock::lanes; lane += hn::Lanes(d)) {
+      auto x = hn::Sub(hn::Load(d, block.x + lane), hn::Set(d, q.x));
+      auto y = hn::Sub(hn::Load(d, block.y + lane), hn::Set(d, q.y));
+      auto z = hn::Sub(hn::Load(d, block.z + lane), hn::Set(d, q.z));
+      if constexpr (repeats) {
+        x = image(d, x, p.length[0], p.inverse[0]);
+        y = image(d, y, p.length[1], p.inverse[1]);
+        z = image(d, z, p.length[2], p.inverse[2]);
+      }
+      const auto sum = hn::Add(hn::Load(d, block.reach + lane), hn::Set(d, q.reach));
+      const auto square = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
+      const auto near = hn::RebindMask(numbers, hn::Le(square, hn::Mul(sum, sum)));
+      // Highway's own functions for this take a hundred cycles on some processors.
+      std::uint8_t bits[8] = {};
+      hn::StoreMaskBits(numbers, near, bits);
+      const auto packed = hn::Shr(hn::Set(numbers, lanes_of_mask[bits[0]]), shifts);
+      const auto order = hn::IndicesFromVec(numbers, hn::And(packed, hn::Set(numbers, hn::Lanes(d) - 1)));
+      hn::StoreU(hn::TableLookupLanes(hn::Load(numbers, block.balls + lane), order), numbers, found + end);
+      end += static_cast<std::size_t>(std::popcount(bits[0]));
+    }
+  }
+  return end;
+}
+
+std::size_t regions_within_reach(const RegionBlock* blocks, const std::uint32_t* places, std::size_t count,
+                                 const RegionQuery& query, const FloatPeriods& periods,
+                                 std::uint32_t* found) {
+  return periods.any ? within_reach<true>(blocks, places, count, query, periods, found)
+                     : within_reach<false>(blocks, places, count, query, periods, found);
+}
+
+}  // namespace kinesphere::core::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace kinesphere::core {
+
+HWY_EXPORT(may_meet);
+HWY_EXPORT(regions_within_reach);
+
+std::uint32_t may_meet(const Ball* balls, const std::uint32_t* neighbours, std::size_t count,
+                       const NearQuery& query) {
+  return HWY_DYNAMIC_DISPATCH(may_meet)(balls, neighbours, count, query);
+}
+
+std::size_t regions_within_reach(const RegionBlock* blocks, const std::uint32_t* places, std::size_t count,
+                                 const RegionQuery& query, const FloatPeriods& periods,
+                                 std::uint32_t* found) {
+  return HWY_DYNAMIC_DISPATCH(regions_within_reach)(blocks, places, count, query, periods, found);
+}
+
+}  // namespace kinesphere::core
+#endif

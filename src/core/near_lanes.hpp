@@ -1,0 +1,80 @@
+// The two inner loops of the core, compiled for each vector width: which neighbours a ball may meet within a
+// span, and which safe regions come within reach of one. All widths give the same answers.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "core/ball.hpp"
+#include "kinesphere/vec3.hpp"
+
+namespace kinesphere::core {
+
+/// Fetches a cache line that will be read soon. Nothing else depends on it.
+inline void prefetch_line(const void* address) {
+#if defined(__GNUC__)
+  __builtin_prefetch(address);
+#else
+  (void)address;
+#endif
+}
+
+/// Periods of the axes that repeat, and their inverses; 0 on the others.
+struct Periods {
+  Vec3 length{};
+  Vec3 inverse{};
+  bool any = false;
+};
+
+/// Returns `way` as the nearest image has it. Adding and subtracting 3/2 2^52 rounds to a whole number.
+[[gnu::always_inline]] inline double nearest_image(double way, double period, double inverse) {
+  constexpr double rounder = 0x1.8p52;
+  return way - period * ((way * inverse + rounder) - rounder);
+}
+
+/// A ball at the present, and a span of time.
+struct NearQuery {
+  double now;
+  double duration;
+  Vec3 position, velocity;
+  double radius;  ///< with growth and margin
+  double speed;   ///< at which the bound grows
+  double growth;  ///< acceleration with which it grows
+  bool grows;     ///< any bound grows
+  const Periods* periods;
+};
+/// Most neighbours in one call.
+inline constexpr std::size_t most_lanes = 32;
+/// Returns a bit for each of `count` neighbours that the ball may meet within the span. Conservative: that of
+/// a neighbour that it certainly does not meet may be set (QuickReject::stay_apart).
+std::uint32_t may_meet(const Ball* balls, const std::uint32_t* neighbours, std::size_t count,
+                       const NearQuery& query);
+
+/// Eight safe regions of one cell.
+struct alignas(64) RegionBlock {
+  static constexpr std::uint32_t lanes = 8;
+  float x[lanes], y[lanes], z[lanes];
+  float reach[lanes];  ///< NaN where there is no region: nothing is within reach of it
+  std::uint32_t balls[lanes];
+  std::uint64_t cell = 0;
+  std::uint32_t next = none;
+  std::uint32_t count = 0;
+
+  RegionBlock() {
+    for (float& each : reach) each = std::numeric_limits<float>::quiet_NaN();
+  }
+};
+struct RegionQuery {
+  float x, y, z, reach;
+};
+struct FloatPeriods {
+  float length[3]{}, inverse[3]{};
+  bool any = false;
+};
+/// Writes to `found` the balls of these blocks whose regions come within reach. Returns their number. There
+/// must be room for eight in each block.
+std::size_t regions_within_reach(const RegionBlock* blocks, const std::uint32_t* places, std::size_t count,
+                                 const RegionQuery& query, const FloatPeriods& periods, std::uint32_t* found);
+
+}  // namespace kinesphere::core

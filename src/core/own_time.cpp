@@ -1,0 +1,87 @@
+// When a ball can leave its safe region or touch a wall.
+#include <algorithm>
+#include <cmath>
+
+#include "bound/rounding.hpp"
+#include "contact/contact_event.hpp"
+#include "core/core.hpp"
+#include "number/infinity.hpp"
+
+namespace kinesphere::core {
+namespace {
+
+int axis_of(Wall wall) { return (static_cast<int>(wall) - 1) / 2; }
+bool is_lower(Wall wall) { return static_cast<int>(wall) % 2 == 1; }
+
+}  // namespace
+
+/// Computes Ball::own; one wall may be left out.
+void Core::compute_own(std::uint32_t number, Wall without) {
+  Ball& ball = balls_[number];
+  double time = stays(number);
+  ball.wall = 0;
+  for (const Wall wall : kinesphere::walls) {
+    if ((ball.walls & wall_bit(wall)) == 0 || wall == without) continue;
+    const double clear = clear_of_wall(number, wall);
+    if (!(clear < time)) continue;
+    time = clear;
+    ball.wall = static_cast<std::uint8_t>(wall);
+  }
+  ball.own = std::max(rounding::sum_down(balls_.time(), time), balls_.time());
+}
+
+/// Returns a time for which the centre stays in the safe region from now on.
+///
+/// Ahead of now, the bound is a ball around q + v t that grows; q is seen from the middle of the region. What
+/// a planned acceleration adds counts as growth. The way that is left to the border of the region, which is
+/// its radius less the growth and |q + v t|, is a concave function of t. So if it is positive at both ends of
+/// a span, it is positive throughout: a time is guessed by Newton's method, and then tried.
+double Core::stays(std::uint32_t number) const {
+  const Ball& ball = balls_[number];
+  const Vec3 q = balls_.position(number) - region_centre(ball), v = balls_.velocity(number);
+  const double rate = balls_.growth_speed(number),
+               limit = ball.acceleration_limit + norm_one(balls_.plan(number));
+  const double room = double{ball.region} * unit_ - margin_ - balls_.growth(number);
+  const double qq = norm_squared(q), qv = dot(q, v), vv = norm_squared(v);
+  const bool moves = vv > 0.0, grows = rate > 0.0 || limit > 0.0;
+  if (!moves && !grows) return infinity;
+  if (!(room > 0.0) || !(qq < room * room)) return 0.0;
+  double guess;
+  if (grows) {
+    guess = 2.0 * room / (rate + std::sqrt(rate * rate + 2.0 * limit * room));
+    for (int step = 0; step < 3; ++step) {
+      const double distance = std::sqrt(std::max(qq + (2.0 * qv + vv * guess) * guess, 0x1p-900));
+      const double left = room - (rate + 0.5 * limit * guess) * guess - distance;
+      guess += left / (rate + limit * guess + (qv + vv * guess) / distance);
+    }
+    guess *= 1.0 - 0x1p-7;
+  } else {
+    const double root = std::sqrt(qv * qv + vv * (room * room - qq));
+    guess = (1.0 - 0x1p-30) * (qv > 0.0 ? (room * room - qq) / (root + qv) : (root - qv) / vv);
+  }
+  for (int tries = 0; tries < 64; ++tries, guess *= 0.75) {
+    const double left = room - (rate + 0.5 * limit * guess) * guess;
+    if (left > 0.0 && qq + (2.0 * qv + vv * guess) * guess < left * left * (1.0 - 0x1p-48)) return guess;
+  }
+  return 0.0;
+}
+
+/// Gap between the ball, at the centre of its bound, and a wall (length).
+double Core::wall_gap(std::uint32_t number, Wall wall) const {
+  const int axis = axis_of(wall);
+  const double at = balls_.position(number)[axis];
+  return (is_lower(wall) ? at - walls_->lower[axis] : walls_->upper[axis] - at) - balls_[number].radius;
+}
+
+/// Returns a time for which the ball does not touch this wall; 0 if reports have to decide.
+double Core::clear_of_wall(std::uint32_t number, Wall wall) const {
+  const double inwards = is_lower(wall) ? 1.0 : -1.0;
+  const double speed = inwards * balls_.velocity(number)[axis_of(wall)] - balls_.growth_speed(number);
+  const double acceleration =
+      inwards * balls_.plan(number)[axis_of(wall)] - balls_[number].acceleration_limit;
+  if (speed >= 0.0 && acceleration >= 0.0) return infinity;
+  const double gap = wall_gap(number, wall) - balls_.growth(number);
+  return gap > tolerance_ ? rounding::first_crossing(gap - margin_, speed, acceleration) : 0.0;
+}
+
+}  // namespace kinesphere::core

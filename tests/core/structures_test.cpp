@@ -1,0 +1,251 @@
+// The structures below the core, each compared with a plain one.
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <vector>
+
+#include "bound/quick_reject.hpp"
+#include "core/balls.hpp"
+#include "core/due_queue.hpp"
+#include "core/near_lanes.hpp"
+#include "core/neighbour_lists.hpp"
+#include "core/region_cells.hpp"
+#include "kinesphere/random.hpp"
+#include "number/infinity.hpp"
+
+namespace kinesphere::core_structures_test {
+namespace {
+
+using core::Ball;
+using core::Balls;
+using core::DueQueue;
+using core::NeighbourLists;
+using core::Periods;
+using core::RegionCells;
+
+constexpr std::uint64_t seed = 6802;
+
+double log_uniform(Random& random, double least, double most) {
+  return std::exp(random.uniform(std::log(least), std::log(most)));
+}
+
+TEST(NeighbourLists, HoldWhatWasInserted) {
+  NeighbourLists lists;
+  std::vector<std::uint32_t> handles(20);
+  std::vector<std::set<std::uint32_t>> expected(handles.size());
+  for (std::uint32_t& handle : handles) handle = lists.add();
+  Random random(seed);
+  for (int step = 0; step < 20000; ++step) {
+    const auto k = random.bits() % handles.size();
+    const auto number = static_cast<std::uint32_t>(random.bits() % 200);
+    if (random.bits() % 500 == 0) {
+      lists.remove(handles[k]);
+      handles[k] = lists.add();
+      expected[k].clear();
+    } else if (random.bits() % 100 == 0) {
+      expected[k].clear();
+      for (std::uint32_t n = 0; n < 200; n += 1 + static_cast<std::uint32_t>(random.bits() % 20))
+        expected[k].insert(n);
+      lists.assign(handles[k], std::vector<std::uint32_t>(expected[k].begin(), expected[k].end()));
+    } else if (expected[k].insert(number).second) {
+      lists.insert(handles[k], number);
+    } else {
+      expected[k].erase(number);
+      lists.erase(handles[k], number);
+    }
+    const auto list = lists.at(handles[k]);
+    ASSERT_TRUE(std::equal(list.begin(), list.end(), expected[k].begin(), expected[k].end()))
+        << "step " << step;
+  }
+}
+
+/// Balls are due in order of time and number, also where many are due at one time, or only far away.
+TEST(DueQueue, GivesBallsInOrder) {
+  for (const double spread : {1e-9, 1.0, 1e6}) {
+    for (const std::uint32_t count : {1u, 10u, 3000u}) {
+      SCOPED_TRACE(testing::Message() << "spread " << spread << ", " << count << " balls, seed " << seed);
+      Random random(seed);
+      std::vector<Ball> balls(count);
+      std::set<std::pair<double, std::uint32_t>> expected;
+      double now = 0.0;
+      DueQueue queue;
+      const auto enter = [&](std::uint32_t number) {
+        Ball& ball = balls[number];
+        if (expected.erase({ball.due, number}) > 0 && random.bits() % 20 == 0) {
+          ball.due = infinity;
+          return;
+        }
+        switch (random.bits() % 4) {
+          case 0:
+            ball.due = now + spread * random.uniform();
+            break;
+          case 1:
+            ball.due = now + spread * static_cast<double>(random.bits() % 3);
+            break;
+          case 2:
+            ball.due = now + log_uniform(random, 1e-9, 1e3) * spread;
+            break;
+          default:
+            ball.due = now;
+        }
+        expected.insert({ball.due, number});
+        queue.push(balls, number);
+      };
+      for (std::uint32_t number = 0; number < count; ++number) {
+        balls[number].slot = 0;
+        balls[number].due = infinity;
+      }
+      queue.refill(balls, now);
+      for (std::uint32_t number = 0; number < count; ++number) enter(number);
+      for (int step = 0; step < 20000; ++step) {
+        const double until = now + spread * random.uniform(0.0, 0.1);
+        const DueQueue::Entry first = queue.first(balls, until);
+        if (expected.empty() || expected.begin()->first > until) {
+          ASSERT_EQ(first.ball, core::none) << "step " << step;
+          now = until;
+        } else {
+          ASSERT_EQ(first.ball, expected.begin()->second) << "step " << step;
+          ASSERT_EQ(first.time, expected.begin()->first) << "step " << step;
+          queue.pop();
+          now = first.time;
+          enter(first.ball);
+        }
+        for (int k = 0; k < 2; ++k) enter(static_cast<std::uint32_t>(random.bits() % count));
+      }
+    }
+  }
+}
+
+/// A search finds all regions within reach, and none that are clearly beyond, for reaches of all sizes.
+TEST(RegionCells, FindAllWithinReach) {
+  struct Case {
+    double period, least, most, spread;
+    int dimensions;
+  };
+  for (const auto& [period, least, most, spread, dimensions] :
+       {Case{0, 0.5, 1, 10, 3}, Case{0, 1e-3, 1e3, 100, 3}, Case{0, 0.5, 1, 1e5, 3}, Case{10, 0.1, 1, 10, 3},
+        Case{10, 0.4, 0.8, 10, 2}, Case{0, 1e-6, 1, 3, 2}, Case{3, 0.5, 0.7, 3, 3}}) {
+    SCOPED_TRACE(testing::Message() << "period " << period << ", reaches " << least << " to " << most
+                                    << ", seed " << seed);
+    const double length = dimensions == 2 ? 0.0 : period;
+    RegionCells cells({period, period, length}, dimensions);
+    Balls balls(Periods{}, 0.0);
+    std::vector<float> reaches;
+    Random random(seed);
+    const auto place = [&](std::uint32_t number) {
+      Ball& ball = balls[number];
+      for (int axis = 0; axis < 3; ++axis)
+        ball.centre[axis] =
+            static_cast<float>(random.uniform(0.0, spread) - (period > 0.0 ? 0.0 : 0.5 * spread));
+      if (dimensions == 2) ball.centre[2] = 0.0F;
+      reaches[number] = static_cast<float>(log_uniform(random, least, most));
+      cells.enter(balls, number, reaches[number]);
+    };
+    constexpr std::uint32_t count = 400;
+    for (std::uint32_t number = 0; number < count; ++number) {
+      balls.append();
+      reaches.push_back(0.0F);
+      place(number);
+    }
+    std::vector<std::uint32_t> found;
+    for (int step = 0; step < 2000; ++step) {
+      const auto number = static_cast<std::uint32_t>(random.bits() % count);
+      cells.leave(balls, number);
+      place(number);
+      if (step % 100 == 0) cells.rebuild(balls);
+      cells.search(balls[number], reaches[number], found);
+      std::sort(found.begin(), found.end());
+      ASSERT_TRUE(std::adjacent_find(found.begin(), found.end()) == found.end()) << "step " << step;
+      for (std::uint32_t other = 0; other < count; ++other) {
+        double square = 0.0;
+        for (int axis = 0; axis < 3; ++axis) {
+          double way = double{balls[number].centre[axis]} - double{balls[other].centre[axis]};
+          const double around = axis == 2 ? length : period;
+          if (around > 0.0) way -= around * std::round(way / around);
+          square += way * way;
+        }
+        const double reach = double{reaches[number]} + double{reaches[other]};
+        const bool is_found = std::binary_search(found.begin(), found.end(), other);
+        // Just beyond, both will do.
+        if (square > reach * reach && square < 1.0001 * reach * reach) continue;
+        ASSERT_EQ(is_found, square <= reach * reach) << "step " << step << ", " << other;
+      }
+    }
+  }
+}
+
+/// The lanes say what QuickReject says, with vectors of every width that this machine has.
+TEST(NearLanes, RejectWhatQuickRejectRejects) {
+  const auto numbers = [](Random& random, int kind) {
+    if (kind == 0) return random.uniform(-2.0, 2.0);
+    if (kind == 1) return static_cast<double>(random.bits() % 5) - 2.0;
+    const double sign = random.bits() % 2 == 0 ? 1.0 : -1.0;
+    return kind == 2 ? sign * log_uniform(random, 1e-200, 1e100) : sign * log_uniform(random, 0.1, 10.0);
+  };
+  for (std::int64_t targets = hwy::SupportedTargets(); targets != 0; targets &= targets - 1) {
+    hwy::SetSupportedTargetsForTest(targets & -targets);
+    for (const bool grows : {false, true})
+      for (const double period : {0.0, 8.0})
+        for (int kind = 0; kind < 4; ++kind) {
+          SCOPED_TRACE(testing::Message()
+                       << hwy::TargetName(targets & -targets) << ", kind " << kind << ", seed " << seed);
+          Random random = Random::at(seed, static_cast<std::uint64_t>(kind), grows);
+          Periods periods;
+          periods.any = period > 0.0;
+          if (periods.any)
+            periods.length = {period, period, period}, periods.inverse = Vec3{1, 1, 1} / period;
+          Balls balls(periods, 0.0);
+          const auto vector = [&] {
+            return Vec3{numbers(random, kind), numbers(random, kind), numbers(random, kind)};
+          };
+          for (std::uint32_t number = 0; number < 100; ++number) {
+            balls.append();
+            balls.set_bound(number, {.position = vector() * 2.0,
+                                     .velocity = vector(),
+                                     .radius = std::abs(numbers(random, kind)) * 0.3,
+                                     .acceleration_limit = grows ? std::abs(numbers(random, kind)) : 0.0});
+          }
+          balls.set_time(0.25);
+          for (int step = 0; step < 500; ++step) {
+            std::vector<std::uint32_t> list(random.bits() % 33);
+            for (std::uint32_t& number : list) number = static_cast<std::uint32_t>(random.bits() % 100);
+            const auto self = static_cast<std::uint32_t>(random.bits() % 100);
+            const double duration = std::abs(numbers(random, kind)), margin = 1e-7;
+            const core::NearQuery query{0.25,
+                                        duration,
+                                        balls.position(self),
+                                        balls[self].velocity,
+                                        balls[self].radius + balls.growth(self) + margin,
+                                        balls.growth_speed(self),
+                                        balls[self].acceleration_limit,
+                                        grows,
+                                        &periods};
+            const std::uint32_t found = core::may_meet(balls.all().data(), list.data(), list.size(), query);
+            for (std::size_t k = 0; k < list.size(); ++k) {
+              const BoundAt own = balls.bound_now(self);
+              BoundAt other = balls.bound_now(list[k]);
+              // Rounding may differ in the last bits, so a slightly larger margin has to be apart, too.
+              other.centre = own.centre + balls.between(self, list[k]);
+              const QuickReject pair(own, other);
+              const bool may_meet = (found >> k & 1) != 0;
+              const double more =
+                  margin + 1e-12 * (1.0 + norm(own.centre) + norm(other.centre) + own.radius + other.radius);
+              const bool is_apart = !may_meet;
+              EXPECT_TRUE(is_apart || !pair.stay_apart(duration, 2.0 * more)) << step << " " << k;
+              // Among numbers of all sizes, roundings are larger than the margin.
+              EXPECT_TRUE(may_meet || kind == 2 || pair.stay_apart(duration, 0.5 * margin))
+                  << step << " " << k;
+            }
+            EXPECT_EQ(list.size() == 32 ? 0u : found >> list.size(), 0u);
+          }
+        }
+  }
+  hwy::SetSupportedTargetsForTest(0);
+}
+
+}  // namespace
+}  // namespace kinesphere::core_structures_test
