@@ -61,7 +61,9 @@ double Core::stays(std::uint32_t number) const {
   }
   for (int tries = 0; tries < 64; ++tries, guess *= 0.75) {
     const double left = room - (rate + 0.5 * limit * guess) * guess;
-    if (left > 0.0 && qq + (2.0 * qv + vv * guess) * guess < left * left * (1.0 - 0x1p-48)) return guess;
+    const double square = qq + (2.0 * qv + vv * guess) * guess;
+    const double rounding = 0x1p-48 * (qq + (2.0 * std::abs(qv) + vv * guess) * guess);
+    if (left > 0.0 && square + rounding < left * left) return guess;
   }
   return 0.0;
 }

@@ -18,6 +18,8 @@ constexpr double ahead = 0.6;
 constexpr double growth_worth_a_report = 0.25;
 /// It keeps its safe region if it stays in it for this part of the time since its last report.
 constexpr double stay_worth_keeping = 0.0625;
+/// A ball in exact flight goes on from where it is after this many radii of a safe region.
+constexpr double longest_flight = 0x1p12;
 
 // What it costs to choose a safe region, beside what each neighbour adds then, and what a scan costs for each
 // neighbour. Only their ratios matter. They are instructions, as measured.
@@ -78,16 +80,23 @@ double Core::next_radius(Ball& ball) const {
   const double wanted = 2.0 * (radius + ball.radius) * (cost_of_region + cost_of_neighbour * neighbours) /
                         (dimensions_ * neighbours * (cost_of_neighbour + cost_of_scan * scans));
   const double ratio = std::clamp(wanted / radius, 0.25, 4.0);
-  return std::min(radius * std::sqrt(std::sqrt(ratio)), widest_region(ball));
+  return radius * std::sqrt(std::sqrt(ratio));
 }
 
-/// Gives the ball a safe region of this radius (length), around and ahead of where its bound is now.
+/// Gives the ball a safe region of about this radius (length), around and ahead of where its bound is now.
 void Core::place_region(std::uint32_t number, double radius) {
   Ball& ball = balls_[number];
   ++counters_.regions;
   const Vec3 motion = balls_.velocity(number);
-  const double speed = norm(motion);
+  const double speed = norm(motion), growth = balls_.growth(number);
+  // The way from an old report loses digits, so a ball that is in exact flight for long begins anew.
+  if (growth == 0.0 && speed * (balls_.time() - ball.time) > longest_flight * radius)
+    balls_.set_state(number, {balls_.position(number), motion});
   Vec3 centre = balls_.position(number);
+  // Single precision tells so much apart here. A ball that stands still needs no more.
+  const double resolved = 0x1p-20 * (norm_one(centre - origin_) + ball.radius) + tolerance_;
+  const bool stands = speed == 0.0 && balls_.is_exact(number) && balls_.plan(number) == Vec3{};
+  radius = stands ? 0.0 : std::min(radius, widest_region(ball) - growth - resolved);
   if (speed > 0.0) centre += motion * (ahead * radius / speed);
   for (int axis = 0; axis < 3; ++axis) {
     if (!(balls_.periods().length[axis] > 0.0)) continue;
@@ -95,11 +104,7 @@ void Core::place_region(std::uint32_t number, double radius) {
     centre[axis] -= images * balls_.periods().length[axis];
     ball.position[axis] -= images * balls_.periods().length[axis];
   }
-  // Single precision tells so much apart here. A ball that stands still needs no more.
-  const double resolved = 0x1p-20 * (norm_one(centre - origin_) + ball.radius) + tolerance_;
-  const bool stands = speed == 0.0 && balls_.is_fresh(number) && balls_.plan(number) == Vec3{} &&
-                      ball.acceleration_limit == 0.0;
-  ball.region = static_cast<float>(((stands ? 0.0 : radius) + resolved + balls_.growth(number)) / unit_);
+  ball.region = static_cast<float>((radius + resolved + growth) / unit_);
   for (int axis = 0; axis < 3; ++axis)
     ball.centre[axis] = static_cast<float>((centre[axis] - origin_[axis]) / unit_);
   ball.walls = 0;
@@ -156,7 +161,7 @@ void Core::place_arrivals() {
   for (const std::uint32_t number : arrivals) {
     Ball& ball = balls_[number];
     if (ball.has_region()) continue;  // it was listed twice
-    place_region(number, std::min(radius, widest_region(ball)));
+    place_region(number, radius);
     cells_.enter(balls_, number, reach(ball));
   }
   if (2 * arrivals.size() > balls_.size()) cells_.rebuild(balls_);
