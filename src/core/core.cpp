@@ -278,20 +278,23 @@ void Core::probe(std::uint32_t number) {
   balls_.set_state(number, state);
 }
 
-/// Fetches what the balls that are due next need.
+/// Fetches what the balls that are due next need. Some of them may have been removed since they were queued.
 void Core::prefetch() const {
   const auto fetch = [this](std::uint32_t number) {
     prefetch_line(&balls_[number]);
     prefetch_line(&balls_[number].due);
   };
+  const auto fetch_list = [this](const Ball& ball) {
+    if (ball.has_region()) prefetch_line(lists_.address(ball.list));
+  };
   if (const std::uint32_t later = queue_.coming(1); later != none) {
-    prefetch_line(lists_.address(balls_[later].list));
+    fetch_list(balls_[later]);
     if (balls_[later].about != none) fetch(balls_[later].about);
   }
   const std::uint32_t next = queue_.coming(0);
-  if (next == none) return;
+  if (next == none || !balls_[next].has_region()) return;
   const Ball& ball = balls_[next];
-  if (ball.about != none && ball.about != next) return prefetch_line(lists_.address(balls_[ball.about].list));
+  if (ball.about != none && ball.about != next) return fetch_list(balls_[ball.about]);
   for (const std::uint32_t other : lists_.at(ball.list)) fetch(other);
 }
 
