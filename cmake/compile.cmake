@@ -1,4 +1,4 @@
-# Compile options for all code of this project, for g++ and clang++.
+# Compile options for all code of this project, for g++ and clang++, and those without which MSVC would go wrong.
 
 # ccache cannot cache compilations with precompiled headers.
 if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES ccache)
@@ -15,15 +15,30 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND megabytes_each GREATER_EQUAL 4096)
 endif()
 
 function(kinesphere_compile target)
+  if(MSVC)
+    # Without contraction, which /fp:fast and /fp:contract allow (see below).
+    target_compile_options(${target} PRIVATE /fp:precise /EHsc /GR /bigobj /permissive- /utf-8)
+    return()
+  endif()
   # On machines with a fused multiply-add, compilers may contract a * b + c into one rounding. Results would then depend
   # on compiler, optimisation level and machine. Users of the library need no such flag: nothing that they compile from
   # its headers computes results (see vec3.hpp).
   target_compile_options(${target} PRIVATE -ffp-contract=off)
+  # A project around this one may compile all its sources without exceptions, or with an arithmetic of its own.
+  if(NOT EMSCRIPTEN)
+    target_compile_options(${target} PRIVATE -fexceptions -frtti -fno-fast-math)
+  endif()
+  # g++ for Windows takes the stack to be aligned for vectors of 32 and 64 bytes, where it is for 16 alone (its bug 54412).
+  if(MINGW AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${target} PRIVATE -Wa,-muse-unaligned-vector-move)
+  endif()
   # A project around this one that says nothing of how to build would get what is not optimised.
   if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
     target_compile_options(${target} PRIVATE -O3)
   endif()
+  # Warnings are for those who change this code, not for a project around it, which may make them errors.
   if(NOT KINESPHERE_WARNINGS AND NOT KINESPHERE_WERROR)
+    target_compile_options(${target} PRIVATE -w)
     return()
   endif()
   # Designated initialisers that leave the other members at their defaults are the style of the library, so
@@ -48,7 +63,9 @@ endfunction()
 # interposed at load time, so calls within a source are as direct as in a program.
 function(kinesphere_relocatable target)
   set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-  target_compile_options(${target} PRIVATE -fno-semantic-interposition)
+  if(NOT MSVC)
+    target_compile_options(${target} PRIVATE -fno-semantic-interposition)
+  endif()
 endfunction()
 
 # The sources of a target are compiled together in a few batches of about equal size, which reads headers only a few
@@ -108,7 +125,9 @@ endfunction()
 
 # Code with a negligible run time is optimised little in each preset, since that compiles faster.
 function(kinesphere_optimise_little target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  if(NOT MSVC)
+    target_compile_options(${target} PRIVATE $<$<OR:$<CONFIG:Release>,$<CONFIG:>>:-O1>)
+  endif()
 endfunction()
 
 # Most tests take longer to compile than to run, so they are optimised less. With g++ 12, -Og takes a fourth less than -O1,

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that are missing here. Where none is, it does nothing, without network.
-# Usage: setup.sh run | program | mpi | browser | python | research | prove | docs | test | all | coverage
+# Usage: setup.sh run | program | mpi | browser | python | research | prove | docs | test | windows | all | coverage
 set -euo pipefail
 
 packages=(g++ cmake ninja-build libhwy-dev libcli11-dev libfmt-dev nlohmann-json3-dev zlib1g-dev)
@@ -18,6 +18,8 @@ clients=(mono-mcs mono-runtime)
 if ! command -v cargo >/dev/null; then clients+=(rustc cargo); fi
 documenting=(mkdocs mkdocs-material doxygen)
 testing=("${mpi[@]}" "${documenting[@]}" "${python[@]}" "${python_testing[@]}" "${clients[@]}" libcpp-httplib-dev libgtest-dev libtbb-dev nats-server librapidcheck-dev clang libclang-rt-dev clang-format clang-tidy pkg-config valgrind xz-utils)
+# For Windows, cross-compiled and run under Wine.
+windows=(g++-mingw-w64-x86-64-posix wine wine64 googletest dpkg-dev)
 case ${1:-} in
   run | program) ;;
   mpi) packages+=("${mpi[@]}") ;;
@@ -25,11 +27,12 @@ case ${1:-} in
   python) packages+=("${python[@]}") ;;
   research) packages+=(gnuplot-nox libbullet-dev libfcl-dev libgtest-dev librapidcheck-dev clang clang-format clang-tidy black) ;;
   test) packages+=("${testing[@]}") ;;
+  windows) packages=(g++ cmake ninja-build "${windows[@]}") ;;
   all) packages+=("${testing[@]}" "${browser[@]}" chromium "${proving[@]}") ;;
   docs) packages+=("${documenting[@]}" "${python[@]}") ;;
   prove) packages=("${proving[@]}" g++ libgtest-dev) ;;
   coverage) packages+=("${testing[@]}" gcovr) ;;
-  *) echo "setup: usage: setup.sh run | program | mpi | browser | python | research | prove | docs | test | all | coverage" >&2 && exit 2 ;;
+  *) echo "setup: usage: setup.sh run | program | mpi | browser | python | research | prove | docs | test | windows | all | coverage" >&2 && exit 2 ;;
 esac
 
 if ! command -v apt-get >/dev/null; then

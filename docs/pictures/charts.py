@@ -74,6 +74,37 @@ def draw_costs():
     return picture
 
 
+def draw_build():
+    """For each thing that is built the seconds of processor, when each target was one source and now."""
+    left, right, step, largest = 190.0, 560.0, 60.0, 300.0
+    with (RESULTS / "build_times.csv").open() as file:
+        table = {(row["when"], row["what"]): row for row in csv.DictReader(file)}
+    things = {"first": "first command", "library": "library alone", "python": "Python package"}
+    bottom = 60.0 + step * len(things)
+    before, now = (
+        [float(table[when, what]["processor_seconds"]) for what in things] for when in ("before", "now")
+    )
+    picture = Drawing(
+        640,
+        int(bottom + 60),
+        "Time to build",
+        "Seconds of processor, when each target was one source and now: "
+        + ", ".join(f"{label} {b:.0f} and {n:.0f}" for label, b, n in zip(things.values(), before, now))
+        + ".",
+    )
+    picture.text(left, 30, "one source for each target", "probe")
+    picture.text(left + 300, 30, "now", "body")
+    for k, label in enumerate(things.values()):
+        y = 60.0 + step * (k + 0.5)
+        picture.text(left - 12, y + 6, label, "ink", "end")
+        for seconds, ink, offset in ((before[k], "probe", -18.0), (now[k], "body", 2.0)):
+            width = (right - left) * seconds / largest
+            picture.rect(left, y + offset, width, 16.0, f"{ink}-area")
+            picture.text(left + width + 8, y + offset + 15, f"{seconds:.0f}", "quiet")
+    picture.text(right + 30, bottom + 34, "seconds of processor", "quiet", "end")
+    return picture
+
+
 def draw_misses():
     """For some scenes the contacts that overlaps at fixed steps miss, over the rate of the steps."""
     scenes = {"drones": "body", "crowd": "sure", "paper1-3500": "contact", "bullets": "probe"}

@@ -20,6 +20,7 @@ PICTURES = {
     "window": window.draw,
     "pair": pair.draw,
     "late": late.draw,
+    "build": charts.draw_build,
     "costs": charts.draw_costs,
     "misses": charts.draw_misses,
     "film": film.draw,

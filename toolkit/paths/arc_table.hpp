@@ -12,8 +12,31 @@
 
 namespace kinesphere {
 
-/// Four numbers in vectors of the processor.
+/// Four numbers, in vectors of the processor where the compiler knows such types.
+#if defined(__GNUC__)
 using Lanes [[gnu::vector_size(32)]] = double;
+#else
+struct Lanes {
+  double at[4];
+
+  double& operator[](std::size_t lane) { return at[lane]; }
+  double operator[](std::size_t lane) const { return at[lane]; }
+  friend Lanes operator+(Lanes a, const Lanes& b) { return a += b; }
+  friend Lanes operator+(Lanes a, double b) { return a += {b, b, b, b}; }
+  friend Lanes operator*(Lanes a, const Lanes& b) {
+    for (std::size_t lane = 0; lane < 4; ++lane) a[lane] *= b[lane];
+    return a;
+  }
+  Lanes& operator+=(const Lanes& other) {
+    for (std::size_t lane = 0; lane < 4; ++lane) at[lane] += other[lane];
+    return *this;
+  }
+  Lanes& operator-=(const Lanes& other) {
+    for (std::size_t lane = 0; lane < 4; ++lane) at[lane] -= other[lane];
+    return *this;
+  }
+};
+#endif
 
 /// Returns what is wrong with the paths, if anything is, in the words of an error of `call`.
 std::optional<Error> first_error(const char* call, const PolynomialPaths& paths, PoolLease& lease);
