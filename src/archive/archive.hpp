@@ -179,16 +179,10 @@ class ByteReader {
       value = static_cast<T>(read_word<detail::WordOf<T>>());
     } else if constexpr (detail::Container<T>) {
       value.clear();
-      for (auto count = read_word<std::uint64_t>(); count > 0; --count) {
+      for (auto count = read_word<std::uint64_t>(); count > 0 && !failed_; --count) {
         typename detail::ElementOf<T>::Type element{};
         read(element);
-        if (failed_) break;
-        // Compiles faster than insert().
-        if constexpr (requires { value.push_back(std::move(element)); }) {
-          value.push_back(std::move(element));
-        } else {
-          value.insert(value.end(), std::move(element));
-        }
+        if (!failed_) value.insert(value.end(), std::move(element));
       }
     } else {
       detail::serialize_fields(value, *this);
