@@ -142,11 +142,11 @@ class ByteWriter {
     std::visit([this](const auto& held) { this->write(held); }, value);
   }
 
-  // Not inline: the hundreds of fields of a snapshot would each be compiled with a copy.
-  void write_word(std::uint8_t word);
-  void write_word(std::uint16_t word);
-  void write_word(std::uint32_t word);
-  void write_word(std::uint64_t word);
+  template <class Word>
+  void write_word(Word word) {
+    const auto digits = bit_cast<std::array<std::byte, sizeof(Word)>>(detail::little_endian(word));
+    bytes_.insert(bytes_.end(), digits.begin(), digits.end());
+  }
 
   std::vector<std::byte> bytes_;
 };
@@ -220,9 +220,17 @@ class ByteReader {
     if (!failed_) read_as(std::index_sequence_for<Ts...>());
   }
 
-  /// Defined for unsigned integers of 8 to 64 bits.
   template <class Word>
-  Word read_word();
+  Word read_word() {
+    if (failed_ || bytes_.size() < sizeof(Word)) {
+      failed_ = true;
+      return 0;
+    }
+    std::array<std::byte, sizeof(Word)> digits;
+    std::copy_n(bytes_.begin(), sizeof(Word), digits.begin());
+    bytes_ = bytes_.subspan(sizeof(Word));
+    return detail::little_endian(bit_cast<Word>(digits));
+  }
 
   std::span<const std::byte> bytes_;
   bool failed_ = false;
