@@ -18,8 +18,8 @@ source_of() {
   if [[ -e $sources/$1 ]]; then return; fi
   local lists=$sources/lists
   mkdir -p "$lists/partial"
-  echo "deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] http://deb.debian.org/debian bookworm main" \
-    >"$sources/list"
+  # The sources of the packages that this system takes.
+  apt-get indextargets --format 'deb-src $(REPO_URI) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' | sort -u >"$sources/list"
   local apt=(apt-get -q -o "Dir::Etc::sourcelist=$sources/list" -o Dir::Etc::sourceparts=/dev/null
     -o "Dir::State::lists=$lists" -o "Dir::Cache=$sources")
   (cd "$sources" && "${apt[@]}" update && "${apt[@]}" source --download-only "$1" && dpkg-source -x "$1"_*.dsc "$1.new")
